@@ -173,7 +173,8 @@ class Check:
         except NotImplementedError:
             wrong = f"not there yet. It must return {self.asks}. Hint: {self.start}"
         except Exception as error:  # a student's function may raise anything, and the page shows it
-            wrong = _raised(error, answer)
+            what = " ".join(filter(None, (type(error).__name__, place_of(error, answer))))
+            wrong = f"your function raises {what}: {error}"
         failed = [trial for trial in tried if not self._same(trial.given, trial.wanted)]
         if not wrong and failed:
             wrong = self._known_mistake(tried) or self._first_wrong(failed[0])
@@ -236,9 +237,8 @@ def _short(value: Any) -> str:  # noqa: ANN401
     return f"{value:.4g}" if isinstance(value, (float, np.floating)) else repr(value)[:60]
 
 
-def _raised(error: Exception, answer: Answer) -> str:
-    """Say what a function raised, and in which of its lines."""
+def place_of(error: BaseException, answer: Answer) -> str:
+    """Quote the line of a function in which an error arose."""
     here = inspect.getsourcefile(answer) if inspect.isfunction(answer) else None
     lines = [f for f in traceback.extract_tb(error.__traceback__) if f.filename == here and f.name != "_try"]
-    at = f" in `{lines[-1].line}`" if lines and lines[-1].line else ""
-    return f"your function raises {type(error).__name__}{at}: {error}"
+    return f"in `{lines[-1].line}`" if lines and lines[-1].line else ""

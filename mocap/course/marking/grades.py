@@ -50,21 +50,18 @@ class Grade(NamedTuple):
 
     Attributes
     ----------
+    sent : the folder or file that was handed in.
     known : the columns of Moodle and Canvas that say who it is.
     listed : whether the roster has the student.
     best : the best mark of each exercise; at "" what was said of a notebook as a whole.
     points : of all exercises.
     """
 
+    sent: str
     known: Mapping[str, str]
     listed: bool
     best: Mapping[str, Mark]
     points: float
-
-    @property
-    def sent(self) -> str:
-        """The folder or file that was handed in."""
-        return next(iter(self.best.values())).handed_in.split("/")[0]
 
 
 def read_points(file: Path | None) -> dict[str, float]:
@@ -151,7 +148,8 @@ def grade(marks: Iterable[Mark], points: Points, roster: Roster = ()) -> list[Gr
         known = {"Identifier": f"Participant {number}" * bool(number), "Full name": name, "Student": name}
         known |= {"ID": number, "SIS Login ID": "" if number else name, "Email address": name * ("@" in name)}
         total = sum(points.get(exercise, 1) * mark.right for exercise, mark in best.items())
-        grades.append(Grade(known | {**row}, bool(row), best, round(total, 4)))
+        sent = next(iter(best.values())).handed_in.split("/")[0]
+        grades.append(Grade(sent, known | {**row}, bool(row), best, round(total, 4)))
     return grades
 
 
@@ -163,7 +161,7 @@ def _names(row: Mapping[str, str], number: str) -> list[str]:
     return [*names, *(name.split("@")[0] for name in names)]
 
 
-def tables(marks: Sequence[Mark], grades: Iterable[Grade], points: Points, title: str = "") -> dict[str, str]:
+def tables(marks: Sequence[Mark], grades: Sequence[Grade], points: Points, title: str = "") -> dict[str, str]:
     """Write marks as the texts of .csv files, by the ends of their names.
 
     Parameters
@@ -186,30 +184,28 @@ def tables(marks: Sequence[Mark], grades: Iterable[Grade], points: Points, title
     student,speed,points
     '=ada,2,2
     """
-    names = [*dict.fromkeys(mark.exercise for mark in marks if mark.exercise)]
-    worth = {name: points.get(name, 1) for name in names}
-    lines: list[Sequence[str | float]] = [("handed in", "exercise", "right", "said")]
-    lines += [(mark.handed_in, mark.exercise, int(mark.right), mark.said) for mark in marks]
-    table: list[Sequence[str | float]] = [("student", *names, "points")]
-    moodle: list[Sequence[str | float]] = [(*MOODLE, "Grade")]
-    canvas: list[Sequence[str | float]] = [(*CANVAS, title)]
-    canvas.append(("Points Possible", "", "", "", "", round(sum(worth.values()), 4)))
-    for one in grades:
-        row = [worth[name] * one.best[name].right if name in one.best else "" for name in names]
-        table.append((one.known["Student"], *row, one.points))
-        moodle.append((*(one.known.get(name, "") for name in MOODLE), one.points))
-        canvas.append((*(one.known.get(name, "") for name in CANVAS), one.points))
-    made = {"": lines, "-table": table, "-moodle": moodle, "-canvas": canvas}
+    worth = {mark.exercise: points.get(mark.exercise, 1) for mark in marks if mark.exercise}
+    rows = [[w * one.best[n].right if n in one.best else "" for n, w in worth.items()] for one in grades]
+    made: dict[str, list[tuple[object, ...]]] = {
+        "": [(mark.handed_in, mark.exercise, int(mark.right), mark.said) for mark in marks],
+        "-table": [(one.known["Student"], *row, one.points) for one, row in zip(grades, rows, strict=True)],
+        "-moodle": [(*map(one.known.get, MOODLE), one.points) for one in grades],
+        "-canvas": [(*map(one.known.get, CANVAS), one.points) for one in grades],
+    }
+    made[""].insert(0, ("handed in", "exercise", "right", "said"))
+    made["-table"].insert(0, ("student", *worth, "points"))
+    made["-moodle"].insert(0, (*MOODLE, "Grade"))
+    made["-canvas"][:0] = [(*CANVAS, title), ("Points Possible", *4 * [""], round(sum(worth.values()), 4))]
     return {end: "".join(map(_line, rows)) for end, rows in made.items()}
 
 
-def _line(values: Iterable[str | float]) -> str:
+def _line(values: Iterable[object]) -> str:
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerow(map(_cell, values))
     return text.getvalue()
 
 
-def _cell(value: str | float) -> str | float:
+def _cell(value: object) -> object:
     """Make a text safe: one line of visible characters, and no formula."""
     if not isinstance(value, str):
         return value

@@ -107,21 +107,17 @@ def mark(
                 yield marks
                 marked += marks
                 if changed:
-                    raise MocapError(
-                        f"{one.path} has changed the package: install it anew, mark in a container."
-                    )
+                    raise MocapError(f"{one.path} has changed the package: install it anew, use a container.")
     yield from _missing(handed, marked)
 
 
 def _missing(handed: list[_Handed], marked: list[Mark]) -> Iterator[list[Mark]]:
     """Mark as wrong what others handed in and a student did not."""
     asked = [name for name in all_checks() if any(mark.exercise == name for mark in marked)]
-    students = {sent_by(one.path): one.path.split("/")[0] for one in handed}
-    for who, sent in students.items():
+    for who, sent in {sent_by(one.path): one.path.split("/")[0] for one in handed}.items():
+        done = {mark.exercise for mark in marked if sent_by(mark.handed_in) == who}
         if who[1] or sent == who[0]:  # no file without a folder
-            done = {mark.exercise for mark in marked if sent_by(mark.handed_in) == who}
-            left = [name for name in asked if name not in done]
-            yield [Mark(f"{sent}/", name, False, f"✗ {name}: not handed in.") for name in left]
+            yield [Mark(f"{sent}/", n, False, f"✗ {n}: not handed in.") for n in asked if n not in done]
 
 
 def _together(handed: list[_Handed], seed: int, hidden: Sequence[Path], jobs: int) -> Generator[list[Mark]]:

@@ -9,15 +9,13 @@ import copy
 import json
 import pickle
 import sys
-import traceback
-from collections.abc import Callable
 from typing import Any, BinaryIO
 
 import numpy as np
 from IPython.core.interactiveshell import InteractiveShell
 from traitlets.config import Config
 
-from mocap.course.check import written
+from mocap.course.check import place_of, written
 from mocap.course.marking.cells import Cell, needed
 from mocap.course.marking.plain_data import pack
 
@@ -75,20 +73,14 @@ class Student:
         try:
             given = pack(function(*arguments))
         except BaseException as error:  # a student's function may raise anything
-            return None, [], type(error).__name__, f"{error}{_place(error, function)}"
+            at = place_of(error, function)
+            return None, [], type(error).__name__, f"{error} ({at})" if at else f"{error}"
         changed = [
             [number, pack(new)]
             for number, (old, new) in enumerate(zip(before, arguments, strict=True))
             if isinstance(old, np.ndarray) and not np.array_equal(old, new, equal_nan=True)
         ]
         return given, changed, "", ""
-
-
-def _place(error: BaseException, function: Callable[..., Any]) -> str:
-    """Say in which line of a cell an error arose."""
-    here = getattr(getattr(function, "__code__", None), "co_filename", None)
-    lines = [frame.line for frame in traceback.extract_tb(error.__traceback__) if frame.filename == here]
-    return f" (in `{lines[-1]}`)" if lines and lines[-1] else ""
 
 
 def serve(requests: BinaryIO, replies: BinaryIO) -> None:

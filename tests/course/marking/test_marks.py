@@ -17,6 +17,7 @@ import mocap
 from mocap.course.marking import mark, marks, sealed, walls
 from tests.course.marking.students import (
     DISHONEST,
+    HELD,
     HONEST,
     KNOWS_ALL,
     SLEEP,
@@ -86,14 +87,17 @@ def copy(tmp_path_factory):
     return os.environ | {"PYTHONPATH": str(place), "TOKEN": SECRET}
 
 
-def start(copy, behind, folder):
+def start(copy, behind, folder, jobs=1):
     command = [sys.executable, "-c", COMMAND, behind, str(folder), "-o", str(folder.parent / "marks.csv")]
+    command += ["--jobs", str(jobs)]
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
     unignored = {"preexec_fn": lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)}
     return subprocess.Popen(command, env=copy, cwd=folder.parent, **pipes, **unignored)
 
 
 def rows(file):
+    if not file.exists():
+        return []
     return list(csv.DictReader(file.read_text("utf-8").splitlines()))
 
 
@@ -107,7 +111,7 @@ def sleepers():
 
 @pytest.fixture(scope="module", params=BEHIND)
 def marked(request, copy, tmp_path_factory):
-    """Mark all students at once; the last ones are honest, and know nothing."""
+    """Mark all students behind all walls, and behind fewer those whom walls hold; the last know nothing."""
     path = tmp_path_factory.mktemp("marked")
     folder = path / "handed-in"
     words = {"PLANTED": path / "planted", "LATER": folder / "zoe" / "x.ipynb", "FOLDER": folder}
@@ -115,11 +119,12 @@ def marked(request, copy, tmp_path_factory):
     cells = DISHONEST | {name: made for name, (_, made) in UNLUCKY.items()} | {"zoe": HONEST}
     cells["zz"] = speed("def speed(positions, fps): return 0")
     for name, made in cells.items():
-        hand_in(replaced(made, words), folder / name / "x.ipynb")
-    for name, (_, spoil) in SPOILED.items():
+        if request.param == BEHIND[0] or name in (*HELD, "zoe", "zz"):
+            hand_in(replaced(made, words), folder / name / "x.ipynb")
+    for name, (_, spoil) in SPOILED.items() if request.param == BEHIND[0] else ():
         hand_in(HONEST, folder / name / "x.ipynb", spoil)
     before = {file: file.read_bytes() for file in folder.rglob("*.ipynb")}
-    running = start(copy, request.param, folder)
+    running = start(copy, request.param, folder, jobs=3)
     _, err = running.communicate(timeout=600)
     raised = err.split("behind ")[1].split(":")[0].replace(",", "")
     if raised != request.param:
@@ -136,8 +141,9 @@ def test_students_get_marks_only_for_what_is_right(marked):
     wanted = dict.fromkeys(DISHONEST, "01") | {"zoe": "11", "zz": "01"}
     wanted |= {name: right for name, (right, _) in (UNLUCKY | SPOILED).items()}
     said = {(r["handed in"].lstrip("'").split("/")[0], r["exercise"]): r for r in rows(marked / "marks.csv")}
-    got = {name: "".join(said[name, exercise]["right"] for exercise in EXERCISES) for name in wanted}
-    assert got == wanted
+    names = {folder.name for folder in (marked / "handed-in").iterdir()}
+    got = {name: "".join(said[name, exercise]["right"] for exercise in EXERCISES) for name in names}
+    assert got == {name: wanted[name] for name in names}
 
 
 SAID = {
@@ -165,8 +171,11 @@ def test_the_reason_is_said_and_no_secret(marked):
         for row in rows(marked / "marks.csv")
         if row["exercise"] == "speed"
     }
-    said["lost cells and tags"] = next(r["said"] for r in rows(marked / "marks.csv") if "sped" in r["said"])
-    assert {name: said[name] for name, words in SAID.items() if words not in said[name]} == {}
+    if "lost cells and tags" in said:
+        said["lost cells and tags"] = next(
+            r["said"] for r in rows(marked / "marks.csv") if "sped" in r["said"]
+        )
+    assert {name: said[name] for name, words in SAID.items() if words not in said.get(name, words)} == {}
     assert SECRET not in (marked / "marks.csv").read_text("utf-8")
 
 
@@ -185,8 +194,10 @@ def test_no_line_is_a_formula_or_two_lines(marked):
 def test_the_table_has_a_line_for_each_student_and_a_column_for_each_exercise(marked):
     table = {row["student"]: row for row in rows(marked / "marks-table.csv")}
     assert table["zoe"] == {"student": "zoe", **dict.fromkeys(EXERCISES, "1"), "points": "2"}
-    assert table["is cut"] == {"student": "is cut", **dict.fromkeys(EXERCISES, "0"), "points": "0"}
-    assert len(table) == len(DISHONEST) + len(UNLUCKY) + len(SPOILED) + 2
+    if "is cut" in table:
+        assert table["is cut"] == {"student": "is cut", **dict.fromkeys(EXERCISES, "0"), "points": "0"}
+        assert len(table) == len(DISHONEST) + len(UNLUCKY) + len(SPOILED) + 2
+    assert len(table) == len([*(marked / "handed-in").iterdir()])
 
 
 def test_without_walls_the_keeper_is_replaced_and_a_changed_package_ends_the_marking(copy, tmp_path):
@@ -274,14 +285,19 @@ def test_what_is_no_file_is_said_at_once(tmp_path):
     ]
 
 
-@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
-def test_an_end_keeps_the_marks_and_leaves_no_process(ending, copy, tmp_path):
+@pytest.mark.parametrize(
+    ("ending", "jobs"),
+    [(getattr(signal, f"SIG{name}"), jobs) for name in ("INT", "TERM", "KILL") for jobs in (1, 2)],
+)
+def test_an_end_keeps_the_marks_and_leaves_no_process(ending, jobs, copy, tmp_path):
     hand_in([START, SPEED], tmp_path / "in" / "ada" / "00.ipynb")
     slow = f"import subprocess\nsubprocess.run(['sleep', '{SLEEP}'])"
     hand_in([START, ("exercise:speed", slow)], tmp_path / "in" / "bob" / "00.ipynb")
-    process = start(copy, " ".join(walls.ALL), tmp_path / "in")
+    process = start(copy, " ".join(walls.ALL), tmp_path / "in", jobs)
     until = time.monotonic() + 100
     while not sleepers() and process.poll() is None and time.monotonic() < until:
+        time.sleep(0.05)
+    while not rows(tmp_path / "marks.csv") and time.monotonic() < until:
         time.sleep(0.05)
     assert [row["right"] for row in rows(tmp_path / "marks.csv")] == ["1", "0"]  # while bob's runs
     process.send_signal(ending)
