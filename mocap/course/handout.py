@@ -17,7 +17,7 @@ PAGES = ("GLOSSARY.md", "FORMULAS.md")  # the README is for teachers
 TELLING = re.compile(r"checks\.|lab\.(bets?|quiz)\(")  # how cells begin whose outputs hold hints or outcomes
 INSTALL = "try:\n    import mocap\nexcept ImportError:  # as in Colab\n    %pip install -q '{}'"
 MARKS = (
-    "### BEGIN HIDDEN TESTS\nfrom mocap.course import checks as c\n\nc.{0}.require({0})\n### END HIDDEN TESTS"
+    "### BEGIN HIDDEN TESTS\nfrom mocap.course.checks import {0} as c\nc.require({0})\n### END HIDDEN TESTS"
 )
 CONFIG = """c = get_config()
 c.CourseDirectory.course_id = "motion-graphs"

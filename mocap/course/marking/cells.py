@@ -37,7 +37,7 @@ class Sheet(NamedTuple):
 
 
 def code_cells(notebook: Any) -> list[Cell]:  # noqa: ANN401
-    """List the cells of code of a notebook.
+    """List the cells of code of a notebook, but for those that install something: there is no network.
 
     Examples
     --------
@@ -47,7 +47,7 @@ def code_cells(notebook: Any) -> list[Cell]:  # noqa: ANN401
     [Cell(exercises=('speed',), source='def speed(): ...')]
     """
     named = list(tagged(notebook, "exercise"))
-    cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    cells = [cell for cell in notebook.cells if cell.cell_type == "code" and "pip install" not in cell.source]
     return [Cell(tuple(name for name, own in named if own is cell), cell.source) for cell in cells]
 
 
