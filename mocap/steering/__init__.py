@@ -23,10 +23,11 @@ Reading order (notebooks 08, 12, 17, 18)
 10. `end_bending`: a walk bent and stretched so that it ends where it must
 11. `held_ends`: the last differences faded out, and feet that stand where the poses put them
 12. `in_betweens`: from one pose to another, at its place and in time: 8 to 11 in one function
-13. `characters`: the protocol, the pose that a step gives, and how soon a steered character obeys
-14. `graph_control`: a character on a motion graph, and how it looks ahead
-15. `foot_turning`: a character that turns about the foot that stands, beyond what its clips turn
-16. `judged_control`: one protocol for all characters
+13. `characters`: the protocol, the pose that a step gives, and a walk by given commands
+14. `delays`: how soon a character obeys
+15. `graph_control`: a character on a motion graph, and how it looks ahead
+16. `foot_turning`: a character that turns about the foot that stands, beyond what its clips turn
+17. `judged_control`: one protocol for all characters
 
 References
 ----------
@@ -46,7 +47,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "waypoints_and_crowds": ["Waypoint", "through_waypoints", "walk_crowd"],
         "in_betweens": ["in_between"],
         "moments": ["Moment"],
-        "characters": ["Character", "measure_delay", "steer"],
+        "characters": ["Character", "steer"],
+        "delays": ["measure_delay"],
         "graph_control": ["Controller"],
         "foot_turning": ["FootTurner"],
         "judged_control": ["command_headings", "judge_control"],

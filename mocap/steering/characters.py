@@ -3,11 +3,11 @@
 A command is a heading and a speed, which `require_command` checks. Where its frames come from clips that lie
 elsewhere, `place_frames` puts them on the ground.
 
-`steer` and `measure_delay` work with anything that fits `Character`, so each new way of control can be
-steered, seen and measured as those before it.
+`steer` (and `measure_delay` of `delays`) work with anything that fits `Character`, so each new way of control
+can be steered, seen and measured as those before it.
 """
 
-import time
+import math
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import NamedTuple, Protocol
@@ -20,8 +20,7 @@ from mocap.body.planar import PlanarTransform, on_ground
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
 
-LONGEST = 8.0  # seconds; a turn that takes longer counts as that long
-OBEYS = np.radians(20)  # between the way of the last third of a second and the heading, at most
+OBEYS = math.radians(20)  # between the way of the last third of a second and the heading, at most
 
 
 class Pose(NamedTuple):
@@ -181,69 +180,3 @@ def as_motion(character: Character, poses: Sequence[Pose], name: str = "steered"
         name,
         contacts={mark: np.array([pose.contacts[mark] for pose in poses]) for mark in marks},
     )
-
-
-class Delay(NamedTuple):
-    """The delay until a character obeys, and the CPU time per step.
-
-    `mean` and `slowest` (95 %) are delays in seconds; `step` (mean) and `worst` are CPU times in ms. Two mean
-    parts of the delay are `waiting`, until the character can make its next choice, and `blending`, in
-    transitions after it. The rest is spent in clips that turn. `never` is the number of
-    turns that took longer than 8 s.
-    """
-
-    mean: float
-    slowest: float
-    step: float
-    worst: float
-    waiting: float
-    blending: float
-    never: int
-
-
-def measure_delay(character: Character, *, turns: int = 60, speed: float = 1.1, seed: int = 0) -> Delay:
-    """Command a character to turn by 30 to 120 degrees many times, and measure how soon it obeys.
-
-    It obeys when its direction over the last third of a second is within 20 degrees of the command. A turn
-    that takes longer than 8 s counts as 8 s. The next command comes as soon as this one is obeyed.
-
-    Parameters
-    ----------
-    character : any controller, just made; it has walked on when this returns.
-    turns : the number of turns.
-    speed : metres per second.
-    seed : of the random turns.
-
-    Examples
-    --------
-    >>> from mocap import body, datasets, graphs
-    >>> from mocap.steering import Controller
-    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
-    >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
-    >>> 0 < measure_delay(Controller(graph), turns=1).mean <= 8
-    True
-
-    Notebook: 08b-steering
-    """
-    random, fps = np.random.default_rng(seed), character.fps
-    heading, back = 0.0, round(fps / 3)
-    track, costs, delays, never = [0j] * back, [], [], 0
-    for _ in range(turns):
-        heading += random.choice([-1, 1]) * random.uniform(np.pi / 6, 2 * np.pi / 3)
-        wait, frames, blends, obeys = character.frames_left, 0, 0, False
-        while not obeys and frames < round(LONGEST * fps):
-            start = time.thread_time()
-            pose = character.step(heading, speed)
-            costs.append(time.thread_time() - start)
-            track.append(complex(on_ground(pose.root_position)))
-            blends += pose.blending and frames >= wait
-            way = (track[-1] - track[-1 - back]) * np.exp(-1j * heading)
-            obeys, frames = frames >= back and abs(np.angle(way)) < OBEYS, frames + 1
-        delays.append((frames, min(wait, frames), blends))
-        never += not obeys
-    took, waited, blended = np.transpose(delays) / fps
-    # The first step looks ahead from the start without any frame to do so before; games do it while loading.
-    cost = 1e3 * np.array(costs[1:])
-    mean, step, waiting, blending = (float(some.mean()) for some in (took, cost, waited, blended))
-    slowest, worst = float(np.percentile(took, 95)), float(cost.max())
-    return Delay(mean, slowest, step, worst, waiting, blending, never)

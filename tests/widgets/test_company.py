@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from mocap.body.kinematics import joint_positions
 from mocap.errors import MocapError, MocapWarning
-from mocap.steering import measure_delay
 from mocap.steering.characters import as_motion
-from mocap.widgets.company import CommandClock, Company, Order, between
+from mocap.steering.delays import CommandClock, between
+from mocap.widgets.company import Company, Order
 from tests.refusals import refused
 from tests.widgets.steerable import Dot
 
@@ -94,33 +94,10 @@ def test_an_order_is_finite(order):
     refused("A command is a finite heading and a speed from 0 on", order.checked)
 
 
-class Clocked(Dot):
-    """A dot that carries a clock along while `measure_delay` commands it."""
-
-    def __init__(self, rate):
-        super().__init__(rate)
-        self.clock = CommandClock(self.fps)
-
-    def step(self, heading, speed, label=""):
-        pose = super().step(heading, speed, label)
-        self.clock.command(heading)
-        self.clock.step(complex(pose.root_position[2], pose.root_position[0]))
-        return pose
-
-
 @given(st.floats(-50, 50), st.floats(-50, 50))
 def test_headings_differ_by_less_than_half_a_turn_whatever_their_numbers(a, b):
     assert between(a, b) == pytest.approx(abs(cmath.phase(cmath.exp(1j * a) / cmath.exp(1j * b))), abs=1e-6)
     assert 0 <= between(a, b) <= math.pi
-
-
-@pytest.mark.parametrize("rate", [60, 1000])
-def test_the_delays_are_those_of_measure_delay(rate):
-    dot = Clocked(math.radians(rate))
-    mean = measure_delay(dot, turns=60).mean
-    # `measure_delay` counts its first turn, too, which comes before there is any way.
-    assert len(dot.clock.delays) >= 57
-    assert np.mean(dot.clock.delays) == pytest.approx(mean, rel=0.03)
 
 
 def drive(clock, headings, dot):
