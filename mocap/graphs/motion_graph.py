@@ -143,7 +143,7 @@ def from_transitions(
     >>> from_transitions([clip], [back], window=10)
     MotionGraph(1 clips, 4 nodes, 4 edges, 1 of them transitions)
 
-    Notebook: 05-motion-graph
+    Notebook: 05b-choice-points
     """
     _require_names(clips)
     clips = require_alike(clips)
