@@ -1,4 +1,4 @@
-"""Six sessions of 90 minutes: each part takes the minutes that the plan gives it, by the same rule."""
+"""Two plans, six sessions and ten weeks: each part takes the minutes that they give it, by the same rule."""
 
 import re
 from functools import cache
@@ -11,8 +11,9 @@ from tests.course.stored_notebooks import FOLDER, NAMES, read
 
 PLAN = (FOLDER / "README.md").read_text("utf-8")
 PROJECT = (FOLDER / "PROJECT.md").read_text("utf-8")
-ROWS = re.findall(
-    r"^\| (\d) \| (.*) \| (.*) \|$", PLAN.partition("## Two weeks")[2].partition("## Three hours")[0], re.M
+WEEKS, ROWS = (
+    re.findall(r"^\| (\d+) \| (.*) \| (.*) \|$", plan.partition("\n## ")[0], re.M)
+    for plan in re.split(r"^## (?:Ten|Two) weeks$", PLAN, flags=re.M)[1:]
 )
 NEAR = 5  # minutes
 
@@ -69,6 +70,20 @@ def test_a_session_adds_up(session, in_class, at_home):
         elsewhere = [part for _, cell, _ in ROWS for part in parts(cell) if part[0] == name]
         left -= sum(sections(name)[heading] for _, heading, _ in elsewhere)
     assert abs(left - stated) <= NEAR, left
+
+
+@pytest.mark.parametrize(("week", "in_class", "at_home"), WEEKS)
+def test_a_week_takes_what_its_notebooks_take(week, in_class, at_home):
+    assert sum(stated for *_, stated in parts(in_class)) <= 90
+    for name, _, stated in [*parts(in_class), *parts(at_home)]:
+        assert not name or abs(sum(sections(name).values()) - stated) <= NEAR, name
+
+
+def test_the_weeks_go_along_the_way():
+    way = [name for name in NAMES if name[2] == "-" and int(name[:2]) <= 10]
+    assert [name for _, cell, _ in WEEKS for name, *_ in parts(cell)] == way
+    in_class, at_home = (sum(part[2] for row in WEEKS for part in parts(row[n])) / 60 for n in (1, 2))
+    assert f"about {round(in_class)} hours of the fifteen, what is for home about {round(at_home)}," in PLAN
 
 
 def test_the_hours_in_all_are_those_of_the_sessions():
