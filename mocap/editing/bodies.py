@@ -65,11 +65,7 @@ class Body(NamedTuple):
 
 
 def body_of(
-    motion: Motion,
-    pinned: Pins | Sequence[int],
-    *,
-    prices: Mapping[str, float] | None = None,
-    still: Sequence[str] = (),
+    motion: Motion, pinned: Pins | Sequence[int], *, prices: Mapping[str, float] | None = None
 ) -> Body:
     """Choose which joints may turn to bring pinned ones to their places, and price them.
 
@@ -82,7 +78,6 @@ def body_of(
     motion : the clip that shows which joints turn, and which of them are hinges.
     pinned : pins, or the indices of pinned joints.
     prices : factors for joints' prices, by name; more than 1 stiffens a joint.
-    still : the names of joints that shall not turn.
 
     Raises
     ------
@@ -99,14 +94,13 @@ def body_of(
     Notebook: 14-levels
     """
     skeleton = motion.skeleton
-    fixed = {skeleton.index(name) for name in still}
     factors = {skeleton.index(name): factor for name, factor in (prices or {}).items()}
     if not all(np.isfinite(factor) and factor > 0 for factor in factors.values()):
         raise MocapError(f"Factors of prices are above 0, got {dict(prices or {})}.")
     turns, paths = turning(motion), [skeleton.path_to_root(joint) for joint in range(len(skeleton))]
     places, turned = (pinned.joints, pinned.turns) if isinstance(pinned, Pins) else (pinned, ())
     ways = [*(paths[joint][1:] for joint in places), *(paths[turn.joint] for turn in turned if turn.world)]
-    above = sorted(set().union(*ways) - fixed)
+    above = sorted(set().union(*ways))
     positions = joint_positions(motion[:: max(1, len(motion) // POSES)])
     joints: list[int] = []
     axes, price = [np.zeros((0, 3))], [float(len(skeleton))] * 3

@@ -1,13 +1,12 @@
 """Say where joints shall be, and get a motion that does it, to the last digit; or one pose, for a key."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mocap.body.limbs import Leg, legs_of
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.bodies import Body, body_of, require_reachable
@@ -23,10 +22,8 @@ EDIT = (Basis(knots=0.125, calm=0.25), CLOSE, CLOSE)
 CLOSED = 1e-4  # metres: of pins that are missed by more a warning tells, and plants among them are let go
 
 
-# With this weight a key is met to a hundredth of a millimetre. A root that is held asks for about 40 passes,
-# other poses for 7.
+# With this weight a key is met to a hundredth of a millimetre, in about 7 passes.
 POSE = Basis(weight=3000.0, damping=1e-3, passes=60)
-HEAVY = 1e10  # how many times its price a metre of a root costs that is held
 
 # How many times their prices turns of root and trunk, and of the neck, cost. With 1 a hand that moves by
 # 37 cm tips the trunk by 25°, with these by 16°; under a bar the neck's joints turn by up to 28°, or 16°.
@@ -37,9 +34,7 @@ EDITED = (4.0, 8.0)
 POSED = (16.0, 16.0)
 
 
-def edit(
-    motion: Motion, pins: Pins, *, body: Body | None = None, legs: Sequence[Leg] | None = None
-) -> Motion:
+def edit(motion: Motion, pins: Pins, *, body: Body | None = None) -> Motion:
     """Change a motion so that its joints are where pins ask, and its planted feet still stand.
 
     Parameters
@@ -48,7 +43,6 @@ def edit(
     pins : what is asked. Plants stand where they stood, unless the pins hold them elsewhere.
     body : which joints turn, at what price; by default those above pinned ones, with the root, the trunk and
         the neck at 4 and 8 times the prices of `body_of`, so that a hand that reaches hardly tips the trunk.
-    legs : found by name by default; () for a body that stands on none.
 
     Returns
     -------
@@ -77,33 +71,21 @@ def edit(
     """
     if len(pins) == len(motion) and not (pins.asked.any() or pins.turns):
         return motion
-    legs = legs_of(motion.skeleton, legs)
-    if legs:
-        pins = join_pins(plants := plant_pins(motion, legs), pins)
+    pins = join_pins(plants := plant_pins(motion), pins)
     body = body or body_of(motion, pins, prices=stiff(motion.skeleton, *EDITED))
-    edited = solve_quietly(motion, pins, EDIT, body).motion
-    return let_go(edited, pins, plants) if legs else let_go(edited, pins)
+    return let_go(solve_quietly(motion, pins, EDIT, body).motion, pins, plants)
 
 
-def let_go(motion: Motion, pins: Pins, plants: Pins | None = None) -> Motion:
+def let_go(motion: Motion, pins: Pins, plants: Pins) -> Motion:
     """Warn of pins that are missed, and mark of the `plants` only those that are where `pins` hold them."""
     warn_of_gaps(motion, pins, CLOSED)
-    if plants is None:
-        return motion
     met = pin_errors(motion, pins) <= CLOSED
     stands = plants.held.all(axis=-1) & met[:, [pins.joints.index(joint) for joint in plants.joints]]
     marks = {motion.skeleton.names[joint]: mark for joint, mark in zip(plants.joints, stands.T, strict=True)}
     return replace(motion, contacts={**motion.contacts, **marks})
 
 
-def posed(
-    motion: Motion,
-    frame: int,
-    places: Mapping[str, ArrayLike],
-    *,
-    feet: bool = True,
-    still: Sequence[str] = (),
-) -> Motion:
+def posed(motion: Motion, frame: int, places: Mapping[str, ArrayLike], *, feet: bool = True) -> Motion:
     """Drag joints to places in one frame, and let the rest of the body follow as little as it can.
 
     [WP95] let an animator set a pose's angles. Here joints are put to places, and the solver turns the joints
@@ -115,7 +97,6 @@ def posed(
     frame : which one.
     places : {joint: (x, y, z)}, metres; NaN leaves an axis free.
     feet : keep the feet that stand in this frame where they stand; asks for the motion's `contacts`.
-    still : the names of joints that shall not turn; with "root" among them the root does not move either.
 
     Returns
     -------
@@ -149,7 +130,7 @@ def posed(
         box = (np.where(free, end, place) for end in (-np.inf, np.inf))
         pins = join_pins(pins, pin(motion, joint, [frame], *box))
     require_reachable(motion, pins)
-    body = _dragged(motion, pins.joints, tuple(still))
+    body = _dragged(motion, pins.joints)
     now = replace(motion[frame : frame + 1], name=f"{motion.name}[{frame}]")
     return replace(solve(now, pins.at([frame]), [POSE], body).motion, name=motion.name)
 
@@ -161,11 +142,10 @@ def _standing(motion: Motion) -> Pins:
 
 
 @lru_cache(maxsize=1)
-def _dragged(motion: Motion, pinned: tuple[int, ...], still: tuple[str, ...]) -> Body:
-    """Choose the joints that turn; a root that is still does not move either."""
-    body = body_of(motion, pinned, prices=stiff(motion.skeleton, *POSED), still=still)
-    root = HEAVY if motion.skeleton.names[0] in still else POSED[0]
-    return body._replace(price=np.append(root * body.price[:3], body.price[3:]))
+def _dragged(motion: Motion, pinned: tuple[int, ...]) -> Body:
+    """Choose the joints that turn, and price the root's way as its turns."""
+    body = body_of(motion, pinned, prices=stiff(motion.skeleton, *POSED))
+    return body._replace(price=np.append(POSED[0] * body.price[:3], body.price[3:]))
 
 
 def stiff(skeleton: Skeleton, trunk: float, neck: float) -> dict[str, float]:

@@ -123,7 +123,7 @@ def keys_around(motion: Motion, frame: int, pose: Motion, seconds: float = HALF_
     return [key for key in keys if key.pose is not None or 0 <= key.frame < len(motion)]
 
 
-def offsets(motion: Motion, keys: Sequence[Key], *, tension: float = 0.0) -> Displacement:
+def offsets(motion: Motion, keys: Sequence[Key]) -> Displacement:
     """Warp by offsets: the displacement that meets every key's pose, and is smooth between them [WP95].
 
     In the paper: [WP95, offset].
@@ -136,7 +136,6 @@ def offsets(motion: Motion, keys: Sequence[Key], *, tension: float = 0.0) -> Dis
     ----------
     motion : F frames.
     keys : one or more, in order of time.
-    tension : see `cardinal`.
 
     Raises
     ------
@@ -162,7 +161,7 @@ def offsets(motion: Motion, keys: Sequence[Key], *, tension: float = 0.0) -> Dis
     changes = [difference(key.pose or pose, pose) for key, pose in zip(keys, now, strict=True)]
     flat = [number for number, key in enumerate(keys) if key.flat]
     root, turns = (
-        cardinal(frames, np.concatenate(values), np.arange(len(motion)), tension=tension, flat=flat)
+        cardinal(frames, np.concatenate(values), np.arange(len(motion)), flat=flat)
         for values in zip(*changes, strict=True)
     )
     return Displacement(root, turns)
@@ -187,18 +186,17 @@ def check_keys(motion: Motion, keys: Sequence[Key]) -> None:
             raise MocapError(f"The pose of a key needs one frame, got {len(pose)}.")
 
 
-def scaled(motion: Motion, joint: str | int, gain: ArrayLike, *, about: ArrayLike | None = None) -> Motion:
+def scaled(motion: Motion, joint: str | int, gain: ArrayLike) -> Motion:
     """Scale how far a joint turns from a reference: q' = r exp(a log(r⁻¹ q)) [WP95, scale].
 
-    The paper scales an angle about its zero, which a file puts anywhere; here it is a rotation vector about a
-    reference [ours]. Noise is scaled as well.
+    The paper scales an angle about its zero, which a file puts anywhere; here it is a rotation vector about
+    the joint's mean rotation over the clip, r [ours]. Noise is scaled as well.
 
     Parameters
     ----------
     motion : F frames.
     joint : its name or number.
     gain : a, a number or shape (F,).
-    about : the reference r, a quaternion (4,); the joint's mean rotation over the clip by default.
 
     Raises
     ------
@@ -217,8 +215,7 @@ def scaled(motion: Motion, joint: str | int, gain: ArrayLike, *, about: ArrayLik
     turns, amount = motion.rotations[:, number], np.asarray(gain, float)
     if amount.shape not in ((), (len(motion),)) or not np.isfinite(amount).all():
         raise MocapError(f"A gain is one finite number, or {len(motion)}, got shape {amount.shape}.")
-    reference = rotations.mean(turns) if about is None else np.asarray(about, float)
-    away = rotations.to_rotvec(rotations.multiply(rotations.inverse(reference), turns))
+    away = rotations.to_rotvec(rotations.multiply(rotations.inverse(rotations.mean(turns)), turns))
     angles = np.abs(amount) * np.linalg.norm(away, axis=-1)
     if angles.max() > np.pi:
         raise MocapError(

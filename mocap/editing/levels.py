@@ -84,10 +84,8 @@ def scattered_fit(basis: sparse.csr_array, data: Array, at: Indices) -> Array:
 def hierarchy(
     base: Motion,
     pins: Pins,
-    body: Body | None = None,
     *,
     knots: Sequence[float] = (0.5, 0.25, 0.125, 0.06, 0.03),
-    listen: bool = True,
 ) -> tuple[Motion, list[Level]]:
     """Bring joints to their pins level by level, and end when they are met to a millimetre [LS99, levels].
 
@@ -98,9 +96,7 @@ def hierarchy(
     ----------
     base : F frames.
     pins : of F frames.
-    body : which joints turn, at what price; as for `solve`.
     knots : seconds between knots, level by level, each smaller than the one before.
-    listen : False lets each number listen to all frames.
 
     Returns
     -------
@@ -126,6 +122,7 @@ def hierarchy(
     if not len(knots) or not all(0 < b < a for a, b in zip((np.inf, *knots), knots, strict=False)):
         raise MocapError(f"From level to level the knots come nearer, above 0 s; got {tuple(knots)[:8]}.")
     motion, levels, errors = base, [], pin_errors(base, pins)
+    body: Body | None = None
     for seconds in knots:
         if errors.max(initial=0.0) <= TOLERANCE:
             break
@@ -134,8 +131,7 @@ def hierarchy(
         _, _, change, body = solve_quietly(motion, pins.only(frames), [ASK], body)
         # The root's place listens to all frames, a joint's turns to those in which a joint below is pinned.
         below = [np.isin(body.joints, base.skeleton.path_to_root(joint)[1:]) for joint in pins.joints]
-        turns = asked @ np.array(below) if listen else np.repeat(frames[:, None], len(body.joints), 1)
-        who = np.hstack([np.repeat(frames[:, None], 3, axis=1), turns])  # (F, n)
+        who = np.hstack([np.repeat(frames[:, None], 3, axis=1), asked @ np.array(below)])  # (F, n)
         basis = spline_basis(len(base), seconds * base.fps)
         fits = [scattered_fit(basis, change[at, n, None], np.flatnonzero(at)) for n, at in enumerate(who.T)]
         motion = displaced(motion, body.displacement(basis @ np.hstack(fits), len(base.skeleton)))

@@ -44,7 +44,6 @@ def retarget(
     source: Stance | None = None,
     *,
     scale: float | None = None,
-    pins: Pins | None = None,
 ) -> Motion:
     """Let another body wear a motion, with its feet planted on the floor where the old feet were planted.
 
@@ -62,7 +61,6 @@ def retarget(
         over the floor as the source's, times the ratio of the legs.
     source : how the old body stands; by default `stance_of(motion)`.
     scale : of the way over the ground; by default the ratio of the legs. More makes the steps longer.
-    pins : more places for the new body's joints, such as a rail for a hand; F frames of its skeleton.
 
     Returns
     -------
@@ -98,7 +96,7 @@ def retarget(
         planted = clean_up(planted, source.legs)
     base = copied(planted, source, target, scale=scale)
     dips = {role: dip * target.leg / source.leg for role, dip in dips_of(motion, source).items()}
-    wishes = join_pins(floor_pins(base, target, dips), *([] if pins is None else [pins]))
+    wishes = floor_pins(base, target, dips)
     who, trunk = target.roles, target.skeleton.path_to_root(target.roles.get("chest", 0))
     stiff = [*(leg.knee for leg in target.legs), *(joint for joint in trunk if joint > who["pelvis"])]
     prices = dict.fromkeys((target.skeleton.names[joint] for joint in stiff), STIFF)

@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
 from mocap.body import rotations
@@ -90,7 +89,7 @@ def limit_turns(motion: Motion, joints: Sequence[str], *, more: float = 10.0) ->
     return Pins((), nowhere, nowhere, tuple(turns))
 
 
-def keep_turned(motion: Motion, joint: str, frames: Rows, turned: ArrayLike | None = None) -> Pins:
+def keep_turned(motion: Motion, joint: str, frames: Rows) -> Pins:
     """Keep how a joint is turned in the world in some frames.
 
     In the paper: [Gle98, orientations], [LS99, orientations].
@@ -100,11 +99,10 @@ def keep_turned(motion: Motion, joint: str, frames: Rows, turned: ArrayLike | No
     motion : F frames.
     joint : its name.
     frames : a slice, the frames' numbers, or marks (F,).
-    turned : quaternions (4,) or (F, 4); as in the motion by default.
 
     Raises
     ------
-    MocapError : for a joint or a frame that is not there, and turns of another shape.
+    MocapError : for a joint or a frame that is not there.
 
     Examples
     --------
@@ -117,9 +115,6 @@ def keep_turned(motion: Motion, joint: str, frames: Rows, turned: ArrayLike | No
     """
     number = motion.skeleton.index(joint)
     own = rotations.from_matrix(forward_kinematics(motion).matrices[:, number])
-    wanted = own if turned is None else np.asarray(turned, float)
-    if wanted.shape not in ((4,), own.shape):
-        raise MocapError(f"'{joint}': turns are quaternions (4,) or {own.shape}, got {wanted.shape}.")
     zero, nowhere = np.zeros((len(motion), 3)), np.zeros((len(motion), 0, 3))
-    turn = Turn(number, np.broadcast_to(wanted, own.shape), zero, zero, world=True)
+    turn = Turn(number, own, zero, zero, world=True)
     return Pins((), nowhere, nowhere, (turn,)).only(frames)

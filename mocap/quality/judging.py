@@ -19,7 +19,7 @@ import numpy as np
 
 from mocap.body.ground_path import GroundPath
 from mocap.body.kinematics import joint_positions
-from mocap.body.limbs import Leg, legs_of
+from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, shortened
 from mocap.quality.clip_flaws import height_of
@@ -96,7 +96,6 @@ def judge(
     *,
     against: Sequence[Motion] = (),
     path: GroundPath | None = None,
-    legs: Sequence[Leg] | None = None,
     stretch: Mapping[str, float] | None = None,
 ) -> Judgement:
     """Measure a motion and compare each number with its limit.
@@ -121,10 +120,8 @@ def judge(
     motion : F frames, at least 12.
     against : the clips that it was made of, if it was made of clips; resampled to its frame rate.
     path : what it should follow.
-    legs : the left and the right one, found by name by default; where they are not found, feet, knees and
-        hips are left out.
     stretch : by how much bones change their lengths in the motion's file, metres, by joint, as
-        `files.bone_stretch` gives it; a motion that was loaded has rigid bones.
+        `files.load_save.bone_stretch` gives it; a motion that was loaded has rigid bones.
 
     Raises
     ------
@@ -146,7 +143,7 @@ def judge(
         raise MocapError(f"To judge '{name}' takes 12 frames or more, it has {len(motion)}.")
     left_out: tuple[str, ...] = ()
     try:
-        legs = legs_of(motion.skeleton, legs)
+        legs = find_legs(motion.skeleton)
     except MocapError as error:
         legs, left_out = (), (f"feet and knees: {error}",)
     body = Judged(motion, joint_positions(motion), legs, against, path, stretch)

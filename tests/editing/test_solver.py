@@ -14,7 +14,7 @@ from mocap.body.kinematics import joint_positions
 from mocap.editing.bodies import body_of
 from mocap.editing.displacements import displaced, spline_basis
 from mocap.editing.pins import join_pins, pin, pin_errors, plant_pins
-from mocap.editing.solver import CLOSE, REACH, solve
+from mocap.editing.solver import CLOSE, REACH, solve, solve_quietly
 from mocap.editing.steps import Basis, Curve, Linear, linear
 from mocap.editing.turn_pins import keep_turned, limit_turns
 from mocap.errors import MocapError, MocapWarning
@@ -130,6 +130,22 @@ def test_each_frame_by_itself_jolts_and_all_at_once_do_not(fps, least):
     assert smoothness(solved.motion, clip) < 1.15
     assert bones(solved.motion) < 1e-12
     assert solved.worst[-1] == pytest.approx(pin_errors(solved.motion, pins).max())
+
+
+def test_few_knots_leave_centimetres_and_many_jolt(real_data):
+    """As in [Gle98, smooth change; finer knots]."""
+    clip = captured(real_data)
+    pins = stone(clip, 0.2)
+    solved = {}
+    for knots in (0.5, 0.125, 0.03):
+        motion = solve_quietly(clip, pins, [Basis(knots)]).motion
+        solved[knots] = (pin_errors(motion, pins).max(), smoothness(motion, clip))
+    assert solved[0.5][0] > 1.5 * solved[0.125][0] > 1.5 * solved[0.03][0]
+    assert solved[0.125][0] < 0.0035 and solved[0.125][1] < 1.06
+    assert solved[0.03][1] > 3
+    motion = solve(clip, pins, [Basis(knots) for knots in (0.5, 0.25, 0.125)]).motion
+    assert pin_errors(motion, pins).max() < 0.0016
+    assert smoothness(motion, clip) < 1.07
 
 
 def test_a_bar_needs_a_weight_that_rises(real_data, monkeypatch):

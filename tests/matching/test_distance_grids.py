@@ -55,6 +55,15 @@ def test_the_error_bound_holds_wherever_a_clip_is(seed, window, away, transform)
     assert np.all(np.abs(single - truth32) <= 4e-6 * size)
 
 
+@given(seeds, planar)
+def test_a_clip_is_at_no_distance_from_itself_moved_anywhere(seed, transform):
+    """As in [KGP02, 3.1]."""
+    motion = random_motion(seed)
+    grid = distance_grid(motion, transform.apply_motion(motion), window=3)
+    assert np.sqrt(grid.diagonal()) == pytest.approx(0, abs=1e-6)
+    assert grid == pytest.approx(grid.T, abs=1e-9)
+
+
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 @pytest.mark.parametrize("frames", [30, 700])
 def test_the_grid_of_a_clip_and_itself_is_exactly_symmetric(dtype, frames):
