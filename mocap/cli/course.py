@@ -16,15 +16,12 @@ from mocap.course import marking, teaching
 from mocap.errors import printable
 
 Points = Annotated[Path | None, "a .toml file of lines EXERCISE = POINTS (default: 1 each)"]
+HANDOUT = Path("mocap-handout")
 Moving = Annotated[bool, "run the notebooks (minutes) and record the experiments' sliders"]
 
 
 def handout(
-    notebooks: Sequence[Path] = (),
-    *,
-    out: Path = Path("mocap-handout"),
-    nbgrader: bool = False,
-    points: Points = None,
+    notebooks: Sequence[Path] = (), *, out: Path = HANDOUT, nbgrader: bool = False, points: Points = None
 ) -> None:
     """Copy the notebooks without their solutions.
 

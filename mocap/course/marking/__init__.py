@@ -18,10 +18,6 @@ Reading order
 
 import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__,
-    submod_attrs={
-        "marks": ["mark"],
-        "grades": ["Grade", "Mark", "grade", "read_points", "read_roster", "tables", "write_feedback"],
-    },
-)
+GRADES = ["Grade", "Mark", "grade", "read_points", "read_roster", "tables", "write_feedback"]
+FACES = {"marks": ["mark"], "grades": GRADES}
+__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=FACES)

@@ -29,9 +29,8 @@ class Cell(NamedTuple):
 
 
 class Sheet(NamedTuple):
-    """A notebook of the course: its name, its exercises, and by what a copy of it is recognised."""
+    """A notebook of the course: its exercises, and by what a copy of it is recognised."""
 
-    name: str
     exercises: tuple[str, ...]
     traits: frozenset[str]
 
@@ -53,12 +52,8 @@ def code_cells(notebook: Any) -> list[Cell]:  # noqa: ANN401
 
 def course_sheets(folder: Path) -> list[Sheet]:
     """Read what each notebook of the course asks for."""
-    sheets = []
-    for file in sorted(folder.glob("*.ipynb")):
-        notebook = read(file)
-        names = tuple(name for name, _ in tagged(notebook, "exercise"))
-        sheets.append(Sheet(file.stem, names, _traits(notebook)))
-    return sheets
+    course = [read(file) for file in sorted(folder.glob("*.ipynb"))]
+    return [Sheet(tuple(name for name, _ in tagged(one, "exercise")), _traits(one)) for one in course]
 
 
 def sheet_of(notebook: Any, sheets: Iterable[Sheet]) -> Sheet | None:  # noqa: ANN401
@@ -69,7 +64,7 @@ def sheet_of(notebook: Any, sheets: Iterable[Sheet]) -> Sheet | None:  # noqa: A
     Examples
     --------
     >>> from nbformat.v4 import new_notebook
-    >>> sheet_of(new_notebook(), [Sheet("00-quickstart", ("speed",), frozenset(["exercise:speed"]))])
+    >>> sheet_of(new_notebook(), [Sheet(("speed",), frozenset(["exercise:speed"]))])
     """
     traits = _traits(notebook)
     best = max(sheets, key=lambda sheet: len(sheet.traits & traits), default=None)

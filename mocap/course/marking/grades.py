@@ -6,11 +6,11 @@ import csv
 import io
 import re
 import tomllib
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from html import escape
 from pathlib import Path
 from string import Template
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from mocap._shared.atomic import make_folder, write_text
 from mocap.course.checks import all_checks
@@ -76,10 +76,7 @@ def read_points(file: Path | None) -> dict[str, float]:
     >>> read_points(None)
     {}
     """
-    try:
-        table = tomllib.loads(file.read_text("utf-8")) if file else {}
-    except (OSError, ValueError) as error:
-        raise MocapError(f"{file}: cannot be read ({error})."[:200]) from error
+    table = _read(file, tomllib.loads) if file else {}
     for name, worth in table.items():
         if name not in all_checks() or type(worth) not in (int, float) or not 0 <= worth < 1e6:
             raise MocapError(f"{file}: '{name:.40}' is no exercise, or {f'{worth}':.40} no number of points.")
@@ -98,12 +95,17 @@ def read_roster(file: Path | None) -> list[dict[str, str]]:
     >>> read_roster(None)
     []
     """
+    lines = _read(file, lambda text: [*csv.reader(io.StringIO(text))]) if file else [[*CANVAS]]
+    if not NAMES & {*(lines or [[]])[0]}:
+        raise MocapError(
+            f"{file}: no column such as 'Email address' or 'SIS Login ID' says who students are."
+        )
+    return [dict(zip(lines[0], line, strict=False)) for line in lines[1:]]
+
+
+def _read(file: Path, parse: Callable[[str], Any]) -> Any:  # noqa: ANN401
     try:
-        lines = io.StringIO(file.read_text("utf-8-sig") if file else ",".join(CANVAS))
-        roster = csv.DictReader(lines, restkey="", restval="")
-        if not NAMES & {*(roster.fieldnames or ())}:
-            raise ValueError("no column such as 'Email address' or 'SIS Login ID'")
-        return [{name: f"{value}" for name, value in row.items()} for row in roster]
+        return parse(file.read_text("utf-8-sig"))
     except (OSError, ValueError, csv.Error) as error:
         raise MocapError(f"{file}: cannot be read ({error})."[:200]) from error
 
@@ -233,7 +235,7 @@ def write_feedback(grades: Iterable[Grade], points: Points, folder: Path) -> lis
                 f"<p>{escape(said)}</p>",
             ]
         title = escape(one.known.get("Full name") or one.known["Student"])
-        start = re.sub(r"[^\w .@-]", "_", one.sent).lstrip(".")[:100]
+        start = re.sub(r"[^\w .@-]", "-", one.sent).lstrip(".")[:100]
         file = folder / f"{start}_feedback.html"
         while file in files:  # of another name with other signs
             file = file.with_stem(f"{file.stem}_")

@@ -49,10 +49,7 @@ class _Handed(NamedTuple):
 
 
 def mark(
-    folder: Path,
-    progress: Progress = iter,
-    tell: Callable[[str], object] = lambda _: None,
-    jobs: int = 1,
+    folder: Path, progress: Progress = iter, tell: Callable[[str], object] = str, jobs: int = 1
 ) -> Iterator[list[Mark]]:
     """Mark the exercises of all notebooks in a folder and in the folders inside it.
 

@@ -24,12 +24,9 @@ REPLY = 1 << 20  # bytes of an answer, of which the course's have some thousands
 REPLIES: dict[str, tuple[type, ...]] = {"begin": (), "prepare": (bool, str), "call": (object, list, str, str)}
 WANTED = walls.ALL
 KEPT = ("PATH", "LANG", "LC_ALL", "LC_CTYPE", "LD_LIBRARY_PATH", "PYTHONHOME", "TZ")
-FIXED = {
-    "MPLBACKEND": "Agg",
-    "MOCAP_MINE": "",  # no function of a student is kept for the next one
-    "PYTHONDONTWRITEBYTECODE": "1",
-    **dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1"),
-}
+FIXED = {f"{library}_NUM_THREADS": "1" for library in ("OPENBLAS", "OMP", "MKL")}
+FIXED |= {"MPLBACKEND": "Agg", "PYTHONDONTWRITEBYTECODE": "1"}
+FIXED["MOCAP_MINE"] = ""  # no function of a student is kept for the next one
 
 
 class Ended(BaseException):

@@ -11,11 +11,10 @@ import pickle
 import sys
 from typing import Any, BinaryIO
 
-import numpy as np
 from IPython.core.interactiveshell import InteractiveShell
 from traitlets.config import Config
 
-from mocap.course.check import place_of, written
+from mocap.course.check import altered, place_of, written
 from mocap.course.marking.cells import Cell, needed
 from mocap.course.marking.plain_data import pack
 
@@ -75,12 +74,8 @@ class Student:
         except BaseException as error:  # a student's function may raise anything
             at = place_of(error, function)
             return None, [], type(error).__name__, f"{error} ({at})" if at else f"{error}"
-        changed = [
-            [number, pack(new)]
-            for number, (old, new) in enumerate(zip(before, arguments, strict=True))
-            if isinstance(old, np.ndarray) and not np.array_equal(old, new, equal_nan=True)
-        ]
-        return given, changed, "", ""
+        pairs = enumerate(zip(before, arguments, strict=True))
+        return given, [[number, pack(new)] for number, (old, new) in pairs if altered(old, new)], "", ""
 
 
 def serve(requests: BinaryIO, replies: BinaryIO) -> None:

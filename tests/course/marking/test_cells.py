@@ -8,7 +8,7 @@ import pytest
 from mocap.course import read, stored
 from mocap.course.checks import all_checks
 from mocap.course.marking.cells import Cell, code_cells, course_sheets, named_oracle, needed, sheet_of
-from mocap.course.notebooks import tagged
+from mocap.course.notebooks import notebooks_in, tagged
 
 
 @pytest.fixture(scope="module")
@@ -22,8 +22,8 @@ def test_the_sheets_ask_for_each_check_of_the_course_once(sheets):
 
 
 def test_a_copy_is_recognised_without_its_name_its_tags_and_its_exercises(sheets):
-    for sheet in sheets[:3]:
-        copy = read(stored() / f"{sheet.name}.ipynb")
+    for sheet, file in list(zip(sheets, notebooks_in(stored()), strict=True))[:3]:
+        copy = read(file)
         copy.cells = [cell for cell in copy.cells if "exercise:" not in str(cell.metadata)]
         for cell in copy.cells:
             cell.metadata = {}
@@ -76,8 +76,8 @@ def test_a_cell_may_hold_two_exercises():
 
 
 def test_no_solution_of_the_course_names_an_oracle(sheets):
-    for sheet in sheets:
-        notebook = read(stored() / f"{sheet.name}.ipynb")
+    for sheet, file in zip(sheets, notebooks_in(stored()), strict=True):
+        notebook = read(file)
         solutions = {name: cell.source for name, cell in tagged(notebook, "solution")}
         for name, cell in tagged(notebook, "exercise"):
             cell.source = "\n".join(re.findall(r"```python\n(.*?)```", solutions[name], re.DOTALL))
