@@ -43,11 +43,11 @@ def keep(control: socket.socket) -> None:
     forked = {name: walls.fork_behind([name], home, hidden, int) for name in wanted}
     raised = [name for name, child in forked.items() if os.waitpid(child, 0)[1] == 0]
     control.sendall(f"{' '.join(raised)}\n".encode())
-    for module in (*COMMON, *(f"mocap.course.{name}" for name in OURS)):
-        import_module(module)
-    gc.freeze()
     try:
         while (message := socket.recv_fds(control, 1, 1))[0]:
+            for module in (*COMMON, *(f"mocap.course.{name}" for name in OURS)):  # once, and if at all
+                import_module(module)
+            gc.freeze()
             for channel in message[1]:
                 # shutil.rmtree cannot delete folders in folders in ...
                 subprocess.run(["rm", "-rf", home], check=False)

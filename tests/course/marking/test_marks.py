@@ -124,7 +124,7 @@ def marked(request, copy, tmp_path_factory):
     for name, (_, spoil) in SPOILED.items() if request.param == BEHIND[0] else ():
         hand_in(HONEST, folder / name / "x.ipynb", spoil)
     before = {file: file.read_bytes() for file in folder.rglob("*.ipynb")}
-    running = start(copy, request.param, folder, jobs=3)
+    running = start(copy, request.param, folder, jobs=2)
     _, err = running.communicate(timeout=600)
     raised = err.split("behind ")[1].split(":")[0].replace(",", "")
     if raised != request.param:
