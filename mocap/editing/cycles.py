@@ -233,8 +233,6 @@ def looped(motion: Motion, first: int, last: int) -> Motion:
     >>> from mocap.datasets import sample
     >>> looped(sample("walk_straight"), 240, 377)
     Motion('walk_straight', 138 frames at 120 Hz, 38 joints)
-
-    Notebook: 11-warping
     """
     if not 0 <= first < last < len(motion):
         raise MocapError(f"'{motion.name}' has {len(motion)} frames: no cycle from {first} to {last}.")
@@ -265,8 +263,6 @@ def repeated(cycle: Motion, times: int) -> Motion:
     >>> stride = looped(sample("walk_straight"), 240, 377)
     >>> len(repeated(stride, 3)) == 3 * (len(stride) - 1) + 1
     True
-
-    Notebook: 11-warping
     """
     if times < 1 or len(cycle) < 2:
         raise MocapError(f"A cycle of {len(cycle)} frames cannot be repeated {times} times.")
