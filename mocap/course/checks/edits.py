@@ -141,11 +141,12 @@ def integrated(speed: Points, turning: Array, dt: float) -> Points:
 
 
 def draw_shrink_box(rng: np.random.Generator) -> tuple[Array, Array, Array, float]:
-    """Draw good targets in degrees and m/s, and bad ones near a side of them."""
+    """Draw good targets in degrees and m/s, and bad ones near a side of them, the first just outside it."""
     scale = np.array([60.0, 0.4])
     good = rng.uniform([-50, 0.7], [50, 1.3], (12, 2))
     low, high = good.min(axis=0), good.max(axis=0)
-    bad = rng.uniform(low + 0.05 * (high - low), high - 0.05 * (high - low), (3, 2))
+    bad = rng.uniform(low + 0.05 * (high - low), high - 0.05 * (high - low), (4, 2))
+    bad[0, 0] = low[0] - 0.005 * scale[0]
     return good, bad, scale, 0.01
 
 
@@ -212,20 +213,23 @@ def next_frame(costs: Array, usable: Mask, now: int, near: int, bonus: float) ->
 
 
 def draw_next_frame(rng: np.random.Generator) -> tuple[Array, Mask, int, int, float]:
-    """Draw a trap: an unusable frame or a neighbour is nearest, or the bonus decides."""
+    """Draw a trap: an unusable frame, a neighbour or one just far enough is nearest, or the bonus decides."""
     count, near, bonus = int(rng.integers(30, 60)), int(rng.integers(3, 6)), float(rng.uniform(0.2, 0.6))
     costs, usable = rng.uniform(1.5, 9, count), rng.random(count) < 0.7
     now = int(rng.integers(near, count - near))
     gaps = np.abs(np.arange(count) - now)
     far = np.flatnonzero(gaps >= near)
     usable[rng.choice(far, 6, replace=False)] = True
-    trap = int(rng.integers(5))
+    trap = int(rng.integers(6))
     if trap == 0:  # the nearest is not usable
         other = int(rng.choice(far))
         usable[other], costs[other] = False, 0.01
     elif trap == 1:  # the nearest is a neighbour
         beside = int(rng.choice(np.flatnonzero((gaps > 0) & (gaps < near))))
         usable[beside], costs[beside] = True, 0.01
+    elif trap == 5:  # the nearest is just far enough
+        other = now - near
+        usable[other], costs[other] = True, 0.01
     else:  # to play on costs a little more than the best, a little less, or much less
         more = {2: rng.uniform(0.2, 0.8), 3: -rng.uniform(0.2, 0.8), 4: -1.5}[trap]
         costs[now] = costs[usable & (gaps >= near)].min() + more * bonus
