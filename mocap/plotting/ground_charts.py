@@ -44,8 +44,6 @@ def path_from_above(motion: Motion, *, colour: str = PATH, ax: Axes | None = Non
     >>> drawn = path_from_above(datasets.sample("walk_circle"))
     >>> plotting.show(drawn, alt="A circle seen from above.")
     Picture('A circle seen from above.')
-
-    Notebook: 08b-steering
     """
     ax = seen_from_above(ax)
     x, z = motion.root_positions[:, [0, 2]].T
@@ -75,7 +73,7 @@ def asked_and_walked(path: ArrayLike, motion: Motion, *, ax: Axes | None = None)
     >>> asked.get_label(), walked.get_label()
     ('asked for', 'walked')
 
-    Notebook: 08-path-synthesis
+    Notebook: 08c-judging-a-search
     """
     ax = seen_from_above(ax)
     asked = ax.plot(*np.transpose(path), color=ASKED, linewidth=5, alpha=0.85, label="asked for")
