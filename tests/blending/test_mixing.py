@@ -109,20 +109,6 @@ def test_captured_walks_of_two_speeds_stay_in_step(real_data):
 WEIGHTS = [[1 / 3] * 3, [0.6, 0.2, 0.2], [0.2, 0.2, 0.6], [0.5, -0.1, 0.6], [1.1, 0, -0.1]]
 
 
-def three_are_as_asked(registration, skating):
-    turns, lengths, skates = (of_parts(registration, measure) for measure in (turned, way, skate))
-    for weights in map(np.array, WEIGHTS):
-        blend, share = mix(registration, weights), np.abs(weights) / np.abs(weights).sum()
-        assert turned(blend) == pytest.approx(weights @ turns, abs=1)
-        assert way(blend) == pytest.approx(weights @ lengths, rel=0.02)
-        assert blend.duration == pytest.approx(weights @ registration.durations, abs=1 / 120)
-        assert skate(blend) <= skating * (share @ skates)
-
-
-def test_three_captured_clips(real_data):
-    three_are_as_asked(register([captured(real_data, n) for n in ("16_15", "16_21", "16_17")]), 1.1)
-
-
 def swinging(u, t):
     left = 0.5 + 0.5 * np.sin(np.pi * t)
     return [0.2, 0.8 * left, 0.8 * (1 - left)]

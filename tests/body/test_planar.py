@@ -34,14 +34,6 @@ def test_transforms_form_a_group_and_keep_heights_and_distances(a, b, c):
     assert from_ground(on_ground(POINTS)) == pytest.approx(POINTS[..., [0, 2]])
 
 
-def test_many_transforms_at_once():
-    many = PlanarTransform(np.array([0.1, 0.2]), np.array([1.0, 2.0]), np.array([3.0, 4.0]))
-    both = many @ many.inverse()
-    assert np.stack(both) == pytest.approx(np.zeros((3, 2)), abs=1e-12)
-    one = PlanarTransform(0.2, 2.0, 4.0)
-    assert many.apply_points(POINTS[0, 0])[1] == pytest.approx(one.apply_points(POINTS[0, 0]))
-
-
 lean = st.builds(
     lambda axis, angle: rotations.from_rotvec([angle * np.cos(axis), 0.0, angle * np.sin(axis)]),
     st.floats(-3.1, 3.1),

@@ -126,16 +126,6 @@ def test_a_worker_that_dies_is_told(folder, monkeypatch):
     refused("ended from outside: is there enough memory", conversion.convert, conversion.plan("clips", "out"))
 
 
-def test_real_folders(real_data, tmp_path):
-    pairs = conversion.plan(real_data / "odd", tmp_path, ".bvh")
-    problems = conversion.convert(pairs)
-    assert len(problems) == len(pairs) == 10
-    for (_, target), problem in zip(pairs, problems, strict=True):
-        assert (not problem) == target.exists()
-    good = {source.name for (source, _), problem in zip(pairs, problems, strict=True) if not problem}
-    assert good == {"16_12.amc", "16_15.amc", "11_01_fb_comment.amc"}
-
-
 def test_the_list_of_data(run):
     told = run("data list --subject 127 --kind walk").out
     assert "127_04" in told and "127_03" not in told

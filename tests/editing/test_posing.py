@@ -10,11 +10,9 @@ from mocap.body.kinematics import joint_positions
 from mocap.datasets.samples import sample
 from mocap.editing.displacements import displaced
 from mocap.editing.edits import posed
-from mocap.editing.keys import Key, keys_around, offsets
-from mocap.editing.retiming import old_seconds, retime
+from mocap.editing.keys import keys_around, offsets
 from mocap.errors import MocapError
 from mocap.feet.footskate import clean_up
-from mocap.quality.falling import centre_of_mass, gravity
 from tests.editing.test_retiming import body
 
 UP = np.array([0.0, 1.0, 0.0])
@@ -80,37 +78,6 @@ def test_a_hand_to_a_post(frame):
 
 
 # ------------------------------------------------------------------------------------- a higher jump
-def lifted(jump, apex, take_off, landing, *, flat):
-    """Lift a jump's apex by 20 cm through five keys."""
-    pose = replace(jump[apex : apex + 1], root_positions=jump.root_positions[apex : apex + 1] + 0.2 * UP)
-    keys = [Key(0), Key(take_off, flat=flat), Key(apex, pose), Key(landing, flat=flat), Key(len(jump) - 1)]
-    return displaced(jump, offsets(jump, keys))
-
-
-def check_jump(jump, take_off, landing, air, in_the_air):
-    """Lift a jump and give it more time: √((h + Δ)/h) times as much, where h is its own rise in the air."""
-    apex = int(jump.root_positions[:, 1].argmax())
-    own = gravity(jump, *air)
-    free, level = (lifted(jump, apex, take_off, landing, flat=flat) for flat in (False, True))
-    sunk, kept = ((m.root_positions - jump.root_positions)[:take_off, 1].min() for m in (free, level))
-    assert sunk < -0.015  # metres: the curve swings before take-off
-    assert kept == 0
-    assert gravity(level, *air) > 1.4 * own
-    rise = centre_of_mass(jump)[:, 1]
-    height = rise.max() - rise[in_the_air]
-    longer = (np.sqrt((height + 0.2) / height) - 1) * (landing - take_off) / jump.fps
-    up, down, end = take_off / jump.fps, landing / jump.fps, jump.duration
-    keys = [(0, 0), (up, up), (down + longer, down), (end + longer, end)]
-    slow = retime(level, keys)
-    moments = old_seconds(keys, np.arange(len(slow)) / jump.fps) * jump.fps
-    assert np.diff(moments).min() > 0
-    again = gravity(slow, *np.searchsorted(moments, air))
-    assert again == pytest.approx(own, rel=0.1)
-    return slow
-
-
-def test_a_higher_jump_takes_more_time():
-    check_jump(sample("jump"), 208, 267, (209, 266), 209)
 
 
 # ----------------------------------------------------------------------------------- a deeper crouch

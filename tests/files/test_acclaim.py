@@ -70,6 +70,8 @@ def test_degrees_and_radians(write):
         (ASF, AMC.replace(":DEGREES\n", "")),
     ]:
         assert np.allclose(read_clip(write, asf, text).rotations, expected)
+        angles = acclaim.read_angles(write("a.amc", text), read_skeleton(write("a.asf", asf)))
+        assert np.allclose(angles["arm"], [[0, 0], [90, 90]])
 
 
 @pytest.mark.parametrize(
