@@ -71,6 +71,10 @@ def test_a_file_tells_something_without_its_clips(saved):
     assert summary(found.graph, fps=found.fps) == summary(GRAPH.graph, fps=30.0)
 
 
+def test_files_of_the_first_format_still_open(saved):
+    assert storage.read(changed(saved, format=np.array("mocap motion graph"))).names == ("a", "b ü")
+
+
 def test_clips_that_changed_are_named(saved):
     a, b = CLIPS
     nudged = a.rotations.copy()

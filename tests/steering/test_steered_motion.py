@@ -64,6 +64,19 @@ def test_a_character_of_any_kind_is_measured_and_its_delay_is_known_exactly():
     assert delay.waiting == delay.blending == 0
 
 
+class Blender(Turner):
+    frames_left = 5
+
+    def step(self, heading, speed, label=""):
+        return super().step(heading, speed)._replace(blending=True)
+
+
+def test_blending_counts_from_the_first_choice():
+    delay = measure_delay(Blender(), turns=3)
+    assert delay.waiting == pytest.approx(5 / 30)
+    assert delay.blending == pytest.approx(delay.mean - delay.waiting)
+
+
 class Deaf(Turner):
     def step(self, heading, speed, label=""):
         return super().step(0.0, speed)

@@ -118,7 +118,9 @@ def test_a_heading_that_is_dragged_along_starts_the_clock_again_but_a_tremor_doe
 
 def test_a_small_turn_and_one_that_was_given_up_do_not_count():
     clock, dot = CommandClock(30.0), Dot(math.radians(60))
-    drive(clock, [0.0] * 40 + [0.3] * 60, dot)  # 17 degrees
+    drive(clock, [0.0] * 40 + [0.1] * 60, dot)  # 6 degrees
+    assert clock.heading == clock.started == 0.1
+    drive(clock, [0.4] * 60, dot)  # 17 degrees more
     assert clock.obeyed and clock.delays == []
     drive(clock, [3.0] * 5, dot)
     drive(clock, [0.4] * 60, dot)
