@@ -28,7 +28,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "style": ["ASKED", "COLOURS", "CURVES", "FLOOR", "MARK", "PATH", "QUIET", "SOURCES"],
         "bodies": ["bones", "flat_bodies", "target_poses"],
-        "stick_figures": ["StickFigure", "ground_axes", "laid_over", "to_picture"],
+        "stick_figures": ["StickFigure", "ground_axes", "to_picture"],
         "bodies_on_path": ["bodies_along"],
         "grids": ["distance_image", "walk_rows", "warp_image", "web_image"],
         "ground_charts": [

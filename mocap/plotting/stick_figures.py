@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from mocap._shared.arrays import Array
 from mocap.body import Motion, Skeleton, joint_positions
 from mocap.plotting.bodies import bones, head_joints
-from mocap.plotting.style import COLOURS, FLOOR, SOURCES, own_colour
+from mocap.plotting.style import COLOURS, FLOOR, own_colour
 
 TALL = 1.9  # metres above the ground that pictures show
 ZOOM = 1.55  # of the camera, where nothing has to be brought inside the picture
@@ -158,42 +158,6 @@ class StickFigure:
         if self.head:
             self.dot.set_data_3d(*to_picture(points[self.head].mean(axis=0))[:, None])
         return [self.bones, self.dot]
-
-
-def laid_over(first: Motion, second: Motion, *, every: int = 5) -> list[list[StickFigure]]:
-    """Draw two motions over each other, each in one colour, to see how well they match.
-
-    Parameters
-    ----------
-    first, second : the motions; they stay where they are, so align them first.
-    every : frames from one pose to the next.
-
-    Returns
-    -------
-    The stick figures of the first motion, and those of the second.
-
-    Examples
-    --------
-    >>> from mocap import datasets, plotting
-    >>> walk = datasets.sample("walk_straight")
-    >>> first, second = laid_over(walk[:21], walk[2:23], every=10)
-    >>> len(first), len(second)
-    (3, 3)
-    >>> plotting.show(first[0].figure, alt="A walk, and the same walk two frames later.")
-    Picture('A walk, and the same walk two frames later.')
-
-    Notebook: 04-blending
-    """
-    clouds = [joint_positions(motion)[::every] for motion in (first, second)]
-    ax = ground_around(np.concatenate([points.reshape(-1, 3) for points in clouds]))
-    drawn = []
-    for motion, points, colour in zip((first, second), clouds, SOURCES[:2], strict=True):
-        drawn.append([StickFigure(motion.skeleton, ax, 0.7, colour) for _ in points])
-        for figure, pose in zip(drawn[-1], points, strict=True):
-            figure.pose(pose)
-        ax.plot([], [], [], color=colour, linewidth=2.4, label=motion.name)
-    ax.legend(loc="upper left", frameon=False)
-    return drawn
 
 
 def film_strip(motions: Sequence[Motion], *, count: int = 6) -> Figure:

@@ -14,6 +14,7 @@ CELLS = {
         from mocap import MocapWarning
         from mocap import blending, datasets, matching, plotting, resample
         from mocap.body import joint_positions
+        from mocap.course import diagrams
         from mocap.plotting import show
         from mocap.widgets import Mixer, draw_path, explore, play
         walk = resample(datasets.sample("walk_circle"), 30)[:240]
@@ -34,12 +35,12 @@ CELLS = {
             return drawn
         count = ipywidgets.SelectionSlider(options=[60, 120, 240], value=60)
         explore(steps, alt="A path from above.", side=["left", "right"], count=count, seam=False)""",
-    "show": 'show(plotting.laid_over(walk[40:41], walk[50:51]), alt="Two poses of a walk.")',
+    "show": 'show(plotting.path_from_above(walk), alt="The path of a walk.")',
     "point": """
         def lay(at=(30, 100)):
             i, j = at
             laid = blending.lay_window_on(walk, i, walk, j, 10)
-            return plotting.laid_over(walk[i : i + 10], laid[j : j + 10])
+            return diagrams.laid(walk[i : i + 10], laid[j : j + 10], lambda points: points)
         grid = matching.distance_grid(walk, walk, window=10)
         explore(lay, alt="Two windows laid over each other.", at=plotting.distance_image(grid, fps=30))""",
     "drag": """
@@ -150,7 +151,7 @@ def test_a_choice_a_slider_of_choices_and_a_box_change_the_picture(notebook):
 
 def test_a_shown_picture_has_its_alt_text(notebook):
     _, cell = notebook
-    picture = cell("show").get_by_role("img", name="Two poses of a walk.")
+    picture = cell("show").get_by_role("img", name="The path of a walk.")
     wait_until(picture.is_visible)
     assert picture.evaluate("img => img.naturalWidth") > 400
 

@@ -65,7 +65,7 @@ def test_a_picture_without_a_sentence_is_refused():
 @pytest.mark.parametrize(
     "draw",
     [
-        lambda: stick_figures.laid_over(wave(30), wave(30, phase=1)),
+        lambda: stick_figures.film_strip([wave(30), wave(30, phase=1)]),
         lambda: grids.distance_image(np.random.default_rng(0).random((300, 300)).cumsum(0), fps=30),
         lambda: ground_charts.path_from_above(wave(90)),
     ],

@@ -73,17 +73,6 @@ def test_a_stick_figure_has_every_bone_where_the_joints_are_in_the_colour_of_its
     assert figure.dot.get_data_3d()[2] == pytest.approx(joint_positions(motion)[2, 5, 1])
 
 
-def test_two_motions_laid_over_each_other_have_a_colour_each():
-    first, second = wave(20, name="a"), wave(20, phase=1, name="b")
-    figures = stick_figures.laid_over(first, second, every=5)
-    for motion, drawn in zip((first, second), figures, strict=True):
-        tips = [figure.bones._segments3d[-1][-1] for figure in drawn]
-        assert np.asarray(tips) == pytest.approx(to_picture(joint_positions(motion)[::5, 3]))
-    assert len({tuple(figure.bones.get_color()[0]) for drawn in figures for figure in drawn}) == 2
-    legend = figures[0][0].dot.axes.get_legend()
-    assert [text.get_text() for text in legend.get_texts()] == ["a", "b"]
-
-
 def test_a_strip_shows_first_and_last_pose_and_all_who_play():
     first, second = wave(50, name="a"), wave(20, name="b", phase=2)
     strip = film_strip([first, second], count=4)

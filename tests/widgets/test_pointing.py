@@ -31,7 +31,7 @@ GRID = distance_grids.distance_grid(*CLIPS, window=10)  # shape (31, 41)
 def lay(at=(3, 20)):
     """Lay the windows over each other, as a notebook does."""
     (a, b), (i, j) = CLIPS, at
-    return stick_figures.laid_over(a[i : i + 10], joining.lay_window_on(a, i, b, j, 10)[j : j + 10])
+    return stick_figures.film_strip([a[i : i + 10], joining.lay_window_on(a, i, b, j, 10)[j : j + 10]])
 
 
 def experiment():
