@@ -53,7 +53,7 @@ def site(*, out: Path = Path("mocap-site"), moving: Moving = False) -> None:
 
 
 def slides(*, out: Path = Path("mocap-slides"), moving: Moving = False) -> None:
-    """Write the course as slides that need no network.
+    """Write the decks of the course as slides that need no network.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ def lite(*, out: Path = Path("mocap-lite")) -> None:
 
 
 def film(notebook: Path, *, out: Path | None = None, still: bool = False) -> None:
-    """Render a film of a notebook, of about three minutes.
+    """Render a film of a notebook's deck.
 
     Parameters
     ----------

@@ -9,23 +9,25 @@ from __future__ import annotations
 import io
 import re
 from collections.abc import Callable, Iterable, Iterator
+from functools import cache
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from PIL import Image, ImageDraw, ImageOps
+from PIL import Image, ImageDraw, ImageFont, ImageOps
 
 from mocap import datasets, graphs, matching, plotting
 from mocap._shared.atomic import make_folder, replacing
 from mocap._shared.progress import Progress
 from mocap.body import GroundPath, Motion, arcs, lay_on, resample, rotations
 from mocap.course import diagrams
-from mocap.course.teaching.films import SMOOTH, font_of
 from mocap.plotting.picture import few_colours
 
 WINDOW, FPS = 10, 30  # frames, frames per second
 PANEL, GAP, HEAD = (760, 520), 24, 76  # pixels: a step, what is between them, the heading
 INK, DISC, PAPER = "#222222", "#0072B2", "#FFFFFF"
+SMOOTH = Image.Resampling.LANCZOS
 SMALL = (620, 440)  # pixels of a drawing on the sheet of all
 Steps = Iterator[Any]  # of figures
 
@@ -66,7 +68,9 @@ def _path() -> Steps:
 
 
 def _tarjan() -> Steps:
-    return _each(diagrams.tarjan_step, (0, 4, 9, 13, 16, 20), graphs.notes_example())
+    graph = graphs.notes_example()
+    last = len(diagrams.tarjan_states({node: sorted(graph.successors(node)) for node in sorted(graph)})) - 1
+    return _each(diagrams.tarjan_step, (0, 4, 9, 13, 16, last), graph)
 
 
 def _search() -> Steps:
@@ -127,6 +131,13 @@ def _saved(page: Image.Image, path: Path) -> Path:
     return path
 
 
+@cache
+def pictures_of(name: str) -> list[bytes]:
+    """Draw the steps of a drawing, each as a PNG."""
+    heading, steps = BOARD[name]
+    return [plotting.show(figure, alt=heading).picture for figure in steps()]
+
+
 def board_sheet(name: str) -> Image.Image:
     """Draw one drawing: its heading, and its steps with their numbers.
 
@@ -157,3 +168,12 @@ def board_sheet(name: str) -> Image.Image:
         pen.ellipse([x, y, x + 48, y + 48], DISC)
         pen.text((x + 24, y + 24), str(number + 1), PAPER, font_of(28, bold=True), anchor="mm")
     return page
+
+
+@cache
+def font_of(size: int, *, bold: bool = False) -> ImageFont.FreeTypeFont:
+    """Give the font of Matplotlib's pictures, which has Greek letters."""
+    found = find_spec("matplotlib")
+    assert found and found.origin
+    fonts = Path(found.origin).parent / "mpl-data" / "fonts" / "ttf"
+    return ImageFont.truetype(str(fonts / f"DejaVuSans{'-Bold' if bold else ''}.ttf"), size)

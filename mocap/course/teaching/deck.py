@@ -1,152 +1,98 @@
-"""Which cells of a notebook make which slide: by what a cell is.
+"""Decks of slides: written by hand beside the notebooks, with the pictures and the code of these.
 
-A heading starts a slide. Of each paragraph the slide has the first sentence, and the notes for the speaker
-have all. Predictions, their answers, questions, pictures and players have slides of their own, exercises come
-last. Code is shown where it is short and shows the package's own or a function; else its output alone.
+A deck is a file of Markdown in `notebooks/slides`, called like its notebook. A line of three dashes ends a
+slide; each begins with its heading. A line `{show what}` stands for what a cell of the notebook shows, and
+`{code what}` for its code, where `what` is a tag of the cell, or words that no other cell has. A line such as
+`{draw 08-tarjan 3}` stands for a step of a drawing for the board. What follows `Note:` is for the speaker.
+"Predict:", "Answer:" and "Exercise:" at the beginning of a heading become a label.
 """
 
 from __future__ import annotations
 
+import base64
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
-from mocap.course.teaching.prose import blocks, shortened
+from mocap.course.notebooks import library
+from mocap.course.teaching.board import pictures_of
+from mocap.errors import MocapError
 
-LINES = 12.0  # of text on a slide
-FEW = 4.0  # lines that leave room for a picture below them
-WIDE = 78  # characters of such a line
-ROOM = 170  # characters of a paragraph
-CODE, PRINTED = 14, 16  # lines of code, and of what it prints
-DRAWING = re.compile(r"\b(?:explore|show|figure|subplots)\(")
-CAPTION = re.compile(r"\*(?!\*)(?:(?!\*\*).)*\*", re.DOTALL)  # a block in italics
+TAKEN = re.compile(r"^\{(show|code|draw) ([^}\n]+)\}$", re.MULTILINE)
+PICTURE = re.compile(r"!\[.*?\]\(.*?\)", re.DOTALL)
+LABELS = ("Predict", "Answer", "Exercise")
 
 
 @dataclass
 class Slide:
-    """A slide: its kind, its heading, its cells, and Markdown for the speaker."""
+    """A slide: its label, its heading, its cells, and Markdown for the speaker."""
 
-    kind: str
+    label: str
     heading: str
-    cells: list[Any] = field(default_factory=list)
-    notes: list[str] = field(default_factory=list)
-    lines: float = 0.0
+    cells: list[Any]
+    notes: str
 
 
-def deck_of(notebook: Any) -> list[Slide]:  # noqa: ANN401
-    r"""Cut a notebook into slides.
+def deck_file(notebook: Path) -> Path:
+    """Give where the deck of a notebook is."""
+    return notebook.parent / "slides" / f"{notebook.stem}.md"
+
+
+def deck_of(file: Path, notebook: Any) -> list[Slide]:  # noqa: ANN401
+    """Read a deck.
 
     Parameters
     ----------
-    notebook : from `course.read`.
+    file : the deck.
+    notebook : from `course.read`, for pictures and code.
 
     Returns
     -------
-    The slides, exercises last.
+    The slides; a cell is of Markdown, or a copy of the notebook's with its code or with what it shows.
 
-    Examples
-    --------
-    >>> from nbformat.v4 import new_markdown_cell, new_notebook
-    >>> sources = ["# Walks\n\nA body walks. It is slow.", "## Why?\n\nFor fun."]
-    >>> cells = [new_markdown_cell(source) for source in sources]
-    >>> [(slide.kind, slide.heading) for slide in deck_of(new_notebook(cells=cells))]
-    [('title', 'Walks'), ('text', 'Why?')]
+    Raises
+    ------
+    MocapError : where the deck is missing, and for a line that takes nothing, no cell or several cells of the
+        notebook.
     """
-    made, exercises = [Slide("title", "Title")], dict[str, Slide]()
-    first = next((cell for cell in notebook.cells if cell.cell_type == "code"), None)
-    for cell in notebook.cells:
-        tags = cell.metadata.get("tags", [])
-        named = [tag.partition(":") for tag in tags if tag.startswith(("ask:", "exercise:", "solution:"))]
-        if any(tag.startswith("check:") for tag in tags):
-            continue
-        if named:
-            kind, _, name = named[0]
-            exercise = exercises.setdefault(name, Slide("exercise", name.replace("_", " ").capitalize()))
-            if kind == "solution":
-                exercise.notes.append(cell.source)
-            else:
-                exercise.cells.append(_changed(cell, outputs=[]) if kind == "exercise" else cell)
-        elif cell.cell_type == "markdown":
-            _add_text(made, cell, tags)
-        else:
-            _add_code(made, cell, tags, first=cell is first)
-    return [*(slide for slide in made if slide.cells), *exercises.values()]
+    if not file.is_file():
+        raise MocapError(f"There is no deck {file}: slides and films are made of decks.")
+    parts = re.split(r"^---$", file.read_text("utf-8"), flags=re.MULTILINE)
+    return [_slide(file, notebook, part) for part in parts]
 
 
-def _add_text(made: list[Slide], cell: Any, tags: list[str]) -> None:  # noqa: ANN401
-    """Put the blocks of a cell on slides, and its whole text into the notes of the first of them."""
-    own = next((tag for tag in tags if tag in ("prediction", "answer")), "text")
-    if own != "text" or made[-1].kind in ("prediction", "answer"):
-        made.append(Slide(own, made[-1].heading))
-    for block in blocks(cell.source):
-        if block.startswith("# "):
-            made[-1].heading = block.lstrip("# ")
-        elif block.startswith("#"):
-            made.append(Slide("text", block.lstrip("# ")))
-        elif block.startswith("<details>"):  # what is folded has a slide of its own, after the question
-            if made[-1].kind != "answer" or made[-1].cells:
-                made.append(Slide("answer", made[-1].heading))
-            for part in blocks(block.partition("</summary>")[2].removesuffix("</details>")):
-                _add_block(made, shortened(part, ROOM), part, cell)
-        elif block.startswith("**About "):  # the minutes of one who reads alone
-            made[-1].notes.append(block)
-        else:
-            full = "prediction" in tags or CAPTION.fullmatch(block)
-            _add_block(made, block if full else shortened(block, ROOM), block, cell)
+def _slide(file: Path, notebook: Any, part: str) -> Slide:  # noqa: ANN401
+    told, _, notes = part.partition("\nNote:")
+    heading, _, body = told.strip().partition("\n")
+    label, _, rest = (heading := heading.lstrip("# ")).partition(": ")
+    label, heading = (label, rest) if label in LABELS else ("", heading)
+    texts = TAKEN.split(body)
+    if wrong := re.search(r"^\{.*", "".join(texts[::3]), re.MULTILINE):
+        raise MocapError(f"{file}: '{wrong[0]:.60}' is not {{show ...}}, {{code ...}} or {{draw ...}}.")
+    written = library().v4.new_markdown_cell
+    cells = [written(texts[0].strip())]
+    for what, name, text in zip(texts[1::3], texts[2::3], texts[3::3], strict=True):
+        cells += [_taken(file, notebook, what, name), written(text.strip())]
+    return Slide(
+        label, heading, [cell for cell in cells if cell.source or cell.get("outputs")], notes.strip()
+    )
 
 
-def _add_block(made: list[Slide], shown: str, whole: str, cell: Any) -> None:  # noqa: ANN401
-    from nbformat.v4 import new_markdown_cell
-
-    slide, lines = made[-1], 0.5
-    for line in filter(str.strip, shown.splitlines()):
-        lines += 2 if line.startswith("$$") else 8 if line.startswith("![") else -(-len(line) // WIDE)
-    full = slide.cells and slide.lines + lines > LINES
-    below = slide.kind == "picture" and CAPTION.fullmatch(shown)
-    if full or (slide.kind in ("picture", "question", "code") and not below):
-        slide = Slide(slide.kind if slide.kind in ("prediction", "answer") else "text", slide.heading)
-        made.append(slide)
-    slide.cells.append(new_markdown_cell(shown, attachments=cell.get("attachments", {})))
-    slide.lines += lines
-    if shown != whole:
-        slide.notes.append(whole)
-
-
-def _add_code(made: list[Slide], cell: Any, tags: list[str], *, first: bool) -> None:  # noqa: ANN401
-    """Put code with what it prints below the text before it where there is room, then what it shows."""
-    function = cell.source.lstrip().startswith("def ") and not DRAWING.search(cell.source)
-    short = function and len(cell.source.splitlines()) <= CODE and not first
-    code = cell.source if short or any(tag.startswith("source:") for tag in tags) else ""
-    printed = [_cut(output) for output in cell.outputs if output.output_type == "stream"]
-    shown = [output for output in cell.outputs if {"image/png", "text/html"} & set(output.get("data", {}))]
-    if code or (printed and not shown and not first):
-        lines = sum(len(text.splitlines()) for text in (code, *(output.text for output in printed)))
-        slide = made[-1]
-        fits = slide.kind == "text" and slide.cells and slide.lines + 0.8 * lines <= LINES
-        if not fits and (lines >= FEW or slide.kind == "text"):  # else the text after it says it again
-            made.append(Slide("code", slide.heading))
-        if fits or slide is not made[-1]:
-            made[-1].cells.append(_changed(cell, source=code, outputs=printed))
-            made[-1].lines += 0.8 * lines
-    for output in shown:
-        question = 'class="mocap-question"' in output.data.get("text/html", "")
-        slide = made[-1]
-        bet = question and slide.kind == "prediction" and slide.lines <= 2 * FEW
-        if not question and slide.kind == "text" and slide.cells and slide.lines <= FEW:
-            slide.kind = "picture"  # a few lines before a picture stand above it
-        elif not bet:
-            slide = Slide("question" if question else "picture", slide.heading)
-            made.append(slide)
-        made_by = {**cell.metadata, "code": cell.source}
-        slide.cells.append(_changed(cell, source="", outputs=[output], metadata=made_by))
-
-
-def _cut(output: Any) -> Any:  # noqa: ANN401
-    lines = output.text.splitlines()
-    left = f"… ({len(lines) - PRINTED + 1} more lines)"
-    return _changed(output, text="\n".join([*lines[: PRINTED - 1], left])) if len(lines) > PRINTED else output
-
-
-def _changed(one: Any, **new: Any) -> Any:  # noqa: ANN401
-    """Copy a cell or an output with other values."""
-    return type(one)(one, **new)
+def _taken(file: Path, notebook: Any, what: str, name: str) -> Any:  # noqa: ANN401
+    """Copy a cell of the notebook, with its code or with what it shows; or draw a step for the board."""
+    if what == "draw":
+        new, (name, _, step) = library().v4, name.partition(" ")
+        picture = {"image/png": base64.b64encode(pictures_of(name)[int(step) - 1]).decode()}
+        return new.new_code_cell(outputs=[new.new_output("display_data", picture)])
+    found = [cell for cell in notebook.cells if name in cell.metadata.get("tags", ())]
+    found = found or [cell for cell in notebook.cells if name in cell.source]
+    if len(found) != 1:
+        raise MocapError(f"{file}: '{name:.60}' is in {len(found)} cells of the notebook, not in one.")
+    (cell,) = found
+    if cell.cell_type == "markdown":
+        return type(cell)(cell, source="\n".join(PICTURE.findall(cell.source)))
+    if what == "code":
+        return type(cell)(cell, outputs=[])
+    seen = [output for output in cell.outputs if "data" in output] or cell.outputs
+    return type(cell)(cell, source="", outputs=seen, metadata={**cell.metadata, "code": cell.source})

@@ -1,11 +1,9 @@
-"""A film of about three minutes per notebook: its headings, pictures, players and words, without a voice."""
+"""A film of a notebook's deck: its headings, pictures, players and words, without a voice."""
 
 from __future__ import annotations
 
 import io
 from collections.abc import Callable, Iterator
-from functools import cache
-from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +14,8 @@ from mocap._shared.atomic import replacing
 from mocap._shared.progress import Progress
 from mocap.course import read
 from mocap.course.site import recorded_of
+from mocap.course.teaching.board import SMOOTH, font_of
+from mocap.course.teaching.deck import deck_file, deck_of
 from mocap.course.teaching.film_script import Scene, script_of
 from mocap.errors import MocapError
 from mocap.widgets.film import require_ffmpeg, write_mp4
@@ -24,7 +24,6 @@ SIZE, FPS = (1280, 720), 20.0
 TOP, EDGE, ROOM = 84, 56, (1168, 506)  # pixels: above the middle, beside it, and its size
 INK, SOFT, PAPER, DONE = "#222222", "#595959", "#FFFFFF", "#0072B2"
 SWEEP = 0.7  # seconds that a position of an experiment is shown
-SMOOTH = Image.Resampling.LANCZOS
 
 
 def render_film(notebook: Path, out: Path, *, moving: bool = True, progress: Progress = iter) -> Path:
@@ -44,7 +43,7 @@ def render_film(notebook: Path, out: Path, *, moving: bool = True, progress: Pro
     Raises
     ------
     MocapError : for another ending, without imageio-ffmpeg, and for a notebook that does not run or has
-        nothing to show.
+        no deck.
 
     Examples
     --------
@@ -56,9 +55,8 @@ def render_film(notebook: Path, out: Path, *, moving: bool = True, progress: Pro
         raise MocapError(f"A film of a notebook is written as .mp4, got '{out}'.")
     require_ffmpeg()
     contents = read(notebook)
-    scenes = script_of(contents, recorded_of(notebook, contents) if moving else {})
-    if not scenes:
-        raise MocapError(f"{notebook}: has no heading, picture or player to show.")
+    slides = deck_of(deck_file(notebook), contents)
+    scenes = script_of(slides, recorded_of(notebook, contents) if moving else {})
     with replacing(out) as beside:
         write_mp4(frames_of(scenes, progress), beside, FPS)
     return out
@@ -133,12 +131,3 @@ def _wrapped(words: str, font: ImageFont.FreeTypeFont, width: float) -> list[str
         longer = f"{lines[-1]} {word}".strip()
         lines[-1:] = [longer] if font.getlength(longer) <= width or not lines[-1] else [lines[-1], word]
     return lines
-
-
-@cache
-def font_of(size: int, *, bold: bool = False) -> ImageFont.FreeTypeFont:
-    """Give the font of Matplotlib's pictures, which has Greek letters."""
-    found = find_spec("matplotlib")
-    assert found and found.origin
-    fonts = Path(found.origin).parent / "mpl-data" / "fonts" / "ttf"
-    return ImageFont.truetype(str(fonts / f"DejaVuSans{'-Bold' if bold else ''}.ttf"), size)

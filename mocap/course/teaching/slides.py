@@ -21,7 +21,7 @@ from mocap._shared.progress import Progress
 from mocap.course.formulas import to_mathml
 from mocap.course.notebooks import notebooks_in
 from mocap.course.site import MOVING, prepared
-from mocap.course.teaching.deck import Slide, deck_of
+from mocap.course.teaching.deck import Slide, deck_file, deck_of
 from mocap.errors import missing
 
 PAGE, LIST = (Path(__file__).with_name(name) for name in ("slides.html", "decks.html"))
@@ -43,7 +43,7 @@ def _copy_reveal(out: Path) -> None:
 
 
 def build_slides(notebooks: Path, out: Path, progress: Progress = iter, *, moving: bool = False) -> Path:
-    """Write a deck of slides for each notebook of a folder, and a page that lists them.
+    """Write the decks of a folder's notebooks as pages, and a page that lists them.
 
     Parameters
     ----------
@@ -66,34 +66,35 @@ def build_slides(notebooks: Path, out: Path, progress: Progress = iter, *, movin
     Traceback (most recent call last):
     mocap.errors.MocapError: The folder nowhere holds no notebooks.
     """
-    files, rows = notebooks_in(notebooks), []
+    files, rows = [file for file in notebooks_in(notebooks) if deck_file(file).is_file()], []
     _copy_reveal(out)
     for file in progress(files):
         title, notebook = prepared(file, moving=moving)
-        write_text(out / f"{file.stem}.html", page_of(title, notebook, {f.stem for f in files}))
+        write_text(
+            out / f"{file.stem}.html",
+            page_of(title, deck_of(deck_file(file), notebook), {f.stem for f in files}),
+        )
         rows.append(f'<li><a href="{file.stem}.html">{html.escape(title)}</a></li>')
     write_text(out / "index.html", Template(LIST.read_text("utf-8")).substitute(rows="\n".join(rows)))
     return out / "index.html"
 
 
-def page_of(title: str, notebook: Any, names: Collection[str]) -> str:  # noqa: ANN401
-    """Write the deck of a notebook as a page.
+def page_of(title: str, slides: Iterable[Slide], names: Collection[str]) -> str:
+    """Write a deck as a page.
 
     Parameters
     ----------
     title : of the page.
-    notebook : with its outputs.
+    slides : from `deck_of`.
     names : of the notebooks that have a deck; links to anything else become plain text.
     """
     from nbformat.v4 import new_markdown_cell
     from pygments.formatters import HtmlFormatter
 
-    sections, heading, count = [], "", 0
-    for slide in deck_of(notebook):
-        count, heading = count + 1 if slide.heading == heading else 1, slide.heading
-        body = to_html(slide.cells, notebook.metadata)
-        notes = to_html([new_markdown_cell("\n\n".join(slide.notes))], notebook.metadata)
-        sections.append(_section(slide, count, body, notes))
+    sections = []
+    for number, slide in enumerate(slides):
+        notes = to_html([new_markdown_cell(slide.notes)]) if slide.notes else ""
+        sections.append(_section(slide, 2 if number else 1, to_html(slide.cells), notes))
 
     def linked(found: re.Match[str]) -> str:  # to a page that is no slide only the words are left
         known = found[1].removesuffix(".html") in names
@@ -108,7 +109,7 @@ def page_of(title: str, notebook: Any, names: Collection[str]) -> str:  # noqa: 
     return Template(PAGE.read_text("utf-8")).substitute(parts)
 
 
-def to_html(cells: Iterable[Any], metadata: Any) -> str:  # noqa: ANN401
+def to_html(cells: Iterable[Any]) -> str:
     """Convert cells; formulas become MathML."""
     from nbformat.v4 import new_notebook
 
@@ -117,7 +118,7 @@ def to_html(cells: Iterable[Any], metadata: Any) -> str:  # noqa: ANN401
 
     made = ""
     for cell in cells:
-        body, _ = _exporter().from_notebook_node(new_notebook(cells=[cell], metadata=metadata))
+        body, _ = _exporter().from_notebook_node(new_notebook(cells=[cell]))
         if cell.cell_type == "markdown":
             body = MATH.sub(formula, ANCHOR.sub("", body))
         made += re.sub(r' id="cell-id=[^"]*"', "", body)
@@ -131,12 +132,9 @@ def _exporter() -> Any:  # noqa: ANN401
     return HTMLExporter(template_name="basic")  # type: ignore[no-untyped-call]
 
 
-def _section(slide: Slide, count: int, body: str, notes: str) -> str:
-    """Write a slide; pictures and questions name the section that they stand in small letters."""
-    level = 1 if slide.kind == "title" else 2
-    word = {"prediction": "Predict", "answer": "Answer", "exercise": "Exercise"}.get(slide.kind)
-    label = f'<span class="kind">{word}</span> ' if word else ""
-    again = f" <small>{count}</small>" if count > 1 else ""
-    heading = f"<h{level}>{label}{html.escape(slide.heading)}{again}</h{level}>"
-    aside = f'<aside class="notes">{notes}</aside>' if re.sub(r"<[^>]*>|\s", "", notes) else ""
-    return f'<section class="{slide.kind}">{heading}\n<div class="inner">{body}</div>{aside}</section>'
+def _section(slide: Slide, level: int, body: str, notes: str) -> str:
+    label = f'<span class="kind">{slide.label}</span> ' if slide.label else ""
+    heading = f"<h{level}>{label}{html.escape(slide.heading)}</h{level}>"
+    kind = "picture" if any(cell.get("outputs") for cell in slide.cells) else "text"
+    aside = f'<aside class="notes">{notes}</aside>' if notes else ""
+    return f'<section class="{kind}">{heading}\n<div class="inner">{body}</div>{aside}</section>'

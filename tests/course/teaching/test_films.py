@@ -5,12 +5,12 @@ import shutil
 
 import numpy as np
 import pytest
-from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output, writes
+from nbformat.v4 import new_markdown_cell, new_notebook, writes
 from PIL import Image
 
 from mocap.cli.main import main
 from mocap.course.teaching import films
-from mocap.course.teaching.film_script import Scene, script_of
+from mocap.course.teaching.film_script import Scene
 from tests.refusals import refused
 
 
@@ -29,7 +29,7 @@ def holds(frame, colour):
 
 
 def test_a_still_stands_and_a_bar_goes_on():
-    made = frames(Scene("still", "Heading", "Words.", 0, [png()]))
+    made = frames(Scene("still", "Heading", "Words.", [png()]))
     assert {frame.shape for frame in made} == {(720, 1280, 3)}
     assert len(made) == round(20 * 5.0)
     assert holds(made[0], (0, 255, 0))
@@ -39,7 +39,7 @@ def test_a_still_stands_and_a_bar_goes_on():
 
 def test_an_experiment_goes_there_and_back():
     colours = ("#FF0000", "#00FF00", "#0000FF")
-    made = frames(Scene("moving", "H", "W", 0, [png(c) for c in colours], ["a", "b", "c"]))
+    made = frames(Scene("moving", "H", "W", [png(c) for c in colours], ["a", "b", "c"]))
     seen = [tuple(int(v) for v in made[round(20 * (0.7 * n + 0.3))][300, 640]) for n in range(5)]
     red, green, blue = (255, 0, 0), (0, 255, 0), (0, 0, 255)
     assert seen == [red, green, blue, green, red]
@@ -47,38 +47,28 @@ def test_an_experiment_goes_there_and_back():
 
 def test_cards_fit_and_do_not_cover_the_heading():
     words = "\n".join(["A point of some length that has to be broken into more than one line, or so."] * 9)
-    scenes = Scene("still", "Heading", "", 0, [png()]), Scene("card", "Heading", words, 0)
+    scenes = Scene("still", "Heading", "", [png()]), Scene("card", "Heading", words)
     alone, card = (frames(scene)[0] for scene in scenes)
     assert (alone[: films.TOP] == card[: films.TOP]).all()
     assert (card[680:700] == 255).all()
 
 
 def test_a_long_heading_is_cut():
-    (first, *_) = frames(Scene("still", "word " * 60, "", 0, [png()]))
+    (first, *_) = frames(Scene("still", "word " * 60, "", [png()]))
     assert (first[: films.TOP, 1280 - films.EDGE :] == 255).all() and (first[: films.TOP, 1100:] < 99).any()
 
 
 @pytest.fixture
 def notebook(tmp_path):
     path = tmp_path / "walk.ipynb"
-    cells = [
-        new_markdown_cell("# Walks\n\nA body walks."),
-        new_code_cell("1", outputs=[new_output("display_data", {"text/plain": "1"})]),
-    ]
-    path.write_text(writes(new_notebook(cells=cells)), "utf-8")
+    path.write_text(writes(new_notebook(cells=[new_markdown_cell("# Walks")])), "utf-8")
+    (tmp_path / "slides").mkdir()
+    (tmp_path / "slides" / "walk.md").write_text("# Walks\n\nA body walks.\n", "utf-8")
     return path
 
 
-def short(notebook, recorded):
-    scenes = script_of(notebook, recorded)
-    for scene in scenes:
-        scene.longer = 0.1
-    return scenes
-
-
-def test_the_command_writes_an_mp4(notebook, tmp_path, monkeypatch, capsys):
+def test_the_command_writes_an_mp4(notebook, tmp_path, capsys):
     imageio = pytest.importorskip("imageio_ffmpeg", reason="pip install imageio-ffmpeg")
-    monkeypatch.setattr(films, "script_of", short)
     out = tmp_path / "walk.mp4"
     assert main(["course", "film", str(notebook), "--still", "-o", str(out)]) == 0
     assert capsys.readouterr().out == f"wrote {out}\n"
@@ -91,9 +81,10 @@ def test_the_command_writes_an_mp4(notebook, tmp_path, monkeypatch, capsys):
 
 
 def test_what_cannot_be_is_one_sentence(notebook, tmp_path, monkeypatch):
-    empty = tmp_path / "empty.ipynb"
-    empty.write_text(writes(new_notebook()), "utf-8")
-    refused("has no heading", films.render_film, empty, tmp_path / "film.mp4", moving=False)
+    shutil.copy(notebook, tmp_path / "other.ipynb")
+    refused(
+        "There is no deck", films.render_film, tmp_path / "other.ipynb", tmp_path / "film.mp4", moving=False
+    )
     monkeypatch.setattr(films, "write_mp4", lambda *_: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         films.render_film(notebook, tmp_path / "film.mp4", moving=False)
@@ -104,6 +95,5 @@ def test_what_cannot_be_is_one_sentence(notebook, tmp_path, monkeypatch):
 def test_a_real_film_with_recordings(tmp_path):
     from mocap.course.opening import stored
 
-    shutil.copy(stored() / "06-pruning.ipynb", tmp_path)
-    out = films.render_film(tmp_path / "06-pruning.ipynb", tmp_path / "film.mp4")
+    out = films.render_film(stored() / "06-pruning.ipynb", tmp_path / "film.mp4")
     assert out.stat().st_size < 5_000_000
