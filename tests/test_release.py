@@ -21,11 +21,13 @@ import os, sys, mocap
 from pathlib import Path
 from mocap.course.notebooks import execute, read
 from mocap.errors import missing
+from nbformat.v4 import new_code_cell
 
 assert mocap.__file__.startswith(sys.prefix)
 assert "'motion-graphs[video]'" in str(missing("Films need it", "video"))
 notebook = read(Path("course/00-quickstart.ipynb"))
-notebook.cells[2].source += "\\nimport sys\\nassert mocap.__file__.startswith(sys.prefix)"
+ours = "import sys, mocap; assert mocap.__file__.startswith(sys.prefix)"
+notebook.cells.append(new_code_cell(ours))
 execute(notebook, Path("course/00-quickstart.ipynb").resolve())
 """
 
@@ -44,7 +46,6 @@ def test_the_page_lists_what_is_stable():
     named = set(re.findall(r"`mocap\.(\w+)`", STABLE.partition("**May change**")[0]))
     assert named == {name for name in mocap.__all__ if not hasattr(getattr(mocap, name), "__path__")}
     assert set(re.findall(r"`mocap ([a-z]+)`", STABLE)) == set(COMMANDS)
-    assert mocap.__version__.startswith("0.")
     assert "twine upload dist/*" in STABLE
 
 
@@ -59,7 +60,6 @@ def call(*command, folder, **environment):
 
 @pytest.fixture(scope="module")
 def archives(tmp_path_factory):
-    """Build the sdist from the checkout, and the wheel from the sdist."""
     out = tmp_path_factory.mktemp("dist")
     call(sys.executable, "-m", "build", "--no-isolation", "--outdir", out, ROOT, folder=out)
     return next(out.glob("*.tar.gz")), next(out.glob("*.whl"))
@@ -85,7 +85,6 @@ def test_the_archives_hold_what_they_should_and_nothing_else(archives):
 
 @pytest.mark.sweep
 def test_the_wheel_alone_makes_a_walk_and_runs_a_notebook(archives, tmp_path):
-    """The libraries are those of this Python; of ours there is what the wheel brings."""
     env, empty = tmp_path / "env", tmp_path / "empty"
     empty.mkdir()
     call(sys.executable, "-m", "venv", "--without-pip", env, folder=empty)
