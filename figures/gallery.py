@@ -51,6 +51,7 @@ from mocap import (
 from mocap.body import SHAPES, arcs, joint_positions, planar, rotations, spline, velocities
 from mocap.body.euler import from_euler
 from mocap.course import diagrams
+from mocap.course.diagrams import ground
 from mocap.course.diagrams.eight_nodes import EIGHT_PLACES
 from mocap.course.seam_trials import choose_matches, passage, walk_costs
 from mocap.matching import lower_bound
@@ -339,6 +340,19 @@ def draw_match() -> Figure:
         for pose, colour in zip(poses, SOURCES, strict=False):
             plotting.StickFigure(first.skeleton, ax, 0.8, colour).pose(pose)
         ax.set_title(("as the clips are", "aligned")[panel])
+    return figure
+
+
+def draw_angles() -> Figure:
+    """Draw the short turn between two headings, and the turn by the means of their angles."""
+    figure = Figure(figsize=(7, 3.7), layout="constrained")
+    ways = {"slerp": (20.0, CURVES[0]), "mean of the angles": (-340.0, CURVES[1])}
+    for (name, (turn, colour)), ax in zip(ways.items(), figure.subplots(1, 2), strict=True):
+        for share in np.linspace(0, 1, 11):
+            heading = np.radians(170 + share * turn)
+            ground._draw_heading(ax, heading, COLOURS["middle"] if share in (0, 1) else colour)
+        ground._draw_compass(ax)
+        ax.set_title(f"{name}: {abs(turn):.0f}° to the {'left' if turn >= 0 else 'right'}", fontsize=11)
     return figure
 
 
@@ -701,6 +715,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "seam": draw_seam,
     "feet": draw_feet,
     "match": draw_match,
+    "angles": draw_angles,
     "retargeted": draw_retargeted,
     "dying_walks": draw_dying_walks,
     "added": draw_added,

@@ -14,8 +14,7 @@ Reading order (notebooks 01, 03)
 7. `ground_path`: lines on the ground, by metres along them
 8. `limbs`: which joints are the legs
 9. `two_bone_ik`: bend a limb of two bones to a target
-10. `speed_labels`: where a clip walks and where it runs
-11. `fingerprints`: what a clip is known by, whatever it is called
+10. `fingerprints`: what a clip is known by, whatever it is called
 
 References
 ----------
@@ -43,6 +42,5 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         ],
         "limbs": ["find_legs"],
         "two_bone_ik": ["two_bone"],
-        "speed_labels": ["label_by_speed"],
     },
 )
