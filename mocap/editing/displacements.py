@@ -131,7 +131,7 @@ def spline_basis(frames: int, spacing: float) -> sparse.csr_array:
     array([[0.167, 0.667, 0.167, 0.   , 0.   ],
            [0.   , 0.167, 0.667, 0.167, 0.   ]])
 
-    Notebook: 12-path-editing
+    Notebook: 14-levels
     """
     if not (frames >= 1 and spacing > 0):
         raise MocapError(f"A basis needs a frame and knots above 0 apart, got {frames} and {spacing}.")

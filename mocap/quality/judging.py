@@ -135,8 +135,6 @@ def judge(
     >>> gliding = replace(walk, root_positions=walk.root_positions * [0.8, 1, 0.8])
     >>> [measure.name for measure in judge(gliding).stand_out]
     ['skate', 'slide']
-
-    Notebook: 10-real-data
     """
     if len(motion) < 12:
         name = shortened(motion.name)
@@ -168,8 +166,6 @@ def judgement_table(judgements: Sequence[Judgement]) -> str:
     ...     print(line[:60])
     name          score  height    jolt tremble    sunk    turn
     walk_straight   0.0  1.69 m    0.38    0.05    0.00    0.23
-
-    Notebook: 10-real-data
     """
     names = list(dict.fromkeys(measure.name for judged in judgements for measure in judged.measures))
     width = max([4, *(len(shortened(judged.name, 40)) for judged in judgements)])

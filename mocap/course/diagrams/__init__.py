@@ -38,7 +38,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "seams": ["added_by_blend", "blended_seam", "knee_triangle", "turning_paths"],
         "eight_nodes": ["eight_node_graph", "tarjan_states", "tarjan_step"],
         "branching": ["edge_lengths", "from_above", "laid_in_turn", "search_events", "search_steps"],
-        "layers": ["layer_states", "layer_step"],
+        "layers": ["layer_step"],
         "distances_to_paths": ["two_distances"],
     },
 )

@@ -74,8 +74,6 @@ def layer_states(line: Array, count: int, *, width: int = 4, look: bool = True) 
     >>> states = layer_states(STRIDE * np.arange(4), 2)
     >>> states[-1].message, round(states[-1].best.cost, 3)
     ('at the end: the cheapest costs 0.00 m²', 0.0)
-
-    Notebook: 08-path-synthesis
     """
     return list(_run(line, count, width, look))
 
