@@ -137,6 +137,7 @@ def test_the_search_knows_text_and_code(site):
         (r"\cos(\alpha)", "<mi>cos</mi><mo>&ApplyFunction;</mo><mo"),
         (r"\operatorname{atan2}(y, x)", ">atan2</mi><mo>&ApplyFunction;</mo><mo"),
         (r"\big\lVert a\big\rVert", ">‖</mo><mi>a</mi><mo>‖</mo>"),
+        (r"\dot x_a", '<msub><mover><mi>x</mi><mo stretchy="false">˙</mo></mover><mi>a</mi></msub>'),
         (r"60° \dots", "<msup><mn>60</mn><mo>∘</mo></msup><mi>…</mi>"),
     ],
 )

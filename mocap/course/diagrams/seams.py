@@ -39,7 +39,7 @@ def blended_seam(step: int = 4, window: int = 6) -> Figure:
 
     Notebook: 04-blending
     """
-    figure = plt.figure(figsize=(9, 4.4), layout="constrained")
+    figure = plt.figure(figsize=(7.2, 3.7), layout="constrained")
     rows, weights = figure.subplots(2, 1, height_ratios=[3, 1.3], sharex=True)
     places = range(-AROUND, window + AROUND)
     alpha = np.concatenate([np.ones(AROUND), cubic_weights(window), np.zeros(AROUND)])
@@ -65,7 +65,7 @@ def blended_seam(step: int = 4, window: int = 6) -> Figure:
     if step >= 2:
         weights.plot(places, alpha, "o-", color=CURVES[0])
         for place, share in enumerate(alpha[AROUND:-AROUND]):
-            weights.annotate(f"{share:.2f}", (place, share), (7, 5), textcoords="offset points", fontsize=8)
+            weights.annotate(f"{share:.2f}", (place, share), (5, 3), textcoords="offset points", fontsize=9)
     return figure
 
 
@@ -77,7 +77,7 @@ def _draw_frame(ax: Axes, place: int, height: float, shares: Mapping[str, float]
         low += BOX * share
     if name != "mix":
         name = f"${name}{place:+d}$" if place else f"${name}$"  # some steps from frame i or j
-    ax.text(place, height + BOX / 2, name, ha="center", va="center", fontsize=9)
+    ax.text(place, height + BOX / 2, name, ha="center", va="center", fontsize=10)
 
 
 def turning_paths(ways: Mapping[str, Array], share: float = 0.25) -> Figure:
@@ -86,14 +86,14 @@ def turning_paths(ways: Mapping[str, Array], share: float = 0.25) -> Figure:
     Parameters
     ----------
     ways : a name and rotations (F, 4) each, evenly from the first to the last, which all ways share.
-    share : how far along the dots are, from 0 to 1.
+    share : how far along the dots are, from 0 to 1: each is the one marker of its line.
 
     Examples
     --------
     >>> turn = rotations.about_y(np.linspace(0, 1, 11))
     >>> ball, graph = turning_paths({"slerp": turn}, share=1.0).axes
-    >>> [round(float(at), 1) for at in graph.lines[-1].get_data()[1]]  # degrees
-    [57.3]
+    >>> graph.lines[0].get_markevery(), graph.lines[0].get_ydata()[10].round(1).item()  # degrees
+    ([10], 57.3)
 
     Notebook: 04-blending
     """
@@ -106,14 +106,12 @@ def turning_paths(ways: Mapping[str, Array], share: float = 0.25) -> Figure:
     net = np.cos(u) * np.sin(v), np.sin(u) * np.sin(v), np.cos(v)
     ball.plot_wireframe(*net, color="#DDDDDD", linewidth=0.5)
     for (name, way), colour, width in zip(ways.items(), CURVES, (2, 6, 2, 2), strict=False):
-        look = {"color": colour, "zorder": 1 / width}
+        now = round(share * (len(way) - 1))
+        look = {"color": colour, "zorder": 1 / width, "lw": width, "ms": 6 + width, "markevery": [now]}
         tips = to_picture(rotations.rotate(way, [0.0, 0.0, 1.0]))
         turned = np.degrees(rotations.angle_between(way[0], way))
-        now = round(share * (len(way) - 1))
-        ball.plot(*tips.T, linewidth=width, **look)
-        ball.plot(*tips[now : now + 1].T, "o", ms=6 + width, **look)
-        graph.plot(np.linspace(0, 1, len(way)), turned, label=name, linewidth=width, **look)
-        graph.plot([share], [turned[now]], "o", ms=6 + width, **look)
+        ball.plot(*tips.T, "o-", **look)
+        graph.plot(np.linspace(0, 1, len(way)), turned, "o-", label=name, **look)
     graph.set(xlabel="share of the way", ylabel="turned from the start (degrees)")
     graph.legend(frameon=False)
     return figure

@@ -37,9 +37,9 @@ def _walks(frames: int) -> list[Motion]:
 
 
 def _pair() -> tuple[Motion, Motion]:
-    """Give two walks, of which frames 56 and 20 begin windows that match."""
-    first, second = _walks(66)
-    return first[56:], second[20 : 20 + WINDOW]
+    """Give the two windows of notebook 03, which match."""
+    circle, curve = (resample(datasets.sample(f"walk_{name}"), FPS) for name in ("circle", "curve_1"))
+    return circle[56 : 56 + WINDOW], curve[97 : 97 + WINDOW]
 
 
 def _grid() -> Steps:

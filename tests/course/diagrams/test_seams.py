@@ -43,13 +43,11 @@ def test_a_frame_of_the_result_is_filled_by_its_weight():
 
 
 def test_dots_are_at_the_share_of_each_way():
-    ways = {
-        "even": rotations.about_y(np.linspace(0, 1, 5)),
-        "late": rotations.about_y(np.linspace(0, 1, 5) ** 2),
-    }
+    even = np.linspace(0, 1, 5)
+    ways = {"even": rotations.about_y(even), "late": rotations.about_y(even**2)}
     graph = turning_paths(ways, share=0.5).axes[1]
-    dots = [line for line in graph.lines if len(line.get_xdata()) == 1]
-    assert [float(dot.get_ydata()[0]) for dot in dots] == pytest.approx(np.degrees([0.5, 0.25]).tolist())
+    dots = [line.get_ydata()[line.get_markevery()].item() for line in graph.lines]
+    assert dots == pytest.approx(np.degrees([0.5, 0.25]).tolist())
 
 
 def test_the_triangle_is_closed_and_its_bend_the_law_of_cosines():
