@@ -520,7 +520,15 @@ def draw_match_webs() -> Figure:
     space = match_webs.sample_space(cycles, gait, scale=(10, 0.1))
     wishes = [(20, 1.0), (-25, 1.3), (60, 1.5)]
     got = [gait(match_webs.blend_of(cycles, match_webs.weights_for(space, wish))) for wish in wishes]
-    plotting.space_image(space.values, len(found), wishes=wishes, got=got, ax=right)
+    across, up = np.asarray(space.values).T
+    right.scatter(across[len(found) :], up[len(found) :], s=8, color=plotting.QUIET)
+    right.scatter(across[: len(found)], up[: len(found)], s=42, color=plotting.COLOURS["middle"])
+    asked, given = np.transpose(wishes), np.transpose(got)
+    right.scatter(*asked, s=70, color=plotting.ASKED, marker="+", zorder=3)
+    right.quiver(
+        *asked, *(given - asked), color=plotting.PATH, angles="xy", scale_units="xy", scale=1, width=0.008
+    )
+    right.scatter(*given, s=26, color=plotting.PATH, zorder=3)
     right.set(xlabel="turn of a cycle (degrees)", ylabel="speed (m/s)", title="asked and got")
     return figure
 

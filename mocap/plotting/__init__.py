@@ -43,7 +43,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "match_tree",
             "quartile_band",
             "seen_beside_measured",
-            "space_image",
         ],
         "graph_drawing": ["before_and_after", "node_link", "timeline"],
         "picture": ["show"],

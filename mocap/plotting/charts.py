@@ -1,8 +1,7 @@
-"""Charts: curves over time, samples as bands, boxes of costs, matches as trees, spaces."""
+"""Charts: curves over time, samples as bands, boxes of costs, matches as trees."""
 
 from collections.abc import Sequence
 from itertools import cycle, repeat
-from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -13,7 +12,7 @@ from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike
 
 from mocap.methods.match_webs.match_search import Match
-from mocap.plotting.style import ASKED, ASTRAY, COLOURS, CURVES, PATH, QUIET, source_colours
+from mocap.plotting.style import ASTRAY, CURVES, QUIET, source_colours
 
 
 def joint_curve(
@@ -200,36 +199,4 @@ def match_tree(
     last = int(places[:, 0].max())
     ax.set(xlabel="step", yticks=[], xlim=(-0.3, max(last, 1) + 0.3), xticks=range(last + 1))
     ax.spines[["left", "top", "right"]].set_visible(False)
-    return ax
-
-
-def space_image(
-    values: ArrayLike, examples: int, *, wishes: ArrayLike = (), got: ArrayLike = (), ax: Axes | None = None
-) -> Axes:
-    """Draw what the samples of a space do, and arrows from wishes to what their blends do.
-
-    Parameters
-    ----------
-    values : two numbers of each sample, shape (N, 2).
-    examples : how many of them, the first ones, are the examples.
-    wishes, got : shape (M, 2).
-    ax : axes; new ones by default.
-
-    Examples
-    --------
-    >>> ax = space_image([[0, 1], [2, 3], [1, 2]], 2, wishes=[[1, 1]], got=[[1, 2]])
-    >>> [len(dots.get_offsets()) for dots in ax.collections[:2]]  # samples and examples
-    [1, 2]
-
-    Notebook: 16-match-webs
-    """
-    ax = ax or plt.figure(figsize=(5.6, 4.4), layout="constrained").add_subplot()
-    across, up = np.asarray(values, float).T
-    asked, given = (np.asarray(each, float).T for each in (wishes, got))
-    ax.scatter(across[examples:], up[examples:], s=8, color=QUIET, label="samples")
-    ax.scatter(across[:examples], up[:examples], s=42, color=COLOURS["middle"], label="examples")
-    ax.scatter(asked[0], asked[1], s=70, color=ASKED, marker="+", label="asked", zorder=3)
-    in_data: dict[str, Any] = {"angles": "xy", "scale_units": "xy", "scale": 1, "width": 0.008}
-    ax.quiver(*asked, *(given - asked), color=PATH, zorder=2, **in_data)
-    ax.scatter(given[0], given[1], s=26, color=PATH, label="got", zorder=3)
     return ax
