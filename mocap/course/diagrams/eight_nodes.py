@@ -171,9 +171,8 @@ def tarjan_step(graph: nx.MultiDiGraph, *, step: int = 0) -> Figure:
     states = tarjan_states({node: sorted(graph.successors(node)) for node in sorted(graph)})
     step = min(step, len(states) - 1)
     state = states[step]
-    figure, (left, right, code) = plt.subplots(
-        1, 3, figsize=(11, 4.4), layout="constrained", width_ratios=(5, 1, 5)
-    )
+    figure, (left, right, code) = plt.subplots(1, 3, figsize=(11, 4.4), width_ratios=(5, 1, 5))
+    figure.subplots_adjust(left=0.01, right=0.99, top=0.93, bottom=0.2, wspace=0.04)
     beside = {node: f"{number} / {state.low[node]}" for node, number in state.number.items()}
     eight_node_graph(graph, beside=beside, parts=state.components, ax=left)
     discs = left.collections[0]

@@ -74,7 +74,7 @@ def _tarjan() -> Steps:
 
 
 def _search() -> Steps:
-    return _each(diagrams.search_steps, (0, 2, 4, 7, 10, 13), graphs.notes_example(), 6, 2)
+    return _each(diagrams.search_steps, (0, 2, 3, 9, 11, 13), graphs.notes_example(), 6, 2)
 
 
 def _each(draw: Callable[..., Any], steps: Iterable[int], *shown: Any) -> Steps:  # noqa: ANN401
