@@ -3,26 +3,26 @@
 from collections.abc import Callable
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from mocap._shared.arrays import Array
 from mocap.body import Motion, PlanarTransform, joint_positions
-from mocap.course.diagrams.pens import arrow, require_step, trace
+from mocap.course.diagrams.pens import arrow, require_step, strokes, trace
 from mocap.matching.point_clouds import align, distinct_joints, point_cloud
 from mocap.plotting import CURVES, PATH, QUIET, SOURCES, bones
 
 STEPS = ("where they are, with their means", "each from its own mean", "the second turned", "shifted back")
 
 
-def laid(first: Motion, second: Motion, move: Callable[[Array], Array], *, ax: Axes | None = None) -> Figure:
+def laid(first: Motion, second: Motion, move: Callable[[Array], Array]) -> Figure:
     """Draw two windows from above, the second moved, and tell how far apart their points are.
 
     Parameters
     ----------
     first, second : windows of as many frames.
     move : takes points, shape (N, 3), and moves them.
-    ax : axes; new ones by default.
 
     Examples
     --------
@@ -33,48 +33,58 @@ def laid(first: Motion, second: Motion, move: Callable[[Array], Array], *, ax: A
 
     Notebook: 02-matching
     """
-    ax = ax or Figure(figsize=(5.4, 5), layout="constrained").add_subplot()
-    _from_above(ax, (first, second), _places(first, second, move))
-    ax.set_title(f"{_apart(first, second, move):.1f} cm RMS", fontsize=11)
+    ax = Figure(figsize=(5.4, 5), layout="constrained").add_subplot()
+    places = _places(first, second, move)
+    _from_above(ax, (first, second), places)(places)
+    ax.set_title(f"{_apart(first, places):.1f} cm RMS", fontsize=11)
     return ax.figure  # type: ignore[return-value]
 
 
 def turning(
-    first: Motion, second: Motion, move: Callable[[Array, float], Array], *, degrees: float = 0.0
-) -> Figure:
+    first: Motion, second: Motion, move: Callable[[Array, float], Array]
+) -> Callable[[float], list[Artist]]:
     """Draw two windows from above, the second laid on the first after a turn, and the distance at each angle.
 
     Parameters
     ----------
     first, second : windows of as many frames.
     move : takes points, shape (N, 3), and an angle in radians; turns and shifts the points.
-    degrees : how far to turn, -180 to 180.
+
+    Returns
+    -------
+    A function for `explore`: it takes how far to turn, -180 to 180 degrees, and gives what it moved.
 
     Examples
     --------
     >>> from mocap import datasets
     >>> walk = datasets.sample("walk_straight")[:10]
-    >>> turning(walk, walk, lambda points, angle: points).axes[0].get_title()
-    '0°: 0.0 cm RMS'
+    >>> turning(walk, walk, lambda points, angle: points)(60)[-1].get_text()
+    '60°: 0.0 cm RMS'
 
     Notebook: 02-matching
     """
-    figure = Figure(figsize=(8.6, 4.2), layout="constrained")
-    ground, curve = figure.subplots(1, 2)
+    ground, curve = Figure(figsize=(8.6, 4.2), layout="constrained").subplots(1, 2)
 
-    def turned(angle: float) -> Callable[[Array], Array]:
-        return lambda points: move(points, np.radians(angle))
+    def turned(degrees: float) -> Array:
+        return _places(first, second, lambda points: move(points, np.radians(degrees)))
 
-    laid(first, second, turned(degrees), ax=ground)
-    ground.set_title(f"{degrees:g}°: {ground.get_title()}".replace("-", "−"), fontsize=11)
     angles = np.arange(-180, 181, 6)
-    lefts = [_apart(first, second, turned(angle)) for angle in angles.tolist()]
+    everywhere = np.stack([turned(angle) for angle in angles.tolist()])  # (A, 2, K, J, 3)
+    lefts = [_apart(first, places) for places in everywhere]
+    put = _from_above(ground, (first, second), everywhere)
     curve.plot(angles, lefts, color=CURVES[0])
-    curve.plot([degrees], [np.interp(degrees, angles, lefts)], "o", color=PATH, markersize=9)
+    (dot,) = curve.plot([], [], "o", color=PATH, markersize=9)
     curve.set(xlabel="θ (degrees)", xlim=(-190, 190), xticks=range(-180, 181, 90))
     curve.set(ylabel="RMS distance (cm)", ylim=(0, 1.1 * max(1, *lefts)))
     curve.spines[["top", "right"]].set_visible(False)
-    return figure
+
+    def turn(degrees: float) -> list[Artist]:
+        left = _apart(first, places := turned(degrees))
+        ground.title.set(text=f"{degrees:g}°: {left:.1f} cm RMS".replace("-", "−"), fontsize=11)
+        dot.set_data([degrees], [left])
+        return [*put(places), dot, ground.title]
+
+    return turn
 
 
 def laying_on(first: Motion, second: Motion, *, step: int = 4) -> Figure:
@@ -149,26 +159,42 @@ def _places(first: Motion, second: Motion, move: Callable[[Array], Array]) -> Ar
     return np.stack([p, np.reshape(move(q.reshape(-1, 3)), q.shape)])
 
 
-def _apart(first: Motion, second: Motion, move: Callable[[Array], Array]) -> float:
-    p, q = _places(first, second, move)[:, :, distinct_joints(first.skeleton)]
+def _apart(first: Motion, places: Array) -> float:
+    p, q = places[:, :, distinct_joints(first.skeleton)]
     return 100 * float(np.sqrt(((p - q) ** 2).sum(-1).mean()))
 
 
-def _from_above(ax: Axes, motions: tuple[Motion, Motion], places: Array) -> None:
-    """Draw the middle poses, the joints' tracks, the means, and a thread from each joint to its partner."""
+def _from_above(
+    ax: Axes, motions: tuple[Motion, Motion], everywhere: Array
+) -> Callable[[Array], list[Artist]]:
+    """Draw the middle poses, the joints' tracks, the means, and a thread from each joint to its partner.
+
+    Gives a function that puts them at `places`, shape (2, K, J, 3), and returns what it moved.
+    """
     middle, apart = len(motions[0]) // 2, distinct_joints(motions[0].skeleton)
-    ground = places[..., [0, 2]]
-    ax.plot(*ground[:, middle, apart].transpose(2, 0, 1), color=QUIET, linewidth=0.7, zorder=1)
-    for motion, tracks, colour in zip(motions, ground, SOURCES, strict=False):
-        ax.plot(tracks[..., 0], tracks[..., 1], color=colour, linewidth=0.8, alpha=0.35)
-        limbs = tracks[middle][np.stack(bones(motion.skeleton)[:2])]
-        ax.plot(limbs[..., 0], limbs[..., 1], color=colour, linewidth=2.4)
-        mean = tracks[:, apart].mean((0, 1))
-        ax.plot(*mean[:, None], "P", color=colour, markersize=12, markeredgecolor="white", zorder=4)
-        ax.plot([], [], color=colour, linewidth=2.4, label=motion.name)
+    limbs = np.stack(bones(motions[0].skeleton)[:2])  # (2, B)
+    threads = strokes(ax, color=QUIET, linewidth=0.7, zorder=1)
+    drawn = []
+    for motion, colour in zip(motions, SOURCES, strict=False):
+        tracks = strokes(ax, color=colour, linewidth=0.8, alpha=0.35)
+        body = strokes(ax, color=colour, linewidth=2.4, label=motion.name)
+        (mean,) = ax.plot([], [], "P", color=colour, markersize=12, markeredgecolor="white", zorder=4)
+        drawn.append((tracks, body, mean))
     ax.plot([], [], "P", color=QUIET, markersize=9, label="mean")
-    low, high = (f(ground, axis=(0, 1, 2)) for f in (np.min, np.max))
+    flat = everywhere[..., [0, 2]].reshape(-1, 2)
+    low, high = flat.min(0), flat.max(0)
     (x, z), reach = (low + high) / 2, max(0.5, *(high - low) / 2 + 0.1)
     ax.set(xlabel="x (m)", ylabel="z (m)", aspect="equal")
     ax.set(xlim=(x + reach, x - reach), ylim=(z - reach, z + reach))  # seen from above, x leads to the left
     ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.08), ncols=3, frameon=False, fontsize=9)
+
+    def put(places: Array) -> list[Artist]:
+        ground = places[..., [0, 2]]
+        threads.set_segments([*ground[:, middle, apart].swapaxes(0, 1)])
+        for (tracks, body, mean), ways in zip(drawn, ground, strict=True):
+            tracks.set_segments(ways.swapaxes(0, 1))
+            body.set_segments(ways[middle][limbs].swapaxes(0, 1))
+            mean.set_data(ways[:, apart].mean((0, 1))[:, None])
+        return [threads, *(artist for artists in drawn for artist in artists)]
+
+    return put

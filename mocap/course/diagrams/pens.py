@@ -4,7 +4,9 @@ from collections.abc import Sequence
 from typing import Any
 
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
+from matplotlib.patches import Rectangle
 from matplotlib.text import Annotation
 
 from mocap.errors import MocapError
@@ -27,18 +29,25 @@ def trace(ax: Axes, way: Any, **look: Any) -> None:  # noqa: ANN401
     ax.plot(way.real, way.imag, **look)
 
 
+def strokes(ax: Axes, **look: Any) -> LineCollection:  # noqa: ANN401
+    """Add lines that get their places by `set_segments`."""
+    added = LineCollection([], **look)
+    ax.add_collection(added)
+    return added
+
+
 def disc(face: str, **look: Any) -> Line2D:  # noqa: ANN401
     """Make a disc for a legend."""
     return Line2D([], [], linestyle="", marker="o", color=face, **look)
 
 
-def show_program(ax: Axes, program: Sequence[str], line: int) -> None:
-    """Write a program, and mark the line that has just run."""
+def show_program(ax: Axes, program: Sequence[str], line: int, size: float = 9.5) -> Rectangle:
+    """Write a program, and mark the line that has just run; return the mark."""
     ax.set(xlim=(0, 1), ylim=(len(program), -1))
     ax.set_axis_off()
-    ax.axhspan(line - 0.5, line + 0.5, color=CURVES[0], alpha=0.25, linewidth=0)
     for number, text in enumerate(program):
-        ax.text(0.02, number, text, va="center", family="monospace", fontsize=9.5)
+        ax.text(0.02, number, text, va="center", family="monospace", fontsize=size)
+    return ax.axhspan(line - 0.5, line + 0.5, color=CURVES[0], alpha=0.25, linewidth=0)
 
 
 def require_step(step: int, last: int) -> None:

@@ -29,10 +29,6 @@ def half_turns(step: int = 2, angle: float = 60) -> Figure:
     step : 0 shows v, 1 also q v, 2 also q v q̄.
     angle : of the turn, degrees.
 
-    Returns
-    -------
-    The figure.
-
     Examples
     --------
     >>> from mocap import plotting
@@ -83,10 +79,6 @@ def turns_in_order(body: Skeleton, multiply: Callable[[Array, Array], Array]) ->
     ----------
     body : of the stick figure, which stands with its arms spread.
     multiply : the product of two quaternions; it puts together two turns of 90° about axes of the world.
-
-    Returns
-    -------
-    The figure.
 
     Examples
     --------

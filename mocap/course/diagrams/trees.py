@@ -1,53 +1,62 @@
 """Forward kinematics joint by joint: the loop of `mocap.plain`, and what it has placed."""
 
-import matplotlib.pyplot as plt
+from collections.abc import Callable
+
+import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.figure import Figure
 
 from mocap.body import Motion
-from mocap.course.diagrams.pens import arrow, trace
+from mocap.course.diagrams.pens import arrow, show_program, strokes
 from mocap.course.notebooks import shown_source
 from mocap.plain import joint_positions
-from mocap.plotting import COLOURS, CURVES, MARK, QUIET, bones
+from mocap.plotting import COLOURS, MARK, QUIET, bones
 
 
-def down_the_tree(motion: Motion, frame: int = 0, joint: int = 0) -> Figure:
-    """Draw a pose after some joints: the lines of the loop that have just run, and the bones placed so far.
+def down_the_tree(motion: Motion, frame: int = 0) -> Callable[[int], list[Artist]]:
+    """Draw a pose joint after joint: the lines of the loop that have just run, and the bones placed so far.
 
     Parameters
     ----------
     motion : a walk along z, which is seen from the side.
     frame : which of its poses.
-    joint : the last joint that has its place.
+
+    Returns
+    -------
+    A function for `explore`: it takes the last joint that has its place, and gives what it moved.
 
     Examples
     --------
     >>> from mocap import datasets
-    >>> figure = down_the_tree(datasets.sample("walk_straight"), joint=3)
-    >>> figure.axes[1].get_title()
+    >>> down_the_tree(datasets.sample("walk_straight"))(3)[-1].get_text()
     'joint 3, ltibia: its parent is 2, lfemur'
 
     Notebook: 01-skeletons-and-clips
     """
-    names, parents = motion.skeleton.names, motion.skeleton.parents
-    points = joint_positions(motion[frame : frame + 1])[0] @ [0, 1j, 1]  # z to the right, y upwards
-    figure, (code, ax) = plt.subplots(2, 1, figsize=(7.4, 6.4), layout="constrained", height_ratios=(2, 5))
-    lines = shown_source("plain.joint_positions").splitlines()
-    code.set(xlim=(0, 1), ylim=(len(lines) - 0.5, -0.5))
-    code.set_axis_off()
-    ran = (3, 5) if joint else (1, 1)
-    code.axhspan(ran[0] - 0.5, ran[1] + 0.5, color=CURVES[0], alpha=0.25, linewidth=0)
-    for number, text in enumerate(lines):
-        code.text(0, number, text, va="center", family="monospace", fontsize=8)
-    starts, ends, sides = bones(motion.skeleton)
-    for start, end, side in zip(starts, ends, sides, strict=True):
-        if end <= joint:
-            trace(ax, points[[start, end]], color=COLOURS[side], linewidth=2.4)
-    trace(ax, points[: joint + 1], color=QUIET, marker="o", markersize=4, linestyle="")
-    trace(ax, points[joint], color=MARK, marker="o", markersize=8)
-    if joint and abs(points[joint] - points[parents[joint]]) > 1e-6:
-        arrow(ax, points[parents[joint]], points[joint], MARK)
-    parent = f"its parent is {parents[joint]}, {names[parents[joint]]}" if joint else "it has no parent"
-    ax.set_title(f"joint {joint}, {names[joint]}: {parent}", fontsize=10)
-    low, high = points.real.min() - 0.2, points.real.max() + 0.2
+    names, parents = motion.skeleton.names, (0, *motion.skeleton.parents[1:])
+    points = joint_positions(motion[frame : frame + 1])[0][:, [2, 1]]  # z to the right, y upwards
+    figure = Figure(figsize=(7.4, 6.4), layout="constrained")
+    code, ax = figure.subplots(2, 1, height_ratios=(2, 5))
+    marked = show_program(code, shown_source("plain.joint_positions").splitlines(), 0, 8.5)
+    starts, ends, sides = map(np.asarray, bones(motion.skeleton))
+    limbs = strokes(ax, linewidth=2.4)
+    (dots,) = ax.plot([], [], "o", color=QUIET, markersize=4)
+    (last,) = ax.plot([], [], "o", color=MARK, markersize=8)
+    bone = arrow(ax, 0j, 0j, MARK)
+    low, high = points[:, 0].min() - 0.2, points[:, 0].max() + 0.2
     ax.set(aspect="equal", xlabel="z (m)", ylabel="y (m)", xlim=(low, high), ylim=(-0.05, 1.85))
-    return figure
+
+    def placed(joint: int) -> list[Artist]:
+        parent = parents[joint]
+        marked.set(y=2.5 if joint else 0.5, height=3 if joint else 1)
+        limbs.set_segments(points[np.stack([starts, ends], 1)[ends <= joint]])
+        limbs.set_color([COLOURS[side] for side in sides[ends <= joint]])
+        dots.set_data(points[: joint + 1].T)
+        last.set_data(points[[joint]].T)
+        bone.xy, bone.xyann = points[joint], points[parent]
+        bone.set_visible(bool(abs(points[joint] - points[parent]).max() > 1e-6))
+        told = f"its parent is {parent}, {names[parent]}" if joint else "it has no parent"
+        ax.title.set(text=f"joint {joint}, {names[joint]}: {told}", fontsize=10)
+        return [marked, limbs, dots, last, bone, ax.title]
+
+    return placed

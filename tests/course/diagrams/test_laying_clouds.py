@@ -50,7 +50,7 @@ def test_the_curve_over_a_turn_has_one_valley_at_the_closed_form_and_the_dot_is_
         turn = PlanarTransform(angle, 0.0, 0.0)
         return turn.apply_points(points) + (a.mean(0) - turn.apply_points(b).mean(0)) * [1, 0, 1]
 
-    shown = diagrams.turning(*pair, fitted, degrees=60)
+    shown = diagrams.turning(*pair, fitted)(60)[0].figure
     curve, dot = shown.axes[1].lines
     angles, lefts = curve.get_xydata().T
     assert abs(angles[lefts.argmin()] - best) <= 3
