@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import copy
+import hashlib
 import html
 import io
 import json
@@ -41,7 +42,8 @@ LIVE = {  # what needs no Python, by its class
     "mocap-blind": "the blind test can be taken",
     "moving": "the sliders show recorded positions",
 }
-SCRIPT = re.compile(r'<script type="module">.*?</script>', re.DOTALL)
+SCRIPT = re.compile(r'<script type="module">(.*?)</script>', re.DOTALL)
+DATA = re.compile(r'src="data:image/png;base64,([^"]+)"')
 AGAIN = re.compile(r"<p><small>Run this cell[^<]*</small></p>")
 RUN = (
     "To run it live: <code>pip install 'motion-graphs[notebooks]'</code>, in a checkout "
@@ -99,13 +101,14 @@ def build_site(notebooks: Path, out: Path, progress: Progress = iter, *, moving:
     nbformat, files = library(), notebooks_in(notebooks)
     if not all(map(find_spec, ("furo", "myst_nb", "sphinx"))):
         raise missing("The site needs Sphinx, MyST-NB and Furo", "site")
-    make_folder(out)
+    make_folder(out / "_shared")
     with tempfile.TemporaryDirectory() as folder:
         titles = []
         for file in progress(files):
             title, notebook = prepared(file, moving=moving)
             titles.append(f"{title} <{file.stem}>")
             _unpack_pictures(notebook, Path(folder), file.stem)
+            _share(notebook, out)
             notebook.cells.insert(1, nbformat.v4.new_markdown_cell(_note(notebook), id="note"))
             write_text(Path(folder, file.name), nbformat.writes(notebook))
         for page in notebooks.glob("*.md"):
@@ -150,7 +153,9 @@ def fill_in(notebook: Any, recorded: dict[str, Any]) -> None:  # noqa: ANN401
         )
         for output in cell.get("outputs", ()):
             page = output.get("data", {}).get("text/html", "")
-            for script in SCRIPT.findall(page):  # it starts all that there is on the page, so one is enough
+            for script in (
+                found[0] for found in SCRIPT.finditer(page)
+            ):  # it starts all that there is on the page, so one is enough
                 page = page if script not in scripts else page.replace(script, "")
                 scripts.add(script)
             if opening in page:
@@ -181,6 +186,26 @@ def _unpack_pictures(notebook: Any, folder: Path, stem: str) -> None:  # noqa: A
         for name, data in cell.pop("attachments", {}).items():
             (folder / f"{stem}-{name}").write_bytes(base64.b64decode(data["image/png"]))
             cell.source = cell.source.replace(f"attachment:{name}", f"{stem}-{name}")
+
+
+def _share(notebook: Any, out: Path) -> None:  # noqa: ANN401
+    """Move scripts and pictures of outputs to files that all pages share, each once."""
+
+    def file(content: bytes, suffix: str) -> str:
+        name = f"_shared/{hashlib.sha256(content).hexdigest()[:12]}.{suffix}"
+        (out / name).write_bytes(content)
+        return name
+
+    def script(found: re.Match[str]) -> str:  # no module: a browser would not load it where a page is a file
+        text = found[1].replace("export default", "void")
+        return f'<script defer src="{file(f"(() => {{{text}}})();".encode(), "js")}"></script>'
+
+    def picture(found: re.Match[str]) -> str:
+        return f'loading="lazy" src="{file(base64.b64decode(found[1]), "png")}"'
+
+    for output in (output for cell in notebook.cells for output in cell.get("outputs", ())):
+        if "text/html" in (data := output.get("data", {})):
+            data["text/html"] = DATA.sub(picture, SCRIPT.sub(script, data["text/html"]))
 
 
 def _note(notebook: Any) -> str:  # noqa: ANN401

@@ -81,14 +81,15 @@ class Report(NamedTuple):
 
     def table(self) -> str:
         """Write the report in a few aligned lines."""
-        motion, side = self.motion, "left" if self.turn > 0 else "right"
+        motion, degrees = self.motion, round(np.degrees(self.turn))
+        side = f"{'left' if degrees > 0 else 'right'} " if degrees else ""
         doubt = "" if SMALLEST < self.height < TALLEST else ": is its scale right?"
         rows = [
             ("clip", motion.name),
             ("frames", f"{len(motion)} at {motion.fps:g} Hz, {motion.duration:.2f} s"),
             ("joints", f"{len(motion.skeleton)}"),
             ("height", f"{self.height:.2f} m{doubt}"),
-            ("heading", f"turns {side} by {abs(np.degrees(self.turn)):.0f}° in all"),
+            ("heading", f"turns {side}by {abs(degrees)}° in all"),
             ("path", f"{self.path:.2f} m over the ground"),
             ("flaws", "none found" if not self.flaws else str(self.flaws[0])),
             *(("", str(flaw)) for flaw in self.flaws[1:]),
@@ -142,7 +143,7 @@ def inspect(motion: Motion, angles: Mapping[str, Array] | None = None) -> Report
     frames   9 at 120 Hz, 0.07 s
     joints   2
     height   1.00 m
-    heading  turns right by 0° in all
+    heading  turns by 0° in all
     path     0.05 m over the ground
     flaws    frozen in frame 6-8
 

@@ -12,6 +12,7 @@ class Player {
   constructor(root, scene, model) {
     this.root = root; this.model = model; this.camera = new Camera();
     this.time = 0; this.speed = 1; this.range = []; this.panned = [0, 0]; this.playing = false; this.visible = true; this.pictures = 0;
+    this.near = 1; this.chase = false; this.looking = null; // how far the view has come to the figure, whether it turns with it, since when Python looks for a walk
     this.calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.build();
     this.picture = new Picture(this.canvas, this.camera);
@@ -35,6 +36,7 @@ class Player {
     find(".reset").onclick = () => this.frameAll();
     find(".full").hidden = !document.fullscreenEnabled;
     find(".full").onclick = () => (document.fullscreenElement ? document.exitFullscreen() : this.root.requestFullscreen());
+    this.root.onfullscreenchange = () => { find(".full").textContent = document.fullscreenElement ? "leave full screen" : "full screen"; };
   }
 
   async load(scene) {
@@ -46,6 +48,8 @@ class Player {
     this.seconds = (scene.frames - 1) / scene.fps;
     if (!again) this.follow.checked = scene.follow; // a reader who draws one path after the other keeps the view
     if (scene.drawable && !again) this.drawing = true;
+    this.looking = null;
+    if (again && scene.autoplay && !this.calm) { this.near = this.follow.checked ? this.near : 0; this.chase = this.follow.checked = true; } // after a stroke
     this.canvas.setAttribute("aria-label", `${scene.alt} ${KEYS}${scene.drawable ? " P takes the pen to draw a path." : ""}`);
     this.scrub.max = scene.frames - 1;
     this.drawButton.hidden = !scene.drawable;
@@ -107,7 +111,8 @@ class Player {
     this.play.onclick = () => this.toggle();
     this.scrub.oninput = () => { this.toggle(false); this.seek(Number(this.scrub.value) / this.scene.fps); };
     this.select.onchange = () => { this.speed = Number(this.select.value); };
-    this.follow.onchange = this.ghosts.onchange = () => this.update();
+    this.follow.onchange = () => { this.near = 1; this.chase = false; this.update(); };
+    this.ghosts.onchange = () => this.update();
     this.aside.onchange = () => this.beside();
     this.drawButton.onclick = () => { this.drawing = !this.drawing; this.update(); };
     this.resized = new ResizeObserver(() => this.update());
@@ -128,7 +133,7 @@ class Player {
     this.model.on("change:move", () => follow(this.model.get("move")));
     this.model.on("change:at", () => follow(this.model.get("at"))); // another view of the same player has moved
     this.model.on("change:scene", () => this.load(this.model.get("scene")));
-    this.model.on("change:message", () => this.say(this.model.get("message")));
+    this.model.on("change:message", () => { if (this.model.get("message")) { this.looking = null; this.say(this.model.get("message")); } });
   }
 
   // Send Python the frame, at most twenty times per second, where somebody there wants to know.
@@ -145,6 +150,9 @@ class Player {
 
   ask(path) {
     this.say("Looking for a walk …");
+    this.looking = performance.now();
+    this.update();
+    this.model.set("message", ""); // or the same message twice would be no change
     this.model.set("path", path);
     this.model.save_changes();
   }
@@ -193,33 +201,57 @@ class Player {
   tick(now) {
     this.waiting = null;
     if (!this.root.isConnected || !this.visible) { this.last = null; return; }
-    if (this.playing) {
-      if (this.last !== null) this.time += Math.min(0.25, (now - this.last) / 1000) * this.speed;
+    const seconds = this.last === null ? 0 : Math.min(0.25, (now - this.last) / 1000);
+    if (this.playing && !this.hand.busy) {
+      this.time += seconds * this.speed;
       const [begin, end] = this.range.length === 2 ? this.range : [0, this.seconds];
       if (this.time > end) this.time = end > begin ? begin + ((this.time - begin) % (end - begin)) : begin;
       this.last = now;
       this.report();
       this.update();
-    }
-    this.draw();
+    } else this.last = null;
+    if (this.looking) this.update();
+    this.draw(seconds);
   }
 
   // ---- the picture ----
 
-  draw() {
-    const { characters, time, reach, hand } = this, { asked, obstacles, sides, marks } = this.scene, target = this.target();
-    const distance = this.follow.checked ? 4.2 + 1.6 * this.spread() : reach, ghosts = this.ghosts.checked, dark = isDark();
+  draw(seconds = 0) {
+    if (this.chase) this.swing(seconds);
+    const { characters, time, reach, hand } = this, { asked, obstacles, sides, marks, drawable } = this.scene, target = this.target();
+    const distance = this.follow.checked ? reach + this.near * (4.2 + 1.6 * this.spread() - reach) : reach, ghosts = this.ghosts.checked, dark = isDark();
     this.root.classList.toggle("dark", dark);
     const palette = dark ? DARK : LIGHT, drawn = hand.drawn, pen = hand.pen ? drawn.at(-1) : null;
     const ground = this.follow.checked ? Math.min(reach, FOLLOWED) : reach;
     this.picture.draw({ characters, time, asked, drawn, pen, obstacles, sides, marks, palette, ghosts, target, distance, reach: ground, light: LOOKS[dark ? "dark" : "light"] });
+    if (this.looking) this.showLooking(palette.asked);
+    if (drawable && (this.follow.checked || this.looking)) this.picture.drawInset(drawn.length ? drawn : asked, characters[0].pose(time), hand.yaw ?? 0.7, palette);
     this.showState();
+  }
+
+  // After a stroke: come near, to a view from three quarters in front, and turn slowly with the walk, until the reader turns it.
+  swing(seconds) {
+    const { camera, characters: [first], time } = this, share = (rate) => 1 - Math.exp(-rate * seconds);
+    const [a, b] = [first.pose(time - 0.5), first.pose(time + 0.2)], turn = Math.atan2(b[0] - a[0], b[2] - a[2]) + 0.75 - camera.yaw;
+    camera.yaw += share(this.near < 0.9 ? 2 : 0.5) * Math.atan2(Math.sin(turn), Math.cos(turn));
+    camera.pitch += share(2) * (0.3 - camera.pitch);
+    camera.zoom += share(2) * (1 - camera.zoom);
+    this.near += share(2) * (1 - this.near);
+  }
+
+  // While Python looks for a walk: a place that runs along the reader's line, and the seconds.
+  showLooking(colour) {
+    const { drawn } = this.hand, seconds = (performance.now() - this.looking) / 1000;
+    this.picture.write(`looking for a walk: ${seconds.toFixed(1)} s`);
+    if (!drawn.length || this.calm) return;
+    const [x, z] = drawn[Math.floor(20 * seconds) % drawn.length];
+    this.picture.disc([x, 0.01, z], 0.15, colour, 0.9, true);
   }
 
   // Above the ground amid the characters, averaged over a second so that the view does not rock with each step.
   target() {
-    const { panned: [x, z] } = this;
-    if (!this.follow.checked) return [this.centre[0] + x, this.centre[1], this.centre[2] + z];
+    const { panned: [x, z], near } = this, whole = [this.centre[0] + x, this.centre[1], this.centre[2] + z];
+    if (!this.follow.checked) return whole;
     const mean = [x, 0.85, z], share = 1 / (9 * this.characters.length);
     for (const character of this.characters) {
       for (let i = -4; i <= 4; i++) {
@@ -227,7 +259,7 @@ class Player {
         mean[0] += share * pose[0]; mean[2] += share * pose[2];
       }
     }
-    return mean;
+    return mean.map((value, k) => whole[k] + near * (value - whole[k]));
   }
 
   // How far the characters are from the middle between them, at most, in metres.

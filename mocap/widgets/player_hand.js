@@ -16,8 +16,10 @@ class Hand {
   }
 
   get camera() { return this.player.camera; }
+  get busy() { return this.stroke !== null || this.pen; } // then figure and view wait
 
   orbit(yaw, pitch) {
+    this.player.chase = false;
     this.camera.yaw += yaw;
     this.camera.pitch = Math.min(1.55, Math.max(0.02, this.camera.pitch + pitch));
     this.player.update();
@@ -69,6 +71,7 @@ class Hand {
     this.pointers.delete(event.pointerId);
     if (this.stroke === event.pointerId) this.walk();
     this.stroke = null;
+    this.player.update();
   }
 
   // The finger scrolls the page: what it turned until that was known is turned back.
@@ -96,7 +99,7 @@ class Hand {
     const { metres } = this;
     if (metres < SHORTEST) this.player.say(`That is ${metres.toFixed(1)} m. Drag over the ground for at least ${SHORTEST} m.`);
     else if (metres > LONGEST) this.player.say(`That is ${metres.toFixed(0)} m. Draw at most ${LONGEST} m, or zoom in.`);
-    else { this.player.ask(this.drawn); return; }
+    else { this.yaw = this.camera.yaw; this.player.ask(this.drawn); return; }
     this.drawn = [];
     this.player.update();
   }

@@ -74,6 +74,19 @@ class Picture {
     pen.fill();
   }
 
+  // A line on the ground from above, small in the upper right corner, as one saw it from `yaw`, and who walks on it.
+  drawInset(places, [x, , z], yaw, { asked, ink }) {
+    const { pen, canvas } = this, size = Math.min(120, canvas.clientWidth / 4), [c, s] = [Math.cos(yaw), Math.sin(yaw)];
+    const seen = [...places, [x, z]].map(([px, pz]) => [px * c - pz * s, px * s + pz * c]), last = seen.at(-1);
+    const [[left, right], [top, bottom]] = [0, 1].map((k) => [Math.min(...seen.map((p) => p[k])), Math.max(...seen.map((p) => p[k]))]);
+    const scale = size / Math.max(right - left, bottom - top, 1), put = ([px, py]) => [canvas.clientWidth - 16 - (right - px) * scale, 16 + (py - top) * scale];
+    pen.beginPath();
+    for (const place of seen.slice(0, -1)) pen.lineTo(...put(place));
+    this.paintStroke(asked, 4, 0.5);
+    pen.fillStyle = ink;
+    pen.beginPath(); pen.arc(...put(last), 5, 0, 2 * Math.PI); pen.fill();
+  }
+
   // A few words in the lower left corner.
   write(text) {
     this.pen.font = "12px system-ui, sans-serif"; this.pen.fillStyle = this.palette.ink;
@@ -121,8 +134,8 @@ class Picture {
 
   // Shaded bodies, where there is a light and the browser has WebGL 2.
   shade(bodies) {
-    const { light } = this, most = bodies.reduce((sum, { character }) => sum + character.pieces.length, 0);
-    const shading = light && Shading.of(most);
+    const { light } = this, most = bodies.reduce((sum, { character }) => sum + (character.pieces?.length ?? NaN), 0);
+    const shading = light && most && Shading.of(most); // NaN where a scene was packed before bodies were
     if (!shading) return false;
     const { canvas } = this, several = bodies.length > 1, [, left, right] = this.sides, grey = light.body;
     const figures = bodies.map(({ character, pose }) => {

@@ -21,6 +21,7 @@ from mocap.widgets.embedding import PAGE, PICTURE, SCENE, SHADED, TOUCH
 from mocap.widgets.live import Live, display_live, widget
 from mocap.widgets.packing import LOOK
 from mocap.widgets.player import play
+from mocap.widgets.walk_figure import posed
 
 OWN = ("steered_walker.js", "steering_page.js", "steering.js")
 RECORDED = ((0.0, 2.0), (math.pi / 2, 4.0), (-math.pi / 4, 4.0))  # headings, and seconds of each
@@ -101,7 +102,7 @@ def steered(
     Returns
     -------
     A widget; a notebook shows it as the last line of a cell. Its `command` is [heading, speed, label], which
-    Python may set; its `delays` has the seconds until each character obeyed, by name.
+    Python may set; its `delays` has the seconds until each character obeyed the reader, by name.
 
     Raises
     ------
@@ -114,7 +115,7 @@ def steered(
     >>> database = motion_matching.tabulate([body.resample(datasets.sample("walk_curve_1"), 30)])
     >>> page = steered({"matching": motion_matching.MotionMatcher(database)}, speeds=(0.6, 0.9))
     >>> page, [len(seconds) for seconds in page.delays.values()]
-    (Steered(matching), [2])
+    (Steered(matching), [0])
 
     Notebook: 18-motion-matching
     """
@@ -125,6 +126,8 @@ def steered(
     names = ", ".join(member.name for member in company.members)
     alt = alt or f"Stick figures obey one command: {names}."
     player = play(*_recorded(company, speed), follow=False, alt=alt)
+    for clock in (member.clock for member in company.members):
+        clock.delays, clock.counts = [], False  # the reader has steered nothing yet
     data, metadata = player._repr_mimebundle_()
     seen = data if record else player.still()._repr_mimebundle_()[0]
     said = "Recorded: ahead for 2 s, 4 s to the left, 4 s to the right. Run the cell to steer by yourself."
@@ -133,6 +136,7 @@ def steered(
         {
             **{"name": member.name, "fps": member.character.fps, "joints": len(member.drawn.joints)},
             **{"bones": member.drawn.bones, "head": member.drawn.head},
+            **posed(member.character.skeleton, member.drawn.joints),
             "colour": own_colour(number, len(company.members)) or COLOURS["middle"],
         }
         for number, member in enumerate(company.members)

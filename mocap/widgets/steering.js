@@ -64,9 +64,9 @@ class Steering {
     this.viewPart.onchange = () => { [this.shared.yaw, this.shared.pitch] = VIEWS[this.viewPart.value]; this.update(); };
     this.padPart.onpointerdown = this.padPart.onpointermove = (event) => this.onPad(event);
     for (const one of this.panels) whenPointed(one.canvas, (event) => this.onGround(event, one));
-    this.panelsPart.onkeydown = (event) => this.key(event);
-    this.panelsPart.onkeyup = (event) => this.held.delete(keyName(event));
-    this.panelsPart.onblur = () => this.held.clear();
+    this.root.onkeydown = (event) => this.key(event);
+    this.root.onkeyup = (event) => this.held.delete(keyName(event));
+    this.root.onfocusout = () => this.held.clear();
     this.panelsPart.onwheel = (event) => this.wheel(event);
     this.resized = new ResizeObserver(() => this.update());
     this.resized.observe(this.panelsPart);
@@ -96,7 +96,7 @@ class Steering {
   }
 
   // A new command is under way from now on, until the first frames that know it are seen; what was said of the last one goes.
-  commanded() { this.warned = true; this.under ??= { since: performance.now(), number: null, start: null }; }
+  commanded() { this.steered = this.warned = true; this.under ??= { since: performance.now(), number: null, start: null }; }
 
   // The heading of a direction on the picture: [to the right, up], where up is away from the reader.
   heading([right, up]) {
@@ -121,9 +121,9 @@ class Steering {
     if (Math.hypot(right, ahead) > 0.2) this.order({ heading: Math.atan2(right, ahead) });
   }
 
-  key(event) {
+  key(event) { // wherever the focus is in the widget; a slider and a list keep their own keys, and so does space on a button
     const name = keyName(event), way = DIRECTIONS[name], { heading, speed } = this.command;
-    if (event.ctrlKey || event.metaKey || event.altKey || event.target !== this.panelsPart) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches("input, select") || (name === " " && event.target === this.playPart)) return;
     if (way && event.shiftKey && name.startsWith("Arrow")) this.orbit(way);
     else if (way) {
       this.held.add(name);
@@ -260,7 +260,8 @@ class Steering {
     for (const { walker, state, fault } of this.panels) {
       const { waited, obeyed } = walker.frame(this.time), { delays } = walker;
       const mean = delays.length ? ` · mean of ${delays.length}: ${(delays.reduce((a, b) => a + b) / delays.length).toFixed(2)} s` : "";
-      state.textContent = `${walker.speed(this.time).toFixed(1)} m/s · ${obeyed ? "obeyed after" : "not yet, after"} ${waited.toFixed(2)} s${mean}`;
+      const told = this.steered ? ` · ${obeyed ? "obeyed after" : "not yet, after"} ${waited.toFixed(2)} s${mean}` : ""; // nothing of what no reader asked for
+      state.textContent = `${walker.speed(this.time).toFixed(1)} m/s${told}`;
       if (fault.textContent !== walker.fault) fault.textContent = walker.fault;
     }
     const ways = [...this.ways].sort((a, b) => a - b), way = ways.length ? (ways[ways.length >> 1] / 1000).toFixed(2) : null;

@@ -80,6 +80,7 @@ def test_python_reads_the_delays_and_sets_the_command(page):
 
 def test_the_recording_shows_all_side_by_side_and_turns_as_it_says():
     page = two()
+    assert set(map(len, page.delays.values())) == {0}  # they are the reader's
     data, metadata = page.still
     assert "4 s to the left" in data["text/html"] and "mocap-player" in data["text/html"]
     assert metadata["image/png"]["alt"] == page.alt == "Stick figures obey one command: quick, slow."
