@@ -136,9 +136,9 @@ class Page extends Hands {
   }
 
   picture(now) {
-    const seconds = clamp((now - this.before) / 1000, 0, 0.1), { walk } = this;
+    const since = now - this.before, seconds = clamp(since / 1000, 0, 0.1), { walk } = this;
     this.before = now;
-    this.grow(walk.frames ? 10 : 40);
+    this.grow(walk.frames ? 10 : clamp(since, 40, 250)); // half of the time until it sets out, however slow pictures are
     if (this.playing && walk.frames && !this.stroke && !this.shown) {
       const last = walk.frames - 1 + (walk.done ? (this.figures - 1) * LAG : 0);
       this.time = Math.min(this.time + seconds * this.about.fps, last);

@@ -47,6 +47,7 @@ class Inspector {
       if (kind !== "grid") this.maps[kind].show(scene[kind], this.clips, this.fps);
     }
     root.classList.toggle("alone", !scene.graph && !scene.walk);
+    root.classList.toggle("wide", scene.grid?.columns > 1.5 * scene.grid?.rows); // a long clip beside a short one gets the whole width
     if (scene.graph) find(".graph").style.height = `${Math.min(300, 60 + 34 * this.clips.length)}px`;
     if (scene.grid) {
       const shades = new Uint8Array(bytes, scene.grid.offset, scene.grid.rows * scene.grid.columns);

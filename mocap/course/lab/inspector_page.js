@@ -12,7 +12,7 @@ const INSPECTOR_STYLE = `
 .mocap-inspector.dark { background: #1b1b1b; color: #ddd; color-scheme: dark; }
 .mocap-inspector .both { display: grid; grid-template-columns: 1fr; gap: 8px 14px; }
 .mocap-inspector .maps { display: contents; } .mocap-inspector:not(.alone) .grid { order: 2; } .mocap-inspector .shown { min-width: 0; order: 1; }
-@container (min-width: 620px) { .mocap-inspector .both { grid-template-columns: 2fr 3fr; } .mocap-inspector .maps { display: block; min-width: 0; } .mocap-inspector.alone .grid { height: 400px; } }
+@container (min-width: 620px) { .mocap-inspector .both { grid-template-columns: 2fr 3fr; } .mocap-inspector .maps { display: block; min-width: 0; } .mocap-inspector.alone .grid { height: 400px; } .mocap-inspector.wide .both { grid-template-columns: 1fr; } }
 .mocap-inspector canvas { display: block; box-sizing: border-box; width: 100%; }
 .mocap-inspector canvas[hidden] { display: none; }
 .mocap-inspector :focus-visible { outline: 3px solid #0072B2; outline-offset: 1px; }
