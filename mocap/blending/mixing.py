@@ -41,6 +41,8 @@ def mix(
 ) -> Motion:
     """Blend registered clips by constant weights, or by weights that move [KG03, blend].
 
+    In the paper: [KG03, blend; blended plants; continuous control].
+
     With φ for how the blend is turned against the reference and c for a clip's centroid, from one frame to
     the next φ falls by Σ w Δθ and the blend's centroid moves by Σ w R(θ + φ) Δc, with w, θ and φ half-way
     between the frames. The root stands at the mean of the clips' roots as they lie around that centroid;

@@ -60,6 +60,8 @@ def register(
 ) -> Registration:
     """Find which frames of several clips belong together, and how they lie on one another [KG03, alignment].
 
+    In the paper: [KG03, alignment; several clips].
+
     Each clip is registered with the reference. The path of least mean through the grid of their distances,
     √D of [KGP02, Eq. 1], says which windows belong together (`matching.time_path`). A curve S through the
     path, with a slope between 1 / (W + 1) and W + 1, makes time run smoothly: a straight line where it is as

@@ -185,7 +185,7 @@ def on_path(  # noqa: PLR0913 (two paths, and three choices of how)
     turn: bool = True,
     chord: float = CHORD,
 ) -> Motion:
-    """Put a motion on another path: m'_f = N'(s'_f) N(s_f)⁻¹ m_f [Gle01, 4].
+    """Put a motion on another path: m'_f = N'(s'_f) N(s_f)⁻¹ m_f [Gle01, 4; arc length].
 
     N moves along the motion's own path, N' along the new one. The feet slide by about 7 cm divided by the
     radius of the bend in metres; `feet.clean_up` gives each plant one place, the mean of those that it was

@@ -155,6 +155,8 @@ def notes_example() -> nx.MultiDiGraph:
 def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames: int = 1) -> Pruning:
     """Keep the largest strongly connected component, of all edges or of each label set [KGP02, 3.4].
 
+    In the paper: [KGP02, 3.4; warnings].
+
     The largest component is the one whose stretches of clip have most frames. The time is linear in the
     edges; by labels, in the edges times the label sets that stay.
 

@@ -125,6 +125,8 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
 ) -> Transitions:
     """Find where one clip can pass into another: local minima of the distance grids of all pairs.
 
+    In the paper: [KGP02, thresholds].
+
     The grids are never held as a whole: memory grows with the number of frames and of transitions found. A
     pair of windows is measured once, for both ways between them.
 

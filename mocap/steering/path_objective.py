@@ -25,6 +25,8 @@ LEAST = 0.3  # metres per second: standing counts as this, so that no walk stand
 class Wishes:
     """What a walk is asked for beside the path.
 
+    In the paper: [KGP02, labels].
+
     Parameters
     ----------
     labels : (metres, label): the kind of motion from this place on the path, as in
@@ -218,7 +220,7 @@ def make_route(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Route:
 
 
 def least_progress(graph: CompiledGraph, route: Route) -> Array:
-    """Give the progress of each frame of all edges, shape (T,): its step, or γ where the step is less."""
+    """Give each frame's progress, all edges, (T,): its step, or γ if it is less [KGP02, least progress]."""
     return np.maximum(graph.tracks.step, LEAST / graph.fps)
 
 

@@ -167,6 +167,8 @@ def branch_and_bound(
 def children(problem: Problem, branch: Branch) -> list[Branch]:
     """Lengthen a walk by every edge that leaves its node; the child with the highest cost comes first.
 
+    In the paper: [KGP02, order]; the last is tried first.
+
     Examples
     --------
     >>> graph = nx.MultiDiGraph()

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from walking import generate_walk
 
+from mocap.blending.clocks import frame_times
 from mocap.blending.mixing import ground_course, mix
 from mocap.blending.registering import register
 from mocap.body.motion import resample
@@ -139,14 +140,26 @@ def test_plants_of_captured_blends_stand_still_after_the_clean_up(real_data):
         assert np.abs(point_cloud(clean) - point_cloud(blend)).max() <= 0.08
 
 
+def test_weights_may_move_while_a_blend_plays():
+    """As in [KG03, continuous control]: it turns as one clip does, and then as the other."""
+    registration = generated(*LEFT_AND_RIGHT)
+    blend = mix(registration, lambda u, t: [1.0, 0.0] if u < np.mean(registration.span) else [0.0, 1.0])
+    half = len(blend) // 2
+    assert turned(blend[:half]) < -20 and turned(blend[half:]) > 20
+
+
 @pytest.mark.filterwarnings("ignore:'walk' and 'sneak' may not")
 def test_marks_are_the_matched_plants_and_the_labels_of_the_heaviest():
+    """As in [KG03, blended plants]."""
     walk = generate_walk([[0, 0], [0, 5]], speed=1.0)
     sneak = generate_walk([[0, 0], [0, 5]], speed=0.8, style="sneak")
     registration = register([walk, sneak])
     for weights, label in (([0.6, 0.4], "walk"), ([0.4, 0.6], "sneak")):
         blend = mix(registration, weights)
         assert blend.labels[label].all() and set(blend.contacts) <= set(walk.contacts)
+        plant, (times, _) = registration.contacts[1], frame_times(registration, weights, fps=blend.fps)
+        ends = np.stack([plant.starts, plant.stops]) @ weights - times[blend.contacts[plant.joint]][:, None]
+        assert np.abs(ends).min(axis=0).max() < 1 / blend.fps
     bare = register([replace(clip, labels={}, contacts={}) for clip in (walk, sneak)])
     assert not mix(bare, HALF).labels and not mix(bare, HALF).contacts
     assert mix(bare, HALF).name == "walk + sneak"

@@ -87,6 +87,7 @@ def test_strikes_of_generated_walks_fall_on_strikes():
 
 
 def test_the_reference_may_be_any_clip():
+    """As in [KG03, several clips]."""
     clips = [walks()[speed, 0] for speed in (0.8, 1.1, 1.4)]
     for reference in range(3):
         registration = register(clips, reference=reference)

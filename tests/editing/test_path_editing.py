@@ -174,6 +174,7 @@ def test_bent_walks_stand_as_before_and_keep_to_the_path(name, radius):
 
 
 def test_steps_twice_as_long_are_warned_of():
+    """As in [Gle01, arc length]: unless asked for, they are as long as before."""
     motion, ride = straight()
     far = start_at(GroundPath([[0, 0], [0, 2.5 * ride.path.length]]), ride)
     with pytest.warns(MocapWarning, match=r"takes steps 2\.50 times as long on this path"):
@@ -183,7 +184,8 @@ def test_steps_twice_as_long_are_warned_of():
     assert plants_kept(replace(motion, contacts={}), replace(motion, contacts={})) == 1.0
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        on_path(motion, far, ride)
+        ends = on_path(motion, far, ride).root_positions[[0, -1], 2]
+        assert np.ptp(ends) == pytest.approx(ride.path.length, abs=0.05)
 
 
 # ------------------------------------------------------------------------------------------------ bad input

@@ -40,6 +40,7 @@ def test_a_neck_stays_within_its_limits_under_a_bar(real_data):
     limits = limit_turns(clip, NECK, more=5.0)
     folded, kept = (edit(clip, join_pins(low, free, *more)) for more in ((), (limits,)))
     assert pin_errors(folded, limits).max() > 0.05 and pin_errors(kept, limits).max() < 1e-5
+    assert pin_errors(clip, limit_turns(clip, NECK, more=0.0)).max() < 1e-12  # as far as the clip itself
     turns = np.linalg.norm(difference(kept, clip).turns, axis=-1).max(axis=0)
     assert np.degrees(turns[[clip.skeleton.index(name) for name in NECK]]).max() < 25
     assert pin_errors(kept, low)[:, :4].max() < 1e-9

@@ -1,5 +1,7 @@
 """Plants get places that foot and leg can keep, and the way from one place to the next bends least."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -19,11 +21,17 @@ POSES = forward_kinematics(WALK)
 MARKS = np.array([WALK.contacts[joint] for joint in ("lfoot", "ltoes")])
 
 
-def test_a_foot_that_stands_still_stays_as_it_is():
-    """As in [KSG02, step 2]."""
-    target = foot_target(track_leg(WALK, LEFT, POSES), MARKS, {})
-    assert target.ankle == pytest.approx(POSES.positions[:, LEFT.ankle], abs=1e-7)
-    assert target.turn == pytest.approx(0, abs=1e-6)
+@pytest.mark.parametrize("faster", [1.0, 1.2])
+def test_the_places_say_where_an_ankle_is(faster):
+    """As in [KSG02, step 2]: a foot that stands stays as it is; a ball that stands holds it by its length."""
+    motion = replace(WALK, root_positions=WALK.root_positions * [1, 1, faster])
+    track, (flat, down) = track_leg(motion, LEFT, forward_kinematics(motion)), MARKS
+    places = place_plants((track.ankle, track.ball), (flat, down), length := LEFT.lengths(WALK.skeleton)[2])
+    target = foot_target(track, MARKS, {})
+    assert target.ankle[flat] == pytest.approx(places[0, flat], abs=1e-9)
+    assert np.linalg.norm(target.ankle - places[1], axis=-1)[down] == pytest.approx(length, abs=1e-9)
+    moved, turned = (np.abs(values).max() for values in (target.ankle - track.ankle, target.turn))
+    assert (moved < 1e-7 and turned < 1e-6) if faster == 1 else moved > 0.02
     assert np.array_equal(target.planted, MARKS.any(axis=0))
 
 
@@ -47,16 +55,11 @@ def test_plants_of_a_leg_that_lies_are_drawn_within_its_reach():
     assert np.linalg.norm(positions[:, LEFT.ankle].mean(axis=0) - positions[-1, LEFT.hip]) > before.max()
 
 
-def curve(seed):
-    random = np.random.default_rng(seed)
-    known = random.random(14) < 0.4
-    return random.normal(size=(14, 2)), known
-
-
 @given(seeds)
 def test_the_filled_curve_keeps_what_is_known_and_bends_least(seed):
     """As in [KSG02, step 5]."""
-    values, known = curve(seed)
+    random = np.random.default_rng(seed)
+    values, known = random.normal(size=(14, 2)), random.random(14) < 0.4
     filled = smooth_fill(values, known, 30.0)
     assert np.array_equal(filled[known], values[known])
 
@@ -64,7 +67,6 @@ def test_the_filled_curve_keeps_what_is_known_and_bends_least(seed):
         c = c.reshape(-1, 2)
         return (np.diff(c, 2, axis=0) ** 2).sum() + (FADE * 30) ** -4 * (c**2).sum()
 
-    random = np.random.default_rng(seed)
     for _ in range(5):
         other = filled + (~known)[:, None] * random.normal(size=filled.shape) * 1e-3
         assert cost(other) >= cost(filled)

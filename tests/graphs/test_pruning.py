@@ -139,6 +139,7 @@ def ring(start, labels, frames=10):
 
 
 def test_both_warnings_come_with_their_numbers():
+    """As in [KGP02, warnings]."""
     rows = [*ring(0, WALK), *ring(2, RUN, 7), (0, 2, BOTH, 5, "transition")]
     with pytest.warns(MocapWarning) as caught:
         found = prune_graph(graph_of(rows), by_labels=True, least_frames=8)

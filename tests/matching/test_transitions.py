@@ -120,6 +120,7 @@ def test_how_high_the_clips_are_does_not_matter():
 
 
 def test_a_threshold_for_every_pair_of_labels():
+    """As in [KGP02, thresholds]."""
     marks = np.arange(70) < 35
     a = replace(CLIPS[0], labels={"walk": marks, "run": ~marks})
     clips = [a, replace(CLIPS[1], labels={"walk": True})]

@@ -58,7 +58,7 @@ def test_what_it_tells_is_what_the_motion_does():
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_distance_at_equal_arc_length_is_that_of_eq_9():
-    """As in [KGP02, Eq. 9]: s grows by the root's step, or by the least progress where that is more."""
+    """As in [KGP02, Eq. 9; least progress]: s grows by a step, or by γ where that is more."""
     path = s_curve()
     followed = follow_path(GRAPH, path)
     steps = np.hypot(*np.diff(followed.track, axis=0).T)
@@ -137,6 +137,7 @@ def test_it_starts_where_asked_in_the_direction_of_the_path():
 
 
 def test_labels_are_had_where_they_are_asked_for():
+    """As in [KGP02, labels]."""
     graph = sneaking()
     wishes = Wishes(labels=[(0, "walk"), (4, "sneak"), (7, "walk")])
     followed = follow_path(graph, GroundPath([[0, 0], [0, 10]]), wishes)

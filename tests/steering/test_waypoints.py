@@ -25,6 +25,7 @@ def test_places_and_times_are_kept():
 
 
 def test_each_waypoint_sets_the_kind_of_motion():
+    """As in [KGP02, 5.3]."""
     points = [Waypoint(0, 0, "walk"), Waypoint(0, 4, "sneak"), Waypoint(0, 8)]
     found = through_waypoints(sneaking(), points)
     motion, along = found.followed.motion(), found.followed.along

@@ -58,6 +58,7 @@ def test_pieces_are_cleaned_as_the_whole_would_be(piece):
 
 
 def test_memory_does_not_grow_with_the_walk(tmp_path):
+    """As in [KGP02, 5.3]: motion dumping."""
     peaks = []
     for seconds in (60, 180):
         tracemalloc.start()

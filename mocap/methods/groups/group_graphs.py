@@ -180,7 +180,7 @@ def random_group_walk(graph: GroupGraph, clips: int, *, start: int = 0, seed: in
 
 
 def play_group(graph: GroupGraph, walk: Sequence[int], start: Placed | None = None) -> Trajectories:
-    """Put clips in a row: where every member goes, one column for each from start to end.
+    """Put clips in a row: where every member goes, one column for each from start to end [LCF05, playing].
 
     Places, turns *and the members' numbers* multiply up: the member in slot s of a clip's start goes on in
     slot `order[s]` of the next. Without this members would jump by metres at each seam.

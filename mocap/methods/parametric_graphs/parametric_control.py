@@ -46,7 +46,7 @@ class Chosen(NamedTuple):
 
 
 class ParametricController:
-    """A character on a parametric motion graph; it fits `steering.Character` [HG07, 5].
+    """A character on a parametric motion graph; it fits `steering.Character` [HG07, 5; seam].
 
     Five frames before a motion is left, it reads which box of targets may follow, takes the parameters in it
     that are nearest to the command, makes that motion, and blends over 11 frames. All frames until the next

@@ -145,7 +145,7 @@ def smallest_good(source: Space, target: Space, sampling: Sampling | None = None
 def build_edge(
     source: Space, target: Space, *, good: float, bad: float | None = None, sampling: Sampling | None = None
 ) -> ParametricEdge:
-    """Say for each source which box of targets may follow, and when to leave and to enter [HG07, 3.2].
+    """Say for each source which box of targets may follow, and when to leave and enter [HG07, 3.2; no edge].
 
     Parameters
     ----------

@@ -17,7 +17,7 @@ every_graph = pytest.mark.parametrize(("count", "nodes"), [(12, 8), (6, 6)])
 
 @every_graph
 def test_400_seconds_at_random_never_collide_and_seams_are_as_smooth_as_all_else(count, nodes):
-    """As in [LCF05, graph]."""
+    """As in [LCF05, graph; playing]."""
     group = graph(count, nodes)
     walk = random_group_walk(group, 100, seed=3)
     played = play_group(group, walk)

@@ -48,6 +48,7 @@ def test_seams_between_kinds_cost_what_their_edges_promise():
 
 
 def test_no_frame_jolts_more_than_the_clips():
+    """As in [HG07, seam]."""
     walked = steer(ParametricController(walking()), command_headings(40, 30, seed=1), SPEED).motion
     limit = np.percentile(spread(clips()).within(1), 99.9)
     assert (jumps(walked)[0] > limit).mean() < 0.02
@@ -61,6 +62,7 @@ def test_it_goes_where_it_is_asked_to_go():
 
 
 def test_the_wish_is_cut_by_the_box_and_both_are_kept():
+    """As in [HG07, 5]."""
     character = ParametricController(walking())
     for _ in range(60):
         character.step(3.0, SPEED)

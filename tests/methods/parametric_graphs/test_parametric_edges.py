@@ -72,6 +72,7 @@ def test_the_side_that_loses_least_moves_and_shares_count_not_metres():
 
 
 def test_the_smallest_threshold_is_the_smallest():
+    """As in [HG07, no edge]."""
     source = space()
     least = smallest_good(source, source, SMALL)
     build_edge(source, source, good=1.001 * least, sampling=SMALL)
