@@ -74,7 +74,8 @@ def segment_distances(
     tails = concatenate([piece[-window:] for piece in pieces])
     heads = concatenate([piece[:window] for piece in pieces])
     if metric is euler_grid:  # its sum over a window needs no other pairs of frames
-        return np.sum([metric(tails[k::window], heads[k::window], window=1) for k in range(window)], axis=0)
+        sums = [metric(tails[k::window], heads[k::window], window=1) for k in range(window)]
+        return np.asarray(np.sum(sums, axis=0))
     return metric(tails, heads, window=window)[::window, ::window]
 
 
