@@ -76,8 +76,7 @@ def test_the_filled_curve_keeps_what_is_known_and_bends_least(seed):
 def test_few_frames_can_be_filled(frames):
     known = np.arange(frames) == 0
     filled = smooth_fill(np.ones((frames, 3)), known, 120.0)
-    assert np.all(filled[0] == 1)
-    assert np.isfinite(filled).all()
+    assert np.all(filled[0] == 1) and np.isfinite(filled).all()
     assert np.all(smooth_fill(np.ones((frames, 3)), ~known & False, 120.0) == 0)
 
 

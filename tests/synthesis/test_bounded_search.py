@@ -72,8 +72,7 @@ def test_the_bound_saves_work_and_says_how_much():
     problem = problem_on(random_graph(1, edges=16), 8)
     found = branch_and_bound(problem, 0, ())
     everything = sum(1 for _ in every_walk(problem, 0))
-    assert found.cut > 0
-    assert found.expanded < everything / 3
+    assert found.cut > 0 and found.expanded < everything / 3
 
 
 def test_a_budget_gives_the_best_so_far_and_says_so():
@@ -104,8 +103,7 @@ def test_an_interruption_gives_the_best_so_far():
 def test_stretch_by_stretch_it_comes_to_the_end(seed):
     problem = problem_on(random_graph(seed), 12)
     found = search_ahead(problem, 0, (), look=(8, 3))
-    assert found.complete
-    assert len(found.walk) == 12
+    assert found.complete and len(found.walk) == 12
     assert all(a[1] == b[0] for a, b in zip(found.walk, found.walk[1:], strict=False))
     costs = [problem.step(tuple(found.walk[:i]), edge)[0] for i, edge in enumerate(found.walk)]
     assert found.cost == pytest.approx(sum(costs))

@@ -104,7 +104,7 @@ def test_without_columns_no_gap_of_three_metres_is_passed():
 
 
 def test_bounds_spare_most_tests():
-    """As in [LCF05, search]."""
+    """As in [LCF05, search; bounds]."""
     found = plan_group(graph(), course(5))
     assert found.spared >= 0.7 * (found.spared + found.tested) > 1000
 

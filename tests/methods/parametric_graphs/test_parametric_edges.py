@@ -19,9 +19,11 @@ from tests.refusals import refused
 PLACES = st.floats(-10, 10).map(lambda v: round(v, 2))
 
 
-def test_few_sources_leave_bad_targets_in_the_boxes_between_them():
-    source = space()
-    few, many = (build_edge(source, source, good=0.03, sampling=Sampling(n, targets=300)) for n in (5, 50))
+def test_few_sources_leave_bad_targets_in_the_boxes_between_them_and_few_targets_leave_boxes_small():
+    """As in [HG07, 4]."""
+    source, samples = space(), (Sampling(5, 300), Sampling(50, 300), Sampling(5, 20))
+    few, many, small = (build_edge(source, source, good=0.03, sampling=sampling) for sampling in samples)
+    assert len(many.at) == 50 and (small.high - small.low).mean() < 0.95 * (few.high - few.low).mean()
     assert bad_ones(source, source, few, BAD * 0.03)[0] > 0.12
     assert bad_ones(source, source, many, BAD * 0.03)[0] < 0.03
 
