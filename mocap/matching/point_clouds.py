@@ -26,11 +26,11 @@ def distinct_joints(skeleton: Skeleton) -> list[int]:
     """
     seen: set[tuple[int, ...]] = set()
     kept = []
-    for joint, (parent, offset) in enumerate(zip(skeleton.parents, skeleton.offsets, strict=True)):
-        place = (int(parent), *np.round(offset * 1e9).astype(int).tolist())
-        if joint == 0 or (np.any(place[1:]) and place not in seen):
+    for joint, place in enumerate(np.round(skeleton.offsets * 1e9).astype(int).tolist()):
+        under = (int(skeleton.parents[joint]), *place)
+        if joint == 0 or (any(place) and under not in seen):
             kept.append(joint)
-        seen.add(place)
+        seen.add(under)
     return kept
 
 

@@ -125,7 +125,8 @@ def layer_step(line: Array, count: int, *, step: int = 0, width: int = 4, look: 
     """
     states = layer_states(line, count, width=width, look=look)
     state = states[min(step, len(states) - 1)]
-    figure, (ground, code) = plt.subplots(1, 2, figsize=(9.5, 4.6), layout="constrained", width_ratios=(5, 6))
+    figure, (ground, code) = plt.subplots(1, 2, figsize=(9.5, 4.6), width_ratios=(4, 6))
+    figure.subplots_adjust(left=0.06, right=1, bottom=0.2, top=0.93, wspace=0.06)
     ground.plot(line[:-1].imag, line[:-1].real, color=ASKED, linewidth=3, alpha=0.7, label="asked for")
     for walk in state.crossed:
         _draw(ground, walk, QUIET, "crossed out", alpha=0.5, marker="x")
@@ -142,7 +143,7 @@ def layer_step(line: Array, count: int, *, step: int = 0, width: int = 4, look: 
     ground.set(aspect="equal", xlabel="x (m)", ylabel="z (m)", xlim=(2.1, -1.4), ylim=(-0.3, 3.1))
     ground.set_title(state.message, fontsize=10)
     handles = {label: handle for handle, label in zip(*ground.get_legend_handles_labels(), strict=True)}
-    figure.legend(handles.values(), handles, loc="outside lower left", ncols=4, frameon=False, fontsize=9)
+    figure.legend(handles.values(), handles, loc="lower left", ncols=4, frameon=False, fontsize=9)
     show_program(code, PROGRAM, state.line)
     return figure
 

@@ -77,6 +77,11 @@ def _search() -> Steps:
     return _each(diagrams.search_steps, (0, 2, 3, 9, 11, 13), graphs.notes_example(), 6, 2)
 
 
+def _layers() -> Steps:
+    asked = GroundPath([[0, 0], [0, 2.1], [0.7, 2.1], [0.7, 0]]).at(0.7 * np.arange(7)) @ [1j, 1]
+    return (diagrams.layer_step(asked, 5, step=step, width=4) for step in (6, 9, 12, 13, 18, 25))
+
+
 def _each(draw: Callable[..., Any], steps: Iterable[int], *shown: Any) -> Steps:  # noqa: ANN401
     return (draw(*shown, step=step) for step in steps)
 
@@ -94,6 +99,7 @@ BOARD: dict[str, tuple[str, Callable[[], Steps]]] = {
     "09-search": ("Branch and bound on eight nodes", _search),
     "10-path": ("Two distances from a path: at equal arc length, to the nearest point", _path),
     "11-pinned": ("A leg that reaches its pinned foot", lambda: map(diagrams.knee_triangle, FOUR[:3])),
+    "12-layers": ("The layered search along a hairpin: cross out, keep the best four, lengthen", _layers),
 }
 
 
