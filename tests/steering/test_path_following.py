@@ -58,7 +58,7 @@ def test_what_it_tells_is_what_the_motion_does():
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_distance_at_equal_arc_length_is_that_of_eq_9():
-    """As in [KGP02, Eq. 9; least progress]: s grows by a step, or by γ where that is more."""
+    """As in [KGP02, Eq. 9]: s grows by a step, or by γ where that is more."""
     path = s_curve()
     followed = follow_path(GRAPH, path)
     steps = np.hypot(*np.diff(followed.track, axis=0).T)

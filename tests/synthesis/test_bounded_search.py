@@ -68,7 +68,6 @@ def test_it_finds_the_best_walk_within_the_horizon(seed, horizon):
 
 
 def test_the_bound_saves_work_and_says_how_much():
-    """As in [KGP02, order]."""
     problem = problem_on(random_graph(1, edges=16), 8)
     found = branch_and_bound(problem, 0, ())
     everything = sum(1 for _ in every_walk(problem, 0))
