@@ -214,15 +214,10 @@ def settle(notebook: Any) -> None:  # noqa: ANN401
         cell.metadata = {key: value for key, value in cell.metadata.items() if key == "tags"}
         if cell.cell_type == "code":
             cell.outputs = _merged(cell.outputs)
-            if "real" in cell.metadata.get("tags", ()):
-                _keep_stills(cell.outputs)
-
-
-def _keep_stills(outputs: list[Any]) -> None:
-    """Keep only the pictures of players and inspectors: no captured motion is stored."""
-    for data in (output.get("data", {}) for output in outputs):
-        if "text/html" in data:
-            data["text/html"] = MOVING.sub(r"\1", data["text/html"])
+        if "real" in cell.metadata.get("tags", ()):  # only pictures: no captured motion is stored
+            for data in (output.get("data", {}) for output in cell.get("outputs", ())):
+                if "text/html" in data:
+                    data["text/html"] = MOVING.sub(r"\1", data["text/html"])
 
 
 def _merged(outputs: list[Any]) -> list[Any]:

@@ -17,6 +17,7 @@ from mocap.course.diagrams.eight_nodes import BOX, EIGHT_PLACES, eight_node_grap
 from mocap.course.diagrams.pens import disc, say
 from mocap.plain import Edge
 from mocap.plotting import ASKED, CURVES, PATH, QUIET
+from mocap.plotting.ground_charts import seen_from_above
 
 Walk = tuple[int, ...]
 Lengths = Mapping[int, Mapping[int, float]]  # lengths[a][b] is that of the edge from a to b
@@ -195,9 +196,7 @@ def from_above(
     if goal is not None:
         ax.plot(goal.imag, goal.real, "*", color=ASKED, markersize=16, label="goal")
     ax.autoscale_view()
-    ax.set(aspect="equal", xlabel="x (m)", ylabel="z (m)")
-    ax.xaxis.set_inverted(True)
-    return ax
+    return seen_from_above(ax)
 
 
 def laid_in_turn(

@@ -86,21 +86,11 @@ def compass(headings: Mapping[str, float], ax: Axes) -> None:
     for row, (name, angle) in enumerate(headings.items()):
         text = f"{name}: {np.degrees(angle):.0f}°".replace("-", "−")
         ax.text(-1.5, -1.75 - 0.25 * row, text, color=CURVES[row], fontsize=10)
-        _draw_heading(ax, angle, CURVES[row], wide=7.0 if row == 0 else 1.8)  # so that all are seen
-    _draw_compass(ax)
-    ax.set(ylim=(-1.8 - 0.25 * len(headings), 1.4))
-
-
-def _draw_heading(ax: Axes, angle: float, colour: str, wide: float = 1.8) -> None:
-    """Draw a heading as an arrow: z points up the page and x to the left, so θ points to i exp(iθ)."""
-    arrow(ax, 0j, 1j * np.exp(1j * angle), colour, wide)
-
-
-def _draw_compass(ax: Axes) -> None:
-    """Write the quarters around the arrows."""
+        wide = 7.0 if row == 0 else 1.8  # so that all are seen
+        arrow(ax, 0j, 1j * np.exp(1j * angle), CURVES[row], wide)  # z points up the page and x to the left
     for place, word in ((1.2j, "0°"), (-1.2j, "±180°"), (-1.25 + 0j, "90°"), (1.25 + 0j, "−90°")):
         say(ax, place, word, color=INK, fontsize=9)
-    ax.set(xlim=(-1.5, 1.5), ylim=(-1.4, 1.4), aspect="equal")
+    ax.set(xlim=(-1.5, 1.5), ylim=(-1.8 - 0.25 * len(headings), 1.4), aspect="equal")
     ax.set_axis_off()
 
 

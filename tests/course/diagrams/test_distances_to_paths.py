@@ -11,26 +11,19 @@ CUT = arcs((0, 0), 0.0, [(1.5, 0), (0.75 * np.pi, np.pi / 2), (1.5, 0)])  # a qu
 SAVED = 6 - CUT.length
 
 
-def threads(ax):
-    """Give the bent threads: those at equal arc length, then those to the nearest points."""
-    return [line for line in ax.lines if len(line.get_xdata()) == 15]
-
-
 @pytest.mark.parametrize("step", [0, 4, 8])
 def test_a_thread_of_each_kind_at_every_moment_so_far(step):
-    figure = two_distances(CORNER, CUT, step=step)
-    ground, curves = figure.axes
-    assert len(threads(ground)) == 2 * (step + 1)
-    even = threads(ground)[: step + 1]
-    for moment, line in enumerate(even):
+    ground, curves = two_distances(CORNER, CUT)(step)[0].figure.axes
+    threads = [line.get_xydata().reshape(-1, 16, 2)[:, :15] for line in ground.lines[2:5:2]]
+    assert [len(some) for some in threads] == [step + 1] * 2
+    for moment, thread in enumerate(threads[0]):  # at equal arc length
         along = CUT.length * moment / 8
-        ends = np.transpose(line.get_data())[[0, -1]]
-        assert ends == pytest.approx(np.vstack([CUT.at([along]), CORNER.at([along])]), abs=1e-9)
-    assert curves.lines[0].get_xdata().max() <= CUT.length * step / 8 + 1e-9
+        assert thread[[0, -1]] == pytest.approx(np.vstack([CUT.at([along]), CORNER.at([along])]), abs=1e-9)
+    assert curves.lines[0].get_xdata().max() == pytest.approx(CUT.length * step / 8, abs=1e-9)
 
 
 def test_behind_the_corner_one_distance_is_zero_and_the_other_what_was_saved():
-    figure = two_distances(CORNER, CUT)
+    figure = two_distances(CORNER, CUT)()[0].figure
     even, near = figure.axes[1].lines[:2]
     assert near.get_ydata()[-1] == pytest.approx(0, abs=0.1)
     assert even.get_ydata()[-1] == pytest.approx(100 * SAVED, abs=0.1)
