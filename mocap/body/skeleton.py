@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from textwrap import shorten
 
 import numpy as np
@@ -189,9 +190,10 @@ class Skeleton:
         >>> Skeleton(["neck", "head", "head_end"], [-1, 0, 1], np.zeros((3, 3))).joints_in(short)
         array([ 0,  1, -1])
         """
-        self._without_ends().require_same(other._without_ends())
+        self._without_ends.require_same(other._without_ends)
         return np.array([other.names.index(name) if name in other.names else -1 for name in self.names])
 
+    @cached_property
     def _without_ends(self) -> Skeleton:
         """Leave out the end sites: leaves with the names that reading a BVH file gives them."""
         above = (f"{self.names[parent]}_end" for parent in self.parents)

@@ -24,14 +24,9 @@ def distinct_joints(skeleton: Skeleton) -> list[int]:
 
     Notebook: 02b-distance-grids
     """
-    seen: set[tuple[int, ...]] = set()
-    kept = []
-    for joint, place in enumerate(np.round(skeleton.offsets * 1e9).astype(int).tolist()):
-        under = (int(skeleton.parents[joint]), *place)
-        if joint == 0 or (any(place) and under not in seen):
-            kept.append(joint)
-        seen.add(under)
-    return kept
+    places = np.round(skeleton.offsets * 1e9).astype(int)  # in whole nanometres
+    _, first = np.unique(np.column_stack([skeleton.parents, places]), axis=0, return_index=True)
+    return [joint for joint in sorted(first.tolist()) if joint == 0 or places[joint].any()]
 
 
 def point_cloud(motion: Motion) -> Array:

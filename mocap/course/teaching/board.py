@@ -62,9 +62,8 @@ def _ball() -> Steps:
 
 
 def _path() -> Steps:
-    corner = GroundPath([[0, 0], [0, 3], [3, 3]])
     rounded = arcs((0, 0), heading=0.0, pieces=[(1.5, 0), (0.75 * np.pi, np.pi / 2), (1.5, 0)])
-    return map(diagrams.two_distances(corner, rounded), (0, 3, 5, 8))
+    return map(diagrams.two_distances(GroundPath([[0, 0], [0, 3], [3, 3]]), rounded), (0, 3, 5, 8))
 
 
 def _tarjan() -> Steps:
