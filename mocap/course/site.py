@@ -42,8 +42,8 @@ LIVE = {  # what needs no Python, by its class
     "mocap-blind": "the blind test can be taken",
     "moving": "the sliders show recorded positions",
 }
-SCRIPT = re.compile(r'<script type="module">(.*?)</script>', re.DOTALL)
-DATA = re.compile(r'src="data:image/png;base64,([^"]+)"')
+SCRIPT = re.compile(r'<script type="module">.*?</script>', re.DOTALL)
+HEAVY = re.compile(r'(?s)<script type="module">(.*?)</script>|src="data:image/png;base64,([^"]+)"')
 AGAIN = re.compile(r"<p><small>Run this cell[^<]*</small></p>")
 RUN = (
     "To run it live: <code>pip install 'motion-graphs[notebooks]'</code>, in a checkout "
@@ -148,14 +148,11 @@ def fill_in(notebook: Any, recorded: dict[str, Any]) -> None:  # noqa: ANN401
     """Put recordings in the place of experiments, and a sentence above what stays still."""
     opening, scripts = f'<div class="{STILL}">', set[str]()
     for cell in notebook.cells:
-        address = next(
-            (f"{tag.replace(':', '-')}" for tag in cell.metadata.get("tags", ()) if ":" in tag), ""
-        )
+        tags = cell.metadata.get("tags", ())
+        address = next((tag.replace(":", "-") for tag in tags if ":" in tag), "")
         for output in cell.get("outputs", ()):
             page = output.get("data", {}).get("text/html", "")
-            for script in (
-                found[0] for found in SCRIPT.finditer(page)
-            ):  # it starts all that there is on the page, so one is enough
+            for script in SCRIPT.findall(page):  # it starts all that there is on the page, so one is enough
                 page = page if script not in scripts else page.replace(script, "")
                 scripts.add(script)
             if opening in page:
@@ -191,21 +188,17 @@ def _unpack_pictures(notebook: Any, folder: Path, stem: str) -> None:  # noqa: A
 def _share(notebook: Any, out: Path) -> None:  # noqa: ANN401
     """Move scripts and pictures of outputs to files that all pages share, each once."""
 
-    def file(content: bytes, suffix: str) -> str:
+    def shared(found: re.Match[str]) -> str:
+        script, picture = found.groups()  # no module: a browser does not load it where a page is a file
+        text = f"(() => {{{(script or '').replace('export default', 'void')}}})();"
+        content, suffix = (text.encode(), "js") if script else (base64.b64decode(picture), "png")
         name = f"_shared/{hashlib.sha256(content).hexdigest()[:12]}.{suffix}"
         (out / name).write_bytes(content)
-        return name
-
-    def script(found: re.Match[str]) -> str:  # no module: a browser would not load it where a page is a file
-        text = found[1].replace("export default", "void")
-        return f'<script defer src="{file(f"(() => {{{text}}})();".encode(), "js")}"></script>'
-
-    def picture(found: re.Match[str]) -> str:
-        return f'loading="lazy" src="{file(base64.b64decode(found[1]), "png")}"'
+        return f'<script defer src="{name}"></script>' if script else f'loading="lazy" src="{name}"'
 
     for output in (output for cell in notebook.cells for output in cell.get("outputs", ())):
         if "text/html" in (data := output.get("data", {})):
-            data["text/html"] = DATA.sub(picture, SCRIPT.sub(script, data["text/html"]))
+            data["text/html"] = HEAVY.sub(shared, data["text/html"])
 
 
 def _note(notebook: Any) -> str:  # noqa: ANN401
