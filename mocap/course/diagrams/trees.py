@@ -35,9 +35,9 @@ def down_the_tree(motion: Motion, frame: int = 0) -> Callable[[int], list[Artist
     """
     names, parents = motion.skeleton.names, (0, *motion.skeleton.parents[1:])
     points = joint_positions(motion[frame : frame + 1])[0][:, [2, 1]]  # z to the right, y upwards
-    figure = Figure(figsize=(7.4, 6.4), layout="constrained")
-    code, ax = figure.subplots(2, 1, height_ratios=(2, 5))
-    marked = show_program(code, shown_source("plain.joint_positions").splitlines(), 0, 8.5)
+    figure = Figure(figsize=(9.8, 4))
+    code, ax = figure.add_axes((0.01, 0, 0.76, 0.92)), figure.add_axes((0.83, 0.12, 0.165, 0.85))
+    marked = show_program(code, shown_source("plain.joint_positions").splitlines(), 0, 8)
     starts, ends, sides = map(np.asarray, bones(motion.skeleton))
     limbs = strokes(ax, linewidth=2.4)
     (dots,) = ax.plot([], [], "o", color=QUIET, markersize=4)
@@ -56,7 +56,7 @@ def down_the_tree(motion: Motion, frame: int = 0) -> Callable[[int], list[Artist
         bone.xy, bone.xyann = points[joint], points[parent]
         bone.set_visible(bool(abs(points[joint] - points[parent]).max() > 1e-6))
         told = f"its parent is {parent}, {names[parent]}" if joint else "it has no parent"
-        ax.title.set(text=f"joint {joint}, {names[joint]}: {told}", fontsize=10)
-        return [marked, limbs, dots, last, bone, ax.title]
+        code.title.set(text=f"joint {joint}, {names[joint]}: {told}", fontsize=11)
+        return [marked, limbs, dots, last, bone, code.title]
 
     return placed

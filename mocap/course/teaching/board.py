@@ -81,6 +81,11 @@ def _layers() -> Steps:
     return (diagrams.layer_step(asked, 5, step=step, width=4) for step in (6, 9, 13, 17, 18, 25))
 
 
+def _tree() -> Steps:
+    walk = resample(datasets.sample("walk_straight"), FPS)
+    return (diagrams.down_the_tree(walk, 20)(joint)[0].figure for joint in (0, 2, 3, 24))
+
+
 def _each(draw: Callable[..., Any], steps: Iterable[int], *shown: Any) -> Steps:  # noqa: ANN401
     return (draw(*shown, step=step) for step in steps)
 
@@ -99,6 +104,8 @@ BOARD: dict[str, tuple[str, Callable[[], Steps]]] = {
     "10-path": ("Two distances from a path: at equal arc length, to the nearest point", _path),
     "11-pinned": ("A leg that reaches its pinned foot", lambda: map(diagrams.knee_triangle, FOUR[:3])),
     "12-layers": ("The layered search along a hairpin: cross out, keep the best four, lengthen", _layers),
+    "13-quaternion": ("A vector is turned in two halves", lambda: map(diagrams.half_turns, range(3))),
+    "14-tree": ("Forward kinematics, joint after joint", _tree),
 }
 
 

@@ -57,4 +57,4 @@ def test_the_sheet_beside_the_course_shows_all():
 
 @pytest.mark.exhaustive
 def test_all_are_drawn(tmp_path):
-    assert len(board.write_board(tmp_path)) == 13
+    assert len(board.write_board(tmp_path)) == len(board.BOARD) + 1
