@@ -51,7 +51,7 @@ from mocap import (
 from mocap.body import SHAPES, arcs, joint_positions, planar, rotations, spline, velocities
 from mocap.body.euler import from_euler
 from mocap.course import diagrams
-from mocap.course.diagrams import ground
+from mocap.course.diagrams import pens
 from mocap.course.diagrams.eight_nodes import EIGHT_PLACES
 from mocap.course.seam_trials import choose_matches, passage, walk_costs
 from mocap.matching import lower_bound
@@ -349,9 +349,12 @@ def draw_angles() -> Figure:
     ways = {"slerp": (20.0, CURVES[0]), "mean of the angles": (-340.0, CURVES[1])}
     for (name, (turn, colour)), ax in zip(ways.items(), figure.subplots(1, 2), strict=True):
         for share in np.linspace(0, 1, 11):
-            heading = np.radians(170 + share * turn)
-            ground._draw_heading(ax, heading, COLOURS["middle"] if share in (0, 1) else colour)
-        ground._draw_compass(ax)
+            tip = 1j * np.exp(1j * np.radians(170 + share * turn))
+            pens.arrow(ax, 0j, tip, COLOURS["middle"] if share in (0, 1) else colour)
+        for place, word in ((1.2j, "0°"), (-1.2j, "±180°"), (-1.25 + 0j, "90°"), (1.25 + 0j, "−90°")):
+            pens.say(ax, place, word, color=COLOURS["middle"], fontsize=9)
+        ax.set(xlim=(-1.5, 1.5), ylim=(-1.4, 1.4), aspect="equal")
+        ax.set_axis_off()
         ax.set_title(f"{name}: {abs(turn):.0f}° to the {'left' if turn >= 0 else 'right'}", fontsize=11)
     return figure
 

@@ -101,6 +101,7 @@ def build_site(notebooks: Path, out: Path, progress: Progress = iter, *, moving:
     nbformat, files = library(), notebooks_in(notebooks)
     if not all(map(find_spec, ("furo", "myst_nb", "sphinx"))):
         raise missing("The site needs Sphinx, MyST-NB and Furo", "site")
+    make_folder(out)
     make_folder(out / "_shared")
     with tempfile.TemporaryDirectory() as folder:
         titles = []
