@@ -22,7 +22,7 @@ from mocap._shared.atomic import make_folder, replacing
 from mocap._shared.progress import Progress
 from mocap.body import GroundPath, Motion, arcs, lay_on, resample, rotations
 from mocap.course import diagrams
-from mocap.plotting.picture import few_colours
+from mocap.plotting.picture import few_colours, figure_of
 
 WINDOW, FPS = 10, 30  # frames, frames per second
 PANEL, GAP, HEAD = (760, 520), 24, 76  # pixels: a step, what is between them, the heading
@@ -91,6 +91,7 @@ def _each(draw: Callable[..., Any], steps: Iterable[int], *shown: Any) -> Steps:
 
 
 FOUR = (1, 2, 3, 4)
+WHOLE = "04-laid-on"  # one figure that shows its steps itself
 BOARD: dict[str, tuple[str, Callable[[], Steps]]] = {
     "01-window": ("A window as a cloud of points", lambda: _each(diagrams.window_cloud, FOUR, _pair()[0])),
     "02-theta": ("Four steps to the best turn and shift", lambda: _each(diagrams.laying_on, FOUR, *_pair())),
@@ -145,9 +146,15 @@ def _saved(page: Image.Image, path: Path) -> Path:
 
 @cache
 def pictures_of(name: str) -> list[bytes]:
-    """Draw the steps of a drawing, each as a PNG."""
+    """Draw the steps of a drawing, each as a PNG before the next: some move what they drew."""
     heading, steps = BOARD[name]
-    return [plotting.show(figure, alt=heading).picture for figure in steps()]
+    made = []
+    for drawn in steps():
+        texts: list[Any] = figure_of(drawn).findobj(lambda artist: hasattr(artist, "set_text"))
+        for text in [] if name == WHOLE else texts:  # the disc has the number with which a title begins
+            text.set_text(re.sub(r"^\d+\. ", "", text.get_text()))
+        made.append(plotting.show(drawn, alt=heading).picture)
+    return made
 
 
 def board_sheet(name: str) -> Image.Image:
@@ -162,16 +169,11 @@ def board_sheet(name: str) -> Image.Image:
     >>> board_sheet("11-pinned").size
     (2376, 644)
     """
-    heading, steps = BOARD[name]
-    figures = list(steps())
-    alone = len(figures) == 1  # one figure that shows its steps itself
+    heading, _ = BOARD[name]
+    pictures = [Image.open(io.BytesIO(picture)).convert("RGB") for picture in pictures_of(name)]
+    alone = name == WHOLE
     room = ((1 + alone) * PANEL[0], PANEL[1])
-    columns = min(len(figures), 2 if len(figures) == 4 else 3)
-    for figure in [] if alone else figures:  # the disc has the number with which a title begins
-        for text in figure.findobj(lambda artist: hasattr(artist, "set_text")):
-            text.set_text(re.sub(r"^\d+\. ", "", text.get_text()))
-    shown = [plotting.show(figure, alt=heading).picture for figure in figures]
-    pictures = [Image.open(io.BytesIO(picture)).convert("RGB") for picture in shown]
+    columns = min(len(pictures), 2 if len(pictures) == 4 else 3)
     page = _laid_out(pictures, room, columns, HEAD)
     pen = ImageDraw.Draw(page)
     pen.text((GAP, 18), heading, INK, font_of(38, bold=True))

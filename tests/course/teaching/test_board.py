@@ -25,6 +25,7 @@ def test_a_drawing_has_its_steps_with_numbers(name):
 
 def test_a_step_has_one_number(monkeypatch):
     kept = []
+    board.pictures_of.cache_clear()
     show = board.plotting.show
     monkeypatch.setattr(
         board.plotting, "show", lambda figure, alt: kept.append(figure) or show(figure, alt=alt)
@@ -55,6 +56,6 @@ def test_the_sheet_beside_the_course_shows_all():
     assert high > 1200
 
 
-@pytest.mark.exhaustive
+@pytest.mark.sweep
 def test_all_are_drawn(tmp_path):
     assert len(board.write_board(tmp_path)) == len(board.BOARD) + 1
