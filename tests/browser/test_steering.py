@@ -240,22 +240,6 @@ def test_it_fits_a_phone_and_a_dark_page(steering, wide, scheme):
     assert box["y"] + box["height"] <= 844
 
 
-def test_a_picture_of_three_takes_a_small_part_of_a_sixtieth_of_a_second(steering):
-    press(steering, "w", "a")
-    wait_until(lambda: steering.evaluate(f"{IT}.time") > 2)
-    times = steering.evaluate(f"""async () => {{
-        const times = [];
-        for (let k = 0; k < 40; k++) {{
-            const start = performance.now();
-            {IT}.draw(0.016);
-            times.push(performance.now() - start);
-            await new Promise((done) => setTimeout(done, 5));
-        }}
-        return times.sort((a, b) => a - b);
-    }}""")
-    assert times[10] < 1000 / 60 / 2  # 1.1 ms on a quiet machine; the rest is for other work of this one
-
-
 CELLS = [
     """
     import math
