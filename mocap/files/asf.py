@@ -126,12 +126,14 @@ class _Fields:
         self.path, self.lines = path, {key.lower(): (number, words) for number, (key, *words) in lines}
 
     def line(self, key: str, *default: str) -> Line:
+        """Give the number and the words of the line with a key, or the default."""
         if key not in self.lines and not default:
             begin, known = self.lines.get("begin", (None,))[0], ", ".join(self.lines)
             raise FormatError(self.path, begin, f"a '{key}' line", f"only {known or 'nothing'}")
         return self.lines.get(key, (0, [*default]))
 
     def numbers(self, key: str, count: int, *default: str) -> Array:
+        """Give the numbers of the line with a key."""
         line, words = self.line(key, *default)
         expected = f"{count} number{'s' * (count > 1)} for '{key}'"
         return to_numbers(self.path, line, words[:count], expected, count)
@@ -145,6 +147,7 @@ class _Fields:
         return euler.from_euler(axes, angles[["xyz".index(letter) for letter in axes]])
 
     def dofs(self, key: str, known: tuple[str, ...]) -> tuple[str, ...]:
+        """Give the degrees of freedom of the line with a key, each one that is known and there once."""
         line, words = self.line(key)
         dofs = tuple(word.lower() for word in words)
         if not dofs or set(dofs) - set(known) or len(set(dofs)) < len(dofs):
