@@ -28,7 +28,7 @@ LISTED = dict(re.findall(r"^([a-z_]+)  +\w.*?(?:\(([\d, to]+)\))?$", mocap.__doc
 FACES = [room for room in ROOMS if room not in ("_shared", "cli", "methods")]
 BEHIND = (*STOREYS, "cli", "_shared")
 MOST = {
-    "lines of code": 19_861,  # the goal: 17 000
+    "lines of code": 19_862,  # the goal: 17 000
     "lines of code in the course's rooms": 11_029,  # 9 500
     "functions": 1_757,  # 1 400
     "classes": 218,  # 170

@@ -55,7 +55,8 @@ def script_of(slides: Iterable[Slide], recorded: Mapping[str, Any]) -> list[Scen
 
 def _scenes(slide: Slide, recorded: Mapping[str, Any]) -> Iterator[Scene]:
     """Yield a scene for each thing that a slide shows, or one of its words alone."""
-    texts = [cell.source for cell in slide.cells if cell.cell_type == "markdown"]
+    written = [cell.source for cell in slide.cells if cell.cell_type == "markdown"]
+    texts = [text for text in written if not text.startswith("![")]
     lines = [spoken(re.sub(r"^\s*(?:[-*]|\d+\.) ", "", line)) for text in texts for line in text.splitlines()]
     words, shown = list(filter(None, lines)), False
     for cell in slide.cells:

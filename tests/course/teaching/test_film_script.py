@@ -20,6 +20,9 @@ def script(*cells, label="", recorded=None):
 
 
 def test_the_words_of_a_slide_stand_below_each_of_its_pictures_as_long_as_they_take_to_read():
+    attached = {"attachments": {"a.png": {"image/png": PNG}}}
+    (alone,) = script(new_markdown_cell("![An alt text.](attachment:a.png)", **attached))
+    assert (alone.kind, alone.words) == ("still", "")
     scenes = script(new_markdown_cell("1. It *falls*.\n2. See `why`.\n\n$$x_i$$"), shows(), shows())
     assert [(scene.kind, scene.words) for scene in scenes] == [("still", "It falls. See why.")] * 2
     (long,) = script(new_markdown_cell("word " * 100), shows())
