@@ -304,8 +304,8 @@ def test_it_fills_the_screen_when_asked(resting):
     wait_until(lambda: page.evaluate("document.fullscreenElement?.className.includes('mocap-player')"))
     wait_until(lambda: page.locator("canvas").bounding_box()["height"] > 600)
     page.get_by_role("button", name="leave full screen").click()
-    wait_until(lambda: page.evaluate("document.fullscreenElement === null"))
-    assert page.get_by_role("button", name="full screen", exact=True).is_visible()
+    page.get_by_role("button", name="full screen", exact=True).wait_for()
+    assert page.evaluate("document.fullscreenElement === null")
 
 
 def test_names_stand_for_screen_readers_and_nothing_speaks_while_it_plays(shown):
