@@ -175,8 +175,7 @@ def protection(raised: Sequence[str]) -> str:
     >>> protection(["landlock", "filter"])
     'marking behind landlock, filter: notebooks read Python and write in their home only, without a network'
     """
-    files = ["READ AND WRITE WHAT YOU CAN (the package is compared after each)"]
-    files += ["write in their home only, but read what you can"] * ("namespaces" in raised)
-    files += ["read Python and write in their home only"] * ("landlock" in raised)
-    network = "without a" if {"namespaces", "filter"} & {*raised} else "WITH THE"
-    return f"marking behind {', '.join(raised) or 'no walls'}: notebooks {files[-1]}, {network} network"
+    files = "READ AND WRITE WHAT YOU CAN (the package is compared after each)"
+    files = "read Python and write in their home only" if "landlock" in raised else files
+    network = "without a" if "filter" in raised else "WITH THE"
+    return f"marking behind {', '.join(raised) or 'no walls'}: notebooks {files}, {network} network"

@@ -1,9 +1,7 @@
 """Walls around a student's process, kept up by the Linux kernel: what it can read, write, reach and call.
 
-Each works without an administrator's rights, and each may be missing on a system:
+Both work without an administrator's rights, in containers as well, and each may be missing on a system:
 
-- `namespaces`: processes, network and shared memory of its own; all files are read-only but its home, which
-  is in memory. When its first process ends, the kernel ends all others.
 - `landlock`: it reads Python, programs and libraries, and writes in its home; nothing else can be opened.
 - `filter`: it opens no sockets, sends no signals, mounts nothing, and changes nobody's rights to a file.
 """
@@ -24,13 +22,11 @@ from pathlib import Path
 
 import mocap
 
-ALL = ("namespaces", "landlock", "filter")
+ALL = ("landlock", "filter")
 FILES, INODES = 500 << 20, 2000  # bytes and number of files in the home
 LIMITS = {"AS": 2 << 30, "FSIZE": 50 << 20, "NOFILE": 256, "CORE": 0}  # bytes of memory, of a file; files
 DIE_WITH_PARENT, SET_FILTER, ADOPT_ORPHANS, NO_NEW_RIGHTS = 1, 22, 36, 38  # of prctl(2)
-NEW = 0x20000 | 0x8000000 | 0x10000000 | 0x20000000 | 0x40000000  # of mounts, messages, users, processes, net
-PRIVATE, BIND, READ_ONLY, NO_RIGHTS = 0x44000, 0x1000, 0x1, 0xE  # of mount(2)
-MOUNT_SETATTR, RULESET, RULE, RESTRICT = 442, 444, 445, 446  # numbers of system calls
+RULESET, RULE, RESTRICT = 444, 445, 446  # numbers of system calls
 READ, USE = 0b1101, 0b100000000000110  # of Landlock: execute, read and list; read, write and cut a file
 SYSTEM = [f"/{name}" for name in ("usr", "lib", "lib32", "lib64", "bin", "sbin", "nix/store", "etc/fonts")]
 SYSTEM += [f"/etc/{name}" for name in ("localtime", "ld.so.cache", "passwd", "group", "nsswitch.conf")]
@@ -75,19 +71,13 @@ def fork_behind(walls: Sequence[str], home: Path, hidden: Sequence[str], work: C
         with suppress(OSError):  # where memory is short, Linux ends this process first
             Path("/proc/self/oom_score_adj").write_text("1000")
         prctl(DIE_WITH_PARENT, signal.SIGKILL)
-        if "namespaces" in walls:
-            _separate()
-            if first := os.fork():  # the first in its list of processes
-                os._exit(os.waitstatus_to_exitcode(os.waitpid(first, 0)[1]) & 0xFF)
-            prctl(DIE_WITH_PARENT, signal.SIGKILL)
-            _furnish(home, hidden)
         prctl(NO_NEW_RIGHTS, 1)
         _call("capset", struct.pack("II", 0x20080522, 0), bytes(24))  # not even root's
         for name, limit in LIMITS.items():
             with suppress(OSError, ValueError):  # not every system has all of them
                 resource.setrlimit(getattr(resource, f"RLIMIT_{name}"), (limit, limit))
         if "landlock" in walls:
-            _lock(home, readable(hidden) + [Path("/proc")] * ("namespaces" in walls))
+            _lock(home, readable(hidden))
         if "filter" in walls:
             _filter()
         work()
@@ -108,32 +98,6 @@ def _call(name: str, *arguments: int | bytes | None) -> int:
     if result < 0:
         raise OSError(ctypes.get_errno(), name)
     return result
-
-
-def _separate() -> None:
-    """Leave the marker's namespaces, for a table of users in which this one is who it was."""
-    own, user, group = Path("/proc/self"), os.getuid(), os.getgid()
-    _call("unshare", NEW)
-    (own / "setgroups").write_text("deny")
-    (own / "uid_map").write_text(f"{user} {user} 1")
-    (own / "gid_map").write_text(f"{group} {group} 1")
-
-
-def _furnish(home: Path, hidden: Iterable[str]) -> None:
-    """Make all files read-only, the hidden ones empty, the home new, and list only one's own processes."""
-    _call("mount", None, b"/", None, PRIVATE, None)
-    for place in hidden:
-        empty, how = (b"tmpfs", READ_ONLY | NO_RIGHTS) if Path(place).is_dir() else (b"/dev/null", BIND)
-        _call("mount", empty, os.fsencode(place), empty, how, None)
-    _call("syscall", MOUNT_SETATTR, -100, b"/", 0x8000, struct.pack("QQQQ", 7, 0, 0, 0), 32)  # and all below
-    for place in DEVICES:  # all others lead nowhere
-        _call("mount", os.fsencode(place), os.fsencode(place), None, BIND, None)
-        _call("syscall", MOUNT_SETATTR, -100, os.fsencode(place), 0, struct.pack("QQQQ", 0, 4, 0, 0), 32)
-    size = f"size={FILES},nr_inodes={INODES},mode=700"
-    _call("mount", b"tmpfs", os.fsencode(home), b"tmpfs", 0x6, size.encode())
-    _call("mount", b"tmpfs", b"/proc", b"tmpfs", READ_ONLY | NO_RIGHTS, None)
-    with suppress(OSError):  # not allowed in a container: then it lists no processes
-        _call("mount", b"proc", b"/proc", b"proc", READ_ONLY | NO_RIGHTS, None)
 
 
 def _lock(home: Path, places: Iterable[Path]) -> None:

@@ -158,10 +158,6 @@ DISHONEST = {
     ),
     '=HYPERLINK("evil")': speed("def speed(positions, fps): raise ValueError('\\n=cmd|calc\\n\\x1b[2J')"),
 }
-HELD = [
-    "writes files",
-    *list(DISHONEST)[list(DISHONEST).index("reads the memory of others") : -1],
-]  # by walls
 UNLUCKY = {  # with the marks that they earn
     "prints without end": ("01", speed("while True: print('x' * 2000)")),
     "prints a lot": ("11", speed(f"{SPEED[1].replace('    return', '    print([0] * 99999); return')}")),

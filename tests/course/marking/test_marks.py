@@ -14,10 +14,9 @@ from pathlib import Path
 import pytest
 
 import mocap
-from mocap.course.marking import mark, marks, sealed, walls
+from mocap.course.marking import mark, marks, walls
 from tests.course.marking.students import (
     DISHONEST,
-    HELD,
     HONEST,
     KNOWS_ALL,
     SLEEP,
@@ -40,7 +39,6 @@ marks.SECONDS, sealed.WANTED = 4, sys.argv[1].split()
 sys.exit(main(["course", "mark", *sys.argv[2:]]))
 """
 LINUX = sys.platform == "linux"
-BEHIND = ["namespaces landlock filter", "landlock filter", "namespaces filter"]
 
 
 def with_cells(change):
@@ -109,9 +107,9 @@ def sleepers():
     return found
 
 
-@pytest.fixture(scope="module", params=BEHIND)
-def marked(request, copy, tmp_path_factory):
-    """Mark all students behind all walls, and behind fewer those whom walls hold; the last know nothing."""
+@pytest.fixture(scope="module")
+def marked(copy, tmp_path_factory):
+    """Mark all students behind walls; the last knows nothing."""
     path = tmp_path_factory.mktemp("marked")
     folder = path / "handed-in"
     words = {"PLANTED": path / "planted", "LATER": folder / "zoe" / "x.ipynb", "FOLDER": folder}
@@ -119,16 +117,14 @@ def marked(request, copy, tmp_path_factory):
     cells = DISHONEST | {name: made for name, (_, made) in UNLUCKY.items()} | {"zoe": HONEST}
     cells["zz"] = speed("def speed(positions, fps): return 0")
     for name, made in cells.items():
-        if request.param == BEHIND[0] or name in (*HELD, "zoe", "zz"):
-            hand_in(replaced(made, words), folder / name / "x.ipynb")
-    for name, (_, spoil) in SPOILED.items() if request.param == BEHIND[0] else ():
+        hand_in(replaced(made, words), folder / name / "x.ipynb")
+    for name, (_, spoil) in SPOILED.items():
         hand_in(HONEST, folder / name / "x.ipynb", spoil)
     before = {file: file.read_bytes() for file in folder.rglob("*.ipynb")}
-    running = start(copy, request.param, folder, jobs=2)
+    running = start(copy, " ".join(walls.ALL), folder, jobs=2)
     _, err = running.communicate(timeout=600)
-    raised = err.split("behind ")[1].split(":")[0].replace(",", "")
-    if raised != request.param:
-        pytest.skip(f"this system raises only these walls: {raised}")
+    if f"behind {', '.join(walls.ALL)}:" not in err:
+        pytest.skip(f"this system raises fewer walls: {err.splitlines()[0]}")
     assert running.returncode == 0, err
     assert {file: file.read_bytes() for file in folder.rglob("*.ipynb")} == before
     for place in ("/tmp", "/dev/shm", "/var/tmp", Path.home(), folder, Path(sys.prefix)):
@@ -141,9 +137,8 @@ def test_students_get_marks_only_for_what_is_right(marked):
     wanted = dict.fromkeys(DISHONEST, "01") | {"zoe": "11", "zz": "01"}
     wanted |= {name: right for name, (right, _) in (UNLUCKY | SPOILED).items()}
     said = {(r["handed in"].lstrip("'").split("/")[0], r["exercise"]): r for r in rows(marked / "marks.csv")}
-    names = {folder.name for folder in (marked / "handed-in").iterdir()}
-    got = {name: "".join(said[name, exercise]["right"] for exercise in EXERCISES) for name in names}
-    assert got == {name: wanted[name] for name in names}
+    got = {name: "".join(said[name, exercise]["right"] for exercise in EXERCISES) for name in wanted}
+    assert got == wanted
 
 
 SAID = {
@@ -152,6 +147,7 @@ SAID = {
     "answers with what equals all": "speed: your answer has the shape",
     "calls the oracle": "Look at its cells: they name `checks`, which knows it.",
     "starts many processes": "✗ speed: starts more than 16 processes",
+    "writes many files": "✗ speed: writes 2000 files",
     "kills what started it": "✗ speed: ",
     "prints without end": "✗ speed: stopped after 4 s",
     "fills the memory": "your function raises MemoryError",
@@ -166,16 +162,10 @@ SAID = {
 
 
 def test_the_reason_is_said_and_no_secret(marked):
-    said = {
-        row["handed in"].split("/")[0]: row["said"]
-        for row in rows(marked / "marks.csv")
-        if row["exercise"] == "speed"
-    }
-    if "lost cells and tags" in said:
-        said["lost cells and tags"] = next(
-            r["said"] for r in rows(marked / "marks.csv") if "sped" in r["said"]
-        )
-    assert {name: said[name] for name, words in SAID.items() if words not in said.get(name, words)} == {}
+    lines = rows(marked / "marks.csv")
+    said = {line["handed in"].split("/")[0]: line["said"] for line in lines if line["exercise"] == "speed"}
+    said["lost cells and tags"] = next(line["said"] for line in lines if "sped" in line["said"])
+    assert {name: said[name] for name, words in SAID.items() if words not in said[name]} == {}
     assert SECRET not in (marked / "marks.csv").read_text("utf-8")
 
 
@@ -187,8 +177,7 @@ def test_the_tables_are_whole_and_no_formulas_and_no_process_is_left(marked):
     assert not any(v.startswith(("=", "+", "-", "@")) for v in values) and "\x1b" not in "".join(lines)
     table = {row["student"].lstrip("'"): row for row in rows(marked / "marks-table.csv")}
     assert {*table} == {folder.name for folder in (marked / "handed-in").iterdir()}
-    for name in {"zoe", "is cut"} & {*table}:
-        right = int(name == "zoe")
+    for name, right in {"zoe": 1, "is cut": 0}.items():
         wanted = {"student": name, **dict.fromkeys(EXERCISES, f"{right}"), "points": f"{2 * right}"}
         assert table[name] == wanted
 
@@ -247,22 +236,8 @@ def test_no_answer_stops_the_marker(tmp_path):
     assert len(found) == 6 and not any(one.right for one in found)
 
 
-@pytest.mark.parametrize("behind", [walls.ALL, walls.ALL[1:]], ids=len)
-@pytest.mark.parametrize(
-    ("name", "says"),
-    [("writes many files", ("Disk quota", "No space", "writes 2000 files")), ("fills the disk", ("",))],
-)
-def test_no_notebook_fills_the_disk(name, says, behind, tmp_path, monkeypatch):
-    monkeypatch.setattr(sealed, "WANTED", behind)
-    hand_in(DISHONEST[name], tmp_path / "00.ipynb")
-    ((speed, *_),) = mark(tmp_path)
-    assert any(words in speed.said for words in says) and not speed.right
-
-
-@pytest.mark.parametrize("behind", [walls.ALL, walls.ALL[1:]], ids=len)
-def test_folders_in_folders_leave_nothing_behind(behind, tmp_path, monkeypatch):
+def test_folders_in_folders_leave_nothing_behind(tmp_path, monkeypatch):
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    monkeypatch.setattr(sealed, "WANTED", behind)
     deep = "import os\nfor _ in range(1500):\n    os.mkdir('d')\n    os.chdir('d')"
     hand_in(speed(deep), tmp_path / "in" / "00.ipynb")
     assert len(next(mark(tmp_path / "in"))) == 2
@@ -280,7 +255,7 @@ def test_what_is_no_file_is_said_at_once(tmp_path):
 
 @pytest.mark.parametrize(
     ("ending", "jobs"),
-    [(getattr(signal, f"SIG{name}"), jobs) for name in ("INT", "TERM", "KILL") for jobs in (1, 2)],
+    [(signal.SIGINT, 1), (signal.SIGTERM, 2), (signal.SIGKILL, 1), (signal.SIGKILL, 2)],
 )
 def test_an_end_keeps_the_marks_and_leaves_no_process(ending, jobs, copy, tmp_path):
     hand_in([START, SPEED], tmp_path / "in" / "ada" / "00.ipynb")
