@@ -7,14 +7,15 @@ Such a file holds no code: it is safe to read one from a stranger. What it claim
 import math
 import mmap
 import re
+import warnings
 import zipfile
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
-from functools import cached_property
+from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
+import numpy.lib.format as npy
 from numpy.typing import NDArray
 
 from mocap._shared.atomic import replacing
@@ -22,13 +23,8 @@ from mocap.errors import FormatError, MocapError
 
 Arrays = dict[str, NDArray[Any]]
 RATIO, ROOM = 8, 2**20  # bytes of arrays: at most ROOM, and RATIO for each byte of the file; ours have three
-MOST, START, CHUNK = 2**14, 1024, 2**20  # members; bytes that hold a header, and that are unpacked at once
+MOST = 2**14  # members
 LAST = {"U": 0x10FFFF, "b": 1}  # the largest codes of letters and of truths
-HEADER = re.compile(
-    rb"\x93NUMPY\x01\x00(..)\{ *'descr': *'([<>|](?:b1|[iu][1248]|f[248]|c8|c16|U\d{1,6}))', *"
-    rb"'fortran_order': *(True|False), *'shape': *\(([\d, L]*)\),? *\} *\n",
-    re.DOTALL,
-)
 
 
 class Member:
@@ -39,43 +35,23 @@ class Member:
 
     def __init__(self, archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> None:
         self.archive, self.entry = archive, entry
+        self.shape, self.dtype, self.fits = (), np.dtype(object), False
+        with archive.open(entry) as packed, suppress(ValueError), warnings.catch_warnings(action="ignore"):
+            if npy.read_magic(packed) == (1, 0):
+                shape, _, dtype = npy.read_array_header_1_0(packed)
+                if dtype.kind in "biufcU":
+                    self.shape, self.dtype = shape, dtype
+                    self.fits = packed.tell() + math.prod(shape) * dtype.itemsize == entry.file_size
 
     def __str__(self) -> str:
         return f"{self.dtype}{self.shape}"
 
-    @cached_property
-    def header(self) -> re.Match[bytes] | None:
-        """The header that the array starts with, if it is one."""
-        with self.archive.open(self.entry) as packed:
-            found = HEADER.match(packed.read(START))
-        return found if found and found.end() == 10 + int.from_bytes(found[1], "little") else None
-
-    @property
-    def dtype(self) -> np.dtype[Any]:
-        """The type of the numbers."""
-        return np.dtype(self.header[2].decode() if self.header else object)
-
-    @cached_property
-    def shape(self) -> tuple[int, ...]:
-        """The shape, for which the member has as many bytes as it takes."""
-        if not self.header:
-            return ()
-        shape = tuple(map(int, re.findall(rb"\d+", self.header[4])))
-        if self.header.end() + math.prod(shape) * self.dtype.itemsize != self.entry.file_size:
-            raise zipfile.BadZipFile
-        return shape
-
     def read(self) -> NDArray[Any]:
-        """Unpack the array, in the order and the bytes of this machine."""
-        if not self.header:
+        """Unpack the array, in the byte order of this machine and the rows one after the other."""
+        if not self.fits:
             raise zipfile.BadZipFile
-        shape, data, at = self.shape, np.empty(self.entry.file_size, np.uint8), 0
         with self.archive.open(self.entry) as packed:
-            while part := packed.read(CHUNK):  # all at once would take twice the memory
-                data[at : at + len(part)] = np.frombuffer(part, np.uint8)
-                at += len(part)
-        order: Literal["F", "C"] = "F" if self.header[3] == b"True" else "C"
-        whole = data[self.header.end() : at].view(self.dtype).reshape(shape, order=order)
+            whole = npy.read_array(packed, allow_pickle=False)
         array = whole.astype(self.dtype.newbyteorder("="), "C", copy=False)
         if last := LAST.get(self.dtype.kind):
             codes: NDArray[Any] = array.reshape(-1).view(np.uint32 if last > 1 else np.uint8)
@@ -90,10 +66,8 @@ def pack(path: str | Path, arrays: Mapping[str, Any]) -> None:
         for save in (np.savez_compressed, np.savez):
             with beside.open("wb") as file:
                 save(file, allow_pickle=False, **arrays)
-            if (
-                sum(np.asarray(array).nbytes for array in arrays.values())
-                < RATIO * beside.stat().st_size + ROOM
-            ):
+            room = RATIO * beside.stat().st_size + ROOM
+            if sum(np.asarray(array).nbytes for array in arrays.values()) < room:
                 break
 
 

@@ -84,7 +84,7 @@ def _checked(points: ArrayLike) -> Array:
     return frozen(points[moved], np.float64)
 
 
-def spline(points: ArrayLike, *, closed: bool = False) -> GroundPath:
+def spline(points: ArrayLike) -> GroundPath:
     """Draw a smooth curve through some points, C² where it passes them.
 
     It is a cubic spline over the square roots of the chords, which neither overshoots nor loops where points
@@ -93,7 +93,6 @@ def spline(points: ArrayLike, *, closed: bool = False) -> GroundPath:
     Parameters
     ----------
     points : shape (N, 2), (x, z) in metres.
-    closed : whether the curve comes back to the first point.
 
     Returns
     -------
@@ -101,16 +100,14 @@ def spline(points: ArrayLike, *, closed: bool = False) -> GroundPath:
 
     Examples
     --------
-    >>> spline([[0, 0], [1, 1], [0, 2], [-1, 1]], closed=True)
-    GroundPath(311 points, 6.2 m)
+    >>> spline([[0, 0], [1, 1], [0, 2], [-1, 1]])
+    GroundPath(225 points, 4.5 m)
 
     Notebook: 00-quickstart
     """
     through = GroundPath(np.asarray(points, float)).points
-    if closed:
-        through = GroundPath(np.vstack([through, through[:1]])).points
     knots = np.concatenate([[0.0], np.cumsum(np.sqrt(np.hypot(*np.diff(through, axis=0).T)))])
-    curve = CubicSpline(knots, through, bc_type="periodic" if closed else "natural")
+    curve = CubicSpline(knots, through, bc_type="natural")
     between = np.linspace(0, knots[-1], 50 * len(knots))
     return GroundPath(curve(between)).resampled(FINE)
 

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from itertools import pairwise
 from textwrap import shorten
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -11,18 +11,20 @@ from mocap._shared.arrays import Array
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
 
-# Hip, knee and ankle of a left and a right leg, as files name them; a prefix up to a colon is ignored.
-_NAMES = (
-    ("lfemur ltibia lfoot", "rfemur rtibia rfoot"),  # Acclaim, CMU
-    ("LeftUpLeg LeftLeg LeftFoot", "RightUpLeg RightLeg RightFoot"),
-    ("LeftHip LeftKnee LeftAnkle", "RightHip RightKnee RightAnkle"),
-    ("LeftThigh LeftShin LeftFoot", "RightThigh RightShin RightFoot"),
-    ("UpperLeg_L LowerLeg_L Foot_L", "UpperLeg_R LowerLeg_R Foot_R"),
-    ("left_hip left_knee left_ankle", "right_hip right_knee right_ankle"),
-    ("LeftUpLeg LeftLowLeg LeftFoot", "RightUpLeg RightLowLeg RightFoot"),
-    ("LeftUpperLeg LeftLowerLeg LeftFoot", "RightUpperLeg RightLowerLeg RightFoot"),
-    ("lThigh lShin lFoot", "rThigh rShin rFoot"),  # Poser, Daz
-    ("L_Hip L_Knee L_Ankle", "R_Hip R_Knee R_Ankle"),  # SMPL
+# Hip, knee, ankle and shoulder, elbow, wrist of the left side, as files name them; each column is looked up
+# by itself, and a prefix up to a colon is ignored.
+LIMBS = (
+    ("lfemur ltibia lfoot", "lhumerus lradius lwrist"),  # Acclaim, CMU
+    ("lfemur ltibia lfoot", "lhumerus lradius lhand"),
+    ("LeftUpLeg LeftLeg LeftFoot", "LeftArm LeftForeArm LeftHand"),
+    ("LeftHip LeftKnee LeftAnkle", "LeftShoulder LeftElbow LeftWrist"),
+    ("LeftThigh LeftShin LeftFoot", "LeftShoulder LeftElbow LeftWrist"),
+    ("UpperLeg_L LowerLeg_L Foot_L", "UpperArm_L LowerArm_L Hand_L"),
+    ("left_hip left_knee left_ankle", "left_shoulder left_elbow left_wrist"),
+    ("LeftUpLeg LeftLowLeg LeftFoot", "LeftUpArm LeftLowArm LeftHand"),
+    ("LeftUpperLeg LeftLowerLeg LeftFoot", "LeftUpperArm LeftLowerArm LeftHand"),
+    ("lThigh lShin lFoot", "lShldr lForeArm lHand"),  # Poser, Daz
+    ("L_Hip L_Knee L_Ankle", "L_Shoulder L_Elbow L_Wrist"),  # SMPL
 )
 
 
@@ -62,20 +64,36 @@ def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
 
     Notebook: 04b-feet
     """
+    legs = find_pair(skeleton, "legs")
+    if bare := [ankle for *_, ankle in legs if not skeleton.children(ankle)]:
+        name = skeleton.names[bare[0]]
+        raise MocapError(f"The foot '{name}' has no joint or end site that could be its ball.")
+    if not legs:
+        joints, known = (", ".join(names) for names in (skeleton.names, dict(LIMBS)))
+        raise MocapError(
+            f"No legs found among {shorten(joints, 38)}: tried {shorten(known, 40)}. "
+            "Name each by hand: legs=[name_leg(skeleton, hip, knee, ankle, ball), ...]."
+        )
+    whole = [[*joints, skeleton.children(joints[2])[0]] for joints in legs]
+    return tuple(name_leg(skeleton, *(skeleton.names[joint] for joint in leg)) for leg in whole)
+
+
+def find_pair(skeleton: Skeleton, limbs: Literal["legs", "arms"]) -> list[list[int]]:
+    """Find the three joints of the left limb and of the right one, its mirror image; [] where none are known.
+
+    Examples
+    --------
+    >>> from mocap.datasets.samples import SKELETON
+    >>> [[SKELETON.names[joint] for joint in arm] for arm in find_pair(SKELETON, "arms")]
+    [['lhumerus', 'lradius', 'lwrist'], ['rhumerus', 'rradius', 'rwrist']]
+    """
     plain = [name.rsplit(":", 1)[-1] for name in skeleton.names]
-    for pair in _NAMES:
-        if all(name in plain for side in pair for name in side.split()):
-            legs = [[plain.index(name) for name in side.split()] for side in pair]
-            if bare := [ankle for *_, ankle in legs if not skeleton.children(ankle)]:
-                name = skeleton.names[bare[0]]
-                raise MocapError(f"The foot '{name}' has no joint or end site that could be its ball.")
-            whole = [[*joints, skeleton.children(joints[2])[0]] for joints in legs]
-            return tuple(name_leg(skeleton, *(skeleton.names[joint] for joint in leg)) for leg in whole)
-    joints, known = (", ".join(names) for names in (skeleton.names, [left for left, _ in _NAMES]))
-    raise MocapError(
-        f"No legs found among {shorten(joints, 38)}: tried {shorten(known, 40)}. "
-        "Name each by hand: legs=[name_leg(skeleton, hip, knee, ankle, ball), ...]."
-    )
+    for names in (row[limbs == "arms"].split() for row in LIMBS):
+        left = [plain.index(name) for name in names if name in plain]
+        right = [skeleton.partner(joint) for joint in left]
+        if len(left) == 3 and not set(left) & set(right):
+            return [left, right]
+    return []
 
 
 def name_leg(skeleton: Skeleton, hip: str, knee: str, ankle: str, ball: str) -> Leg:

@@ -101,9 +101,9 @@ class Motion:
     def __repr__(self) -> str:
         return f"Motion('{self.name}', {len(self)} frames at {self.fps:g} Hz, {len(self.skeleton)} joints)"
 
-    def __getitem__(self, frames: slice) -> Motion:
-        """Take a stretch of frames; a step of n divides the frame rate by n."""
-        step = frames.step or 1
+    def __getitem__(self, frames: slice | Indices) -> Motion:
+        """Take a stretch of frames, a step of n divides the frame rate by n; or frames by number."""
+        step = (frames.step or 1) if isinstance(frames, slice) else 1
         if step < 1:
             raise MocapError(f"Frames run forwards only; got a step of {step}.")
         return replace(
@@ -138,13 +138,8 @@ class Motion:
         share = (frames - before)[:, None]
         nearest = np.where(share[:, 0] < 0.5, before, after)
         start, end = self.root_positions[before], self.root_positions[after]
-        return replace(
-            self,
-            root_positions=start + share * (end - start),
-            rotations=rotations.slerp(self.rotations[before], self.rotations[after], share),
-            labels={name: mark[nearest] for name, mark in self.labels.items()},
-            contacts={name: mark[nearest] for name, mark in self.contacts.items()},
-        )
+        turns = rotations.slerp(self.rotations[before], self.rotations[after], share)
+        return replace(self[nearest], root_positions=start + share * (end - start), rotations=turns)
 
 
 def turning(motion: Motion) -> NDArray[np.bool_]:

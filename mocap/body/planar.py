@@ -91,11 +91,16 @@ class PlanarTransform(NamedTuple):
         """Turn global orientations, quaternions of shape (..., 4)."""
         return rotations.multiply(rotations.about_y(self.angle), quaternions)
 
+    def apply_frames(self, roots: ArrayLike, turns: Array) -> tuple[Array, Array]:
+        """Move frames of root positions (..., 3) and rotations (..., J, 4); only roots change."""
+        turned = turns.copy()
+        turned[..., 0, :] = self.apply_orientations(turned[..., 0, :])
+        return self.apply_points(roots), turned
+
     def apply_motion(self, motion: Motion) -> Motion:
         """Move a whole motion; only its root changes."""
-        turned = motion.rotations.copy()
-        turned[:, 0] = self.apply_orientations(turned[:, 0])
-        return replace(motion, root_positions=self.apply_points(motion.root_positions), rotations=turned)
+        roots, turned = self.apply_frames(motion.root_positions, motion.rotations)
+        return replace(motion, root_positions=roots, rotations=turned)
 
     def __matmul__(self, first: PlanarTransform) -> PlanarTransform:
         """Compose: do `first`, then this one; angles add up, wrapped to [-π, π)."""

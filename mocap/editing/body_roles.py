@@ -6,31 +6,18 @@ the legs meet, the chest is where the arms meet, and the waist and the neck are 
 
 from collections.abc import Mapping
 
-from mocap.body.limbs import Leg, find_legs
+from mocap.body.limbs import Leg, find_legs, find_pair
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
 
 TRUNK = ("pelvis", "waist", "chest", "neck", "head")
 LEG = ("hip", "knee", "ankle", "ball")
-LIMBS = ("clavicle", "shoulder", "elbow", "wrist", *LEG)
+ARM = ("shoulder", "elbow", "wrist")
+LIMBS = ("clavicle", *ARM, *LEG)
 SIDES = ("left", "right")
 FEET = tuple(f"{side} {part}" for side in SIDES for part in ("ankle", "ball"))
 ROLES = (*TRUNK, *(f"{side} {part}" for side in SIDES for part in LIMBS))
 """What a joint can be to a body: from "pelvis" to "right ball"."""
-
-# Shoulder, elbow and wrist of a left and a right arm, as files name them; a prefix up to a colon is ignored.
-_ARMS = (
-    ("lhumerus lradius lwrist", "rhumerus rradius rwrist"),  # Acclaim, CMU
-    ("lhumerus lradius lhand", "rhumerus rradius rhand"),
-    ("LeftArm LeftForeArm LeftHand", "RightArm RightForeArm RightHand"),
-    ("LeftShoulder LeftElbow LeftWrist", "RightShoulder RightElbow RightWrist"),
-    ("UpperArm_L LowerArm_L Hand_L", "UpperArm_R LowerArm_R Hand_R"),
-    ("left_shoulder left_elbow left_wrist", "right_shoulder right_elbow right_wrist"),
-    ("LeftUpArm LeftLowArm LeftHand", "RightUpArm RightLowArm RightHand"),
-    ("LeftUpperArm LeftLowerArm LeftHand", "RightUpperArm RightLowerArm RightHand"),
-    ("lShldr lForeArm lHand", "rShldr rForeArm rHand"),  # Poser, Daz
-    ("L_Shoulder L_Elbow L_Wrist", "R_Shoulder R_Elbow R_Wrist"),  # SMPL
-)
 
 
 def roles(skeleton: Skeleton) -> dict[str, int]:
@@ -57,19 +44,16 @@ def roles(skeleton: Skeleton) -> dict[str, int]:
 
     Notebook: 13-retargeting
     """
-    plain = [name.rsplit(":", 1)[-1] for name in skeleton.names]
     try:
-        legs = find_legs(skeleton)
+        limbs = zip(SIDES * 2, [*find_legs(skeleton), *find_pair(skeleton, "arms")], strict=False)
     except MocapError as error:
         raise MocapError(f"{str(error).split(' Name each')[0]} Rename the joints.") from None
-    found = {
-        f"{s} {part}": n for s, leg in zip(SIDES, legs, strict=True) for part, n in zip(LEG, leg, strict=True)
-    }
-    arms = next((pair for pair in _ARMS if set(" ".join(pair).split()) <= set(plain)), ())
-    for side, arm in zip(SIDES, arms, strict=False):
-        names = zip(("shoulder", "elbow", "wrist"), arm.split(), strict=True)
-        found |= {f"{side} {part}": plain.index(name) for part, name in names}
-    heads = [joint for joint, name in enumerate(plain) if name.lower() == "head"]
+    found = {}
+    for side, joints in limbs:
+        parts = LEG if isinstance(joints, Leg) else ARM
+        found |= {f"{side} {part}": joint for part, joint in zip(parts, joints, strict=True)}
+    names = [name.rsplit(":", 1)[-1].lower() for name in skeleton.names]
+    heads = [joint for joint, name in enumerate(names) if name == "head"]
     found |= {"head": heads[0]} if heads else {}
     found |= _trunk(skeleton, found)
     return {role: found[role] for role in ROLES if role in found}

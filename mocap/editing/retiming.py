@@ -126,14 +126,8 @@ def at_frames(motion: Motion, frames: ArrayLike) -> Motion:
         if frame is not here:  # from a frame to itself nothing turns
             away = rotations.to_rotvec(rotations.multiply(back, motion.rotations[frame]))
             turn += weight[:, None, None] * away
-    nearest = np.round(moments).astype(int)
-    return replace(
-        motion,
-        root_positions=root,
-        rotations=rotations.multiply(base, rotations.from_rotvec(turn)),
-        labels={name: mark[nearest] for name, mark in motion.labels.items()},
-        contacts={name: mark[nearest] for name, mark in motion.contacts.items()},
-    )
+    turned, nearest = rotations.multiply(base, rotations.from_rotvec(turn)), np.round(moments).astype(int)
+    return replace(motion[nearest], root_positions=root, rotations=turned)
 
 
 def _checked(keys: TimeKeys) -> tuple[Array, Array]:

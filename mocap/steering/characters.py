@@ -1,7 +1,6 @@
 """A character that can be commanded: what all controllers have in common.
 
-A command is a heading and a speed, which `require_command` checks. Where its frames come from clips that lie
-elsewhere, `place_frames` puts them on the ground.
+A command is a heading and a speed, which `require_command` checks.
 
 `steer` (and `measure_delay` of `delays`) work with anything that fits `Character`, so each new way of control
 can be steered, seen and measured as those before it.
@@ -16,7 +15,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Mask
 from mocap.body.motion import Motion
-from mocap.body.planar import PlanarTransform, on_ground
+from mocap.body.planar import on_ground
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
 
@@ -77,22 +76,6 @@ def require_command(heading: float, speed: float) -> None:
     """Raise `MocapError` unless a command is a finite heading and a finite speed from 0 on."""
     if not (np.isfinite(heading) and np.isfinite(speed) and speed >= 0):
         raise MocapError(f"A command is a finite heading and a speed from 0 on, got {heading}, {speed}.")
-
-
-def place_frames(place: PlanarTransform, roots: Array, turns: Array) -> tuple[Array, Array]:
-    """Put frames of a clip on the ground: root positions (..., 3), and rotations (..., J, 4).
-
-    Examples
-    --------
-    >>> roots, turns = place_frames(PlanarTransform(0.0, 2.0, 0.0), np.zeros(3), np.array([[1.0, 0, 0, 0]]))
-    >>> roots, turns
-    (array([2., 0., 0.]), array([[1., 0., 0., 0.]]))
-
-    Notebook: 18-motion-matching
-    """
-    turned = turns.copy()
-    turned[..., 0, :] = place.apply_orientations(turned[..., 0, :])
-    return place.apply_points(roots), turned
 
 
 class Steered(NamedTuple):

@@ -22,7 +22,7 @@ from mocap.body.planar import PlanarTransform, on_ground
 from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph, Node
-from mocap.steering.characters import Pose, place_frames, require_command
+from mocap.steering.characters import Pose, require_command
 
 SEAM = 0.1  # m²/s, as all costs here
 LABEL = 4.0  # m²/s per second
@@ -229,7 +229,7 @@ class Controller:
         """Place one frame of a clip: root position and rotations."""
         clip, frame = self.graph.source.clips[at[0]], at[1]
         place = PlanarTransform.from_complex(turn, move)
-        return place_frames(place, clip.root_positions[frame], clip.rotations[frame])
+        return place.apply_frames(clip.root_positions[frame], clip.rotations[frame])
 
     def _restart(self) -> None:
         """Look ahead anew, from the end of the hop under way, with one walk without hops."""

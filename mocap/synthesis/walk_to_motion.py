@@ -218,9 +218,7 @@ def _placed(
         roots[of_clip] = motion_graph.clips[clip].root_positions[frames[of_clip, 1]]
         turns[of_clip] = motion_graph.clips[clip].rotations[frames[of_clip, 1]]
     place = PlanarTransform(*(np.asarray(numbers)[chosen] for numbers in places))
-    turned = place.angle != 0  # frames without a turn stay bit for bit
-    turns[turned, 0] = rotations.multiply(rotations.about_y(place.angle)[turned], turns[turned, 0])
-    return place.apply_points(roots), turns
+    return place.apply_frames(roots, turns)
 
 
 def _marks(motion_graph: MotionGraph, owner: Indices, kind: str) -> dict[str, Mask]:

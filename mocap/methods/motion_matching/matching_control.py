@@ -12,7 +12,7 @@ from mocap.errors import MocapWarning
 from mocap.methods.motion_matching.nearest_frames import FrameSearch, Wants, foresee
 from mocap.methods.motion_matching.pose_database import FUTURE, PoseDatabase
 from mocap.methods.motion_matching.springs import fade
-from mocap.steering.characters import Pose, place_frames, require_command
+from mocap.steering.characters import Pose, require_command
 
 USUAL = Wants()
 
@@ -140,7 +140,7 @@ class MotionMatcher:
         move = complex(self.place.turn * table.ground[old] + self.place.move - turn * table.ground[new])
         place = PlanarTransform.from_complex(turn, move)
         root, shown = self._placed(self.place, old)
-        new_root, new_turns = place_frames(place, table.roots[new], table.turns[new])
+        new_root, new_turns = place.apply_frames(table.roots[new], table.turns[new])
         differ = rotations.to_rotvec(rotations.multiply(rotations.inverse(new_turns), shown))
         self.offset = np.concatenate([[root - new_root], differ])
         self.offset_speed = self.offset_speed + self._speeds(self.place, old) - self._speeds(place, new)
@@ -149,7 +149,7 @@ class MotionMatcher:
 
     def _placed(self, place: PlanarTransform, frame: int) -> tuple[Array, Array]:
         """Place a frame, with the offset: root (3,) and turns (J, 4)."""
-        root, turns = place_frames(place, self.database.roots[frame], self.database.turns[frame])
+        root, turns = place.apply_frames(self.database.roots[frame], self.database.turns[frame])
         return root + self.offset[0], rotations.multiply(turns, rotations.from_rotvec(self.offset[1:]))
 
     def _speeds(self, place: PlanarTransform, frame: int) -> Array:
