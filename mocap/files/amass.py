@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 import tomllib
-import warnings
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -24,7 +23,7 @@ from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from mocap.errors import FormatError, MocapError, MocapWarning
+from mocap.errors import FormatError, MocapError, warn
 
 _JOINTS: dict[str, Any] = tomllib.loads(Path(__file__).with_name("smpl.toml").read_text("utf-8"))
 SKELETON = replace(Skeleton.from_table(_JOINTS), dofs=["xyz"] * len(_JOINTS))
@@ -85,11 +84,10 @@ def read(path: str | Path, *, fps: float | None = None) -> Motion:
         few = betas is not None and betas.dtype.kind in "fiu" and math.prod(betas.shape) <= WIDTH
         shaped = betas is not None and few and betas.read().any()
     if shaped:
-        warnings.warn(
+        warn(
             f"{path}: betas, the shape of the body, are ignored: the bones are those of the mean body, so "
             "feet may stand some centimetres above or below the ground.",
-            MocapWarning,
-            stacklevel=4,
+            3,
         )
     local = rotations.from_rotvec(poses.reshape(len(poses), -1, 3))
     local[:, 0] = rotations.multiply(UPRIGHT, local[:, 0])

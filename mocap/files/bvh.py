@@ -8,10 +8,10 @@ centimetre. `bvh_hierarchy` says how joints are named.
 from __future__ import annotations
 
 import re
-import warnings
 from collections.abc import Iterable
 from dataclasses import replace
 from decimal import Decimal
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -22,11 +22,12 @@ from mocap._shared.atomic import replacing
 from mocap.body import euler, rotations
 from mocap.body.motion import Motion, turning
 from mocap.body.skeleton import Skeleton
-from mocap.errors import FormatError, MocapError, MocapWarning, shortened
+from mocap.errors import FormatError, MocapError, shortened, warn
 from mocap.files.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
 from mocap.files.rigid_bones import STRETCH, fit
 from mocap.files.text import check_room, quick_numbers, read_text, rounded, to_numbers
 
+SCALE = 0.01  # metres in one unit of the files that are written, and by default of those that are read
 STILL = 1e-5  # metres that a fixed joint may move in its parent's frame: rounding of printed numbers
 SHORTEST, LONGEST = 1e-5, 10.0  # seconds a frame may last
 TIMES = re.compile(
@@ -35,7 +36,7 @@ TIMES = re.compile(
 
 
 def read(
-    path: str | Path, *, scale: float = 0.01, fps: float | None = None, stretch: float = STRETCH
+    path: str | Path, *, scale: float = SCALE, fps: float | None = None, stretch: float = STRETCH
 ) -> Motion:
     """Read a BVH file.
 
@@ -69,7 +70,7 @@ def read(
     return Motion(skeleton, places[:, 0], local, rate, Path(path).stem)
 
 
-def bone_stretch(path: str | Path, *, scale: float = 0.01) -> dict[str, float]:
+def bone_stretch(path: str | Path, *, scale: float = SCALE) -> dict[str, float]:
     """Measure by how much each joint's bone, from its parent to it, changes its length, metres."""
     joints, places, *_ = _read_poses(path, scale, 1.0)
     changes = np.ptp(np.linalg.norm(places[:, 1:], axis=-1), axis=0)
@@ -172,12 +173,11 @@ def _rigid(
         far, mover = max((float(np.ptp(places[:, j], axis=0).max()), j) for j in moving)
         expected = f"'{joints[mover].name}' in one place below its parent, but for {most:g} m"
         raise FormatError(path, joints[mover].line, expected, f"one that moves by {far:.2g} m")
-    warnings.warn(
+    warn(
         f"{path}: bones change length by up to {1000 * rigid.stretch[worst]:.2g} mm "
         f"({shortened(joints[worst].name, 40)}); fitted to rigid bones, joints lie up to "
         f"{1000 * rigid.apart.max():.2g} mm from their places in the file.",
-        MocapWarning,
-        stacklevel=5,
+        4,
     )
     return rigid.offsets, rigid.rotations
 
@@ -186,8 +186,8 @@ def _moves(place: Array, scale: float) -> bool:
     return bool(np.ptp(place, axis=0).max() * scale > STILL)
 
 
-def write(motion: Motion, path: str | Path, *, scale: float = 0.01, precision: int = 6) -> None:
-    """Write a BVH file.
+def write(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
+    """Write a BVH file, in centimetres.
 
     Joints are written depth first. A leaf that never turns, and has the name that reading would give it,
     becomes an End Site; any other leaf is a joint with an End Site of zero length. Of all equal angles the
@@ -197,14 +197,13 @@ def write(motion: Motion, path: str | Path, *, scale: float = 0.01, precision: i
     ----------
     motion : F frames.
     path : the file; one that exists is replaced when the new one is whole.
-    scale : metres in one unit of the file.
-    precision : digits after the point; 6 keep joints to 1e-7 m in centimetres.
+    precision : digits after the point; 6 keep joints to 1e-7 m.
 
     Raises
     ------
     MocapError : for a name or frame rate that a BVH file cannot hold, or a folder that cannot be written to.
     """
-    write_pieces([motion], path, frames=len(motion), turns=turning(motion), printing=(scale, precision))
+    write_pieces([motion], path, frames=len(motion), turns=turning(motion), precision=precision)
 
 
 def write_pieces(
@@ -213,7 +212,7 @@ def write_pieces(
     *,
     frames: int,
     turns: NDArray[np.bool_],
-    printing: tuple[float, int] = (0.01, 6),
+    precision: int = 6,
 ) -> None:
     """Write a BVH file of motions that follow one another, with only one of them in memory at a time.
 
@@ -223,35 +222,22 @@ def write_pieces(
     path : the file; it appears once it is whole.
     frames : the count in the file's header.
     turns : shape (J,), which joints ever turn, as by `body.motion.turning`.
-    printing : the scale, and the digits after the point, as for `write`.
+    precision : as for `write`.
     """
-    scale, precision = printing
-    before: Array | None = None
+    first = next(pieces := iter(pieces))
+    seconds, name = 1 / first.fps, shortened(first.name)
+    if not SHORTEST <= seconds <= LONGEST:
+        raise MocapError(f"'{name}' at {first.fps:g} Hz does not fit a BVH file: resample it first.")
+    offsets = np.round(first.skeleton.offsets / SCALE, precision) + 0.0  # no -0.000000
+    hierarchy, order = write_hierarchy(first.skeleton, offsets, turns, precision)
+    before = np.empty((0, len(order), 3))
     with replacing(path) as beside, beside.open("w", encoding="utf-8", newline="\n") as file:
-        for motion in pieces:
-            if before is None:
-                header, order = _header(motion, frames, turns, printing)
-                file.write(header)
-            angles = euler.to_euler("ZXY", motion.rotations[:, order])
-            if before is not None:  # go on from the angles of the frame before
-                angles = np.concatenate([before, angles])
+        file.write(f"{hierarchy}MOTION\nFrames: {frames}\nFrame Time: {seconds!r}\n")
+        for motion in chain([first], pieces):  # the angles go on from those of the frame before
+            angles = np.concatenate([before, euler.to_euler("ZXY", motion.rotations[:, order])])
             angles = euler.continuous("ZXY", angles)[-len(motion) :]
             before = angles[-1:]
-            values = np.hstack([motion.root_positions / scale, np.degrees(angles).reshape(len(motion), -1)])
+            values = np.hstack([motion.root_positions / SCALE, np.degrees(angles).reshape(len(motion), -1)])
             values = rounded(values, precision, motion.name)
             row = " ".join([f"%.{precision}f"] * values.shape[1]) + "\n"
             file.write((row * len(values)) % tuple(values.ravel().tolist()))
-
-
-def _header(
-    motion: Motion, frames: int, turns: NDArray[np.bool_], printing: tuple[float, int]
-) -> tuple[str, list[int]]:
-    """Write all that comes before the frames, and list the joints in the order of their channels."""
-    seconds = 1 / motion.fps
-    if not SHORTEST <= seconds <= LONGEST:
-        name = shortened(motion.name)
-        raise MocapError(f"'{name}' at {motion.fps:g} Hz does not fit a BVH file: resample it first.")
-    scale, precision = printing
-    offsets = np.round(motion.skeleton.offsets / scale, precision) + 0.0  # no -0.000000
-    hierarchy, order = write_hierarchy(motion.skeleton, offsets, turns, precision)
-    return f"{hierarchy}MOTION\nFrames: {frames}\nFrame Time: {seconds!r}\n", order

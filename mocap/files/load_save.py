@@ -65,9 +65,10 @@ def load(
             asf = _skeleton_for(path) if skeleton is None else Path(skeleton)
             return acclaim.read_amc(path, read_skeleton(asf, scale=scale), fps=fps)
         case ".bvh":
-            return bvh.read(path, scale=scale or 0.01, fps=fps, stretch=stretch)
+            return bvh.read(path, scale=scale or bvh.SCALE, fps=fps, stretch=stretch)
         case ".npz":
-            _require_metres(".npz", scale)
+            if scale not in (None, 1.0):
+                raise MocapError(f"All .npz files are in metres: leave out scale={scale:g}.")
             return amass.read(path, fps=fps)
         case ".asf":
             raise MocapError(f"{path} is a skeleton without a motion: load_skeleton reads it.")
@@ -155,10 +156,10 @@ def bone_stretch(path: str | Path, *, scale: float | None = None) -> dict[str, f
     {}
     """
     _check("scale", scale)
-    return bvh.bone_stretch(path, scale=scale or 0.01) if Path(path).suffix.lower() == ".bvh" else {}
+    return bvh.bone_stretch(path, scale=scale or bvh.SCALE) if Path(path).suffix.lower() == ".bvh" else {}
 
 
-def save(motion: Motion, path: str | Path, *, scale: float | None = None, precision: int = 6) -> None:
+def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
     """Write a motion to a file; an old file is replaced when the new one is whole.
 
     These formats cannot hold marks (labels and contacts), so they are left out.
@@ -168,9 +169,8 @@ def save(motion: Motion, path: str | Path, *, scale: float | None = None, precis
     motion : F frames.
     path : the file, `.bvh` or `.glb`. A `.glb` is for engines and viewers: it is in metres, holds a body of
         capsules as well, and is not read.
-    scale : for `.bvh`, metres in one unit of the file, by default 0.01.
-    precision : for `.bvh`, digits after the point, by default 6, which keep joints to 1e-7 m; 9 keep them to
-        1e-10 m.
+    precision : for `.bvh`, which is in centimetres, digits after the point; by default 6, which keep joints
+        to 1e-7 m; 9 keep them to 1e-10 m.
 
     Raises
     ------
@@ -189,14 +189,12 @@ def save(motion: Motion, path: str | Path, *, scale: float | None = None, precis
     Notebook: 01b-motion-files
     """
     path = Path(path)
-    _check("scale", scale)
     if not 0 <= precision <= 15:
         raise MocapError(f"precision must be 0 to 15 digits, got {precision}.")
     match path.suffix.lower():
         case ".bvh":
-            bvh.write(motion, path, scale=scale or 0.01, precision=precision)
+            bvh.write(motion, path, precision=precision)
         case ".glb":
-            _require_metres(".glb", scale)
             gltf.write(motion, path)
         case _:
             raise MocapError(f"Cannot write {path}: mocap writes {WRITTEN}.")
@@ -205,11 +203,6 @@ def save(motion: Motion, path: str | Path, *, scale: float | None = None, precis
 def _check(name: str, value: float | None) -> None:
     if value is not None and not (math.isfinite(value) and value > 0):
         raise MocapError(f"{name} must be a number above 0, got {value}.")
-
-
-def _require_metres(suffix: str, scale: float | None) -> None:
-    if scale not in (None, 1.0):
-        raise MocapError(f"All {suffix} files are in metres: leave out scale={scale:g}.")
 
 
 def _skeleton_for(path: Path) -> Path:
