@@ -14,12 +14,11 @@ from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError
 from mocap.graphs.motion_graph import MotionGraph, Node, from_transitions
-from mocap.matching.point_clouds import align, point_cloud
-from mocap.matching.transitions import Transition
+from mocap.matching.chosen_pairs import fit
+from mocap.matching.point_clouds import distinct_joints, unit_weights
+from mocap.matching.transitions import Transition, join_clouds
 
 Ends = tuple[Node, Node]
-
-AT_ONCE = 2048  # transitions measured together, to limit the memory
 
 
 def merge_choice_points(motion_graph: MotionGraph, *, within: int, threshold: float) -> MotionGraph:
@@ -102,15 +101,9 @@ def _measured(
     clips: Sequence[Motion], window: int, ends: Sequence[Ends]
 ) -> Iterator[tuple[Ends, Transition]]:
     """Align the windows of transitions from node to node, and measure the RMS distance that remains."""
-    clouds = [point_cloud(clip).reshape(len(clip), -1) for clip in clips]
-    for first in range(0, len(ends), AT_ONCE):
-        part = ends[first : first + AT_ONCE]
-        points, others = (
-            np.stack([clouds[clip][start : start + window].reshape(-1, 3) for clip, start in starts])
-            for starts in ([a for a, _ in part], [(clip, frame - window) for _, (clip, frame) in part])
-        )  # (N, window · P, 3)
-        there = np.stack(align(points, others), axis=-1)  # (N, 3)
-        laid = PlanarTransform(*there.T[..., None]).apply_points(others)
-        costs = np.sqrt(((points - laid) ** 2).sum(-1).mean(-1))
-        for (a, b), cost, numbers in zip(part, costs.tolist(), there.tolist(), strict=True):
-            yield (a, b), Transition(a[0], a[1], b[0], b[1] - window, cost, PlanarTransform(*numbers))
+    weights = unit_weights(None, len(distinct_joints(clips[0].skeleton)))
+    cloud, starts = join_clouds(clips, weights, window, 0, np.float64), np.cumsum([0, *map(len, clips)])
+    clip, frame = np.moveaxis(np.array(ends, np.intp).reshape(-1, 2, 2), -1, 0)  # (N, 2) each
+    leave, enter = (starts[clip] + frame - [0, window]).T
+    for (a, b), (cost, *way) in zip(ends, fit(cloud, cloud, leave, enter).T.tolist(), strict=True):
+        yield (a, b), Transition(*a, b[0], b[1] - window, cost, PlanarTransform(*way))

@@ -6,7 +6,6 @@ Ground points are complex numbers z + ix, and planar transforms are p â†¦ turn Â
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
@@ -30,28 +29,6 @@ from mocap.graphs.motion_graph import MotionGraph, Node
 AHEAD = (1 / 4, 1 / 2, 3 / 4)  # seconds
 
 
-class Tracks(NamedTuple):
-    """Where the root is in the T frames of all edges, one edge after the other.
-
-    Parameters
-    ----------
-    first : shape (E,), the row at which each edge's frames start.
-    ground : shape (T,), the root on the ground, in the coordinates of the clip that the edge leaves.
-    step : shape (T,), metres from the frame before.
-    """
-
-    first: Indices
-    ground: Points
-    step: Array
-
-
-class LabelTable(NamedTuple):
-    """The labels of the T frames of all edges: `bears` has shape (L, T), in the order of the L `names`."""
-
-    names: list[str]
-    bears: Mask
-
-
 @dataclass(frozen=True, eq=False)
 class CompiledGraph:
     """A motion graph as arrays, with N nodes, E edges of T frames together, and H hops.
@@ -66,8 +43,11 @@ class CompiledGraph:
     at : shape (N,), where the root is at a node, in the coordinates of its clip.
     ahead : shape (N, 3), where it is after `AHEAD` seconds of clip; past the clip's end its velocity stays.
     going : shape (N,), the direction of its movement, or where it stands still, its heading (radians).
-    plays, tracks : shape (T,), the frames of all edges, and where the root is in them.
-    hops, labels : the hops from each node, and the labels of each frame.
+    first : shape (E,), where the frames of an edge start among those of all edges, which follow one another.
+    plays, ground, step : shape (T,), these frames; where the root is in them, in the coordinates of the clip
+        that the edge leaves; and metres from the frame before.
+    label_names, bears : the L labels, and shape (L, T), whether a frame bears them.
+    hops : the hops from each node.
     """
 
     source: MotionGraph
@@ -82,10 +62,13 @@ class CompiledGraph:
     at: Points
     ahead: Points
     going: Array
+    first: Indices
     plays: FrameTable
-    tracks: Tracks
+    ground: Points
+    step: Array
+    label_names: list[str]
+    bears: Mask
     hops: Hops
-    labels: LabelTable
 
     @property
     def fps(self) -> float:
@@ -99,10 +82,10 @@ class CompiledGraph:
 
     def label_number(self, name: str) -> int:
         """Find a label's number, -1 for "", or raise `NoWalk`."""
-        if name and name not in self.labels.names:
-            have = ", ".join(self.labels.names) or "none"
+        if name and name not in self.label_names:
+            have = ", ".join(self.label_names) or "none"
             raise NoWalk(f"No clip of the graph bears the label '{name}'; there are: {have}.")
-        return self.labels.names.index(name) if name else -1
+        return self.label_names.index(name) if name else -1
 
 
 def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
@@ -135,15 +118,16 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
     table = edge_table(graph, edges)
     frames = frame_table(table, graph.window)
     roots = on_ground(np.concatenate([clip.root_positions for clip in graph.clips]))
+    # The labels of a frame in a transition are those of the clip with the larger weight.
     marks = gather_marks([clip.labels for clip in graph.clips], frames.owner)
     bears = np.array([marks[name] for name in sorted(marks)], bool).reshape(-1, len(frames.edge))
     way = table.transform
     of_edges = (target, table.frames, table.cost, table.blended, way.turn, way.move)
     standing = _standing(graph, np.array(nodes), roots)
-    tracks = _tracks(graph, table, frames, roots)
+    first = np.cumsum(table.frames) - table.frames
+    of_frames = (first, frames, *_tracks(graph, table, frames, roots), sorted(marks), bears)
     hops = find_hops(table, leaves, len(nodes), graph.fps)
-    labels = LabelTable(sorted(marks), bears)  # in a transition those of the clip with the larger weight
-    return CompiledGraph(graph, nodes, edges, *of_edges, *standing, frames, tracks, hops, labels)
+    return CompiledGraph(graph, nodes, edges, *of_edges, *standing, *of_frames, hops)
 
 
 def _standing(graph: MotionGraph, nodes: Indices, roots: Points) -> tuple[Points, Points, Array]:
@@ -164,15 +148,15 @@ def _standing(graph: MotionGraph, nodes: Indices, roots: Points) -> tuple[Points
     return root(frame), ahead, np.where(np.abs(way) > 0.1, np.angle(way), faces)
 
 
-def _tracks(graph: MotionGraph, edges: EdgeTable, frames: FrameTable, roots: Points) -> Tracks:
-    """Follow the root along every edge, blended as the poses are [KGP02, Eq. 5]."""
+def _tracks(graph: MotionGraph, edges: EdgeTable, frames: FrameTable, roots: Points) -> tuple[Points, Array]:
+    """Follow the root along every edge, blended as the poses are [KGP02, Eq. 5]: places, and steps."""
     turn, move = edges.transform.turn[frames.edge], edges.transform.move[frames.edge]
     here, there = (roots[clip_rows(graph.clips, some)] for some in (frames.here, frames.there))
     first = np.cumsum(edges.frames) - edges.frames
     ground = frames.alpha * here + (1 - frames.alpha) * (turn * there + move)
     step = np.abs(np.diff(ground, prepend=0))
     step[first] = np.abs(ground[first] - roots[clip_rows(graph.clips, edges.leaves - np.array([0, 1]))])
-    return Tracks(first, ground, step)
+    return ground, step
 
 
 def walk_track(graph: CompiledGraph, edges: Indices, turn: complex, move: complex) -> tuple[Points, Indices]:
@@ -186,10 +170,10 @@ def walk_track(graph: CompiledGraph, edges: Indices, turn: complex, move: comple
 
     Returns
     -------
-    The root, shape (F,), and the rows in `graph.tracks`, shape (F,).
+    The root, shape (F,), and the rows of its frames among those of all edges, shape (F,).
     """
     turns = np.cumprod([turn, *graph.turn[edges]])[:-1]
     moves = move + np.concatenate([[0], np.cumsum(turns * graph.move[edges])[:-1]])
     frames = graph.frames[edges]
-    rows = ranges(graph.tracks.first[edges], frames)
-    return np.repeat(moves, frames) + np.repeat(turns, frames) * graph.tracks.ground[rows], rows
+    rows = ranges(graph.first[edges], frames)
+    return np.repeat(moves, frames) + np.repeat(turns, frames) * graph.ground[rows], rows

@@ -10,7 +10,6 @@ The functions take any `networkx.MultiDiGraph`. Its edges must have `frames` and
 pruning by labels.
 """
 
-import warnings
 from collections import Counter
 from collections.abc import Hashable, Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -21,7 +20,7 @@ import networkx as nx
 import numpy as np
 
 from mocap._shared.collector import uncollected
-from mocap.errors import MocapWarning, NoWalk
+from mocap.errors import NoWalk, warn
 from mocap.graphs.components import (
     NO_LABELS,
     Indices,
@@ -35,7 +34,7 @@ from mocap.graphs.components import (
 from mocap.graphs.motion_graph import MotionGraph
 
 
-def prune(motion_graph: MotionGraph, *, by_labels: bool = False, least_frames: int = 1) -> MotionGraph:
+def prune(motion_graph: MotionGraph, *, by_labels: bool = False) -> MotionGraph:
     """Keep the largest strongly connected component: from each of its nodes a walk can go on for ever.
 
     In the paper: [KGP02, 3.4].
@@ -48,7 +47,6 @@ def prune(motion_graph: MotionGraph, *, by_labels: bool = False, least_frames: i
     motion_graph : the graph; it is not changed.
     by_labels : keep one component for each set of labels, from the edges with exactly these, and the edges
         between the components.
-    least_frames : the number of clip frames to stay; fewer give a warning.
 
     Raises
     ------
@@ -56,7 +54,7 @@ def prune(motion_graph: MotionGraph, *, by_labels: bool = False, least_frames: i
 
     Warns
     -----
-    MocapWarning : for components with too few frames, and for components that do not reach another one.
+    MocapWarning : for components without a frame of clip, and for those that do not reach another one.
 
     Examples
     --------
@@ -70,7 +68,7 @@ def prune(motion_graph: MotionGraph, *, by_labels: bool = False, least_frames: i
 
     Notebook: 00-quickstart
     """
-    pruning = prune_graph(motion_graph.graph, by_labels=by_labels, least_frames=least_frames)
+    pruning = prune_graph(motion_graph.graph, by_labels=by_labels)
     return replace(motion_graph, graph=pruning.graph)
 
 
@@ -201,8 +199,8 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
     pruned = graph.copy()  # its nodes keep their order, which random walks depend on
     pruned.remove_nodes_from([node for node in graph if node not in kept])
     frames = {labels: count for labels, (_, count) in found.items()}
-    for message in (*_too_short(frames, least_frames), *_missing_ways(pruned, components)):
-        warnings.warn(message, MocapWarning, stacklevel=4)  # points at the caller of `graphs.prune`
+    for message in _shortcomings(frames, least_frames, pruned, components):
+        warn(message, 3)  # points at the caller of `graphs.prune`
     reasons = _reasons(graph, ways, kept)
     removed = {
         (start, end, key): reasons[start if end in kept else end]
@@ -227,17 +225,15 @@ def _reasons(graph: nx.MultiDiGraph, ways: Indices, kept: Nodes) -> dict[Hashabl
     return reasons
 
 
-def _too_short(frames: Mapping[Labels, int], least: int) -> Iterator[str]:
-    """Write a message for each label set of which fewer frames stay than asked for."""
+def _shortcomings(
+    frames: Mapping[Labels, int], least: int, graph: nx.MultiDiGraph, components: Mapping[Labels, Nodes]
+) -> Iterator[str]:
+    """Say of which label sets fewer frames stay than asked for, and which components do not reach another."""
     for labels, count in frames.items():
         together = NO_LABELS.union(*(other for other in frames if other < labels))
         if count < least and (labels != together or not labels):
             kind = f" with {name(labels)}" if len(frames) > 1 else ""
             yield f"{count} frames of clip stay{kind}, fewer than the {least} asked for."
-
-
-def _missing_ways(graph: nx.MultiDiGraph, components: Mapping[Labels, Nodes]) -> Iterator[str]:
-    """Write a message for each ordered pair of components without a way from the first to the second."""
     ways = {labels: reached(graph, nodes) for labels, nodes in components.items()}
     for here, there in permutations(components, 2):
         if not components[there] & ways[here]:

@@ -45,7 +45,7 @@ def turning_of(graph: CompiledGraph) -> OwnTurning:
     >>> clips = [body.resample(datasets.sample("walk_circle"), 30)]
     >>> graph = graphs.compile_graph(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
     >>> own = turning_of(graph)
-    >>> len(own.turn) == len(own.step) == len(graph.tracks.step)
+    >>> len(own.turn) == len(own.step) == len(graph.step)
     True
     """
     clips = graph.source.clips
@@ -53,7 +53,7 @@ def turning_of(graph: CompiledGraph) -> OwnTurning:
     points = on_ground(np.stack(place, axis=1))
     steps = np.diff(along, prepend=along[0])
     steps[np.cumsum([0, *map(len, clips[:-1])])] = 0.0
-    plays, starts = graph.plays, graph.tracks.first
+    plays, starts = graph.plays, graph.first
     here, there, weight = clip_rows(clips, plays.here), clip_rows(clips, plays.there), 1 - plays.alpha
     other = heads[there] + np.angle(graph.turn)[plays.edge]
     apart = (other - heads[here] + np.pi) % (2 * np.pi) - np.pi
@@ -72,7 +72,7 @@ def own_ride(graph: CompiledGraph, own: OwnTurning, edges: Indices) -> Ride:
     A spline through the whole walk would be too slow where a seam leads from a bend to the left into one to
     the right: the walk strays from its own path there, and from a line on which it is laid, by up to 10 cm.
     """
-    paths = replace(graph, tracks=graph.tracks._replace(ground=own.ground))
+    paths = replace(graph, ground=own.ground)
     points, _ = walk_track(paths, edges, 1.0, 0.0)
     along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(points)))])
     return Ride(GroundPath(from_ground(points)), along)

@@ -103,7 +103,7 @@ def account(graph: CompiledGraph, path: GroundPath, route: Route, found: Found) 
     """Measure how far a walk is from its path, and find the frames without the label asked for."""
     body, rows = walk_track(graph, found.edges, found.turn, found.move)
     label = route.label[route.point(found.along)]
-    bears = graph.labels.bears[label, rows] if graph.labels.names else np.zeros(len(rows), bool)
+    bears = graph.bears[label, rows] if graph.label_names else np.zeros(len(rows), bool)
     # The distance is that from the path within 0.5 m of where the body should be, shape (F, pieces).
     reach = int(0.5 / route.spacing) + 1
     near = (found.along / route.spacing).astype(np.intp)[:, None] + np.arange(-reach, reach)

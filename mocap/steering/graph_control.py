@@ -48,7 +48,7 @@ class LookAhead:
     """
 
     def __init__(self, graph: CompiledGraph) -> None:
-        hops, bears = graph.hops, graph.labels.bears
+        hops, bears = graph.hops, graph.bears
         self.graph = graph
         # The root's way on the ground over each hop (H,), in the coordinates of the clip that it leaves.
         leaves = np.repeat(np.arange(len(graph.nodes)), np.diff(hops.first))
@@ -205,7 +205,7 @@ class Controller:
 
     def _played(self) -> tuple[Node, Node, float]:
         """Give the two clip frames, and the weight of the first one, that the last frame is made of."""
-        plays, row = self.graph.plays, self.graph.tracks.first[self.edges[0]] + self.frame - 1
+        plays, row = self.graph.plays, self.graph.first[self.edges[0]] + self.frame - 1
         here, there = plays.here[row].tolist(), plays.there[row].tolist()
         return here, there, float(plays.alpha[row])
 

@@ -126,4 +126,4 @@ def choices(graph: CompiledGraph, moment: Moment, *, way: int, limit: float) -> 
         )
     good = good[off[good] <= limit]
     edge = graph.plays.edge[rows[good]]
-    return Choices(edge, rows[good] - graph.tracks.first[edge], laid.turn[good], laid.move[good], off[good])
+    return Choices(edge, rows[good] - graph.first[edge], laid.turn[good], laid.move[good], off[good])

@@ -221,7 +221,7 @@ def make_route(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Route:
 
 def least_progress(graph: CompiledGraph, route: Route) -> Array:
     """Give each frame's progress, all edges, (T,): its step, or γ if it is less [KGP02, least progress]."""
-    return np.maximum(graph.tracks.step, LEAST / graph.fps)
+    return np.maximum(graph.step, LEAST / graph.fps)
 
 
 def _clock(along: Array, wishes: Wishes) -> Array:

@@ -131,7 +131,7 @@ class PathSearch(LayeredSearch):
         row, number, along = self.frames_along(hop, states.along[chosen])
         of = chosen[number]
         first = np.cumsum(graph.hops.frames[hop]) - graph.hops.frames[hop]
-        body = states.move[of] + states.turn[of] * graph.tracks.ground[row]
+        body = states.move[of] + states.turn[of] * graph.ground[row]
         if own := route.own:  # radians that a frame is turned beyond what it turns itself
             turned = route.curvature[route.point(along)] * own.step[row] - own.turn[row]
             off = prices.bend * (turned * graph.fps) ** 2
@@ -143,8 +143,8 @@ class PathSearch(LayeredSearch):
             return np.asarray(np.add.reduceat(off, first))
         point, frame = route.point(along), states.frames[of] + np.arange(len(of)) - first[number]
         label, late = route.label[point], frame / graph.fps - route.clock[point]
-        if graph.labels.names:
-            off += prices.label * ((label >= 0) & ~graph.labels.bears[label, row])
+        if graph.label_names:
+            off += prices.label * ((label >= 0) & ~graph.bears[label, row])
         off += prices.late * np.where(np.isnan(late), 0.0, late) ** 2
         off += self.crowding(body, frame)
         return np.asarray(np.add.reduceat(off, first))

@@ -73,10 +73,10 @@ class TwoSided:
         self.starts, self.ends = starts, ends = near
         self.steps = steps_between(graph, starts, ends)
         # Where the root is at each point, in the coordinates of its clip.
-        first = graph.tracks.first
-        roots = [graph.tracks.ground[first[some.stretch] + some.since] for some in near]
+        first = graph.first
+        roots = [graph.ground[first[some.stretch] + some.since] for some in near]
         self.at = np.concatenate([graph.at, *roots])
-        self.speed = float(np.percentile(graph.tracks.step * graph.fps, 75))
+        self.speed = float(np.percentile(graph.step * graph.fps, 75))
         self.here, self.there = (
             complex(some.move[0] + some.turn[0] * at[0]) for some, at in zip(near, roots, strict=True)
         )
@@ -213,6 +213,6 @@ def steps_between(graph: CompiledGraph, starts: Choices, ends: Choices) -> State
         (start[one], end[other], both, starts.since[one], ends.since[other], begun[one] + ended[other]),
     ]
     left, entered, edge, begin, stop, cost = map(np.concatenate, zip(*parts, strict=True))
-    metres, row = np.concatenate([[0.0], np.cumsum(graph.tracks.step)]), graph.tracks.first[edge]
+    metres, row = np.concatenate([[0.0], np.cumsum(graph.step)]), graph.first[edge]
     along = metres[row + stop] - metres[row + begin]
     return States(entered, graph.turn[edge], graph.move[edge], along, stop - begin, cost, left, edge)

@@ -65,13 +65,13 @@ class GroundWalks:
 
     def rows(self, edge: SearchEdge) -> slice:
         """Give the rows of an edge's frames among those of all edges."""
-        first = self.graph.tracks.first[self.number[edge]]
+        first = self.graph.first[self.number[edge]]
         return slice(first, first + self.graph.frames[self.number[edge]])
 
     def step(self, stand: Stand, edge: SearchEdge) -> tuple[Points, Stand]:
         """Walk along an edge: give the root in each of its frames, and where it leads."""
         graph, e = self.graph, self.number[edge]
-        points = stand.turn * graph.tracks.ground[self.rows(edge)] + stand.move
+        points = stand.turn * graph.ground[self.rows(edge)] + stand.move
         turn, move = stand.turn * graph.turn[e], stand.move + stand.turn * graph.move[e]
         return points, Stand(turn, move, stand.frames + int(graph.frames[e]), stand.along)
 

@@ -37,7 +37,7 @@ def test_the_track_is_the_root_of_the_motion():
     track, rows = walk_track(GRAPH, edges, complex(turn), move)
     motion = to_motion(GRAPH.source, walk, place=PlanarTransform(0.7, 4.0, 3.0))
     assert track == pytest.approx(on_ground(motion.root_positions), abs=1e-9)
-    assert np.abs(np.diff(track)) == pytest.approx(GRAPH.tracks.step[rows][1:], abs=1e-9)
+    assert np.abs(np.diff(track)) == pytest.approx(GRAPH.step[rows][1:], abs=1e-9)
 
 
 def test_labels_are_those_of_the_motion():
@@ -46,7 +46,7 @@ def test_labels_are_those_of_the_motion():
     number = {edge: n for n, edge in enumerate(graph.edges)}
     _, rows = walk_track(graph, np.array([number[edge] for edge in walk]), 1 + 0j, 0j)
     motion = to_motion(graph.source, walk)
-    for label, bears in zip(graph.labels.names, graph.labels.bears, strict=True):
+    for label, bears in zip(graph.label_names, graph.bears, strict=True):
         assert np.array_equal(bears[rows], motion.labels.get(label, np.zeros(len(rows), bool)))
 
 
@@ -85,7 +85,7 @@ def test_a_hop_plays_the_frames_of_its_edges():
 
 def test_a_label_has_a_number():
     graph = sneaking()
-    assert [graph.labels.names[graph.label_number(name)] for name in ("sneak", "walk")] == ["sneak", "walk"]
+    assert [graph.label_names[graph.label_number(name)] for name in ("sneak", "walk")] == ["sneak", "walk"]
     assert graph.label_number("") == -1
     refused("bears the label 'fly'; there are: sneak, walk", graph.label_number, "fly", kind=NoWalk)
 

@@ -22,7 +22,7 @@ def ride_edges(clip):
 
 
 def rows_of(edges):
-    return np.concatenate([np.arange(GRAPH.frames[e]) + GRAPH.tracks.first[e] for e in edges])
+    return np.concatenate([np.arange(GRAPH.frames[e]) + GRAPH.first[e] for e in edges])
 
 
 def test_along_a_clip_it_is_the_clips_own_path():

@@ -28,6 +28,6 @@ def test_points_are_met_and_lines_join_them(seed, count):
 
 def test_a_path_may_be_as_long_as_the_clips_walk_in_an_hour():
     graph = walking()
-    speeds = graph.tracks.step[graph.tracks.first[~graph.blended]] * graph.fps
+    speeds = graph.step[graph.first[~graph.blended]] * graph.fps
     make_route(graph, GroundPath([[0, 0], [0, 3600 * speeds.mean()]]), Wishes())
     refused("in an hour", make_route, graph, GroundPath([[0, 0], [0, 3600 * speeds.max()]]), Wishes())

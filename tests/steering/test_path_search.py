@@ -139,13 +139,13 @@ def test_a_hop_costs_what_its_frames_are_off():
     for number in range(0, len(hop), 3):
         walk, cost = of[number], 0.0
         rows, _ = graph.hops.rows(hop[[number]])
-        along = start.along[walk] + np.cumsum(np.maximum(graph.tracks.step[rows], 0.3 / 30))
+        along = start.along[walk] + np.cumsum(np.maximum(graph.step[rows], 0.3 / 30))
         for count, (row, metres) in enumerate(zip(rows, along, strict=True)):
-            body = start.move[walk] + start.turn[walk] * graph.tracks.ground[row]
+            body = start.move[walk] + start.turn[walk] * graph.ground[row]
             off = abs(body - route.at(np.array([metres]))[0]) ** 2
             cost += off + 100 * off**2
             point = route.point(np.array([metres]))[0]
-            sneaks = graph.labels.bears[graph.label_number("sneak"), row]
+            sneaks = graph.bears[graph.label_number("sneak"), row]
             cost += 0.1 * (route.label[point] >= 0 and not sneaks)
             cost += 0.2 * ((start.frames[walk] + count) / 30 - route.clock[point]) ** 2
         assert costs[number] == pytest.approx(cost, rel=1e-6)
