@@ -12,9 +12,6 @@ AT_ONCE = 1024  # pairs measured together, to limit the memory
 def pair_distances(a: Cloud, b: Cloud, i: Indices, j: Indices) -> Floats:
     """Measure D between the windows i of one cloud and j of another, as `cloud_distances` does for all.
 
-    Pairs that follow each other on a diagonal, (i, j) and (i + 1, j + 1), share all pairs of frames but one.
-    So each pair of frames in such a run is multiplied once, and each window adds up k of these products.
-
     Parameters
     ----------
     a, b : two clouds, or the same one twice.
@@ -32,28 +29,13 @@ def pair_distances(a: Cloud, b: Cloud, i: Indices, j: Indices) -> Floats:
     >>> pair_distances(ready, ready, np.array([0]), np.array([1]))
     array([0.5])
     """
-    order = np.lexsort((i, j - i))  # by diagonal, and by frame on each
-    distances = np.empty(len(i), a.heights.dtype)
-    for start in range(0, len(i), AT_ONCE):
-        some = order[start : start + AT_ONCE]
-        distances[some] = _in_runs(a, b, i[some], j[some])
-    return distances
-
-
-def _in_runs(a: Cloud, b: Cloud, i: Indices, j: Indices) -> Floats:
-    """Measure D of pairs sorted by diagonal."""
-    window, share = a.window, a.heights.dtype.type(1 / a.window)
-    step = np.diff(i, prepend=i[:1] - window)
-    same = np.diff(j - i, prepend=(j - i)[:1]) == 0
-    fresh = np.where(same & (step < window), step, window)  # pairs of frames that the pair before lacks
-    starts = np.cumsum(fresh) - window  # of each window's products, in the list of all
-    frames = np.arange(fresh.sum()) - np.repeat(starts, fresh)
-    rows, columns = np.repeat(i, fresh) + frames, np.repeat(j, fresh) + frames
-    ground = np.vecdot(a.ground[rows], b.ground[columns])
-    heights = np.vecdot(a.heights[rows], b.heights[columns])
-    across = np.vecdot(a.paths[i], b.paths[j])
-    across += sum(share * ground[starts + f] for f in range(window))
-    up = sum(share * heights[starts + f] for f in range(window))
+    if len(i) > AT_ONCE:
+        parts = [slice(start, start + AT_ONCE) for start in range(0, len(i), AT_ONCE)]
+        return np.concatenate([pair_distances(a, b, i[part], j[part]) for part in parts])
+    share, frames = a.heights.dtype.type(1 / a.window), np.arange(a.window)
+    rows, columns = i[:, None] + frames, j[:, None] + frames
+    across = np.vecdot(a.paths[i], b.paths[j]) + share * np.vecdot(a.ground[rows], b.ground[columns]).sum(1)
+    up = share * np.vecdot(a.heights[rows], b.heights[columns]).sum(1)
     return np.asarray(np.maximum(a.sizes[i] + b.sizes[j] - 2 * (np.abs(across) + up), 0))
 
 

@@ -152,8 +152,8 @@ def test_a_flipped_byte_is_refused_or_does_no_harm(saved, place, flip):
 def test_clips_are_found_where_they_were_and_where_they_moved_together(tmp_path):
     clips = tmp_path / "project" / "clips"
     clips.mkdir(parents=True)
-    load_save.save(wave(60, name="p"), clips / "p.bvh", scale=0.0254)
-    graph = build([load_save.load(clips / "p.bvh", scale=0.0254)], window=8, threshold=0.05)
+    load_save.save(wave(60, name="p"), clips / "p.bvh")
+    graph = build([load_save.load(clips / "p.bvh", scale=0.0254)], window=8, threshold=0.13)
     file = tmp_path / "project" / "graph.npz"
     storage.save(graph, file, [Origin(clips / "p.bvh", scale=0.0254)])
 
