@@ -35,7 +35,8 @@ class Member:
 
     def __init__(self, archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> None:
         self.archive, self.entry = archive, entry
-        self.shape, self.dtype, self.fits = (), np.dtype(object), False
+        self.shape: tuple[int, ...] = ()
+        self.dtype, self.fits = np.dtype(object), False
         with archive.open(entry) as packed, suppress(ValueError), warnings.catch_warnings(action="ignore"):
             if npy.read_magic(packed) == (1, 0):
                 shape, _, dtype = npy.read_array_header_1_0(packed)

@@ -48,7 +48,7 @@ def roles(skeleton: Skeleton) -> dict[str, int]:
         limbs = zip(SIDES * 2, [*find_legs(skeleton), *find_pair(skeleton, "arms")], strict=False)
     except MocapError as error:
         raise MocapError(f"{str(error).split(' Name each')[0]} Rename the joints.") from None
-    found = {}
+    found: dict[str, int] = {}
     for side, joints in limbs:
         parts = LEG if isinstance(joints, Leg) else ARM
         found |= {f"{side} {part}": joint for part, joint in zip(parts, joints, strict=True)}
