@@ -57,14 +57,16 @@ class Trial(NamedTuple):
 
 def close(given: Any, wanted: Any) -> bool:  # noqa: ANN401
     """Check whether two answers are the same: numbers to 8 digits, all else exactly, item by item."""
-    if isinstance(wanted, (set, frozenset, dict, str)) or wanted is None:
+    if isinstance(wanted, set | frozenset):  # students list its items in any type
+        return {tuple(item) if np.ndim(item) else item for item in given} == wanted
+    if isinstance(wanted, dict | str) or wanted is None:
         return bool(given == wanted)
     try:
         kind = complex if np.iscomplexobj(wanted) else float
         a, b = np.asarray(given, kind), np.asarray(wanted, kind)
     except (TypeError, ValueError):
         return len(given) == len(wanted) and all(map(close, given, wanted))
-    return a.shape == b.shape and np.allclose(a, b, rtol=1e-8, atol=1e-9)
+    return a.shape == b.shape and np.allclose(a, b, rtol=1e-8, atol=1e-9, equal_nan=True)
 
 
 def close_angles(given: Any, wanted: Any) -> bool:  # noqa: ANN401
@@ -95,9 +97,10 @@ class Check:
         a sentence; `start`, the hint for a student who has not begun; `takes`, the names of the
         arguments; `draw`, an expression of `rng` that gives the arguments of one call; `right`, an expression
         of them; and `wrong`, the hint for each of several: if several fit, the first one counts. There
-        `right` stands for the right answer, and `A → B; C → D` for the answer of the function that `right`
-        calls, if its lines say B instead of A, and D instead of C. Some tables have `same`, a function that
-        compares two answers, a number of `trials`, and the `minutes` that it takes, 8 if not said.
+        `right` stands for the right answer, and `A → B; C → D` for the answer that has B instead of A, and D
+        instead of C, in its expression and in the lines of the function that this calls. Some tables have
+        `same`, a function that compares two answers, a number of `trials`, and the `minutes` that it takes,
+        8 if not said.
     known : what the expressions may use.
     notebook : the number of the notebook that asks for it, such as 04b.
 
@@ -133,6 +136,7 @@ class Check:
         self._table, self._known = table, {**globals(), **known}
         self.same = eval(table.get("same", "close"), self._known)
         called = re.findall(r"(?<![\w.)])[A-Za-z_][\w.]*(?=\()", table["right"])
+        called = [word for word in called if word.partition(".")[0] in self._known]
         named = {word.split(".")[-1]: getattr(eval(word, self._known), "__module__", "") for word in called}
         self.oracles = [name for name, room in named.items() if re.match(r"mocap\.(?!course\.)", room or "")]
         self.draw, self.truth = self._function(table["draw"], "rng"), self._function("right", table["takes"])
@@ -143,10 +147,11 @@ class Check:
         """Make a function of an expression of a table."""
         names, right = dict(self._known), self._table["right"]
         if "→" in expression:
-            lines = inspect.getsource(names[right.partition("(")[0]])
+            called = names.get(right.partition("(")[0])
+            lines = inspect.getsource(called) if inspect.isfunction(called) else ""
             for change in expression.split("; "):
                 old, new = change.split(" → ")
-                lines = lines.replace(old, new)
+                lines, right = lines.replace(old, new), right.replace(old, new)
             exec(lines, names)
             expression = "right"
         expression = re.sub(r"\bright\b", lambda _: f"({right})", expression)

@@ -20,11 +20,6 @@ def draw_offset_curve(rng: np.random.Generator) -> tuple[Array, int, Array, Arra
     return q, key, pose, share
 
 
-def own(q: Array, key: int, pose: Array) -> Array:
-    """Give the offset at the key, in the joint's own frame."""
-    return to_rotvec(multiply(inverse(q[key]), pose))
-
-
 def long_way(quaternion: Array) -> Array:
     """Give a rotation vector without taking the shorter of the two ways."""
     w, v = quaternion[0], quaternion[1:]

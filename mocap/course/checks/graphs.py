@@ -18,11 +18,6 @@ from mocap.plain import components
 # ---- Notebook 05
 
 
-def matches(rng: np.random.Generator) -> tuple[Array, float]:
-    """Draw the distances of some matches, and the probability that the successor leaves them."""
-    return rng.uniform(100, 400, rng.integers(1, 9)), float(rng.choice([0.5, 1.0]))
-
-
 def draw_chance_to_last(rng: np.random.Generator) -> tuple[Array, int]:
     """Draw the probabilities of going from segment to segment, some without successor, and a length."""
     count = int(rng.integers(3, 9))
@@ -120,11 +115,6 @@ def after(successors: Successors, start: int) -> set[int]:
     return {int(node) for node in nx.descendants(digraph(successors), start)}
 
 
-def on_cycle(successors: Successors, node: int) -> bool:
-    """Say whether a walk from a node comes back to it."""
-    return any(node in after(successors, end) | {end} for end in successors[node])
-
-
 # ---- Notebook 06b
 
 
@@ -137,13 +127,8 @@ def draw_component_to_keep(rng: np.random.Generator) -> tuple[list[set[int]], We
         graph = digraph(draw_graph(rng))
         parts = [set(part) for part in nx.strongly_connected_components(graph)]
         edges = [(a, b, int(rng.integers(5, 400))) for a, b in graph.edges]
-        if any(played(part, edges) for part in parts):
+        if any({a, b} <= part for a, b, _ in edges for part in parts):
             return parts, edges
-
-
-def played(part: set[int], edges: Weighed) -> int:
-    """Count the frames of the edges within a set of nodes."""
-    return sum(frames for start, end, frames in edges if start in part and end in part)
 
 
 def draw_missing_ways(rng: np.random.Generator) -> tuple[nx.DiGraph, dict[str, set[int]]]:
@@ -177,7 +162,7 @@ def reasons(successors: Successors, kept: set[int]) -> dict[int, str]:
     """Say of each node outside the component why it goes."""
     found = {}
     for node in successors.keys() - kept:
-        if not on_cycle(successors, node):
+        if not any(node in after(successors, end) | {end} for end in successors[node]):
             found[node] = "dead end"
         else:
             found[node] = "unreached" if after(successors, node) & kept else "sink"

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.distance import pdist
+from scipy.spatial.distance import pdist, squareform
 
 from mocap._shared.arrays import Array, Mask, Points
 from mocap.body.planar import PlanarTransform
@@ -32,11 +32,6 @@ def turned(points: Array, angle: float) -> Array:
     return PlanarTransform(angle, 0.0, 0.0).apply_points(points)
 
 
-def gap(points: Array, others: Array) -> Array:
-    """Move from the mean of one cloud to that of another over the ground: (x, z)."""
-    return np.asarray((points.mean(0) - others.mean(0))[[0, 2]])
-
-
 def parts(points: Array, others: Array) -> tuple[float, float]:
     """Give Σ (x z' - x' z) and Σ (x x' + z z') without centring."""
     (x, _, z), (other_x, _, other_z) = points.T, others.T
@@ -57,21 +52,10 @@ def diagonal_sums(products: Array, window: int) -> Array:
     return np.asarray(np.sum([products[f : f + rows, f : f + columns] for f in range(window)], axis=0))
 
 
-def along(grid: Array, average: Callable[[Array], Any] = np.mean) -> Array:
-    """Average a grid along its diagonals."""
-    return np.array([average(grid.diagonal(n)) for n in range(len(grid))])
-
-
 def inside(grid: Array, found: NDArray[np.intp]) -> set[tuple[int, int]]:
     """Keep the places that are not on the border of a grid."""
     last = np.array(grid.shape) - 1
     return {(int(r), int(c)) for r, c in found[((found > 0) & (found < last)).all(axis=1)]}
-
-
-def same_places(given: Any, wanted: set[tuple[int, int]]) -> bool:  # noqa: ANN401
-    """Compare places, which a student may list in any order and type."""
-    found = np.reshape(np.asarray([tuple(place) for place in given], float), (-1, 2))
-    return {(int(i), int(j)) for i, j in found} == wanted
 
 
 # ---- Notebook 02c
@@ -82,16 +66,6 @@ def joined_numbers(points: Array) -> Array:
     heights, ground = points[..., 1], points[..., [0, 2]]
     radii = np.linalg.norm(ground - ground.mean(axis=(0, 1)), axis=-1)
     return np.asarray(np.concatenate([heights.ravel(), radii.ravel()]) / np.sqrt(heights.size))
-
-
-def pairs(near: NDArray[np.bool_]) -> set[tuple[int, int]]:
-    """List the places that are true."""
-    return {(int(i), int(j)) for i, j in np.argwhere(near)}
-
-
-def within_reach(rows: Array, reach: float) -> NDArray[np.bool_]:
-    """Say which rows are at most so far apart."""
-    return np.asarray(np.linalg.norm(rows[:, None] - rows, axis=-1) <= reach)
 
 
 # ---- Notebook 15
@@ -199,12 +173,6 @@ def shares(distances: Array) -> Array:
     with np.errstate(all="ignore"):
         weights = 1 / distances - 1 / distances[-1]
         return np.asarray(weights / weights.sum())
-
-
-def same_or_nan(given: Any, wanted: Any) -> bool:  # noqa: ANN401
-    """Compare numbers; those that are none are the same only as themselves."""
-    same_shape = np.shape(given) == np.shape(wanted)
-    return same_shape and np.allclose(given, wanted, rtol=1e-8, atol=1e-9, equal_nan=True)
 
 
 def draw_neighbour_weights(rng: np.random.Generator) -> tuple[Array]:

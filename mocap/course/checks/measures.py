@@ -10,12 +10,6 @@ from mocap._shared.arrays import Array, Indices, Mask
 # ---- Notebook 04b
 
 
-def stray(points: Array, planted: Mask, *, about: Array | None = None) -> float:
-    """Measure the largest distance of planted points from their mean, or from another point, in cm."""
-    centre = points[planted].mean(axis=0) if about is None else about
-    return float(100 * np.linalg.norm(points[planted] - centre, axis=1).max())
-
-
 def grown(speed: Array, start: float, stay: float, ways: tuple[int, ...] = (1, -1)) -> Mask:
     """Mark frames below `start`, and grow the marks one frame at a time while the speed is below `stay`."""
     marks = speed < start
@@ -25,17 +19,14 @@ def grown(speed: Array, start: float, stay: float, ways: tuple[int, ...] = (1, -
     return marks
 
 
-def inner(thigh: float, shank: float, distance: float) -> float:
-    """Give the angle between thigh and shank, radians."""
-    return float(np.arccos((thigh**2 + shank**2 - distance**2) / (2 * thigh * shank)))
-
-
 # ---- Notebook 09
 
 
 def draw_gap(rng: np.random.Generator) -> tuple[Array, Array]:
     """Draw how far two clips are apart, and weights that fall between frames of ones and of zeros."""
-    weights = np.concatenate([np.ones(3), falling(rng), np.zeros(3)])
+    steps = np.arange(1, int(rng.integers(8, 60)) + 1)
+    falling = (1 - steps / len(steps)) ** rng.uniform(1.5, 4)  # it rarely passes 0.5 in the middle
+    weights = np.concatenate([np.ones(3), falling, np.zeros(3)])
     return rng.normal(size=(len(weights), int(rng.integers(1, 7)))).cumsum(axis=0), weights
 
 
@@ -48,14 +39,9 @@ def added_terms(gap: Array, alpha: Array) -> tuple[Array, Array]:
 # ---- Notebook 09b
 
 
-def track(rng: np.random.Generator) -> Array:
-    """Draw the way of a joint."""
-    return np.asarray(rng.normal(size=(int(rng.integers(12, 40)), 3)).cumsum(axis=0))
-
-
 def draw_added_jolt(rng: np.random.Generator) -> tuple[Array, Array, Array, Array, float]:
     """Draw tracks of a joint in two clips, and a blend of them with a little noise."""
-    first = track(rng)
+    first = rng.normal(size=(int(rng.integers(12, 40)), 3)).cumsum(axis=0)
     second = first + rng.normal(size=first.shape).cumsum(axis=0)
     window = len(first) - 8
     alpha = np.concatenate([np.ones(4), 1 - np.arange(1, window + 1) / window, np.zeros(4)])
@@ -70,17 +56,6 @@ def added(result: Array, first: Array, second: Array, alpha: Array) -> Array:
     return np.asarray(changes[0] - share * changes[1] - (1 - share) * changes[2])
 
 
-def largest(vectors: Array) -> float:
-    """Give the length of the longest vector."""
-    return float(np.linalg.norm(vectors, axis=1).max())
-
-
-def falling(rng: np.random.Generator) -> Array:
-    """Draw weights that fall from nearly 1 to 0 and rarely pass 0.5 in the middle."""
-    steps = np.arange(1, int(rng.integers(8, 60)) + 1)
-    return (1 - steps / len(steps)) ** rng.uniform(1.5, 4)
-
-
 # ---- Notebook 10
 
 
@@ -90,8 +65,3 @@ def draw_standing(rng: np.random.Generator) -> tuple[Array, float, float]:
     speeds = np.concatenate([level * rng.uniform(0.6, 1.4, rng.integers(3, 8)) for level in levels])
     speeds[: len(speeds) - 2 : 9] = 0.7
     return speeds, 0.2, 0.9
-
-
-def share_kept(lengths: Indices, window: float, least: float = 0.0) -> float:
-    """Give the share of the frames that no window at either end of a clip takes."""
-    return float(np.maximum(least, lengths - 2 * window).sum() / lengths.sum())

@@ -48,18 +48,7 @@ def climb(skeleton: Skeleton, turns: Array, joint: int) -> Array:
 # ---- Notebook 01b
 
 
-def strikes(contact: Mask) -> Indices:
-    """Find the frames in which a foot begins to stand."""
-    return np.flatnonzero(contact[1:] & ~contact[:-1]) + 1
-
-
 # ---- Notebook 03
-
-
-def turned_shift(angle: float, x: float, z: float) -> tuple[float, float]:
-    """Turn a place on the ground."""
-    moved = PlanarTransform(angle, 0.0, 0.0).apply_points([x, 0, z])
-    return float(moved[0]), float(moved[2])
 
 
 # ---- Notebook 03b
@@ -69,16 +58,11 @@ TURN = 2 * np.pi
 Part = tuple[Array, int, int]
 
 
-def wrapped(angle: float) -> float:
-    """Bring an angle between -π and π."""
-    return (angle + np.pi) % TURN - np.pi
-
-
 def draw_turn_between(rng: np.random.Generator) -> tuple[float, float]:
     """Draw two headings; every fourth time equal, opposite, or nearly so."""
     a = float(rng.uniform(-np.pi, np.pi))
     apart = (0.0, np.pi, 1e-9, np.pi - 1e-6, *rng.uniform(-np.pi, np.pi, 12))[int(rng.integers(16))]
-    return a, wrapped(a + float(apart))
+    return a, (a + float(apart) + np.pi) % TURN - np.pi
 
 
 def draw_nearest_twin(rng: np.random.Generator) -> tuple[Array, Array]:
@@ -100,11 +84,6 @@ def near(before: ArrayLike, angles: ArrayLike) -> Array:
     """Add the whole turns that bring each angle nearest to the one before."""
     steps = np.subtract(angles, before)
     return np.asarray(np.asarray(angles) - TURN * np.round(steps / TURN))
-
-
-def nearest_of(before: ArrayLike, *candidates: ArrayLike) -> Array:
-    """Choose the angles that are nearest to those before."""
-    return np.asarray(min(candidates, key=lambda c: float(np.abs(np.subtract(c, before)).sum())))
 
 
 def draw_chain(rng: np.random.Generator) -> tuple[list[Part]]:
@@ -144,16 +123,6 @@ def draw_mix(rng: np.random.Generator) -> tuple[Motion, Motion, Array]:
     turns[1, 0] = turns[0, 0] * rng.choice([-1, 1])
     a, b = (Motion(body, rng.normal(size=(frames, 3)), own, 30.0) for own in turns)
     return a, b, np.sort(rng.uniform(0, 1, frames))[::-1].copy()
-
-
-def mixed_roots(a: Motion, b: Motion, alpha: Array) -> Array:
-    """Mix root positions on lines."""
-    return np.asarray(alpha[:, None] * a.root_positions + (1 - alpha[:, None]) * b.root_positions)
-
-
-def mixed_turns(a: Motion, b: Motion, alpha: Array) -> Array:
-    """Mix rotations by slerp."""
-    return rotations.slerp(b.rotations, a.rotations, alpha[:, None])
 
 
 def mixed_on_lines(a: Motion, b: Motion, alpha: Array, *, nearer: bool = False) -> Array:

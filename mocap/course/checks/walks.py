@@ -103,11 +103,6 @@ def path_cost(track: Array, path: Line, along: float, steps: Array) -> tuple[flo
     return float(np.sum((track[1:] - path(reached)) ** 2)), float(reached[-1])
 
 
-def step_lengths(track: Array) -> Array:
-    """Measure the steps of a track."""
-    return np.asarray(np.hypot(*np.diff(track, axis=0).T))
-
-
 def survivors(stand: Indices, costs: Array, width: int) -> Indices:
     """Keep the best of the walks that stand alike, and of these the cheapest."""
     order = np.argsort(costs)
@@ -206,14 +201,11 @@ def draw_crowding_cost(rng: np.random.Generator) -> tuple[Array, Array, float]:
     return track + shake, other + rng.normal(scale=0.1, size=2), float(rng.uniform(0.6, 1.2))
 
 
-def nearest(turn: complex, velocities: list[complex], wanted: complex) -> int:
-    """Choose the velocity that, turned, is nearest to the one wanted."""
-    return int(np.argmin([abs(turn * velocity - wanted) for velocity in velocities]))
-
-
-def mean_velocities(tracks: list[Points], fps: float, frames: int = -1) -> list[complex]:
-    """Give the mean velocity along each track of n + 1 points, which are n frames apart."""
-    return [complex(track[-1] - track[0]) / (len(track) + frames) * fps for track in tracks]
+def nearest_edge(turn: complex, tracks: list[Points], heading: float, speed: float, fps: float) -> int:
+    """Choose the track of n + 1 points whose mean velocity, turned, is nearest to the one asked for."""
+    wanted = speed * np.exp(1j * heading)
+    velocities = [complex(track[-1] - track[0]) / (len(track) - 1) * fps for track in tracks]
+    return int(np.argmin([abs(turn * v - wanted) for v in velocities]))
 
 
 def draw_next_edge(rng: np.random.Generator) -> tuple[complex, list[Points], float, float, float]:
@@ -232,14 +224,9 @@ def draw_next_edge(rng: np.random.Generator) -> tuple[complex, list[Points], flo
 # ---- Notebook 19
 
 
-def squared_distances(a: Points, b: Points) -> Array:
-    """Measure all pairs of points."""
-    return np.abs(a[:, None] - b) ** 2
-
-
 def greedy(a: Points, b: Points) -> Indices:
     """Assign the nearest pair first, then the nearest of those that are left."""
-    squares, order = squared_distances(a, b), np.zeros(len(a), int)
+    squares, order = abs(a[:, None] - b) ** 2, np.zeros(len(a), int)
     for _ in a:
         i, j = divmod(int(squares.argmin()), len(b))
         order[i] = j
