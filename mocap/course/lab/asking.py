@@ -5,7 +5,6 @@ The browser keeps bets in its local storage, under the key of each; so they outl
 
 from __future__ import annotations
 
-import random
 import re
 from collections.abc import Mapping
 from html import unescape
@@ -13,10 +12,9 @@ from typing import Any
 from zlib import crc32
 
 from mocap.course.lab.page import BLANK, Shown, listed, shown, to_html, to_text
-from mocap.course.lab.questions import Names, cell_names, filled, question, read_questions, require, rounded
+from mocap.course.lab.questions import Names, cell_names, computed, filled, question, read_questions, require
 from mocap.errors import MocapError
 
-HEADS = {"choice": "Quiz: choose one", "number": "Quiz: a number", "order": "Quiz: put in order"}
 COLUMNS = ("", "you thought", "came out", "off by")
 # What a bet is where it says nothing.
 BET: dict[str, Any] = {"choices": [], "unit": "", "low": None, "high": None, "step": 1.0, "real": False}
@@ -53,49 +51,23 @@ def quiz(key: str) -> Shown:
 
 
 def asked(key: str, quiz: dict[str, Any], names: Names) -> Shown:
-    """Show a quiz, with the numbers that a notebook computes."""
+    """Show a quiz, with the numbers that a notebook computes; its key says where the right choice stands."""
     try:
         quiz = filled(quiz, names)
         require(quiz, names)
-        items, spec = _number(quiz, names) if quiz["kind"] == "number" else _mixed(key, quiz)
     except MocapError as error:
         raise MocapError(f"Quiz {key}: {error}") from error
-    spec |= {"because": to_html(quiz["because"])}
-    lettered = quiz["kind"] == "choice"
-    inside = f'<p class="asked">{to_html(quiz["question"])}</p>\n'
-    inside += listed(map(to_html, items), "ol" if lettered else "ul")
-    marks = "abcdefghij" if lettered else "-" * len(items)
-    text = [f"{mark}{')' * lettered} {to_text(item)}" for mark, item in zip(marks, items, strict=False)]
-    return shown(HEADS[quiz["kind"]], inside, spec, [to_text(quiz["question"]), *text])
-
-
-def _number(quiz: dict[str, Any], names: Names) -> tuple[list[str], dict[str, Any]]:
-    """Give what is listed below the question, and the script's data."""
-    spec = {
-        "kind": "number",
-        "answer": rounded(quiz["answer"], names),
-        "tolerance": quiz["tolerance"],
-        "slips": [[rounded(number, names), to_html(hint)] for number, hint in quiz.get("slips", [])],
-        **{"low": to_html(quiz["too_low"]), "high": to_html(quiz["too_high"]), "unit": quiz.get("unit", "")},
-    }
-    return [f"{BLANK} {spec['unit']}".rstrip()], spec
-
-
-def _mixed(key: str, quiz: dict[str, Any]) -> tuple[list[str], dict[str, Any]]:
-    """Mix choices or steps, the same way each time."""
-    if quiz["kind"] == "choice":
-        place = quiz.get("place", 0) - 1
-        place = crc32(key.encode()) % (1 + len(quiz["wrong"])) if place < 0 else place
-        choices, hints = list(quiz["wrong"]), [to_html(hint) for hint in quiz["wrong"].values()]
-        choices.insert(place, quiz["right"])
-        hints.insert(place, "")
-        return choices, {"kind": "choice", "hints": hints}
-    right = list(range(len(quiz["steps"])))
-    mixed, draw = right.copy(), random.Random(key)
-    while mixed == right:
-        draw.shuffle(mixed)
-    spec = {"kind": "order", "order": mixed, "hints": [to_html(hint) for hint in quiz["hints"]]}
-    return [quiz["steps"][number] for number in mixed], spec
+    choices, hints = list(quiz["wrong"]), [to_html(hint) for hint in quiz["wrong"].values()]
+    place = quiz.get("place", 0) - 1
+    place = crc32(key.encode()) % (1 + len(choices)) if place < 0 else place
+    choices.insert(place, quiz["right"])
+    hints.insert(place, "")
+    asks = f'<p class="asked">{to_html(quiz["question"])}</p>\n'
+    text = [f"{letter}) {to_text(choice)}" for letter, choice in zip("abcdefghij", choices, strict=False)]
+    spec = {"kind": "choice", "hints": hints, "because": to_html(quiz["because"])}
+    return shown(
+        "Quiz: choose one", asks + listed(choices, 'ol type="a"'), spec, [to_text(quiz["question"]), *text]
+    )
 
 
 def bet(*keys: str) -> Shown:
@@ -135,7 +107,7 @@ def asked_before(bets: Bets, names: Names) -> Shown:
         lines.append(f"{_led(ask)} {blank}")
         spec = {"key": key, "choices": list(map(to_text, choices)), "ask": to_html(ask)}
         specs.append(spec | {name: bet[name] for name in ("unit", "low", "high", "step")})
-    inside = listed(map(to_html, lines))
+    inside = listed(lines)
     return shown("Your bet", inside, {"kind": "bets", "bets": specs}, map(to_text, lines))
 
 
@@ -188,7 +160,7 @@ def _came_out(key: str, bet: dict[str, Any], names: Names) -> dict[str, Any]:
         require(bet, names)
         if bet["choices"]:
             return row | {"value": None, "written": to_text(filled(bet["came_out"], names))}
-        value = rounded(bet["came_out"], names)
+        value = computed(bet["came_out"], names)
     except MocapError as error:
         if bet["real"] and isinstance(error.__cause__, NameError):
             return row | {"ask": to_html(bet["ask"]), "value": None, "written": ""}

@@ -86,6 +86,5 @@ def to_text(text: str) -> str:
 
 
 def listed(items: Iterable[str], kind: str = "ul") -> str:
-    """Write a list as HTML; `ol` numbers it by letters."""
-    letters = ' type="a"' if kind == "ol" else ""
-    return f"<{kind}{letters}>{''.join(f'<li>{item}</li>' for item in items)}</{kind}>"
+    """Write a list of texts as HTML."""
+    return f"<{kind}>{''.join(f'<li>{to_html(item)}</li>' for item in items)}</{kind[:2]}>"

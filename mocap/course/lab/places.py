@@ -21,7 +21,6 @@ from mocap import plain
 from mocap._shared.arrays import Array
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from mocap.course.checks import all_checks
 from mocap.course.lab.adopting import slots
 from mocap.plain import Found, Lay
 
@@ -41,17 +40,6 @@ def tools() -> Tools:
     Notebook: 07-walks-and-search
     """
     return Tools(**{slot.name: slot for slot in slots(*NAMES)})
-
-
-def packages() -> Tools:
-    """Take the package's functions alone.
-
-    Examples
-    --------
-    >>> packages().quintic(4).round(3).tolist()
-    [0.896, 0.5, 0.104, 0.0]
-    """
-    return Tools(**{name: all_checks()[name].truth for name in NAMES})
 
 
 def pages_of(by: Tools | None, window: int, below: float = 0.0) -> Any:  # noqa: ANN401 (a module)

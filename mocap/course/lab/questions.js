@@ -59,50 +59,6 @@
     });
   }
 
-  function numeric(root, spec) {
-    const reply = replies(root);
-    const check = () => {
-      const value = number(input.value);
-      if (Number.isNaN(value)) return reply(null, "Please write a number, such as 3.5.");
-      const near = (goal, most) => Math.abs(value - goal) <= most * (1 + 1e-9);
-      if (near(spec.answer, spec.tolerance)) return reply(true, spec.because);
-      const slip = spec.slips.find(([goal]) => near(goal, spec.tolerance * Math.abs(goal / spec.answer || 1)));
-      reply(false, slip ? slip[1] : value < spec.answer ? spec.low : spec.high);
-    };
-    const input = field("your answer", spec.unit, check);
-    root.querySelector("ul").replaceWith(make("p", { class: "row" }, input, spec.unit, button("Check", check)));
-  }
-
-  function order(root, spec) {
-    const list = root.querySelector("ul"), items = [...list.children], reply = replies(root);
-    const numbered = make("ol", {}, ...items);
-    list.replaceWith(numbered);
-    const move = (item, by) => () => {
-      const now = [...numbered.children], at = now.indexOf(item), to = at + by;
-      if (to < 0 || to >= now.length) return;
-      if (by < 0) now[to].before(item); else now[to].after(item);
-      ends();
-      item.querySelector(by < 0 ? ".up" : ".down").focus();
-      reply(null, `Now step ${to + 1} of ${now.length}.`);
-    };
-    const ends = () => [...numbered.children].forEach((item, at, all) => {
-      item.querySelector(".up").setAttribute("aria-disabled", at === 0);
-      item.querySelector(".down").setAttribute("aria-disabled", at === all.length - 1);
-    });
-    for (const item of items) {
-      const text = item.textContent, words = make("span", { class: "grow" }, ...item.childNodes);
-      item.append(make("span", { class: "row" }, words,
-        button("↑", move(item, -1), { class: "act up", "aria-label": `move up: ${text}` }),
-        button("↓", move(item, 1), { class: "act down", "aria-label": `move down: ${text}` })));
-    }
-    ends();
-    root.lastChild.before(make("p", {}, button("Check", () => {
-      const now = [...numbered.children].map((item) => spec.order[items.indexOf(item)]);
-      const wrong = spec.hints.findIndex((_, step) => now.indexOf(step) > now.indexOf(step + 1));
-      reply(wrong < 0, wrong < 0 ? spec.because : spec.hints[wrong]);
-    })));
-  }
-
   // Bets: null is "no bet". Where the browser keeps nothing, the page does while it is open.
   let inPage = {};
   function kept() {
@@ -223,7 +179,7 @@
     show();
   }
 
-  const KINDS = { choice, number: numeric, order, bets, summary };
+  const KINDS = { choice, bets, summary };
   function wake() {
     for (const root of document.querySelectorAll(".mocap-question:not([data-awake])")) {
       const spec = JSON.parse(atob(root.dataset.spec));

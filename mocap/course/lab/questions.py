@@ -4,13 +4,9 @@ A file has a table `[quiz.NAME]` for each quiz and `[bet.NAME]` for each bet; th
 whole. In texts, `code` and *stress* are marked as in Markdown, and `{{expression:.1f}}` is a number that the
 notebook computes, so that it is never one of another day.
 
-A quiz has a `question`, and `because`, which says why the right answer is right. By its `kind` it has
-
-- choice: `right`, and `wrong` with a hint for each other choice; `holds`, an expression that is true while
-  the right one is right; and `place`, where that stands, from 1, if not anywhere;
-- number: an `answer`, a number or an expression, right within a `tolerance`, in a `unit`; `slips`, pairs of a
-  wrong number and its hint; and hints for other numbers, `too_low` and `too_high`;
-- order: `steps` in their right order, and `hints` for who has two neighbours the wrong way round.
+A quiz has a `question`; the `right` choice; `wrong`, with a hint for each other choice; `because`, which says
+why the right answer is right; `holds`, an expression that is true while it is; and `place`, where the right
+choice stands, from 1, if not anywhere.
 
 A bet has `ask`, and `came_out`: one of its `choices`, or an expression for a number in its `unit`. With
 `low` and `high` it is a slider by `step`, to whose decimals numbers are written. It may have `holds`. What is
@@ -65,8 +61,8 @@ def cell_names() -> Names:
     return sys._getframe(2).f_globals
 
 
-def computed(expression: float | str, names: Names) -> float:
-    """Work out a number with the names of a notebook.
+def computed(expression: str, names: Names) -> float:
+    """Work out a number with the names of a notebook, to six digits, which are the same on every machine.
 
     Raises
     ------
@@ -74,28 +70,17 @@ def computed(expression: float | str, names: Names) -> float:
 
     Examples
     --------
-    >>> computed("100 * off", {"off": 0.25}), computed(3, {})
-    (25.0, 3.0)
+    >>> computed("1 / n", {"n": 3})
+    0.333333
     >>> computed("off", {})
     Traceback (most recent call last):
     mocap.errors.MocapError: 'off' fails with NameError: name 'off' is not defined.
     """
     try:
-        return float(eval(expression, dict(names)) if isinstance(expression, str) else expression)
+        return float(f"{float(eval(expression, dict(names))):.6g}")
     except Exception as error:
         reason = f"{type(error).__name__}: {shortened(str(error), 60)}"
         raise MocapError(f"{shortened(repr(expression), 60)} fails with {reason}.") from error
-
-
-def rounded(expression: float | str, names: Names) -> float:
-    """Work out a number to six digits, which are the same on every machine.
-
-    Examples
-    --------
-    >>> rounded("1 / n", {"n": 3})
-    0.333333
-    """
-    return float(f"{computed(expression, names):.6g}")
 
 
 def filled(value: Any, names: Names) -> Any:  # noqa: ANN401 (a text, or what holds texts)

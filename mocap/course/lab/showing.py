@@ -16,12 +16,10 @@ from mocap.body.motion import Motion
 from mocap.course.lab.choices import EACH, MOST, Choices, of_clips, of_graph, of_walk
 from mocap.course.lab.scenes import scene
 from mocap.errors import MocapError
-from mocap.graphs.edge_tables import Edge
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.plotting.picture import small_png
 from mocap.plotting.storyboards import Shot, storyboard
 from mocap.steering.followed import Followed
-from mocap.synthesis.walk_to_motion import to_motion
 from mocap.widgets.embedding import SHARED, TOUCH, Embedded
 
 TABS = ("windows", "turn", "weights", "seam")  # in the order in which the course meets them
@@ -35,7 +33,6 @@ def inspector(
     at: Any = None,  # noqa: ANN401 (a cell, an edge, a node or a seam)
     show: Sequence[str] = TABS,
     window: int | None = None,
-    walk: Sequence[Edge] = (),
 ) -> Inspector:
     """Show the two windows of a transition, to point at, turn, mix and play.
 
@@ -49,7 +46,6 @@ def inspector(
         node; of a walk, the number of a seam. By default the cheapest; on a walk the seam of highest cost.
     show : what the page explains, in this order: "windows", "turn", "weights", "seam", or the first of these.
     window : frames of a window of clips; a third of a second by default. A graph has its own.
-    walk : edges of the graph, as from `synthesis.random_walk`, whose seams are to be shown.
 
     Returns
     -------
@@ -78,11 +74,9 @@ def inspector(
         choices = of_walk(found.graph, found.walk, at)
         return Inspector(choices, tabs, found.track, found.path.points)
     if isinstance(found, MotionGraph):
-        if not walk:
-            return Inspector(of_graph(found, at), tabs)
-        return Inspector(of_walk(found, walk, at), tabs, to_motion(found, walk).root_positions[:, [0, 2]])
+        return Inspector(of_graph(found, at), tabs)
     clips = [clip for clip in what if isinstance(clip, Motion)]
-    if not 0 < len(clips) == len(what) <= 2 or walk:
+    if not 0 < len(clips) == len(what) <= 2:
         raise MocapError("An inspector takes one or two clips, a graph, or what follow_path found.")
     return Inspector(of_clips(clips, round(clips[0].fps / 3) if window is None else window, at), tabs)
 

@@ -23,29 +23,10 @@ FILES = sorted(TEXTS.glob("*.toml"))
 
 GOOD = """
 [quiz.more]
-kind = "choice"
 question = "Is `D < 4` *always* {{limit:.0f}}?"
 right = "yes"
 because = "It is."
 wrong = { no = "Look again.", "at times" = "Not at times." }
-
-[quiz.height]
-kind = "number"
-question = "How high?"
-answer = "2 * limit"
-tolerance = 0.5
-unit = "cm"
-too_low = "Higher."
-too_high = "Lower."
-because = "Twice."
-slips = [["limit", "Twice that."], [1, "No."]]
-
-[quiz.steps]
-kind = "order"
-question = "Put in order."
-steps = ["first", "second", "third"]
-hints = ["first before second", "second before third"]
-because = "So."
 
 [bet.share]
 ask = "Share"
@@ -63,8 +44,7 @@ holds = "limit > 3"
 
 
 QUIZZES, BETS = tomllib.loads(GOOD).values()
-STEPS = {"kind": "order", "question": "?", "steps": ["a", "b", "c"], "hints": ["x", "y"], "because": "so"}
-YES = {"kind": "choice", "question": "?", "right": "yes", "wrong": {"no": "x", "never": "y"}, "because": "so"}
+YES = {"question": "?", "right": "yes", "wrong": {"no": "x", "never": "y"}, "because": "so"}
 
 
 def data(shown):
@@ -99,25 +79,6 @@ def test_the_right_choice_stands_where_it_is_asked_to_and_else_not_always_at_one
         assert data(asked("99-more", YES | {"place": place}, {}))["hints"].index("") == place - 1
     places = [data(asked(f"99-{number}", YES, {}))["hints"].index("") for number in range(30)]
     assert set(places) == {0, 1, 2}
-
-
-def test_a_number_is_computed_with_the_names_of_the_notebook():
-    shown = asked("99-height", QUIZZES["height"], {"limit": 1 / 3})
-    spec = data(shown)
-    assert spec["answer"] == 0.666667  # to six digits, the same on every machine
-    assert spec["slips"] == [[0.333333, "Twice that."], [1, "No."]]
-    assert shown.text == "How high?\n- ______ cm"
-    assert "0.66" not in seen(shown)
-
-
-def test_steps_are_mixed_the_same_way_each_time_and_never_in_order():
-    for key in map(str, range(20)):
-        shown = asked(key, STEPS, {})
-        spec = data(shown)
-        assert spec == data(asked(key, STEPS, {}))
-        assert sorted(spec["order"]) == [0, 1, 2]
-        assert spec["order"] != [0, 1, 2]
-        assert shown.text.splitlines()[1:] == [f"- {STEPS['steps'][number]}" for number in spec["order"]]
 
 
 def test_a_bet_asks_and_the_summary_says_what_came_out():
@@ -184,65 +145,40 @@ def test_names_are_those_of_the_caller():
 # All files, and the notebooks
 
 
-FIELDS = {  # what each kind has, and what it may have
-    "choice": ("question right wrong because", "holds place"),
-    "number": ("question answer tolerance too_low too_high because", "unit slips"),
-    "order": ("question steps hints because", ""),
+FIELDS = {  # what each has, and what it may have
+    "quiz": ("question right wrong because", "holds place"),
     "bet": ("ask came_out", "choices unit low high step holds real"),
 }
 
 
-def faults(one):
+def faults(kind, one):
     """Say what is wrong with a question: no hint for a wrong answer, no answer, the same choice twice."""
-    kind, nothing = one.get("kind", "bet"), {"wrong": {}, "slips": [], "steps": [], "hints": [], "place": 0}
-    table = BET | nothing | one
     must, may = (set(names.split()) for names in FIELDS[kind])
-    if not must <= one.keys() - {"kind"} <= must | may:
+    if not must <= one.keys() <= must | may:
         yield f"it needs {must}, and may have {may}"
-    different = [
-        *table["choices"],
-        *table["steps"],
-        *table["wrong"],
-        *[one.get("right")] * (kind == "choice"),
-    ]
-    texts = [one[name] for name in must - {"answer", "came_out", "tolerance", "wrong", "steps", "hints"}]
-    texts += [*different, *table["wrong"].values(), *table["hints"], *(hint for _, hint in table["slips"])]
+    wrong, table = one.get("wrong", {}), BET | one
+    different = [*table["choices"], *wrong, *[one.get("right")] * (kind == "quiz")]
+    texts = [*(one[name] for name in must - {"came_out", "wrong"}), *different, *wrong.values()]
     if not all(isinstance(text, str) and text.strip() for text in texts):
         yield "something is empty"
     if len({*different}) < len(different):
         yield "something is there twice"
     low, high, choices = table["low"], table["high"], table["choices"]
-    if (
-        not {
-            "choice": 0 <= table["place"] <= 1 + len(table["wrong"]) > 1,
-            "number": one.get("tolerance", 0) > 0,
-            "order": len(table["steps"]) == len(table["hints"]) + 1 >= 3,
-            "bet": (not choices or one.get("came_out") in choices)
-            and len(choices) != 1
-            and table["step"] > 0,
-        }[kind]
-        or (low is None) != (high is None)
-        or (high or 1) <= (low or 0)
-    ):
+    whole = {
+        "quiz": 0 <= one.get("place", 0) <= 1 + len(wrong) > 1,
+        "bet": (not choices or table["came_out"] in choices) and len(choices) != 1 and table["step"] > 0,
+    }
+    if not whole[kind] or (low is None) != (high is None) or (high or 1) <= (low or 0):
         yield "it has no right answer, or too few wrong ones, hints or places"
 
 
 def test_what_is_not_whole_is_found():
-    for kind, one in (("quiz", QUIZZES), ("bet", BETS)):
-        for name, table in one.items():
-            assert list(faults(table)) == [], (kind, name)
-    for broken in (
-        YES | {"wrong": {}},
-        YES | {"place": 4},
-        YES | {"more": 1},
-        YES | {"because": " "} | {"right": "no"},
-        QUIZZES["height"] | {"tolerance": 0},
-        STEPS | {"hints": ["x"]},
-        STEPS | {"steps": ["a", "b", "b"]},
-        BETS["which"] | {"came_out": "these"},
-        BETS["share"] | {"high": -1},
-    ):
-        assert list(faults(broken)), broken
+    for kind, some in (("quiz", QUIZZES), ("bet", BETS)):
+        assert [fault for one in some.values() for fault in faults(kind, one)] == []
+    quizzes = [YES | change for change in ({"wrong": {}}, {"place": 4}, {"more": 1}, {"because": " "})]
+    bets = [BETS["which"] | {"came_out": "these"}, BETS["share"] | {"high": -1}]
+    for kind, broken in (*(("quiz", one) for one in quizzes), *(("bet", one) for one in bets)):
+        assert list(faults(kind, broken)), broken
 
 
 def test_each_file_is_whole_and_belongs_to_a_notebook():
@@ -251,11 +187,12 @@ def test_each_file_is_whole_and_belongs_to_a_notebook():
         found = read_questions(file.stem.partition("-")[0])
         assert found == {"quiz": {}, "bet": {}} | tomllib.loads(file.read_text("utf-8"))
         assert found.keys() == {"quiz", "bet"}
-        for name, one in {**found["quiz"], **found["bet"]}.items():
-            assert list(faults(one)) == [], (file.stem, name)
+        for kind, some in found.items():
+            for name, one in some.items():
+                assert list(faults(kind, one)) == [], (file.stem, name)
         assert (FOLDER / f"{file.stem}.ipynb").exists()
         assert re.findall(rf"(?i)\b(?:{UNUSUAL}|{PER})\b", file.read_text("utf-8")) == []  # plain words
-        choices += [quiz for quiz in found["quiz"].values() if quiz["kind"] == "choice"]
+        choices += found["quiz"].values()
     longest = sum(len(quiz["right"]) > max(map(len, quiz["wrong"])) for quiz in choices)
     assert longest < sum(1 / (1 + len(quiz["wrong"])) for quiz in choices)  # not more often than by chance
 

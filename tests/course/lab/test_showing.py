@@ -17,7 +17,6 @@ from mocap.datasets.samples import sample
 from mocap.errors import MocapError
 from mocap.graphs.compiled_graph import compile_graph
 from mocap.steering.path_following import follow_path
-from mocap.synthesis.random_walks import random_walk
 from mocap.widgets.embedding import joined
 from tests.bundled import bundled
 
@@ -45,12 +44,10 @@ def test_each_depth_has_a_picture_a_sentence_and_a_page(depth):
 
 
 def test_graphs_walks_and_paths_bring_their_maps(graph):
-    walk = random_walk(graph, seconds=10, seed=3)
     found = follow_path(compile_graph(graph), GroundPath(np.array([[0.0, 0], [0, 3], [2, 5]])))
     for shown, maps in (
         (inspector(*WALKS), {"grid"}),
         (inspector(graph), {"graph"}),
-        (inspector(graph, walk=walk), {"graph", "walk"}),
         (inspector(found), {"graph", "walk"}),
     ):
         assert {name for name in ("grid", "graph", "walk") if shown.scene[name]} == maps
@@ -80,7 +77,6 @@ def test_a_large_grid_is_sent_in_blocks_that_keep_its_minima():
         (WALKS, {"show": None}, "or the first of these"),
         (WALKS, {"window": 0}, "window"),
         (WALKS, {"window": 999}, "window"),
-        (WALKS, {"walk": [((0, 0), (0, 1), 0)]}, "one or two clips, a graph"),
     ],
 )
 def test_what_cannot_be_shown_gets_one_sentence(what, more, said):
