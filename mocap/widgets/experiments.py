@@ -193,7 +193,7 @@ class Experiment:
             said = traceback.format_exception_only(error)[-1].strip()
             for frame in traceback.extract_tb(error.__traceback__)[1:2]:  # in the student's function
                 said += f"\n({frame.name}, line {frame.lineno}: {frame.line})"
-            style = "color:#A00000; white-space:pre-wrap"
+            style = "color:var(--jp-error-color1, #A00000); white-space:pre-wrap"
             self.message.value = f"<pre style='{style}'>{html.escape(said)}</pre>"
         self.picture.layout.display = "none" if self.error else None
         self.message.layout.display = None if self.error else "none"

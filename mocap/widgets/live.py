@@ -2,7 +2,8 @@
 
 JupyterLab shows a widget whose kernel has ended as an error, and prefers that to the picture beside it. So a
 cell has two outputs here, the picture and the widget. A rule hides the picture while the widget lives, and
-the widget's output when it does not.
+the widget's output when it does not. In the dark theme it dims the notebook's pictures, which are drawn on
+white paper: inverted, they would have other colours than the text names.
 """
 
 from functools import cache
@@ -19,6 +20,7 @@ _OUTPUT = ".jp-OutputArea-child"
 _RULE = f"""<style>
 {_OUTPUT}:has(.{STILL}):has(+ {_OUTPUT} .{LIVE}) {{ display: none; }}
 {_OUTPUT}:has(.{STILL}) + {_OUTPUT}:not(:has(.{LIVE})) {{ display: none; }}
+[data-jp-theme-light=false] .jp-Cell img {{ filter: brightness(.8); border-radius: 4px; }}
 </style>"""
 
 

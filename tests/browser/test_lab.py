@@ -152,11 +152,14 @@ def test_a_choice_a_slider_of_choices_and_a_box_change_the_picture(notebook):
     assert place.locator(".widget-readout").inner_text() == "240"
 
 
-def test_a_shown_picture_has_its_alt_text(notebook):
-    _, cell = notebook
+def test_a_shown_picture_has_its_alt_text_and_is_dimmed_in_the_dark_theme(notebook):
+    page, cell = notebook
     picture = cell("show").get_by_role("img", name="The path of a walk.")
     wait_until(picture.is_visible)
     assert picture.evaluate("img => img.naturalWidth") > 400
+    for light, seen in (("false", "brightness(0.8)"), ("true", "none")):
+        page.evaluate(f"document.body.dataset.jpThemeLight = '{light}'")
+        assert picture.evaluate("img => getComputedStyle(img).filter") == seen
 
 
 @pytest.mark.parametrize("width", [600, 1280])
