@@ -195,8 +195,7 @@ def _cleaned(cycle: Motion) -> Motion:
     rounds = mark_plants(repeated(replace(cycle, contacts={}), 2 * around + 1))
     start = around * (len(cycle) - 1)
     middle = slice(start, start + len(cycle))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", MocapWarning)  # of frames in all rounds
+    with warnings.catch_warnings(action="ignore", category=MocapWarning):  # of frames in all rounds
         cleaned = clean_up(rounds)[middle]
     if (kept := plants_kept(cleaned, rounds[middle])) < 1:
         warn(

@@ -87,7 +87,7 @@ def read(path: str | Path, *, fps: float | None = None) -> Motion:
         warn(
             f"{path}: betas, the shape of the body, are ignored: the bones are those of the mean body, so "
             "feet may stand some centimetres above or below the ground.",
-            3,
+            4,
         )
     local = rotations.from_rotvec(poses.reshape(len(poses), -1, 3))
     local[:, 0] = rotations.multiply(UPRIGHT, local[:, 0])

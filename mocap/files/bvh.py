@@ -177,7 +177,7 @@ def _rigid(
         f"{path}: bones change length by up to {1000 * rigid.stretch[worst]:.2g} mm "
         f"({shortened(joints[worst].name, 40)}); fitted to rigid bones, joints lie up to "
         f"{1000 * rigid.apart.max():.2g} mm from their places in the file.",
-        4,
+        5,
     )
     return rigid.offsets, rigid.rotations
 

@@ -124,8 +124,9 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
     way = table.transform
     of_edges = (target, table.frames, table.cost, table.blended, way.turn, way.move)
     standing = _standing(graph, np.array(nodes), roots)
-    first = np.cumsum(table.frames) - table.frames
-    of_frames = (first, frames, *_tracks(graph, table, frames, roots), sorted(marks), bears)
+    first = np.asarray(np.cumsum(table.frames) - table.frames, np.intp)
+    ground, step = _tracks(graph, table, frames, roots)
+    of_frames = (first, frames, ground, step, sorted(marks), bears)
     hops = find_hops(table, leaves, len(nodes), graph.fps)
     return CompiledGraph(graph, nodes, edges, *of_edges, *standing, *of_frames, hops)
 

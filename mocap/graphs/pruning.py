@@ -200,7 +200,7 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
     pruned.remove_nodes_from([node for node in graph if node not in kept])
     frames = {labels: count for labels, (_, count) in found.items()}
     for message in _shortcomings(frames, least_frames, pruned, components):
-        warn(message, 3)  # points at the caller of `graphs.prune`
+        warn(message, 4)  # points at the caller of `graphs.prune`
     reasons = _reasons(graph, ways, kept)
     removed = {
         (start, end, key): reasons[start if end in kept else end]

@@ -4,7 +4,6 @@ The thresholds lie beyond what people do. They were checked on 132 trials of the
 subjects 02, 03, 16, 49 and 127.
 """
 
-import warnings
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
@@ -15,7 +14,7 @@ from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.planar import heading
-from mocap.errors import MocapWarning, printable, shortened
+from mocap.errors import printable, shortened, warn
 
 # Frames in a row that repeat the frame before. Two trials have such frames, 6 and 13 in a row; in the
 # others no frame repeats the one before.
@@ -113,7 +112,7 @@ def warn_of_size(motions: Iterable[Motion]) -> None:
         height = height_of(joint_positions(motion))
         if not SMALLEST < height < TALLEST:
             tall = f"'{shortened(motion.name)}' is {height:.2g} m tall: is its scale right?"
-            warnings.warn(tall, MocapWarning, stacklevel=2)
+            warn(tall)
             return
 
 

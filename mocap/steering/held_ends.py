@@ -48,8 +48,8 @@ def stand(motion: Motion) -> Motion:
     own = dict(zip(names, marks.reshape(-1, len(motion)), strict=True))
     also = {name: own[name] | np.isfinite(known[:, n, 0]) for n, name in enumerate(names)}
     where = dict(zip(columns, np.swapaxes(known, 0, 1), strict=True))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", MocapWarning)  # which would also list the frames that are held here
+    # Its warnings would also list the frames that are held here.
+    with warnings.catch_warnings(action="ignore", category=MocapWarning):
         found = clean_up(replace(motion, contacts={**motion.contacts, **also}), legs, held=where)
     contacts = {name: mark & own.get(name, mark) for name, mark in found.contacts.items()}
     return replace(found, contacts=contacts)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,7 +9,7 @@ import numpy as np
 from mocap.body.motion import Motion
 from mocap.editing.displacements import Displacement
 from mocap.editing.path_editing import plants_kept
-from mocap.errors import MocapError, MocapWarning, NoWalk
+from mocap.errors import MocapError, NoWalk, warn
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.edge_tables import Edge
 from mocap.graphs.motion_graph import MotionGraph
@@ -135,11 +134,9 @@ def in_between(
     walk, seams = [graph.edges[edge] for edge in joined.edges], int(graph.blended[joined.edges].sum())
     between = InBetween(motion, laid, graph.source, walk, start, end, arrived, faded, seams)
     if between.kept < 1:
-        warnings.warn(
+        warn(
             f"'{motion.name}': {1 - between.kept:.0%} of the planted frames are let go: to hold them would "
-            "move the root by more than 2 cm, stretch a leg or jolt a knee.",
-            MocapWarning,
-            stacklevel=2,
+            "move the root by more than 2 cm, stretch a leg or jolt a knee."
         )
     return between
 

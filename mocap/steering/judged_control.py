@@ -94,8 +94,7 @@ def judge_control(
     motion = steer(character, headings.tolist(), speed).motion
     if not any(mark.any() for mark in motion.contacts.values()):
         raise MocapError("The character's clips do not say when feet stand; mark_plants finds out.")
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", MocapWarning)  # how much was let go is `kept`
+    with warnings.catch_warnings(action="ignore", category=MocapWarning):  # how much was let go is `kept`
         cleaned = clean_up(motion)
     planted, slides = [], []
     for some in (motion, cleaned):

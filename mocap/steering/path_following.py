@@ -1,6 +1,5 @@
 """Find a walk along a path on the ground: in layers, and by the paper's branch and bound [KGP02, 5.1]."""
 
-import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
@@ -9,7 +8,7 @@ import numpy as np
 
 from mocap._shared.arrays import Indices
 from mocap.body.ground_path import GroundPath
-from mocap.errors import MocapError, MocapWarning, NoWalk
+from mocap.errors import MocapError, NoWalk, warn
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.components import reached
 from mocap.graphs.motion_graph import MotionGraph
@@ -107,11 +106,9 @@ def follow_path(
         start, end, worst = max(departures, key=lambda stretch: stretch[2])
         often = "once" if len(departures) == 1 else f"{len(departures)} times"
         why = "it turns too fast there" if bend else "no clips turn as it does there"
-        warnings.warn(
+        warn(
             f"The walk leaves the path {often}, the furthest by {100 * worst:.0f} cm "
-            f"at {start:.1f} to {end:.1f} m: {why}.",
-            MocapWarning,
-            stacklevel=2,
+            f"at {start:.1f} to {end:.1f} m: {why}."
         )
     return followed
 

@@ -4,7 +4,6 @@ A crowd is a few characters whose paths are given and cross. A group that stays 
 way among obstacles is planned by `groups`.
 """
 
-import warnings
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
@@ -13,7 +12,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap.body.ground_path import GroundPath, spline
-from mocap.errors import MocapError, MocapWarning
+from mocap.errors import MocapError, warn
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.steering.followed import Followed
@@ -175,11 +174,9 @@ def walk_crowd(
     nearest = np.array([[_nearest(a, [b]) if a is not b else np.inf for b in tracks] for a in tracks])
     if nearest.min(initial=np.inf) < apart:
         a, b = np.unravel_index(nearest.argmin(), nearest.shape)
-        warnings.warn(
+        warn(
             f"Characters {a} and {b} come as near as {nearest[a, b]:.2f} m, though {apart:.2f} m were asked "
-            "for: their paths leave them no room.",
-            MocapWarning,
-            stacklevel=2,
+            "for: their paths leave them no room."
         )
     return Crowd(walks, waits, nearest)
 

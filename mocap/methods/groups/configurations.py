@@ -6,14 +6,13 @@ alike when a planar transform brings their points together. All of this is ours;
 configurations are clustered.
 """
 
-import warnings
 from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from mocap._shared.arrays import Array, Indices, Mask, Points
-from mocap.errors import MocapError, MocapWarning
+from mocap.errors import MocapError, warn
 from mocap.methods.groups.flocking import RATE, Configuration, Trajectories
 
 SECONDS = 0.7  # a difference of 1 m/s counts as much as 0.7 m
@@ -204,10 +203,8 @@ def cluster(flock: Trajectories, *, nodes: int = 8, reach: float = 0.5) -> Clust
         free &= distances[best] >= reach
     covered = 1 - float(free.mean())
     if covered < COVERED:
-        warnings.warn(
+        warn(
             f"{len(chosen)} nodes are within {reach:g} m of {covered:.0%} of what was simulated: "
-            "take more nodes, or a larger reach.",
-            MocapWarning,
-            stacklevel=2,
+            "take more nodes, or a larger reach."
         )
     return Clusters(tuple(rows[row] for row in chosen), np.array(chosen) * step, covered, distances)

@@ -1,6 +1,5 @@
 """Group motion graphs: nodes are configurations, and clips of the whole group join them [LCF05]."""
 
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -8,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mocap._shared.arrays import Points
-from mocap.errors import MocapError, MocapWarning
+from mocap.errors import MocapError, warn
 from mocap.methods.groups.configurations import cluster, seen_from_itself
 from mocap.methods.groups.flocking import APART, Configuration, Flock, Trajectories, simulate
 from mocap.methods.groups.group_clips import BENDS, HARDEST, GroupClip, clips_from
@@ -108,7 +107,7 @@ def make_clips(
         )
     if missing := len(nodes) ** 2 - len({(clip.start, clip.end) for clip in clips}):
         pairs = f"{missing} of {len(nodes) ** 2} pairs"
-        warnings.warn(f"No clip joins {pairs} of nodes.", MocapWarning, stacklevel=2)
+        warn(f"No clip joins {pairs} of nodes.")
     return GroupGraph(tuple(nodes), clips, tried)
 
 

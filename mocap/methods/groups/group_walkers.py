@@ -11,7 +11,7 @@ from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
 from mocap.body.planar import from_ground, on_ground
 from mocap.editing.path_editing import moving_frames, plants_kept, ride_of
-from mocap.errors import MocapError, MocapWarning
+from mocap.errors import MocapError, MocapWarning, warn
 from mocap.feet.footskate import clean_up
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph
@@ -119,17 +119,12 @@ def walk_group(
     source = graph.source if isinstance(graph, CompiledGraph) else graph
     marked = with_plants(source)
     compiled = compile_graph(graph if marked is source else marked)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", MocapWarning)  # what matters is said of all together
+    with warnings.catch_warnings(action="ignore", category=MocapWarning):  # one is given for all together
         walked = [_walk_one(compiled, places, bend=bend) for places in progress(list(flock.places.T))]
     motions = tuple(motion for motion, _ in walked)
     kept = float(np.mean([share for _, share in walked]))
     if kept < KEPT:
-        warnings.warn(
-            f"{1 - kept:.0%} of the planted frames were let go: these clips take other steps than the plan.",
-            MocapWarning,
-            stacklevel=2,
-        )
+        warn(f"{1 - kept:.0%} of the planted frames were let go: these clips take other steps than the plan.")
     seconds, clock = np.arange(len(motions[0])) / compiled.fps, np.arange(frames) / RATE
     wanted = np.stack([np.interp(seconds, clock, places) for places in flock.places.T], axis=-1)
     return GroupWalkers(motions, kept, wanted)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
@@ -10,7 +9,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array, Indices
 from mocap.body.motion import Motion
-from mocap.errors import MocapError, MocapWarning
+from mocap.errors import MocapError, warn
 from mocap.matching.point_clouds import point_cloud
 from mocap.methods.match_webs.grid_pieces import LEAST
 from mocap.methods.match_webs.webs import MatchWeb
@@ -197,7 +196,7 @@ def _warn(found: Sequence[Match], left_out: int) -> None:
             "have led to others; lower the limit."
         )
     for message in messages:
-        warnings.warn(message, MocapWarning, stacklevel=3)
+        warn(message, 3)
 
 
 def crossings(web: MatchWeb, start: int, stop: int, below: float) -> Iterator[Match]:

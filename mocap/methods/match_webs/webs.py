@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
@@ -13,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from mocap._shared.arrays import Array, Indices, Mask, frozen
 from mocap._shared.progress import Progress
 from mocap.body.motion import Motion, require_alike, resample
-from mocap.errors import MocapError, MocapWarning
+from mocap.errors import MocapError, warn
 from mocap.matching.point_clouds import distinct_joints, unit_weights
 from mocap.matching.transitions import join_clouds
 from mocap.methods.match_webs.grid_pieces import LEAST, find_paths
@@ -132,5 +131,5 @@ def _long_enough(clips: Sequence[Motion], frames: int) -> Mask:
     if short:
         names = ", ".join(short[:4]) + (f" and {len(short) - 4} more" if len(short) > 4 else "")
         said = f"Too short to hold a path of {frames / MatchWeb.rate:.2g} s, and left out: {names}."
-        warnings.warn(said, MocapWarning, stacklevel=3)
+        warn(said, 3)
     return long

@@ -1,14 +1,12 @@
 """A character by motion matching: search, cut, and let what differs die away [Cla16, Hol20]."""
 
-import warnings
-
 import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
-from mocap.errors import MocapWarning
+from mocap.errors import warn
 from mocap.methods.motion_matching.nearest_frames import FrameSearch, Wants, foresee
 from mocap.methods.motion_matching.pose_database import FUTURE, PoseDatabase
 from mocap.methods.motion_matching.springs import fade
@@ -108,10 +106,8 @@ class MotionMatcher:
         require_command(heading, speed)
         slow, fast = np.percentile(np.abs(self.database.drift), [1, 99])
         if (self._command is None or speed != self._command[1]) and not slow <= speed <= fast:
-            warnings.warn(
-                f"{speed:g} m/s is outside the clips' {slow:.1f} to {fast:.1f} m/s: the nearest is walked.",
-                MocapWarning,
-                stacklevel=3,
+            warn(
+                f"{speed:g} m/s is outside the clips' {slow:.1f} to {fast:.1f} m/s: the nearest is walked.", 3
             )
         if label not in self._searches:
             self._searches[label] = FrameSearch(self.database, future=self.wants.future, label=label)
