@@ -82,10 +82,7 @@ def scattered_fit(basis: sparse.csr_array, data: Array, at: Indices) -> Array:
 
 
 def hierarchy(
-    base: Motion,
-    pins: Pins,
-    *,
-    knots: Sequence[float] = (0.5, 0.25, 0.125, 0.06, 0.03),
+    base: Motion, pins: Pins, *, knots: Sequence[float] = (0.5, 0.25, 0.125, 0.06, 0.03)
 ) -> tuple[Motion, list[Level]]:
     """Bring joints to their pins level by level, and end when they are met to a millimetre [LS99, levels].
 

@@ -39,11 +39,7 @@ MOST = 0.5  # of a leg: hips that move by more to take the steps jump; a child's
 
 
 def retarget(
-    motion: Motion,
-    body: Skeleton | Stance,
-    source: Stance | None = None,
-    *,
-    scale: float | None = None,
+    motion: Motion, body: Skeleton | Stance, source: Stance | None = None, *, scale: float | None = None
 ) -> Motion:
     """Let another body wear a motion, with its feet planted on the floor where the old feet were planted.
 

@@ -207,12 +207,7 @@ def write(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
 
 
 def write_pieces(
-    pieces: Iterable[Motion],
-    path: str | Path,
-    *,
-    frames: int,
-    turns: NDArray[np.bool_],
-    precision: int = 6,
+    pieces: Iterable[Motion], path: str | Path, *, frames: int, turns: NDArray[np.bool_], precision: int = 6
 ) -> None:
     """Write a BVH file of motions that follow one another, with only one of them in memory at a time.
 

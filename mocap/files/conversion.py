@@ -107,10 +107,7 @@ def require_apart(pairs: Sequence[tuple[Path, Path]], read: Iterable[Path] = ())
 
 
 def convert(
-    pairs: Sequence[tuple[Path, Path]],
-    reading: Mapping[str, Any] | None = None,
-    *,
-    progress: Progress = iter,
+    pairs: Sequence[tuple[Path, Path]], reading: Mapping[str, Any] | None = None, *, progress: Progress = iter
 ) -> list[str]:
     """Convert files, as many at a time as there are processors; a file that fails does not stop the others.
 

@@ -36,12 +36,7 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "point_clouds": [
-            "align",
-            "distinct_joints",
-            "point_cloud",
-            "rms_distance",
-        ],
+        "point_clouds": ["align", "distinct_joints", "point_cloud", "rms_distance"],
         "distance_grids": ["cloud", "cloud_distances", "distance_grid"],
         "minima": ["local_minima"],
         "lower_bound": ["principal_directions"],

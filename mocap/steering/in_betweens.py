@@ -71,12 +71,7 @@ class InBetween:
         )
 
 
-def in_between(
-    graph: MotionGraph | CompiledGraph,
-    start: Moment,
-    end: Moment,
-    seconds: float,
-) -> InBetween:
+def in_between(graph: MotionGraph | CompiledGraph, start: Moment, end: Moment, seconds: float) -> InBetween:
     """Find a motion from one pose to another, each at its place, in a given time.
 
     Walks from both poses that meet half-way give what the clips can do. Of the best of them the one is taken

@@ -100,12 +100,7 @@ class Branch(NamedTuple):
 
 
 def branch_and_bound(
-    problem: Problem,
-    node: Hashable,
-    state: State,
-    *,
-    horizon: float = math.inf,
-    budget: Budget | None = None,
+    problem: Problem, node: Hashable, state: State, *, horizon: float = math.inf, budget: Budget | None = None
 ) -> SearchResult:
     """Find the cheapest walk that is complete, or at least `horizon` frames long [KGP02, Eq. 8].
 

@@ -49,10 +49,7 @@ def use_amass(path):
     assert isinstance(amass.read(path), Motion)
 
 
-KINDS = {
-    "graph": (save_graph, use_graph),
-    "amass": (save_amass, use_amass),
-}
+KINDS = {"graph": (save_graph, use_graph), "amass": (save_amass, use_amass)}
 
 
 @pytest.fixture(scope="module")
