@@ -68,7 +68,7 @@ def match_contacts(
         plants = [
             (start, stop, number)
             for number, (clip, curve) in enumerate(zip(clips, times, strict=True))
-            for start, stop in _within(_plants_on_clock(clip, curve)[joint].tolist(), *span)
+            for start, stop in _within(curve.inverse(runs(clip.contacts[joint]) / clip.fps).tolist(), *span)
         ]
         for group in _groups(sorted(plants)):
             of_clips = [[(a, b) for a, b, clip in group if clip == number] for number in range(len(clips))]
@@ -98,8 +98,3 @@ def _groups(plants: Sequence[tuple[float, float, int]]) -> list[list[tuple[float
         groups[-1].append(plant)
         reach = max(reach, plant[1])
     return groups
-
-
-def _plants_on_clock(clip: Motion, times: Curve) -> dict[str, Array]:
-    """Give a clip's plants on the common clock, joint by joint."""
-    return {joint: times.inverse(runs(marks) / clip.fps) for joint, marks in clip.contacts.items()}

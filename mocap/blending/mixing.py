@@ -5,7 +5,6 @@ lead to places whose mean is nowhere, so a blend of places stands still and turn
 how the clips *move*: their velocities, each turned as its clip is laid on the blend at that moment.
 """
 
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -13,7 +12,6 @@ import numpy as np
 
 from mocap._shared.arrays import Array, Mask, Points
 from mocap.blending.clocks import Registration, Weights, frame_times
-from mocap.blending.contact_matches import SharedPlant
 from mocap.body import rotations
 from mocap.body.motion import Motion, gather_marks, turning
 from mocap.body.planar import from_ground, on_ground
@@ -88,6 +86,9 @@ def mix(
     clips = registration.clips
     nearest = [np.rint(c(times) * clip.fps) for c, clip in zip(registration.times, clips, strict=True)]
     heaviest = shares.argmax(axis=1)
+    contacts = {match.joint: np.zeros(len(times), bool) for match in registration.contacts}
+    for match in registration.contacts:  # its start and its stop are blended, too
+        contacts[match.joint] |= (times >= shares @ match.starts - 1e-9) & (times < shares @ match.stops)
     frames = np.array(nearest)[heaviest, np.arange(len(times))].astype(np.intp)
     return Motion(
         clips[0].skeleton,
@@ -96,7 +97,7 @@ def mix(
         fps,
         " + ".join(clip.name for clip in clips) if len(clips) < 4 else f"{len(clips)} clips",
         labels=gather_marks([clip.labels for clip in clips], np.stack([heaviest, frames], axis=1)),
-        contacts=_contacts(registration.contacts, times, shares),
+        contacts=contacts,
     )
 
 
@@ -163,14 +164,6 @@ def poses(
     mean /= np.linalg.norm(mean, axis=-1, keepdims=True)
     x, z = from_ground(course.centres + root).T
     return np.stack([x, height, z], axis=-1), mean
-
-
-def _contacts(matches: Sequence[SharedPlant], times: Array, shares: Array) -> dict[str, Mask]:
-    """Mark each matched plant from the mean of its starts to the mean of its stops."""
-    marks = {match.joint: np.zeros(len(times), bool) for match in matches}
-    for match in matches:
-        marks[match.joint] |= (times >= shares @ match.starts - 1e-9) & (times < shares @ match.stops)
-    return marks
 
 
 def crossfade(registration: Registration, *, seconds: float = 1.0, at: float | None = None) -> Motion:

@@ -131,6 +131,20 @@ class Skeleton:
             path.append(parent)
         return path
 
+    @cached_property
+    def rest(self) -> Array:
+        """Where the joints are while none is turned and the root is at the origin, (J, 3), metres.
+
+        Examples
+        --------
+        >>> Skeleton(["hip", "knee", "ankle"], [-1, 0, 1], [[5, 5, 5], [0, -1, 0], [0, -1, 0]]).rest[2]
+        array([ 0., -2.,  0.])
+        """
+        places = np.zeros((len(self), 3))
+        for joint in range(1, len(self)):
+            places[joint] = places[self.parents[joint]] + self.offsets[joint]
+        return frozen(places, np.float64)
+
     def side(self, joint: int) -> str:
         """Give "left" or "right" by a joint's name if the skeleton has its mirror image, else "middle".
 

@@ -49,12 +49,11 @@ def find_again(text: str, folder: Path) -> Origin | None:
     >>> find_again(Origin(Path("clips/gone.bvh")).text(Path("graphs")), Path("graphs"))
     """
     kept = json.loads(text)
-    path, skeleton = (_existing(kept[name], folder) for name in ("path", "skeleton"))
+    path, skeleton = (
+        next((place for place in (folder / name for name in kept[key]) if place.is_file()), None)
+        for key in ("path", "skeleton")
+    )
     return Origin(path, skeleton, kept["scale"], kept.get("mirrored", False)) if path else None
-
-
-def _existing(places: list[str], folder: Path) -> Path | None:
-    return next((place for place in (folder / name for name in places) if place.is_file()), None)
 
 
 def is_origin(text: str) -> bool:

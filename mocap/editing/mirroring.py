@@ -53,8 +53,7 @@ def symmetry(skeleton: Skeleton) -> tuple[NDArray[np.intp], Array, Array]:
     if not alike.all():
         name = shortened(skeleton.names[int(alike.argmin())], 40)
         raise MocapError(f"'{name}' has no mirror image: its side has other joints than the other.")
-    places = np.array([skeleton.offsets[skeleton.path_to_root(joint)[:-1]].sum(axis=0) for joint in joints])
-    apart = places - places[partners]
+    apart = skeleton.rest - skeleton.rest[partners]
     pairs = np.flatnonzero((partners < joints) & (np.linalg.norm(apart, axis=-1) > 1e-3))
     if not len(pairs):
         raise MocapError(f"No left and right joints here: {shortened(', '.join(skeleton.names), 100)}.")

@@ -25,7 +25,7 @@ from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError, shortened, warn
 from mocap.files.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
 from mocap.files.rigid_bones import STRETCH, fit
-from mocap.files.text import check_room, quick_numbers, read_text, rounded, to_numbers
+from mocap.files.text import LARGEST, check_room, quick_numbers, read_text, to_numbers
 
 SCALE = 0.01  # metres in one unit of the files that are written, and by default of those that are read
 STILL = 1e-5  # metres that a fixed joint may move in its parent's frame: rounding of printed numbers
@@ -233,6 +233,9 @@ def write_pieces(
             angles = euler.continuous("ZXY", angles)[-len(motion) :]
             before = angles[-1:]
             values = np.hstack([motion.root_positions / SCALE, np.degrees(angles).reshape(len(motion), -1)])
-            values = rounded(values, precision, motion.name)
+            if np.any(np.abs(values) >= LARGEST):
+                far = f"goes {LARGEST:g} units far, or turns by as many degrees"
+                raise MocapError(f"'{shortened(motion.name)}' {far}: no file holds it.")
+            values = np.round(values, precision) + 0.0  # no -0.0
             row = " ".join([f"%.{precision}f"] * values.shape[1]) + "\n"
             file.write((row * len(values)) % tuple(values.ravel().tolist()))

@@ -20,7 +20,7 @@ from mocap.body import rotations
 from mocap.body.motion import Motion, turning
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened
-from mocap.files.gltf_capsules import body, reaches, rest
+from mocap.files.gltf_capsules import body, reaches
 
 Record = dict[str, Any]
 
@@ -129,7 +129,7 @@ class Block:
 
 def _nodes(skeleton: Skeleton) -> list[Record]:
     places = skeleton.offsets.copy()
-    places[0] = [0.0, -rest(skeleton)[:, 1].min(), 0.0]
+    places[0] = [0.0, -skeleton.rest[:, 1].min(), 0.0]
     nodes: list[Record] = []
     for joint, name in enumerate(skeleton.names):
         node: Record = {"name": name, "translation": (places[joint] + 0.0).tolist()}
@@ -140,7 +140,7 @@ def _nodes(skeleton: Skeleton) -> list[Record]:
 def _skin(skeleton: Skeleton, block: Block) -> Record:
     """Bind the body where the joints are at rest: each matrix moves a joint back to the origin."""
     matrices = np.tile(np.eye(4, dtype=np.float32), (len(skeleton), 1, 1))
-    matrices[:, 3, :3] = -rest(skeleton)  # by columns
+    matrices[:, 3, :3] = -skeleton.rest  # by columns
     return {
         "inverseBindMatrices": block.add(matrices.reshape(-1, 16)),
         "joints": list(range(len(skeleton))),

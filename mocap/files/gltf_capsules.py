@@ -35,14 +35,6 @@ class Mesh(NamedTuple):
     corners: NDArray[np.intp]
 
 
-def rest(skeleton: Skeleton) -> Array:
-    """Give where the joints are while none is turned and the root is at the origin, (J, 3), metres."""
-    places = np.zeros((len(skeleton), 3))
-    for joint in range(1, len(skeleton)):
-        places[joint] = places[skeleton.parents[joint]] + skeleton.offsets[joint]
-    return places
-
-
 def reaches(skeleton: Skeleton) -> Array:
     """Give how far the limbs go on behind each joint, along the bones, (J,), metres.
 
@@ -94,7 +86,7 @@ def _pieces(skeleton: Skeleton, longest: float) -> Iterator[Piece]:
 
     A head from which no bone starts gets a ball further along the bone that leads to it.
     """
-    behind, places, ball = reaches(skeleton), rest(skeleton), HEAD * longest
+    behind, places, ball = reaches(skeleton), skeleton.rest, HEAD * longest
     for joint, (parent, bone) in enumerate(zip(skeleton.parents.tolist(), skeleton.offsets, strict=True)):
         length = np.linalg.norm(bone) if joint else 0.0
         if length > 0 and _is_head(skeleton, joint) and not skeleton.children(joint):

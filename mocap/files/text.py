@@ -68,25 +68,6 @@ def check_room(path: str | Path, poses: int, numbers: int) -> None:
         raise FormatError(path, None, "numbers for at least a tenth of the joints", f"{numbers} for {poses}")
 
 
-def rounded(numbers: Array, precision: int, name: str) -> Array:
-    """Round the numbers of a motion for printing, without -0.0.
-
-    Raises
-    ------
-    MocapError : for a number that reading would refuse.
-
-    Examples
-    --------
-    >>> rounded(np.array([-0.04, 1.26]), 1, "walk")
-    array([0. , 1.3])
-    """
-    if np.any(np.abs(numbers) >= LARGEST):
-        raise MocapError(
-            f"'{shortened(name)}' goes {LARGEST:g} units far, or turns by as many degrees: no file holds it."
-        )
-    return np.round(numbers, precision) + 0.0
-
-
 def lines(text: str) -> Iterator[tuple[int, list[str]]]:
     r"""Go through the lines with words: line number, from 1, and words; `#` starts a comment.
 

@@ -56,15 +56,11 @@ def jumps(motion: Motion) -> tuple[Array, Array]:
     if len(motion) < 4:
         raise MocapError(f"To see accelerations jump takes four frames; '{motion.name}' has {len(motion)}.")
     points = point_cloud(motion)
-    velocity, acceleration = (
-        _rms(np.diff(points, order, axis=0)) * motion.fps ** (order - 1) for order in (2, 3)
+    velocity, acceleration = (  # root mean squares over the points
+        np.sqrt((np.diff(points, n, axis=0) ** 2).sum(axis=-1).mean(axis=-1)) * motion.fps ** (n - 1)
+        for n in (2, 3)
     )
     return np.pad(velocity, 1), np.pad(acceleration, (2, 1))
-
-
-def _rms(vectors: Array) -> Array:
-    """Take the RMS length of vectors (F, P, 3) in each frame, shape (F,)."""
-    return np.asarray(np.sqrt((vectors**2).sum(axis=-1).mean(axis=-1)))
 
 
 class Spread(NamedTuple):

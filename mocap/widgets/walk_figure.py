@@ -11,7 +11,7 @@ from mocap._shared.arrays import Array, Indices
 from mocap.body.skeleton import Skeleton
 from mocap.editing.body_roles import roles
 from mocap.errors import MocapError
-from mocap.files.gltf_capsules import THICK, reaches, rest
+from mocap.files.gltf_capsules import THICK, reaches
 
 LEG = 0.86  # metres from hip to ankle of the person whose radii stand below
 LEVEL = ("pelvis", "chest")
@@ -46,7 +46,7 @@ def figure(skeleton: Skeleton) -> list[list[Any]]:
     who = known(skeleton)
     if not set(TRUNK) <= set(who):
         return list(_bones(skeleton).values())
-    places = rest(skeleton)
+    places = skeleton.rest
     at = {role: places[joint] for role, joint in who.items()}
     leg = np.linalg.norm(np.diff([at[f"left {part}"] for part in ("hip", "knee", "ankle")], axis=0), axis=1)
     size = float(leg.sum()) / LEG
@@ -67,7 +67,7 @@ def posed(skeleton: Skeleton, drawn: Indices) -> dict[str, list[list[Any]]]:
     along.
     `pieces` as in `figure`, seen from the axes of a part, whose number comes first.
     """
-    places, who = rest(skeleton), known(skeleton)
+    places, who = skeleton.rest, known(skeleton)
     if set(TRUNK) <= set(who):
         pieces = [(row[0], row) for row in figure(skeleton)]
         axes = {joint: (joint, *_along(who, role)) for role, joint in who.items() if role.split()[-1] in AXES}

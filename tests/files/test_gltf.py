@@ -57,7 +57,7 @@ def test_between_frames_no_joint_turns_the_long_way_round():
 def test_the_body_moves_with_its_bones():
     motion = walk()
     read, shape = Glb(gltf.glb(motion)), gltf_capsules.body(motion.skeleton)
-    rest, exact = gltf_capsules.rest(motion.skeleton), joint_positions(motion)[50]
+    rest, exact = motion.skeleton.rest, joint_positions(motion)[50]
     moved = read.skinned(50 / motion.fps)
     before = np.linalg.norm(shape.places - rest[shape.joints], axis=-1)
     after = np.linalg.norm(moved - exact[shape.joints], axis=-1)
@@ -127,7 +127,7 @@ def test_trimesh_reads_the_body_and_the_joints():
     (mesh,) = scene.geometry.values()
     assert len(mesh.faces) == len(shape.corners)
     assert np.allclose(mesh.bounds, [shape.places.min(0), shape.places.max(0)], atol=1e-6)
-    rest = gltf_capsules.rest(motion.skeleton)
+    rest = motion.skeleton.rest
     for joint, name in enumerate(motion.skeleton.names):
         place = scene.graph.get(name)[0][:3, 3]
         assert np.abs(place - rest[joint] + [0, rest[:, 1].min(), 0]).max() < 1e-4

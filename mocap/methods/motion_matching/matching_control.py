@@ -5,7 +5,6 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.planar import PlanarTransform
-from mocap.body.skeleton import Skeleton
 from mocap.errors import warn
 from mocap.methods.motion_matching.nearest_frames import FrameSearch, Wants, foresee
 from mocap.methods.motion_matching.pose_database import FUTURE, PoseDatabase
@@ -40,8 +39,11 @@ class MotionMatcher:
     Notebook: 18-motion-matching
     """
 
+    frames_left = 0  # it can choose in every frame
+
     def __init__(self, database: PoseDatabase, wants: Wants = USUAL, *, start: int | None = None) -> None:
         self.database, self.wants = database, wants
+        self.skeleton, self.fps = database.clips[0].skeleton, database.fps
         self.frame = int(np.argmax(database.usable)) if start is None else start
         self._searches: dict[str, FrameSearch] = {}  # by label
         turn = complex(np.exp(-1j * database.heading[self.frame]))
@@ -52,21 +54,6 @@ class MotionMatcher:
         self.cuts: list[int] = []  # at which steps it cut
         self._steps = self._wait = 0
         self._command: tuple[float, float, str] | None = None
-
-    @property
-    def skeleton(self) -> Skeleton:
-        """The joints of the clips."""
-        return self.database.clips[0].skeleton
-
-    @property
-    def fps(self) -> float:
-        """Frames per second, those of the clips."""
-        return self.database.fps
-
-    @property
-    def frames_left(self) -> int:
-        """The frames until its next choice: it can choose in every frame."""
-        return 0
 
     def step(self, heading: float, speed: float, label: str = "") -> Pose:
         """Walk on by one frame.

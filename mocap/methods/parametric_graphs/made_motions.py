@@ -1,8 +1,7 @@
 """Motions made out of mixes, frame by frame, and where to leave one and enter another [HG07, 3.1].
 
-All pairs of 50 × 1000 generated clips are compared at once. With windows flattened to one vector each,
-centred over the ground, D of [KGP02, Eq. 1] is S + S' - 2 Σ y y' - 2 |Σ g g'*|: two products of matrices, as
-in `matching.distance_grids`.
+All pairs of 50 × 1000 generated clips are compared at once, by the products of `matching.distance_grids`: a
+whole window is there one frame of many points.
 """
 
 from dataclasses import dataclass
@@ -10,10 +9,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Mask, Points
+from mocap._shared.arrays import Array, Mask
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
+from mocap.matching.distance_grids import cloud, cloud_distances
 from mocap.methods.match_webs.wishes import shares_for, weights_for
 from mocap.methods.parametric_graphs.stride_spaces import Space
 
@@ -117,16 +117,6 @@ def near_end(space: Space, asked: Array, phase: float) -> tuple[Array, Array]:
     return points, np.interp(places, every, examples.grid)
 
 
-def _windows(points: Array) -> tuple[Points, Array, Array]:
-    """List all windows of M clips: ground (W, K) complex and centred, heights, both by √K, and sizes (W,)."""
-    count, joints = points.shape[1] - WINDOW + 1, points.shape[2]
-    cloud = points[:, np.arange(count)[:, None] + np.arange(WINDOW)].reshape(-1, WINDOW * joints, 3)
-    cloud = cloud / np.sqrt(WINDOW * joints)
-    ground = cloud[..., 2] + 1j * cloud[..., 0]
-    ground -= ground.mean(axis=-1, keepdims=True)
-    return ground, cloud[..., 1], (np.abs(ground) ** 2).sum(axis=-1)
-
-
 def optimal_transitions(source: Space, target: Space, at: Array, to: Array) -> OptimalTransitions:
     """Find for each pair of clips the windows that are nearest [HG07, 3.1].
 
@@ -152,21 +142,19 @@ def optimal_transitions(source: Space, target: Space, at: Array, to: Array) -> O
     Notebook: 17-parametric-graphs
     """
     (points, leaving), (others, entering) = near_end(source, at, 1.0), near_end(target, to, 0.0)
-    first, second = _windows(points), _windows(others)
-    level = first[1].mean(axis=0)  # heights from here are small enough for 32 bits
+    size, count = WINDOW * points.shape[2], 2 * SPAN + 1
+    frames = np.arange(count)[:, None] + np.arange(WINDOW)
+    level, weights = np.tile(points[..., 1].mean(axis=(0, 1)), WINDOW), np.full(size, 1 / size)
     a, b = (
-        (ground.astype(np.complex64), (heights - level).astype(np.float32), sizes)
-        for ground, heights, sizes in (first, second)
+        cloud(some[:, frames].reshape(-1, size, 3), level, weights, 1, np.float32)
+        for some in (points, others)
     )
-    sizes = [part[2] + (part[1] ** 2).sum(axis=-1) for part in (a, b)]
-    count, cost, best = 2 * SPAN + 1, np.empty((len(at), len(to))), np.empty((len(at), len(to)), int)
+    cost, best = np.empty((len(at), len(to))), np.empty((len(at), len(to)), int)
     for start in range(0, len(at), ROWS):
         rows, part = slice(start * count, (start + ROWS) * count), slice(start, start + ROWS)
-        shared = np.abs(a[0][rows] @ b[0].conj().T) + a[1][rows] @ b[1].T
-        square = np.maximum(sizes[0][rows, None] + sizes[1] - 2 * shared, 0)
-        grid = np.sqrt(square).reshape(-1, count, len(to), count).transpose(0, 2, 1, 3)
+        grid = cloud_distances(a.part(rows), b).reshape(-1, count, len(to), count).transpose(0, 2, 1, 3)
         flat = grid.reshape(*grid.shape[:2], -1)  # all pairs of windows of two clips
-        best[part], cost[part] = flat.argmin(axis=-1), flat.min(axis=-1)
+        best[part], cost[part] = flat.argmin(axis=-1), np.sqrt(flat.min(axis=-1))
     i, j = np.divmod(best, count)
     leave = np.take_along_axis(leaving[:, HALF : HALF + count], i, 1)
     return OptimalTransitions(cost, leave, entering[np.arange(len(to)), HALF + j])

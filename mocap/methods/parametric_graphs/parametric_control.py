@@ -12,7 +12,6 @@ from mocap.blending.weights import cubic_weights
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, concatenate
 from mocap.body.planar import PlanarTransform
-from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, NoWalk
 from mocap.matching.point_clouds import align
 from mocap.methods.parametric_graphs.made_motions import HALF, WINDOW, make_motion
@@ -82,6 +81,7 @@ class ParametricController:
         if self.node not in graph.graph:
             raise MocapError(f"There is no node '{self.node}'; there are: {', '.join(graph.graph)}.")
         space, self.target = graph.space(self.node), np.full(3, np.nan)
+        self.skeleton, self.fps = space.examples.skeleton, graph.fps
         usual = {"turn": 0.0, "speed": float(np.median(space.examples.values[:, 1]))}
         middle = np.median(space.reached, axis=0)
         asked = [usual.get(name, own) for name, own in zip(space.parameters, middle, strict=True)]
@@ -89,16 +89,6 @@ class ParametricController:
         self.chosen: list[Chosen] = []
         self.made, self.place = make_motion(space, self.parameters), PlanarTransform(0.0, 0.0, 0.0)
         self._play([], 0, self.made.frame(0.0))
-
-    @property
-    def skeleton(self) -> Skeleton:
-        """The joints of the graph's motions."""
-        return self.graph.space(self.node).examples.skeleton
-
-    @property
-    def fps(self) -> float:
-        """Frames per second, those of the graph."""
-        return self.graph.fps
 
     @property
     def end(self) -> PlanarTransform:
