@@ -122,13 +122,14 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
     marks = gather_marks([clip.labels for clip in graph.clips], frames.owner)
     bears = np.array([marks[name] for name in sorted(marks)], bool).reshape(-1, len(frames.edge))
     way = table.transform
-    of_edges = (target, table.frames, table.cost, table.blended, way.turn, way.move)
-    standing = _standing(graph, np.array(nodes), roots)
+    of_all = (target, table.frames, table.cost, table.blended, way.turn, way.move)
     first = np.asarray(np.cumsum(table.frames) - table.frames, np.intp)
     ground, step = _tracks(graph, table, frames, roots)
-    of_frames = (first, frames, ground, step, sorted(marks), bears)
-    hops = find_hops(table, leaves, len(nodes), graph.fps)
-    return CompiledGraph(graph, nodes, edges, *of_edges, *standing, *of_frames, hops)
+    hops, names = find_hops(table, leaves, len(nodes), graph.fps), sorted(marks)
+    standing = _standing(graph, np.array(nodes), roots)
+    return CompiledGraph(
+        graph, nodes, edges, *of_all, *standing, first, frames, ground, step, names, bears, hops
+    )
 
 
 def _standing(graph: MotionGraph, nodes: Indices, roots: Points) -> tuple[Points, Points, Array]:
