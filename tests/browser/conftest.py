@@ -6,7 +6,6 @@ Screenshots are kept in the folder that MOCAP_ARTEFACTS names, else in pytest's 
 import contextlib
 import json
 import os
-import pkgutil
 import shutil
 import socket
 import subprocess
@@ -19,8 +18,6 @@ from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
-
-from tests.conftest import SWEEP
 
 LAB = [
     "--ServerApp.ip=127.0.0.1",
@@ -55,16 +52,6 @@ def wait_until(what, seconds=120.0):
         assert time.monotonic() < end, f"not within {seconds} s"
         time.sleep(0.05)
     return answer
-
-
-@pytest.fixture(scope="package", autouse=True)
-def one_room():
-    """Write the reference of one room beside the pages of the course; a sweep writes all."""
-    with pytest.MonkeyPatch.context() as patch:
-        if not SWEEP:
-            rooms = [pkgutil.ModuleInfo(None, "mocap.blending", ispkg=True)]
-            patch.setattr("mocap.course.site.pkgutil.walk_packages", lambda *_: rooms)
-        yield
 
 
 @pytest.fixture(scope="session")

@@ -1,37 +1,29 @@
 """The course's site, its pages opened as files: they load nothing, they play, and the search finds."""
 
 import re
-import shutil
 
 import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
-from mocap.course.opening import stored
 from mocap.course.site import build_site
 from tests.browser.conftest import wait_until, watched_page
-from tests.conftest import SWEEP
-from tests.course.test_site import PAGES, dead, pages
+from tests.course.test_site import EXPERIMENT, course_site
 
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory):
-    if SWEEP:
-        return build_site(stored(), tmp_path_factory.mktemp("site"))
-    folder = tmp_path_factory.mktemp("notebooks")
-    for name in ("00-quickstart.ipynb", "04b-feet.ipynb", *(f"{page}.md" for page in PAGES)):
-        shutil.copy(stored() / name, folder)
-    shutil.copytree(stored() / "teaching", folder / "teaching")
-    return build_site(folder, tmp_path_factory.mktemp("site"))
+    return course_site(tmp_path_factory)
 
 
-@pytest.mark.sweep
-def test_no_link_of_the_whole_course_is_dead(site):
-    assert list(dead(pages(site.parent))) == []
+@pytest.fixture
+def first(site):
+    """Give the address of the first page."""
+    return (site / "00-quickstart.html").as_uri()
 
 
-def test_a_page_plays_and_folds(page, site):
-    page.goto(site.as_uri())
+def test_a_page_plays_and_folds(page, first):
+    page.goto(first)
     players = page.locator(".mocap-player")
     assert players.count() >= 3
     players.first.scroll_into_view_if_needed()
@@ -44,8 +36,8 @@ def test_a_page_plays_and_folds(page, site):
     assert formula.bounding_box()["height"] > 15  # the browser itself draws it
 
 
-def test_the_search_answers(page, site):
-    page.goto(site.as_uri())
+def test_the_search_answers(page, first):
+    page.goto(first)
     page.locator("input[name=q]").fill("footskate")
     page.locator("input[name=q]").press("Enter")
     wait_until(lambda: page.locator("#search-results li a").count() > 1)
@@ -53,15 +45,15 @@ def test_the_search_answers(page, site):
     wait_until(lambda: "search.html" not in page.url)
 
 
-def test_the_search_knows_words_near_what_was_typed(page, site):
-    page.goto(f"{site.parent.as_uri()}/search.html?q=footskete")
+def test_the_search_knows_words_near_what_was_typed(page, first):
+    page.goto(first.replace("00-quickstart.html", "search.html?q=footskete"))
     wait_until(lambda: page.locator("#search-results .note").count())
     assert page.locator("#search-results .note").inner_text().startswith("No page has “footskete”. These")
     assert "(footskat…)" in page.locator("#search-results").inner_text()
 
 
-def test_code_can_be_hidden_and_stays_hidden(page, site):
-    page.goto(site.as_uri())
+def test_code_can_be_hidden_and_stays_hidden(page, first):
+    page.goto(first)
     page.get_by_role("button", name="hide code").click()
     assert page.locator(".cell_input").first.is_hidden()
     page.reload()
@@ -70,34 +62,26 @@ def test_code_can_be_hidden_and_stays_hidden(page, site):
     assert page.locator(".cell_input").first.is_visible()
 
 
-def test_the_menu_folds_on_a_phone(page, site):
+def test_the_menu_folds_on_a_phone(page, first):
     page.set_viewport_size({"width": 390, "height": 844})
-    page.goto(site.as_uri())
+    page.goto(first)
     menu, fold = page.locator(".sidebar-drawer"), page.locator(".nav-overlay-icon").first
     wait_until(lambda: menu.bounding_box()["x"] < -100)
     fold.click()
     wait_until(lambda: menu.bounding_box()["x"] >= 0)
 
 
-def test_pages_are_dark_where_the_reader_wants_it(page, site):
+def test_pages_are_dark_where_the_reader_wants_it(page, first):
     page.emulate_media(color_scheme="dark")
-    page.goto(site.as_uri())
+    page.goto(first)
     paper = page.evaluate("getComputedStyle(document.body).backgroundColor")
     assert max(map(int, re.findall(r"\d+", paper))) < 60
     figure = "getComputedStyle(document.querySelector('article img')).backgroundColor"
     assert page.evaluate(figure).endswith("(255, 255, 255)")
 
 
-EXPERIMENT = """import matplotlib.pyplot as plt
-from mocap.widgets import explore
-
-def draw(steps_taken=2):
-    return plt.figure(figsize=(steps_taken + 1, 1))
-
-explore(draw, alt="A white picture, as wide as the slider says.", steps_taken=(0, 3))"""
-
-
-def test_a_recorded_experiment_moves(page, tmp_path):
+def test_a_recorded_experiment_moves(page, tmp_path, monkeypatch):
+    monkeypatch.setattr("mocap.course.site._write_reference", lambda folder: [])
     still = new_output("display_data", {"text/html": '<div class="mocap-still"></div>'})
     cells = [
         new_markdown_cell("# One"),
@@ -139,7 +123,7 @@ CUT_OR_SMALL = """() => {
 
 def test_every_page_fits_a_phone(browser, site):
     with watched_page(browser, **PHONE) as (page, faults):
-        for file in sorted(site.parent.glob("[0-9]*.html")):
+        for file in sorted(site.glob("[0-9]*.html")):
             page.goto(file.as_uri())
             assert page.evaluate("document.documentElement.scrollWidth") <= 390, file.name
             assert page.evaluate(CUT_OR_SMALL) == [], file.name

@@ -1,10 +1,12 @@
 """The course as pages."""
 
 import json
+import os
 import pkgutil
 import posixpath
 import re
 import shutil
+from fcntl import LOCK_EX, flock
 from html.parser import HTMLParser
 
 import nbformat
@@ -15,8 +17,9 @@ from mocap import course
 from mocap.cli.main import main
 from mocap.course.formulas import to_mathml
 from mocap.course.opening import stored
-from mocap.course.site import STILL, build_site
+from mocap.course.site import STILL, _note, build_site, prepared
 from mocap.widgets import live
+from tests.conftest import SWEEP
 from tests.refusals import refused
 
 NAMES = ("00-quickstart", "09b-blend-window")
@@ -24,19 +27,28 @@ PAGES = ("GLOSSARY", "FORMULAS", "PAPERS", "PROJECT", "README")
 ROOMS = ("mocap.body", "mocap.blending")  # of the reference; the sweep makes all
 
 
+def course_site(tmp_path_factory):
+    """Make the pages of two notebooks; in a sweep those of the whole course, once for all workers."""
+    base = tmp_path_factory.getbasetemp()
+    base = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+    with pytest.MonkeyPatch.context() as patch, (base / "site.lock").open("w") as lock:
+        flock(lock, LOCK_EX)
+        if not SWEEP:
+            folder = tmp_path_factory.mktemp("notebooks")
+            for name in (*(f"{name}.ipynb" for name in NAMES), *(f"{name}.md" for name in PAGES)):
+                shutil.copy(stored() / name, folder)
+            shutil.copytree(stored() / "teaching", folder / "teaching")
+            patch.setattr(course, "stored", lambda: folder)
+            rooms = [pkgutil.ModuleInfo(None, room, ispkg=True) for room in ROOMS]
+            patch.setattr("mocap.course.site.pkgutil.walk_packages", lambda *_: rooms)
+        if not (base / "site").exists():
+            assert main(["course", "site", "-o", str(base / "site")]) == 0
+    return base / "site"
+
+
 @pytest.fixture(scope="module")
 def site(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("notebooks")
-    for name in (*(f"{name}.ipynb" for name in NAMES), *(f"{name}.md" for name in PAGES)):
-        shutil.copy(stored() / name, folder)
-    shutil.copytree(stored() / "teaching", folder / "teaching")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(course, "stored", lambda: folder)
-        rooms = [pkgutil.ModuleInfo(None, room, ispkg=True) for room in ROOMS]
-        patch.setattr("mocap.course.site.pkgutil.walk_packages", lambda *_: rooms)
-        out = tmp_path_factory.mktemp("site") / "course"
-        assert main(["course", "site", "-o", str(out)]) == 0
-    return out
+    return course_site(tmp_path_factory)
 
 
 class Page(HTMLParser):
@@ -80,7 +92,7 @@ def test_every_notebook_is_a_page_beside_the_reference_and_links_lead_somewhere(
     found = pages(site)
     assert {f"{name}.html" for name in (*NAMES, *PAGES)} <= set(found)
     assert sum(link.startswith("#") for page in found.values() for link in page.links) > 50
-    assert [link for link in dead(found) if ".ipynb" not in link] == []  # that one is not in this folder
+    assert [link for link in dead(found) if SWEEP or ".ipynb" not in link] == []  # not in this folder
     reference = (site / "reference" / "mocap.blending.html").read_text("utf-8")
     assert 'id="mocap.blending.join"' in reference and "Examples" in reference
     assert "L. Kovar, M. Gleicher" in reference
@@ -162,18 +174,18 @@ def draw(steps_taken=2):
 explore(draw, alt="A white picture, as wide as the slider says.", steps_taken=(0, 3))"""
 
 
-def test_experiments_move_through_recorded_positions(tmp_path, monkeypatch):
-    monkeypatch.setattr("mocap.course.site._write_reference", lambda folder: [])
+def test_experiments_move_through_recorded_positions(tmp_path):
     still = {"text/html": '<div class="mocap-still"><img alt="Still."></div>', "text/plain": "Still."}
     cell = new_code_cell(EXPERIMENT, outputs=[new_output("display_data", still)])
     alone = new_code_cell("import os\nassert os.environ['MOCAP_MINE'] == ''  # nobody's functions are shown")
-    folder = write_course(tmp_path / "in", new_markdown_cell("# One"), alone, cell)
-    text = build_site(folder, tmp_path / "still").read_text("utf-8")
-    assert "its controls move where the notebook runs" in text
-    assert "This page is still: code and controls do not run here." in text
-    text = build_site(folder, tmp_path / "moving", moving=True).read_text("utf-8")
-    assert "On this page the sliders show recorded positions" in text
-    label = re.search(r"<label>steps taken <input(.*?)/?><output>2</output></label>", text)[1]
+    file = write_course(tmp_path / "in", new_markdown_cell("# One"), alone, cell) / "00-one.ipynb"
+    title, notebook = prepared(file, moving=False)
+    assert title == "00 One" and "its controls move where the notebook runs" in str(notebook)
+    assert "This page is still: code and controls do not run here." in _note(notebook)
+    _, notebook = prepared(file, moving=True)
+    assert "On this page the sliders show recorded positions" in _note(notebook)
+    text = notebook.cells[2].outputs[0].data["text/html"]
+    label = re.search(r"<label>steps taken <input(.*?)><output>2</output></label>", text)[1]
     assert {'type="range"', 'min="0"', 'max="3"', 'value="2"', 'aria-valuetext="2"'} <= set(label.split())
     assert 'alt="A white picture, as wide as the slider says."' in text
     recorded = json.loads(re.search(r'<script type="application/json">(.*?)</script>', text)[1])
