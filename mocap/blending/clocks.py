@@ -149,9 +149,8 @@ def clock_speed(slopes: ArrayLike, weights: ArrayLike, pace: str = "durations") 
 
 def _require_running(speed: float, weights: Array) -> None:
     if not speed > 0:
-        raise MocapError(
-            f"With the weights {weights.round(3).tolist()[:6]} time would stop; take them nearer to 0 … 1."
-        )
+        some = weights.round(3).tolist()[:6]
+        raise MocapError(f"With the weights {some} time would stop; take them nearer to 0 … 1.")
 
 
 def _closed(registration: Registration, weights: Array, fps: float) -> Array:

@@ -49,9 +49,8 @@ def blend(a: Motion, b: Motion, weights: ArrayLike) -> Motion:
     a, b = require_alike([a, b])
     alpha = np.asarray(weights, float)
     if len(a) != len(b) or alpha.shape != (len(a),):
-        raise MocapError(
-            f"Blending needs as many frames of each motion as weights, got {len(a)}, {len(b)}, {alpha.shape}."
-        )
+        got = f"{len(a)}, {len(b)}, {alpha.shape}"
+        raise MocapError(f"Blending needs as many frames of each motion as weights, got {got}.")
     if not ((alpha >= 0) & (alpha <= 1)).all():
         raise MocapError(f"Blend weights must lie in [0, 1], got {alpha.tolist()}.")
     owner = np.stack([alpha < 0.5, np.arange(len(a))], axis=1)  # a or b, and which frame
@@ -88,10 +87,8 @@ def lay_window_on(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
         raise MocapError(f"A window needs at least one frame, got {window}.")
     for clip, start in ((a, i), (b, j)):
         if start < 0 or start + window > len(clip):
-            raise MocapError(
-                f"The window of {window} frames from frame {start} runs off '{clip.name}', "
-                f"which has {len(clip)}."
-            )
+            span = f"The window of {window} frames from frame {start}"
+            raise MocapError(f"{span} runs off '{clip.name}', which has {len(clip)}.")
     clouds = (point_cloud(clip[start : start + window]).reshape(-1, 3) for clip, start in ((a, i), (b, j)))
     return align(*clouds).apply_motion(b)
 
@@ -193,16 +190,12 @@ def inertialize(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
     after = 1 if window > 1 else 0
     around = np.arange(-before, after + 1)
     shifts = a.root_positions[i + around] - b.root_positions[j + around]
-    turns = rotations.to_rotvec(
-        rotations.multiply(rotations.inverse(b.rotations[j + around]), a.rotations[i + around])
-    )
+    back = rotations.inverse(b.rotations[j + around])
+    turns = rotations.to_rotvec(rotations.multiply(back, a.rotations[i + around]))
     shift, turn = (_decay(offsets, before, window) for offsets in (shifts, _steady(turns, before)))
     onward = b[j : j + window]
-    faded = replace(
-        onward,
-        root_positions=onward.root_positions + shift,
-        rotations=rotations.multiply(onward.rotations, rotations.from_rotvec(turn)),
-    )
+    turned = rotations.multiply(onward.rotations, rotations.from_rotvec(turn))
+    faded = replace(onward, root_positions=onward.root_positions + shift, rotations=turned)
     return splice(a, i, faded, b, j + window)
 
 

@@ -47,15 +47,12 @@ def draw_stretches(
     after = np.minimum(lengths[found.source] - found.leave, lengths[found.target] - found.enter) - half
     fit = np.flatnonzero((found.source != found.target) & (before >= reach) & (after >= reach))
     if len(fit) < count:
-        raise MocapError(
-            f"{len(fit)} matches have {reach} frames before and after their middles; {count} were asked for."
-        )
+        have = f"{len(fit)} matches have {reach} frames before and after their middles"
+        raise MocapError(f"{have}; {count} were asked for.")
     drawn = np.random.default_rng(0).choice(fit, count, replace=False)
     pairs = []
-    for match in (found[int(n)] for n in drawn):
-        a, b = (
-            clips[clip][start + half - reach : start + half + reach]
-            for clip, start in ((match.source, match.leave), (match.target, match.enter))
-        )
-        pairs.append((a, match.transform.apply_motion(b)))
+    for source, leave, target, enter, _, transform in (found[int(n)] for n in drawn):
+        before = half - reach, half + reach
+        a, b = (clips[c][at + before[0] : at + before[1]] for c, at in ((source, leave), (target, enter)))
+        pairs.append((a, transform.apply_motion(b)))
     return pairs

@@ -210,10 +210,8 @@ def crossfade(registration: Registration, *, seconds: float = 1.0, at: float | N
         raise MocapError(f"A fade must last longer than 0 s, got {seconds} s.")
     start, stop = middle - seconds / 2, middle + seconds / 2
     if not first - 1e-9 <= start < stop <= last + 1e-9:
-        raise MocapError(
-            f"A fade from {start:.2f} to {stop:.2f} s does not lie within the {first:.2f} to {last:.2f} s "
-            "that both clips have."
-        )
+        both = f"the {first:.2f} to {last:.2f} s that both clips have"
+        raise MocapError(f"A fade from {start:.2f} to {stop:.2f} s does not lie within {both}.")
     own, other = registration.reference, 1 - registration.reference
 
     def weights(u: float, t: float) -> Array:

@@ -110,18 +110,13 @@ def name_leg(skeleton: Skeleton, hip: str, knee: str, ankle: str, ball: str) -> 
     >>> name_leg(SKELETON, "lfemur", "ltibia", "lfoot", "ltoes")
     Leg(hip=2, knee=3, ankle=4, ball=5)
     """
-    leg = Leg(*(skeleton.index(name) for name in (hip, knee, ankle, ball)))
+    leg, names = Leg(*(skeleton.index(name) for name in (hip, knee, ankle, ball))), skeleton.names
     for above, below in pairwise(leg):
         if skeleton.parents[below] != above:
-            names = skeleton.names
-            raise MocapError(
-                f"In a leg each joint hangs on the one before, but '{names[below]}' hangs on "
-                f"'{names[skeleton.parents[below]]}', not on '{names[above]}'."
-            )
+            hangs = f"'{names[below]}' hangs on '{names[skeleton.parents[below]]}', not on '{names[above]}'"
+            raise MocapError(f"In a leg each joint hangs on the one before, but {hangs}.")
         if not np.linalg.norm(skeleton.offsets[below]) > 1e-6:
-            raise MocapError(
-                f"'{skeleton.names[below]}' sits on '{skeleton.names[above]}': a bone needs a length."
-            )
+            raise MocapError(f"'{names[below]}' sits on '{names[above]}': a bone needs a length.")
     return leg
 
 

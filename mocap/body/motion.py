@@ -77,16 +77,12 @@ class Motion:
             raise MocapError(f"Motion '{self.name}' needs a frame rate above 0, got {self.fps}.")
         finite = np.isfinite(self.root_positions).all(-1) & np.isfinite(self.rotations).all((-2, -1))
         if not finite.all():
-            raise MocapError(
-                f"Motion '{self.name}' holds a number that is not finite in frame {int(finite.argmin())}."
-            )
+            raise MocapError(f"Motion '{self.name}', frame {finite.argmin()}: a number is not finite.")
         error = np.abs(np.sqrt(np.einsum("fjk,fjk->fj", self.rotations, self.rotations)) - 1)
         if error.max() > 1e-6:
             frame, joint = np.unravel_index(error.argmax(), error.shape)
-            raise MocapError(
-                f"Motion '{self.name}', frame {frame}, joint '{self.skeleton.names[joint]}': "
-                "the quaternion does not have length 1."
-            )
+            place = f"'{self.name}', frame {frame}, joint '{self.skeleton.names[joint]}'"
+            raise MocapError(f"Motion {place}: the quaternion does not have length 1.")
 
     def _mark(self, name: str, mark: ArrayLike) -> NDArray[np.generic]:
         if np.shape(mark) not in ((), (len(self),)):
@@ -248,10 +244,8 @@ def require_alike(motions: Sequence[Motion]) -> tuple[Motion, ...]:
         except SkeletonMismatch as error:
             raise SkeletonMismatch(f"'{most.name}' and '{motion.name}': {error}") from None
         if motion.fps != motions[0].fps:
-            raise MocapError(
-                f"'{motions[0].name}' runs at {motions[0].fps:g} Hz, '{motion.name}' at {motion.fps:g} Hz: "
-                "resample one first."
-            )
+            rates = f"'{motions[0].name}' runs at {motions[0].fps:g} Hz, '{motion.name}' at {motion.fps:g} Hz"
+            raise MocapError(f"{rates}: resample one first.")
     return tuple(alike)
 
 

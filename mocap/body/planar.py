@@ -168,11 +168,10 @@ def lay_on(motion: Motion, target: Motion, frame: int = 0) -> PlanarTransform:
 
     Notebook: 03b-angles
     """
-    angle = float(heading(target.rotations[frame, 0]) - heading(motion.rotations[0, 0]))
-    x, _, z = target.root_positions[frame] - PlanarTransform(angle, 0.0, 0.0).apply_points(
-        motion.root_positions[0]
-    )
-    return PlanarTransform(angle, float(x), float(z))
+    turn = float(heading(target.rotations[frame, 0]) - heading(motion.rotations[0, 0]))
+    turned = PlanarTransform(turn, 0.0, 0.0).apply_points(motion.root_positions[0])
+    x, _, z = target.root_positions[frame] - turned
+    return PlanarTransform(turn, float(x), float(z))
 
 
 def place(motion: Motion, direction: float, position: ArrayLike) -> Motion:
@@ -199,9 +198,7 @@ def place(motion: Motion, direction: float, position: ArrayLike) -> Motion:
     """
     target = np.asarray(position, float)
     if target.shape != (2,) or not np.isfinite([direction, *target]).all():
-        raise MocapError(
-            f"A place is a finite direction and position (x, z), got {direction} and {target.tolist()}."
-        )
+        raise MocapError(f"A place is a finite direction and (x, z), got {direction} and {target.tolist()}.")
     turn = PlanarTransform(direction - float(heading(motion.rotations[0, 0])), 0.0, 0.0)
     x, _, z = turn.apply_points(motion.root_positions[0])
     return turn._replace(x=target[0] - x, z=target[1] - z).apply_motion(motion)

@@ -53,9 +53,8 @@ def fetch(name: str, url: str, sha256: str | None, terms: str) -> Path:
     place = f"{urlsplit(url).netloc}/.../{url.rpartition('/')[2]}"
     hint = f"put a copy of {name} into a folder that MOCAP_DATA names"
     pooch.get_logger().setLevel("WARNING")
-    store = pooch.create(
-        kept_in(), base_url="", registry={name: sha256}, urls={name: url}, retry_if_failed=RETRIES
-    )
+    known = {"registry": {name: sha256}, "urls": {name: url}}
+    store = pooch.create(kept_in(), base_url="", **known, retry_if_failed=RETRIES)
     try:
         return Path(store.fetch(name, downloader=download))
     except RequestException as error:

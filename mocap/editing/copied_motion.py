@@ -99,9 +99,8 @@ def _local(poses: GlobalPoses, source: Stance, target: Stance) -> Array:
     parents, looks = target.skeleton.parents, _bone_turns(source, target)
     seen = rotations.from_matrix(poses.matrices)
     world = np.empty((len(seen), len(parents), 4))
-    world[:, 0] = rotations.multiply(
-        rotations.about_y(heading_by_hips(poses.positions, source.roles)), target.turns[0]
-    )
+    facing = rotations.about_y(heading_by_hips(poses.positions, source.roles))
+    world[:, 0] = rotations.multiply(facing, target.turns[0])
     for joint, above in enumerate(parents):
         if joint in looks:
             own, turn = looks[joint]

@@ -77,10 +77,8 @@ def find_loop(motion: Motion, *, seconds: tuple[float, float] = (0.4, 3.0)) -> L
     window, least = (max(2, round(length * slow.fps)) for length in (SEAM, seconds[0]))
     most = min(round(seconds[1] * slow.fps), len(slow) - window)
     if least > most or slow.duration > LONGEST:
-        raise MocapError(
-            f"'{shortened(motion.name)}' lasts {motion.duration:.3g} s: to find a cycle takes "
-            f"{seconds[0] + SEAM:g} to {LONGEST:g} s."
-        )
+        lasts = f"'{shortened(motion.name)}' lasts {motion.duration:.3g} s"
+        raise MocapError(f"{lasts}: to find a cycle takes {seconds[0] + SEAM:g} to {LONGEST:g} s.")
     points = point_cloud(slow)
     points = (points - points.mean(axis=(0, 1))).astype(np.float32)  # kilometres away 32 bits are too few
     grid = distance_grid(points, points, window=window)
@@ -166,10 +164,8 @@ def loop(motion: Motion, found: Loop, *, straight: bool = False, clean: bool = F
     """
     window = max(2, round(SEAM * motion.fps))
     if not 0 <= found.first < found.last < len(motion) - window or found.last - found.first < window:
-        raise MocapError(
-            f"A cycle from frame {found.first} to {found.last} of {len(motion)} leaves no room for a seam of "
-            f"{window} frames."
-        )
+        cycle = f"A cycle from frame {found.first} to {found.last} of {len(motion)}"
+        raise MocapError(f"{cycle} leaves no room for a seam of {window} frames.")
     joined = join(motion, found.last, motion, found.first, window)
     cycle = joined[found.first + window : found.last + window + 1]
     cycle = replace(cycle, name=f"{motion.name}_loop")

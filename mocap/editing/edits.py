@@ -160,7 +160,6 @@ def stiff(skeleton: Skeleton, trunk: float, neck: float) -> dict[str, float]:
     paths = [skeleton.path_to_root(joint) for joint in range(len(skeleton))]
     below = np.bincount(np.concatenate(paths))
     heads = {joint for path in paths if skeleton.names[path[0]].lower().endswith("head") for joint in path}
-    factors = np.where(
-        below > len(skeleton) / 3, trunk, np.where(np.isin(range(len(paths)), [*heads]), neck, 1)
-    )
+    above_heads = np.isin(range(len(paths)), [*heads])
+    factors = np.where(below > len(skeleton) / 3, trunk, np.where(above_heads, neck, 1))
     return {n: factor for n, factor in zip(skeleton.names, factors.tolist(), strict=True) if factor != 1}

@@ -154,9 +154,8 @@ class Curve:
                 top = max(d * n - j, 0)
                 band[top : (d + 1) * n - j, j : (knots - d) * n : n] = blocks[:, j, top + j - d * n :].T
         band[0] += RIDGE * band[0].max()
-        return np.asarray(
-            solveh_banded(band, right.ravel(), lower=True, check_finite=False).reshape(knots, n)
-        )
+        solved = solveh_banded(band, right.ravel(), lower=True, check_finite=False)
+        return np.asarray(solved.reshape(knots, n))
 
     def cost(self, c: Array, gap: Array) -> Array:
         """Add up what is to be least, for each frame by itself (F, 1), or for all together (1, 1)."""

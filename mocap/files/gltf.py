@@ -168,9 +168,8 @@ def _mesh(skeleton: Skeleton, block: Block) -> Record:
 def _animation(motion: Motion, block: Block) -> Record:
     times = (np.arange(len(motion)) / motion.fps).astype(np.float32)
     if np.any(np.diff(times) <= 0):
-        raise MocapError(
-            f"'{shortened(motion.name)}' at {motion.fps:g} Hz is too fast for a .glb: resample it."
-        )
+        name = shortened(motion.name)
+        raise MocapError(f"'{name}' at {motion.fps:g} Hz is too fast for a .glb: resample it.")
     clock = block.add(times, bounds=True)
     samplers = [{"input": clock, "output": block.add(motion.root_positions.astype(np.float32))}]
     channels = [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]

@@ -126,10 +126,8 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
     first = np.asarray(np.cumsum(table.frames) - table.frames, np.intp)
     ground, step = _tracks(graph, table, frames, roots)
     hops, names = find_hops(table, leaves, len(nodes), graph.fps), sorted(marks)
-    standing = _standing(graph, np.array(nodes), roots)
-    return CompiledGraph(
-        graph, nodes, edges, *of_all, *standing, first, frames, ground, step, names, bears, hops
-    )
+    parts = (*of_all, *_standing(graph, np.array(nodes), roots))
+    return CompiledGraph(graph, nodes, edges, *parts, first, frames, ground, step, names, bears, hops)
 
 
 def _standing(graph: MotionGraph, nodes: Indices, roots: Points) -> tuple[Points, Points, Array]:

@@ -185,6 +185,5 @@ def find_hops(edges: EdgeTable, leaves: Indices, nodes: int, fps: float) -> Hops
     begin, end = np.stack([onward[start], last], axis=1), np.stack([onward[start] + rides, last + 1], axis=1)
     end[rides == 0, 0] = begin[rides == 0, 0]
     counts = before[end] - before[begin]
-    return Hops(
-        np.searchsorted(start, np.arange(nodes + 1)), onward[start], rides, last, before[begin], counts
-    )
+    first = np.searchsorted(start, np.arange(nodes + 1))
+    return Hops(first, onward[start], rides, last, before[begin], counts)

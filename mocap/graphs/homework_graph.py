@@ -126,10 +126,8 @@ def segment_graph(  # noqa: PLR0913 - the homework's own five knobs, and the met
         raise MocapError(f"The threshold must be above 0, got {threshold}.")
     for clip in clips:  # a window to enter a segment, and one to leave it
         if (length := min(segment, len(clip))) <= 2 * window:
-            raise MocapError(
-                f"'{clip.name}': a segment of {length} frames is too short for windows of {window} at both "
-                "its ends."
-            )
+            short = f"a segment of {length} frames is too short for windows of {window}"
+            raise MocapError(f"'{clip.name}': {short} at both its ends.")
     distances = segment_distances(clips, segment=segment, window=window, metric=metric)
     cuts = enumerate(segments(len(clip), segment) for clip in clips)
     parts = [Segment(clip, part.start, part.stop) for clip, slices in cuts for part in slices]

@@ -43,9 +43,7 @@ def local_minima(grid: ArrayLike, below: float = np.inf) -> Indices:
         raise MocapError(f"The grid holds NaN at {np.argwhere(np.isnan(values))[0].tolist()}.")
     padded = np.pad(values.astype(np.result_type(values, np.float32), copy=False), 1, constant_values=np.inf)
     rows, columns = np.divmod(np.flatnonzero(values < below), values.shape[1])
-    left = _lowest(
-        values[rows, columns], lambda left, r, c: padded[rows[left] + 1 + r, columns[left] + 1 + c]
-    )
+    left = _lowest(values[rows, columns], lambda at, r, c: padded[rows[at] + 1 + r, columns[at] + 1 + c])
     return np.stack([rows[left], columns[left]], axis=-1)
 
 

@@ -157,7 +157,7 @@ def require_near(points: Array, name: str) -> None:
     """Raise unless all coordinates are finite, and at most FARTHEST metres."""
     near = np.abs(points) <= FARTHEST  # NaN is not
     if not near.all():
-        place = tuple(int(index) for index in np.argwhere(~near)[0])
+        at = tuple(np.argwhere(~near)[0].tolist())
         raise MocapError(
-            f"Points must be numbers within {FARTHEST:g} m; {name} holds {points[place]} at {list(place)}."
+            f"Points must be numbers within {FARTHEST:g} m; {name} holds {points[at]} at {[*at]}."
         )

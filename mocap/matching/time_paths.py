@@ -193,10 +193,8 @@ def time_path(grid: ArrayLike, *, slope: int = 2, slack: int = 0) -> Indices:
         sums = path_sums(costs - level, starts, slope=slope)
         totals = sums.totals[ends[:, 0], ends[:, 1]]
         if not np.isfinite(totals.min()):
-            raise MocapError(
-                f"{len(costs)} frames cannot be laid on {costs.shape[1]} with slope {slope}: "
-                f"at most {slope + 1} to 1."
-            )
+            frames = f"{len(costs)} frames cannot be laid on {costs.shape[1]}"
+            raise MocapError(f"{frames} with slope {slope}: at most {slope + 1} to 1.")
         end = ends[totals.argmin()]
         path = trace(sums, (int(end[0]), int(end[1])))
         level, before = path_mean(costs, path), level

@@ -161,9 +161,8 @@ def plan_bending(
     # A slower walk, or one that turns by itself, needs less rounding, so that its line is longer.
     further = FURTHER[0] + (1 + FURTHER[1]) * max(path.length, line.path.length) - line.path.length
     longer = GroundPath(np.vstack([points, points[-1] + further * way / np.hypot(*way)]))
-    route = _in_own_metres(
-        make_route(graph, longer, wishes), longer, places_on(longer, pace, graph.fps, limit), steady
-    )
+    places = places_on(longer, pace, graph.fps, limit)
+    route = _in_own_metres(make_route(graph, longer, wishes), longer, places, steady)
     return replace(route, own=own), partial(_lay, graph, path, wishes, limit)
 
 
@@ -177,10 +176,8 @@ def _in_own_metres(route: Route, path: GroundPath, places: Places, steady: Array
     late = np.nancumsum(np.diff(clock, prepend=clock[:1]) * slower)
     clock = np.where(np.isnan(clock), np.nan, late + np.nanmin([*clock, np.inf]))
     angle = np.asarray(moving_frames(path, along).angle)
-    points, bends = on_ground(path.at(along)), np.gradient(angle, own)
-    return replace(
-        route, points=points, spacing=own[1], label=route.label[point], clock=clock, curvature=bends
-    )
+    points, label, bends = on_ground(path.at(along)), route.label[point], np.gradient(angle, own)
+    return replace(route, points=points, spacing=own[1], label=label, clock=clock, curvature=bends)
 
 
 def _lay(graph: CompiledGraph, path: GroundPath, wishes: Wishes, limit: float, found: Found) -> BentWalk:

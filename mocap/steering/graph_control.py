@@ -82,13 +82,9 @@ class LookAhead:
         cost = (off.real**2 + off.imag**2) / self.seconds[hop] + self.price[hop]
         if label >= 0:
             cost += LABEL * self.lacks[label, hop]
-        longer = WalksAhead(
-            np.where(walks.first[of] < 0, hop, walks.first[of]),
-            graph.target[last],
-            walks.turn[of] * graph.turn[last],
-            walks.frames[of] + hops.frames[hop],
-            walks.cost[of] + cost,
-        )
+        first, turn = np.where(walks.first[of] < 0, hop, walks.first[of]), walks.turn[of] * graph.turn[last]
+        frames, cost = walks.frames[of] + hops.frames[hop], walks.cost[of] + cost
+        longer = WalksAhead(first, graph.target[last], turn, frames, cost)
         walks = WalksAhead._make(np.concatenate([a[~short], b]) for a, b in zip(walks, longer, strict=True))
         best = np.argsort(walks.cost / walks.frames)[:WIDTH]
         return WalksAhead._make(values[best] for values in walks)

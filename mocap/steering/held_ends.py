@@ -39,11 +39,10 @@ def stand(motion: Motion) -> Motion:
     """
     legs = legs_of(motion.skeleton, None)
     marks, places = settled_marks(motion, legs), joint_positions(motion)
-    held = [
-        _held(places[:, [leg.ankle, leg.ball]], own, motion.fps) for leg, own in zip(legs, marks, strict=True)
-    ]
+    feet = [[leg.ankle, leg.ball] for leg in legs]
+    held = [_held(places[:, foot], own, motion.fps) for foot, own in zip(feet, marks, strict=True)]
     known = np.concatenate(held, axis=1)  # (F, P, 3), nan where nothing is held
-    columns = [joint for leg in legs for joint in (leg.ankle, leg.ball)]
+    columns = [joint for foot in feet for joint in foot]
     names = [motion.skeleton.names[joint] for joint in columns]
     own = dict(zip(names, marks.reshape(-1, len(motion)), strict=True))
     also = {name: own[name] | np.isfinite(known[:, n, 0]) for n, name in enumerate(names)}

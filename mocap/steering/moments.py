@@ -58,9 +58,8 @@ class Moment:
         """Give the pose at its place, one frame; or the frame `step` frames from it, moved with it."""
         now = self.motion[self.frame : self.frame + 1]
         direction = float(heading(now.rotations[0, 0])) if self.direction is None else self.direction
-        there = place(
-            now, direction, now.root_positions[0, [0, 2]] if self.position is None else self.position
-        )
+        at = now.root_positions[0, [0, 2]] if self.position is None else self.position
+        there = place(now, direction, at)
         return lay_on(now, there).apply_motion(self.motion[self.frame + step : self.frame + step + 1])
 
     def has(self, step: int) -> bool:
@@ -115,9 +114,8 @@ def choices(graph: CompiledGraph, moment: Moment, *, way: int, limit: float) -> 
     lane = clip_rows(clips, here) + abs(step) * here[:, 0]
     lanes = np.full(int(lane.max()) + 1, np.inf)
     lanes[lane] = off
-    good = np.flatnonzero(
-        off == minimum_filter1d(lanes, 2 * abs(step) + 1, mode="constant", cval=np.inf)[lane]
-    )
+    least = minimum_filter1d(lanes, 2 * abs(step) + 1, mode="constant", cval=np.inf)
+    good = np.flatnonzero(off == least[lane])
     good = good[np.argsort(off[good], kind="stable")[:MOST]]
     if off[good[0]] > limit:
         raise NoWalk(

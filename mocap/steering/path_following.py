@@ -106,10 +106,8 @@ def follow_path(
         start, end, worst = max(departures, key=lambda stretch: stretch[2])
         often = "once" if len(departures) == 1 else f"{len(departures)} times"
         why = "it turns too fast there" if bend else "no clips turn as it does there"
-        warn(
-            f"The walk leaves the path {often}, the furthest by {100 * worst:.0f} cm "
-            f"at {start:.1f} to {end:.1f} m: {why}."
-        )
+        furthest = f"the furthest by {100 * worst:.0f} cm at {start:.1f} to {end:.1f} m"
+        warn(f"The walk leaves the path {often}, {furthest}: {why}.")
     return followed
 
 

@@ -174,10 +174,8 @@ def walk_crowd(
     nearest = np.array([[_nearest(a, [b]) if a is not b else np.inf for b in tracks] for a in tracks])
     if nearest.min(initial=np.inf) < apart:
         a, b = np.unravel_index(nearest.argmin(), nearest.shape)
-        warn(
-            f"Characters {a} and {b} come as near as {nearest[a, b]:.2f} m, though {apart:.2f} m were asked "
-            "for: their paths leave them no room."
-        )
+        near = f"come as near as {nearest[a, b]:.2f} m, though {apart:.2f} m were asked for"
+        warn(f"Characters {a} and {b} {near}: their paths leave them no room.")
     return Crowd(walks, waits, nearest)
 
 
@@ -189,9 +187,8 @@ def _give_way(
     Who gives way is free to leave the path or to slow down. Returns the walk, its wait in seconds, and its
     track with the wait.
     """
-    free = replace(
-        settings, rescue=30.0, crowding=60.0, stray=0.0, tries=1, width=3 * (settings.width or 100)
-    )
+    width = 3 * (settings.width or 100)
+    free = replace(settings, rescue=30.0, crowding=60.0, stray=0.0, tries=1, width=width)
     found: list[tuple[Followed, float, Array]] = []
     for wait in WAITS:
         frames = round(wait * graph.fps)

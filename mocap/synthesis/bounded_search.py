@@ -174,12 +174,11 @@ def children(problem: Problem, branch: Branch) -> list[Branch]:
     """
     found = []
     for start, end, key, frames in problem.graph.out_edges(branch.node, keys=True, data="frames"):
-        cost, state = problem.step(branch.state, (start, end, key))
+        edge = (start, end, key)
+        cost, state = problem.step(branch.state, edge)
         if not cost >= 0:
-            raise MocapError(f"A cost must be 0 or more, got {cost} for the edge {(start, end, key)}.")
-        found.append(
-            Branch(branch.cost + cost, end, state, branch.frames + frames, (start, end, key), branch)
-        )
+            raise MocapError(f"A cost must be 0 or more, got {cost} for the edge {edge}.")
+        found.append(Branch(branch.cost + cost, end, state, branch.frames + frames, edge, branch))
     return sorted(found, key=lambda child: child.cost, reverse=True)
 
 

@@ -58,10 +58,8 @@ def seen_from_itself(group: Configuration) -> tuple[Configuration, Points, Point
     """
     middle, way = group.places.mean(axis=-1), group.velocities.mean(axis=-1)
     if not (np.abs(way) >= SLOWEST).all():
-        raise MocapError(
-            f"A group that moves by {np.abs(way).min():.2f} m/s on average has no direction; "
-            f"{SLOWEST:g} m/s is the least."
-        )
+        slow = f"A group that moves by {np.abs(way).min():.2f} m/s on average has no direction"
+        raise MocapError(f"{slow}; {SLOWEST:g} m/s is the least.")
     turn = way / np.abs(way)
     places = (group.places - middle[..., None]) * turn[..., None].conj()
     return Configuration(places, group.velocities * turn[..., None].conj()), turn, middle
@@ -115,9 +113,8 @@ def _by_turns(one: Configuration, other: Configuration, start: float, rounds: in
     """Assign and lay M pairs on by turns, (M, N) each, from one turn, until no pair gets nearer."""
     way, other_way = one.velocities.mean(-1), other.velocities.mean(-1)
     turn = np.exp(1j * (np.angle(way * other_way.conj()) + start))
-    match = Match(
-        np.full(len(turn), np.inf), np.zeros(0, int), turn, one.places.mean(-1) - turn * other.places.mean(-1)
-    )
+    move = one.places.mean(-1) - turn * other.places.mean(-1)
+    match = Match(np.full(len(turn), np.inf), np.zeros(0, int), turn, move)
     for _ in range(rounds):
         before, square = match.rms, assignment_costs(one, other, match.turn, match.move)
         match = _laid(one, other, np.array([linear_sum_assignment(costs)[1] for costs in square]))
@@ -203,8 +200,6 @@ def cluster(flock: Trajectories, *, nodes: int = 8, reach: float = 0.5) -> Clust
         free &= distances[best] >= reach
     covered = 1 - float(free.mean())
     if covered < COVERED:
-        warn(
-            f"{len(chosen)} nodes are within {reach:g} m of {covered:.0%} of what was simulated: "
-            "take more nodes, or a larger reach."
-        )
+        near = f"{len(chosen)} nodes are within {reach:g} m of {covered:.0%} of what was simulated"
+        warn(f"{near}: take more nodes, or a larger reach.")
     return Clusters(tuple(rows[row] for row in chosen), np.array(chosen) * step, covered, distances)

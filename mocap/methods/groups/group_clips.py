@@ -199,7 +199,6 @@ def clips_from(
         if apart and accelerations(paths).max() <= HARDEST:
             speeds = np.gradient(paths, 1 / RATE, axis=0)
             speeds[0], speeds[-1] = nodes[start].velocities, goal.velocities
-            clips.append(
-                GroupClip(start, end, paths, speeds, order[row], complex(turn[row]), complex(move[row]))
-            )
+            place = order[row], complex(turn[row]), complex(move[row])
+            clips.append(GroupClip(start, end, paths, speeds, *place))
     return clips, len(rows)

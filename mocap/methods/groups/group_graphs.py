@@ -101,10 +101,8 @@ def make_clips(
     made = [clips_from(start, nodes, bends, rules, random) for start in range(len(nodes))]
     clips, tried = tuple(clip for kept, _ in made for clip in kept), sum(count for _, count in made)
     if not clips:
-        raise MocapError(
-            f"None of {tried} clips can be kept: members come nearer than {APART:g} m, or need more than "
-            f"{HARDEST:g} m/s²."
-        )
+        why = f"members come nearer than {APART:g} m, or need more than {HARDEST:g} m/s²"
+        raise MocapError(f"None of {tried} clips can be kept: {why}.")
     if missing := len(nodes) ** 2 - len({(clip.start, clip.end) for clip in clips}):
         pairs = f"{missing} of {len(nodes) ** 2} pairs"
         warn(f"No clip joins {pairs} of nodes.")

@@ -61,12 +61,8 @@ def steer_group(
     goal = 0
     while goal < len(scene.points) and len(frames) <= limit * RATE:
         ahead = scene.points[goal] - frames[-1].places.mean()
-        now = advance(
-            frames[-1],
-            np.exp(1j * np.angle(ahead)) * next(wishes),
-            rules,
-            away_from(scene.discs, frames[-1].places),
-        )
+        wish = np.exp(1j * np.angle(ahead)) * next(wishes)
+        now = advance(frames[-1], wish, rules, away_from(scene.discs, frames[-1].places))
         frames.append(now)
         goal += bool(abs(now.places.mean() - scene.points[goal]) < scene.near)
     return stacked(frames), goal

@@ -52,9 +52,8 @@ class Scene(NamedTuple):
             if not (np.isfinite(centre) and 0 < radius < np.inf):
                 raise MocapError(f"An obstacle has a centre and a radius above 0, got {centre}, {radius}.")
             if abs(start - centre) < radius:
-                raise MocapError(
-                    f"The group starts inside the obstacle at x={centre.imag:g}, z={centre.real:g}."
-                )
+                at = f"x={centre.imag:g}, z={centre.real:g}"
+                raise MocapError(f"The group starts inside the obstacle at {at}.")
 
 
 class Exits(NamedTuple):
@@ -217,10 +216,9 @@ def _check_start(graph: GroupGraph, start: Placed, scene: Scene) -> None:
     for centre, radius in scene.discs:
         gap = np.abs(places - centre) - radius
         if gap.min() < scene.body:
-            raise NoWalk(
-                f"Member {gap.argmin() + 1} starts {gap.min():.2f} m from the rim of the obstacle at "
-                f"x={centre.imag:g}, z={centre.real:g}: {scene.body:g} m is the least."
-            )
+            rim = f"the rim of the obstacle at x={centre.imag:g}, z={centre.real:g}"
+            far = f"Member {gap.argmin() + 1} starts {gap.min():.2f} m from {rim}"
+            raise NoWalk(f"{far}: {scene.body:g} m is the least.")
 
 
 def _key(state: _State, *, timed: bool) -> tuple[float, ...]:

@@ -172,12 +172,9 @@ def _composed(match: Match, other: Match, via: int) -> Match:
 def _in_own_frames(web: MatchWeb, query: int, match: Match) -> Match:
     """Count a match in the own frames of its clip and of the query's clip."""
     start, stop = np.round(web.own_frame(match.clip, match[1:3])).astype(int).tolist()
-    return match._replace(
-        start=start,
-        stop=min(stop, len(web.clips[match.clip])),
-        rows=web.own_frame(query, match.rows),
-        frames=web.own_frame(match.clip, match.frames),
-    )
+    stop = min(stop, len(web.clips[match.clip]))
+    rows, frames = web.own_frame(query, match.rows), web.own_frame(match.clip, match.frames)
+    return match._replace(start=start, stop=stop, rows=rows, frames=frames)
 
 
 def _warn(found: Sequence[Match], left_out: int) -> None:

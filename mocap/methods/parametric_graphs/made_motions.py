@@ -145,10 +145,8 @@ def optimal_transitions(source: Space, target: Space, at: Array, to: Array) -> O
     size, count = WINDOW * points.shape[2], 2 * SPAN + 1
     frames = np.arange(count)[:, None] + np.arange(WINDOW)
     level, weights = np.tile(points[..., 1].mean(axis=(0, 1)), WINDOW), np.full(size, 1 / size)
-    a, b = (
-        cloud(some[:, frames].reshape(-1, size, 3), level, weights, 1, np.float32)
-        for some in (points, others)
-    )
+    windows = (some[:, frames].reshape(-1, size, 3) for some in (points, others))
+    a, b = (cloud(every, level, weights, 1, np.float32) for every in windows)
     cost, best = np.empty((len(at), len(to))), np.empty((len(at), len(to)), int)
     for start in range(0, len(at), ROWS):
         rows, part = slice(start * count, (start + ROWS) * count), slice(start, start + ROWS)
