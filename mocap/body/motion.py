@@ -77,7 +77,7 @@ class Motion:
             raise MocapError(f"Motion '{self.name}' needs a frame rate above 0, got {self.fps}.")
         finite = np.isfinite(self.root_positions).all(-1) & np.isfinite(self.rotations).all((-2, -1))
         if not finite.all():
-            raise MocapError(f"Motion '{self.name}', frame {finite.argmin()}: a number is not finite.")
+            raise MocapError(f"Motion '{self.name}' is not finite in frame {int(finite.argmin())}.")
         error = np.abs(np.sqrt(np.einsum("fjk,fjk->fj", self.rotations, self.rotations)) - 1)
         if error.max() > 1e-6:
             frame, joint = np.unravel_index(error.argmax(), error.shape)

@@ -176,14 +176,8 @@ def start_at(path: GroundPath, ride: Ride) -> GroundPath:
     return GroundPath(from_ground(moved.turn * on_ground(path.points) + moved.move))
 
 
-def on_path(  # noqa: PLR0913 (two paths, and three choices of how)
-    motion: Motion,
-    path: GroundPath,
-    ride: Ride | None = None,
-    *,
-    keep: Literal["speed", "ends"] = "speed",
-    turn: bool = True,
-    chord: float = CHORD,
+def on_path(
+    motion: Motion, path: GroundPath, ride: Ride | None = None, *, keep: Literal["speed", "ends"] = "speed"
 ) -> Motion:
     """Put a motion on another path: m'_f = N'(s'_f) N(s_f)⁻¹ m_f [Gle01, 4; arc length].
 
@@ -198,8 +192,6 @@ def on_path(  # noqa: PLR0913 (two paths, and three choices of how)
     ride : of the motion; `ride_of(motion)` by default.
     keep : "speed" for s' = s: of a longer path the end stays unwalked, and past a shorter one the motion goes
         straight on. "ends" for s' = s L'/L: the steps become longer or shorter.
-    turn : whether the body turns with the path; else it only moves, as a crab does.
-    chord : metres before and after, as for `moving_frames`.
 
     Returns
     -------
@@ -231,12 +223,7 @@ def on_path(  # noqa: PLR0913 (two paths, and three choices of how)
     if keep not in ("speed", "ends"):
         raise MocapError(f"A motion keeps its 'speed' or the path's 'ends', got keep={keep!r}.")
     longer = path.length / ride.path.length if keep == "ends" else 1.0
-    old, new = (
-        moving_frames(line, along, chord=chord)
-        for line, along in ((ride.path, ride.along), (path, longer * ride.along))
-    )
-    if not turn:
-        old, new = (frames._replace(angle=np.zeros(len(motion))) for frames in (old, new))
+    old, new = moving_frames(ride.path, ride.along), moving_frames(path, longer * ride.along)
     if not 0.5 <= longer <= 2:
         warn(f"'{motion.name}' takes steps {longer:.2f} times as long on this path: plants are let go.")
     return (new @ old.inverse()).apply_motion(motion)

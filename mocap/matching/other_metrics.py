@@ -72,19 +72,16 @@ def root_grid(a: Motion, b: Motion, *, window: int) -> Array:
     return diagonal_sum(_all_pairs(apart, *roots), window) / window
 
 
-def euler_grid(
-    a: Motion, b: Motion, *, window: int, weights: Mapping[str, float] = HOMEWORK_WEIGHTS
-) -> Array:
+def euler_grid(a: Motion, b: Motion, *, window: int) -> Array:
     """Measure the distance in the homework's program: how far apart the bones' Euler angles are.
 
-    It is the sum over the window, and over the bones, of w ‖Δ‖. Δ are the differences in degrees of the
+    It is the sum over the window, and over the bones, of w ‖Δ‖ with w of `HOMEWORK_WEIGHTS`. Δ are the differences in degrees of the
     angles that the file gives for the bone, each wrapped to [-180, 180]. The root is left out.
 
     Parameters
     ----------
     a, b : motions.
     window : frames in a window.
-    weights : of the bones, by name; those of the homework by default.
 
     Returns
     -------
@@ -92,8 +89,8 @@ def euler_grid(
 
     Raises
     ------
-    SkeletonMismatch, MocapError : for different skeletons or rates, clips shorter than the window, weights
-        that are negative or not finite, and a skeleton with none of the weighted bones.
+    SkeletonMismatch, MocapError : for different skeletons or rates, clips shorter than the window, and a
+        skeleton with none of the weighted bones.
 
     Notes
     -----
@@ -104,17 +101,15 @@ def euler_grid(
     --------
     >>> from mocap.body.skeleton import Skeleton
     >>> offsets = [[0, 0, 0], [0, -1, 0], [0, -1, 0]]
-    >>> leg = Skeleton(["hip", "knee", "foot"], [-1, 0, 1], offsets, dofs=["", "x", ""])
+    >>> leg = Skeleton(["root", "ltibia", "lfoot"], [-1, 0, 1], offsets, dofs=["", "x", ""])
     >>> one, bent = rotations.from_rotvec([[0, 0, 0], [np.radians(30), 0, 0]])
     >>> a, b = (Motion(leg, [[0, 1, 0]], [[one, knee, one]], 30.0) for knee in (one, bent))
-    >>> euler_grid(a, b, window=1, weights={"knee": 2.0}).round(6)
-    array([[60.]])
+    >>> euler_grid(a, b, window=1) / HOMEWORK_WEIGHTS["ltibia"]
+    array([[30.]])
     """
     a, b = _alike(a, b, window)
-    if unusable := {n: w for n, w in weights.items() if not (np.isfinite(w) and w >= 0)}:
-        raise MocapError(f"Weights must be numbers, not negative, got {unusable}.")
-    skeleton = a.skeleton
-    bones = [j for j, name in enumerate(skeleton.names) if j and weights.get(name) and skeleton.dofs[j]]
+    skeleton, weights = a.skeleton, HOMEWORK_WEIGHTS
+    bones = [j for j, name in enumerate(skeleton.names) if j and name in weights and skeleton.dofs[j]]
     if not bones:
         raise MocapError(f"This skeleton has none of the bones with a weight: {', '.join(weights)}.")
     columns = np.cumsum([0, *(len(skeleton.dofs[bone]) for bone in bones)])[:-1]
