@@ -198,7 +198,8 @@ def place(motion: Motion, direction: float, position: ArrayLike) -> Motion:
     """
     target = np.asarray(position, float)
     if target.shape != (2,) or not np.isfinite([direction, *target]).all():
-        raise MocapError(f"A place is a finite direction and (x, z), got {direction} and {target.tolist()}.")
+        got = f"{direction} and {target.tolist()}"
+        raise MocapError(f"A place is a finite direction and position (x, z), got {got}.")
     turn = PlanarTransform(direction - float(heading(motion.rotations[0, 0])), 0.0, 0.0)
     x, _, z = turn.apply_points(motion.root_positions[0])
     return turn._replace(x=target[0] - x, z=target[1] - z).apply_motion(motion)

@@ -75,8 +75,9 @@ def root_grid(a: Motion, b: Motion, *, window: int) -> Array:
 def euler_grid(a: Motion, b: Motion, *, window: int) -> Array:
     """Measure the distance in the homework's program: how far apart the bones' Euler angles are.
 
-    It is the sum over the window, and over the bones, of w ‖Δ‖ with w of `HOMEWORK_WEIGHTS`. Δ are the differences in degrees of the
-    angles that the file gives for the bone, each wrapped to [-180, 180]. The root is left out.
+    It is the sum over the window, and over the bones, of w ‖Δ‖, with w of `HOMEWORK_WEIGHTS`. Δ are the
+    differences in degrees of the angles that the file gives for the bone, each wrapped to [-180, 180]. The
+    root is left out.
 
     Parameters
     ----------
