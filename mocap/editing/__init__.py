@@ -62,6 +62,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "retiming": ["old_seconds", "retime"],
         "warp_plans": ["warp"],
         "mirroring": ["mirror"],
-        "cycles": ["find_loop", "loop", "looped", "repeated"],
+        "cycles": ["find_loop", "loop", "repeated"],
     },
 )

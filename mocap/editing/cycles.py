@@ -17,7 +17,6 @@ from mocap.blending.joining import join
 from mocap.body import rotations
 from mocap.body.motion import Motion, concatenate, resample
 from mocap.body.planar import PlanarTransform, heading, lay_on
-from mocap.editing.displacements import Displacement, difference, displaced
 from mocap.editing.path_editing import plants_kept
 from mocap.errors import MocapError, MocapWarning, shortened, warn
 from mocap.feet.footplants import mark_plants
@@ -202,50 +201,12 @@ def _cleaned(cycle: Motion) -> Motion:
     return lay_on(cleaned, cycle).apply_motion(cleaned)
 
 
-def looped(motion: Motion, first: int, last: int) -> Motion:
-    """Cut out a cycle and close it: its last frame is its first one, farther on over the ground [WP95].
-
-    The first pose is laid on the last one by heading and place. What is left between them, d = first ⊖ last,
-    is added along a ramp u = 0 … 1. Ours: the ramp is straight. So speeds change by d / duration in the whole
-    cycle; a ramp that eases in and out changes them more on the way.
-
-    Parameters
-    ----------
-    motion : F frames.
-    first, last : the two frames that look alike, a stride apart, for example.
-
-    Returns
-    -------
-    last - first + 1 frames; `repeated` lays one behind the other. Feet that stand slide by as much as the gap
-    asks for; `feet.clean_up` puts them back.
-
-    Raises
-    ------
-    MocapError : for frames that are not on the clip, or not in this order.
-
-    Examples
-    --------
-    >>> from mocap.datasets import sample
-    >>> looped(sample("walk_straight"), 240, 377)
-    Motion('walk_straight', 138 frames at 120 Hz, 38 joints)
-    """
-    if not 0 <= first < last < len(motion):
-        raise MocapError(f"'{motion.name}' has {len(motion)} frames: no cycle from {first} to {last}.")
-    cycle = motion[first : last + 1]
-    end = lay_on(cycle, cycle, len(cycle) - 1).apply_motion(cycle[:1])
-    gap = difference(end, cycle[-1:])
-    ramp = np.linspace(0, 1, len(cycle))
-    warped = displaced(cycle, Displacement(ramp[:, None] * gap.root, ramp[:, None, None] * gap.turns))
-    marks = {joint: np.append(mark[:-1], mark[0]) for joint, mark in warped.contacts.items()}
-    return replace(warped, contacts=marks)
-
-
 def repeated(cycle: Motion, times: int) -> Motion:
     """Lay a cycle behind itself, so many times.
 
     Parameters
     ----------
-    cycle : its last frame is its first one, farther on, as `looped` makes it; that frame is counted once.
+    cycle : its last frame is its first one, farther on, as `loop` makes it; that frame is counted once.
     times : 1 or more.
 
     Raises
@@ -255,7 +216,7 @@ def repeated(cycle: Motion, times: int) -> Motion:
     Examples
     --------
     >>> from mocap.datasets import sample
-    >>> stride = looped(sample("walk_straight"), 240, 377)
+    >>> stride = loop(walk := sample("walk_straight"), find_loop(walk))
     >>> len(repeated(stride, 3)) == 3 * (len(stride) - 1) + 1
     True
     """

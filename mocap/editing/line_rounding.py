@@ -124,15 +124,23 @@ def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> Rounde
 def _widened(
     asked: Points, least: float, most: float, too_fast: Callable[[GroundPath, Array], Indices]
 ) -> tuple[Points, bool]:
-    """Lay the line anew with a wider reach where it is too fast; say whether it is slow enough at the end."""
-    reach = np.full(len(asked), least)
+    """Lay the line anew with a wider reach where it is too fast; say whether it is slow enough at the end.
+
+    A reach grows within a chord of such a place; further away it falls with a slope.
+    """
+    reach, fall = np.full(len(asked), least), FALL * np.arange(len(asked))
     while True:
         line = _smoothed(asked, reach**4)
         near = too_fast(GroundPath(from_ground(line)), _metres(line))
         grows = near[reach[near] < most]
         if not len(grows):
             return line, not len(near)
-        reach = _wider(reach, grows)
+        grown = np.zeros(len(reach))
+        grown[grows] = GROW * reach[grows]
+        grown = maximum_filter1d(grown, 2 * round(CHORD / SPACING) + 1)
+        after = np.maximum.accumulate(grown + fall) - fall
+        before = np.maximum.accumulate((grown - fall)[::-1])[::-1] + fall
+        reach = np.maximum(reach, np.maximum(after, before))
 
 
 def _measured(path: GroundPath, even: GroundPath, line: Points, places: Array) -> RoundedLine:
@@ -169,17 +177,6 @@ def _steered(points: Points, step: float, radius: float) -> tuple[Array, Points]
         places.append(at)
         found.append(here)
     return np.array(places), np.array(found)
-
-
-def _wider(reach: Array, near: Indices) -> Array:
-    """Let a reach (n,) grow within a chord of the points `near`; further away it falls with a slope."""
-    grown = np.zeros(len(reach))
-    grown[near] = GROW * reach[near]
-    fall = FALL * np.arange(len(reach))
-    grown = maximum_filter1d(grown, 2 * round(CHORD / SPACING) + 1)
-    after = np.maximum.accumulate(grown + fall) - fall
-    before = np.maximum.accumulate((grown - fall)[::-1])[::-1] + fall
-    return np.asarray(np.maximum(reach, np.maximum(after, before)))
 
 
 def _smoothed(points: Points, weight: Array) -> Points:

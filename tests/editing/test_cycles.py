@@ -127,3 +127,8 @@ def test_a_clip_far_from_the_origin_has_the_same_cycle():
     far = replace(WALK, root_positions=WALK.root_positions + np.array([5e5, 0, 9e5]))
     assert find_loop(far)[:2] == find_loop(WALK)[:2]
     assert find_loop(far)[2:] == pytest.approx(find_loop(WALK)[2:], rel=1e-4)
+
+
+@pytest.mark.parametrize("times", [0, -1])
+def test_a_cycle_is_repeated_once_or_more(times):
+    refused("cannot be repeated", repeated, WALK, times)

@@ -10,10 +10,8 @@ from hypothesis import strategies as st
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import resample
 from mocap.datasets.samples import sample
-from mocap.editing.cycles import looped, repeated
 from mocap.editing.retiming import at_frames, old_seconds, retime
 from mocap.errors import MocapError
-from tests.refusals import refused
 
 WALK = sample("walk_straight")[240:721]
 
@@ -97,34 +95,3 @@ def test_times_that_cannot_be(call, message):
     with pytest.raises(MocapError, match=message) as told:
         call()
     assert len(str(told.value)) <= 200
-
-
-# ------------------------------------------------------------------------------------------- loops
-def jumps(motion):
-    """Return by how much velocities change from frame to frame, m/s, (F - 2, J)."""
-    steps = np.diff(joint_positions(motion)[:, body(motion)], 2, axis=0) * motion.fps
-    return np.linalg.norm(steps, axis=-1)
-
-
-def test_a_cycle_closes_without_a_jump():
-    stride = looped(WALK, 20, 157)
-    again = repeated(stride, 3)
-    at = joint_positions(again)
-    assert len(again) == 3 * 137 + 1
-    usual = np.percentile(jumps(WALK), 99)
-    seams = np.r_[135:139, 272:276]
-    assert jumps(again)[seams].max() < usual
-    assert jumps(repeated(WALK[20:158], 3))[seams].max() > 2 * usual
-    step = at[137, 0] - at[0, 0]
-    assert at[137:, 1] == pytest.approx(at[:-137, 1] + step, abs=0.05)  # the same again, farther on
-    assert again.contacts["lfoot"][:137].tolist() == again.contacts["lfoot"][137:274].tolist()
-
-
-@pytest.mark.parametrize(("first", "last"), [(5, 5), (9, 3), (-1, 4), (3, 481)])
-def test_cycles_that_cannot_be(first, last):
-    refused(f"has 481 frames: no cycle from {first} to {last}", looped, WALK, first, last)
-
-
-@pytest.mark.parametrize("times", [0, -1])
-def test_a_cycle_is_repeated_once_or_more(times):
-    refused("cannot be repeated", repeated, WALK, times)
