@@ -52,7 +52,7 @@ def draw_stretches(
     drawn = np.random.default_rng(0).choice(fit, count, replace=False)
     pairs = []
     for source, leave, target, enter, _, transform in (found[int(n)] for n in drawn):
-        before = half - reach, half + reach
-        a, b = (clips[c][at + before[0] : at + before[1]] for c, at in ((source, leave), (target, enter)))
+        low, high = half - reach, half + reach
+        a, b = (clips[c][at + low : at + high] for c, at in ((source, leave), (target, enter)))
         pairs.append((a, transform.apply_motion(b)))
     return pairs

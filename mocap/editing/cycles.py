@@ -163,8 +163,8 @@ def loop(motion: Motion, found: Loop, *, straight: bool = False, clean: bool = F
     """
     window = max(2, round(SEAM * motion.fps))
     if not 0 <= found.first < found.last < len(motion) - window or found.last - found.first < window:
-        cycle = f"A cycle from frame {found.first} to {found.last} of {len(motion)}"
-        raise MocapError(f"{cycle} leaves no room for a seam of {window} frames.")
+        asked = f"A cycle from frame {found.first} to {found.last} of {len(motion)}"
+        raise MocapError(f"{asked} leaves no room for a seam of {window} frames.")
     joined = join(motion, found.last, motion, found.first, window)
     cycle = joined[found.first + window : found.last + window + 1]
     cycle = replace(cycle, name=f"{motion.name}_loop")
