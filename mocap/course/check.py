@@ -147,8 +147,9 @@ class Check:
         """Make a function of an expression of a table."""
         names, right = dict(self._known), self._table["right"]
         if "→" in expression:
-            called = names.get(right.partition("(")[0])
-            lines = inspect.getsource(called) if inspect.isfunction(called) else ""
+            called, lines = names.get(right.partition("(")[0]), ""
+            if inspect.isfunction(called):
+                names, lines = called.__globals__ | names, inspect.getsource(called)
             for change in expression.split("; "):
                 old, new = change.split(" → ")
                 lines, right = lines.replace(old, new), right.replace(old, new)
@@ -210,11 +211,11 @@ class Check:
         except Exception:  # the answer has a type that cannot be compared
             return False
 
-    def _known_mistake(self, tried: list[Trial]) -> str | None:
-        for mistake in self.mistakes:
-            if all(self._same(t.given, mistake.answer(*copy.deepcopy(t.arguments))) for t in tried):
-                return mistake.hint
-        return None
+    def _known_mistake(self, tried: list[Trial]) -> str:
+        for answer, hint in self.mistakes:
+            if all(self._same(t.given, answer(*copy.deepcopy(t.arguments))) for t in tried):
+                return hint
+        return ""
 
     def _first_wrong(self, trial: Trial) -> str:
         if trial.given is None:

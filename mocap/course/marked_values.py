@@ -129,10 +129,8 @@ def compare(texts: Iterable[str], names: Mapping[str, object]) -> None:
     --------
     >>> compare(["It is 2.8<!--= off --> cm off."], {"off": 2.8})
     """
-    sentences = []
-    for text in texts:
-        sentences += wrong(text, values_of((mark.expression for mark in marked(text)), names))
-    if sentences:
+    text = "\n".join(texts)
+    if sentences := wrong(text, values_of((mark.expression for mark in marked(text)), names)):
         raise ValueError("\n".join(sentences))
 
 
@@ -157,6 +155,6 @@ def refreshed(text: str, values: Mapping[str, float | str]) -> str:
 
 def question(texts: Iterable[str]) -> str:
     """Return the code of a cell that prints the values of all marked numbers of some texts, as JSON."""
-    expressions = sorted({mark.expression for text in texts for mark in marked(text)})
+    expressions = sorted({mark.expression for mark in marked("\n".join(texts))})
     work = f"marked_values.values_of({expressions!r}, globals())"
     return f"import json\nfrom mocap.course import marked_values\nprint(json.dumps({work}))"

@@ -7,6 +7,8 @@ import numpy as np
 
 from mocap._shared.arrays import Array, Mask, Points
 from mocap.body.rotations import from_rotvec, inverse, multiply, to_rotvec
+from mocap.methods.motion_matching.springs import spring
+from mocap.methods.parametric_graphs.parametric_edges import shrink_box
 
 # ---- Notebook 11
 
@@ -126,9 +128,6 @@ def fit(weights: Array, data: Array) -> Array:
 # ---- Notebook 17
 
 
-Box = tuple[Array, Array]
-
-
 def integrated(speed: Points, turning: Array, dt: float) -> Points:
     """Add up steps of a speed, each along the heading that the turns before it give."""
     heading = np.concatenate([[0], np.cumsum(turning * dt)])
@@ -143,21 +142,6 @@ def draw_shrink_box(rng: np.random.Generator) -> tuple[Array, Array, Array, floa
     bad = rng.uniform(low + 0.05 * (high - low), high - 0.05 * (high - low), (4, 2))
     bad[0, 0] = low[0] - 0.005 * scale[0]
     return good, bad, scale, 0.01
-
-
-def shrunk(good: Array, bad: Array, scale: Array, eps: float) -> Box:
-    """Shrink the box of good samples until no bad one is left, each time by the side that loses least."""
-    low, high = good.min(axis=0), good.max(axis=0)
-    room = eps * scale
-    for sample in bad:
-        if ((sample > low - room) & (sample < high + room)).all():
-            lost = np.array([(sample - low) / scale, (high - sample) / scale])
-            side, axis = divmod(int(lost.argmin()), len(low))
-            if side == 0:
-                low[axis] = sample[axis] + room[axis]
-            else:
-                high[axis] = sample[axis] - room[axis]
-    return low, high
 
 
 def weighed(asked: float, at: Array, low: Array, high: Array, k: int) -> tuple[float, float]:
@@ -190,13 +174,6 @@ def draw_standardise(rng: np.random.Generator) -> tuple[Array, list[slice], list
     spreads = np.concatenate([10 ** rng.uniform(-1, 1) * rng.uniform(0.3, 3, size) for size in sizes])
     values = rng.normal(scale=spreads, size=(int(rng.integers(20, 40)), int(stops[-1]))) + 3 * spreads
     return values, groups, [float(weight) for weight in rng.uniform(0.3, 0.8, len(sizes))]
-
-
-def spring(x: float, v: float, goal: float, halflife: float, t: float) -> float:
-    """Bring x to a goal by a critically damped spring, after a time t."""
-    pull = 2 * np.log(2) / halflife
-    gap = x - goal
-    return float(goal + (gap + (v + gap * pull) * t) * np.exp(-pull * t))
 
 
 def next_frame(costs: Array, usable: Mask, now: int, near: int, bonus: float) -> int:
