@@ -8,14 +8,16 @@ from PIL import Image
 
 from mocap.blending.joining import join
 from mocap.blending.weights import linear_weights
+from mocap.body.ground_path import GroundPath
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import resample
 from mocap.course.lab.showing import inspector
 from mocap.datasets.samples import sample
+from mocap.graphs.compiled_graph import compile_graph
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.point_clouds import align, point_cloud
 from mocap.quality.seam_measures import jumps
-from mocap.synthesis.random_walks import random_walk
+from mocap.steering.path_following import follow_path
 from mocap.synthesis.walk_to_motion import to_motion
 from tests.browser.conftest import wait_until
 from tests.browser.test_page import touch_of
@@ -160,8 +162,8 @@ def test_the_seam_plays_on_one_clock(shown):
 
 def test_seams_are_chosen_on_a_walk_and_lit_where_they_stand(shown):
     graph = bundled("walk_circle", "walk_curve_1")
-    edges = random_walk(graph, seconds=15, seed=3)
-    page = shown(inspector(graph, walk=edges, at=0))
+    followed = follow_path(compile_graph(graph), GroundPath([[0, 0], [0, 3], [2, 5], [6, 5]]))
+    page = shown(inspector(followed, at=0))
     page.locator(".walk").focus()
     page.keyboard.press("ArrowRight")
     assert page.evaluate(f"{IT}.pick.seam") == 1
@@ -169,7 +171,7 @@ def test_seams_are_chosen_on_a_walk_and_lit_where_they_stand(shown):
     found, frame, before = page.evaluate(
         f"[{IT}.seam.map((f) => f.places[0][1]), {IT}.pick.frame, {IT}.before]"
     )
-    walked = to_motion(graph, edges)[frame - before :][: len(found)]
+    walked = to_motion(graph, followed.walk)[frame - before :][: len(found)]
     assert np.abs(np.array(found) - walked.root_positions[:, 1]).max() < 5e-4
     page.locator(".graph").focus()
     for key in ("ArrowRight", "ArrowLeft", "ArrowUp"):

@@ -6,15 +6,12 @@ import os
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from types import SimpleNamespace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import networkx as nx
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mocap import plain
-from mocap._shared.arrays import Array
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion, require_alike
 from mocap.course.lab.adopting import whose
@@ -22,16 +19,13 @@ from mocap.course.lab.places import NAMES, Tools, pages_of
 from mocap.course.lab.places import tools as tools
 from mocap.errors import MocapError, MocapWarning, NoWalk
 from mocap.graphs import build, prune
-from mocap.plain import Edge, Ground, Walk
+from mocap.plain import Edge
 from mocap.plotting import bodies_along
 from mocap.plotting.picture import Picture, stack
 from mocap.steering import follow_path
 from mocap.synthesis import seams
 
 WINDOW, BELOW = 10, 0.05  # of the transitions: frames, and metres
-WIDTH, SEAM = 60, 0.05  # walks that go on from a layer, and the price of a seam in m²
-LEAST = 0.1  # metres per second: the least progress
-PLACE, TURN = 0.1, 0.1  # metres and radians: walks that agree so far stand alike
 AHEAD = 1.5  # seconds that a choice looks ahead: with less, no turn is seen
 
 
@@ -51,14 +45,14 @@ class OwnWalk(NamedTuple):
     move: complex = 0
 
 
-def build_own(clips: Sequence[Motion], window: int, threshold: float, by: Tools) -> OwnGraph:
+def build_own(clips: Sequence[Motion], window: int, threshold: float, by: Tools | None) -> OwnGraph:
     """Build a motion graph of clips, and keep the component that plays most frames.
 
     Parameters
     ----------
     clips : motions of one skeleton and one frame rate.
     window, threshold : of the transitions: frames, and metres.
-    by : whose functions work.
+    by : whose functions work; None for those of `mocap.plain`.
 
     Raises
     ------
@@ -77,69 +71,21 @@ def build_own(clips: Sequence[Motion], window: int, threshold: float, by: Tools)
     return OwnGraph(tuple(clips), window, kept)
 
 
-def _search(graph: OwnGraph, path: GroundPath, by: Tools) -> Any:  # noqa: ANN401 (of the copied pages)
-    """Prepare the search of `mocap.plain`, with the frame before each track."""
-    roots = [
-        SimpleNamespace(root_positions=clip.root_positions, rotations=clip.rotations[:, :1])
-        for clip in graph.clips
-    ]
-    search = pages_of(by, graph.window).Search(roots, graph.graph, plain.points_along(path.points))
-    search.before = {(clip, frame): search.roots[clip][max(frame - 1, 0)] for clip, frame in graph.graph}
-    search.tracks = {edge: np.append(search.before[edge[0]], way) for edge, way in search.tracks.items()}
-    return search
-
-
-def _place_exercises(search: Any, graph: OwnGraph, path: GroundPath, by: Tools) -> None:  # noqa: ANN401
-    """Let `look_ahead` look ahead, `lengthen` lengthen, and `survivors` go on."""
-    least = LEAST / graph.clips[0].fps
-    numbers = {node: number for number, node in enumerate(graph.graph)}
-
-    def look_ahead(walk: Walk) -> Walk:
-        ahead = np.append(search.before[walk.node], search.ahead[walk.node])
-        stands = walk.turn, walk.move, walk.along, walk.cost
-        expected = by.look_ahead(stands, ahead, lambda s: path.at(s) @ [1j, 1], plain.RESCUE)
-        return walk._replace(expected=expected)
-
-    def lengthen(walk: Walk, edge: Edge) -> Walk:
-        data, track = graph.graph.edges[edge], search.tracks[edge]
-        edges = [(edge[1], track, *data["lay"], SEAM * (data["kind"] == "transition"))]
-        stands = walk.turn, walk.move, walk.along, walk.cost
-        ((_, turn, move, along, cost),) = by.lengthen(stands, edges, path.at, least)
-        return look_ahead(Walk(cost, 0, along, edge[1], turn, move, edge, walk))
-
-    def best_of(walks: list[Walk]) -> list[Walk]:
-        stand = []
-        for walk in walks:
-            here = walk.turn * search.ahead[walk.node][0] + walk.move
-            cell = here.real / PLACE, here.imag / PLACE, np.angle(walk.turn) / TURN
-            stand.append([numbers[walk.node], *map(round, cell)])
-        costs = np.array([walk.cost + walk.expected for walk in walks])
-        return [walks[number] for number in by.survivors(np.array(stand), costs, WIDTH)]
-
-    search.look_ahead, search.lengthen, search.best_of = look_ahead, lengthen, best_of
-
-
-def follow_own(graph: OwnGraph, path: ArrayLike, by: Tools) -> OwnWalk:
+def follow_own(graph: OwnGraph, path: ArrayLike, by: Tools | None) -> OwnWalk:
     """Find a walk along a path: all walks advance together, layer by layer, as in notebook 08 [KGP02, Eq. 9].
 
     Parameters
     ----------
     graph : from `build_own`.
     path : corners on the ground (x, z), shape (N, 2), metres.
-    by : whose functions work.
+    by : whose functions work; None for those of `mocap.plain`.
 
     Raises
     ------
     NoWalk : where no walk reaches the end of the path.
     """
-    line = GroundPath(np.asarray(path, float))
-    search = _search(graph, line, by)
-    _place_exercises(search, graph, line, by)
-    return _best(search)
-
-
-def _best(search: Any) -> OwnWalk:  # noqa: ANN401 (of copied pages)
-    """Run a search, and trace its best walk back to its start."""
+    pages = pages_of(by, graph.window)
+    search = pages.Search(graph.clips, graph.graph, pages.points_along(np.asarray(path, float)))
     *_, (_, walk) = search.layers()
     if walk is None:
         raise NoWalk(f"No walk of this graph reaches the end of a path of {search.end:.1f} m.")
@@ -167,7 +113,7 @@ def steer_own(
     """
     fps = graph.clips[0].fps
     soon, pages = round(AHEAD * fps), pages_of(by, graph.window)
-    search = _search(graph, GroundPath(np.eye(2)), by)
+    search = pages.Search(graph.clips, graph.graph, pages.points_along(np.eye(2)))
     node, lay, edges, frames = min(graph.graph), (1 + 0j, 0j), [], 0
     while frames < seconds * fps:
         ways, tracks = list(graph.graph.out_edges(node, keys=True)), []
@@ -222,23 +168,16 @@ def walk_beside(clips: Sequence[Motion], path: ArrayLike) -> Beside:
     Notebook: 08-path-synthesis
     """
     line, ours = GroundPath(np.asarray(path, float)), tools()
-    own = build_own(clips, WINDOW, BELOW, ours)
-    walk = follow_own(own, line.points, ours)
-    pages = pages_of(None, WINDOW, BELOW)
-    plainly = pages.prune(pages.cut_and_join(clips, pages.find_transitions(clips)))
-    best = _best(pages.Search(clips, plainly, pages.points_along(line.points)))
-    graph = prune(build(clips, window=WINDOW, threshold=BELOW))
+    walks = {}
+    for name, by in (("my walk", ours), ("plain's walk", None)):
+        graph = build_own(clips, WINDOW, BELOW, by)
+        walk = follow_own(graph, line.points, by)
+        walks[name] = play_own(graph, walk, by), _seams(graph.graph, walk)
+    whole = prune(build(clips, window=WINDOW, threshold=BELOW))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MocapWarning)  # what is printed says how far it is off
-        followed = follow_path(graph, line)
-    walks = {
-        "my walk": (play_own(own, walk, ours), _seams(own.graph, walk)),
-        "plain's walk": (
-            play_own(OwnGraph(tuple(clips), WINDOW, plainly), best, None),
-            _seams(plainly, best),
-        ),
-        "the package's walk": (followed.motion(), [seam.frame for seam in seams(graph, followed.walk)]),
-    }
+        followed = follow_path(whole, line)
+    walks["the package's walk"] = followed.motion(), [seam.frame for seam in seams(whole, followed.walk)]
     print(f"{whose(*NAMES[:-1])}.")
     figures = []
     for name, (walked, marks) in walks.items():
@@ -262,14 +201,5 @@ def _seams(graph: nx.MultiDiGraph, walk: OwnWalk) -> list[int]:
 def main(file: str) -> int:
     """Walk along a line by the functions in a file, as `python -m mocap.plain` does: clips, a path, -o."""
     os.environ["MOCAP_MINE"] = file
-    ours = tools()
-    pages = pages_of(ours, WINDOW, BELOW)
-
-    def follow(clips: Sequence[Motion], graph: nx.MultiDiGraph, line: Ground) -> tuple[Array, Array]:
-        own, path = OwnGraph(tuple(clips), WINDOW, graph), np.stack([line.imag, line.real], axis=1)
-        walked = play_own(own, follow_own(own, path, ours), ours)
-        return walked.root_positions, walked.rotations
-
-    pages.follow = follow
     print(f"{whose(*NAMES[:-1])}.")
-    return int(pages.main())
+    return int(pages_of(tools(), WINDOW, BELOW).main())

@@ -19,10 +19,11 @@ import numpy as np
 
 from mocap import plain
 from mocap._shared.arrays import Array
+from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.course.lab.adopting import slots
-from mocap.plain import Found, Lay
+from mocap.plain import Edge, Found, Ground, Lay, Node, Walk
 
 NAMES = (
     *("climb", "window_sums", "inner_minima", "best_angle", "best_shift", "undo", "choice_points"),
@@ -31,6 +32,9 @@ NAMES = (
 )
 """The exercises in the order in which a motion graph needs them."""
 
+WIDTH, SEAM = 60, 0.05  # walks that go on from a layer, and the price of a seam in m²
+LEAST = 0.1  # metres per second: the least progress
+PLACE, TURN = 0.1, 0.1  # metres and radians: walks that agree so far stand alike
 Tools = SimpleNamespace  # a function for each of `NAMES`, as `tools.climb`
 
 
@@ -54,6 +58,7 @@ def pages_of(by: Tools | None, window: int, below: float = 0.0) -> Any:  # noqa:
     if by:
         places = Places(by, window)
         vars(pages).update({name: getattr(places, name) for name in vars(Places) if name[0] != "_"})
+        vars(pages)["Search"] = type("Search", (OwnSearch, vars(pages)["Search"]), {"by": by})
     vars(pages).update(K=window, BELOW=below)
     return pages
 
@@ -144,6 +149,52 @@ class Places:
         clips = [edge for edge in graph.edges(data="kind") if edge[2] == "clip"]
         played = [(start, end, end[1] - start[1]) for start, end, _ in clips]
         return graph.subgraph(self._by.component_to_keep(self.components(graph), played)).copy()
+
+
+class OwnSearch:
+    """What the search of `mocap.plain` does by `look_ahead`, `lengthen` and `survivors`, for roots alone."""
+
+    by: Tools
+    graph: nx.MultiDiGraph
+    roots: list[Ground]
+    tracks: dict[Edge, Ground]
+    ahead: dict[Node, Ground]
+
+    def __init__(self, clips: Sequence[Motion], graph: nx.MultiDiGraph, line: Ground) -> None:
+        roots = [
+            SimpleNamespace(root_positions=c.root_positions, rotations=c.rotations[:, :1]) for c in clips
+        ]
+        search: Any = super()
+        search.__init__(roots, graph, line)
+        self.path, self.least = GroundPath(np.stack([line.imag, line.real], axis=1)), LEAST / clips[0].fps
+        self.numbers = {node: number for number, node in enumerate(graph)}
+        self.before = {(clip, frame): self.roots[clip][max(frame - 1, 0)] for clip, frame in graph}
+        self.tracks = {edge: np.append(self.before[edge[0]], way) for edge, way in self.tracks.items()}
+
+    def look_ahead(self, walk: Walk) -> Walk:
+        """Expect what the exercise expects."""
+        ahead = np.append(self.before[walk.node], self.ahead[walk.node])
+        stands = walk.turn, walk.move, walk.along, walk.cost
+        expected = self.by.look_ahead(stands, ahead, lambda s: self.path.at(s) @ [1j, 1], plain.RESCUE)
+        return walk._replace(expected=expected)
+
+    def lengthen(self, walk: Walk, edge: Edge) -> Walk:
+        """Lengthen a walk by one edge."""
+        data = self.graph.edges[edge]
+        edges = [(edge[1], self.tracks[edge], *data["lay"], SEAM * (data["kind"] == "transition"))]
+        stands = walk.turn, walk.move, walk.along, walk.cost
+        ((_, turn, move, along, cost),) = self.by.lengthen(stands, edges, self.path.at, self.least)
+        return self.look_ahead(Walk(cost, 0, along, edge[1], turn, move, edge, walk))
+
+    def best_of(self, walks: list[Walk]) -> list[Walk]:
+        """Let the survivors go on."""
+        stand = []
+        for walk in walks:
+            here = walk.turn * self.ahead[walk.node][0] + walk.move
+            cell = here.real / PLACE, here.imag / PLACE, np.angle(walk.turn) / TURN
+            stand.append([self.numbers[walk.node], *map(round, cell)])
+        costs = np.array([walk.cost + walk.expected for walk in walks])
+        return [walks[number] for number in self.by.survivors(np.array(stand), costs, WIDTH)]
 
 
 def squared_distances(a: Array, b: Array, window: int, window_sums: Callable[[Array, int], Array]) -> Array:
