@@ -14,20 +14,19 @@ from tempfile import TemporaryDirectory
 
 import imageio_ffmpeg
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
-from PIL import Image
-from scipy.ndimage import gaussian_filter1d
+from PIL import Image, ImageDraw
 
 from mocap import MocapWarning, Motion, body, datasets, editing, graphs, resample
+from mocap.course.teaching.board import font_of
 from mocap.graphs import compile_graph
-from mocap.plotting.stick_figures import StickFigure, filled, ground_axes, look_at, rims, to_picture
 from mocap.steering import Wishes, follow_path
+from mocap.widgets import play
 from mocap.widgets.film import write_mp4
+from mocap.widgets.filmed_scene import FilmedScene
 
 FOLDER = Path(__file__).parents[1] / "notebooks" / "teaching"
-FPS, REACH = 20.0, 1.5  # pictures per second; metres around the body that are seen
+FPS, SIZE, INK = 20.0, (640, 480), "#2B2F3D"  # pictures per second; pixels; of the words
 DOG = [[1.3, 11.0, 0.35]]  # x, z and radius
 HOME = [[0, 0], [0, 8], [2, 14], [6, 19], [6, 25], [2, 31], [-2, 33]]  # x and z of the line, metres
 RUN = [[-2, 33], [-8, 36], [-12, 31], [-8, 26], [-14, 22], [-10, 16], [-15, 12], [-12, 6]]
@@ -56,40 +55,26 @@ def scenes() -> dict[str, tuple[Motion, body.GroundPath]]:
 
 
 def pictures(motion: Motion, line: body.GroundPath, said: dict[int, str]) -> Iterator[NDArray[np.uint8]]:
-    """Draw a scene: the figure, the line, the dog, and a sentence below them."""
-    motion = resample(motion, FPS)
-    places = body.joint_positions(motion)
-    centres = gaussian_filter1d(places[:, 0, [0, 2]], FPS / 2, axis=0, mode="nearest")
-    figure = Figure(figsize=(4.8, 4.8))
-    canvas = FigureCanvasAgg(figure)
-    ax = ground_axes(centres[0], REACH, ax=filled(figure))
-    track = to_picture(np.insert(line.points, 1, 0.0, axis=1))
-    dog = to_picture(rims(DOG)[0])
-    (asked,) = ax.plot([], [], [], color="0.25", linewidth=2)
-    (rim,) = ax.plot([], [], [], color="0.25", linewidth=5)
-    who = StickFigure(motion.skeleton, ax)
-    text = figure.text(0.5, 0.05, "", ha="center", fontsize=15)
-    for frame, centre in enumerate(centres):
-        look_at(ax, centre, REACH)
-        middle = to_picture(np.insert(centre, 1, 0.0))
-        for drawn, points in ((asked, track), (rim, dog)):
-            near = points[np.abs(points - middle).max(axis=-1) < 2 * REACH]
-            drawn.set_data_3d(*near.T)
-        who.pose(places[frame])
-        text.set_text(said[max(second for second in said if second <= frame / FPS)])
-        canvas.draw()
-        yield np.array(canvas.buffer_rgba())[..., :3]
+    """Draw a scene: the body, the line, the dog, and a sentence below them."""
+    scene = FilmedScene(play(motion, path=line.points, discs=DOG).scene)
+    font = font_of(22)
+    for frame in range(int(scene.seconds * FPS) + 1):
+        page = Image.fromarray(scene.picture(frame / FPS, SIZE))
+        text = said[max(second for second in said if second <= frame / FPS)]
+        ImageDraw.Draw(page).text((SIZE[0] / 2, SIZE[1] - 44), text, INK, font, anchor="ma")
+        yield np.asarray(page)
 
 
 def film() -> Iterator[NDArray[np.uint8]]:
     """Give all pictures, and three seconds of thanks."""
     for name, (motion, line) in scenes().items():
         yield from pictures(motion, line, SAID[name])
-    figure = Figure(figsize=(4.8, 4.8))
-    canvas = FigureCanvasAgg(figure)
-    figure.text(0.5, 0.5, THANKS, ha="center", va="center", fontsize=15)
-    canvas.draw()
-    yield from [np.array(canvas.buffer_rgba())[..., :3]] * round(3 * FPS)
+    page = Image.new("RGB", SIZE, "#FAF7F0")
+    middle = (SIZE[0] / 2, SIZE[1] / 2)
+    ImageDraw.Draw(page).multiline_text(
+        middle, THANKS, INK, font_of(22), anchor="mm", align="center", spacing=10
+    )
+    yield from [np.asarray(page)] * round(3 * FPS)
 
 
 def write_small(shown: list[NDArray[np.uint8]], path: Path) -> None:
@@ -106,6 +91,6 @@ if __name__ == "__main__":
     shown = list(film())
     write_small(shown, FOLDER / "sample-film.mp4")
     strip = [shown[round(second * FPS)] for second in (3, 14, 18, 38, 54, 61)]
-    image = Image.fromarray(np.concatenate(strip, axis=1)).resize((1440, 240))
+    image = Image.fromarray(np.concatenate(strip, axis=1)).resize((1440, 180))
     image.quantize(64).save(FOLDER / "sample-film.png", optimize=True)
     print(f"{len(shown) / FPS:.0f} s, {(FOLDER / 'sample-film.mp4').stat().st_size / 1e6:.2f} MB")

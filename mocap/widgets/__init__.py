@@ -13,11 +13,13 @@ Reading order (notebooks 00 to 19)
 6. `pointing`: an image to click on, and handles to drag
 7. `experiments`: a picture with controls
 8. `recording`: positions of an experiment, as pictures for pages without Python
-9. `film`: a motion as a film, a strip of poses or a page
-10. `company`: characters that take their steps together, and how long each takes to obey
-11. `steered_widget`: characters side by side that obey one command of the reader
-15. `walk_figure`: the capsules of a body
-16. `walking_page`: a page on which a figure walks along drawn lines
+9. `walk_figure`: the capsules of a body
+10. `shaded_picture`: bodies and their shadows, drawn without a browser
+11. `filmed_scene`: what a player shows at a moment
+12. `film`: a motion as a film, a strip of poses or a page
+13. `company`: characters that take their steps together, and how long each takes to obey
+14. `steered_widget`: characters side by side that obey one command of the reader
+15. `walking_page`: a page on which a figure walks along drawn lines
 
 References
 ----------

@@ -9,22 +9,19 @@ from pathlib import Path
 from tempfile import TemporaryFile
 
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
-from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image
-from scipy.ndimage import gaussian_filter1d
 
 from mocap._shared.atomic import replacing
 from mocap._shared.progress import Progress
-from mocap.body import Motion, joint_positions, resample
+from mocap.body import Motion
 from mocap.errors import MocapError, missing
-from mocap.plotting.stick_figures import StickFigure, filled, ground_axes, look_at, rims, to_picture
-from mocap.plotting.style import PATH, QUIET, own_colour
+from mocap.widgets.filmed_scene import FilmedScene
 from mocap.widgets.player import play
 
 SUFFIXES = (".gif", ".mp4", ".png", ".html")
+SIZES = {".gif": (640, 360), ".mp4": (848, 480)}  # pixels of a film
+COLOURS = 128  # of a .gif
 
 
 def save_animation(
@@ -35,7 +32,7 @@ def save_animation(
     fps: float = 25.0,
     progress: Progress = iter,
 ) -> Path:
-    """Write a motion as a file to look at: a stick figure on the ground, its path, a camera that follows it.
+    """Write a motion as a file to look at: a body on the ground, its path, a camera that follows it.
 
     Parameters
     ----------
@@ -77,43 +74,19 @@ def save_animation(
             beside.write_bytes(player.page().encode() if suffix == ".html" else player.picture)
         else:
             write = write_mp4 if suffix == ".mp4" else _write_gif
-            write(_pictures(motions, discs, fps, progress), beside, fps)
+            shown = FilmedScene(play(*motions, discs=discs).scene)
+            times = progress(range(int(shown.seconds * fps + 1e-9) + 1))
+            write((shown.picture(time / fps, SIZES[suffix]) for time in times), beside, fps)
     return Path(path)
 
 
-def _pictures(
-    motions: Sequence[Motion], discs: ArrayLike, fps: float, progress: Progress
-) -> Iterator[NDArray[np.uint8]]:
-    """Draw a film, frame by frame, each of shape (500, 500, 3); who has come to the end stands there."""
-    motions = [resample(motion, fps) for motion in motions]
-    frames = max(map(len, motions))
-    clouds = [joint_positions(motion)[np.minimum(np.arange(frames), len(motion) - 1)] for motion in motions]
-    roots = np.stack([cloud[:, 0, [0, 2]] for cloud in clouds])  # (C, F, 2)
-    centres = gaussian_filter1d(roots.mean(axis=0), fps / 3, axis=0, mode="nearest")
-    reach = 1.0 + float(np.linalg.norm(roots - centres, axis=-1).max()) * (len(motions) > 1)
-    figure = Figure(figsize=(5, 5))
-    canvas = FigureCanvasAgg(figure)  # whatever pyplot's backend is, this one needs no screen
-    ax = ground_axes(centres[0], reach, ax=filled(figure))
-    obstacles, outlines = Poly3DCollection(np.zeros((1, 3, 3)), facecolors=QUIET, zorder=0.5), rims(discs)
-    ax.add_collection3d(obstacles)
-    bodies = []
-    for number, motion in enumerate(motions):
-        colour, way = own_colour(number, len(motions)), to_picture(motion.root_positions * [1, 0, 1])
-        ax.plot(*way.T, color=colour or PATH, linewidth=1.5, zorder=1)
-        bodies.append(StickFigure(motion.skeleton, ax, colour=colour))
-    for frame in progress(range(frames)):
-        look_at(ax, centres[frame], reach)
-        middle, side = np.insert(centres[frame], 1, 0.0), 2.5 * reach * np.array([1, 0, 1])
-        near = np.clip(outlines, middle - side, middle + side)  # matplotlib cannot draw behind the camera
-        obstacles.set_verts(to_picture(near))
-        for body, cloud in zip(bodies, clouds, strict=True):
-            body.pose(cloud[frame])
-        canvas.draw()
-        yield np.array(canvas.buffer_rgba())[..., :3]
-
-
 def _write_gif(pictures: Iterator[NDArray[np.uint8]], path: Path, fps: float) -> None:
-    first, *rest = (Image.fromarray(p).quantize(32, dither=Image.Dither.NONE) for p in pictures)
+    """Write all pictures with one palette, so that what stands still is written once."""
+    picture = next(pictures)
+    each = np.unique(picture.reshape(-1, 3) // 4 * 4, axis=0)  # a body has few pixels, but many colours
+    palette = Image.fromarray(np.concatenate([each, picture[:, :8].reshape(-1, 3)])[None]).quantize(COLOURS)
+    images = map(Image.fromarray, chain([picture], pictures))
+    first, *rest = (image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images)
     first.save(path, save_all=True, append_images=rest, duration=round(1000 / fps), loop=0)
 
 

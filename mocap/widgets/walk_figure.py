@@ -91,6 +91,27 @@ def posed(skeleton: Skeleton, drawn: Indices) -> dict[str, list[list[Any]]]:
     }
 
 
+def capsules_at(character: Mapping[str, Any], pose: Array) -> Array:
+    """Place the capsules of a packed character, as `capsulesAt` in `player_body.js` does.
+
+    Parameters
+    ----------
+    character : with the `parts` and `pieces` of `posed`.
+    pose : of its drawn joints, shape (J, 3), metres.
+
+    Returns
+    -------
+    Shape (P, 12): an end and its radius, the other end and its radius, the way it is flattened, how much.
+    """
+    parts, pieces = character["parts"], np.array([np.hstack(row) for row in character["pieces"]])
+    axes = np.array([_axes(pose, part) for part in parts])[pieces[:, 0].astype(int)]
+    origins = pose[[parts[int(number)][0] for number in pieces[:, 0]]]
+    a, b = (origins + (pieces[:, at : at + 3, None] * axes).sum(1) for at in (1, 5))
+    ahead = np.cross(axes[:, 0], b - a) + 1e-6 * axes[:, 2]
+    ahead /= np.linalg.norm(ahead, axis=-1, keepdims=True)
+    return np.column_stack([a, pieces[:, 4], b, pieces[:, 8], ahead, pieces[:, 9]])
+
+
 def _along(who: Mapping[str, int], role: str) -> list[int]:
     """Give the joints that span the axes of a role, and whether it keeps its left."""
     *side, part = role.split()

@@ -8,10 +8,9 @@ Reading order
 1. `prose`: Markdown as plain words, for captions
 2. `deck`: the slides of a deck, and the cells of the notebook that they show
 3. `slides`: the decks as pages for reveal.js, without a network
-4. `moving_figures`: the stick figures of a stored player, drawn at a moment
-5. `film_script`: what a film of a deck shows, for how long, above which words
-6. `films`: the pictures of a film, and the film
-7. `board`: drawings for the board, in numbered steps
+4. `film_script`: what a film of a deck shows, for how long, above which words
+5. `films`: the pictures of a film, and the film
+6. `board`: drawings for the board, in numbered steps
 """
 
 import lazy_loader

@@ -14,8 +14,8 @@ from typing import Any
 
 from mocap.course.site import STILL
 from mocap.course.teaching.deck import Slide
-from mocap.course.teaching.moving_figures import Figures, stored_figures
 from mocap.course.teaching.prose import spoken
+from mocap.widgets.filmed_scene import FilmedScene, stored_scene
 
 SPEED = 15.0  # characters that are read per second
 LOOK = {"card": 3.0, "still": 5.0, "moving": 9.0, "player": 10.0}  # seconds of a scene at least
@@ -34,7 +34,7 @@ class Scene:
     words: str
     pictures: list[bytes] = field(default_factory=list)
     labels: list[str] = field(default_factory=list)
-    figures: Figures | None = None
+    figures: FilmedScene | None = None
 
     @property
     def seconds(self) -> float:
@@ -74,7 +74,7 @@ def _shown(cell: Any, recorded: Mapping[str, Any]) -> Iterator[tuple[Any, ...]]:
     for output in cell.get("outputs", ()):
         data, code = output.get("data", {}), cell.metadata.get("code")
         page = data.get("text/html", "")
-        if figures := stored_figures(page):
+        if figures := stored_scene(page):
             yield "player", [], [], figures
         elif STILL in page and code in recorded:
             one = recorded[code]

@@ -93,7 +93,7 @@ def _page(scene: Scene) -> Image.Image:
 def _middle(scene: Scene) -> Callable[[float], Image.Image]:
     """Give the function that draws the middle of a scene at a time."""
     if (figures := scene.figures) is not None:
-        return lambda time: figures.picture(time, ROOM)
+        return lambda time: Image.fromarray(figures.picture(time, ROOM))
     labels = scene.labels or [""] * len(scene.pictures)
     pictures = [_framed(data, label) for data, label in zip(scene.pictures, labels, strict=True)]
     pictures += [_card(scene.words)] * (scene.kind == "card")
