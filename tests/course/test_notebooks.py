@@ -170,14 +170,16 @@ def test_each_exercise_has_its_parts_in_order(name):
 
 @cache
 def opened(name):
-    """Run a notebook's first code cell; some take seconds."""
+    """Run the imports of a notebook's first code cell."""
+    whole = ast.parse(code(name)[0])
+    whole.body = [node for node in whole.body if isinstance(node, ast.Import | ast.ImportFrom)]
     space = {"__name__": "__main__"}
-    exec(code(name)[0], space)
+    exec(compile(whole, name, "exec"), space)
     return space
 
 
 def namespace(name, check):
-    """Give what an exercise may use: the names of the first code cell, and the exercises before it."""
+    """Give what an exercise may use: what the first code cell imports, and the exercises before it."""
     asked = [other for other, _ in notebooks.tagged(read(name), "exercise")]
     return {slot.name: slot for slot in slots(*asked[: asked.index(check)])} | opened(name)
 
