@@ -1,11 +1,13 @@
 """Clips in a folder, for commands to read."""
 
 import shlex
+from functools import cache
 
 import pytest
 
 from mocap.cli.main import main
 from mocap.files import load_save
+from mocap.methods.groups import build_group
 from tests.strategies import wave
 
 
@@ -16,6 +18,14 @@ def clips(tmp_path, monkeypatch):
         load_save.save(clip, tmp_path / f"{clip.name}.bvh")
     monkeypatch.chdir(tmp_path)
     return tmp_path
+
+
+@pytest.fixture(autouse=True, scope="session")
+def one_group():
+    """Build the group of `mocap crowd` once: it takes seconds."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("mocap.methods.groups.build_group", cache(build_group))
+        yield
 
 
 @pytest.fixture

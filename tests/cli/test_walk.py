@@ -13,7 +13,6 @@ from mocap.graphs import storage
 from mocap.methods.groups.planning import Scene
 from tests.bundled import bundled
 from tests.files.glb_reader import Glb
-from tests.methods.groups.built import graph
 
 
 @pytest.fixture
@@ -87,5 +86,5 @@ def test_where_the_way_is_closed_it_sets_out_to_a_side_but_does_not_search_there
 
     monkeypatch.setattr("mocap.methods.groups.lead_group", refuse)
     with pytest.raises(NoWalk, match="refused 1"):
-        _plan(graph(3), Scene((20j,)))
+        _plan(None, Scene((20j,)))
     assert asked == [(4000, 0.0), (400, 0.5), (400, -0.5), (400, 1.0), (400, -1.0)]

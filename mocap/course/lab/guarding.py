@@ -83,58 +83,49 @@ class Slot:
             print(f"{self.name}: yours prints; it is shown where the check runs, and not here.")
         shape = SHAPES.get(self.name)
         wanted = np.zeros(shape) if shape else self.stand_in(*arguments)
-        if not same_form(given, wanted):
-            return self._give_up("", arguments, given)
-        return in_form(given, wanted)
+        try:
+            return in_form(given, wanted)
+        except (TypeError, ValueError) as error:
+            return self._give_up(str(error), arguments)
 
-    def _give_up(self, why: str, arguments: tuple[Any, ...], given: Any = None) -> Any:  # noqa: ANN401
-        if not why:
-            array = _numbers(given)
-            why = f"gave an answer of the type {type(given).__name__} that does not fit"
-            if array is not None:
-                why = "gave NaN" if np.isnan(array).any() else f"gave an answer of the shape {array.shape}"
+    def _give_up(self, why: str, arguments: tuple[Any, ...]) -> Any:  # noqa: ANN401
         self.stopped = why
         print(f"{self.name}: yours {why}; the package's stands in from here on.")
         return self.stand_in(*arguments)
 
 
-def same_form(given: Any, wanted: Any) -> bool:  # noqa: ANN401
-    """Check whether an answer has the form of another: the same shape, and numbers where it has numbers.
-
-    Examples
-    --------
-    >>> same_form([1.0, 2.0], (3, 4)), same_form([1.0], (3, 4)), same_form(np.nan, 1.0), same_form(..., 1.0)
-    (True, False, False, False)
-    >>> same_form([{1, 2}, {3}], [{1}, {2}]), same_form([(1, [2.0])], [(4, [np.inf])])
-    (True, True)
-    """
-    listed = isinstance(given, list | tuple | np.ndarray)
-    if isinstance(wanted, set | frozenset):
-        return listed or isinstance(given, set | frozenset)
-    if isinstance(wanted, dict | str) or wanted is None:
-        return isinstance(given, type(wanted))
-    here, there = _numbers(given), _numbers(wanted)
-    if there is None:  # items of different kinds
-        return listed and len(given) == len(wanted) and all(map(same_form, given, wanted))
-    return here is not None and here.shape == there.shape and not (np.isnan(here) & ~np.isnan(there)).any()
-
-
 def in_form(given: Any, wanted: Any) -> Any:  # noqa: ANN401
-    """Give an answer of the same form the types of another, as what follows may need an array or a set.
+    """Give an answer the types of another of the same form, as what follows may need an array or a set.
+
+    Raises
+    ------
+    ValueError, TypeError : where the form is another one: another shape, or NaN where that has none.
 
     Examples
     --------
     >>> in_form([[1, 2], (3,)], ({0}, np.zeros(1)))
     ({1, 2}, array([3.]))
+    >>> in_form([1.0], (3, 4))
+    Traceback (most recent call last):
+    ValueError: gave an answer of the shape (1,)
     """
-    try:
-        if isinstance(wanted, np.ndarray):
-            return np.asarray(given, wanted.dtype)
-        if type(wanted) in (list, tuple) and len(given) == len(wanted):
-            return type(wanted)(map(in_form, given, wanted))
-        return given if wanted is None or isinstance(given, type(wanted)) else type(wanted)(given)
-    except (TypeError, ValueError):
-        return given
+    listed, kind = isinstance(given, list | tuple | np.ndarray), type(wanted)
+    here, there = _numbers(given), _numbers(wanted)
+    if isinstance(wanted, set | frozenset) and (listed or isinstance(given, set | frozenset)):
+        return kind(tuple(item) if np.ndim(item) else item for item in given)
+    if isinstance(wanted, dict | str) or wanted is None:
+        if isinstance(given, kind):
+            return given
+    elif there is None:  # items of different kinds
+        if listed and len(given) == len(wanted):
+            return (list if kind is list else tuple)(map(in_form, given, wanted))
+    elif here is not None:
+        if here.shape == there.shape and not (np.isnan(here) & ~np.isnan(there)).any():
+            if isinstance(wanted, list | tuple):
+                return (list if kind is list else tuple)(map(in_form, given, wanted))
+            return np.asarray(given, wanted.dtype) if kind is np.ndarray else kind(given)
+        raise ValueError("gave NaN" if np.isnan(here).any() else f"gave an answer of the shape {here.shape}")
+    raise ValueError(f"gave an answer of the type {type(given).__name__} that does not fit")
 
 
 def _numbers(value: Any) -> Any:  # noqa: ANN401
