@@ -7,6 +7,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from contextvars import ContextVar
 from typing import NamedTuple
 
 import numpy as np
@@ -23,6 +25,11 @@ IDLE = 0.1  # m²: the price of a frame of a bent walk that moves on by less tha
 SLOWEST, GRACE = 0.3, 4.0  # metres per second, seconds: a bent walk that falls behind is dropped
 QUICK = 0.5  # metres per second: clips that walk
 CREEP = 0.05  # metres per second: the least progress of a walk that is laid on the path, so that searches end
+
+
+Watch = Callable[["PathSearch", States], None]
+watching: ContextVar[Watch] = ContextVar("watching", default=lambda search, states: None)
+"""Called in each round with a search under way and its walks, the best first: whoever draws them sets it."""
 
 
 class Found(NamedTuple):
@@ -55,8 +62,8 @@ def find_walk(graph: CompiledGraph, route: Route, starts: States, settings: Sett
     search = PathSearch(graph, route, starts, settings)
     try:
         for layer in settings.progress(range(int(route.length / LAYER) + 1)):
-            for _ in search.rounds(layer):
-                pass
+            for walks in search.rounds(layer):
+                watching.get()(search, walks)
     except KeyboardInterrupt:
         return search.found("interrupted")
     return search.found("")
@@ -88,6 +95,11 @@ class PathSearch(LayeredSearch):
         self.hops = States(graph.target[hops.last], *place, length, hops.frames, price, every, every)
         # Metres from each node in the next `AHEAD` seconds (N, 3).
         self.ahead = np.cumsum(np.abs(np.diff(graph.ahead, axis=1, prepend=graph.at[:, None])), axis=1)
+
+    def line(self, states: States) -> Points:
+        """Give where the first of some walks has come from, a point for each hop."""
+        steps = self.trace(states, 0)
+        return np.asarray(steps.move + steps.turn * self.graph.at[steps.node])
 
     def expand(self, states: States) -> States:
         """Lengthen every walk by every hop that leaves its node.

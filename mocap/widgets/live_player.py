@@ -3,6 +3,7 @@
 import warnings
 from collections.abc import Callable
 from dataclasses import replace
+from time import monotonic
 from typing import Any, ClassVar
 
 import numpy as np
@@ -14,11 +15,14 @@ from mocap.blending import Registration, mix
 from mocap.blending.clocks import checked
 from mocap.body.motion import Motion
 from mocap.errors import MocapWarning
+from mocap.steering.layered_search import States
+from mocap.steering.path_search import PathSearch, watching
 from mocap.widgets.live import Live, display_live, widget
 from mocap.widgets.player import Player, play
 
 Follow = Callable[[Array], Motion | Player]
 FPS = 30.0  # of a mix
+TELL = 0.1  # seconds until the best walk so far is told again
 EASE = 0.4  # seconds until new weights are reached
 
 
@@ -31,6 +35,7 @@ class LivePlayer(Live):
         "at": [-1, 0],  # the browser's: the number of a scene, and a frame
         "move": [0, 0],  # Python's
         "path": [],
+        "best": [],  # the line of the best walk so far, while a search is under way
         "message": "",
     }
     needs = "A live player needs"
@@ -65,6 +70,7 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
     ----------
     follow : called with a path, shape (N, 2), points (x, z) in metres; returns a motion, or a `play` of one.
         Its `alt`, which can say how far off the path the walk is, and all warnings stand below the canvas.
+        While a `follow_path` in it searches, the best walk so far is drawn.
         Its `path`, if it has one, is drawn instead of the reader's line: give there what was followed, such
         as a spline.
     path : the first path, shape (N, 2).
@@ -89,6 +95,12 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
     Notebook: 08-path-synthesis
     """
     canvas = widget(LivePlayer)()
+    told = [0.0]
+
+    def watch(search: PathSearch, walks: States) -> None:
+        if monotonic() > told[0] + TELL:
+            line, told[0] = search.line(walks), monotonic()
+            canvas.best = np.stack([line.imag, line.real], axis=-1).round(2).tolist()
 
     def walk(path: Array, **extra: bool) -> None:
         with warnings.catch_warnings(record=True) as caught:
@@ -101,10 +113,13 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
         canvas.message = "\n".join([player.alt, *(str(warning.message) for warning in caught)])
 
     def redraw(change: dict[str, Any]) -> None:
+        canvas.best, before = [], watching.set(watch)
         try:
             walk(np.array(change["new"], float), autoplay=True)
         except Exception as error:  # of any kind: it comes from a student's function
             canvas.error, canvas.message = error, f"{type(error).__name__}: {error}"
+        finally:
+            watching.reset(before)
 
     points = np.reshape(np.asarray(path, float), (-1, 2))
     walk(points)

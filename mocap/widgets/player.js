@@ -1,10 +1,10 @@
-// A player of stick figures on a canvas, without any library.
+// A player of bodies on a canvas, without any library.
 //
 // `player.py` packs a scene. `player_scene.js` unpacks it, `player_picture.js` draws it, `player_page.js` has the
 // parts of the page, `player_hand.js` the keys, mouse and fingers, and this file ties them together. The scripts
 // are joined to one module. On a page, `start` starts every `.mocap-player`; in JupyterLab, anywidget calls
 // `render`. Its `model` shares with Python: `scene`, with a number; `move`, which Python sets, and `at`, which the
-// player sets: the number of a scene and a frame; and `path`.
+// player sets: the number of a scene and a frame; `path`; and `best`, the line of a search that is under way.
 
 const FOLLOWED = 15; // metres of ground around a character that the camera follows
 
@@ -133,6 +133,7 @@ class Player {
     this.model.on("change:move", () => follow(this.model.get("move")));
     this.model.on("change:at", () => follow(this.model.get("at"))); // another view of the same player has moved
     this.model.on("change:scene", () => this.load(this.model.get("scene")));
+    this.model.on("change:best", () => { this.best = this.model.get("best"); this.update(); });
     this.model.on("change:message", () => { if (this.model.get("message")) { this.looking = null; this.say(this.model.get("message")); } });
   }
 
@@ -150,7 +151,7 @@ class Player {
 
   ask(path) {
     this.say("Looking for a walk …");
-    this.looking = performance.now();
+    this.looking = performance.now(); this.best = [];
     this.update();
     this.model.set("message", ""); // or the same message twice would be no change
     this.model.set("path", path);
@@ -239,11 +240,12 @@ class Player {
     this.near += share(2) * (1 - this.near);
   }
 
-  // While Python looks for a walk: a place that runs along the reader's line, and the seconds.
+  // While Python looks for a walk: the best one so far, a place that runs along the reader's line, and the seconds.
   showLooking(colour) {
     const { drawn } = this.hand, seconds = (performance.now() - this.looking) / 1000;
+    this.picture.stroke([this.best.map(([x, z]) => [x, 0, z])], this.scene.marks.seam, 4);
     this.picture.write(`looking for a walk: ${seconds.toFixed(1)} s`);
-    if (!drawn.length || this.calm) return;
+    if (!drawn.length || this.calm || this.best.length) return;
     const [x, z] = drawn[Math.floor(20 * seconds) % drawn.length];
     this.picture.disc([x, 0.01, z], 0.15, colour, 0.9, true);
   }

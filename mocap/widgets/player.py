@@ -1,4 +1,4 @@
-"""A player for notebooks and pages: stick figures that move; it needs nothing but a browser.
+"""A player for notebooks and pages: bodies that move; it needs nothing but a browser.
 
 Scripts draw; this module packs what they draw. Coordinates are sent as 16-bit numbers between
 the lowest and the highest of a clip, so 20 metres are cut into steps of 0.3 mm, and at no more than 60 frames

@@ -9,6 +9,8 @@ from PIL import Image
 from walking import generate_walk
 
 from mocap.body import joint_positions, resample, rotations
+from mocap.body.planar import place
+from mocap.datasets import sample
 from mocap.widgets.embedding import PICTURE, SCENE, SHADED, joined
 from mocap.widgets.packing import drawn, packed_character
 from mocap.widgets.player import play
@@ -527,3 +529,52 @@ def test_the_view_is_moved_by_shift_and_by_the_right_button(resting):
     camera, target = f"{PLAYER}.camera", page.evaluate(f"{PLAYER}.panned")
     right = page.evaluate(f"{camera}.right")
     assert np.dot(target, [right[0], right[2]]) < -0.1  # what is seen goes with the hand
+
+
+# What JupyterLab gives a player, for a canvas on which a reader draws.
+KERNEL = """async (player) => {
+    const values = { at: [-1, 0], move: [0, 0], message: "" }, model = {
+        get: (name) => values[name], set: (name, value) => { values[name] = value; }, save_changes: () => {},
+        on: (event, tell) => { model[event] = tell; },
+        tell: (name, value) => { values[name] = value; model[`change:${name}`](); },
+    };
+    Object.assign(player, { model, drawing: true });
+    player.link();
+    player.follow.checked = false;
+    await player.load({ ...player.scene, drawable: true, autoplay: false, number: 1 });
+    player.frameAll();
+}"""
+
+
+def test_a_stroke_is_searched_for_and_walked_near_by_with_the_line_as_inset(shown):
+    page = shown(play(place(sample("walk_straight"), 2.5, [0.0, 0.0])))
+    page.evaluate(f"({KERNEL})({PLAYER})")
+    box = page.locator("canvas").bounding_box()
+    corner = np.s_[4:140, -140:-4]
+    empty = (colours(page)[corner].max(axis=-1) < 130).sum()
+
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for dx, dy in ((80, 20), (120, -30), (40, -50)):
+        page.mouse.move(x + dx, y + dy, steps=8)
+    page.mouse.up()
+    asked = page.evaluate(f"{PLAYER}.model.get('path')")
+    assert len(asked) > 10 and page.evaluate(f"{PLAYER}.looking > 0")
+
+    mark = np.array([0xCC, 0x79, 0xA7])
+    assert not (np.abs(colours(page) - mark).max(axis=-1) < 12).any()
+    page.evaluate(f"{PLAYER}.model.tell('best', [[-1, 0], [1, 0], [1, 1]])")
+    wait_until(lambda: (np.abs(colours(page) - mark).max(axis=-1) < 12).sum() > 100)
+
+    scene = f"{{ ...{PLAYER}.scene, asked: {asked}, autoplay: true, number: 2 }}"
+    page.evaluate(f"{PLAYER}.model.tell('scene', {scene})")
+    turned = f"""(({{ camera, characters: [who], time }}) => {{
+        const [a, b] = [who.pose(time - 0.5), who.pose(time + 0.2)];
+        return Math.cos(camera.yaw - 0.75 - Math.atan2(b[0] - a[0], b[2] - a[2]));
+    }})({PLAYER})"""
+    assert page.evaluate(turned) < 0  # the camera stands behind, and comes to three quarters in front
+    wait_until(lambda: page.evaluate(f"{PLAYER}.near > 0.99 && {turned} > Math.cos(0.2)"))
+    assert page.evaluate(f"{PLAYER}.looking") is None
+    assert page.evaluate(f"{PLAYER}.camera.pitch") == pytest.approx(0.3, abs=0.05)
+    assert (colours(page)[corner].max(axis=-1) < 130).sum() > empty + 100

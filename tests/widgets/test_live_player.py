@@ -8,9 +8,11 @@ import pytest
 from mocap.blending import register
 from mocap.body import joint_positions, spline
 from mocap.errors import MocapError, MocapWarning
+from mocap.steering.path_following import follow_path
 from mocap.widgets.live_player import Mixer, draw_path
 from mocap.widgets.player import play
 from tests.blending.registered import turned, walks
+from tests.bundled import walking
 from tests.refusals import refused
 from tests.strategies import wave
 
@@ -40,6 +42,18 @@ def test_warnings_stand_below_the_canvas():
     assert canvas.message.splitlines() == [canvas.player.alt, "The walk leaves the path 2 times."]
     canvas.path = [[0, 0], [0, 1], [0, 2]]
     assert canvas.message.splitlines()[1] == "The walk leaves the path 3 times."
+
+
+def test_the_best_walk_so_far_is_told_while_a_search_is_under_way(monkeypatch):
+    monkeypatch.setattr("mocap.widgets.live_player.TELL", 0.0)
+    graph, told = walking(), []
+    canvas = draw_path(lambda path: follow_path(graph, spline(path)).motion(), [[0, 0], [0, 2]])
+    canvas.observe(lambda change: told.append(np.array(change["new"])), "best")
+    canvas.path = [[0.0, 0.0], [0.0, 2.0], [0.3, 4.0]]
+    assert canvas.error is None and len(told) > 5
+    assert np.linalg.norm(told[-1][-1] - [0.3, 4.0]) < 0.7 and np.linalg.norm(told[-1][0]) < 0.3
+    follow_path(graph, spline([[0, 0], [1, 3]]))
+    assert np.linalg.norm(np.array(canvas.best)[-1] - [0.3, 4.0]) < 0.7  # another search is not the canvas's
 
 
 def test_a_drawn_path_becomes_a_walk():
