@@ -4,8 +4,8 @@ import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
-from mocap.course.site import build_site
 from tests.browser.conftest import run_notebook, wait_until, watched_page
+from tests.course.test_site import build_small
 
 START = """
 from mocap.course.lab.asking import asked, asked_before, summed_up
@@ -54,9 +54,7 @@ def on_the_site(page, lab, tmp_path):
             cells.append(new_code_cell(text, outputs=outputs) if is_code(text) else new_markdown_cell(text))
         nbformat.write(new_notebook(cells=cells), tmp_path / "00-one.ipynb")
         (tmp_path / "teaching").mkdir()
-        with pytest.MonkeyPatch.context() as patch:
-            patch.setattr("mocap.course.site._write_reference", lambda folder: [])
-            build_site(tmp_path, tmp_path / "out")
+        build_small(tmp_path, tmp_path / "out")
     page.goto((tmp_path / "out" / "00-one.html").as_uri())
 
 

@@ -6,9 +6,8 @@ import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
-from mocap.course.site import build_site
 from tests.browser.conftest import wait_until, watched_page
-from tests.course.test_site import EXPERIMENT, course_site
+from tests.course.test_site import EXPERIMENT, build_small, course_site
 
 
 @pytest.fixture(scope="module")
@@ -80,8 +79,7 @@ def test_pages_are_dark_where_the_reader_wants_it(page, first):
     assert page.evaluate(figure).endswith("(255, 255, 255)")
 
 
-def test_a_recorded_experiment_moves(page, tmp_path, monkeypatch):
-    monkeypatch.setattr("mocap.course.site._write_reference", lambda folder: [])
+def test_a_recorded_experiment_moves(page, tmp_path):
     still = new_output("display_data", {"text/html": '<div class="mocap-still"></div>'})
     cells = [
         new_markdown_cell("# One"),
@@ -89,7 +87,7 @@ def test_a_recorded_experiment_moves(page, tmp_path, monkeypatch):
     ]
     nbformat.write(new_notebook(cells=cells), tmp_path / "00-one.ipynb")
     (tmp_path / "teaching").mkdir()
-    address = build_site(tmp_path, tmp_path / "out", moving=True).as_uri()
+    address = build_small(tmp_path, tmp_path / "out", moving=True).as_uri()
     page.goto(address)
     slider, picture = page.get_by_label("steps taken"), page.locator(".moving img")
     wide = picture.bounding_box()["width"]

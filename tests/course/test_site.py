@@ -2,10 +2,8 @@
 
 import json
 import os
-import pkgutil
 import posixpath
 import re
-import shutil
 from fcntl import LOCK_EX, flock
 from html.parser import HTMLParser
 
@@ -13,37 +11,35 @@ import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
-from mocap import course
 from mocap.cli.main import main
 from mocap.course.formulas import to_mathml
 from mocap.course.opening import stored
 from mocap.course.site import STILL, _note, build_site, prepared
+from mocap.datasets.samples import SAMPLES
 from mocap.widgets import live
-from tests.conftest import SWEEP
 from tests.refusals import refused
 
 NAMES = ("00-quickstart", "09b-blend-window")
 PAGES = ("GLOSSARY", "FORMULAS", "PAPERS", "PROJECT", "README")
-ROOMS = ("mocap.body", "mocap.blending")  # of the reference; the sweep makes all
 
 
 def course_site(tmp_path_factory):
-    """Make the pages of two notebooks; in a sweep those of the whole course, once for all workers."""
+    """Make the pages of the whole course, once for all workers."""
     base = tmp_path_factory.getbasetemp()
     base = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
-    with pytest.MonkeyPatch.context() as patch, (base / "site.lock").open("w") as lock:
+    with (base / "site.lock").open("w") as lock:
         flock(lock, LOCK_EX)
-        if not SWEEP:
-            folder = tmp_path_factory.mktemp("notebooks")
-            for name in (*(f"{name}.ipynb" for name in NAMES), *(f"{name}.md" for name in PAGES)):
-                shutil.copy(stored() / name, folder)
-            shutil.copytree(stored() / "teaching", folder / "teaching")
-            patch.setattr(course, "stored", lambda: folder)
-            rooms = [pkgutil.ModuleInfo(None, room, ispkg=True) for room in ROOMS]
-            patch.setattr("mocap.course.site.pkgutil.walk_packages", lambda *_: rooms)
         if not (base / "site").exists():
             assert main(["course", "site", "-o", str(base / "site")]) == 0
     return base / "site"
+
+
+def build_small(notebooks, out, **settings):
+    """Build pages without the package's reference, the first of which walks through one clip."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("mocap.course.site._write_reference", lambda folder: [])
+        patch.setattr("mocap.course.site.SAMPLES", SAMPLES[:1])
+        return build_site(notebooks, out, **settings)
 
 
 @pytest.fixture(scope="module")
@@ -92,7 +88,7 @@ def test_every_notebook_is_a_page_beside_the_reference_and_links_lead_somewhere(
     found = pages(site)
     assert {f"{name}.html" for name in (*NAMES, *PAGES)} <= set(found)
     assert sum(link.startswith("#") for page in found.values() for link in page.links) > 50
-    assert [link for link in dead(found) if SWEEP or ".ipynb" not in link] == []  # not in this folder
+    assert list(dead(found)) == []
     reference = (site / "reference" / "mocap.blending.html").read_text("utf-8")
     assert 'id="mocap.blending.join"' in reference and "Examples" in reference
     assert "L. Kovar, M. Gleicher" in reference

@@ -122,25 +122,6 @@ def test_a_steered_walk_takes_the_edges_that_were_chosen_and_knows_where_they_wo
     assert 60 <= sum(edge["frames"] for edge in edges) < 90
 
 
-@pytest.mark.exhaustive
-def test_commands_are_obeyed_better_than_by_chance(by):
-    straight, circle = (mocap.resample(datasets.sample(f"walk_{n}"), 30) for n in ("straight", "circle"))
-    graph = own.build_own([straight, circle[350:750]], WINDOW, BELOW, by)
-    rng = np.random.default_rng(0)
-    chance = replaced(by, next_edge=lambda turn, tracks, *command: rng.integers(len(tracks)))
-
-    def off(heading, tools):
-        walk = own.steer_own(graph, lambda second: (heading, 1.2), 12.0, tools)
-        ground = own.play_own(graph, walk, by).root_positions[:, [2, 0]] @ [1, 1j]
-        steps = np.diff(ground[120:360:15])  # from four seconds after the command on
-        return np.abs(np.angle(steps / np.exp(1j * heading))).mean()
-
-    headings = [-3.0, -1.5, 0.0, 1.5, 3.0]
-    obeyed, random = (np.mean([off(heading, tools) for heading in headings]) for tools in (by, chance))
-    assert obeyed < np.radians(30)
-    assert obeyed < random / 3
-
-
 def test_what_holds_no_graph_and_no_walk_is_refused(clips, graph, by):
     refused(r"below 0.001 m: allow more\.$", own.build_own, [clips[0][:40]], WINDOW, 0.001, by)
     for some, window in (([], WINDOW), ([clips[0], clips[0][: WINDOW - 1]], WINDOW), (clips, 0), (clips, 1)):
