@@ -21,7 +21,7 @@ from mocap.body.motion import Motion
 from mocap.editing.bodies import Body, body_of, require_reachable
 from mocap.editing.displacements import displaced
 from mocap.editing.pins import Pins, pin_errors, require_pins_of
-from mocap.editing.steps import Basis, Curve, Linear, linear
+from mocap.editing.steps import Basis, Curve, Linear, led, linear
 from mocap.errors import MocapError, warn
 
 TOLERANCE = 0.005  # metres: what the solver may leave without a warning
@@ -126,7 +126,8 @@ def solve_quietly(base: Motion, pins: Pins, bases: Sequence[Basis], body: Body |
         change = np.zeros_like(change)
         if missed.any():
             some = Motion(base.skeleton, base.root_positions[rows], base.rotations[rows], base.fps)
-            change[rows], left = _descend(some, pins.at(rows), body, way)
+            wanted = led(base, pins, way.lead) if way.lead else pins
+            change[rows], left = _descend(some, wanted.at(rows), body, way)
             base = displaced(base, body.displacement(change, len(base.skeleton)))
             worst += left
     return Solved(base, worst, change, body)

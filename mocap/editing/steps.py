@@ -7,12 +7,13 @@ from scipy import sparse
 from scipy.linalg import solveh_banded
 
 from mocap._shared.arrays import Array
-from mocap.body.kinematics import forward_kinematics
+from mocap.body.kinematics import forward_kinematics, joint_positions
 from mocap.body.motion import Motion
 from mocap.editing.bodies import Body
 from mocap.editing.displacements import displaced, right_jacobian, spline_basis
 from mocap.editing.pins import Pins
 from mocap.editing.turn_pins import ARM
+from mocap.feet.ankle_targets import smooth_fill
 
 # Metres: a joint so near to the end of its box shall keep to it in the next step. With 0 a head under a bar
 # leaves the bar and comes back, and 100 passes do not end; with 1e-3 they end as soon.
@@ -32,6 +33,7 @@ class Basis(NamedTuple):
     weight : w, per metre. On splines 100 leaves 10 mm on a stone of 20 cm, 300 leaves 3 mm, 1000 no less.
     damping : λ at first, as a share of the prices: a step is one of the weight w / √(1 + λ).
     passes : at most.
+    lead : seconds: above 0 joints are led from pin to pin, and to the first and from the last in this time.
 
     Examples
     --------
@@ -46,6 +48,7 @@ class Basis(NamedTuple):
     weight: float = 300.0
     damping: float = 1.0
     passes: int = 30
+    lead: float = 0.0
 
     @property
     def alone(self) -> bool:
@@ -66,6 +69,21 @@ class Linear(NamedTuple):
     def worst(self) -> float:
         """The largest distance of a joint from its pin, metres."""
         return float(np.linalg.norm(self.gap.reshape(len(self.gap), -1, 3), axis=-1).max())
+
+
+def led(base: Motion, pins: Pins, seconds: float) -> Pins:
+    """Pin joints between their pins, too: to their own way, moved by the curve that bends least [ours].
+
+    Without it angles change smoothly, but a foot at the end of a chain of them accelerates.
+    """
+    places, low, high = joint_positions(base)[:, list(pins.joints)], pins.low.copy(), pins.high.copy()
+    for joint, axis in np.argwhere(pins.held.any(axis=0)):
+        at, held = np.s_[:, joint, axis], pins.held[:, joint, axis]
+        away = np.where(held, low[at] - places[at], 0.0)[:, None]
+        way = places[at] + smooth_fill(away, held, base.fps, seconds)[:, 0]
+        free = np.isinf(low[at]) & np.isinf(high[at])
+        low[at], high[at] = np.where(free, way, low[at]), np.where(free, way, high[at])
+    return Pins(pins.joints, low, high, pins.turns)
 
 
 def linear(base: Motion, body: Body, x: Array, pins: Pins) -> Linear:

@@ -129,11 +129,11 @@ def _pull_in(places: Array, marks: Mask, track: LegTrack) -> Array:
     return places
 
 
-def smooth_fill(values: Array, known: Mask, fps: float) -> Array:
+def smooth_fill(values: Array, known: Mask, fps: float, fade: float = FADE) -> Array:
     """Fill in the frames that are not known with the curve that bends least and stays near 0 [KSG02, step 5].
 
     It minimises Σ |c_{f-1} - 2 c_f + c_{f+1}|² + κ⁴ Σ |c_f|² with the known frames held. Value and slope are
-    continuous at both ends of a plant, and die away within `FADE` = 1 / (κ · fps) where the next plant is
+    continuous at both ends of a plant, and die away within `fade` = 1 / (κ · fps) where the next plant is
     far.
 
     Parameters
@@ -141,6 +141,7 @@ def smooth_fill(values: Array, known: Mask, fps: float) -> Array:
     values : shape (F, C); values in frames that are not known do not matter.
     known : shape (F,).
     fps : frames per second.
+    fade : seconds.
 
     Returns
     -------
@@ -152,7 +153,7 @@ def smooth_fill(values: Array, known: Mask, fps: float) -> Array:
     array([0. , 0.5, 1. ])
     """
     filled = np.where(known[:, None], values, 0.0)
-    bands = bending_bands(np.ones(len(values)), (FADE * fps) ** -4.0)
+    bands = bending_bands(np.ones(len(values)), (fade * fps) ** -4.0)
     target = np.where(known[:, None], filled, -band_product(bands, filled))
     for later in range(3):  # a known frame's row becomes that of the identity: it stays
         apart = slice(len(values) - later)

@@ -70,17 +70,24 @@ def rms(errors: np.ndarray, pins: Pins) -> float:
     return float(np.sqrt((errors[pins.asked.any(axis=1)] ** 2).mean()))
 
 
-def accelerations(motion: Motion) -> float:
-    """Return the 99th percentile of the accelerations, without hands and end sites, where noise lives."""
+def accelerations(motion: Motion, share: float = 99) -> float:
+    """Return a percentile of the accelerations, without hands and end sites, where noise lives."""
     noise = ("hand", "finger", "thumb", "_end")
     columns = [j for j, n in enumerate(motion.skeleton.names) if not any(w in n for w in noise)]
     sizes = np.linalg.norm(np.diff(joint_positions(motion)[:, columns], 2, axis=0), axis=-1)
-    return float(np.percentile(sizes, 99))
+    return float(np.percentile(sizes, share))
 
 
 def smoothness(motion: Motion, base: Motion) -> float:
     """Return the accelerations' 99th percentile over the source's."""
     return accelerations(motion) / accelerations(base)
+
+
+def shakes(motion: Motion, base: Motion, pins: Pins) -> float:
+    """Return the accelerations' 95th percentile within half a second of what is asked, over the source's."""
+    asked = np.flatnonzero(np.linalg.norm(pins.gap(joint_positions(base)), axis=-1).max(axis=1) > 0.01)
+    near = slice(max(0, asked[0] - round(base.fps / 2)), asked[-1] + round(base.fps / 2))
+    return accelerations(motion[near], 95) / accelerations(base[near], 95)
 
 
 def plants_kept(motion: Motion, base: Motion) -> float:
