@@ -119,7 +119,7 @@ def solve_quietly(base: Motion, pins: Pins, bases: Sequence[Basis], body: Body |
     for number, way in enumerate(bases):
         if number == 0 and (np.isfinite(pins.high) & ~pins.held).any():
             way = way._replace(damping=CEILING)
-        if not (way.knots >= 0 <= way.calm and way.weight > 0 <= way.damping and way.passes >= 1):
+        if not (way.knots >= 0 <= way.calm and way.weight > 0 <= way.damping and way.lead >= 0 < way.passes):
             raise MocapError(f"A basis needs a weight and a pass above 0, and no number below 0; got {way}.")
         missed = pin_errors(base, pins).max(axis=1, initial=0.0) > MET
         rows = np.flatnonzero(missed) if way.alone else slice(None)

@@ -39,10 +39,12 @@ def stand(motion: Motion) -> Motion:
     """
     legs = legs_of(motion.skeleton, None)
     marks, places = settled_marks(motion, legs), joint_positions(motion)
-    feet = [[leg.ankle, leg.ball] for leg in legs]
-    held = [_held(places[:, foot], own, motion.fps) for foot, own in zip(feet, marks, strict=True)]
-    known = np.concatenate(held, axis=1)  # (F, P, 3), nan where nothing is held
-    columns = [joint for foot in feet for joint in foot]
+    columns = [joint for leg in legs for joint in (leg.ankle, leg.ball)]
+    known = np.full((len(motion), len(columns), 3), np.nan)  # nan where nothing is held
+    for n, own in enumerate(marks):
+        foot = slice(2 * n, 2 * n + 2)
+        for way in (slice(None), slice(None, None, -1)):  # the start is the end of the motion run backwards
+            _hold_end(known[way, foot], places[way][:, columns[foot]], own[:, way], motion.fps)
     names = [motion.skeleton.names[joint] for joint in columns]
     own = dict(zip(names, marks.reshape(-1, len(motion)), strict=True))
     also = {name: own[name] | np.isfinite(known[:, n, 0]) for n, name in enumerate(names)}
@@ -52,14 +54,6 @@ def stand(motion: Motion) -> Motion:
         found = clean_up(replace(motion, contacts={**motion.contacts, **also}), legs, held=where)
     contacts = {name: mark & own.get(name, mark) for name, mark in found.contacts.items()}
     return replace(found, contacts=contacts)
-
-
-def _held(places: Array, marks: Mask, fps: float) -> Array:
-    """Say where an ankle and its ball (F, 2, 3) are held near both ends; nan where they are not."""
-    held = np.full(places.shape, np.nan)
-    for way in (slice(None), slice(None, None, -1)):  # the start is the end of the motion run backwards
-        _hold_end(held[way], places[way], marks[:, way], fps)
-    return held
 
 
 def _hold_end(held: Array, places: Array, marks: Mask, fps: float) -> None:

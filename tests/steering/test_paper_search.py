@@ -6,10 +6,12 @@ from asked_lines import random_line
 
 from mocap.body.ground_path import GroundPath, s_curve
 from mocap.errors import MocapWarning, NoWalk
-from mocap.steering.path_following import follow_as_2002, follow_path
-from mocap.steering.path_objective import Settings, Wishes
+from mocap.graphs.compiled_graph import compile_graph
+from mocap.steering.path_following import PathCost, follow_as_2002, follow_path
+from mocap.steering.path_objective import Settings, Wishes, make_route
 from mocap.synthesis.bounded_search import Budget
-from tests.bundled import captured, walking
+from mocap.synthesis.ground_walks import Stand
+from tests.bundled import bundled, captured, walking
 
 GRAPH = walking()
 
@@ -54,6 +56,19 @@ def test_what_the_papers_search_gains_at_its_best_it_pays_in_seams(real_data):
     seams = np.array([[walk.seams_per_second for walk in walks] for walks in found])
     assert (np.diff(off) > 0).all() and (np.diff(off)[:, 1] < 0.02).all()
     assert np.median(seams[:, 0]) < 1.3 * np.median(seams[:, 1]) and (2 * seams[:, 2] < seams[:, 1]).all()
+
+
+def test_who_stands_gets_on_by_a_little():
+    """As in [KGP02, least progress]: else a walk that stands would never end."""
+    graph, path = compile_graph(bundled("stop_and_go")), GroundPath([[0, 0], [0, 3]])
+    walks = PathCost(graph, make_route(graph, path, Wishes()))
+    own, counted = [], []
+    for edge in walks.number:
+        own.append(graph.step[walks.rows(edge)])
+        counted.append(walks.cost(Stand(1 + 0j, 0j), edge)[1].along)
+    least = [np.maximum(steps, 0.3 / graph.fps).sum() for steps in own]
+    assert counted == pytest.approx(least)
+    assert min(steps.sum() / len(steps) for steps in own) * graph.fps < 0.1
 
 
 def test_before_its_first_step_there_is_no_walk():

@@ -84,6 +84,17 @@ def test_a_budget_gives_the_best_so_far_and_says_so():
     assert branch_and_bound(problem, 0, (), budget=Budget(nodes=20)).complete
 
 
+@given(seeds)
+def test_the_cheapest_edge_is_tried_first(seed):
+    """As in [KGP02, order]: with a budget of one walk for each edge, the greedy walk is found."""
+    problem, node, greedy = problem_on(random_graph(seed), 6), 0, ()
+    while not problem.done(greedy):
+        edges = problem.graph.out_edges(node, keys=True)
+        greedy += (min(edges, key=lambda edge, walk=greedy: problem.step(walk, edge)[0]),)
+        node = greedy[-1][1]
+    assert branch_and_bound(problem, 0, (), budget=Budget(6)).walk == list(greedy)
+
+
 def test_an_interruption_gives_the_best_so_far():
     problem, calls = problem_on(random_graph(2, edges=16), 9), iter(range(60))
 
