@@ -13,7 +13,8 @@ from mocap.editing.bending import bend
 from mocap.editing.path_editing import plants_kept
 from mocap.errors import MocapWarning
 from mocap.files.load_save import load
-from tests.editing.test_path_editing import acc99, off, slide
+from tests.editing.test_path_editing import off, slide
+from tests.editing.wishes import smoothness
 from tests.refusals import refused
 
 CLIPS = ("walk_straight", "walk_circle", "sneak", "jog")
@@ -40,7 +41,7 @@ def test_a_walk_keeps_to_any_line(name, path):
     assert slide(bent.motion) <= 1e-6
     assert slide(bent.laid) > 0.005
     assert plants_kept(bent.motion, bent.laid) >= (0.92 if name == "jog" else 0.99)
-    assert acc99(bent.motion, clip(name)) <= 1.15
+    assert smoothness(bent.motion, clip(name)) <= 1.15
     assert np.abs(bent.off - off(bent.motion, path)).max() < 0.008
 
 
@@ -109,4 +110,4 @@ def test_captured_walks_keep_to_any_line(real_data, name):
         assert straight_parts(bent).max() <= max(0.08, sway + 0.04)
         assert slide(bent.motion) <= 1e-6
         assert plants_kept(bent.motion, bent.laid) >= 0.93  # 16_17 lurches at its end
-        assert acc99(bent.motion, motion) <= 1.25
+        assert smoothness(bent.motion, motion) <= 1.25

@@ -20,10 +20,10 @@ from mocap.errors import MocapWarning
 from mocap.feet.footplants import mark_plants, runs
 from mocap.feet.footskate import clean_up
 from mocap.files.load_save import load
+from tests.editing.wishes import smoothness
 from tests.refusals import refused
 
 CLIPS = {"walk_straight": slice(0, 600), "jog": slice(600, 1100)}
-NOISY = ("hand", "finger", "thumb", "_end")  # joints whose accelerations are the capture's noise
 
 
 @cache
@@ -50,15 +50,6 @@ def slide(motion):
         for start, stop in runs(mark)
     ]
     return max(np.linalg.norm(plant - plant.mean(axis=0), axis=-1).max() for plant in plants)
-
-
-def acc99(motion, base):
-    """The 99th percentile of the accelerations, over that of another motion."""
-    names = motion.skeleton.names
-    own = [j for j, name in enumerate(names) if not any(word in name.lower() for word in NOISY)]
-    both = [np.diff(joint_positions(m)[:, own], 2, axis=0) for m in (motion, base)]
-    after, before = (np.percentile(np.linalg.norm(a, axis=-1), 99) for a in both)
-    return after / before
 
 
 def off(motion, path):
@@ -168,7 +159,7 @@ def test_bent_walks_stand_as_before_and_keep_to_the_path(name, radius):
     assert 0.015 / radius < slide(bent) < 0.15 / radius
     assert slide(cleaned) <= 1e-6
     assert plants_kept(cleaned, bent) >= 0.95
-    assert acc99(cleaned, motion) <= (1.15 if name == "jog" else 1.12)
+    assert smoothness(cleaned, motion) <= (1.15 if name == "jog" else 1.12)
     assert abs(off(cleaned, path).mean() - off(motion, ride.path).mean()) < 0.003
     assert abs(off(cleaned, path).max() - off(motion, ride.path).max()) < 0.003
 

@@ -13,24 +13,14 @@ from mocap.editing.edits import posed
 from mocap.editing.keys import keys_around, offsets
 from mocap.errors import MocapError
 from mocap.feet.footskate import clean_up
-from tests.editing.test_retiming import body
+from tests.editing.test_path_editing import slide
+from tests.editing.wishes import body
 
 UP = np.array([0.0, 1.0, 0.0])
 
 
 def accelerations(motion):
     return np.linalg.norm(np.diff(joint_positions(motion), 2, axis=0), axis=-1) * motion.fps**2
-
-
-def slide(motion):
-    """Return the farthest that a planted joint strays from its mean place, millimetres."""
-    at, most = joint_positions(motion), 0.0
-    for joint, mark in motion.contacts.items():
-        edges = np.flatnonzero(np.diff(mark.astype(int), prepend=0, append=0)).reshape(-1, 2)
-        for start, stop in edges[np.diff(edges, axis=1)[:, 0] > 5]:
-            track = at[start:stop, motion.skeleton.index(joint)]
-            most = max(most, 1000 * np.linalg.norm(track - track.mean(axis=0), axis=-1).max())
-    return most
 
 
 def planted(motion):
@@ -73,7 +63,7 @@ def test_a_hand_to_a_post(frame):
     walk = sample("walk_straight")[:480]
     warped = check_hand(walk, frame, body(walk))
     cleaned = clean_up(warped)
-    assert slide(cleaned) < 1e-3
+    assert slide(cleaned) < 1e-6
     assert planted(cleaned) >= 0.99 * planted(walk)
 
 

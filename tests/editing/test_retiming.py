@@ -12,20 +12,9 @@ from mocap.body.motion import resample
 from mocap.datasets.samples import sample
 from mocap.editing.retiming import at_frames, old_seconds, retime
 from mocap.errors import MocapError
+from tests.editing.wishes import accelerations, body
 
 WALK = sample("walk_straight")[240:721]
-
-
-def body(motion):
-    """List the joints without hands, fingers, thumbs and end sites, where captured noise lives."""
-    noise = ("hand", "finger", "thumb", "_end")
-    return [j for j, name in enumerate(motion.skeleton.names) if not any(word in name for word in noise)]
-
-
-def acc99(motion):
-    """Return the 99th percentile of the joints' accelerations, m/s²."""
-    pushes = np.diff(joint_positions(motion)[:, body(motion)], 2, axis=0) * motion.fps**2
-    return float(np.percentile(np.linalg.norm(pushes, axis=-1), 99))
 
 
 # -------------------------------------------------------------------------------------------- time
@@ -69,8 +58,8 @@ def test_slow_motion_is_smooth_by_hermite_and_jolts_by_slerp(fps):
     source = resample(WALK, fps)
     quarter = np.arange(0, len(source) - 1, 0.25)
     smooth, straight = (replace(m, fps=4 * fps) for m in (at_frames(source, quarter), source.at(quarter)))
-    assert acc99(smooth) < 1.1 * acc99(WALK)
-    assert acc99(straight) > 1.5 * acc99(WALK)
+    assert accelerations(smooth) < 1.1 * accelerations(WALK)
+    assert accelerations(straight) > 1.5 * accelerations(WALK)
 
 
 def test_a_steady_glide_stays_steady_up_to_both_ends():

@@ -17,6 +17,7 @@ from mocap.files.load_save import load
 
 FEET = ("lfoot", "ltoes", "rfoot", "rtoes")
 HEAD = ("head_end", "head", "upperneck", "lowerneck")
+NOISE = ("hand", "finger", "thumb", "_end")
 
 
 @cache
@@ -70,12 +71,15 @@ def rms(errors: np.ndarray, pins: Pins) -> float:
     return float(np.sqrt((errors[pins.asked.any(axis=1)] ** 2).mean()))
 
 
+def body(motion: Motion) -> list[int]:
+    """List the joints without hands, fingers, thumbs and end sites, where captured noise lives."""
+    return [j for j, n in enumerate(motion.skeleton.names) if not any(w in n.lower() for w in NOISE)]
+
+
 def accelerations(motion: Motion, share: float = 99) -> float:
-    """Return a percentile of the accelerations, without hands and end sites, where noise lives."""
-    noise = ("hand", "finger", "thumb", "_end")
-    columns = [j for j, n in enumerate(motion.skeleton.names) if not any(w in n for w in noise)]
-    sizes = np.linalg.norm(np.diff(joint_positions(motion)[:, columns], 2, axis=0), axis=-1)
-    return float(np.percentile(sizes, share))
+    """Return a percentile of the body's accelerations, m/s²."""
+    pushes = np.diff(joint_positions(motion)[:, body(motion)], 2, axis=0) * motion.fps**2
+    return float(np.percentile(np.linalg.norm(pushes, axis=-1), share))
 
 
 def smoothness(motion: Motion, base: Motion) -> float:

@@ -24,7 +24,8 @@ from mocap.steering.path_following import follow_path
 from mocap.steering.path_objective import Settings, Wishes
 from mocap.synthesis.walk_to_motion import to_motion
 from tests.bundled import sneaking, walking
-from tests.editing.test_path_editing import acc99, slide
+from tests.editing.test_path_editing import slide
+from tests.editing.wishes import smoothness
 
 SOME = {
     "sine": LINES["sine"](),
@@ -60,7 +61,7 @@ def require_kept_to(followed):
     assert plants_kept(bent.motion, bent.laid) >= 0.95
     assert bent.along[-1] > 0.97 * bent.path.length
     # Clips differ, and a walk plays some of them more: so it is measured against itself before it was bent.
-    assert acc99(bent.motion, to_motion(followed.graph, followed.walk)) <= 1.25
+    assert smoothness(bent.motion, to_motion(followed.graph, followed.walk)) <= 1.25
 
 
 @pytest.mark.parametrize(
