@@ -12,12 +12,16 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 from PIL import Image
+from PIL.PngImagePlugin import PngInfo
 
 from mocap.errors import MocapError
 
 DPI = 110
 COLOURS = 256  # in the palette: the loss is hardly seen, and the file is less than half as large
+SLIDE = (1168, 480)  # pixels that a slide has for a picture, across and down
+LETTERS = 21  # pixels of the smallest letters there
 
 
 def show(drawn: Any, alt: str) -> Picture:  # noqa: ANN401 (whatever a plotting function gives)
@@ -47,7 +51,7 @@ def show(drawn: Any, alt: str) -> Picture:  # noqa: ANN401 (whatever a plotting 
         raise MocapError("A picture needs a sentence for readers who do not see it: alt='...'.")
     figure = figure_of(drawn)
     plt.close(figure)
-    return Picture(small_png(figure), alt)
+    return Picture(small_png(legible(figure)), alt)
 
 
 def stack(figures: Sequence[Figure], alt: str) -> Picture:
@@ -70,12 +74,13 @@ def stack(figures: Sequence[Figure], alt: str) -> Picture:
 
 def tiled(parts: Sequence[Image.Image], *, down: bool) -> bytes:
     """Join pictures, one below the other or side by side, as a PNG of few colours."""
+    letters = min(float(part.info.get("letters", np.inf)) for part in parts)
     sizes = np.array([part.size for part in parts]) * [[not down, down]]  # from each to the next
     corners = np.cumsum([[0, 0], *sizes], axis=0)
     whole = Image.new("RGB", tuple(np.max([corners[-1], *(part.size for part in parts)], axis=0)), "white")
     for part, corner in zip(parts, corners.tolist(), strict=False):
         whole.paste(part, tuple(corner))
-    return few_colours(whole)
+    return few_colours(whole, letters)
 
 
 @dataclass(frozen=True)
@@ -124,14 +129,35 @@ def figure_of(drawn: Any) -> Figure:  # noqa: ANN401
     raise MocapError(f"A picture must be given as a figure, or artists on one, not as {drawn!r:.99}.")
 
 
+def legible(figure: Figure) -> Figure:
+    """Enlarge the letters that a slide would show smaller than the back row reads, and return the figure."""
+    least = 72 * LETTERS / np.min(SLIDE / figure.get_size_inches())  # points
+    for text in figure.findobj(Text):
+        text.set_fontsize(max(text.get_fontsize(), least))
+    return figure
+
+
+def letters_of(figure: Figure) -> float:
+    """Give how high a figure's smallest letters are: their size in points, times pixels per point."""
+    written = [text for text in figure.findobj(Text) if text.get_visible() and text.get_text().strip()]
+    return min((text.get_fontsize() for text in written), default=np.inf) / 72
+
+
 def small_png(figure: Figure) -> bytes:
     """Draw a figure as a PNG of few colours."""
     figure.savefig(full := io.BytesIO(), format="png", dpi=DPI, pil_kwargs={"compress_level": 1})
-    return few_colours(Image.open(full))
+    return few_colours(Image.open(full), letters_of(figure) * DPI)
 
 
-def few_colours(picture: Image.Image) -> bytes:
-    """Encode a picture as a PNG of few colours."""
+def few_colours(picture: Image.Image, letters: float = np.inf) -> bytes:
+    """Encode a picture as a PNG of few colours, which says how many pixels its smallest letters have."""
     few = picture.convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE)
-    few.save(small := io.BytesIO(), "png", optimize=True)
+    few.save(small := io.BytesIO(), "png", optimize=True, pnginfo=said(letters))
     return small.getvalue()
+
+
+def said(letters: float) -> PngInfo:
+    """Note in a PNG how many pixels its smallest letters have: slides may make them smaller, and a test looks."""
+    note = PngInfo()
+    note.add_text("letters", f"{letters:.1f}")
+    return note

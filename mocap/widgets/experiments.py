@@ -26,7 +26,7 @@ from matplotlib.image import AxesImage
 from PIL import Image
 
 from mocap.errors import MocapError, missing
-from mocap.plotting.picture import Picture, figure_of, tiled
+from mocap.plotting.picture import Picture, figure_of, legible, letters_of, said, tiled
 from mocap.widgets.live import Live, display_live, widget
 from mocap.widgets.pointing import Handles, Pointer, pointer
 
@@ -249,6 +249,7 @@ class BlittedFigure:
                 artist.set_animated(True)
                 figure.stale = True
         if figure.stale:
+            legible(figure)
             self.canvas.draw()
             self.background = self.canvas.copy_from_bbox(figure.bbox)
         else:
@@ -258,5 +259,6 @@ class BlittedFigure:
                 artist.do_3d_projection()
             artist.draw(self.canvas.get_renderer())
         picture, stream = Image.fromarray(np.asarray(self.canvas.buffer_rgba())), io.BytesIO()
-        picture.convert("RGB").save(stream, "png", compress_level=1)  # fast rather than small
+        note = said(letters_of(figure) * figure.dpi)
+        picture.convert("RGB").save(stream, "png", compress_level=1, pnginfo=note)  # fast rather than small
         return stream.getvalue()

@@ -22,7 +22,7 @@ from mocap.body import Motion, joint_positions
 from mocap.errors import MocapError
 from mocap.feet.footplants import find_footprints
 from mocap.plotting.bodies_on_path import bodies_along
-from mocap.plotting.picture import small_png
+from mocap.plotting.picture import legible, small_png
 from mocap.plotting.stick_figures import film_strip
 from mocap.plotting.style import COLOURS, PATH, own_colour, source_colours
 from mocap.synthesis.walk_to_motion import Seam
@@ -169,4 +169,4 @@ class Player(Embedded):
         if max(np.ptp(ground, axis=0)) < WALKS and not len(self.path):
             return small_png(film_strip(self.motions))
         marks: dict[str, Any] = {"sources": self.sources, "seams": self.seams, "path": self.path}
-        return small_png(bodies_along(*self.motions, discs=self.discs, places=self.places, **marks))
+        return small_png(legible(bodies_along(*self.motions, discs=self.discs, places=self.places, **marks)))

@@ -111,7 +111,8 @@ def search_steps(
     left.set_title(f"best so far: {best.cost:.2f} long" if best else "no complete walk yet", fontsize=10)
     _draw_tree(right, events, shown)
     if shown:
-        named = " → ".join(map(str, shown[-1].walk))
+        walk = shown[-1].walk
+        named = " → ".join(map(str, walk if len(walk) < 7 else (*walk[:3], "…", *walk[-2:])))
         right.set_title(f"step {len(shown)}: {named} is {shown[-1].fate}", fontsize=10)
     return figure
 

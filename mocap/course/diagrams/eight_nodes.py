@@ -23,10 +23,10 @@ BOX = {"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85}
 
 
 PROGRAM = """visit(node):
-    give it the next number, put it on the stack
+    number it, put it on the stack
     for each successor:
         if it is new:
-            visit it, then take over its low link
+            visit it, take over its low link
         if it is on the stack:
             take over its number
         if it has left the stack:
@@ -171,8 +171,8 @@ def tarjan_step(graph: nx.MultiDiGraph, *, step: int = 0) -> Figure:
     states = tarjan_states({node: sorted(graph.successors(node)) for node in sorted(graph)})
     step = min(step, len(states) - 1)
     state = states[step]
-    figure, (left, right, code) = plt.subplots(1, 3, figsize=(11, 4.4), width_ratios=(5, 1, 5))
-    figure.subplots_adjust(left=0.01, right=0.99, top=0.93, bottom=0.2, wspace=0.04)
+    figure, (left, right, code) = plt.subplots(1, 3, figsize=(11, 4.4), width_ratios=(9, 2, 11))
+    figure.subplots_adjust(left=0.01, right=0.99, top=0.93, bottom=0.23, wspace=0.04)
     beside = {node: f"{number} / {state.low[node]}" for node, number in state.number.items()}
     eight_node_graph(graph, beside=beside, parts=state.components, ax=left)
     discs = left.collections[0]
@@ -185,9 +185,8 @@ def tarjan_step(graph: nx.MultiDiGraph, *, step: int = 0) -> Figure:
     look: dict[str, Any] = {"markersize": 9, "markeredgecolor": "black"}
     keys = [disc(face, label=name, **look) for name, face in named.items()]
     keys.append(disc("white", label="the search stands here", markeredgewidth=3, **look))
-    where: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "ncols": 3}
-    words: dict[str, Any] = {"title": "beside a node: number / low link", "title_fontsize": 9, "fontsize": 8}
-    left.legend(handles=keys, frameon=False, **where, **words)
+    told = "beside a node: number / low link"
+    figure.legend(handles=keys, title=told, frameon=False, loc="lower left", ncols=3, alignment="left")
     _draw_stack(right, state.stack, len(graph))
     show_program(code, PROGRAM, state.line)
     return figure

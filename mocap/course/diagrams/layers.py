@@ -20,13 +20,12 @@ while waiting:
     score = {walk: walk.cost + look_ahead(walk)}
     apart = cross_out_alike(walks, score)
     kept = the K best of apart, by score
-    for walk in kept:
-        for edge in edges_from(walk.node):
-            longer = lengthen(walk, edge)
-            if longer is at the end:
-                best = the cheaper of best, longer
-            else:
-                waiting[layer_of(longer)] += [longer]""".splitlines()
+    for walk, edge in all_ways_on(kept):
+        longer = lengthen(walk, edge)
+        if longer is at the end:
+            best = the cheaper of best, longer
+        else:
+            waiting[layer_of(longer)] += [longer]""".splitlines()
 """The loop that the pictures run; `plain.Search.layers` is the same one on clips."""
 
 
@@ -91,7 +90,7 @@ def _run(line: Array, count: int, width: int, look: bool) -> Iterator[LayerState
     for layer in range(count):
         yield LayerState(3, f"layer {layer}: {len(walks)} waiting", walks, [], {})
         score = {walk: (lengthened(walk, 0, line) if look else walk).cost for walk in walks}
-        ahead = "cost, and the next step straight on" if look else "cost alone"
+        ahead = "cost + look-ahead" if look else "cost alone"
         yield LayerState(4, f"layer {layer}: score = {ahead}", walks, [], score)
         ranked = sorted(walks, key=lambda walk: -score[walk])  # of those alike, the last stays: the best one
         apart = {(np.round(walk.places[-1], 3), round(walk.heading, 3)): walk for walk in ranked}
@@ -101,11 +100,10 @@ def _run(line: Array, count: int, width: int, look: bool) -> Iterator[LayerState
         crossed = [walk for walk in walks if walk not in kept]
         yield LayerState(6, f"layer {layer}: the best {len(kept)} go on", kept, crossed, score)
         walks = [lengthened(walk, turn, line) for walk in kept for turn in TURNS]
-        yield LayerState(
-            9 if layer == count - 1 else 13, f"layer {layer}: {len(walks)} longer walks", walks, [], {}
-        )
+        ran = 8 if layer == count - 1 else 12
+        yield LayerState(ran, f"layer {layer}: {len(walks)} longer walks", walks, [], {})
     best = min(walks, key=lambda walk: walk.cost)
-    yield LayerState(11, f"at the end: the cheapest costs {best.cost:.2f} m²", walks, [], {}, best)
+    yield LayerState(10, f"at the end: the cheapest costs {best.cost:.2f} m²", walks, [], {}, best)
 
 
 def layer_step(line: Array, count: int, *, step: int = 0, width: int = 4, look: bool = True) -> Figure:
@@ -125,25 +123,37 @@ def layer_step(line: Array, count: int, *, step: int = 0, width: int = 4, look: 
     """
     states = layer_states(line, count, width=width, look=look)
     state = states[min(step, len(states) - 1)]
-    figure, (ground, code) = plt.subplots(1, 2, figsize=(9.5, 4.6), width_ratios=(4, 6))
+    figure, (ground, code) = plt.subplots(1, 2, figsize=(10.8, 4.6), width_ratios=(4, 6))
     figure.subplots_adjust(left=0.06, right=1, bottom=0.2, top=0.93, wspace=0.06)
     ground.plot(line[:-1].imag, line[:-1].real, color=ASKED, linewidth=3, alpha=0.7, label="asked for")
     for walk in state.crossed:
         _draw(ground, walk, QUIET, "crossed out", alpha=0.5, marker="x")
     for walk in state.kept:
         _draw(ground, walk, CURVES[0], "waiting", marker="o")
-    for walk, score in state.score.items():
-        if walk in state.kept:
-            tip = walk.places[-1]
-            where = {"xytext": (6, 5), "textcoords": "offset points"}
-            box = {"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85}
-            ground.annotate(f"{score:.1f}", (tip.imag, tip.real), **where, bbox=box, fontsize=9)
+    for number, walk in enumerate(
+        sorted(state.kept if state.score else (), key=lambda walk: walk.places[-1].imag)
+    ):
+        tip, box = walk.places[-1], {"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85}
+        where: dict[str, Any] = {
+            "xytext": (0, 7 + 15 * (number % 2)),
+            "textcoords": "offset points",
+            "ha": "center",
+        }
+        ground.annotate(f"{state.score[walk]:.1f}", (tip.imag, tip.real), **where, bbox=box)
     if state.best:
         _draw(ground, state.best, PATH, "best", marker="o", linewidth=3.5)
-    ground.set(aspect="equal", xlabel="x (m)", ylabel="z (m)", xlim=(2.1, -1.4), ylim=(-0.3, 3.1))
-    ground.set_title(state.message, fontsize=10)
+    ground.set(
+        aspect="equal",
+        xlabel="x (m)",
+        ylabel="z (m)",
+        xlim=(2.1, -1.4),
+        ylim=(-0.3, 3.1),
+        xticks=[2, 1, 0, -1],
+        yticks=range(4),
+    )
+    ground.set_title(state.message)
     handles = {label: handle for handle, label in zip(*ground.get_legend_handles_labels(), strict=True)}
-    figure.legend(handles.values(), handles, loc="lower left", ncols=4, frameon=False, fontsize=9)
+    figure.legend(handles.values(), handles, loc="lower left", ncols=4, frameon=False)
     show_program(code, PROGRAM, state.line)
     return figure
 

@@ -13,7 +13,7 @@ from mocap.course.diagrams.pens import arrow, require_step, strokes, trace
 from mocap.matching.point_clouds import align, distinct_joints, point_cloud
 from mocap.plotting import CURVES, PATH, QUIET, SOURCES, bones
 
-STEPS = ("where they are, with their means", "each from its own mean", "the second turned", "shifted back")
+STEPS = ("where they are", "each from its own mean", "the second turned", "shifted back")
 
 
 def laid(first: Motion, second: Motion, move: Callable[[Array], Array]) -> Figure:

@@ -41,12 +41,12 @@ def disc(face: str, **look: Any) -> Line2D:  # noqa: ANN401
     return Line2D([], [], linestyle="", marker="o", color=face, **look)
 
 
-def show_program(ax: Axes, program: Sequence[str], line: int, size: float = 9.5) -> Rectangle:
+def show_program(ax: Axes, program: Sequence[str], line: int) -> Rectangle:
     """Write a program, and mark the line that has just run; return the mark."""
     ax.set(xlim=(0, 1), ylim=(len(program), -1))
     ax.set_axis_off()
     for number, text in enumerate(program):
-        ax.text(0.02, number, text, va="center", family="monospace", fontsize=size)
+        ax.text(0.02, number, text, va="center", family="monospace")
     return ax.axhspan(line - 0.5, line + 0.5, color=CURVES[0], alpha=0.25, linewidth=0)
 
 

@@ -37,7 +37,7 @@ def half_turns(step: int = 2, angle: float = 60) -> Figure:
 
     Notebook: 01-skeletons-and-clips
     """
-    figure, axes = plt.subplots(1, 2, figsize=(7, 3.9), layout="constrained")
+    figure, axes = plt.subplots(1, 2, figsize=(9, 3.9), layout="constrained")
     half = np.radians(angle) / 2
     across = ACROSS * np.exp(1j * half * np.arange(step + 1))
     along = ALONG * np.exp(1j * (np.pi / 2 + half * np.array([0, 1, 0])))[: step + 1]

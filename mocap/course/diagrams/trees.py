@@ -1,5 +1,6 @@
 """Forward kinematics joint by joint: the loop of `mocap.plain`, and what it has placed."""
 
+import re
 from collections.abc import Callable
 
 import numpy as np
@@ -36,19 +37,23 @@ def down_the_tree(motion: Motion, frame: int = 0) -> Callable[[int], list[Artist
     names, parents = motion.skeleton.names, (0, *motion.skeleton.parents[1:])
     points = joint_positions(motion[frame : frame + 1])[0][:, [2, 1]]  # z to the right, y upwards
     figure = Figure(figsize=(9.8, 4))
-    code, ax = figure.add_axes((0.01, 0, 0.76, 0.92)), figure.add_axes((0.83, 0.12, 0.165, 0.85))
-    marked = show_program(code, shown_source("plain.joint_positions").splitlines(), 0, 8)
+    code, ax = figure.add_axes((0.01, 0, 0.79, 0.9)), figure.add_axes((0.84, 0.15, 0.15, 0.83))
+    program = re.sub(r"  #.*", "", shown_source("plain.joint_positions"))
+    program = program.replace(" + rotate", f"\n{' ' * 12}+ rotate")  # on two lines, or it would be too wide
+    marked = show_program(code, program.splitlines(), 0)
     starts, ends, sides = map(np.asarray, bones(motion.skeleton))
     limbs = strokes(ax, linewidth=2.4)
     (dots,) = ax.plot([], [], "o", color=QUIET, markersize=4)
     (last,) = ax.plot([], [], "o", color=MARK, markersize=8)
     bone = arrow(ax, 0j, 0j, MARK)
     low, high = points[:, 0].min() - 0.2, points[:, 0].max() + 0.2
-    ax.set(aspect="equal", xlabel="z (m)", ylabel="y (m)", xlim=(low, high), ylim=(-0.05, 1.85))
+    ax.set(
+        aspect="equal", xlabel="z (m)", ylabel="y (m)", xlim=(low, high), ylim=(-0.05, 1.85), yticks=[0, 1]
+    )
 
     def placed(joint: int) -> list[Artist]:
         parent = parents[joint]
-        marked.set(y=2.5 if joint else 0.5, height=3 if joint else 1)
+        marked.set(y=2.5 if joint else 0.5, height=4 if joint else 1)
         limbs.set_segments(points[np.stack([starts, ends], 1)[ends <= joint]])
         limbs.set_color([COLOURS[side] for side in sides[ends <= joint]])
         dots.set_data(points[: joint + 1].T)

@@ -32,7 +32,7 @@ def window_cloud(motion: Motion, *, step: int = 4) -> Figure:
     >>> from mocap import datasets, resample
     >>> walk = resample(datasets.sample("walk_straight"), 30)
     >>> window_cloud(walk[:10], step=4).axes[0].get_title()
-    'the point cloud: 10 frames × 31 joints = 310 points'
+    '10 frames × 31 joints = 310 points'
 
     Notebook: 02-matching
     """
@@ -50,7 +50,7 @@ def window_cloud(motion: Motion, *, step: int = 4) -> Figure:
         ax.plot(*to_picture(flat * [1, 0, 1]).T, ".", color=QUIET, markersize=1.5, zorder=1)
     sums = f"{cloud.shape[0]} frames × {cloud.shape[1]} joints = {len(flat)} points"
     titles = "one frame", f"a window: {len(motion)} frames", "its joints: a point on each"
-    ax.set_title((*titles, f"the point cloud: {sums}")[step - 1], fontsize=11)
+    ax.set_title((*titles, sums)[step - 1], fontsize=11)
     return figure
 
 
