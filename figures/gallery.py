@@ -57,10 +57,13 @@ from mocap.course.seam_trials import choose_matches, passage, walk_costs
 from mocap.matching import lower_bound
 from mocap.methods import groups, match_webs, motion_matching, parametric_graphs
 from mocap.plotting import ASKED, COLOURS, CURVES, MARK, SOURCES
+from mocap.plotting.picture import legible, letters_of
 
 Array = NDArray[np.float64]
 Edge = tuple[Hashable, Hashable, int]
 
+DENSE = ("skeleton", "segments", "motion_file", "components")  # with no room for larger names: on no slide
+TITLE = (1168, 400)  # pixels of a picture on the first slide of a deck
 WINDOW = 10  # frames at 30 Hz
 WARPED = 238  # frame at 120 Hz: the key of the picture of warping
 
@@ -208,7 +211,9 @@ def draw_nodes() -> Figure:
 def draw_clouds() -> Figure:
     """Draw a window of ten frames, with a point on each joint of each frame."""
     clip = resample(datasets.sample("walk_curve_1"), 30)
-    return diagrams.window_cloud(clip[100 : 100 + WINDOW], step=3)
+    figure = diagrams.window_cloud(clip[100 : 100 + WINDOW], step=3)
+    figure.axes[0].set_title("")
+    return figure
 
 
 def draw_distances() -> Figure:
@@ -754,8 +759,9 @@ def draw_all(folder: Path) -> list[Path]:
     written = []
     with plt.rc_context({"figure.dpi": 110}):
         for name, draw in PICTURES.items():
-            figure = draw()
+            figure = draw() if name in DENSE else legible(draw(), TITLE)
             drawn = {"Software": None, "Description": json.dumps(fingerprint(figure))}
+            drawn["letters"] = str(110 * letters_of(figure))  # pixels, for slides
             written.append(folder / f"{name}.png")
             figure.savefig(written[-1], dpi=110, metadata=drawn)
             plt.close(figure)

@@ -11,10 +11,12 @@ import matplotlib
 
 matplotlib.use("agg")
 
+from gallery import TITLE
 from matplotlib.figure import Figure
 
 from mocap import datasets, graphs, plotting, resample, synthesis
 from mocap.body import s_curve
+from mocap.plotting.picture import legible, small_png
 from mocap.steering import follow_path
 
 SETTLED = 10  # frames at the start of each take, before the joint angles have settled
@@ -35,4 +37,4 @@ def draw_person() -> Figure:
 
 
 if __name__ == "__main__":
-    draw_person().savefig(Path(__file__).parent / "person.png", dpi=110, metadata={"Software": None})
+    (Path(__file__).parent / "person.png").write_bytes(small_png(legible(draw_person(), TITLE)))

@@ -12,6 +12,7 @@ NAME = r"(?:<msup>\s*)?<mi>[a-z]{2,}</mi>"  # of a function, such as sin
 BEFORE = re.compile(rf"(</m(?:i|n|row|su[bp]|subsup|frac|sqrt)>\s*)(?={NAME})")
 AFTER = re.compile(r"<mo>&ApplyFunction;</mo>(?=\s*<m[^o])")
 DOTTED = re.compile(r"<munderover>\s*(<mi>\w</mi>)([^˙¨]+)(<mo[^>]*>[˙¨]</mo>)\s*</munderover>")
+CLOSING = re.compile(r"(<msup>\s*<mo)(>[|‖])")  # else it is drawn too low
 THIN = '<mspace width="0.167em"/>'
 
 
@@ -35,4 +36,5 @@ def to_mathml(formula: str, *, block: bool = False) -> str:
     for unknown, known in OTHERWISE.items():
         formula = formula.replace(unknown, known)
     drawn = DOTTED.sub(r"<msub><mover>\1\3</mover>\2</msub>", tex2mathml(formula, as_block=block))
+    drawn = CLOSING.sub(r'\1 stretchy="false"\2', drawn)
     return AFTER.sub(THIN, BEFORE.sub(rf"\1{THIN}", drawn))

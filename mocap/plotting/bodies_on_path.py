@@ -18,6 +18,7 @@ from mocap.plotting.style import ASKED, FLOOR, MARK, PATH, QUIET, own_colour, so
 WIDTH = 9.0  # inches
 LOW, HIGH = 1.9, 4.6  # inches: the least and the greatest height of the picture
 RISE = np.radians(24)  # how far above the ground the camera stands
+COLUMNS = 4  # of the legend
 MOST = 15  # bodies; more would hide one another
 FEW = 3  # characters; of more, the bodies of one moment are drawn together
 APART = 0.7  # metres between two bodies at least
@@ -121,12 +122,16 @@ def _frame(ax: Axes, figure: Figure) -> Figure:
     ax.margins(0.02, 0.04)
     ax.autoscale_view()
     wide, high = np.ptp(ax.get_xlim()), np.ptp(ax.get_ylim())
-    figure.set_size_inches(WIDTH, float(np.clip(WIDTH * high / wide + 0.35, LOW, HIGH)))
     handles, names = ax.get_legend_handles_labels()
-    if named := dict(zip(names, handles, strict=True)):
+    named = dict(zip(names, handles, strict=True))
+    words = 0.5 + 0.32 * -(-len(named) // COLUMNS)  # inches
+    figure.set_size_inches(WIDTH, float(np.clip(WIDTH * high / wide + words, LOW, HIGH)))
+    if named:
         how: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (0, 1), "fontsize": 9, "frameon": False}
-        ax.legend(list(named.values()), list(named), ncols=min(6, len(named)), **how)
-    ax.text(1, 1.02, "lines 1 m apart", transform=ax.transAxes, ha="right", fontsize=8, color="#666666")
+        ax.legend(list(named.values()), list(named), ncols=min(COLUMNS, len(named)), **how)
+    ax.text(
+        1, 0, "lines 1 m apart", transform=ax.transAxes, ha="right", va="top", fontsize=8, color="#666666"
+    )
     return figure
 
 

@@ -57,7 +57,7 @@ def timeline(
     Notebook: 00-quickstart
     """
     clips, fps = motion_graph.clips, motion_graph.clips[0].fps
-    ax = ax or plt.figure(figsize=(7, 0.7 * len(clips) + 1), layout="constrained").add_subplot()
+    ax = ax or plt.figure(figsize=(9, 0.55 * len(clips) + 1), layout="constrained").add_subplot()
     frames = np.array(list(motion_graph.graph.edges(keys=False)), int).reshape(-1, 2, 2)  # (clip, frame)
     ends = frames[..., ::-1] / [fps, -1]  # (E, 2, 2): (seconds, row)
     edges = [edge for _, _, edge in motion_graph.graph.edges(data=True)]
@@ -81,7 +81,7 @@ def timeline(
         which = f"the {each} cheapest" if each and each > 1 else "the cheapest"
         which += "" if each is None else " from each clip to each clip"
         note = f"drawn: {which}, {len(arcs)} of {len(costs)} transitions"
-        ax.annotate(note, (1, 0), (0, -36), "axes fraction", "offset points", ha="right", va="top", size=9)
+        ax.annotate(note, (1, 0), (0, -48), "axes fraction", "offset points", ha="right", va="top", size=9)
     ax.set_yticks([-clip for clip in range(len(clips))], [motion.name for motion in clips])
     ax.set(xlabel="time in the clip (s)", ylim=(0.4 - len(clips), 0.7))
     ax.spines[["top", "right", "left"]].set_visible(False)

@@ -129,9 +129,9 @@ def figure_of(drawn: Any) -> Figure:  # noqa: ANN401
     raise MocapError(f"A picture must be given as a figure, or artists on one, not as {drawn!r:.99}.")
 
 
-def legible(figure: Figure) -> Figure:
-    """Enlarge the letters that a slide would show smaller than the back row reads, and return the figure."""
-    least = 72 * LETTERS / np.min(SLIDE / figure.get_size_inches())  # points
+def legible(figure: Figure, room: tuple[int, int] = SLIDE) -> Figure:
+    """Enlarge letters that a slide with room for so many pixels would show too small; return the figure."""
+    least = 72 * LETTERS / np.min(room / figure.get_size_inches())  # points
     for text in figure.findobj(Text):
         text.set_fontsize(max(text.get_fontsize(), least))
     return figure
@@ -157,7 +157,7 @@ def few_colours(picture: Image.Image, letters: float = np.inf) -> bytes:
 
 
 def said(letters: float) -> PngInfo:
-    """Note in a PNG how many pixels its smallest letters have: slides may make them smaller, and a test looks."""
+    """Note in a PNG how many pixels its smallest letters have, for whoever shows it smaller."""
     note = PngInfo()
     note.add_text("letters", f"{letters:.1f}")
     return note

@@ -1,10 +1,13 @@
 """The slides in a browser: all fit, players play, nothing comes from a network."""
 
+import base64
+import io
 import shutil
 
 import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
+from PIL import Image
 
 from mocap.course.opening import stored
 from mocap.course.teaching import build_slides
@@ -20,8 +23,10 @@ FAULTS = """() => {
   const cut = seen.filter(part => box(part).bottom > 720 || box(part).right > 1280);
   const words = part => [...part.childNodes].some(node => node.nodeType === 3 && node.textContent.trim());
   const size = part => parseFloat(getComputedStyle(part).fontSize);
-  const small = seen.filter(part => words(part) && !part.closest("canvas, select") && size(part) < 20);
-  return [...cut, ...small].map(part => `${part.tagName} ${part.textContent}`.slice(0, 60));
+  const small = seen.filter(part => words(part) && !part.closest("canvas") && size(part) < 20);
+  const faults = [...cut, ...small].map(part => `${part.tagName} ${part.textContent}`.slice(0, 60));
+  const scale = img => Math.min(box(img).width / img.naturalWidth, box(img).height / img.naturalHeight);
+  return [faults, [...section.querySelectorAll(".inner img")].map(img => [img.src, scale(img)])];
 }"""
 NAMES = [file.stem for file in sorted((stored() / "slides").glob("*.md"))][: None if SWEEP else 1]
 DECK = """# Walks
@@ -66,7 +71,11 @@ def test_every_slide_fits_and_can_be_read(name, decks, page):
     page.wait_for_function("window.Reveal && Reveal.isReady()")
     for number in range(page.evaluate("Reveal.getTotalSlides()")):
         page.evaluate(f"Reveal.slide({number})")
-        assert page.evaluate(FAULTS) == [], f"slide {number} of {name}"
+        faults, pictures = page.evaluate(FAULTS)
+        assert faults == [], f"slide {number} of {name}"
+        for source, scale in pictures:
+            drawn = Image.open(io.BytesIO(base64.b64decode(source.partition(",")[2])))
+            assert scale * float(drawn.info["letters"]) >= 20, f"a picture on slide {number} of {name}"
 
 
 def test_a_player_plays_and_keeps_its_keys(decks, page):

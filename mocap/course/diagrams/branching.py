@@ -107,13 +107,13 @@ def search_steps(
     for a, row in lengths.items():
         for b, length in row.items():
             middle = complex(*np.add(EIGHT_PLACES[a], EIGHT_PLACES[b]) / 2) + 0.75j * (a == b)
-            say(left, middle, f"{length:.1f}", fontsize=8, bbox=BOX)
-    left.set_title(f"best so far: {best.cost:.2f} long" if best else "no complete walk yet", fontsize=10)
+            say(left, middle, f"{length:.1f}", bbox=BOX)
+    left.set_title(f"best so far: {best.cost:.2f} long" if best else "no complete walk yet")
     _draw_tree(right, events, shown)
     if shown:
         walk = shown[-1].walk
         named = " → ".join(map(str, walk if len(walk) < 7 else (*walk[:3], "…", *walk[-2:])))
-        right.set_title(f"step {len(shown)}: {named} is {shown[-1].fate}", fontsize=10)
+        right.set_title(f"step {len(shown)}: {named} is {shown[-1].fate}")
     return figure
 
 
@@ -137,12 +137,12 @@ def _draw_tree(ax: Axes, events: list[Event], shown: list[Event]) -> None:
             ax.plot([columns[walk[:-1]], x], [y + 1, y], color=FATES[fate], linewidth=1.5, zorder=1)
         ax.plot(x, y, "o", markersize=15, color=faces[fate], markeredgecolor=FATES[fate], zorder=2)
         ink = "black" if fate in {"waiting", "complete"} else "white"
-        ax.text(x, y, str(walk[-1]), color=ink, ha="center", va="center", fontsize=9, zorder=3)
+        ax.text(x, y, str(walk[-1]), color=ink, ha="center", va="center", zorder=3)
     ends = min(columns.values()), max(columns.values())
     ax.set(xlim=(ends[0] - 0.6, ends[1] + 0.6), ylim=(0.5 - max(map(len, columns)), 0.5))
     ax.set_axis_off()
     dots = [disc(face, markeredgecolor=FATES[fate]) for fate, face in faces.items()]
-    ax.legend(dots, FATES, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=3, frameon=False, fontsize=8)
+    ax.legend(dots, FATES, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=3, frameon=False)
 
 
 def edge_lengths(graph: nx.MultiDiGraph) -> dict[int, dict[int, float]]:
@@ -228,5 +228,5 @@ def laid_in_turn(
     for ax, (name, places) in zip(axes, states.items(), strict=True):
         laid = zip(walk, places, strict=True)
         from_above([np.exp(1j * a) * tracks[edge] + z + 1j * x for edge, (a, x, z) in laid], ax=ax)
-        ax.set_title(name, fontsize=10)
+        ax.set_title(name)
     return figure

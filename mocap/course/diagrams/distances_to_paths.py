@@ -57,7 +57,7 @@ def two_distances(path: GroundPath, walk: GroundPath) -> Callable[..., list[Any]
     moving += [_line(ground, here, "o", color=PATH, markersize=7, markeredgecolor=ASKED, zorder=5)]
     now, highest = curves.axvline(color=QUIET, linewidth=1), curves.dataLim.y1
     curves.set_ylim(-0.04 * highest - 0.1, 1.35 * highest + 0.1)
-    curves.legend(frameon=False, fontsize=9, loc="upper left")
+    curves.legend(frameon=False, loc="upper left")
 
     def draw(step: int = MOMENTS - 1) -> list[Any]:
         for line, rows in moving:
@@ -74,7 +74,7 @@ def _ground_and_curves(path: GroundPath, walk: GroundPath) -> tuple[Axes, Axes]:
     ground.plot(*walk.points.T, color=PATH, linewidth=3.5, label="walk")
     ground.set(aspect="equal", xlabel="x (m)", ylabel="z (m)")
     ground.xaxis.set_inverted(True)
-    ground.legend(frameon=False, fontsize=8)
+    ground.legend(frameon=False)
     curves.set(xlabel="metres walked", ylabel="distance (cm)", xlim=(0, walk.length))
     return ground, curves
 

@@ -92,7 +92,7 @@ def tarjan_states(successors: Mapping[Node, Sequence[Node]]) -> list[SearchState
                 low[node] = min(low[node], number[child])
                 note(6, f"{node} → {child} closes a cycle", node)
             else:
-                note(8, f"{node} → {child} leads to a complete component", node)
+                note(8, f"{child} has left the stack", node)
         if low[node] == number[node]:
             at = stack.index(node)
             components.append(set(stack[at:]))
@@ -141,7 +141,7 @@ def eight_node_graph(
         name.set_color("white" if node in colour else "black")
     for node, words in (beside or {}).items():
         at = complex(*EIGHT_PLACES[node]) + 0.2 - 0.36j
-        say(ax, at, str(words), fontsize=9, ha="left", bbox=BOX)
+        say(ax, at, str(words), ha="left", bbox=BOX)
     for arrow, edge in zip(arrows, graph.edges(), strict=True):
         if edge in thick:
             arrow.set(color=PATH, linewidth=3)
@@ -179,7 +179,7 @@ def tarjan_step(graph: nx.MultiDiGraph, *, step: int = 0) -> Figure:
     faces = zip(graph, discs.get_facecolors(), strict=True)
     discs.set_facecolor([ON_STACK if node in state.stack else face for node, face in faces])
     discs.set_linewidth([4 if node == state.node else 1 for node in graph])
-    left.set_title(f"step {step}: {state.message}", fontsize=11)
+    left.set_title(f"step {step}: {state.message}")
     named = {"not seen yet": UNSEEN, "on the stack": ON_STACK}
     named |= {f"component {n + 1}, complete": SOURCES[n] for n in range(len(state.components))}
     look: dict[str, Any] = {"markersize": 9, "markeredgecolor": "black"}
@@ -196,8 +196,8 @@ def _draw_stack(ax: Axes, stack: Sequence[Node], most: int) -> None:
     """Draw the stack as boxes, the oldest node at the bottom."""
     for at, node in enumerate(stack):
         ax.barh(at, 1, height=0.9, color=ON_STACK, edgecolor="black", linewidth=0.8)
-        ax.text(0.5, at, str(node), ha="center", va="center", fontsize=10)
+        ax.text(0.5, at, str(node), ha="center", va="center")
     ax.set(xlim=(-0.3, 1.3), ylim=(-0.8, most), xticks=[], yticks=[])
-    ax.set_title("stack" if stack else "stack: empty", fontsize=10)
+    ax.set_title("stack" if stack else "empty")
     ax.spines[["top", "left", "right"]].set_visible(False)
     ax.spines["bottom"].set_color(QUIET)

@@ -50,7 +50,7 @@ def alignment(
     names = ["as the clips are", *(name for _, name in parts)]
     for number, (ax, name) in enumerate(zip(panels[:step], names, strict=False)):
         ax.set(xlim=(high[0], low[0]), ylim=(low[1], high[1]), aspect="equal", xlabel="x (m)")
-        ax.set_title(f"{number + 1}. {name}", fontsize=11)
+        ax.set_title(f"{number + 1}. {name}")
         _draw_walker(ax, target, SOURCES[0], at=-1)
         if number:
             _draw_walker(ax, places[number - 1], FLOOR, at=0)
@@ -62,7 +62,7 @@ def alignment(
         _draw_walker(ax, places[number], SOURCES[1], at=0)
         ax.plot(0, 0, "+", color=INK, markersize=11)
     panels[0].set_ylabel("z (m)")
-    panels[0].legend(frameon=False, fontsize=9)
+    panels[0].legend(frameon=False)
     return figure
 
 
@@ -85,11 +85,11 @@ def compass(headings: Mapping[str, float], ax: Axes) -> None:
     """
     for row, (name, angle) in enumerate(headings.items()):
         text = f"{name}: {np.degrees(angle):.0f}°".replace("-", "−")
-        ax.text(-1.5, -1.75 - 0.25 * row, text, color=CURVES[row], fontsize=10)
+        ax.text(-1.5, -1.75 - 0.25 * row, text, color=CURVES[row])
         wide = 7.0 if row == 0 else 1.8  # so that all are seen
         arrow(ax, 0j, 1j * np.exp(1j * angle), CURVES[row], wide)  # z points up the page and x to the left
     for place, word in ((1.2j, "0°"), (-1.2j, "±180°"), (-1.25 + 0j, "90°"), (1.25 + 0j, "−90°")):
-        say(ax, place, word, color=INK, fontsize=9)
+        say(ax, place, word, color=INK)
     ax.set(xlim=(-1.5, 1.5), ylim=(-1.8 - 0.25 * len(headings), 1.4), aspect="equal")
     ax.set_axis_off()
 

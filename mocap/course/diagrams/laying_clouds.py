@@ -36,7 +36,7 @@ def laid(first: Motion, second: Motion, move: Callable[[Array], Array]) -> Figur
     ax = Figure(figsize=(5.4, 5), layout="constrained").add_subplot()
     places = _places(first, second, move)
     _from_above(ax, (first, second), places)(places)
-    ax.set_title(f"{_apart(first, places):.1f} cm RMS", fontsize=11)
+    ax.set_title(f"{_apart(first, places):.1f} cm RMS")
     return ax.figure  # type: ignore[return-value]
 
 
@@ -80,7 +80,7 @@ def turning(
 
     def turn(degrees: float) -> list[Artist]:
         left = _apart(first, places := turned(degrees))
-        ground.title.set(text=f"{degrees:g}°: {left:.1f} cm RMS".replace("-", "−"), fontsize=11)
+        ground.title.set(text=f"{degrees:g}°: {left:.1f} cm RMS".replace("-", "−"))
         dot.set_data([degrees], [left])
         return [*put(places), dot, ground.title]
 
@@ -115,7 +115,7 @@ def laying_on(first: Motion, second: Motion, *, step: int = 4) -> Figure:
         second = (back @ turn @ centred[1]).apply_motion(second)
     figure = laid(first, second, lambda points: points)
     (ax,) = figure.axes
-    ax.set_title(f"{STEPS[step - 1]}: {ax.get_title()}", fontsize=11)
+    ax.set_title(f"{STEPS[step - 1]}: {ax.get_title()}")
     return figure
 
 
@@ -146,9 +146,7 @@ def products(first: Motion, second: Motion) -> Figure:
     trace(ax, ways, color=CURVES[0], linestyle="", marker=".", markersize=4)
     arrow(ax, 0j, 1.1 * ways.sum() / abs(ways.sum()), PATH)
     ax.set(aspect="equal", xlim=(-1.3, 1.3), ylim=(-1.3, 1.3))
-    ax.set_title(
-        f"the sum leads at {round(np.degrees(np.angle(each.sum())))}°".replace("-", "−"), fontsize=11
-    )
+    ax.set_title(f"the sum leads at {round(np.degrees(np.angle(each.sum())))}°".replace("-", "−"))
     ax.set_axis_off()
     return ax.figure  # type: ignore[return-value]
 
@@ -186,7 +184,7 @@ def _from_above(
     (x, z), reach = (low + high) / 2, max(0.5, *(high - low) / 2 + 0.1)
     ax.set(xlabel="x (m)", ylabel="z (m)", aspect="equal")
     ax.set(xlim=(x + reach, x - reach), ylim=(z - reach, z + reach))  # seen from above, x leads to the left
-    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.08), ncols=3, frameon=False, fontsize=9)
+    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.08), ncols=3, frameon=False)
 
     def put(places: Array) -> list[Artist]:
         ground = places[..., [0, 2]]

@@ -50,7 +50,7 @@ def half_turns(step: int = 2, angle: float = 60) -> Figure:
     shown = [vector, rotations.multiply(q, vector), rotations.rotate(q, vector[1:])]
     values = (", ".join(f"{number:.2f}" for number in np.round(values, 2) + 0.0) for values in shown)
     lines = [f"{name} = ({value})" for name, value in zip(NAMES, values, strict=True)]
-    figure.suptitle("      ".join(lines[: step + 1]), fontsize=10)
+    figure.suptitle("      ".join(lines[: step + 1]))
     return figure
 
 
@@ -62,14 +62,14 @@ def _draw_turning(ax: Axes, points: Array) -> None:
         colour = CURVES[0] if last else QUIET
         arrow(ax, 0j, point, colour, 1.4 + last, shrinkA=2)
         say(ax, 1.2 * point, ", ".join(same), color=colour)
-    for before, after, radius in zip(points, points[1:], (0.7, 0.4), strict=False):
-        turn = np.angle(after / before)
-        way = radius * before / abs(before) * np.exp(1j * np.linspace(0, turn, 30))
-        trace(ax, way, color=MARK, linewidth=1.5)
-        say(ax, way[15] * (radius + 0.15) / radius, f"{np.degrees(turn):+.0f}°", fontsize=9)
+    places = (0.7, 1.2, 0.5), (0.4, 0.6, 2.1)  # radius of the arc; of its number, and how many turns on
+    for before, after, (radius, out, turns) in zip(points, points[1:], places, strict=False):
+        start, turn = before / abs(before), np.angle(after / before)
+        trace(ax, radius * start * np.exp(1j * np.linspace(0, turn, 30)), color=MARK, linewidth=1.5)
+        say(ax, out * start * np.exp(1j * turns * turn), f"{np.degrees(turn):+.0f}°".replace("-", "−"))
     ax.axhline(0, color=QUIET, linewidth=0.6)
     ax.axvline(0, color=QUIET, linewidth=0.6)
-    ax.set(xlim=(-1.2, 1.2), ylim=(-1.2, 1.2), aspect="equal", xticks=[-1, 0, 1], yticks=[-1, 0, 1])
+    ax.set(xlim=(-1.4, 1.4), ylim=(-1.4, 1.4), aspect="equal", xticks=[-1, 0, 1], yticks=[-1, 0, 1])
 
 
 def turns_in_order(body: Skeleton, multiply: Callable[[Array, Array], Array]) -> Figure:
@@ -98,7 +98,7 @@ def turns_in_order(body: Skeleton, multiply: Callable[[Array, Array], Array]) ->
                 turn = multiply(rotations.from_rotvec(np.radians(turns[name])), turn)
             ax = figure.add_axes((shown / 3, 0.53 - 0.49 * row, 1 / 3, 0.42), projection="3d")
             _draw_body(ax, body, turn)
-            ax.set_title(f"{shown}. {name}" if shown else name, y=1, fontsize=10)
+            ax.set_title(f"{shown}. {name}" if shown else name, y=1)
     return figure
 
 
@@ -114,4 +114,4 @@ def _draw_body(ax: Axes3D, body: Skeleton, turn: Array) -> None:
     for name, axis in zip("xyz", 0.45 * np.eye(3), strict=True):
         line = to_picture([CORNER, CORNER + axis, CORNER + 1.3 * axis])
         ax.plot(*line[:2].T, color=COLOURS["middle"], linewidth=1, zorder=2)
-        ax.text(*line[2], name, color=COLOURS["middle"], fontsize=9)
+        ax.text(*line[2], name, color=COLOURS["middle"])

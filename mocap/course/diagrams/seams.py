@@ -65,7 +65,7 @@ def blended_seam(step: int = 4, window: int = 6) -> Figure:
     if step >= 2:
         weights.plot(places, alpha, "o-", color=CURVES[0])
         for place, share in enumerate(alpha[AROUND:-AROUND]):
-            weights.annotate(f"{share:.2f}", (place, share), (5, 3), textcoords="offset points", fontsize=9)
+            weights.annotate(f"{share:.2f}", (place, share), (5, 3), textcoords="offset points")
     return figure
 
 
@@ -77,7 +77,7 @@ def _draw_frame(ax: Axes, place: int, height: float, shares: Mapping[str, float]
         low += BOX * share
     if name != "mix":
         name = f"${name}{place:+d}$" if place else f"${name}$"  # some steps from frame i or j
-    ax.text(place, height + BOX / 2, name, ha="center", va="center", fontsize=10)
+    ax.text(place, height + BOX / 2, name, ha="center", va="center")
 
 
 def turning_paths(ways: Mapping[str, Array], share: float = 0.25) -> Figure:
@@ -167,7 +167,7 @@ def _draw_angles(ax: Axes, knee: complex, ankle: complex) -> None:
     for corner, first, turn in ((0j, -1j, angles[0]), (knee, onward, angles[1])):
         trace(ax, corner + 0.12 * first * np.exp(1j * np.linspace(0, turn, 30)), color="#333333", lw=1.5)
     at_hip, bend = np.abs(np.degrees(angles))
-    ax.text(0.02, -0.16, f"{at_hip:.0f}°", fontsize=9)
+    ax.text(0.02, -0.16, f"{at_hip:.0f}°")
     ax.text(knee.real + 0.1, knee.imag - 0.12, f"bend {bend:.0f}°")
 
 

@@ -58,10 +58,10 @@ def nodes_and_edges(step: int = 5) -> Figure:
             ax.plot(time, -clip, "o", color="white", markeredgecolor=edge, markersize=9, zorder=4)
     for clip, at, below in MATCH if step == 1 else ():
         ax.plot([at, at + 0.33], [-clip] * 2, color=MARK, linewidth=17, solid_capstyle="butt", zorder=2)
-        ax.text(at + 0.16, below, "window", ha="center", color=COLOURS["middle"], fontsize=9)
+        ax.text(at + 0.16, below, "window", ha="center", color=COLOURS["middle"])
     for number, (lift, start, end) in enumerate(WALK if step == 5 else (), 1):
         arrow(ax, start + 1j * lift, end + 1j * lift, PATH, 2.2, shrinkA=2, shrinkB=2)
-        say(ax, start - 0.12 + 1j * lift, str(number), fontsize=9)
+        say(ax, start - 0.12 + 1j * lift, str(number))
     for source, leaves, target, enters in leaps:
         bend, colour = f"arc3,rad={0.28 * (source == target)}", PATH if step == 5 else MARK
         look: dict[str, Any] = {"connectionstyle": bend, "shrinkA": 6, "shrinkB": 6}

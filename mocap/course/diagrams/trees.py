@@ -61,7 +61,7 @@ def down_the_tree(motion: Motion, frame: int = 0) -> Callable[[int], list[Artist
         bone.xy, bone.xyann = points[joint], points[parent]
         bone.set_visible(bool(abs(points[joint] - points[parent]).max() > 1e-6))
         told = f"its parent is {parent}, {names[parent]}" if joint else "it has no parent"
-        code.title.set(text=f"joint {joint}, {names[joint]}: {told}", fontsize=11)
+        code.title.set(text=f"joint {joint}, {names[joint]}: {told}")
         return [marked, limbs, dots, last, bone, code.title]
 
     return placed

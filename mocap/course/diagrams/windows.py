@@ -50,7 +50,7 @@ def window_cloud(motion: Motion, *, step: int = 4) -> Figure:
         ax.plot(*to_picture(flat * [1, 0, 1]).T, ".", color=QUIET, markersize=1.5, zorder=1)
     sums = f"{cloud.shape[0]} frames × {cloud.shape[1]} joints = {len(flat)} points"
     titles = "one frame", f"a window: {len(motion)} frames", "its joints: a point on each"
-    ax.set_title((*titles, sums)[step - 1], fontsize=11)
+    ax.set_title((*titles, sums)[step - 1])
     return figure
 
 
@@ -88,17 +88,17 @@ def radius_gaps(first: Motion, second: Motion, joints: Sequence[str], *, step: i
             ax.add_patch(Circle((0, 0), radius, fill=False, color=colour, linewidth=0.8))
     radii = np.linalg.norm(places, axis=-1).T  # (P, 2)
     for name, point, ends in zip(joints, places[0], np.sort(radii, axis=1), strict=True):
-        ax.annotate(name, point, (4, 4), textcoords="offset points", fontsize=9)
+        ax.annotate(name, point, (4, 4), textcoords="offset points")
         if last:
             ray = point / max(np.linalg.norm(point), 1e-9)
             ax.plot(*np.outer(ray, ends), color=COLOURS["middle"], linewidth=4)
     gaps = 100 * np.abs(np.diff(radii, axis=1)[:, 0])
     told = ", ".join(f"{name} {gap:.0f} cm" for name, gap in zip(joints, gaps, strict=True))
-    ax.set_title(CIRCLE_STEPS[step - 1] + f": {told}" * last, fontsize=11)
+    ax.set_title(CIRCLE_STEPS[step - 1] + f": {told}" * last)
     ax.plot(0, 0, "+", color=QUIET)
     limit = 1.15 * radii.max() + 0.01
     ax.set(aspect="equal", xlabel="z (m)", ylabel="x (m)", xlim=(-limit, limit), ylim=(-limit, limit))
-    ax.legend(fontsize=9)
+    ax.legend()
     return figure
 
 
@@ -150,7 +150,7 @@ def _table(ax: Axes, numbers: Array, step: int, part: tuple[int, int]) -> None:
     for (row, column), number in np.ndenumerate(numbers):
         ground = SOURCES[4] if row == column < step else "#FFFFFF"
         ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, facecolor=ground, edgecolor=FLOOR))
-        ax.text(column, row, f"{number:g}", ha="center", va="center", fontsize=11)
+        ax.text(column, row, f"{number:g}", ha="center", va="center")
     look: dict[str, Any] = {"fill": False, "edgecolor": SOURCES[0], "linewidth": 2.5, "zorder": 3}
     ax.add_patch(Rectangle((step - 1.5, step - 1.5), part[1], part[0], **look))
     ax.set(xlim=(-0.6, numbers.shape[1] - 0.4), ylim=(numbers.shape[0] - 0.4, -0.6), aspect="equal")

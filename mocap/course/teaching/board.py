@@ -69,7 +69,7 @@ def _path() -> Steps:
 def _tarjan() -> Steps:
     graph = graphs.notes_example()
     last = len(diagrams.tarjan_states({node: sorted(graph.successors(node)) for node in sorted(graph)})) - 1
-    return _each(diagrams.tarjan_step, (0, 4, 9, 13, 16, last), graph)
+    return _each(diagrams.tarjan_step, (0, 4, 6, 14, 16, last), graph)
 
 
 def _search() -> Steps:

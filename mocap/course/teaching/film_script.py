@@ -19,7 +19,6 @@ from mocap.widgets.filmed_scene import FilmedScene, stored_scene
 
 SPEED = 15.0  # characters that are read per second
 LOOK = {"card": 3.0, "still": 5.0, "moving": 9.0, "player": 10.0}  # seconds of a scene at least
-SKIPPED = ("Exercise", "Predict", "Answer")
 
 
 @dataclass
@@ -47,24 +46,26 @@ def script_of(slides: Iterable[Slide], recorded: Mapping[str, Any]) -> list[Scen
 
     Parameters
     ----------
-    slides : from `deck_of`; exercises and predictions are for the class.
+    slides : from `deck_of`; exercises are for the class.
     recorded : recordings of experiments by the source of their cell; without one, a still picture is shown.
     """
-    return [scene for slide in slides if slide.label not in SKIPPED for scene in _scenes(slide, recorded)]
+    return [scene for slide in slides if slide.label != "Exercise" for scene in _scenes(slide, recorded)]
 
 
 def _scenes(slide: Slide, recorded: Mapping[str, Any]) -> Iterator[Scene]:
     """Yield a scene for each thing that a slide shows, or one of its words alone."""
     written = [cell.source for cell in slide.cells if cell.cell_type == "markdown"]
     texts = [text for text in written if not text.startswith("![")]
-    lines = [spoken(re.sub(r"^\s*(?:[-*]|\d+\.) ", "", line)) for text in texts for line in text.splitlines()]
-    words, shown = list(filter(None, lines)), False
+    lines = [line for text in texts for line in text.splitlines() if re.search("[^-|: ]", line)]
+    rows = (re.sub(r"^\s*(?:[-*]|\d+\.) ", "", line).strip("|").split(" | ") for line in lines)  # of tables
+    words, shown = list(filter(None, ("\t".join(map(spoken, row)) for row in rows))), False
+    heading = spoken(f"{slide.label}: {slide.heading}" if slide.label else slide.heading)
     for cell in slide.cells:
         for kind, *parts in _shown(cell, recorded):
             shown = True
-            yield Scene(kind, spoken(slide.heading), " ".join(words), *parts)
+            yield Scene(kind, heading, " ".join(words), *parts)
     if not shown and words:
-        yield Scene("card", spoken(slide.heading), "\n".join(words))
+        yield Scene("card", heading, "\n".join(words))
 
 
 def _shown(cell: Any, recorded: Mapping[str, Any]) -> Iterator[tuple[Any, ...]]:  # noqa: ANN401

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable, Iterator
+from itertools import chain, zip_longest
 from pathlib import Path
 
 import numpy as np
@@ -85,7 +86,7 @@ def _page(scene: Scene) -> Image.Image:
         heading = heading[:-2].rstrip() + "…"
     pen.text((EDGE, 24), heading, INK, font_of(36, bold=True))
     if scene.kind != "card":
-        lines = _wrapped(scene.words, font_of(26), ROOM[0])
+        lines = wrapped(scene.words, font_of(26), ROOM[0])
         pen.multiline_text((EDGE, TOP + ROOM[1] + 10), "\n".join(lines[:3]), INK, font_of(26), spacing=8)
     return page
 
@@ -112,19 +113,28 @@ def _framed(data: bytes, label: str) -> Image.Image:
 
 
 def _card(words: str) -> Image.Image:
-    """Write words large; a line of them is a point of a list."""
-    page, points = Image.new("RGB", (ROOM[0], ROOM[1] + 60), PAPER), words.split("\n")
-    mark = "• " if len(points) > 1 else ""
-    for size in (34, 30, 26, 22, 19):
+    """Write words large; a line of them is a point of a list, or a row of a table with tabs in it."""
+    page = Image.new("RGB", (ROOM[0], ROOM[1] + 60), PAPER)
+    rows = [row.split("\t") for row in words.split("\n")]
+    mark, columns = "• " * (len(rows) > 1), [*zip_longest(*(row for row in rows if row[1:]), fillvalue="")]
+    for size in (34, 30, 26, 22):
         font = font_of(size)
-        lines = [line for point in points for line in [*_wrapped(mark + point, font, page.width), ""]]
-        if len(lines) * size * 1.35 < page.height:
+        places = [0, *np.cumsum([max(map(font.getlength, column)) + size for column in columns])]
+        lines = list(chain.from_iterable(_lines(row, mark, font) for row in rows))
+        if len(lines) * size * 1.35 < page.height and places[-1] <= page.width + size:
             break
-    ImageDraw.Draw(page).multiline_text((0, 10), "\n".join(lines), INK, font, spacing=size * 0.3)
+    for number, cells in enumerate(lines):
+        for place, cell in zip(places, cells, strict=False):
+            ImageDraw.Draw(page).text((place, 10 + 1.35 * size * number), cell, INK, font)
     return page
 
 
-def _wrapped(words: str, font: ImageFont.FreeTypeFont, width: float) -> list[str]:
+def _lines(row: list[str], mark: str, font: ImageFont.FreeTypeFont) -> list[list[str]]:
+    """Leave a row of a table one line, and break a point of a list into lines and an empty one."""
+    return [row] if row[1:] else [[line] for line in [*wrapped(mark + row[0], font, ROOM[0]), ""]]
+
+
+def wrapped(words: str, font: ImageFont.FreeTypeFont, width: float) -> list[str]:
     """Break words into lines that are no wider than a width, pixels."""
     lines = [""]
     for word in words.split():

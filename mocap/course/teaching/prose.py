@@ -3,6 +3,7 @@
 import re
 
 COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+DIGITS = {"_": "₀₁₂₃₄₅₆₇₈₉", "^": "⁰¹²³⁴⁵⁶⁷⁸⁹"}
 GREEK = dict(zip((r"\alpha", r"\beta", r"\theta", r"\phi", r"\sigma", r"\pi"), "αβθφσπ", strict=True))
 GREEK |= {r"\times": "×", r"\le": "≤", r"\ge": "≥", r"\cdot": "·", r"\,": " ", r"\to": "→"}
 
@@ -18,6 +19,7 @@ def spoken(text: str) -> str:
     ''
     """
     text = COMMENT.sub("", text)
+    text = re.sub(r"[_^]\d", lambda found: DIGITS[found[0][0]][int(found[0][1])], text)
     for word in sorted(GREEK, key=len, reverse=True):
         text = text.replace(word, GREEK[word])
     if re.search(r"\$[^$]*[\\^_{][^$]*\$|<", text):

@@ -87,7 +87,7 @@ def test_edges_are_thick_words_stand_beside_nodes_and_parts_have_colours():
 def test_at_first_nothing_else_is_seen_and_at_last_the_stack_is_empty():
     assert faces(tarjan_step(EIGHT)) == rgb(ON_STACK, UNSEEN)
     last = tarjan_step(EIGHT, step=99)
-    assert last.axes[1].get_title() == "stack: empty"
+    assert last.axes[1].get_title() == "empty"
     assert faces(last) == rgb(*SOURCES[:3])
     assert last.axes[0].get_title().startswith("step 21:")
 

@@ -1,11 +1,15 @@
 """Decks: what a slide takes from its notebook."""
 
+import re
+
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
 from mocap.course.notebooks import read
 from mocap.course.opening import stored
+from mocap.course.teaching import films
 from mocap.course.teaching.deck import deck_file, deck_of
+from mocap.course.teaching.film_script import script_of
 from tests.refusals import refused
 
 WAY = ("00", "01", "02", "03", "04", "05", "06", "07", "08", "09", "10")
@@ -71,6 +75,10 @@ def test_every_deck_takes_what_there_is_and_points_nowhere(file):
     for slide in slides:
         words = " ".join(cell.source for cell in slide.cells if cell.cell_type == "markdown")
         assert slide.heading and slide.cells
-        assert not {"below", "above"} & set(words.lower().replace(".", " ").replace(",", " ").split()), (
-            slide.heading
+        assert not {"below", "above"} & set(re.findall(r"\w+", words.lower())), slide.heading
+    for scene in script_of(slides, {}):
+        assert films.font_of(36, bold=True).getlength(scene.heading) <= films.ROOM[0], scene.heading
+        caption = films.wrapped(scene.words, films.font_of(26), films.ROOM[0])
+        assert scene.kind == "card" or (scene.words and len(caption) <= 3), (
+            f"no caption, or too long: {scene.heading}"
         )

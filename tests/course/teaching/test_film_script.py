@@ -35,8 +35,10 @@ def test_a_slide_of_words_is_a_card_with_a_point_in_each_line_and_an_empty_one_i
     assert script() == []
 
 
-def test_exercises_and_predictions_are_for_the_class():
-    assert script(new_markdown_cell("So?"), shows(), label="Predict") == []
+def test_exercises_are_for_the_class_and_predictions_are_asked():
+    assert script(new_markdown_cell("So?"), shows(), label="Exercise") == []
+    (asked,) = script(new_markdown_cell("So?"), label="Predict")
+    assert (asked.kind, asked.heading) == ("card", "Predict: One")
 
 
 def test_an_experiment_moves_where_it_was_recorded():
