@@ -138,8 +138,8 @@ def legible(figure: Figure, room: tuple[int, int] = SLIDE) -> Figure:
 
 
 def letters_of(figure: Figure) -> float:
-    """Give how high a figure's smallest letters are: their size in points, times pixels per point."""
-    written = [text for text in figure.findobj(Text) if text.get_visible() and text.get_text().strip()]
+    """Give the size of a figure's smallest letters, inches."""
+    written = (text for text in figure.findobj(Text) if text.get_visible() and text.get_text().strip())
     return min((text.get_fontsize() for text in written), default=np.inf) / 72
 
 
@@ -151,13 +151,7 @@ def small_png(figure: Figure) -> bytes:
 
 def few_colours(picture: Image.Image, letters: float = np.inf) -> bytes:
     """Encode a picture as a PNG of few colours, which says how many pixels its smallest letters have."""
-    few = picture.convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE)
-    few.save(small := io.BytesIO(), "png", optimize=True, pnginfo=said(letters))
-    return small.getvalue()
-
-
-def said(letters: float) -> PngInfo:
-    """Note in a PNG how many pixels its smallest letters have, for whoever shows it smaller."""
-    note = PngInfo()
+    few, note = picture.convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE), PngInfo()
     note.add_text("letters", f"{letters:.1f}")
-    return note
+    few.save(small := io.BytesIO(), "png", optimize=True, pnginfo=note)
+    return small.getvalue()

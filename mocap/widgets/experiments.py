@@ -26,7 +26,7 @@ from matplotlib.image import AxesImage
 from PIL import Image
 
 from mocap.errors import MocapError, missing
-from mocap.plotting.picture import Picture, figure_of, legible, letters_of, said, tiled
+from mocap.plotting.picture import Picture, figure_of, legible, letters_of, tiled
 from mocap.widgets.live import Live, display_live, widget
 from mocap.widgets.pointing import Handles, Pointer, pointer
 
@@ -201,6 +201,7 @@ class Experiment:
     def still(self) -> tuple[dict[str, str], dict[str, Any]]:
         """Return what stands where no Python runs: the images to click on and the picture, as one PNG."""
         drawn = self._dragged.with_handles() if self._dragged else Image.open(io.BytesIO(self.png))
+        drawn.info["letters"] = letters_of(self._canvas.canvas.figure) * self._canvas.canvas.figure.dpi
         row = tiled([*(image.with_ring() for image in self._images), drawn], down=False)
         return Picture(row, self.alt)._repr_mimebundle_()
 
@@ -259,6 +260,5 @@ class BlittedFigure:
                 artist.do_3d_projection()
             artist.draw(self.canvas.get_renderer())
         picture, stream = Image.fromarray(np.asarray(self.canvas.buffer_rgba())), io.BytesIO()
-        note = said(letters_of(figure) * figure.dpi)
-        picture.convert("RGB").save(stream, "png", compress_level=1, pnginfo=note)  # fast rather than small
+        picture.convert("RGB").save(stream, "png", compress_level=1)  # fast rather than small
         return stream.getvalue()

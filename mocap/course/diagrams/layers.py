@@ -130,27 +130,15 @@ def layer_step(line: Array, count: int, *, step: int = 0, width: int = 4, look: 
         _draw(ground, walk, QUIET, "crossed out", alpha=0.5, marker="x")
     for walk in state.kept:
         _draw(ground, walk, CURVES[0], "waiting", marker="o")
-    for number, walk in enumerate(
-        sorted(state.kept if state.score else (), key=lambda walk: walk.places[-1].imag)
-    ):
-        tip, box = walk.places[-1], {"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85}
-        where: dict[str, Any] = {
-            "xytext": (0, 7 + 15 * (number % 2)),
-            "textcoords": "offset points",
-            "ha": "center",
-        }
-        ground.annotate(f"{state.score[walk]:.1f}", (tip.imag, tip.real), **where, bbox=box)
+    going = [walk for walk in state.kept if walk in state.score]
+    for number, walk in enumerate(sorted(going, key=lambda walk: walk.places[-1].imag)):
+        tip, up = walk.places[-1], 7 + 15 * (number % 2)  # points: neighbours do not hide each other
+        at = {"xytext": (0, up), "textcoords": "offset points", "ha": "center"}
+        ground.annotate(f"{state.score[walk]:.1f}", (tip.imag, tip.real), **at)  # type: ignore[arg-type]
     if state.best:
         _draw(ground, state.best, PATH, "best", marker="o", linewidth=3.5)
-    ground.set(
-        aspect="equal",
-        xlabel="x (m)",
-        ylabel="z (m)",
-        xlim=(2.1, -1.4),
-        ylim=(-0.3, 3.1),
-        xticks=[2, 1, 0, -1],
-        yticks=range(4),
-    )
+    ground.set(aspect="equal", xlabel="x (m)", ylabel="z (m)", xlim=(2.1, -1.4), ylim=(-0.3, 3.1))
+    ground.set(xticks=[2, 1, 0, -1], yticks=range(4))
     ground.set_title(state.message)
     handles = {label: handle for handle, label in zip(*ground.get_legend_handles_labels(), strict=True)}
     figure.legend(handles.values(), handles, loc="lower left", ncols=4, frameon=False)

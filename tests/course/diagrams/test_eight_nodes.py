@@ -72,7 +72,7 @@ def test_the_line_that_has_just_run_is_marked(step):
     state, (_, _, code) = STATES[step], tarjan_step(EIGHT, step=step).axes
     (mark,) = code.patches
     assert mark.get_y() + mark.get_height() / 2 == state.line
-    words = {1: "enter", 4: "back in", 6: "closes", 8: "leads to a complete", 10: "is the first"}
+    words = {1: "enter", 4: "back in", 6: "closes", 8: "has left", 10: "is the first"}
     assert words[state.line] in state.message
     assert [text.get_text() for text in code.texts] == PROGRAM
 
