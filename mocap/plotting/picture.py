@@ -140,7 +140,7 @@ def legible(figure: Figure, room: tuple[int, int] = SLIDE) -> Figure:
 def letters_of(figure: Figure) -> float:
     """Give the size of a figure's smallest letters, inches."""
     written = (text for text in figure.findobj(Text) if text.get_visible() and text.get_text().strip())
-    return min((text.get_fontsize() for text in written), default=np.inf) / 72
+    return min((float(text.get_fontsize()) for text in written), default=np.inf) / 72
 
 
 def small_png(figure: Figure) -> bytes:

@@ -134,7 +134,7 @@ def layer_step(line: Array, count: int, *, step: int = 0, width: int = 4, look: 
     for number, walk in enumerate(sorted(going, key=lambda walk: walk.places[-1].imag)):
         tip, up = walk.places[-1], 7 + 15 * (number % 2)  # points: neighbours do not hide each other
         at = {"xytext": (0, up), "textcoords": "offset points", "ha": "center"}
-        ground.annotate(f"{state.score[walk]:.1f}", (tip.imag, tip.real), **at)  # type: ignore[arg-type]
+        ground.annotate(f"{state.score[walk]:.1f}", (tip.imag, tip.real), **at)
     if state.best:
         _draw(ground, state.best, PATH, "best", marker="o", linewidth=3.5)
     ground.set(aspect="equal", xlabel="x (m)", ylabel="z (m)", xlim=(2.1, -1.4), ylim=(-0.3, 3.1))
