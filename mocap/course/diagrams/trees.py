@@ -38,9 +38,8 @@ def down_the_tree(motion: Motion, frame: int = 0) -> Callable[[int], list[Artist
     points = joint_positions(motion[frame : frame + 1])[0][:, [2, 1]]  # z to the right, y upwards
     figure = Figure(figsize=(9.8, 4))
     code, ax = figure.add_axes((0.01, 0, 0.79, 0.9)), figure.add_axes((0.84, 0.15, 0.15, 0.83))
-    program = re.sub(r"  #.*", "", shown_source("plain.joint_positions"))
-    program = program.replace(" + rotate", f"\n{' ' * 12}+ rotate")  # on two lines, or it would be too wide
-    marked = show_program(code, program.splitlines(), 0)
+    program = re.sub(r"  #.*", "", shown_source("plain.joint_positions"))  # on a slide it would be too wide
+    marked = show_program(code, program.replace(" + rotate", f"\n{' ' * 12}+ rotate").splitlines(), 0)
     starts, ends, sides = map(np.asarray, bones(motion.skeleton))
     limbs = strokes(ax, linewidth=2.4)
     (dots,) = ax.plot([], [], "o", color=QUIET, markersize=4)
