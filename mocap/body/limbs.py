@@ -70,10 +70,8 @@ def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
         raise MocapError(f"The foot '{name}' has no joint or end site that could be its ball.")
     if not legs:
         joints, known = (", ".join(names) for names in (skeleton.names, dict(LIMBS)))
-        raise MocapError(
-            f"No legs found among {shorten(joints, 38)}: tried {shorten(known, 40)}. "
-            "Name each by hand: legs=[name_leg(skeleton, hip, knee, ankle, ball), ...]."
-        )
+        helps = "Name each by hand: legs=[name_leg(skeleton, hip, knee, ankle, ball), ...]."
+        raise MocapError(f"No legs found among {shorten(joints, 38)}: tried {shorten(known, 40)}. {helps}")
     whole = [[*joints, skeleton.children(joints[2])[0]] for joints in legs]
     return tuple(name_leg(skeleton, *(skeleton.names[joint] for joint in leg)) for leg in whole)
 

@@ -69,10 +69,9 @@ class Motion:
         if frames == 0:
             raise MocapError(f"Motion '{self.name}' has no frames.")
         if self.root_positions.shape != (frames, 3) or self.rotations.shape != (frames, joints, 4):
-            raise MocapError(
-                f"Motion '{self.name}' of {joints} joints needs root positions (F, 3) and rotations "
-                f"(F, {joints}, 4), got {self.root_positions.shape} and {self.rotations.shape}."
-            )
+            needs = f"{joints} joints needs root positions (F, 3) and rotations (F, {joints}, 4)"
+            got = f"{self.root_positions.shape} and {self.rotations.shape}"
+            raise MocapError(f"Motion '{self.name}' of {needs}, got {got}.")
         if not (np.isfinite(self.fps) and self.fps > 0):
             raise MocapError(f"Motion '{self.name}' needs a frame rate above 0, got {self.fps}.")
         finite = np.isfinite(self.root_positions).all(-1) & np.isfinite(self.rotations).all((-2, -1))
@@ -86,9 +85,8 @@ class Motion:
 
     def _mark(self, name: str, mark: ArrayLike) -> NDArray[np.generic]:
         if np.shape(mark) not in ((), (len(self),)):
-            raise MocapError(
-                f"Motion '{self.name}': mark '{name}' needs {len(self)} booleans, got shape {np.shape(mark)}."
-            )
+            mark_of = f"Motion '{self.name}': mark '{name}'"
+            raise MocapError(f"{mark_of} needs {len(self)} booleans, got shape {np.shape(mark)}.")
         return frozen(np.broadcast_to(np.asarray(mark, bool), (len(self),)), np.bool_)
 
     def __len__(self) -> int:

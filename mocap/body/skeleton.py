@@ -90,10 +90,8 @@ class Skeleton:
             twice = sorted({name for name in self.names if self.names.count(name) > 1})
             raise MocapError(f"Joint names must be unique; given twice: {', '.join(twice)}.")
         if self.parents.shape != (count,) or self.offsets.shape != (count, 3):
-            raise MocapError(
-                f"{count} joints need parents ({count},) and offsets ({count}, 3), "
-                f"got {self.parents.shape} and {self.offsets.shape}."
-            )
+            needs = f"{count} joints need parents ({count},) and offsets ({count}, 3)"
+            raise MocapError(f"{needs}, got {self.parents.shape} and {self.offsets.shape}.")
         if self.parents[0] != -1 or np.any(self.parents[1:] < 0):
             raise MocapError("Joint 0, and no other, is the root with parent -1.")
         if np.any(late := self.parents >= np.arange(count)):
@@ -186,10 +184,8 @@ class Skeleton:
             raise SkeletonMismatch("The skeletons have the same joints in another order or tree.")
         gaps = np.linalg.norm(self.offsets - other.offsets, axis=-1)
         if gaps.max() > 1e-6:
-            joint = int(gaps.argmax())
-            raise SkeletonMismatch(
-                f"The skeletons' bones differ: '{self.names[joint]}' sits {100 * gaps[joint]:.2g} cm apart."
-            )
+            apart = f"'{self.names[gaps.argmax()]}' sits {100 * gaps.max():.2g} cm apart"
+            raise SkeletonMismatch(f"The skeletons' bones differ: {apart}.")
 
     def joints_in(self, other: Skeleton) -> Indices:
         """Find each joint in a skeleton that may have other end sites: its number there, -1 for none, (J,).

@@ -176,10 +176,8 @@ def from_set(name: str, clip: str) -> Motion:
     if path is None:
         part = re.fullmatch(r"dataset-([12])_[\w-]+", clip)
         if not known.clip_url or not part:
-            raise MocapError(
-                f"No clip '{shortened(clip, 40)}' in {folder}: `mocap data fetch {name}` gets the set "
-                f"({known.size()}) from {known.address}, or unpack it there."
-            )
+            gets = f"`mocap data fetch {name}` gets the set ({known.size()}) from {known.address}"
+            raise MocapError(f"No clip '{shortened(clip, 40)}' in {folder}: {gets}, or unpack it there.")
         url = known.clip_url.format(part=part[1], clip=clip)
         path = fetch(f"{name}/{clip}.bvh", url, sha256, known.terms())
     if sha256 and hashlib.sha256(path.read_bytes()).hexdigest() != sha256:

@@ -135,10 +135,8 @@ def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT, ride: Ride |
     laid, held = lean(flat, np.asarray(way.angle), angle)
     bent = Bent(_cleaned(laid, held), laid, path, line, replace(ride, along=own), walked)
     if (fastest := np.abs(bent.turned).max(initial=0.0)) > max(WILD, 2 * limit):
-        warn(
-            f"'{shortened(motion.name)}' is turned by up to {np.degrees(fastest):.0f}° per second: where it "
-            "stands, or goes to and fro, its way turns at once; bend a walk that goes on."
-        )
+        why = "where it stands, or goes to and fro, its way turns at once; bend a walk that goes on"
+        warn(f"'{shortened(motion.name)}' is turned by up to {np.degrees(fastest):.0f}° per second: {why}.")
     return bent
 
 

@@ -167,7 +167,6 @@ def require_reachable(motion: Motion, pins: Pins) -> None:
         bones = np.linalg.norm(skeleton.offsets[sorted(paths[a] ^ paths[b])], axis=-1).sum()
         worst = int(apart.argmax())
         if apart[worst] > bones + SLACK:
-            raise MocapError(
-                f"Frame {worst}: '{names[pins.joints[b]]}' would be {apart[worst]:.2f} m from "
-                f"'{names[pins.joints[a]]}', the bones between reach {bones:.2f} m."
-            )
+            first, second = (names[pins.joints[number]] for number in (a, b))
+            far = f"'{second}' would be {apart[worst]:.2f} m from '{first}'"
+            raise MocapError(f"Frame {worst}: {far}, the bones between reach {bones:.2f} m.")

@@ -173,10 +173,8 @@ def check_keys(motion: Motion, keys: Sequence[Key]) -> None:
     if not keys or any(not isinstance(frame, int | np.integer) for frame in frames):
         raise MocapError(f"A warp needs one key or more, at numbers of frames, got {frames[:6]}.")
     if not all(before < after for before, after in pairwise([-1, *frames, len(motion)])):
-        raise MocapError(
-            f"Keys stand in order of time, once each, at frames of '{motion.name}', 0 to {len(motion) - 1}; "
-            f"got {frames[:6]}."
-        )
+        clip = f"frames of '{motion.name}', 0 to {len(motion) - 1}"
+        raise MocapError(f"Keys stand in order of time, once each, at {clip}; got {frames[:6]}.")
     for pose in (key.pose for key in keys if key.pose is not None):
         motion.skeleton.require_same(pose.skeleton)
         if len(pose) != 1:
@@ -215,10 +213,8 @@ def scaled(motion: Motion, joint: str | int, gain: ArrayLike) -> Motion:
     away = rotations.to_rotvec(rotations.multiply(rotations.inverse(rotations.mean(turns)), turns))
     angles = np.abs(amount) * np.linalg.norm(away, axis=-1)
     if angles.max() > np.pi:
-        raise MocapError(
-            f"Frame {angles.argmax()}: such a gain turns '{motion.skeleton.names[number]}' by "
-            f"{np.degrees(angles.max()):.0f}° from its reference, beyond half a turn."
-        )
+        name, far = motion.skeleton.names[number], f"{np.degrees(angles.max()):.0f}° from its reference"
+        raise MocapError(f"Frame {angles.argmax()}: such a gain turns '{name}' by {far}, beyond half a turn.")
     turned = motion.rotations.copy()
     turn = rotations.from_rotvec((amount - 1).reshape(-1, 1) * away)  # r exp(a v) = q exp((a - 1) v)
     turned[:, number] = rotations.multiply(turned[:, number], turn)

@@ -140,10 +140,9 @@ def mirror(motion: Motion) -> Motion:
     lengths = np.linalg.norm(skeleton.offsets, axis=-1)
     gaps = np.abs(lengths - lengths[partners])
     if gaps.max() > LOPSIDED:
-        warn(
-            f"'{shortened(motion.name, 60)}': left and right bones differ by up to {1e3 * gaps.max():.0f} mm "
-            f"({shortened(skeleton.names[gaps.argmax()], 40)}), so its mirror image does not reach as far."
-        )
+        far = f"{1e3 * gaps.max():.0f} mm ({shortened(skeleton.names[gaps.argmax()], 40)})"
+        differ = f"'{shortened(motion.name, 60)}': left and right bones differ by up to {far}"
+        warn(f"{differ}, so its mirror image does not reach as far.")
     before = rotations.inverse(turns[skeleton.parents])
     before[0] = rotations.from_matrix(_reflection(ACROSS) @ _reflection(across))
     vectors = -motion.rotations[..., 1:] @ _reflection(across)  # (w, v) becomes (w, -H v)

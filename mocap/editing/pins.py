@@ -68,10 +68,9 @@ class Pins:
         wrong = ~(self.low <= self.high) | (self.low == np.inf) | (self.high == -np.inf)
         if wrong.any():
             frame, pin, axis = at = tuple(np.argwhere(wrong)[0])
-            raise MocapError(
-                f"Frame {frame}, joint {self.joints[pin]}: a pin needs low ≤ high, got {self.low[at]:.4g} "
-                f"and {self.high[at]:.4g} for {'xyz'[axis]}; from -inf to inf an axis is free."
-            )
+            got = f"{self.low[at]:.4g} and {self.high[at]:.4g} for {'xyz'[axis]}"
+            needs = f"a pin needs low ≤ high, got {got}; from -inf to inf an axis is free"
+            raise MocapError(f"Frame {frame}, joint {self.joints[pin]}: {needs}.")
 
     def __len__(self) -> int:
         return len(self.low)
@@ -143,10 +142,9 @@ def pin(
     try:
         rows = np.arange(len(motion))[frames if isinstance(frames, slice) else list(frames)]
     except IndexError:
-        raise MocapError(
-            f"'{motion.name}' has {len(motion)} frames, counted from 0; frames are their numbers, a slice, "
-            f"or {len(motion)} marks."
-        ) from None
+        counted = f"'{motion.name}' has {len(motion)} frames, counted from 0"
+        takes = f"frames are their numbers, a slice, or {len(motion)} marks"
+        raise MocapError(f"{counted}; {takes}.") from None
     boxes = np.full((2, len(motion), 1, 3), [[[[-np.inf]]], [[[np.inf]]]])
     for box, place in zip(boxes, (low, low if high is None else high), strict=True):
         if np.shape(place) not in ((3,), (len(rows), 3)):

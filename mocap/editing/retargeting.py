@@ -98,10 +98,9 @@ def retarget(
     prices = dict.fromkeys((target.skeleton.names[joint] for joint in stiff), STIFF)
     worn = solve_quietly(base, wishes, RETARGET, body_of(base, wishes.joints, prices=prices)).motion
     if (moved := np.abs(worn.root_positions - base.root_positions).max()) > MOST * target.leg:
-        warn(
-            f"'{shortened(motion.name)}': the hips move by {100 * moved:.0f} cm to take these steps, "
-            f"with legs of {100 * target.leg:.0f} cm: no leg takes them at ease."
-        )
+        hips = f"the hips move by {100 * moved:.0f} cm to take these steps"
+        legs = f"with legs of {100 * target.leg:.0f} cm: no leg takes them at ease"
+        warn(f"'{shortened(motion.name)}': {hips}, {legs}.")
     return let_go(worn, wishes, floor_pins(base, target))
 
 

@@ -162,10 +162,7 @@ def warn_of_gaps(motion: Motion, pins: Pins, tolerance: float = TOLERANCE) -> No
     if errors.max(initial=0.0) > tolerance:
         frame, joint = np.unravel_index(errors.argmax(), errors.shape)
         ends = [*pins.joints, *(turn.joint for turn in pins.turns)]
-        warn(
-            f"'{motion.name}', frame {frame}: '{motion.skeleton.names[ends[joint]]}' is "
-            f"{1000 * errors[frame, joint]:.3g} mm off its pin, and pins of "
-            f"{int((errors > tolerance).any(1).sum())} "
-            "frames are missed: are they within reach, and do they agree?",
-            3,
-        )
+        off = f"'{motion.skeleton.names[ends[joint]]}' is {1000 * errors[frame, joint]:.3g} mm off its pin"
+        missed = f"pins of {int((errors > tolerance).any(1).sum())} frames are missed"
+        why = "are they within reach, and do they agree?"
+        warn(f"'{motion.name}', frame {frame}: {off}, and {missed}: {why}", 3)

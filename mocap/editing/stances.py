@@ -58,10 +58,8 @@ class Stance:
         for side, leg in zip(SIDES, self.legs, strict=True):
             length = leg.lengths(self.skeleton)[2]
             if not abs(self.drop(side)) < length:
-                raise MocapError(
-                    f"The {side} ankle would stand {100 * self.drop(side):.3g} cm over its ball; "
-                    f"the foot is {100 * length:.3g} cm long."
-                )
+                over = f"The {side} ankle would stand {100 * self.drop(side):.3g} cm over its ball"
+                raise MocapError(f"{over}; the foot is {100 * length:.3g} cm long.")
 
     def __repr__(self) -> str:
         return f"Stance({len(self.skeleton)} joints, legs {self.leg:.2f} m)"
@@ -172,10 +170,8 @@ def stance_of_zero(skeleton: Skeleton, heights: Mapping[str, float] | float) -> 
     level = _degrees(rest.bone("right hip", "left hip"), [1, 0, 0])
     hanging = max(_degrees(rest.bone(f"{side} hip", f"{side} knee"), [0, -1, 0]) for side in SIDES)
     if level > LEVEL or hanging > HANGING:
-        raise MocapError(
-            f"The rest pose of {skeleton!r} does not stand: its hips are {level:.0f}° off level, its thighs "
-            f"{hanging:.0f}° off hanging; give stance_of a walk."
-        )
+        off = f"its hips are {level:.0f}° off level, its thighs {hanging:.0f}° off hanging"
+        raise MocapError(f"The rest pose of {skeleton!r} does not stand: {off}; give stance_of a walk.")
     bones = {side: rest.bone(f"{side} ankle", f"{side} ball") for side in SIDES}
     if not isinstance(heights, Mapping):
         heights = {role: heights - bones[role.split()[0]][1] * role.endswith("ankle") for role in FEET}

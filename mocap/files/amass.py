@@ -84,11 +84,8 @@ def read(path: str | Path, *, fps: float | None = None) -> Motion:
         few = betas is not None and betas.dtype.kind in "fiu" and math.prod(betas.shape) <= WIDTH
         shaped = betas is not None and few and betas.read().any()
     if shaped:
-        warn(
-            f"{path}: betas, the shape of the body, are ignored: the bones are those of the mean body, so "
-            "feet may stand some centimetres above or below the ground.",
-            4,
-        )
+        so = "the bones are those of the mean body, so feet may stand some centimetres off the ground"
+        warn(f"{path}: betas, the shape of the body, are ignored: {so}.", 4)
     local = rotations.from_rotvec(poses.reshape(len(poses), -1, 3))
     local[:, 0] = rotations.multiply(UPRIGHT, local[:, 0])
     return Motion(SKELETON, rotations.rotate(UPRIGHT, PELVIS + trans), local, rate, Path(path).stem)

@@ -173,12 +173,9 @@ def _rigid(
         far, mover = max((float(np.ptp(places[:, j], axis=0).max()), j) for j in moving)
         expected = f"'{joints[mover].name}' in one place below its parent, but for {most:g} m"
         raise FormatError(path, joints[mover].line, expected, f"one that moves by {far:.2g} m")
-    warn(
-        f"{path}: bones change length by up to {1000 * rigid.stretch[worst]:.2g} mm "
-        f"({shortened(joints[worst].name, 40)}); fitted to rigid bones, joints lie up to "
-        f"{1000 * rigid.apart.max():.2g} mm from their places in the file.",
-        5,
-    )
+    change = f"{1000 * rigid.stretch[worst]:.2g} mm ({shortened(joints[worst].name, 40)})"
+    off = f"fitted to rigid bones, joints lie up to {1000 * rigid.apart.max():.2g} mm from their places"
+    warn(f"{path}: bones change length by up to {change}; {off} in the file.", 5)
     return rigid.offsets, rigid.rotations
 
 

@@ -158,6 +158,5 @@ def require_near(points: Array, name: str) -> None:
     near = np.abs(points) <= FARTHEST  # NaN is not
     if not near.all():
         at = tuple(np.argwhere(~near)[0].tolist())
-        raise MocapError(
-            f"Points must be numbers within {FARTHEST:g} m; {name} holds {points[at]} at {[*at]}."
-        )
+        got = f"{name} holds {points[at]} at {list(at)}"
+        raise MocapError(f"Points must be numbers within {FARTHEST:g} m; {got}.")

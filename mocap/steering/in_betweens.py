@@ -8,8 +8,8 @@ import numpy as np
 
 from mocap.body.motion import Motion
 from mocap.editing.displacements import Displacement
-from mocap.editing.path_editing import plants_kept
-from mocap.errors import MocapError, NoWalk, warn
+from mocap.editing.path_editing import plants_kept, warn_of_plants
+from mocap.errors import MocapError, NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.edge_tables import Edge
 from mocap.graphs.motion_graph import MotionGraph
@@ -128,11 +128,7 @@ def in_between(graph: MotionGraph | CompiledGraph, start: Moment, end: Moment, s
         motion, _ = meet_poses(stand(motion), start, end, speed=False)
     walk, seams = [graph.edges[edge] for edge in joined.edges], int(graph.blended[joined.edges].sum())
     between = InBetween(motion, laid, graph.source, walk, start, end, arrived, faded, seams)
-    if between.kept < 1:
-        warn(
-            f"'{motion.name}': {1 - between.kept:.0%} of the planted frames are let go: to hold them would "
-            "move the root by more than 2 cm, stretch a leg or jolt a knee."
-        )
+    warn_of_plants(motion.name, between.kept, 3)
     return between
 
 
@@ -144,20 +140,17 @@ def _least(found: list[tuple[Joined, Arrived]], search: TwoSided) -> tuple[Joine
         return min(good, key=lambda pair: pair[0].cost + pair[1].price)
     seconds, apart = search.frames / search.graph.fps, abs(search.there - search.here)
     if not found:
-        raise NoWalk(
-            f"No walk leads from one pose to the other in {seconds:.1f} s at {MOST_PACE:g} times its pace: "
-            "give another time, other poses, or a graph with a higher threshold."
-        )
+        helps = "give another time, other poses, or a graph with a higher threshold"
+        pace = f"{MOST_PACE:g} times its pace"
+        raise NoWalk(f"No walk leads from one pose to the other in {seconds:.1f} s at {pace}: {helps}.")
     if arriving:
         turn, most = np.degrees([min(turned[n] for n in arriving), MOST_TURN])
-        raise NoWalk(
-            f"To arrive in {seconds:.1f} s, walks must be turned by {turn:.0f}° per second; the limit is "
-            f"{most:.0f}°: give about {seconds * turn / most:.1f} s, or let the end face another way."
-        )
+        must = f"walks must be turned by {turn:.0f}° per second; the limit is {most:.0f}°"
+        helps = f"give about {seconds * turn / most:.1f} s, or let the end face another way"
+        raise NoWalk(f"To arrive in {seconds:.1f} s, {must}: {helps}.")
     lack = min(arrived.lack for _, arrived in found)
     reach = apart - lack
     too_far = reach > search.speed * seconds / 2  # else it is the way to turn that takes the time
-    raise NoWalk(
-        f"In {seconds:.1f} s walks end {lack:.1f} m from the place that is {apart:.1f} m away: give "
-        + (f"about {seconds * apart / reach:.1f} s." if too_far else "another time, or another way to face.")
-    )
+    helps = f"about {seconds * apart / reach:.1f} s" if too_far else "another time, or another way to face"
+    ends = f"walks end {lack:.1f} m from the place that is {apart:.1f} m away"
+    raise NoWalk(f"In {seconds:.1f} s {ends}: give {helps}.")

@@ -118,10 +118,9 @@ def choices(graph: CompiledGraph, moment: Moment, *, way: int, limit: float) -> 
     good = np.flatnonzero(off == least[lane])
     good = good[np.argsort(off[good], kind="stable")[:MOST]]
     if off[good[0]] > limit:
-        raise NoWalk(
-            f"Frame {moment.frame} of '{moment.motion.name:.60}' is {off[good[0]]:.2f} m off the nearest "
-            f"pose of the clips, and {limit:g} m is the limit: take a pose more like theirs."
-        )
+        far = f"is {off[good[0]]:.2f} m off the nearest pose of the clips, and {limit:g} m is the limit"
+        frame = f"Frame {moment.frame} of '{moment.motion.name:.60}'"
+        raise NoWalk(f"{frame} {far}: take a pose more like theirs.")
     good = good[off[good] <= limit]
     edge = graph.plays.edge[rows[good]]
     return Choices(edge, rows[good] - graph.first[edge], laid.turn[good], laid.move[good], off[good])

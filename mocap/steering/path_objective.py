@@ -200,10 +200,8 @@ def make_route(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Route:
     """
     fastest = float(np.abs(graph.ahead[:, -1] - graph.at).max()) / AHEAD[-1]
     if path.length > 3600 * fastest:
-        raise MocapError(
-            f"The path is {path.length:.0f} m long, more than these clips walk in an hour "
-            f"({3600 * fastest:.0f} m, at {fastest:.2f} m/s): is it in metres?"
-        )
+        hour = f"more than these clips walk in an hour ({3600 * fastest:.0f} m, at {fastest:.2f} m/s)"
+        raise MocapError(f"The path is {path.length:.0f} m long, {hour}: is it in metres?")
     for where, what in (*wishes.labels, *wishes.times):
         if not 0 <= where <= path.length:
             raise MocapError(f"'{what}' is asked for {where} m along a path of {path.length:.1f} m.")

@@ -222,15 +222,10 @@ def too_slow(graph: CompiledGraph, reached: float) -> NoWalk:
     """Say that no walk goes on along a line as people walk, and what is missing for it."""
     clips = [on_ground(clip.root_positions) for clip in graph.source.clips]
     quick = [clip for clip in clips if np.percentile(np.abs(np.diff(clip)), 90) * graph.fps > QUICK]
-    missing = (
-        f"{len(quick)} of {len(clips)} clips go faster than {QUICK:g} m/s, but few transitions join their "
-        "steps: allow a larger threshold, or add walks"
-    )
-    return NoWalk(
-        f"After {reached:.1f} m of the line every walk is slower than {SLOWEST:g} m/s; "
-        + (missing if quick else "these clips only stand: add some that walk")
-        + "."
-    )
+    some = f"{len(quick)} of {len(clips)} clips go faster than {QUICK:g} m/s"
+    helps = f"{some}, but few transitions join their steps: allow a larger threshold, or add walks"
+    helps = helps if quick else "these clips only stand: add some that walk"
+    return NoWalk(f"After {reached:.1f} m of the line every walk is slower than {SLOWEST:g} m/s; {helps}.")
 
 
 def _square(numbers: Points) -> Array:

@@ -112,10 +112,8 @@ def walk_group(
     """
     frames, members = flock.places.shape
     if not members or frames <= RATE:
-        raise MocapError(
-            f"A plan that is walked has a member or more and lasts 1 s or more, got {members} and "
-            f"{max(frames - 1, 0) / RATE:g} s: does it lead away from where the group starts?"
-        )
+        got = f"{members} and {max(frames - 1, 0) / RATE:g} s: does it lead away from where the group starts?"
+        raise MocapError(f"A plan that is walked has a member or more and lasts 1 s or more, got {got}")
     source = graph.source if isinstance(graph, CompiledGraph) else graph
     marked = with_plants(source)
     compiled = compile_graph(graph if marked is source else marked)

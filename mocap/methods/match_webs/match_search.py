@@ -180,18 +180,14 @@ def _in_own_frames(web: MatchWeb, query: int, match: Match) -> Match:
 def _warn(found: Sequence[Match], left_out: int) -> None:
     messages = []
     if left_out:
-        messages.append(
-            f"{left_out} of {len(found)} matches hardly move, so nothing was searched from them: "
-            "to stand still is like itself at any time."
-        )
+        still = f"{left_out} of {len(found)} matches hardly move, so nothing was searched from them"
+        messages.append(f"{still}: to stand still is like itself at any time.")
     if len(found) == 1:
         messages.append("The query found only itself: raise the limit, or take another query.")
     counts = np.bincount([one.generation for one in found])
     if (leaks := counts[2:][counts[2:] > np.maximum(LEAK * counts[1:-1], FEW)]).size:
-        messages.append(
-            f"One step found {leaks[0]} matches, more than {LEAK} times the step before: one wrong match may "
-            "have led to others; lower the limit."
-        )
+        many = f"One step found {leaks[0]} matches, more than {LEAK} times the step before"
+        messages.append(f"{many}: one wrong match may have led to others; lower the limit.")
     for message in messages:
         warn(message, 3)
 
