@@ -26,10 +26,11 @@ from mocap._shared.arrays import Array, runs
 from mocap.body import GroundPath, joint_positions
 from mocap.editing import LIMIT
 from mocap.editing.path_editing import plants_kept
-from mocap.graphs import CompiledGraph
+from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.plotting import ASKED, CURVES, PATH
-from mocap.steering import Followed, follow_path
+from mocap.steering import follow_path
 from mocap.steering.bent_following import BentWalk
+from mocap.steering.followed import Followed
 from mocap.synthesis import to_motion
 
 OWN = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight", "stop_and_go")

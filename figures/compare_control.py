@@ -18,8 +18,11 @@ from mocap import datasets, feet, graphs, quality, steering
 from mocap._shared.arrays import Array
 from mocap.body import SHAPES, GroundPath, heading, on_ground
 from mocap.errors import MocapError, MocapWarning
+from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.methods import motion_matching, parametric_graphs
+from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph
 from mocap.quality.seam_measures import Spread
+from mocap.steering.characters import Character
 
 FOLDER = Path(__file__).parent
 WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
@@ -53,9 +56,7 @@ def _marked(clip: mocap.Motion) -> mocap.Motion:
     return clip if clip.contacts else feet.mark_plants(clip)
 
 
-def strides(
-    clips: list[mocap.Motion], kinds: tuple[str, ...], limit: float
-) -> tuple[parametric_graphs.ParametricGraph, str]:
+def strides(clips: list[mocap.Motion], kinds: tuple[str, ...], limit: float) -> tuple[ParametricGraph, str]:
     """Build a parametric graph of strides, or of steps, with T_GOOD from 4 cm on, as large as it must be."""
     spaces = {}
     for kind in kinds:
@@ -73,9 +74,9 @@ def strides(
 
 def ways(
     name: str, clips: list[mocap.Motion]
-) -> tuple[dict[str, tuple[Callable[[], steering.Character], float]], dict[str, str]]:
+) -> tuple[dict[str, tuple[Callable[[], Character], float]], dict[str, str]]:
     """Prepare every way of control: how to make its character, what that took, s; and why some cannot be."""
-    made: dict[str, tuple[Callable[[], steering.Character], float]] = {}
+    made: dict[str, tuple[Callable[[], Character], float]] = {}
     refused: dict[str, str] = {}
 
     def add(
@@ -102,13 +103,13 @@ def ways(
     return made, refused
 
 
-def graph(clips: list[mocap.Motion], threshold: float) -> tuple[graphs.CompiledGraph, str]:
+def graph(clips: list[mocap.Motion], threshold: float) -> tuple[CompiledGraph, str]:
     """Build a motion graph."""
     found = graphs.prune(graphs.build(clips, window=10, threshold=threshold))
     return graphs.compile_graph(found), f", {100 * threshold:g} cm"
 
 
-def turned(compiled: graphs.CompiledGraph) -> steering.FootTurner:
+def turned(compiled: CompiledGraph) -> steering.FootTurner:
     """Make a character that turns about the foot that stands."""
     return steering.FootTurner(steering.Controller(compiled), np.radians(40))
 
@@ -167,7 +168,7 @@ def _table(name: str, clips: list[mocap.Motion], speed: float) -> list[str]:
     return [*rows, *reasons, "", *led]
 
 
-def lead(character: steering.Character, path: GroundPath, speed: float) -> tuple[Array, float]:
+def lead(character: Character, path: GroundPath, speed: float) -> tuple[Array, float]:
     """Lead a character along a path by commands: to a point that is carried ahead of it, by pure pursuit.
 
     Gives how far it is off in each frame (F,), metres, and how much of the path was walked, 1 for all.
@@ -191,7 +192,7 @@ def lead(character: steering.Character, path: GroundPath, speed: float) -> tuple
     return np.array(off), min(1.0, (now + 0.1) / path.length)
 
 
-def _judged(make: Callable[[], steering.Character], usual: Spread, speed: float) -> str:
+def _judged(make: Callable[[], Character], usual: Spread, speed: float) -> str:
     """Write the cells of a character: means of four runs, and of the times the least."""
     reports = [steering.judge_control(make, usual, speed=speed, seed=seed) for seed in SEEDS]
     delays = [report.delay for report in reports]

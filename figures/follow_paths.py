@@ -26,12 +26,11 @@ import mocap
 from mocap import datasets, graphs
 from mocap._shared.arrays import Array
 from mocap.body import SHAPES, GroundPath, circle, s_curve
-from mocap.graphs import CompiledGraph
+from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.plotting import ASKED, CURVES, PATH
 from mocap.quality import seam_quality, spread
 from mocap.steering import (
     Controller,
-    Followed,
     Settings,
     Wishes,
     follow_as_2002,
@@ -39,6 +38,7 @@ from mocap.steering import (
     measure_delay,
     walk_crowd,
 )
+from mocap.steering.followed import Followed
 from mocap.synthesis import Budget
 from mocap.synthesis.walk_to_motion import with_plants
 

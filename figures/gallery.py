@@ -56,6 +56,9 @@ from mocap.course.diagrams.eight_nodes import EIGHT_PLACES
 from mocap.course.seam_trials import choose_matches, passage, walk_costs
 from mocap.matching import lower_bound
 from mocap.methods import groups, match_webs, motion_matching, parametric_graphs
+from mocap.methods.match_webs.local_alignment import apart
+from mocap.methods.motion_matching.nearest_frames import foresee
+from mocap.methods.motion_matching.pose_database import PoseDatabase
 from mocap.plotting import ASKED, COLOURS, CURVES, MARK, SOURCES
 from mocap.plotting.picture import legible, letters_of
 
@@ -514,7 +517,7 @@ def draw_match_webs() -> Figure:
     slow, brisk = (resample(walks[n], 30)[:130] for n in (1, 8))
     grid = np.sqrt(matching.distance_grid(slow, brisk, window=5))
     costs = grid - 0.12 + np.where(match_webs.minima_1d(grid), 0, 0.06)
-    paths = match_webs.apart(match_webs.local_paths(costs, least=9), near=3)
+    paths = apart(match_webs.local_paths(costs, least=9), near=3)
     plotting.web_image(grid, paths=paths, ax=left)
     left.set(xlabel="brisk walk (s)", ylabel="slow walk (s)", title="paths of similar frames")
     web = match_webs.build_web(walks, below=0.08)
@@ -604,11 +607,11 @@ def draw_motion_matching() -> Figure:
     return figure
 
 
-def _draw_futures(ax: Axes, table: motion_matching.PoseDatabase, clip_of: Array) -> None:
+def _draw_futures(ax: Axes, table: PoseDatabase, clip_of: Array) -> None:
     """Draw the future asked for, a turn to the left, and those of the five frames that fit best."""
     now, future = 600, slice(15, 27)
     query = table.values[now].copy()
-    query[future] = motion_matching.foresee(table, now, 0.8 * np.exp(1j * np.pi / 3), 0.27)
+    query[future] = foresee(table, now, 0.8 * np.exp(1j * np.pi / 3), 0.27)
     costs = np.where(table.usable, ((table.values - query) ** 2).sum(axis=1), np.inf)
     rows = [(now, plotting.QUIET, "--")]
     costs[now - 5 : now + 6] = np.inf

@@ -15,8 +15,9 @@ from follow_paths import random_line
 import mocap
 from mocap import datasets, graphs
 from mocap.body import GroundPath
-from mocap.graphs import CompiledGraph
-from mocap.steering import Followed, Settings, Wishes, follow_as_2002, follow_path
+from mocap.graphs.compiled_graph import CompiledGraph
+from mocap.steering import Settings, Wishes, follow_as_2002, follow_path
+from mocap.steering.followed import Followed
 from mocap.synthesis import Budget
 
 LOOKS = [(10, 3), (20, 7), (30, 10), (45, 15), (60, 20), (90, 28)]

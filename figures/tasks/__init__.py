@@ -22,7 +22,8 @@ from typing import Any, NamedTuple
 
 from mocap._shared.arrays import Array
 from mocap.body import Motion
-from mocap.graphs import CompiledGraph, build, compile_graph, prune
+from mocap.graphs import build, compile_graph, prune
+from mocap.graphs.compiled_graph import CompiledGraph
 
 TASKS = tuple(sorted(path.stem for path in Path(__file__).parent.glob("[a-z]*.py")))
 

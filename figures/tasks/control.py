@@ -15,7 +15,9 @@ import numpy as np
 from mocap.body import Motion, on_ground, rotations
 from mocap.errors import MocapError
 from mocap.methods import motion_matching, parametric_graphs
-from mocap.steering import Character, Controller, command_headings, steer
+from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph
+from mocap.steering import Controller, command_headings, steer
+from mocap.steering.characters import Character
 from tasks import BANDAI, CMU_16, HOMEWORK, WALKS, Case, graph
 from tasks._measures import jolting, skate
 
@@ -53,7 +55,7 @@ def steered(make: Callable[[Case], Character]) -> Callable[[Case], Motion]:
 
 
 @cache
-def steps(clips: tuple[Motion, ...], limit: float) -> parametric_graphs.ParametricGraph:
+def steps(clips: tuple[Motion, ...], limit: float) -> ParametricGraph:
     """Build a parametric graph of steps."""
     return compare_control.strides(list(clips), ("lr", "rl"), limit)[0]
 

@@ -16,7 +16,8 @@ from asked_lines import random_line
 from mocap._shared.arrays import Array
 from mocap.body import GroundPath, Motion, PlanarTransform, on_ground
 from mocap.errors import MocapError
-from mocap.steering import Followed, Wishes, follow_as_2002, follow_path
+from mocap.steering import Wishes, follow_as_2002, follow_path
+from mocap.steering.followed import Followed
 from mocap.synthesis import Budget
 from tasks import BANDAI, CMU_16, HOMEWORK, WALKS, Case, graph
 from tasks._measures import skate

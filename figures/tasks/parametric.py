@@ -14,7 +14,8 @@ from mocap.body import Motion, heading, on_ground
 from mocap.errors import MocapError
 from mocap.matching import align, point_cloud
 from mocap.methods.match_webs import weights_for
-from mocap.methods.parametric_graphs import Examples, cut_strides, make_space
+from mocap.methods.parametric_graphs import cut_strides, make_space
+from mocap.methods.parametric_graphs.examples import Examples
 from tasks import CMU_16, HOMEWORK, WALKS, Case
 
 CLIPS = {

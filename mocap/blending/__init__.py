@@ -34,7 +34,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "matched_stretches": ["draw_stretches"],
         "timewarps": ["Curve", "fit_curve"],
         "contact_matches": ["match_contacts"],
-        "clocks": ["Registration", "clock_speed", "frame_times"],
+        "clocks": ["clock_speed", "frame_times"],
         "mixing": ["Course", "crossfade", "ground_course", "mix"],
         "registering": ["Warp", "register"],
     },

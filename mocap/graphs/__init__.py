@@ -34,7 +34,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "graph_summary": ["summary", "write_graphml"],
         "storage": ["find_clips", "load", "read", "save"],
         "edge_tables": ["frame_table"],
-        "compiled_graph": ["CompiledGraph", "compile_graph"],
+        "compiled_graph": ["compile_graph"],
         "homework_graph": [
             "Segment",
             "connect",

@@ -42,7 +42,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "path_objective": ["Settings", "Wishes"],
         "layered_search": ["States", "select"],
-        "followed": ["Followed"],
         "path_following": ["follow_as_2002", "follow_path"],
         "waypoints_and_crowds": ["Waypoint", "through_waypoints", "walk_crowd"],
         "in_betweens": ["in_between"],

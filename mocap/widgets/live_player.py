@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array, frozen
 from mocap._shared.easing import quintic_step
-from mocap.blending import Registration, mix
-from mocap.blending.clocks import checked
+from mocap.blending import mix
+from mocap.blending.clocks import Registration, checked
 from mocap.body.motion import Motion
 from mocap.errors import MocapWarning
 from mocap.steering.layered_search import States

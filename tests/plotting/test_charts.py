@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgba
 
-from mocap.methods.match_webs import Match
+from mocap.methods.match_webs.match_search import Match
 from mocap.plotting import joint_curve, match_tree, quartile_band, seen_beside_measured
 from mocap.plotting.charts import box_chart
 from mocap.plotting.style import ASTRAY, CURVES, QUIET, SOURCES

@@ -34,9 +34,9 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "local_alignment": ["apart", "local_paths", "minima_1d"],
+        "local_alignment": ["local_paths", "minima_1d"],
         "webs": ["build_web"],
-        "match_search": ["Match", "cut_out", "search"],
+        "match_search": ["cut_out", "search"],
         "measures": ["hand_target", "mean_speed", "turn"],
         "motion_spaces": ["MotionSpace", "blend_of", "random_weights", "sample_space"],
         "wishes": ["neighbour_weights", "weights_for"],

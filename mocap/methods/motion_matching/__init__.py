@@ -24,8 +24,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "springs": ["spring", "spring_way"],
-        "pose_database": ["GROUPS", "PoseDatabase", "WEIGHTS", "features", "standardise", "tabulate"],
-        "nearest_frames": ["Wants", "foresee"],
+        "pose_database": ["GROUPS", "WEIGHTS", "features", "standardise", "tabulate"],
+        "nearest_frames": ["Wants"],
         "matching_control": ["MotionMatcher"],
     },
 )

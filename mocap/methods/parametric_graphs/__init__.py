@@ -31,12 +31,12 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "examples": ["Examples", "cut_actions", "mixed_way"],
+        "examples": ["cut_actions", "mixed_way"],
         "strides": ["cut_strides"],
         "stride_spaces": ["bell_weights", "make_space", "measure_mixes"],
         "made_motions": ["optimal_transitions"],
         "parametric_edges": ["Sampling", "build_edge", "shrink_box", "smallest_good"],
-        "parametric_motion_graphs": ["ParametricGraph", "build_parametric"],
+        "parametric_motion_graphs": ["build_parametric"],
         "parametric_control": ["ParametricController"],
     },
 )

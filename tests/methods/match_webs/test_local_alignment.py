@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
 from mocap.matching import local_minima
-from mocap.methods.match_webs import apart, local_paths, minima_1d
+from mocap.methods.match_webs import local_paths, minima_1d
+from mocap.methods.match_webs.local_alignment import apart
 
 
 def path_sum(costs, path):
