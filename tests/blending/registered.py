@@ -129,9 +129,8 @@ def places_averaged(registration, weights):
         at = at_times(clip, registration.times[number](times))
         angle = float(registration.angles[number](times[0]))
         turn = np.exp(1j * angle)
-        move = registration.centre(registration.reference, times[0]) - turn * registration.centre(
-            number, times[0]
-        )
+        own = registration.centre(number, times[0])
+        move = registration.centre(registration.reference, times[0]) - turn * own
         at = PlanarTransform.from_complex(turn, move).apply_motion(at)
         roots = roots + weights[number] * at.root_positions
         turns.append(at.rotations)

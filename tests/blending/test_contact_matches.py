@@ -27,9 +27,8 @@ def matched(*clips, curves=None):
 
 
 def test_times_are_those_of_the_common_clock():
-    assert matched(standing((1.0, 2.0)), standing((2.2, 4.2)), curves=[SAME, TWICE]) == [
-        ([1.0, 1.1], [2.0, 2.1])
-    ]
+    found = matched(standing((1.0, 2.0)), standing((2.2, 4.2)), curves=[SAME, TWICE])
+    assert found == [([1.0, 1.1], [2.0, 2.1])]
 
 
 def test_a_plant_that_a_clip_lacks_is_dropped():

@@ -133,9 +133,8 @@ def test_the_offset_dies_away_by_the_quintic():
     # Six coefficients from six equations: place and speed at u = 0; at u = 1 all zero, up to the jerk.
     falling = [np.polynomial.Polynomial.basis(n) for n in range(6)]
     at = [[p.deriv(order)(1.0) for p in falling] for order in range(4)]
-    coefficients = np.linalg.solve(
-        np.array([np.eye(6)[0], np.eye(6)[1], *at]), [x, 16 * v, *np.zeros((4, 3))]
-    )
+    rows = np.array([np.eye(6)[0], np.eye(6)[1], *at])
+    coefficients = np.linalg.solve(rows, [x, 16 * v, *np.zeros((4, 3))])
     wanted = (np.arange(16)[:, None] / 16) ** np.arange(6) @ coefficients
     offset = inertialize(A, 60, B, 20, 16).root_positions[60:76] - laid.root_positions[20:36]
     assert offset == pytest.approx(wanted, abs=1e-9)

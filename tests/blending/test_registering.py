@@ -113,9 +113,8 @@ def test_angles_run_on_over_whole_turns():
 
 
 def test_clips_that_do_not_belong_together_are_told():
-    with pytest.warns(
-        MocapWarning, match=r"'walk' and 'walk' may not belong together: .* 4.\d cm/s.* 0.\d\.$"
-    ):
+    apart = r"'walk' and 'walk' may not belong together: .* 4.\d cm/s.* 0.\d\.$"
+    with pytest.warns(MocapWarning, match=apart):
         register([walks()[1.4, -120], walks()[1.4, 120]])
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -125,9 +124,8 @@ def test_clips_that_do_not_belong_together_are_told():
 def test_the_mean_distance_says_what_may_be_blended():
     walk, brisk, jog = walks()[0.8, 0], walks()[1.4, 0], sample("jog")[1200:1800]
     assert register([walk, brisk]).costs[1] < 0.08
-    with pytest.warns(
-        MocapWarning, match=r"'walk' and 'jog' may not be the same kind of motion: \d\d cm along"
-    ):
+    unlike = r"'walk' and 'jog' may not be the same kind of motion: \d\d cm along"
+    with pytest.warns(MocapWarning, match=unlike):
         costs = register([walk, jog]).costs
     assert costs[1] > 0.12
 

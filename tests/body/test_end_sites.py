@@ -30,11 +30,8 @@ def rigged(motion: Motion, **ends: list[float]) -> Motion:
 def laboratory() -> list[Motion]:
     """Three clips of one rig, whose files have three kinds of end sites."""
     clips = [wave(160, phase=n, name="abc"[n], seed=n) for n in range(3)]
-    return [
-        rigged(clips[0], hand_end=[0.1, 0, 0]),
-        rigged(clips[1], hand_end=[0.12, 0, 0], side_end=[0, 0.1, 0]),
-        clips[2],
-    ]
+    side = rigged(clips[1], hand_end=[0.12, 0, 0], side_end=[0, 0.1, 0])
+    return [rigged(clips[0], hand_end=[0.1, 0, 0]), side, clips[2]]
 
 
 def same_rig() -> list[Motion]:

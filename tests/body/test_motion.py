@@ -94,10 +94,8 @@ def test_resampling_a_smooth_motion_stays_on_it():
 
 def test_concatenation_keeps_frames_and_fills_missing_marks():
     skeleton = random_motion(0).skeleton
-    a, b = (
-        random_motion(1, 3, skeleton=skeleton),
-        replace(random_motion(2, 2, skeleton=skeleton), contacts={}),
-    )
+    a = random_motion(1, 3, skeleton=skeleton)
+    b = replace(random_motion(2, 2, skeleton=skeleton), contacts={})
     both = concatenate([a, replace(b, labels={"run": True})], "both")
     assert both.name == "both"
     assert np.array_equal(both.rotations, np.concatenate([a.rotations, b.rotations]))

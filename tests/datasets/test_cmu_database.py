@@ -155,9 +155,8 @@ def test_one_body_wears_the_clips_of_another_person(real_data, monkeypatch):
     assert worn.skeleton is own.skeleton
     assert (worn.name, len(worn), worn.fps) == ("02_01", 343, 120.0)
     feet = find_legs(worn.skeleton)
-    stands = [
-        joint_positions(worn)[worn.contacts[worn.skeleton.names[leg.ball]], leg.ball, 1] for leg in feet
-    ]
+    balls = [(worn.skeleton.names[leg.ball], leg.ball) for leg in feet]
+    stands = [joint_positions(worn)[worn.contacts[name], ball, 1] for name, ball in balls]
     assert [float(np.median(height)) for height in stands] == pytest.approx(
         [own.heights["left ball"], own.heights["right ball"]], abs=1e-6
     )

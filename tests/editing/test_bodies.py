@@ -68,9 +68,8 @@ def test_pins_farther_apart_than_the_bones_between_are_refused():
         if ok:
             require_reachable(clip, pins)
         else:
-            refused(
-                r"^Frame 24\d: 'rwrist' would be 5.* m from '\w+', the bones", require_reachable, clip, pins
-            )
+            far = r"^Frame 24\d: 'rwrist' would be 5.* m from '\w+', the bones"
+            refused(far, require_reachable, clip, pins)
     # A hand under a bar, feet on a floor: boxes count by their nearest corners.
     high = join_pins(
         pin(clip, wrist, [0], [-np.inf, 9, -np.inf], [np.inf] * 3),

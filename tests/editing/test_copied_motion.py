@@ -94,9 +94,8 @@ def test_names_labels_and_contacts_come_along():
 
 def test_a_root_above_the_pelvis_turns_with_the_heading_only():
     old = walk().skeleton
-    body = type(old)(
-        ["ground", *old.names], [-1, *(old.parents + 1)], np.r_[[[0.0, 0, 0], [0, 0.9, 0]], old.offsets[1:]]
-    )
+    offsets = np.r_[[[0.0, 0, 0], [0, 0.9, 0]], old.offsets[1:]]
+    body = type(old)(["ground", *old.names], [-1, *(old.parents + 1)], offsets)
     roots = walk().root_positions - [0, 0.9, 0]
     turns = np.concatenate([np.tile([1.0, 0, 0, 0], (len(walk()), 1, 1)), walk().rotations], axis=1)
     clip = Motion(body, roots, turns, walk().fps, contacts=walk().contacts)

@@ -76,9 +76,8 @@ def held_to_the_bars(clip, source, target, *, scale=None, smooth=1.05, deep=3.0)
     assert knees <= 3
     if scale is None:
         assert max(others) <= 7
-    bones = np.linalg.norm(
-        joint_positions(worn)[:, 1:] - joint_positions(worn)[:, worn.skeleton.parents[1:]], axis=-1
-    )
+    places = joint_positions(worn)
+    bones = np.linalg.norm(places[:, 1:] - places[:, worn.skeleton.parents[1:]], axis=-1)
     assert np.abs(bones - np.linalg.norm(worn.skeleton.offsets[1:], axis=-1)).max() <= 1e-12
     return worn
 

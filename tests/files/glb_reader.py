@@ -57,10 +57,8 @@ class Glb:
             times = self.arrays[sampler["input"]][:, 0]
             assert np.all(np.diff(times) > 0)
             assert {"min", "max"} <= set(self.document["accessors"][sampler["input"]])
-            found[channel["target"]["node"], channel["target"]["path"]] = (
-                times,
-                self.arrays[sampler["output"]],
-            )
+            of = channel["target"]
+            found[of["node"], of["path"]] = (times, self.arrays[sampler["output"]])
         return found
 
     def poses(self, seconds, rest=False):

@@ -25,20 +25,13 @@ def close(points, expected):
 def test_positions_worked_out_by_hand(write):
     motion = read_clip(write)
     assert (len(motion), motion.fps, motion.name) == (2, 120.0, "a")
-    rest = {
-        "root": [0, 5, 0],
-        "thigh": [0, 4, 0],
-        "thigh_end": [0, 2, 0],
-        "arm": [0, 5, 0],
-        "arm_end": [1, 5, 0],
-    }
+    ends = {"thigh": [0, 4, 0], "thigh_end": [0, 2, 0], "arm": [0, 5, 0], "arm_end": [1, 5, 0]}
+    rest = {"root": [0, 5, 0], **ends}
     assert close(where(motion, 0), rest)
     # The thigh's own x axis points along +y (its axis is z by 90°): 90° about y leaves -y as it is.
     # The arm: 90° about z takes +x to +y, where 90° about y does nothing. The root: 90° about y, moved by x.
-    assert close(
-        where(motion, 1),
-        {"root": [1, 5, 0], "thigh": [1, 4, 0], "thigh_end": [1, 2, 0], "arm_end": [1, 6, 0]},
-    )
+    ends = {"thigh": [1, 4, 0], "thigh_end": [1, 2, 0], "arm_end": [1, 6, 0]}
+    assert close(where(motion, 1), {"root": [1, 5, 0], **ends})
 
 
 @pytest.mark.parametrize(("order", "tip"), [("rz ry", [0, 1, 0]), ("ry rz", [-1, 0, 0])])
@@ -102,25 +95,22 @@ def test_the_same_motion_written_otherwise(write, change):
 
 
 def flipped(text):
-    return text.replace("root 0 5 0 0 0 0", "root 0 0 0 0 5 0").replace(
-        "root 1 5 0 0 90 0", "root 0 90 0 0 5 1"
-    )
+    text = text.replace("root 0 5 0 0 0 0", "root 0 0 0 0 5 0")
+    return text.replace("root 1 5 0 0 90 0", "root 0 90 0 0 5 1")
 
 
 def test_the_root_at_rest_offsets_the_motion(write):
     asf = ASF.replace("position 0 0 0", "position 0 0 2").replace("orientation 0 0 0", "orientation 90 0 0")
     points = where(read_clip(write, asf), 0)
-    assert close(
-        points, {"root": [0, 5, 2], "thigh": [0, 5, 1], "thigh_end": [0, 5, -1], "arm_end": [1, 5, 2]}
-    )
+    ends = {"thigh": [0, 5, 1], "thigh_end": [0, 5, -1], "arm_end": [1, 5, 2]}
+    assert close(points, {"root": [0, 5, 2], **ends})
 
 
 def test_bones_that_would_stretch_are_refused(write):
     asf = ASF.replace("dof rz ry", "dof rz l")
     assert len(read_clip(write, asf, AMC.replace("arm 90 90", "arm 90 0"))) == 2
-    with pytest.raises(
-        FormatError, match="0 for 'l' of 'arm', since bones keep their lengths, got 90 in frame 1"
-    ):
+    keeps = "0 for 'l' of 'arm', since bones keep their lengths, got 90 in frame 1"
+    with pytest.raises(FormatError, match=keeps):
         read_clip(write, asf)
 
 
@@ -204,9 +194,8 @@ def by_hand(asf, amc_text, frame):
             m = turns("".join(dof[1] for dof in bones[name].get("dof", [])), numbers.get(name, []))
             globals_[name] = globals_[parent] * c * m * c.inv()
             length = float(bones[name]["length"][0]) * unit
-            ends[name] = ends[parent] + globals_[name].apply(
-                np.array(bones[name]["direction"], float) * length
-            )
+            along = np.array(bones[name]["direction"], float) * length
+            ends[name] = ends[parent] + globals_[name].apply(along)
     return ends
 
 

@@ -98,9 +98,8 @@ def test_capsules_are_closed_and_face_outwards():
         # Closed: each side of a triangle, by place, is met once in each direction.
         places = {tuple(place): number for number, place in enumerate(np.round(shape.places, 9).tolist())}
         number = [places[tuple(place)] for place in np.round(shape.places, 9).tolist()]
-        edges = [
-            (number[a], number[b]) for t in shape.corners for a, b in zip(t, np.roll(t, -1), strict=True)
-        ]
+        pairs = (pair for t in shape.corners for pair in zip(t, np.roll(t, -1), strict=True))
+        edges = [(number[a], number[b]) for a, b in pairs]
         assert len(set(edges)) == len(edges)
         assert {(b, a) for a, b in edges} == set(edges)
 

@@ -44,9 +44,8 @@ def test_curves_are_the_curves_they_are(tmp_path):
     assert quadratic[-1] == pytest.approx([-6, -6])
     closed = load_path(svg(tmp_path, '<polygon points="0 0 100 0 100 100"/>'))
     assert closed.points[-1] == pytest.approx(closed.points[0])
-    assert load_path(svg(tmp_path, '<path d="M0 0 L 100 0 L 100 100 z"/>')).length == pytest.approx(
-        closed.length
-    )
+    path = svg(tmp_path, '<path d="M0 0 L 100 0 L 100 100 z"/>')
+    assert load_path(path).length == pytest.approx(closed.length)
 
 
 @pytest.mark.parametrize("sweep", [0, 1])

@@ -56,9 +56,8 @@ def test_hops_are_all_ways_on_from_a_node():
     least = np.ceil(GRAPH.fps / 6)
 
     def ways(node, ridden=0, taken=()):
-        found = [
-            (*taken, e) for e in source.out_edges(node, keys=True) if source.edges[e]["kind"] == "transition"
-        ]
+        leaving = source.out_edges(node, keys=True)
+        found = [(*taken, e) for e in leaving if source.edges[e]["kind"] == "transition"]
         for edge in source.out_edges(node, keys=True):
             if source.edges[edge]["kind"] == "clip":
                 frames, longer = ridden + source.edges[edge]["frames"], (*taken, edge)

@@ -80,9 +80,8 @@ def test_brute_force_keeps_the_same(rows, by_labels):
     kept = set().union(*found.components.values())
     assert set(found.graph) == kept
     assert set(found.orphans) == set(graph) - kept
-    assert sorted(found.graph.edges(keys=True)) == sorted(
-        e for e in graph.edges(keys=True) if {*e[:2]} <= kept
-    )
+    within = sorted(e for e in graph.edges(keys=True) if {*e[:2]} <= kept)
+    assert sorted(found.graph.edges(keys=True)) == within
     assert {*found.removed} == {*graph.edges(keys=True)} - {*found.graph.edges(keys=True)}
     assert list(found.graph) == [node for node in graph if node in kept]
     assert all(degree > 0 for _, degree in found.graph.out_degree())

@@ -87,9 +87,8 @@ def test_clips_that_changed_are_named(saved):
         replace(a, skeleton=longer),
         replace(a[:89]),
     ):
-        with pytest.raises(
-            MocapError, match=r"built of another 'a': (90 frames then, 89 now|other poses, bones or units)"
-        ):
+        other = r"built of another 'a': (90 frames then, 89 now|other poses, bones or units)"
+        with pytest.raises(MocapError, match=other):
             storage.load(saved, [other, b])
     refused("needs the clip 'b ü'; given are: a", storage.load, saved, [a])
     same = replace(a, contacts={}, name="a")

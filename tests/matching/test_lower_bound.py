@@ -71,9 +71,8 @@ def test_a_margin_of_nothing_would_lose_pairs_in_32_bits():
     """The measured distance of two windows can be less than the bound: this is what `reach` is for."""
     random = np.random.default_rng(5)
     clip = random.normal(size=(30, 8, 3)) * [0, 1, 0] + [0, 5, 0]  # only heights differ, so bound = distance
-    ready, weights = prepared(
-        np.concatenate([clip, clip + 1e-3 * random.normal(size=clip.shape)]), 1, np.float32
-    )
+    twice = np.concatenate([clip, clip + 1e-3 * random.normal(size=clip.shape)])
+    ready, weights = prepared(twice, 1, np.float32)
     starts = whole_windows(ready)
     numbers = window_numbers(ready, starts, weights)
     least = apart(projections(ready, starts, weights, principal_directions(numbers)))

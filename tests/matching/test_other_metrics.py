@@ -32,9 +32,8 @@ def body_motion(seed, frames=6):
             limit = [180, 90, 180] if len(dofs) == 3 else [90, 90] if len(dofs) == 2 else [180]
             angles[joint] = random.uniform(-1, 1, (frames, len(dofs))) * limit
             own = euler.from_euler(dofs, np.radians(angles[joint]))
-            turns[:, joint] = rotations.multiply(
-                rotations.multiply(axes[joint], own), rotations.inverse(axes[joint])
-            )
+            turned = rotations.multiply(axes[joint], own)
+            turns[:, joint] = rotations.multiply(turned, rotations.inverse(axes[joint]))
     return Motion(skeleton, random.normal(size=(frames, 3)), turns, 30.0, f"body{seed}"), angles
 
 

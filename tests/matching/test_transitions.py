@@ -101,9 +101,8 @@ def test_transitions_are_a_sequence_of_records():
 
 def test_few_frames_are_compared_in_64_bits_and_many_in_32(monkeypatch):
     used = []
-    monkeypatch.setattr(
-        transitions, "join_clouds", lambda *given: used.append(given[-1]) or join_clouds(*given)
-    )
+    joined = lambda *given: used.append(given[-1]) or join_clouds(*given)  # noqa: E731
+    monkeypatch.setattr(transitions, "join_clouds", joined)
     for few in (120, 119):  # the clips have 120
         monkeypatch.setattr(transitions, "FEW", few)
         find_transitions(CLIPS, window=8, below=0.1)
@@ -143,9 +142,8 @@ def test_a_threshold_for_every_pair_of_labels():
 def test_a_cost_is_below_its_threshold():
     dot = Skeleton(["root"], [-1], [[0, 0, 0]])
     heights = np.array([1.0, 2.0, 3.0, 1.5])  # the last one is 0.5 m above the first
-    clip = Motion(
-        dot, heights[:, None] * [0, 1, 0], np.tile([1.0, 0, 0, 0], (4, 1, 1)), 30.0, "a", {"up": True}
-    )
+    still = np.tile([1.0, 0, 0, 0], (4, 1, 1))
+    clip = Motion(dot, heights[:, None] * [0, 1, 0], still, 30.0, "a", {"up": True})
     for below, count in ((0.5, 0), (0.5 + 1e-9, 2)):
         assert len(find_transitions([clip], window=1, below=below)) == count
         other = replace(clip, labels={"on": True}, name="b")
@@ -176,8 +174,7 @@ def test_a_cluster_gives_the_same_and_survives_the_loss_of_a_worker(monkeypatch)
                     os.kill(pids[0], signal.SIGKILL)
                 yield pair
 
-        found = find_transitions(
-            CLIPS, window=8, below=0.1, progress=killing, executor=client.get_executor(retries=3)
-        )
+        executor = client.get_executor(retries=3)
+        found = find_transitions(CLIPS, window=8, below=0.1, progress=killing, executor=executor)
         assert same(found, expected)
         assert pids[0] not in client.run(os.getpid).values()

@@ -23,9 +23,8 @@ def turned(joint, angles, axis):
     """Turn one joint of the walk by angles (F,), degrees, about an axis."""
     local = WALK.rotations.copy()
     place = WALK.skeleton.index(joint)
-    local[:, place] = rotations.multiply(
-        local[:, place], rotations.from_rotvec(np.outer(np.radians(angles), axis))
-    )
+    turn = rotations.from_rotvec(np.outer(np.radians(angles), axis))
+    local[:, place] = rotations.multiply(local[:, place], turn)
     return replace(WALK, rotations=local)
 
 

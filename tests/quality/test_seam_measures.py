@@ -21,9 +21,8 @@ USUAL = spread([WALK])
 
 def glide(path: np.ndarray, fps: float = 30.0) -> Motion:
     dot = Skeleton(["root"], [-1], [[0, 0, 0]])
-    return Motion(
-        dot, path[:, None] * [1.0, 0, 0] + [0, 1, 0], np.tile([1.0, 0, 0, 0], (len(path), 1, 1)), fps
-    )
+    still = np.tile([1.0, 0, 0, 0], (len(path), 1, 1))
+    return Motion(dot, path[:, None] * [1.0, 0, 0] + [0, 1, 0], still, fps)
 
 
 def test_jumps_are_those_of_curves_known_in_closed_form():

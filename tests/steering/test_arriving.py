@@ -110,13 +110,8 @@ def test_what_no_walk_gives_is_bent_and_still_met():
         found = quietly(graph, start, end, seconds)
         require_met(found, seconds)
         require_walk(graph.source, found.walk)
-        for words in (
-            f"{found.seams} seams",
-            "° per second",
-            "times as long",
-            "times as fast",
-            "plants kept",
-        ):
+        says = ["° per second", "times as long", "times as fast", "plants kept"]
+        for words in (f"{found.seams} seams", *says):
             assert words in found.report()
 
 
@@ -230,10 +225,8 @@ def tiny():
     """Make a graph so small that all its walks can be listed."""
     clip = resample(samples.sample("walk_circle"), 30)[:200]
     moves = [(40, 90), (60, 150), (100, 30), (120, 60), (140, 110)]
-    found = [
-        Transition(0, i, 0, j - 10, 0.02, PlanarTransform(0.2 * n, 0.1 * n, 0.3))
-        for n, (i, j) in enumerate(moves)
-    ]
+    ways = [PlanarTransform(0.2 * n, 0.1 * n, 0.3) for n in range(len(moves))]
+    found = [Transition(0, i, 0, j - 10, 0.02, way) for (i, j), way in zip(moves, ways, strict=True)]
     return compile_graph(from_transitions([clip], found, window=10))
 
 
@@ -273,9 +266,8 @@ def test_the_search_finds_an_end_for_every_first_half_that_a_full_search_finds(m
     lengths = {tuple(edges): n for edges, n in every_walk(frames) if 1 / most <= n / frames <= most}
     walks = [tuple(joined.edges.tolist()) for joined in found]
     assert [joined.frames for joined in found] == [lengths[walk] for walk in walks]
-    assert {first_half(graph, walk, frames) for walk in walks} == {
-        first_half(graph, walk, frames) for walk in lengths
-    }
+    found, every = ({first_half(graph, walk, frames) for walk in some} for some in (walks, lengths))
+    assert found == every
     for walk in walks:
         require_walk(graph.source, [graph.edges[edge] for edge in walk])
 

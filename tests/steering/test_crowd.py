@@ -60,8 +60,7 @@ def test_what_falls_short_is_told():
 def test_who_is_far_apart_walks_as_if_alone():
     paths = [CROSSING[0], GroundPath([[9, 0], [9, 6]])]
     crowd = walk_crowd(GRAPH, paths)
-    assert [w.walk for w in crowd.walks] == [
-        follow_path(GRAPH, path, settings=Settings(width=100)).walk for path in paths
-    ]
+    alone = [follow_path(GRAPH, path, settings=Settings(width=100)).walk for path in paths]
+    assert [w.walk for w in crowd.walks] == alone
     assert crowd.waits == [0.0, 0.0]
     assert walk_crowd(GRAPH, paths[:1]).nearest.tolist() == [[np.inf]]

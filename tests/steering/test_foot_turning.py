@@ -146,9 +146,8 @@ def test_a_controller_knows_where_its_feet_are():
     controller, off = Controller(BUNDLED), []
     for frame in range(120):
         pose = controller.step(0.02 * frame, 1.1)
-        one = mocap.Motion(
-            controller.skeleton, pose.root_position[None], pose.rotations[None], controller.fps
-        )
+        skeleton, roots = controller.skeleton, pose.root_position[None]
+        one = mocap.Motion(skeleton, roots, pose.rotations[None], controller.fps)
         off.append(np.abs(controller.feet() - feet_of(one)[0]).max())
         if not pose.blending:
             assert off[-1] < 1e-9

@@ -33,9 +33,8 @@ def test_along_a_clip_it_is_the_clips_own_path():
     first, last = GRAPH.edges[edges[0]][0][1], GRAPH.edges[edges[-1]][1][1]
     rows = rows_of(edges)
     assert len(rows) == last - first
-    assert OWN.step[rows].sum() == pytest.approx(
-        ride.along[last - 1] - ride.along[max(first - 1, 0)], abs=1e-9
-    )
+    far = ride.along[last - 1] - ride.along[max(first - 1, 0)]
+    assert OWN.step[rows].sum() == pytest.approx(far, abs=1e-9)
     assert OWN.turn[rows].sum() == pytest.approx(heads[last - 1] - heads[max(first - 1, 0)], abs=1e-9)
     joined = own_ride(GRAPH, OWN, edges)
     assert joined.path.points == pytest.approx(ride.path.points[first:last], abs=1e-9)

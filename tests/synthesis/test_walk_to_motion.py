@@ -80,11 +80,8 @@ def test_a_transition_blends_the_two_windows_and_leads_on_from_the_second(leave,
 
 def test_bad_walks_are_refused():
     first, second = random_walk(GRAPH, seconds=4)[:2]
-    for walk, message in (
-        ([], "no edges"),
-        ([((7, 7), (8, 8), 0)], "no edge"),
-        ([second, first], "jumps from node"),
-    ):
+    wrong = (([], "no edges"), ([((7, 7), (8, 8), 0)], "no edge"), ([second, first], "jumps from node"))
+    for walk, message in wrong:
         refused(message, to_motion, GRAPH, walk, kind=NoWalk)
     for node, words in (((7, 7), "none in that clip"), ((0, 999), r"node \(0, 999\); the nearest is \(0, ")):
         refused(words, random_walk, GRAPH, seconds=1, start=node, kind=NoWalk)
@@ -132,10 +129,8 @@ def test_ten_thousand_edges_do_not_drift():
         for edge in walk:
             step = GRAPH.graph.edges[edge].get("transform", IDENTITY)
             cos, sin = (Decimal(f(float(angle))) for f in (np.cos, np.sin))
-            x, z = (
-                x + Decimal(step.x) * cos + Decimal(step.z) * sin,
-                z + Decimal(step.z) * cos - Decimal(step.x) * sin,
-            )
+            over, on = Decimal(step.x), Decimal(step.z)
+            x, z = x + over * cos + on * sin, z + on * cos - over * sin
             angle += Decimal(step.angle)
     assert place.angle[-1] == pytest.approx(float(angle), abs=1e-9)
     assert [place.x[-1], place.z[-1]] == pytest.approx([float(x), float(z)], abs=1e-7)

@@ -47,9 +47,8 @@ def test_without_velocities_groups_that_move_otherwise_are_alike():
 def test_a_group_turned_moved_and_renumbered_is_the_same_and_its_mirror_image_is_not():
     group = Configuration(flock().places[500], flock().velocities[500])
     shuffled = np.random.default_rng(0).permutation(12)
-    other = Configuration(
-        (group.places * np.exp(2j) + 3 - 4j)[shuffled], (group.velocities * np.exp(2j))[shuffled]
-    )
+    places, velocities = group.places * np.exp(2j) + 3 - 4j, group.velocities * np.exp(2j)
+    other = Configuration(places[shuffled], velocities[shuffled])
     match = compare(group, other)
     assert match.rms < 1e-9
     np.testing.assert_array_equal(shuffled[match.order], np.arange(12))
@@ -64,9 +63,8 @@ def test_the_match_says_how_to_lay_the_second_on_the_first():
     for row in range(5):
         there = match.turn[row] * second.places[row][match.order[row]] + match.move[row]
         going = match.turn[row] * second.velocities[row][match.order[row]]
-        square = (
-            np.abs(first.places[row] - there) ** 2 + SECONDS**2 * np.abs(first.velocities[row] - going) ** 2
-        )
+        change = SECONDS * np.abs(first.velocities[row] - going)
+        square = np.abs(first.places[row] - there) ** 2 + change**2
         assert np.sqrt(square.mean()) == pytest.approx(match.rms[row])
 
 

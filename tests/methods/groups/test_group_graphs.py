@@ -75,8 +75,7 @@ def test_pairs_without_a_clip_are_warned_of():
 
 
 def test_a_seed_gives_the_same_graph():
-    one, again = (
-        build_group(4, nodes=2, corridors=[1.5], simulated=40.0, reach=0.8, seed=5) for _ in range(2)
-    )
+    few = {"nodes": 2, "corridors": [1.5], "simulated": 40.0, "reach": 0.8, "seed": 5}
+    one, again = (build_group(4, **few) for _ in range(2))
     np.testing.assert_array_equal(one.clips[0].places, again.clips[0].places)
     assert one.members == 4 and len(flock(4).places) == 1200

@@ -14,8 +14,6 @@ TRIALS = (*range(11, 35), 47, 58)  # the walks among subject 16's trials
 def captured(data: Path, name: str) -> tuple[Motion, ...]:
     """Load a set of clips at 30 Hz."""
     folder = data / "cmu" / "16"
-    files = {
-        HOMEWORK: sorted((data / "hw3").glob("*.AMC")),
-        WALKER: [folder / f"16_{number:02}.amc" for number in TRIALS],
-    }
+    own = [folder / f"16_{number:02}.amc" for number in TRIALS]
+    files = {HOMEWORK: sorted((data / "hw3").glob("*.AMC")), WALKER: own}
     return tuple(resample(load(file), 30) for file in files[name])

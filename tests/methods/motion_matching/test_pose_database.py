@@ -39,9 +39,8 @@ def test_rows_are_the_frames_of_the_clips_and_the_last_second_of_each_is_left_ou
     np.testing.assert_array_equal(table.turns[start], table.clips[1].rotations[7])
     assert table.last[start] == lengths[0] + lengths[1] - 1
     assert (np.flatnonzero(~table.usable)[:30] == np.arange(lengths[0] - 30, lengths[0])).all()
-    np.testing.assert_allclose(
-        table.values[start], (features(table.clips[1])[7] - table.mean) / table.scale, atol=1e-12
-    )
+    own = (features(table.clips[1])[7] - table.mean) / table.scale
+    np.testing.assert_allclose(table.values[start], own, atol=1e-12)
 
 
 def test_marks_that_a_clip_lacks_are_off_there():

@@ -198,11 +198,8 @@ def act(graph, node, count, seed=1):
 
     Places lie in the box, seen from where the body stands when what plays is over.
     """
-    random, character, space = (
-        np.random.default_rng(seed),
-        ParametricController(graph, start="walk"),
-        graph.space(node),
-    )
+    random, space = np.random.default_rng(seed), graph.space(node)
+    character = ParametricController(graph, start="walk")
     rows = random_weights(space.values[: len(space.examples)], 200, spread=0, seed=seed)
     reached = np.array([HAND(space.examples.blend(row)) for row in rows])
     poses, found, heading = [], [], 0.0

@@ -36,10 +36,8 @@ class Walks(NamedTuple):
 
     @property
     def edges(self):
-        return [
-            (self.graph.space(a), self.graph.space(b), self.graph.edge(a, b))
-            for a, b in self.graph.graph.edges
-        ]
+        space, edges = self.graph.space, self.graph.graph.edges
+        return [(space(a), space(b), self.graph.edge(a, b)) for a, b in edges]
 
 
 def walks(spaces, kinds, good):

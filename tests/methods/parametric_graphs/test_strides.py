@@ -22,9 +22,8 @@ def test_phases_0_and_1_are_strikes_of_one_foot():
     zero, one = cut.ends
     assert cut.grid[zero] == pytest.approx(0) and cut.grid[one] == pytest.approx(1)
     assert np.abs(cut.seconds[:, zero]).max() == 0
-    assert cut.grid[0] == pytest.approx(-MARGIN, abs=0.02) and cut.grid[-1] == pytest.approx(
-        1 + MARGIN, abs=0.02
-    )
+    ends = [-MARGIN, 1 + MARGIN]
+    assert cut.grid[[0, -1]] == pytest.approx(ends, abs=0.02)
     left = cut.contact_names.index("lfoot")
     assert not cut.contacts[:, zero - 3, left].any()  # in the air before it strikes
     assert cut.contacts[:, zero + 3, left].all() and cut.contacts[:, one + 3, left].all()
@@ -85,9 +84,8 @@ def test_by_curves_examples_are_more_alike_at_one_phase_than_by_strikes():
         some = np.arange(*cut.ends, 6)
         roots = np.zeros((len(calm) * len(some), 3))
         poses = cut.poses[calm][:, some].reshape(len(roots), -1, 4)
-        points = joint_positions(Motion(cut.skeleton, roots, poses, cut.fps)).reshape(
-            len(calm), len(some), -1
-        )
+        moved = joint_positions(Motion(cut.skeleton, roots, poses, cut.fps))
+        points = moved.reshape(len(calm), len(some), -1)
         apart = np.sqrt(((points[:, None] - points[None]) ** 2).sum(-1) / len(cut.skeleton))
         gaps.append(apart[np.triu_indices(len(calm), 1)].mean())
     assert gaps[1] < gaps[0] < 0.06  # 4.6 and 5.1 cm
