@@ -162,10 +162,8 @@ def _register_pair(ours: Array, theirs: Array, rate: float, warp: Warp, slack: i
     fewer = (fit_curve(u, own, spacing=wider * warp.spacing, **bounds) for wider in wide)
     times = next((curve for curve in fewer if _mean_along(grid, curve, rate, half) <= enough), times)
     frames = np.arange(warp.window)
-    a, b = (
-        points[cells[:, None] + frames].reshape(len(path), -1, 3)
-        for points, cells in zip((ours, theirs), path.T, strict=True)
-    )
+    clouds = zip((ours, theirs), path.T, strict=True)
+    a, b = (points[cells[:, None] + frames].reshape(len(path), -1, 3) for points, cells in clouds)
     # The angle that lays each window on its partner, without jumps of whole turns.
     angles = fit_curve(u, np.unwrap(np.asarray(align(a, b).angle)), spacing=warp.spacing)
     # Clips cut alike go on to their ends: the last half window, and the frames that the rate left out.

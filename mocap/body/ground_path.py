@@ -205,11 +205,6 @@ def letter_s(radius: float = 1.5) -> GroundPath:
     return arcs((0, 0), 0.0, [(1.25 * np.pi * radius, 1.25 * np.pi), (1.25 * np.pi * radius, -1.25 * np.pi)])
 
 
-SHAPES = {
-    "S-curve": s_curve,
-    "circle": circle,
-    "square": rounded_square,
-    "figure of eight": figure_eight,
-    "letter S": letter_s,
-}
+SHAPES = {"S-curve": s_curve, "circle": circle, "square": rounded_square}
+SHAPES |= {"figure of eight": figure_eight, "letter S": letter_s}
 """The shapes by name; each can be called without arguments."""

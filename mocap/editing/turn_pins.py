@@ -80,10 +80,8 @@ def limit_turns(motion: Motion, joints: Sequence[str], *, more: float = 10.0) ->
     for joint in (motion.skeleton.index(name) for name in joints):
         mean = rotations.mean(motion.rotations[:, joint])
         away = rotations.to_rotvec(rotations.multiply(rotations.inverse(mean), motion.rotations[:, joint]))
-        reference, low, high = (
-            np.tile(values, (len(motion), 1))
-            for values in (mean, away.min(axis=0) - np.radians(more), away.max(axis=0) + np.radians(more))
-        )
+        bounds = (mean, away.min(axis=0) - np.radians(more), away.max(axis=0) + np.radians(more))
+        reference, low, high = (np.tile(values, (len(motion), 1)) for values in bounds)
         turns.append(Turn(joint, reference, low, high, world=False))
     nowhere = np.zeros((len(motion), 0, 3))
     return Pins((), nowhere, nowhere, tuple(turns))

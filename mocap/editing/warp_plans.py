@@ -155,11 +155,8 @@ def warp(motion: Motion, plan: WarpPlan, *, window: float = HALF_SECOND, feet: b
             keys.append(Key(frame, pose, any(wish.level for wish in wishes)))
         motion = _through(motion, keys, window)
         if feet:
-            asked = [
-                pin(motion, joint, [frame], place)
-                for frame, places in wanted.items()
-                for joint, place in places.items()
-            ]
+            places = ((joint, frame, to) for frame, own in wanted.items() for joint, to in own.items())
+            asked = [pin(motion, joint, [frame], place) for joint, frame, place in places]
             motion = edit(motion, join_pins(plant_pins(motion), *asked))
     if plan.times:
         motion = retime(motion, [(new, min(old, last)) for _, new, old in plan.times])

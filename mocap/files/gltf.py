@@ -141,11 +141,8 @@ def _skin(skeleton: Skeleton, block: Block) -> Record:
     """Bind the body where the joints are at rest: each matrix moves a joint back to the origin."""
     matrices = np.tile(np.eye(4, dtype=np.float32), (len(skeleton), 1, 1))
     matrices[:, 3, :3] = -skeleton.rest  # by columns
-    return {
-        "inverseBindMatrices": block.add(matrices.reshape(-1, 16)),
-        "joints": list(range(len(skeleton))),
-        "skeleton": 0,
-    }
+    bind, joints = block.add(matrices.reshape(-1, 16)), list(range(len(skeleton)))
+    return {"inverseBindMatrices": bind, "joints": joints, "skeleton": 0}
 
 
 def _mesh(skeleton: Skeleton, block: Block) -> Record:

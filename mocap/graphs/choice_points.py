@@ -54,23 +54,18 @@ def merge_choice_points(motion_graph: MotionGraph, *, within: int, threshold: fl
     if not threshold > 0:
         raise MocapError(f"The threshold must be above 0 m, got {threshold} m.")
     clips, window = motion_graph.clips, motion_graph.window
-    edges = motion_graph.graph.edges(data=True)
-    ways = {
-        (a, b): Transition(a[0], a[1], b[0], b[1] - window, edge["cost"], edge["transform"])
-        for a, b, edge in edges
-        if edge["kind"] == "transition"
-    }
+    ways: dict[Ends, Transition] = {}
+    for a, b, edge in motion_graph.graph.edges(data=True):
+        if edge["kind"] == "transition":
+            ways[a, b] = Transition(a[0], a[1], b[0], b[1] - window, edge["cost"], edge["transform"])
     goals = _goals(list(ways), within)
     old, measured = list(ways), dict(ways)
     while True:  # each round sends at least one point back, or is the last
         new = [(goals[a], goals[b]) for a, b in old]
         fresh = [ends for ends in dict.fromkeys(new) if ends not in measured and _fits(clips, window, *ends)]
         measured.update(_measured(clips, window, fresh))
-        bad = [
-            ends
-            for ends, moved in zip(old, new, strict=True)
-            if moved != ends and (moved not in measured or measured[moved].cost >= threshold)
-        ]
+        fine = {ends for ends, way in measured.items() if way.cost < threshold}
+        bad = [a for a, b in zip(old, new, strict=True) if a != b and b not in fine]
         if not bad:
             return from_transitions(clips, [measured[ends] for ends in dict.fromkeys(new)], window=window)
         for back in {max(ends, key=lambda node: abs(node[1] - goals[node][1])) for ends in bad}:

@@ -202,11 +202,8 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
     for message in _shortcomings(frames, least_frames, pruned, components):
         warn(message, 4)  # points at the caller of `graphs.prune`
     reasons = _reasons(graph, ways, kept)
-    removed = {
-        (start, end, key): reasons[start if end in kept else end]
-        for start, end, key in graph.edges(keys=True)
-        if start in reasons or end in reasons
-    }
+    ends = ((edge, edge[0] if edge[1] in kept else edge[1]) for edge in graph.edges(keys=True))
+    removed = {edge: reasons[end] for edge, end in ends if end in reasons}
     return Pruning(pruned, components, removed, tuple(reasons))
 
 

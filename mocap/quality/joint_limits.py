@@ -91,10 +91,8 @@ def joint_bends(motion: Motion, legs: Sequence[Leg] = ()) -> list[Bend]:
 
 def _against_trunk(places: Array, skeleton: Skeleton, legs: Sequence[Leg], left: Array) -> Iterator[Bend]:
     """Measure hips and neck against the line from the middle of the hips to the neck."""
-    neck, head = (
-        next((j for j, name in enumerate(skeleton.names) if part in name.lower() and j), None)
-        for part in (NECK, HEAD)
-    )
+    names = [(j, name.lower()) for j, name in enumerate(skeleton.names) if j]
+    neck, head = (next((j for j, name in names if part in name), None) for part in (NECK, HEAD))
     if len(legs) != 2 or neck is None:
         return
     trunk = places[:, neck] - (places[:, legs[0].hip] + places[:, legs[1].hip]) / 2

@@ -29,13 +29,7 @@ GROUPS = {
     "directions ahead": slice(21, 27),
 }
 FUTURE = slice(15, 27)  # places and directions ahead
-WEIGHTS = {  # [Hol20]
-    "feet": 0.75,
-    "foot velocities": 1.0,
-    "hip velocity": 1.0,
-    "places ahead": 1.0,
-    "directions ahead": 1.5,
-}
+WEIGHTS = dict(zip(GROUPS, (0.75, 1.0, 1.0, 1.0, 1.5), strict=True))  # [Hol20]
 END = 1.0  # seconds before a clip's end from which no frame is found: its future is not known
 
 

@@ -138,10 +138,10 @@ class ParametricController:
 
     def _play(self, before: list[Motion], blended: int, first: int) -> None:
         """Put the frames of the motion from `first` to its decision behind others, whose last are blended."""
-        self.way: dict[str, Way] = {
-            node: self.graph.edge(self.node, node).look_up(self.parameters)
-            for node in self.graph.graph.successors(self.node)
-        }
+        edges = (
+            (after, self.graph.edge(self.node, after)) for after in self.graph.graph.successors(self.node)
+        )
+        self.way: dict[str, Way] = {after: edge.look_up(self.parameters) for after, edge in edges}
         soonest = min(self.made.frame(way.leave) for way in self.way.values()) - HALF
         self._next, self._at = 0, max(soonest, first)
         start = sum(map(len, before)) - blended
