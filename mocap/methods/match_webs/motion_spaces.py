@@ -208,19 +208,12 @@ def blend_of(registration: Registration, weights: ArrayLike, *, fps: float | Non
 
 def _mixed(registration: Registration, weights: Array, fps: float | None, rounds: int) -> Motion:
     some = np.flatnonzero(np.abs(weights) > 1e-9)
-    few = replace(
-        registration,
-        clips=tuple(registration.clips[n] for n in some),
-        reference=int(np.abs(weights[some]).argmax()),
-        times=tuple(registration.times[n] for n in some),
-        angles=tuple(registration.angles[n] for n in some),
-        centres=tuple(registration.centres[n] for n in some),
-        costs=registration.costs[some],
-        contacts=tuple(
-            match._replace(starts=match.starts[some], stops=match.stops[some])
-            for match in registration.contacts
-        ),
-    )
+    of_clips = ("clips", "times", "angles", "centres")
+    parts = {part: tuple(getattr(registration, part)[n] for n in some) for part in of_clips}
+    shared = registration.contacts
+    parts["contacts"] = tuple(m._replace(starts=m.starts[some], stops=m.stops[some]) for m in shared)
+    reference = int(np.abs(weights[some]).argmax())
+    few = replace(registration, reference=reference, costs=registration.costs[some], **parts)
     return mix(few, weights[some] / weights[some].sum(), fps=fps, rounds=rounds)
 
 
