@@ -11,7 +11,7 @@ from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.bodies import Body, body_of, require_reachable
 from mocap.editing.pins import Pins, join_pins, pin, pin_errors, plant_pins
-from mocap.editing.solver import CLOSE, solve, solve_quietly, warn_of_gaps
+from mocap.editing.solver import CLOSE, solve, warn_of_gaps
 from mocap.editing.steps import Basis
 from mocap.errors import MocapError
 
@@ -73,7 +73,7 @@ def edit(motion: Motion, pins: Pins, *, body: Body | None = None) -> Motion:
         return motion
     pins = join_pins(plants := plant_pins(motion), pins)
     body = body or body_of(motion, pins, prices=stiff(motion.skeleton, *EDITED))
-    return let_go(solve_quietly(motion, pins, EDIT, body).motion, pins, plants)
+    return let_go(solve(motion, pins, EDIT, body, quiet=True).motion, pins, plants)
 
 
 def let_go(motion: Motion, pins: Pins, plants: Pins) -> Motion:

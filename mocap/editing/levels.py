@@ -19,7 +19,7 @@ from mocap.body.motion import Motion
 from mocap.editing.bodies import Body
 from mocap.editing.displacements import displaced, spline_basis
 from mocap.editing.pins import Pins, pin_errors
-from mocap.editing.solver import REACH, solve_quietly
+from mocap.editing.solver import REACH, solve
 from mocap.errors import MocapError
 
 # Few passes of inverse kinematics at each level: what is left the next level asks again.
@@ -125,7 +125,7 @@ def hierarchy(
             break
         asked = np.asarray(pins.held.any(axis=-1) | (errors > 0))  # (F, P)
         frames = np.asarray(asked.any(axis=1))
-        _, _, change, body = solve_quietly(motion, pins.only(frames), [ASK], body)
+        _, _, change, body = solve(motion, pins.only(frames), [ASK], body, quiet=True)
         # The root's place listens to all frames, a joint's turns to those in which a joint below is pinned.
         below = [np.isin(body.joints, base.skeleton.path_to_root(joint)[1:]) for joint in pins.joints]
         who = np.hstack([np.repeat(frames[:, None], 3, axis=1), asked @ np.array(below)])  # (F, n)

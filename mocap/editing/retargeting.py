@@ -17,7 +17,7 @@ from mocap.editing.body_roles import FEET
 from mocap.editing.copied_motion import copied
 from mocap.editing.edits import let_go
 from mocap.editing.pins import Pins, join_pins, pin_errors, plant_pins, with_plants
-from mocap.editing.solver import CLOSE, solve_quietly
+from mocap.editing.solver import CLOSE, solve
 from mocap.editing.stances import Stance, stance_of, stance_of_zero
 from mocap.editing.steps import Basis
 from mocap.errors import shortened, warn
@@ -96,7 +96,8 @@ def retarget(
     who, trunk = target.roles, target.skeleton.path_to_root(target.roles.get("chest", 0))
     stiff = [*(leg.knee for leg in target.legs), *(joint for joint in trunk if joint > who["pelvis"])]
     prices = dict.fromkeys((target.skeleton.names[joint] for joint in stiff), STIFF)
-    worn = solve_quietly(base, wishes, RETARGET, body_of(base, wishes.joints, prices=prices)).motion
+    priced = body_of(base, wishes.joints, prices=prices)
+    worn = solve(base, wishes, RETARGET, priced, quiet=True).motion
     if (moved := np.abs(worn.root_positions - base.root_positions).max()) > MOST * target.leg:
         hips = f"the hips move by {100 * moved:.0f} cm to take these steps"
         legs = f"with legs of {100 * target.leg:.0f} cm: no leg takes them at ease"

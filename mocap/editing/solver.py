@@ -61,7 +61,9 @@ class Solved(NamedTuple):
     body: Body
 
 
-def solve(base: Motion, pins: Pins, bases: Sequence[Basis], body: Body | None = None) -> Solved:
+def solve(
+    base: Motion, pins: Pins, bases: Sequence[Basis], body: Body | None = None, *, quiet: bool = False
+) -> Solved:
     """Bring joints to their pins by the smallest smooth change, in one basis after the other.
 
     In the paper: [Gle98, objective; finer knots], [LS99, inverse kinematics].
@@ -76,6 +78,7 @@ def solve(base: Motion, pins: Pins, bases: Sequence[Basis], body: Body | None = 
     bases : one or more. `REACH` brings each frame by itself to its pins; those without pins stay as they are.
     body : which joints turn, at what price; `body_of(base, pins)` by default. For a single frame, make
         it from the whole clip, which shows the hinges.
+    quiet : whether to say nothing of pins that are missed.
 
     Returns
     -------
@@ -103,13 +106,6 @@ def solve(base: Motion, pins: Pins, bases: Sequence[Basis], body: Body | None = 
 
     Notebook: 13-retargeting
     """
-    solved = solve_quietly(base, pins, bases, body)
-    warn_of_gaps(solved.motion, pins)
-    return solved
-
-
-def solve_quietly(base: Motion, pins: Pins, bases: Sequence[Basis], body: Body | None = None) -> Solved:
-    """Solve as `solve` does, without a word on what is left."""
     require_pins_of(base, pins)
     require_reachable(base, pins)
     if not len(bases):
@@ -130,6 +126,8 @@ def solve_quietly(base: Motion, pins: Pins, bases: Sequence[Basis], body: Body |
             change[rows], left = _descend(some, wanted.at(rows), body, way)
             base = displaced(base, body.displacement(change, len(base.skeleton)))
             worst += left
+    if not quiet:
+        warn_of_gaps(base, pins)
     return Solved(base, worst, change, body)
 
 

@@ -13,7 +13,7 @@ from scipy.optimize import least_squares
 from mocap.editing.bodies import body_of
 from mocap.editing.displacements import displaced, spline_basis
 from mocap.editing.pins import join_pins, pin, pin_errors, plant_pins
-from mocap.editing.solver import CLOSE, REACH, solve, solve_quietly
+from mocap.editing.solver import CLOSE, REACH, solve
 from mocap.editing.steps import Basis, Curve, Linear, linear
 from mocap.editing.turn_pins import keep_turned, limit_turns
 from mocap.errors import MocapError, MocapWarning
@@ -137,7 +137,7 @@ def test_few_knots_leave_centimetres_and_many_jolt(real_data):
     pins = stone(clip, 0.2)
     solved = {}
     for knots in (0.5, 0.125, 0.03):
-        motion = solve_quietly(clip, pins, [Basis(knots)]).motion
+        motion = solve(clip, pins, [Basis(knots)], quiet=True).motion
         solved[knots] = (pin_errors(motion, pins).max(), smoothness(motion, clip))
     assert solved[0.5][0] > 1.5 * solved[0.125][0] > 1.5 * solved[0.03][0]
     assert solved[0.125][0] < 0.0035 and solved[0.125][1] < 1.06
