@@ -115,8 +115,8 @@ def test_no_path_runs_from_one_clip_into_the_next(bundled):
 def test_clips_too_short_for_a_path_are_left_out_with_a_warning(bundled):
     walk = bundled.clips[0]
     short = replace(walk[:40], name="blink")
-    short = r"^Too short to hold a path of 0.47 s, and left out: 'blink', 'blink'\.$"
-    with pytest.warns(MocapWarning, match=short):
+    left_out = r"^Too short to hold a path of 0.47 s, and left out: 'blink', 'blink'\.$"
+    with pytest.warns(MocapWarning, match=left_out):
         web = build_web([short, walk, short], below=0.05)
     alone = build_web([walk], below=0.05)
     assert np.array_equal(web.cells, alone.cells)
