@@ -178,7 +178,7 @@ def lab(
 
     Parameters
     ----------
-    folder : folder for a copy of the notebooks, outside a checkout.
+    folder : folder for a copy of the notebooks; those that it holds already stay as they are.
     """
     return int(course.open_course(folder, after))
 

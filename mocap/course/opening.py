@@ -27,7 +27,7 @@ def stored() -> Path:
 
 
 def course_folder(copy: Path) -> Path:
-    """Find notebooks to edit: those of the checkout, or a copy of those in the installed package.
+    """Copy the notebooks to a folder to work in, so that those of a checkout stay as they are.
 
     Parameters
     ----------
@@ -35,11 +35,9 @@ def course_folder(copy: Path) -> Path:
 
     Returns
     -------
-    The folder of the notebooks.
+    The folder.
     """
     folder = stored()
-    if folder != PACKAGE / "notebooks":
-        return folder
     try:
         copy.mkdir(parents=True, exist_ok=True)
         for file in filter(Path.is_file, sorted(folder.iterdir())):

@@ -1,9 +1,9 @@
-"""The notebooks of an installed package."""
+"""A copy of the notebooks to work in."""
 
 from mocap.course import opening
 
 
-def test_an_installed_package_copies_its_notebooks_and_keeps_edited_ones(monkeypatch, tmp_path):
+def test_notebooks_are_copied_and_edited_ones_are_kept(monkeypatch, tmp_path):
     package = tmp_path / "site" / "mocap"
     (package / "notebooks").mkdir(parents=True)
     for name in ("00-quickstart.ipynb", "01-next.ipynb"):
