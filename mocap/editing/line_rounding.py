@@ -13,6 +13,7 @@ from mocap.body.ground_path import GroundPath
 from mocap.body.planar import from_ground, on_ground
 from mocap.editing.path_editing import CHORD, Ride, moving_frames
 from mocap.editing.turning import RADIUS, SLOWER, places_on
+from mocap.feet.ankle_targets import bending_bands
 
 SPACING = 0.05  # metres between the points of a rounded line
 SMOOTH = 0.1  # metres that smoothing reaches everywhere; it moves a circle of 1 m by 0.1 mm
@@ -183,11 +184,6 @@ def _smoothed(points: Points, weight: Array) -> Points:
     """Solve (I + Dᵀ Λ D) x = p, where D takes second differences; `weight` (n,) is Λ, unused at the ends."""
     if len(points) < 3:
         return points
-    own = np.pad(weight[1:-1], 2)  # weights of the differences about the points -1 to n
-    diagonals = [
-        np.concatenate([[0, 0], own[2:-2]]),
-        np.concatenate([[0], -2 * (own[1:-2] + own[2:-1])]),
-        1 + own[:-2] + 4 * own[1:-1] + own[2:],
-    ]
-    solved = solveh_banded(np.stack(diagonals), np.stack([points.real, points.imag], axis=1))
+    pairs = np.stack([points.real, points.imag], axis=1)
+    solved = solveh_banded(bending_bands(weight, 1.0), pairs, lower=True)
     return np.asarray(solved[:, 0] + 1j * solved[:, 1])
