@@ -103,14 +103,12 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
             canvas.best = np.stack([line.imag, line.real], axis=-1).round(2).tolist()
 
     def walk(path: Array, **extra: bool) -> None:
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always", MocapWarning)
+        with warnings.catch_warnings(record=True, action="always", category=MocapWarning) as caught:
             made = follow(path)
         player = made if isinstance(made, Player) else play(made)
         player = player if len(player.path) else replace(player, path=path)
         canvas.show(player, drawable=True, follow=False, reports=False, **extra)
-        canvas.error = None
-        canvas.message = "\n".join([player.alt, *(str(warning.message) for warning in caught)])
+        canvas.error, canvas.message = None, "\n".join([player.alt, *(str(w.message) for w in caught)])
 
     def redraw(change: dict[str, Any]) -> None:
         canvas.best, before = [], watching.set(watch)
