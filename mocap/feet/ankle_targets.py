@@ -20,16 +20,20 @@ from mocap.feet.leg_track import BACK, ROUNDING, LegTrack
 # of the planted frames of runs can be held, not 93 %.
 FADE = 0.06
 
-# At most. In a captured clip in which a planted leg lies on the floor, one pull is enough; without a pull
-# 10 % of the planted frames are lost.
-PULLS = 8
+# Of the leg's length, 1.4 cm of 0.85 m: how far the root shall fall at most so that an upright leg reaches.
+# Beyond it the plant comes nearer instead. With half as much, where plants are hard to hold 2 % fewer frames
+# are held.
+FALL = 0.0167
+
+# At most: pulls of a plant to where its leg reaches, and rises of a heel. With 8 as many frames are held.
+PULLS = 4
 
 
 class FootTarget(NamedTuple):
     """Where an ankle must be, `ankle` (F, 3) in metres, and how its foot turns, `turn` (F, 3) in radians.
 
     Turns are rotation vectors in the world's frame; `planted` (F,) says when the ankle or the ball stands,
-    and `side` (F,) on which side the knee bends then: 1 forwards, -1 backwards.
+    and `side` (F,) on which side the knee bends then: 1 forwards, -1 backwards, as it was.
     """
 
     ankle: Array
@@ -50,22 +54,25 @@ def foot_target(track: LegTrack, marks: Mask, held: Mapping[int, Array]) -> Foot
     ankle, ball, fps = track.ankle, track.ball, track.motion.fps
     flat, down = marks
     length = float(track.leg.lengths(track.motion.skeleton)[2])
-    places = place_plants((ankle, ball), (flat, down), length)
+    places = _pull_in(place_plants((ankle, ball), (flat, down), length), marks, track)
     for place, own, joint in zip(places, marks, track.leg[2:], strict=True):
         for start, stop in runs(own) if joint in held else ():
             known = np.flatnonzero(np.isfinite(held[joint][start:stop, 0])) + start
             if known.size:  # a plant that is held for a part of its time stands where the nearest frame does
                 nearest = np.abs(np.arange(start, stop)[:, None] - known).argmin(axis=1)
                 place[start:stop] = held[joint][known[nearest]]
-    places = _pull_in(places, marks, track)
     # Where only the ball stands, the foot's length holds the ankle. It stays as near as that allows to its
-    # own way from plant to plant: a foot that turns a little is seen less than a leg that stretches.
-    away = ankle + smooth_fill(places[0] - ankle, flat, fps) - places[1]
-    behind = places[1] + length * away / np.linalg.norm(away, axis=-1, keepdims=True)
+    # own way from plant to plant: a foot that turns a little is seen less than a leg that stretches. And the
+    # heel rises where the leg is too short.
+    behind = ankle + smooth_fill(places[0] - ankle, flat, fps)
+    for _ in range(PULLS):
+        away = behind - _beyond(track, behind) - places[1]
+        behind = places[1] + length * away / np.linalg.norm(away, axis=-1, keepdims=True)
     goal = np.where(flat[:, None], places[0], behind)
     turn = rotations.to_rotvec(rotations.between(ball - ankle, places[1] - goal))
     ankle = ankle + smooth_fill(goal - ankle, flat | down, fps)
-    return FootTarget(ankle, smooth_fill(turn, down, fps), flat | down, _sides(track, ankle))
+    side = np.where(track.own < -BACK, -1.0, 1.0)
+    return FootTarget(ankle, smooth_fill(turn, down, fps), flat | down, side)
 
 
 def place_plants(joints: tuple[Array, Array], marks: tuple[Mask, Mask], length: float) -> Array:
@@ -110,23 +117,26 @@ def place_plants(joints: tuple[Array, Array], marks: tuple[Mask, Mask], length: 
 
 
 def _pull_in(places: Array, marks: Mask, track: LegTrack) -> Array:
-    """Pull plants towards the hip until a leg that lies more than it stands reaches them.
-
-    To raise or lower the root would not help such a leg.
-    """
-    flat, down = marks
-    for start, stop in runs(flat | down):
-        # A pull for the frame that is furthest out of reach may leave another one: the hip moves.
-        for _ in range(PULLS):
-            apart = (places[0] - track.hip)[start:stop]
-            distance = np.linalg.norm(apart, axis=-1)
-            lies = flat[start:stop] & (np.abs(apart[:, 1]) < np.hypot(apart[:, 0], apart[:, 2]))
-            excess = np.where(lies, distance - track.limit[start:stop], 0.0)
-            worst = excess.argmax()
-            if excess[worst] <= 0:
-                break
-            places[:, start:stop] -= (excess + ROUNDING)[worst] * apart[worst] / distance[worst]
+    """Pull plants towards the hip until the leg reaches them in each frame in which the ankle stands."""
+    # A pull for the frame that is furthest out of reach may leave another one: the hip moves.
+    for _ in range(PULLS):
+        beyond = np.where(marks[0][:, None], _beyond(track, places[0]), 0.0)
+        far = np.linalg.norm(beyond, axis=-1)
+        for start, stop in runs(marks[0] | marks[1]) if far.any() else ():
+            places[:, start:stop] -= beyond[start + far[start:stop].argmax()]
     return places
+
+
+def _beyond(track: LegTrack, ankle: Array) -> Array:
+    """Give the way that ankles (F, 3) are beyond the leg's reach, (F, 3), metres.
+
+    The root may fall, the less the more the leg lies: to lower the root would not help a leg that lies.
+    """
+    apart = ankle - track.hip
+    distance = np.linalg.norm(apart, axis=-1)
+    fall = FALL * track.length * np.minimum(apart[:, 1] / distance, 0.0) ** 2
+    excess = distance - track.limit - fall
+    return np.asarray(apart * (np.where(excess > 0, excess + ROUNDING, 0.0) / distance)[:, None])
 
 
 def smooth_fill(values: Array, known: Mask, fps: float, fade: float = FADE) -> Array:
@@ -195,18 +205,3 @@ def band_product(bands: Array, curves: Array) -> Array:
         product[..., later:, :] += below * curves[..., :-later, :]
         product[..., :-later, :] += below * curves[..., later:, :]
     return product
-
-
-def _sides(track: LegTrack, ankle: Array) -> Array:
-    """Say on which side a knee bends, (F,), for a leg that reaches to `ankle` (F, 3).
-
-    A run of frames that are bent backwards keeps its side, or changes it, as a whole: what is smoother.
-    """
-    bend = track.bend(np.linalg.norm(ankle - track.hip, axis=-1))
-    side = np.ones(len(bend))
-    for start, stop in runs(track.own < -BACK):
-        around, rough = slice(max(0, start - 2), stop + 2), []
-        for side[start:stop] in (1.0, -1.0):
-            rough.append(np.abs(np.diff((side * bend - track.own)[around], 2)).sum())
-        side[start:stop] = 1.0 if rough[0] < rough[1] else -1.0
-    return side

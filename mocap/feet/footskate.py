@@ -41,7 +41,7 @@ def clean_up(
     motion : its `contacts` say when the legs' ankles and balls stand; `feet.mark_plants` finds them.
     legs : found by name by default.
     held : for some ankles and balls where they shall stand, shape (F, 3), metres, nan where that is left
-        open. All other plants are where they stand on average.
+        open. All other plants are where they stand on average, or so much nearer that the leg reaches.
 
     Returns
     -------

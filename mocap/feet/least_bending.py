@@ -14,11 +14,11 @@ from collections.abc import Sequence
 
 import numpy as np
 from scipy.linalg import solveh_banded
-from scipy.ndimage import maximum_filter1d
+from scipy.ndimage import binary_propagation, maximum_filter1d
 
 from mocap._shared.arrays import Array
 from mocap.body import rotations
-from mocap.feet.ankle_targets import FootTarget, band_product, bending_bands
+from mocap.feet.ankle_targets import FALL, FootTarget, band_product, bending_bands
 from mocap.feet.leg_track import ROUNDING, UP, LegTrack
 
 # Of the leg's length: 2 cm for a leg of 0.85 m. A plant that would move the root further is let go.
@@ -37,8 +37,7 @@ NEAR = 0.05
 # How much a metre of the root counts, where a metre of a knee counts 1, and one beyond a bound 30, all
 # squared. With 4 for the root knees turn by 3.6° instead of 2.6° (95 % of the frames of slow and straight
 # legged walks); with 10 or 100 for bounds plants and jolts are the same.
-# The root's bound is at 0.7 of `MOST`.
-ROOT, STIFF, SHY = 2.0, 30.0, 0.7
+ROOT, STIFF = 2.0, 30.0
 
 # At most: solutions, each with what jolts counting double; steps in each; the gain of a step that is the last
 # one. With 5 solutions twice as many captured clips lose plants. Each doubling comes only nearer to its aim,
@@ -83,7 +82,12 @@ def hold_plants(
         over = np.vstack([(abs(change[0]) > MOST * length) & ~must, jolting])
         if not over.any():
             break
-        stress *= np.where(maximum_filter1d(over, 2 * span + 1, axis=1), 2.0, 1.0)
+        near = maximum_filter1d(over, 2 * span + 1, axis=1)
+        stress *= np.where(near, 2.0, 1.0)
+        for n, (track, target) in enumerate(legs):
+            # A knee that jolts is no longer bent backwards, for the whole run of frames in which it was.
+            forwards = binary_propagation((target.side < 0) & near[1 + n], mask=target.side < 0)
+            legs[n] = track, target._replace(side=np.where(forwards, 1.0, target.side))
     bends, every = [], slice(None)
     excesses = [(every, abs(change[0]) - MOST * length), (every, beyond.max(axis=0) - UNSEEN * length)]
     for n, (track, target) in enumerate(legs):
@@ -108,7 +112,7 @@ def _highest(legs: Legs) -> Array:
 
 def _displacements(legs: Legs, change: Array) -> Array:
     """Give how far root and knees are moved, then how far each is beyond its bound, (2 + 2 L, F, 3)."""
-    rise, most = change[0][:, None] * UP, SHY * MOST * legs[0][0].length
+    rise, most = change[0][:, None] * UP, FALL * legs[0][0].length
     moved, beyond = [ROOT * rise], [rise - np.clip(rise, -most, most)]
     for (track, target), extra in zip(legs, change[1:], strict=True):
         bend, wanted = _pose(track, target, change[0], extra)
