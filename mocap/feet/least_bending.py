@@ -16,7 +16,7 @@ import numpy as np
 from scipy.linalg import solveh_banded
 from scipy.ndimage import binary_propagation, maximum_filter1d
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Mask
 from mocap.body import rotations
 from mocap.feet.ankle_targets import FALL, FootTarget, band_product, bending_bands
 from mocap.feet.leg_track import ROUNDING, UP, LegTrack
@@ -57,6 +57,7 @@ def hold_plants(
     In the paper: [KSG02, step 3]. There the root moves in all directions, and step 4 may stretch the legs.
 
     What still goes beyond its bound counts double, and double again, so that the frames around it share it.
+    And a knee that jumps too far is pushed back by as much, again and again (Lagrange multipliers).
 
     Parameters
     ----------
@@ -72,10 +73,14 @@ def hold_plants(
     legs = list(zip(tracks, targets, strict=True))
     frames, fps, length = len(targets[0].ankle), tracks[0].motion.fps, tracks[0].length
     change, stress = np.zeros((1 + len(legs), frames)), np.ones((1 + len(legs), frames))
-    span = max(1, round(SHOWN * fps))
+    span, knees = max(1, round(SHOWN * fps)), slice(1, 1 + len(legs))
+    own, push = np.array([track.knee for track in tracks]), np.zeros((2 + 2 * len(legs), frames, 3))
+    usual = np.linalg.norm(_jumps(own, span), axis=-1)  # (L, F)
+    usual = np.maximum(np.percentile(usual, USUAL, method="lower"), usual)
     for _ in range(TRIES):
-        change = _least_bent(legs, stress, change)
-        beyond = _jolts(tracks, _displacements(legs, change)[1 : 1 + len(legs)], span)
+        change = _least_bent(legs, stress, change, push)
+        jumps = _jumps(own + _displacements(legs, change)[knees], span)
+        beyond = (size := np.linalg.norm(jumps, axis=-1)) - usual  # than it did, and than is usual
         jolting = beyond > AIM * UNSEEN * length
         # Near a jolt the root may only go far to spare it, and near a plant out of reach it must.
         must = maximum_filter1d(jolting.any(axis=0) | (_highest(legs) < -MOST * length), 12 * span + 1)
@@ -84,18 +89,24 @@ def hold_plants(
             break
         near = maximum_filter1d(over, 2 * span + 1, axis=1)
         stress *= np.where(near, 2.0, 1.0)
-        for n, (track, target) in enumerate(legs):
-            # A knee that jolts is no longer bent backwards, for the whole run of frames in which it was.
-            forwards = binary_propagation((target.side < 0) & near[1 + n], mask=target.side < 0)
-            legs[n] = track, target._replace(side=np.where(forwards, 1.0, target.side))
-    bends, every = [], slice(None)
-    excesses = [(every, abs(change[0]) - MOST * length), (every, beyond.max(axis=0) - UNSEEN * length)]
-    for n, (track, target) in enumerate(legs):
-        bend, wanted = _pose(track, target, change[0], change[1 + n])
+        # A push against a jump takes just so much off it, for a curve that bends freely.
+        more = np.maximum(beyond, 0.0) / np.maximum(size, ROUNDING) / (span * (2 * span**2 + 1) / 3)
+        push[knees] -= _jumps(more[..., None] * jumps, span)
+        legs = [_bent_forwards(*leg, jolts) for leg, jolts in zip(legs, near[1:], strict=True)]
+    poses = [_pose(*leg, change[0], extra) for leg, extra in zip(legs, change[1:], strict=True)]
+    far, jolts = abs(change[0]) - MOST * length, beyond.max(axis=0) - UNSEEN * length
+    excesses = [(slice(None), far), (slice(None), jolts)]
+    for n, ((track, target), (_, wanted)) in enumerate(zip(legs, poses, strict=True)):
         lack = np.linalg.norm(wanted, axis=-1) - track.long(0.0) - ROUNDING
         excesses.append((slice(n, n + 1), np.where(target.planted, lack, -1.0)))
-        bends.append(bend)
-    return change[0], bends, [excess for excess in excesses if (excess[1] > 0).any()]
+    return change[0], [bend for bend, _ in poses], [excess for excess in excesses if (excess[1] > 0).any()]
+
+
+def _bent_forwards(track: LegTrack, target: FootTarget, jolts: Mask) -> tuple[LegTrack, FootTarget]:
+    """Let a knee that jolts no longer be bent backwards, for the whole run of frames in which it was."""
+    back = target.side < 0
+    forwards = binary_propagation(back & jolts, mask=back)
+    return track, target._replace(side=np.where(forwards, 1.0, target.side))
 
 
 def _pose(track: LegTrack, target: FootTarget, rise: Array, extra: Array) -> tuple[Array, Array]:
@@ -123,10 +134,11 @@ def _displacements(legs: Legs, change: Array) -> Array:
     return np.array(moved + beyond)
 
 
-def _least_bent(legs: Legs, stress: Array, change: Array) -> Array:
+def _least_bent(legs: Legs, stress: Array, change: Array, push: Array) -> Array:
     """Improve a change (1 + L, F) of the root's rise and of the knees' angles in the air.
 
-    `stress` (1 + L, F) says how much the root's bound and each knee's acceleration count in each frame.
+    `stress` (1 + L, F) says how much the root's bound and each knee's acceleration count in each frame,
+    `push` (2 + 2 L, F, 3) which way all displacements are pushed.
     """
     near = (NEAR * legs[0][0].motion.fps) ** -4.0
     ones = np.ones_like(change[1:])
@@ -138,15 +150,15 @@ def _least_bent(legs: Legs, stress: Array, change: Array) -> Array:
     here, damping = _displacements(legs, change), 1e-3
     for _ in range(STEPS):
         lower = [_displacements(legs, change - STEP * row[:, None]) for row in np.eye(len(change))]
-        pull = band_product(bands, here)
+        pull = band_product(bands, here) - push
         tried = change - _gauss_newton((here - np.array(lower)) / STEP, bands, pull, damping)
         tried[0] = np.minimum(tried[0], top)
         there = _displacements(legs, tried)
-        cost, less = (here * pull).sum(), (there * band_product(bands, there)).sum()
+        cost, less = (here * (pull - push)).sum(), (there * (band_product(bands, there) - 2 * push)).sum()
         damping *= 0.2 if less < cost else 10.0
         if less < cost:
             change, here = tried, there
-        if (1 - GAIN) * cost <= less <= cost:
+        if 0 <= cost - less <= GAIN * abs(cost):
             break
     return change
 
@@ -174,17 +186,9 @@ def _gauss_newton(slopes: Array, bands: Array, pull: Array, damping: float) -> A
     return np.asarray(step.reshape(frames, kinds).T)
 
 
-def _jolts(tracks: Sequence[LegTrack], moved: Array, span: int) -> Array:
-    """Measure how much further each knee jumps than it did, and than is usual, (L, F), metres.
-
-    A jump is the second difference over `span` frames.
-    """
-    own = np.array([track.knee for track in tracks])
-    if own.shape[1] <= 2 * span:
-        return np.full(own.shape[:2], -np.inf)
-    before, after = (
-        np.linalg.norm(k[:, 2 * span :] - 2 * k[:, span:-span] + k[:, : -2 * span], axis=-1)
-        for k in (own, own + moved)
-    )
-    more = after - np.maximum(np.percentile(before, USUAL, method="lower"), before)
-    return np.pad(more, ((0, 0), (span, span)), constant_values=-np.inf)
+def _jumps(curves: Array, span: int) -> Array:
+    """Give the second differences over `span` frames of curves (L, F, 3), 0 near their ends."""
+    jumps = np.zeros_like(curves)
+    ahead, behind = curves[:, 2 * span :], curves[:, : -2 * span]
+    jumps[:, span:-span] = ahead - 2 * curves[:, span:-span] + behind
+    return jumps

@@ -65,7 +65,7 @@ def test_no_other_change_bends_less():
     legs, ones = list(zip(TRACKS, targets, strict=True)), np.ones((3, len(WALK)))
     least_bending.STEPS, before = 40, least_bending.STEPS
     try:
-        found = least_bending._least_bent(legs, ones, np.zeros((3, len(WALK))))
+        found = least_bending._least_bent(legs, ones, np.zeros((3, len(WALK))), 0.0)
     finally:
         least_bending.STEPS = before
     near = (least_bending.NEAR * WALK.fps) ** -4.0
