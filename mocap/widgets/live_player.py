@@ -43,6 +43,8 @@ class LivePlayer(Live):
     scene: Any
     at: Any
     move: Any
+    best: Any
+    told = 0.0  # when the best walk so far was told, by the clock
 
     def show(self, player: Player, frame: int = 0, **extra: bool) -> None:
         """Show another player in the same place, from a frame on."""
@@ -50,6 +52,12 @@ class LivePlayer(Live):
         # The browser is to know the place before the scene: a place that comes later would stop the player.
         self.move = [number, frame]
         self.player, self.scene = player, player.scene | extra | {"number": number}
+
+    def watch(self, search: PathSearch, walks: States) -> None:
+        """Tell the browser the best walk so far of a search that is under way."""
+        if monotonic() > self.told + TELL:
+            line, self.told = search.line(walks), monotonic()
+            self.best = np.stack([line.imag, line.real], axis=-1).round(2).tolist()
 
     @property
     def frame(self) -> int:
@@ -95,12 +103,6 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
     Notebook: 08-path-synthesis
     """
     canvas = widget(LivePlayer)()
-    told = [0.0]
-
-    def watch(search: PathSearch, walks: States) -> None:
-        if monotonic() > told[0] + TELL:
-            line, told[0] = search.line(walks), monotonic()
-            canvas.best = np.stack([line.imag, line.real], axis=-1).round(2).tolist()
 
     def walk(path: Array, **extra: bool) -> None:
         with warnings.catch_warnings(record=True, action="always", category=MocapWarning) as caught:
@@ -111,7 +113,7 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
         canvas.error, canvas.message = None, "\n".join([player.alt, *(str(w.message) for w in caught)])
 
     def redraw(change: dict[str, Any]) -> None:
-        canvas.best, before = [], watching.set(watch)
+        canvas.best, before = [], watching.set(canvas.watch)
         try:
             walk(np.array(change["new"], float), autoplay=True)
         except Exception as error:  # of any kind: it comes from a student's function
