@@ -71,8 +71,8 @@ def radius_gaps(first: Motion, second: Motion, joints: Sequence[str], *, step: i
     --------
     >>> from mocap import datasets, resample
     >>> walk = resample(datasets.sample("walk_straight"), 30)
-    >>> radius_gaps(walk[:10], walk[:10], ["head"], step=3).axes[0].get_title()
-    'what no turn can remove: head 0 cm'
+    >>> radius_gaps(walk[:10], walk[:10], ["head"], step=3).axes[0].get_title().splitlines()
+    ['what no turn can remove:', 'head 0 cm']
 
     Notebook: 02c-most-pairs
     """
@@ -94,7 +94,7 @@ def radius_gaps(first: Motion, second: Motion, joints: Sequence[str], *, step: i
             ax.plot(*np.outer(ray, ends), color=COLOURS["middle"], linewidth=4)
     gaps = 100 * np.abs(np.diff(radii, axis=1)[:, 0])
     told = ", ".join(f"{name} {gap:.0f} cm" for name, gap in zip(joints, gaps, strict=True))
-    ax.set_title(CIRCLE_STEPS[step - 1] + f": {told}" * last)
+    ax.set_title(CIRCLE_STEPS[step - 1] + f":\n{told}" * last)
     ax.plot(0, 0, "+", color=QUIET)
     limit = 1.15 * radii.max() + 0.01
     ax.set(aspect="equal", xlabel="z (m)", ylabel="x (m)", xlim=(-limit, limit), ylim=(-limit, limit))

@@ -97,8 +97,8 @@ def test_the_gaps_between_circles_are_the_same_however_a_window_is_turned():
     moved = PlanarTransform(-2.5, 3.0, -1.0).apply_motion(second)
     names = ["lfoot", "head"]
     titles = [diagrams.radius_gaps(first, other, names).axes[0].get_title() for other in (moved, second)]
-    assert titles[0] == titles[1] != "what no turn can remove: lfoot 0 cm, head 0 cm"
+    assert titles[0] == titles[1] != "what no turn can remove:\nlfoot 0 cm, head 0 cm"
     drawn = [diagrams.radius_gaps(first, first, ["lfoot", "head"], step=step).axes[0] for step in (1, 2, 3)]
     assert [len(ax.patches) for ax in drawn] == [0, 4, 4]
     assert [len(ax.lines) for ax in drawn] == [3, 3, 5]
-    assert drawn[2].get_title() == "what no turn can remove: lfoot 0 cm, head 0 cm"
+    assert drawn[2].get_title() == "what no turn can remove:\nlfoot 0 cm, head 0 cm"
