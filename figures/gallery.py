@@ -405,7 +405,7 @@ def _steps(*, price: Callable[[complex, int, int], float], count: int) -> synthe
 
 def draw_search() -> Figure:
     """Draw the eight nodes, the best walk from 6 to 2, and the tree of all walks that the search has met."""
-    return diagrams.search_steps(graphs.notes_example(), 6, 2)
+    return diagrams.search_steps(graphs.notes_example(), 6, 2)(99)[0].figure
 
 
 def draw_bound() -> Figure:

@@ -36,9 +36,9 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "windows": ["diagonal_sums", "radius_gaps", "window_cloud"],
         "ground": ["alignment", "compass"],
         "seams": ["added_by_blend", "blended_seam", "knee_triangle", "turning_paths"],
-        "eight_nodes": ["eight_node_graph", "tarjan_states", "tarjan_step"],
+        "eight_nodes": ["eight_node_graph", "tarjan_states", "tarjan_steps"],
         "branching": ["edge_lengths", "from_above", "laid_in_turn", "search_events", "search_steps"],
-        "layers": ["layer_step"],
+        "layers": ["layer_steps"],
         "distances_to_paths": ["two_distances"],
     },
 )

@@ -8,15 +8,18 @@ from typing import Any, NamedTuple
 import matplotlib.pyplot as plt
 import networkx as nx
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.text import Text
 
 from mocap._shared.arrays import Points
 from mocap.course.diagrams.eight_nodes import BOX, EIGHT_PLACES, eight_node_graph
 from mocap.course.diagrams.pens import disc, say
 from mocap.plain import Edge
-from mocap.plotting import ASKED, CURVES, PATH, QUIET
+from mocap.plotting import ASKED, COLOURS, CURVES, PATH, QUIET
 from mocap.plotting.ground_charts import seen_from_above
 
 Walk = tuple[int, ...]
@@ -75,9 +78,9 @@ def search_events(lengths: Lengths, start: int, goal: int, longest: int) -> list
 
 
 def search_steps(
-    graph: nx.MultiDiGraph, start: int, goal: int, *, longest: int = 8, step: int | None = None
-) -> Figure:
-    """Draw the search for the shortest walk between two nodes of the eight-node graph, after some steps.
+    graph: nx.MultiDiGraph, start: int, goal: int, *, longest: int = 8
+) -> Callable[[int], list[Artist]]:
+    """Draw the search for the shortest walk between two nodes of the eight-node graph, step by step.
 
     On the left stands the graph with the best walk so far, on the right the tree of all walks that the search
     has met. A walk costs its length as it is drawn.
@@ -87,41 +90,82 @@ def search_steps(
     graph : `graphs.notes_example()`, or a part of it.
     start, goal : where the walk begins and ends.
     longest : a walk of so many edges is not expanded.
-    step : how many walks the search has taken up; by default all.
+
+    Returns
+    -------
+    A function for `explore`: it takes how many walks the search has taken up, and gives what it moved.
 
     Examples
     --------
     >>> from mocap import graphs
-    >>> figure = search_steps(graphs.notes_example(), 6, 2, step=3)
-    >>> figure.axes[1].get_title()
+    >>> search_steps(graphs.notes_example(), 6, 2)(3)[-1].get_text()
     'step 3: 6 → 7 → 8 is expanded'
 
     Notebook: 07-walks-and-search
     """
     lengths = edge_lengths(graph)
     events = search_events(lengths, start, goal, longest)
-    shown = events[: len(events) if step is None else step]
-    best = min((e for e in shown if e.fate == "complete"), key=lambda e: e.cost, default=None)
-    figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4.6), layout="constrained")
-    eight_node_graph(graph, thick=[*pairwise(best.walk if best else ())], ax=left)
+    _, (left, right) = plt.subplots(1, 2, figsize=(9, 4.6), layout="constrained")
+    arrows = eight_node_graph(graph, ax=left).patches
     for a, row in lengths.items():
         for b, length in row.items():
             middle = complex(*np.add(EIGHT_PLACES[a], EIGHT_PLACES[b]) / 2) + 0.75j * (a == b)
             say(left, middle, f"{length:.1f}", bbox=BOX)
-    left.set_title(f"best so far: {best.cost:.2f} long" if best else "no complete walk yet")
-    _draw_tree(right, events, shown)
-    if shown:
-        walk = shown[-1].walk
+    colour_tree = _draw_tree(right, events)
+
+    def draw(step: int) -> list[Artist]:
+        shown = events[:step]
+        best = min((e for e in shown if e.fate == "complete"), key=lambda e: e.cost, default=None)
+        thick = [*pairwise(best.walk if best else ())]
+        for arrow, edge in zip(arrows, graph.edges(), strict=True):
+            if (wide := 3 if edge in thick else 1.2) != arrow.get_linewidth():
+                arrow.set(color=PATH if edge in thick else COLOURS["middle"], linewidth=wide)
+        left.title.set_text(f"best so far: {best.cost:.2f} long" if best else "no complete walk yet")
+        walk = shown[-1].walk if shown else ()
         named = " → ".join(map(str, walk if len(walk) < 7 else (*walk[:3], "…", *walk[-2:])))
-        right.set_title(f"step {len(shown)}: {named} is {shown[-1].fate}")
-    return figure
+        right.title.set_text(f"step {step}: {named} is {shown[-1].fate}" if shown else "")
+        return [*colour_tree(shown), left.title, right.title]
+
+    return draw
 
 
-def _draw_tree(ax: Axes, events: list[Event], shown: list[Event]) -> None:
-    """Draw the walks met so far as discs with their last node, each below the walk that it lengthens."""
+def _draw_tree(ax: Axes, events: list[Event]) -> Callable[[list[Event]], list[Artist]]:
+    """Draw all walks as discs with their last node, each below the walk that it lengthens.
+
+    Returned is a function that shows those met so far, each in the colour of its fate.
+    """
+    columns = _columns(events)
+    faces, drawn = FATES | {"waiting": "white"}, dict[Walk, tuple[Line2D, Line2D, Text]]()
+    for walk, x in columns.items():
+        y = 1 - len(walk)
+        (line,) = ax.plot([columns.get(walk[:-1], x), x], [y + (len(walk) > 1), y], linewidth=1.5, zorder=1)
+        (dot,) = ax.plot(x, y, "o", markersize=15, zorder=2)
+        drawn[walk] = line, dot, ax.text(x, y, str(walk[-1]), ha="center", va="center", zorder=3)
+    ends = min(columns.values()), max(columns.values())
+    ax.set(xlim=(ends[0] - 0.6, ends[1] + 0.6), ylim=(0.5 - max(map(len, columns)), 0.5))
+    ax.set_axis_off()
+    dots = [disc(face, markeredgecolor=FATES[fate]) for fate, face in faces.items()]
+    ax.legend(dots, FATES, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=3, frameon=False)
+
+    def colour(shown: list[Event]) -> list[Artist]:
+        fates = {walk: "waiting" for event in shown for _, walk in event.added}
+        fates |= {event.walk: event.fate for event in shown}
+        for walk, (line, dot, word) in drawn.items():
+            fate = fates.get(walk, "")
+            for part in (line, dot, word):
+                part.set_visible(bool(fate))
+            line.set_color(FATES.get(fate, QUIET))
+            dot.set(color=faces.get(fate, QUIET), markeredgecolor=FATES.get(fate, QUIET))
+            word.set_color("black" if fate in {"waiting", "complete"} else "white")
+        return [part for parts in drawn.values() for part in parts]
+
+    return colour
+
+
+def _columns(events: list[Event]) -> dict[Walk, float]:
+    """Give a leaf of the whole tree a column of its own, and other walks the middle of theirs."""
     children = {event.walk: [walk for _, walk in sorted(event.added)] for event in events}
-    columns: dict[Walk, float] = {}  # a leaf of the whole tree has its own, other walks the middle of theirs
-    leaves = count(1)
+    columns, leaves = dict[Walk, float](), count(1)
 
     def place(walk: Walk) -> float:
         below = [place(child) for child in children.get(walk, ())]
@@ -129,20 +173,7 @@ def _draw_tree(ax: Axes, events: list[Event], shown: list[Event]) -> None:
         return columns[walk]
 
     place(events[0].walk)
-    fates = {walk: "waiting" for event in shown for _, walk in event.added} | {e.walk: e.fate for e in shown}
-    faces = FATES | {"waiting": "white"}
-    for walk, fate in fates.items():
-        x, y = columns[walk], 1 - len(walk)
-        if len(walk) > 1:
-            ax.plot([columns[walk[:-1]], x], [y + 1, y], color=FATES[fate], linewidth=1.5, zorder=1)
-        ax.plot(x, y, "o", markersize=15, color=faces[fate], markeredgecolor=FATES[fate], zorder=2)
-        ink = "black" if fate in {"waiting", "complete"} else "white"
-        ax.text(x, y, str(walk[-1]), color=ink, ha="center", va="center", zorder=3)
-    ends = min(columns.values()), max(columns.values())
-    ax.set(xlim=(ends[0] - 0.6, ends[1] + 0.6), ylim=(0.5 - max(map(len, columns)), 0.5))
-    ax.set_axis_off()
-    dots = [disc(face, markeredgecolor=FATES[fate]) for fate, face in faces.items()]
-    ax.legend(dots, FATES, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=3, frameon=False)
+    return columns
 
 
 def edge_lengths(graph: nx.MultiDiGraph) -> dict[int, dict[int, float]]:

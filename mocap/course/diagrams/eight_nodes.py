@@ -1,12 +1,15 @@
 """The eight nodes of the paper's Figure 4, and Tarjan's search on them, step by step [KGP02, 3.4]."""
 
-from collections.abc import Collection, Hashable, Mapping, Sequence
+from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import matplotlib.pyplot as plt
 import networkx as nx
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+from matplotlib.text import Text
 
 from mocap.course.diagrams.pens import disc, say, show_program
 from mocap.plotting import PATH, QUIET, SOURCES, node_link
@@ -149,55 +152,72 @@ def eight_node_graph(
     return ax
 
 
-def tarjan_step(graph: nx.MultiDiGraph, *, step: int = 0) -> Figure:
-    """Draw Tarjan's algorithm on the eight-node graph after some of its steps.
+def tarjan_steps(graph: nx.MultiDiGraph) -> Callable[[int], list[Artist]]:
+    """Draw Tarjan's algorithm on the eight-node graph, step by step.
 
     Beside each node stand its number and low link, on the right the stack, and the line that has just run.
 
     Parameters
     ----------
     graph : the graph, or one with the same nodes.
-    step : the number of steps, from 0 on; the last one where it is too large.
+
+    Returns
+    -------
+    A function for `explore`: it takes the number of steps, from 0 on, and gives what it moved; the last step
+    where there are no more.
 
     Examples
     --------
     >>> from mocap import graphs
-    >>> figure = tarjan_step(graphs.notes_example(), step=16)
-    >>> figure.axes[0].get_title()
+    >>> tarjan_steps(graphs.notes_example())(16)[-1].get_text()
     'step 16: 8 → 3 closes a cycle'
 
     Notebook: 06-pruning
     """
     states = tarjan_states({node: sorted(graph.successors(node)) for node in sorted(graph)})
-    step = min(step, len(states) - 1)
-    state = states[step]
-    figure, (left, right, code) = plt.subplots(1, 3, figsize=(11, 4.4), width_ratios=(9, 2, 11))
+    figure, (left, right, code) = plt.subplots(1, 3, figsize=(11, 4.4), width_ratios=(9, 2, 12))
     figure.subplots_adjust(left=0.01, right=0.99, top=0.93, bottom=0.23, wspace=0.04)
-    beside = {node: f"{number} / {state.low[node]}" for node, number in state.number.items()}
-    eight_node_graph(graph, beside=beside, parts=state.components, ax=left)
-    discs = left.collections[0]
-    faces = zip(graph, discs.get_facecolors(), strict=True)
-    discs.set_facecolor([ON_STACK if node in state.stack else face for node, face in faces])
-    discs.set_linewidth([4 if node == state.node else 1 for node in graph])
-    left.set_title(f"step {step}: {state.message}")
+    eight_node_graph(graph, beside=dict.fromkeys(graph, ""), ax=left)
+    discs, names, beside = left.collections[0], left.texts[: len(graph)], left.texts[len(graph) :]
+    boxes, words = _draw_stack(right, len(graph))
+    mark = show_program(code, PROGRAM, 0)
+    _explain(figure, len(states[-1].components))
+
+    def draw(step: int) -> list[Artist]:
+        state = states[min(step, len(states) - 1)]
+        parts = {node: SOURCES[n] for n, part in enumerate(state.components) for node in part}
+        face = dict.fromkeys(graph, UNSEEN) | dict.fromkeys(state.stack, ON_STACK) | parts
+        discs.set(facecolor=[face[node] for node in graph])
+        discs.set(linewidth=[4 if node == state.node else 1 for node in graph])
+        for node, name, links in zip(graph, names, beside, strict=True):
+            name.set_color("white" if node in parts else "black")
+            links.set_text(f"{state.number[node]} / {state.low[node]}" if node in state.number else "")
+        for at, (box, word) in enumerate(zip(boxes, words, strict=True)):
+            box.set_visible(at < len(state.stack))
+            word.set_text("".join(map(str, state.stack[at : at + 1])))
+        right.title.set_text("stack" if state.stack else "empty")
+        left.title.set_text(f"step {states.index(state)}: {state.message}")
+        mark.set_y(state.line - 0.5)
+        return [discs, *names, *beside, *boxes, *words, mark, right.title, left.title]
+
+    return draw
+
+
+def _draw_stack(ax: Axes, most: int) -> tuple[list[Rectangle], list[Text]]:
+    """Draw the stack as boxes with words, the oldest node at the bottom."""
+    ax.set(xlim=(-0.3, 1.3), ylim=(-0.8, most), xticks=[], yticks=[])
+    ax.spines[["top", "left", "right"]].set_visible(False)
+    ax.spines["bottom"].set_color(QUIET)
+    boxes = ax.barh(range(most), 1, height=0.9, color=ON_STACK, edgecolor="black", linewidth=0.8)
+    return [*boxes], [ax.text(0.5, at, "", ha="center", va="center") for at in range(most)]
+
+
+def _explain(figure: Figure, parts: int) -> None:
+    """Say what the colours of the nodes mean."""
     named = {"not seen yet": UNSEEN, "on the stack": ON_STACK}
-    named |= {f"component {n + 1}, complete": SOURCES[n] for n in range(len(state.components))}
+    named |= {f"component {n + 1}, complete": SOURCES[n] for n in range(parts)}
     look: dict[str, Any] = {"markersize": 9, "markeredgecolor": "black"}
     keys = [disc(face, label=name, **look) for name, face in named.items()]
     keys.append(disc("white", label="the search stands here", markeredgewidth=3, **look))
     told = "beside a node: number / low link"
     figure.legend(handles=keys, title=told, frameon=False, loc="lower left", ncols=3, alignment="left")
-    _draw_stack(right, state.stack, len(graph))
-    show_program(code, PROGRAM, state.line)
-    return figure
-
-
-def _draw_stack(ax: Axes, stack: Sequence[Node], most: int) -> None:
-    """Draw the stack as boxes, the oldest node at the bottom."""
-    for at, node in enumerate(stack):
-        ax.barh(at, 1, height=0.9, color=ON_STACK, edgecolor="black", linewidth=0.8)
-        ax.text(0.5, at, str(node), ha="center", va="center")
-    ax.set(xlim=(-0.3, 1.3), ylim=(-0.8, most), xticks=[], yticks=[])
-    ax.set_title("stack" if stack else "empty")
-    ax.spines[["top", "left", "right"]].set_visible(False)
-    ax.spines["bottom"].set_color(QUIET)

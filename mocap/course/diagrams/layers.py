@@ -1,12 +1,12 @@
 """The layered search line by line: lengthen, cross out, keep the best, and look ahead [KGP02, 5.1]."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from matplotlib.artist import Artist
+from matplotlib.lines import Line2D
 
 from mocap._shared.arrays import Array
 from mocap.course.diagrams.pens import show_program
@@ -27,6 +27,12 @@ while waiting:
         else:
             waiting[layer_of(longer)] += [longer]""".splitlines()
 """The loop that the pictures run; `plain.Search.layers` is the same one on clips."""
+
+LOOKS: dict[str, dict[str, Any]] = {
+    "crossed out": {"color": QUIET, "marker": "x", "alpha": 0.5, "linewidth": 1.4},
+    "waiting": {"color": CURVES[0], "marker": "o", "linewidth": 1.4},
+    "best": {"color": PATH, "marker": "o", "linewidth": 3.5},
+}
 
 
 class Steps(NamedTuple):
@@ -106,47 +112,57 @@ def _run(line: Array, count: int, width: int, look: bool) -> Iterator[LayerState
     yield LayerState(10, f"at the end: the cheapest costs {best.cost:.2f} m²", walks, [], {}, best)
 
 
-def layer_step(line: Array, count: int, *, step: int = 0, width: int = 4, look: bool = True) -> Figure:
-    """Draw the layered search after some of its stages: walks on the ground, and the line of code that ran.
+def layer_steps(line: Array, count: int) -> Callable[[int, int, bool], list[Artist]]:
+    """Draw the layered search stage by stage: walks on the ground, and the line of code that ran.
 
     Parameters
     ----------
-    line, count, width, look : as for `layer_states`.
-    step : the number of stages, from 0 on; the last one where it is too large.
+    line, count : as for `layer_states`.
+
+    Returns
+    -------
+    A function for `explore`: it takes the number of stages, from 0 on, then `width` and `look` of
+    `layer_states`, and gives what it moved; the last stage where there are no more.
 
     Examples
     --------
-    >>> layer_step(STRIDE * np.arange(7), 5, step=2).axes[0].get_title()
+    >>> layer_steps(STRIDE * np.arange(7), 5)(2, 4, True)[-1].get_text()
     'layer 0: 0 crossed out'
 
     Notebook: 08-path-synthesis
     """
-    states = layer_states(line, count, width=width, look=look)
-    state = states[min(step, len(states) - 1)]
-    figure, (ground, code) = plt.subplots(1, 2, figsize=(10.8, 4.6), width_ratios=(4, 6))
+    figure, (ground, code) = plt.subplots(1, 2, figsize=(10.8, 4.6), width_ratios=(4, 6.6))
     figure.subplots_adjust(left=0.06, right=1, bottom=0.2, top=0.93, wspace=0.06)
     ground.plot(line[:-1].imag, line[:-1].real, color=ASKED, linewidth=3, alpha=0.7, label="asked for")
-    for walk in state.crossed:
-        _draw(ground, walk, QUIET, "crossed out", alpha=0.5, marker="x")
-    for walk in state.kept:
-        _draw(ground, walk, CURVES[0], "waiting", marker="o")
-    going = [walk for walk in state.kept if walk in state.score]
-    for number, walk in enumerate(sorted(going, key=lambda walk: walk.places[-1].imag)):
-        tip, up = walk.places[-1], 7 + 15 * (number % 2)  # points: neighbours do not hide each other
-        at = {"xytext": (0, up), "textcoords": "offset points", "ha": "center"}
-        ground.annotate(f"{state.score[walk]:.1f}", (tip.imag, tip.real), **at)
-    if state.best:
-        _draw(ground, state.best, PATH, "best", marker="o", linewidth=3.5)
+    pens = [ground.plot([], [], label=name, **look)[0] for name, look in LOOKS.items()]
+    apart = {"textcoords": "offset points", "ha": "center"}  # in two rows, so that neighbours are seen
+    scores = [ground.annotate("", (0, 0), (0, 7 + 15 * (number % 2)), **apart) for number in range(24)]
     ground.set(aspect="equal", xlabel="x (m)", ylabel="z (m)", xlim=(2.1, -1.4), ylim=(-0.3, 3.1))
     ground.set(xticks=[2, 1, 0, -1], yticks=range(4))
-    ground.set_title(state.message)
-    handles = {label: handle for handle, label in zip(*ground.get_legend_handles_labels(), strict=True)}
-    figure.legend(handles.values(), handles, loc="lower left", ncols=4, frameon=False)
-    show_program(code, PROGRAM, state.line)
-    return figure
+    figure.legend(loc="lower left", ncols=4, frameon=False)
+    mark = show_program(code, PROGRAM, 0)
+
+    def draw(step: int, width: int, look: bool) -> list[Artist]:
+        states = layer_states(line, count, width=width, look=look)
+        state = states[min(step, len(states) - 1)]
+        best = [state.best] if state.best else []
+        for pen, walks in zip(pens, (state.crossed, state.kept, best), strict=True):
+            _trace(pen, walks)
+        going = sorted((w for w in state.kept if w in state.score), key=lambda walk: walk.places[-1].imag)
+        for word in scores:
+            word.set_text("")
+        for word, walk in zip(scores, going, strict=False):
+            word.set_text(f"{state.score[walk]:.1f}")
+            word.xy = walk.places[-1].imag, walk.places[-1].real
+        mark.set_y(state.line - 0.5)
+        ground.title.set_text(state.message)
+        return [*pens, *scores, mark, ground.title]
+
+    return draw
 
 
-def _draw(ax: Axes, walk: Steps, colour: str, name: str, *, marker: str, **look: Any) -> None:  # noqa: ANN401
-    places = np.array(walk.places)
-    ax.plot(places.imag, places.real, color=colour, **({"linewidth": 1.4} | look))
-    ax.plot(places[-1].imag, places[-1].real, marker, color=colour, markersize=6, label=name)
+def _trace(pen: Line2D, walks: Sequence[Steps]) -> None:
+    """Let a pen draw walks, with a marker at the end of each."""
+    places = np.concatenate([[*walk.places, np.nan] for walk in walks] or [[np.nan]])
+    pen.set_data(places.imag, places.real)
+    pen.set_markevery([sum(len(walk.places) + 1 for walk in walks[:n]) - 2 for n in range(1, len(walks) + 1)])

@@ -46,7 +46,7 @@ def show_program(ax: Axes, program: Sequence[str], line: int) -> Rectangle:
     ax.set(xlim=(0, 1), ylim=(len(program), -1))
     ax.set_axis_off()
     for number, text in enumerate(program):
-        ax.text(0.02, number, text, va="center", family="monospace")
+        ax.text(0.01, number, text, va="center", family="monospace")
     return ax.axhspan(line - 0.5, line + 0.5, color=CURVES[0], alpha=0.25, linewidth=0)
 
 

@@ -67,23 +67,26 @@ def _path() -> Steps:
 
 
 def _tarjan() -> Steps:
-    graph = graphs.notes_example()
-    last = len(diagrams.tarjan_states({node: sorted(graph.successors(node)) for node in sorted(graph)})) - 1
-    return _each(diagrams.tarjan_step, (0, 4, 6, 14, 16, last), graph)
+    return _moved(diagrams.tarjan_steps(graphs.notes_example()), (0, 4, 6, 14, 16, 99))
 
 
 def _search() -> Steps:
-    return _each(diagrams.search_steps, (0, 2, 3, 9, 11, 13), graphs.notes_example(), 6, 2)
+    return _moved(diagrams.search_steps(graphs.notes_example(), 6, 2), (0, 2, 3, 9, 11, 13))
 
 
 def _layers() -> Steps:
     asked = GroundPath([[0, 0], [0, 2.1], [0.7, 2.1], [0.7, 0]]).at(0.7 * np.arange(7)) @ [1j, 1]
-    return (diagrams.layer_step(asked, 5, step=step, width=4) for step in (6, 9, 13, 17, 18, 25))
+    draw_stage = diagrams.layer_steps(asked, 5)
+    return _moved(lambda step: draw_stage(step, 4, True), (6, 9, 13, 17, 18, 25))
 
 
 def _tree() -> Steps:
     walk = resample(datasets.sample("walk_straight"), FPS)
-    return (diagrams.down_the_tree(walk, 20)(joint)[0].figure for joint in (0, 2, 3, 24))
+    return _moved(diagrams.down_the_tree(walk, 20), (0, 2, 3, 24))
+
+
+def _moved(draw: Callable[[int], Any], steps: Iterable[int]) -> Steps:
+    return (draw(step)[0].figure for step in steps)
 
 
 def _each(draw: Callable[..., Any], steps: Iterable[int], *shown: Any) -> Steps:  # noqa: ANN401

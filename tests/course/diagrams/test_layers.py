@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mocap.body import GroundPath
-from mocap.course.diagrams.layers import PROGRAM, STRIDE, TURNS, Steps, layer_states, layer_step, lengthened
+from mocap.course.diagrams.layers import PROGRAM, STRIDE, TURNS, Steps, layer_states, layer_steps, lengthened
 
 LINE = GroundPath([[0, 0], [0, 2.1], [0.7, 2.1], [0.7, 0]]).at(STRIDE * np.arange(8)) @ [1j, 1]
 
@@ -51,12 +51,14 @@ def test_of_walks_that_stand_alike_the_best_stays_and_no_more_than_the_beam_go_o
 
 
 def test_the_line_that_ran_is_marked_and_crossed_walks_are_drawn():
-    figure = layer_step(LINE, 5, step=18)
+    figure = layer_steps(LINE, 5)(18, 4, True)[0].figure
     ground, code = figure.axes
     assert [text.get_text() for text in code.texts] == PROGRAM
     marked = code.patches[0].get_extents().transformed(code.transData.inverted())
     assert (marked.y0 + marked.y1) / 2 == pytest.approx(
         PROGRAM.index("    kept = the K best of apart, by score")
     )
-    crosses = [line for line in ground.lines if line.get_marker() == "x"]
-    assert len(crosses) == len(layer_states(LINE, 5)[18].crossed) > 0
+    (crosses,) = (line for line in ground.lines if line.get_marker() == "x")
+    ends = [walk.places[-1] for walk in layer_states(LINE, 5)[18].crossed]
+    assert crosses.get_xydata()[crosses.get_markevery()] @ [1j, 1] == pytest.approx(ends)
+    assert len(ends) > 0
