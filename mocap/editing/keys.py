@@ -160,11 +160,8 @@ def offsets(motion: Motion, keys: Sequence[Key]) -> Displacement:
     now = [motion[frame : frame + 1] for frame in frames]
     changes = [difference(key.pose or pose, pose) for key, pose in zip(keys, now, strict=True)]
     flat = [number for number, key in enumerate(keys) if key.flat]
-    root, turns = (
-        cardinal(frames, np.concatenate(values), np.arange(len(motion)), flat=flat)
-        for values in zip(*changes, strict=True)
-    )
-    return Displacement(root, turns)
+    values = (np.concatenate(part) for part in zip(*changes, strict=True))
+    return Displacement(*(cardinal(frames, part, np.arange(len(motion)), flat=flat) for part in values))
 
 
 def check_keys(motion: Motion, keys: Sequence[Key]) -> None:
