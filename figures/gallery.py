@@ -572,7 +572,7 @@ def draw_parametric_graph() -> Figure:
         label = "may follow it" if not number else None
         right.plot(-way.imag, way.real, color=CURVES[0], linewidth=2, label=label)
     right.set(aspect="equal", xlabel="to the right (m)", ylabel="ahead (m)", xlim=(-1.3, 1.1))
-    right.legend(frameon=False, fontsize=8, loc="center left")
+    right.legend(frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1))
     return figure
 
 

@@ -123,7 +123,7 @@ def search_steps(
         left.title.set_text(f"best so far: {best.cost:.2f} long" if best else "no complete walk yet")
         walk = shown[-1].walk if shown else ()
         named = " → ".join(map(str, walk if len(walk) < 7 else (*walk[:3], "…", *walk[-2:])))
-        right.title.set_text(f"step {step}: {named} is {shown[-1].fate}" if shown else "")
+        right.title.set_text(f"step {len(shown)}: {named} is {shown[-1].fate}" if shown else "")
         return [*colour_tree(shown), left.title, right.title]
 
     return draw
