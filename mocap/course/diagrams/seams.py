@@ -215,4 +215,5 @@ def added_by_blend(blended: Passage, terms: Mapping[str, Array] = MappingProxyTy
     below.set(xlabel="frame, counted from the start of the window", ylabel="jolt, RMS over\npoints (m/s)")
     for ax in (above, below):
         ax.legend(frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
+        ax.locator_params(nbins=4)  # ticks take most of the time to draw
     return figure
