@@ -51,7 +51,7 @@ class Member:
         """Unpack the array, in the byte order of this machine and the rows one after the other."""
         if not self.fits:
             raise zipfile.BadZipFile
-        with self.archive.open(self.entry) as packed:
+        with self.archive.open(self.entry) as packed, warnings.catch_warnings(action="ignore"):
             whole = npy.read_array(packed, allow_pickle=False)
         array = whole.astype(self.dtype.newbyteorder("="), "C", copy=False)
         if last := LAST.get(self.dtype.kind):

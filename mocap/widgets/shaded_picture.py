@@ -17,15 +17,10 @@ from mocap._shared.arrays import Array, Indices
 YAW, PITCH = 0.7, 0.25  # radians
 NEAR = 0.1  # metres; what is nearer to the eye is not drawn
 TWICE = 2  # drawn larger by this, then made smaller, so that edges are smooth
-SKY, GROUND, WARM = (
-    "#FAF7F0",
-    "#ECE6DA",
-    np.array([1.22, 1.1, 0.95], np.float32),
-)  # WARM: the light of the sun
-SUN, SHADOW = (
-    (-0.45, 0.78, 0.44),
-    0.3,
-)  # to the right, up and back, seen from the camera; how dark a shadow is
+SKY, GROUND = "#FAF7F0", "#ECE6DA"
+WARM = np.array([1.22, 1.1, 0.95], np.float32)  # the light of the sun
+SUN = (-0.45, 0.78, 0.44)  # to the right, up and back, seen from the camera
+SHADOW = 0.3  # how dark it is
 
 Window = tuple[slice, slice]  # rows and columns of pixels
 Floats = NDArray[np.float32]
