@@ -386,7 +386,7 @@ def draw_added() -> Figure:
     clips = [resample(datasets.sample(name), 30) for name in ("sneak", "stop_and_go")]
     found = matching.find_transitions(clips, window=WINDOW, below=0.09)
     (match,) = choose_matches(clips, found, (0.08, 0.09), count=1)
-    return diagrams.added_by_blend(passage(clips, match, 6))
+    return diagrams.added_by_blend()(passage(clips, match, 6))[0].figure
 
 
 def _steps(*, price: Callable[[complex, int, int], float], count: int) -> synthesis.Problem:

@@ -1,10 +1,10 @@
 """Where one clip passes into another: frames, weights, ways between two rotations, a leg, added jolts."""
 
-from collections.abc import Mapping
-from types import MappingProxyType
+from collections.abc import Callable, Mapping, Sequence
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
@@ -171,17 +171,18 @@ def _draw_angles(ax: Axes, knee: complex, ankle: complex) -> None:
     ax.text(knee.real + 0.1, knee.imag - 0.12, f"bend {bend:.0f}°")
 
 
-def added_by_blend(blended: Passage, terms: Mapping[str, Array] = MappingProxyType({})) -> Figure:
+def added_by_blend(terms: Sequence[str] = ()) -> Callable[..., list[Artist]]:
     """Draw how a blend changes velocities, and the jolt that it adds.
 
     Parameters
     ----------
-    blended : as from `seam_trials.passage`.
-    terms : by their names, shape (F - 2, 3P) each, metres per frame: what explains this jolt.
+    terms : names of what explains this jolt.
 
     Returns
     -------
-    A figure with the root's velocities above, and the jolts below, in the window and a frame on either side.
+    A function for `explore`: it takes a blend, as from `seam_trials.passage`, and for each name a term, shape
+    (F - 2, 3P), metres per frame, and gives what it moved: the root's velocities above, and the jolts below,
+    in the window and a frame on either side.
 
     Examples
     --------
@@ -189,31 +190,47 @@ def added_by_blend(blended: Passage, terms: Mapping[str, Array] = MappingProxyTy
     >>> from mocap.datasets.samples import sample
     >>> walk = sample("walk_straight")[:80]
     >>> blended = Passage(join(walk, 20, walk, 20, 10), walk, walk, 20, cubic_weights(10))
-    >>> figure = added_by_blend(blended, {"no gap, no jolt": blended.gap[1:-1]})
-    >>> [len(ax.lines) for ax in figure.axes]
+    >>> moved = added_by_blend(["no gap, no jolt"])(blended, blended.gap[1:-1])
+    >>> [len(ax.lines) for ax in moved[0].figure.axes]
     [3, 1]
 
     Notebook: 09-discussion
     """
-    above, below = (figure := Figure(figsize=(7.5, 4.4), layout="constrained")).subplots(2, 1)
-    start, window = blended.start, len(blended.weights)
-    travelled = blended.first.root_positions[-1] - blended.first.root_positions[0]
-    ahead = travelled / max(float(np.linalg.norm(travelled)), 1e-9)
-    names, colours = ("first clip", "second clip, aligned", "the blend"), (*SOURCES[:2], COLOURS["middle"])
-    for motion, name, colour in zip(
-        (blended.first, blended.second, blended.result), names, colours, strict=True
-    ):
-        speeds = np.diff(motion.root_positions, axis=0) @ ahead * motion.fps
-        wide = 1.3 if motion is blended.result else 2.6
-        above.plot(np.arange(len(speeds)) + 0.5 - start, speeds, color=colour, linewidth=wide, label=name)
-    above.axvspan(0, window - 1, color=MARK, alpha=0.15, linewidth=0)
-    frames = np.arange(-1, window + 1)
-    below.fill_between(frames, blended.jolts.added, color=MARK, alpha=0.4, label="added jolt, measured")
-    for (name, term), colour in zip(terms.items(), CURVES, strict=False):
-        below.plot(frames, blended.size(term)[start - 2 :][: window + 2], color=colour, label=name)
+    above, below = axes = Figure(figsize=(7.5, 4.4), layout="constrained").subplots(2, 1)
+    speeds = [
+        above.plot([], color=colour, lw=wide, label=name)[0]
+        for name, colour, wide in (
+            ("first clip", SOURCES[0], 2.6),
+            ("second clip, aligned", SOURCES[1], 2.6),
+            ("the blend", COLOURS["middle"], 1.3),
+        )
+    ]
+    inside = above.axvspan(0, 1, color=MARK, alpha=0.15, linewidth=0)
+    (added,) = below.fill([0, 0, 0], [0, 0, 0], color=MARK, alpha=0.4, lw=0, label="added jolt, measured")
+    sizes = [below.plot([], color=c, label=name)[0] for name, c in zip(terms, CURVES, strict=False)]
     above.set(ylabel="forward velocity\nof 'root' (m/s)")
     below.set(xlabel="frame, counted from the start of the window", ylabel="jolt, RMS over\npoints (m/s)")
-    for ax in (above, below):
+    for ax in axes:
         ax.legend(frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
         ax.locator_params(nbins=4)  # ticks take most of the time to draw
-    return figure
+
+    def draw(blended: Passage, *explained: Array) -> list[Artist]:
+        start, window = blended.start, len(blended.weights)
+        travelled = blended.first.root_positions[-1] - blended.first.root_positions[0]
+        ahead = travelled / max(float(np.linalg.norm(travelled)), 1e-9)
+        for line, motion in zip(speeds, (blended.first, blended.second, blended.result), strict=True):
+            speed = np.diff(motion.root_positions, axis=0) @ ahead * motion.fps
+            line.set_data(np.arange(len(speed)) + 0.5 - start, speed)
+        inside.set_width(window - 1)
+        frames = np.arange(-1, window + 1)
+        jolts = np.pad(blended.jolts.added, 1)  # down to the ground at both ends
+        added.set_xy(np.column_stack([np.pad(frames, 1, mode="edge"), jolts]))
+        for line, term in zip(sizes, explained, strict=True):
+            line.set_data(frames, blended.size(term)[start - 2 :][: window + 2])
+        for ax in axes:
+            ax.relim()
+            ax.autoscale_view()
+            ax.figure.stale = False  # the sides move too, so all else stays as it was drawn
+        return [*speeds, inside, added, *sizes, *(side for ax in axes for side in (ax.xaxis, ax.yaxis))]
+
+    return draw

@@ -69,7 +69,7 @@ RESULT = join(WALK, 500, WALK, 233, 12)[490:560]
 
 def test_what_a_blend_adds_is_drawn_as_measured_beside_the_terms_that_explain_it():
     blended = Passage(RESULT, FIRST, SECOND, 10, cubic_weights(12))
-    above, below = added_by_blend(blended, {"term": blended.gap[1:-1]}).axes
+    above, below = added_by_blend(["term"])(blended, blended.gap[1:-1])[0].figure.axes
     ends = above.patches[0].get_extents().transformed(above.transData.inverted()).intervalx
     assert ends == pytest.approx([0, 11])
     first, second, result = (line.get_ydata() for line in above.lines)
@@ -77,8 +77,8 @@ def test_what_a_blend_adds_is_drawn_as_measured_beside_the_terms_that_explain_it
     assert result[22:] == pytest.approx(second[22:])
     ahead = FIRST.root_positions[-1] - FIRST.root_positions[0]
     assert first.sum() / WALK.fps == pytest.approx(np.linalg.norm(ahead))
-    (area,), (term,) = below.collections, below.lines
-    assert np.allclose(area.get_facecolor()[0, :3], [int(MARK[n : n + 2], 16) / 255 for n in (1, 3, 5)])
-    assert area.get_paths()[0].vertices[:, 1].max() == pytest.approx(blended.jolts.added.max())
+    (area,), (term,) = below.patches, below.lines
+    assert np.allclose(area.get_facecolor()[:3], [int(MARK[n : n + 2], 16) / 255 for n in (1, 3, 5)])
+    assert area.get_xy()[:, 1].max() == pytest.approx(blended.jolts.added.max())
     gaps = np.linalg.norm(point_cloud(FIRST) - point_cloud(SECOND), axis=-1)
     assert term.get_ydata() == pytest.approx(np.sqrt((gaps**2).mean(axis=1))[9:23] * WALK.fps)
