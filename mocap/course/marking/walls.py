@@ -3,7 +3,8 @@
 Both work without an administrator's rights, in containers as well, and each may be missing on a system:
 
 - `landlock`: it reads Python, programs and libraries, and writes in its home; nothing else can be opened.
-- `filter`: it opens no sockets, sends no signals, mounts nothing, and changes nobody's rights to a file.
+- `filter`: it opens no sockets, sends no signals, mounts nothing, changes nobody's rights to a file, and cuts
+  none that it has not opened for writing, which Landlock before Linux 6.2 does not forbid.
 """
 
 from __future__ import annotations
@@ -32,12 +33,12 @@ SYSTEM = [f"/{name}" for name in ("usr", "lib", "lib32", "lib64", "bin", "sbin",
 SYSTEM += [f"/etc/{name}" for name in ("localtime", "ld.so.cache", "passwd", "group", "nsswitch.conf")]
 DEVICES = ("/dev/null", "/dev/zero", "/dev/full", "/dev/random", "/dev/urandom")
 # kill, tkill, tgkill, rt_sigqueueinfo, rt_tgsigqueueinfo, prlimit64, ptrace, process_vm_readv and _writev;
-# socket, memfd_create, shmget, mq_open; unshare, setns, mount, umount2, pivot_root, chroot;
+# socket, memfd_create, shmget, mq_open, truncate; unshare, setns, mount, umount2, pivot_root, chroot;
 # add_key, request_key, keyctl, bpf, perf_event_open
-X86 = [62, 200, 234, 129, 297, 302, 101, 310, 311, 41, 319, 29, 240, 272, 308, 165, 166, 155, 161]
-ARM = [129, 130, 131, 138, 240, 261, 117, 270, 271, 198, 279, 194, 180, 97, 268, 40, 39, 41, 51]
-# pidfd_send_signal, io_uring_setup, open_tree, move_mount, fsopen, pidfd_getfd, mount_setattr
-BOTH = [424, 425, 428, 429, 430, 438, 442]
+X86 = [62, 200, 234, 129, 297, 302, 101, 310, 311, 41, 319, 29, 240, 76, 272, 308, 165, 166, 155, 161]
+ARM = [129, 130, 131, 138, 240, 261, 117, 270, 271, 198, 279, 194, 180, 45, 97, 268, 40, 39, 41, 51]
+# pidfd_send_signal, io_uring_setup, open_tree, move_mount, fsopen, openat2, pidfd_getfd, mount_setattr
+BOTH = [424, 425, 428, 429, 430, 437, 438, 442]
 # chmod, chown, utime and setxattr, and their kin: they seem to succeed, because much copies a file by them
 DENIED = {
     "x86_64": (
@@ -47,6 +48,7 @@ DENIED = {
     ),
     "aarch64": (0xC00000B7, [*ARM, 217, 218, 219, 280, 241, *BOTH], [*range(52, 56), 88, *range(5, 8), 452]),
 }
+FLAGS = {"x86_64": ((257, 32), (2, 24)), "aarch64": ((56, 32),)}  # of openat and open: where they stand
 
 
 def fork_behind(walls: Sequence[str], home: Path, hidden: Sequence[str], work: Callable[[], object]) -> int:
@@ -105,12 +107,12 @@ def _lock(home: Path, places: Iterable[Path]) -> None:
 
     Raises
     ------
-    OSError : where there is no Landlock, or one that cannot keep files from being cut (Linux before 6.2).
+    OSError : where there is no Landlock, or one before Linux 6.2, but no filter to keep files from being cut.
     """
     version = _call("syscall", RULESET, None, 0, 1)
     if version < 3:
-        raise OSError("Landlock is too old")
-    rights = (1 << (16 if version >= 5 else 15)) - 1
+        _filter()
+    rights = (1 << (min(version + 12, 15) + (version >= 5))) - 1
     made = struct.pack("QQQ", rights, 0b11, 0b11)[: 8 * (1 + (version >= 4) + (version >= 6))]
     rules = _call("syscall", RULESET, made, len(made), 0)
     allowed = dict.fromkeys(places, READ) | dict.fromkeys(map(Path, DEVICES), USE)
@@ -118,7 +120,7 @@ def _lock(home: Path, places: Iterable[Path]) -> None:
     for place, right in allowed.items():
         with suppress(FileNotFoundError):
             at = os.open(place, os.O_PATH)
-            own = struct.pack("=Qi", right if place.is_dir() else right & (USE | 1), at)
+            own = struct.pack("=Qi", rights & (right if place.is_dir() else right & (USE | 1)), at)
             _call("syscall", RULE, rules, 1, own, 0)
             os.close(at)
     _call("syscall", RESTRICT, rules, 0)
@@ -152,7 +154,7 @@ def _without(place: Path, hidden: Sequence[Path]) -> Iterable[Path]:
 
 
 def _filter() -> None:
-    """Refuse the system calls `DENIED` to this process and to what it starts.
+    """Refuse the system calls `DENIED` to this process and what it starts, and to cut a file opened to read.
 
     Raises
     ------
@@ -166,6 +168,9 @@ def _filter() -> None:
     program += [(0x20, 0, 0, 0), (0x35, 0, 1, 1 << 30), (0x06, 0, 0, fail)]
     for answer, group in ((fail, numbers), (pretend, without_effect)):
         program += [step for one in group for step in ((0x15, 0, 1, one), (0x06, 0, 0, answer))]
+    for one, flags in FLAGS[platform.machine()]:  # O_TRUNC may not go with O_RDONLY, nor 3, which is neither
+        cut = [(0x20, 0, 0, flags), (0x54, 0, 0, 0o1003), (0x15, 1, 0, 0o1000), (0x15, 0, 1, 0o1003)]
+        program += [(0x15, 0, 6, one), *cut, (0x06, 0, 0, fail), (0x06, 0, 0, allow)]
     program += [(0x06, 0, 0, allow)]
     code = ctypes.create_string_buffer(b"".join(struct.pack("HBBI", *step) for step in program))
     prctl(SET_FILTER, 2, struct.pack("HxxxxxxQ", len(program), ctypes.addressof(code)))

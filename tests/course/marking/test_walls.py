@@ -63,7 +63,9 @@ def attempts(place):
         "list": (lambda: [*place.iterdir()], "landlock"),
         "write": (lambda: file.write_text("2"), "landlock"),
         "make": (lambda: (place / "new").write_text("2"), "landlock"),
-        "cut": (lambda: os.truncate(file, 0), "landlock"),
+        "cut": (lambda: os.truncate(file, 0), "landlock filter"),
+        "cut by reading": (lambda: os.open(file, os.O_RDONLY | os.O_TRUNC), "landlock filter"),
+        "cut by doing neither": (lambda: os.open(file, 3 | os.O_TRUNC), "landlock filter"),
         "remove": (file.unlink, "landlock"),
         "rename": (lambda: file.rename(place / "home" / "mine"), "landlock"),
         "link": (lambda: os.link(file, place / "other"), "landlock"),
@@ -104,8 +106,26 @@ def test_a_wall_forbids_what_it_says_and_no_more(wall, name, place, monkeypatch)
         planted.unlink()
 
 
-@pytest.mark.parametrize("wall", walls.ALL)
-def test_at_home_all_works(wall, place):
+@pytest.fixture
+def version(request, monkeypatch):
+    """Let the kernel say that it has an older Landlock."""
+    call, asked = walls._call, ("syscall", walls.RULESET, None, 0, 1)
+    if request.param:
+        monkeypatch.setattr(walls, "_call", lambda *given: request.param if given == asked else call(*given))
+
+
+@pytest.mark.parametrize("version", [1, 2], indirect=True)
+def test_before_linux_6_2_landlock_forbids_as_much_with_the_filter(version, place):
+    require("landlock"), require("filter")
+    places = place / "home", place / "hidden"
+    assert succeeds(["landlock"], *places, int)
+    assert not [name for name, (work, _) in attempts(place).items() if succeeds(["landlock"], *places, work)]
+
+
+@pytest.mark.parametrize(
+    ("wall", "version"), [("landlock", None), ("landlock", 2), ("filter", None)], indirect=["version"]
+)
+def test_at_home_all_works(wall, version, place):
     require(wall)
 
     def work():
