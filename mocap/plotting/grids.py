@@ -35,7 +35,7 @@ def distance_image(
 
     Returns
     -------
-    The image: RMS distance in centimetres. It is a control for `widgets.explore`.
+    The image: RMS distance in centimetres.
 
     Examples
     --------

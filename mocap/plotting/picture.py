@@ -69,18 +69,12 @@ def stack(figures: Sequence[Figure], alt: str) -> Picture:
     >>> Image.open(io.BytesIO(picture.picture)).size
     (220, 330)
     """
-    return Picture(tiled([Image.open(io.BytesIO(small_png(figure))) for figure in figures], down=True), alt)
-
-
-def tiled(parts: Sequence[Image.Image], *, down: bool) -> bytes:
-    """Join pictures, one below the other or side by side, as a PNG of few colours."""
-    letters = min(float(part.info.get("letters", np.inf)) for part in parts)
-    sizes = np.array([part.size for part in parts]) * [[not down, down]]  # from each to the next
-    corners = np.cumsum([[0, 0], *sizes], axis=0)
-    whole = Image.new("RGB", tuple(np.max([corners[-1], *(part.size for part in parts)], axis=0)), "white")
-    for part, corner in zip(parts, corners.tolist(), strict=False):
-        whole.paste(part, tuple(corner))
-    return few_colours(whole, letters)
+    parts = [Image.open(io.BytesIO(small_png(figure))) for figure in figures]
+    tops = np.cumsum([0, *(part.height for part in parts)]).tolist()
+    whole = Image.new("RGB", (max(part.width for part in parts), tops[-1]), "white")
+    for part, top in zip(parts, tops, strict=False):
+        whole.paste(part, (0, top))
+    return Picture(few_colours(whole, min(float(part.info["letters"]) for part in parts)), alt)
 
 
 @dataclass(frozen=True)

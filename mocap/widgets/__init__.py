@@ -10,7 +10,7 @@ Reading order (notebooks 00 to 19)
 3. `player`: a motion that plays, on a page or in a notebook
 4. `live`: the base of live widgets, and a picture when the notebook is opened again
 5. `live_player`: players whose scene Python changes: a canvas for paths, sliders that mix
-6. `pointing`: an image to click on, and handles to drag
+6. `pointing`: handles to drag
 7. `experiments`: a picture with controls
 8. `recording`: positions of an experiment, as pictures for pages without Python
 9. `walk_figure`: the capsules of a body

@@ -22,13 +22,12 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.image import AxesImage
 from PIL import Image
 
 from mocap.errors import MocapError, missing
-from mocap.plotting.picture import Picture, figure_of, legible, letters_of, tiled
+from mocap.plotting.picture import Picture, few_colours, figure_of, legible, letters_of
 from mocap.widgets.live import Live, display_live, widget
-from mocap.widgets.pointing import Handles, Pointer, pointer
+from mocap.widgets.pointing import Handles
 
 Drawn = Any  # a figure, what a function of `plotting` gives, or a list of moved artists
 
@@ -44,9 +43,8 @@ def explore(draw: Callable[..., Drawn], *, alt: str, **controls: Any) -> Experim
     draw : called with the controls' values by name; returns what it drew, or a list of the artists it moved.
     alt : a sentence that says what the picture shows, for readers who do not see it.
     controls : name=(low, high) or (low, high, step) for a slider, a bool for a check box, a list or
-        {label: value} for a choice, an image such as a `plotting.distance_image` to click on for its
-        (row, column), `handles` to drag on what `draw` returns, or a widget. A control starts at the default
-        in `draw`'s signature, handles where they were made.
+        {label: value} for a choice, `handles` to drag on what `draw` returns, or a widget. A control starts
+        at the default in `draw`'s signature, handles where they were made.
 
     Returns
     -------
@@ -89,8 +87,6 @@ def _widget(control: Any, default: Any) -> Any:  # noqa: ANN401 (as for `explore
     """Make a widget of a control, or None."""
     from ipywidgets import interactive
 
-    if isinstance(control, AxesImage):
-        return pointer(control, (0, 0) if default is inspect.Parameter.empty else default)
     with suppress(ValueError, TypeError):
         return interactive.widget_from_abbrev(control, default)
     return None
@@ -142,18 +138,15 @@ class Experiment:
         self.draw, self.alt, self.controls = draw, alt, controls
         self.error: Exception | None = None
         self._canvas = BlittedFigure()
-        self._images = [control for control in controls.values() if isinstance(control, Pointer)]
-        dragged: list[Any] = [control for control in controls.values() if isinstance(control, Handles)]
-        self._dragged = dragged[0] if dragged else None
+        dragged = [control for control in controls.values() if isinstance(control, Handles)]
+        self._dragged: Any = dragged[0] if dragged else None
         self.picture: Any = self._dragged or ipywidgets.Image(format="png")
         self.picture.add_class("mocap-picture")
         self.message = ipywidgets.HTML(layout={"display": "none"})
-        shown = [*self._images, self.picture]
-        for image in shown:  # they shrink to 320 pixels and then stack, and further where there is less room
-            image.layout = {"flex": "1 1 320px", "max_width": "max-content", "min_width": "0"}
-        below = ipywidgets.HBox([*shown, self.message])
+        self.picture.layout = {"flex": "1 1 320px", "max_width": "max-content", "min_width": "0"}
+        below = ipywidgets.HBox([self.picture, self.message])
         below.layout = {"flex_flow": "row wrap", "align_items": "flex-start", "width": "100%"}
-        parts = [control for control in controls.values() if control not in shown]
+        parts = [control for control in controls.values() if control is not self.picture]
         parts += [below, ipywidgets.HTML(f"<small>{html.escape(alt)}</small>")]
         with suppress(MocapError):  # without anywidget, controls have no names
             parts.append(widget(Naming)(alt=alt))
@@ -199,11 +192,11 @@ class Experiment:
         self.message.layout.display = None if self.error else "none"
 
     def still(self) -> tuple[dict[str, str], dict[str, Any]]:
-        """Return what stands where no Python runs: the images to click on and the picture, as one PNG."""
+        """Return what stands where no Python runs: the picture, with its handles, as a PNG."""
         drawn = self._dragged.with_handles() if self._dragged else Image.open(io.BytesIO(self.png))
-        drawn.info["letters"] = letters_of(self._canvas.canvas.figure) * self._canvas.canvas.figure.dpi
-        row = tiled([*(image.with_ring() for image in self._images), drawn], down=False)
-        return Picture(row, self.alt)._repr_mimebundle_()
+        figure = self._canvas.canvas.figure
+        small = few_colours(drawn, letters_of(figure) * figure.dpi)
+        return Picture(small, self.alt)._repr_mimebundle_()
 
     def _ipython_display_(self) -> None:
         display_live(self.still(), self.box, "slider")

@@ -14,7 +14,7 @@ import numpy as np
 from PIL import Image
 
 from mocap.widgets.experiments import Experiment
-from mocap.widgets.pointing import Handles, Pointer
+from mocap.widgets.pointing import Handles
 
 ROOM = 200_000  # bytes for the pictures of one experiment
 COUNTS = (15, 11, 8, 5)  # of positions; the most that fit in the room
@@ -52,7 +52,7 @@ def record(experiment: Experiment, *, room: int = ROOM) -> dict[str, Any] | None
     (['0', '2', '4'], 1, 3)
     """
     for name, control in experiment.controls.items():
-        if isinstance(control, Pointer | Handles) or not (positions := _positions(control)):
+        if isinstance(control, Handles) or not (positions := _positions(control)):
             continue
         rest = control.value
         at = next(number for number, (_, value) in enumerate(positions) if value == rest)

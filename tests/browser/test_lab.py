@@ -15,9 +15,8 @@ CELLS = {
     "start": """
         import ipywidgets, matplotlib.pyplot as plt, numpy as np, time, warnings
         from mocap import MocapWarning
-        from mocap import blending, datasets, matching, plotting, resample
+        from mocap import blending, datasets, plotting, resample
         from mocap.body import joint_positions
-        from mocap.course import diagrams
         from mocap.plotting import show
         from mocap.widgets import Mixer, draw_path, explore, play
         walk = resample(datasets.sample("walk_circle"), 30)[:240]
@@ -39,13 +38,6 @@ CELLS = {
         count = ipywidgets.SelectionSlider(options=[60, 120, 240], value=60)
         explore(steps, alt="A path from above.", side=["left", "right"], count=count, seam=False)""",
     "show": 'show(plotting.path_from_above(walk), alt="The path of a walk.")',
-    "point": """
-        def lay(at=(30, 100)):
-            i, j = at
-            laid = blending.lay_window_on(walk, i, walk, j, 10)
-            return diagrams.laid(walk[i : i + 10], laid[j : j + 10], lambda points: points)
-        grid = matching.distance_grid(walk, walk, window=10)
-        explore(lay, alt="Two windows laid over each other.", at=plotting.distance_image(grid, fps=30))""",
     "drag": """
         from mocap.widgets import handles
         ax = plt.figure(figsize=(5, 5)).add_subplot(xlim=(3, -3), ylim=(0, 6), xlabel="x (m)", ylabel="z (m)")
@@ -167,10 +159,10 @@ def test_pictures_fit_the_width_that_there_is(notebook, width):
     page, cell = notebook
     page.set_viewport_size({"width": width, "height": 900})
     try:
-        for name in ("wide", "explore", "point", "drag", "choose", "draw"):
+        for name in ("wide", "explore", "drag", "choose", "draw"):
             place = cell(name)
             output = place.locator(".jp-OutputArea-output:visible").last.bounding_box()
-            for part in place.locator(":is(.mocap-picture, .mocap-pointing, canvas):visible").all():
+            for part in place.locator(":is(.mocap-picture, canvas):visible").all():
                 box = part.bounding_box()
                 assert box["x"] + box["width"] <= output["x"] + output["width"] + 1, name
                 assert box["width"] > 200, name
@@ -203,27 +195,6 @@ def test_sliders_and_pictures_have_names(notebook):
     assert cell("explore").get_by_role("slider", name="frame").is_visible()
     assert cell("wide").get_by_role("slider", name="share").is_visible()
     assert cell("explore").locator(".mocap-picture").get_attribute("alt") == "A stick figure at a frame."
-
-
-def test_a_click_on_the_distance_image_lays_two_windows_over_each_other(notebook):
-    page, cell = notebook
-    place = cell("point")
-    grid, status = place.locator(".mocap-pointing"), place.get_by_role("status")
-    wait_until(lambda: "row 30, column 100" in status.inner_text())
-    laid = place.locator(".mocap-picture")
-    before, box = laid.get_attribute("src"), grid.bounding_box()
-    page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
-    wait_until(lambda: laid.get_attribute("src") != before)
-    wait_until(lambda: "column 100" not in status.inner_text())
-    row, column = (int(part.split()[1]) for part in status.inner_text().split(":")[0].split(", "))
-    assert 100 < row < 130
-    assert 100 < column < 160  # the colours' bar is at the right
-    before = laid.get_attribute("src")
-    page.keyboard.press("ArrowDown")
-    page.keyboard.press("Shift+ArrowLeft")
-    wait_until(lambda: f"row {row + 1}, column {column - 10}:" in status.inner_text())
-    wait_until(lambda: laid.get_attribute("src") != before)
-    assert grid.evaluate("part => getComputedStyle(part).touchAction") == "pan-y"
 
 
 def test_a_handle_is_dragged_by_the_mouse_and_moved_by_keys_and_the_line_follows(notebook):
@@ -362,7 +333,7 @@ def test_a_notebook_that_is_opened_again_shows_pictures(ran):
     page.reload()
     wait_until(lambda: page.locator(".jp-CodeCell").count() >= len(CELLS), 60)
     order = list(CELLS)
-    for name in ("explore", "choose", "point", "draw"):
+    for name in ("explore", "choose", "drag", "draw"):
         place = page.locator(".jp-Notebook .jp-CodeCell").nth(order.index(name))
         place.scroll_into_view_if_needed()
         still = place.locator(".mocap-still")

@@ -70,9 +70,6 @@ def settings(experiment):
             ends[name] = [control.min, middle, control.max]
         elif hasattr(control, "elsewhere"):
             ends[name] = control.elsewhere()
-        elif hasattr(control, "shape"):
-            rows, columns = control.shape
-            ends[name] = [(0, 0), (rows // 2, columns // 3), (rows - 1, columns - 1)]
         else:
             ends[name] = [False, True]
     yield {name: values[0] for name, values in ends.items()}

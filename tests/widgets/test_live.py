@@ -3,16 +3,13 @@
 import sys
 
 import matplotlib.pyplot as plt
-import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
 from mocap.blending import register
 from mocap.errors import MocapError
-from mocap.plotting.grids import distance_image
 from mocap.widgets import Mixer, draw_path, explore, handles, live, steered
 from mocap.widgets.live import LIVE, STILL, WIDGET
-from mocap.widgets.pointing import pointer
 from tests.blending.registered import walks
 from tests.strategies import wave
 from tests.widgets.steerable import Dot
@@ -27,7 +24,6 @@ MADE = {
 }
 NEEDY = {
     "handles": lambda: handles(plt.figure().add_subplot(), [[0, 1]]),
-    "pointer": lambda: pointer(distance_image(np.ones((3, 3)), fps=30)),
     "player": MADE["player"],
     "steered": MADE["steered"],
 }
