@@ -107,7 +107,7 @@ def body_of(
     for joint in (joint for joint in above if turns[joint]):
         below = [other for other, path in enumerate(paths) if joint in path]
         moved = ((positions[:, below] - positions[:, [joint]]) ** 2).sum(axis=(1, 2)).mean()
-        hinge = hinge_of(motion, joint)
+        hinge = hinge_of(motion, joint) if joint else None  # who walks round in a circle tips, too
         axes.append(np.eye(3) if hinge is None else hinge[None])
         joints += [joint] * len(axes[-1])
         price += [factors.get(joint, 1.0) * (moved + EFFORT)] * len(axes[-1])

@@ -28,6 +28,8 @@ def test_only_joints_above_a_pinned_one_take_part_and_the_price_is_what_they_mov
     assert root > hip > knee > ankle > 1
     dear = body_of(clip, [LEGS[0].ankle], prices={"lfemur": 4.0})
     assert dear.price[6] == pytest.approx(4 * hip)
+    round_and_round = body_of(sample("walk_circle"), [LEGS[0].ankle])
+    assert (round_and_round.joints == 0).sum() == 3  # the root is no hinge, however far it turns about y
 
 
 def test_knees_are_hinges_and_hips_are_not():

@@ -36,8 +36,9 @@ def test_a_stone_under_a_step(fps, height):
 
 
 @pytest.mark.parametrize("height", [0.2, 0.5])
-def test_stones_under_a_captured_step(real_data, height):
-    clip = captured(real_data)
+@pytest.mark.parametrize("file", ["cmu/16/16_15.amc", "hw3/walk_fwd_curve1.AMC"])
+def test_stones_under_a_captured_step(real_data, file, height):
+    clip = captured(real_data, file)  # the second one's knee jumps where its leg is straight
     pins = stone(clip, height)
     check(edited := edit(clip, pins), clip, pins, 1.15)
     assert shakes(edited, clip, pins) <= 1.15

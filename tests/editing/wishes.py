@@ -27,9 +27,9 @@ def walk(fps: float = 120.0) -> Motion:
 
 
 @cache
-def captured(folder: Path) -> Motion:
-    """CMU's 16_15 with feet that stand; its left arm snaps in frame 1."""
-    return clean_up(mark_plants(load(folder / "cmu" / "16" / "16_15.amc")[12:]))
+def captured(folder: Path, file: str = "cmu/16/16_15.amc") -> Motion:
+    """Four seconds of a captured walk with feet that stand; the left arm of 16_15 snaps in frame 1."""
+    return clean_up(mark_plants(load(folder / file)[12:600]))
 
 
 def stone(clip: Motion, height: float, step: int = 1) -> Pins:
