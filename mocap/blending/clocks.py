@@ -6,6 +6,8 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.integrate import cumulative_trapezoid
+from scipy.interpolate import CubicHermiteSpline
 
 from mocap._shared.arrays import Array, Points, frozen
 from mocap.blending.contact_matches import SharedPlant
@@ -17,7 +19,7 @@ from mocap.errors import MocapError
 Weights = ArrayLike | Callable[[float, float], ArrayLike]
 """Weights of C clips, which add up to one; or a function of u and t that gives them."""
 
-FINE = 0.002  # seconds between the points from which the clock's inverse starts
+FINE = 0.002  # seconds between the points at which the clock is looked at
 PACES = ("durations", "rates")
 
 
@@ -91,18 +93,28 @@ def frame_times(
     """
     if not (np.isfinite(fps) and fps > 0):
         raise MocapError(f"A frame rate must be above 0, got {fps}.")
-    if pace not in PACES:
-        raise MocapError(f"No pace '{pace}'; there are: {', '.join(PACES)}.")
-    count = len(registration.clips)
+    count, (first, last) = len(registration.clips), registration.span
+    # The curves' slopes are straight between knots: with these among the points, sums by trapezia are exact.
+    knots = np.concatenate([curve.knots for curve in registration.times])
+    points = np.linspace(first, last, max(int((last - first) / FINE), 8) + 1)
+    points = np.union1d(points, knots[(first + FINE / 9 < knots) & (knots < last - FINE / 9)])
+    points = points[np.diff(points, prepend=-np.inf) > FINE / 1e3]
+    slopes = np.array([curve.slope(points) for curve in registration.times])
+    if callable(weights):
+        speeds, t = np.empty(len(points)), 0.0
+        for n, (u, step) in enumerate(zip(points, np.diff(points, append=last), strict=True)):
+            speeds[n] = clock_speed(slopes[:, n], checked(weights(float(u), t), count), pace)
+            t += float(step / speeds[n])
+    else:
+        constant = checked(weights, count)
+        speeds = clock_speed(slopes, constant, pace)
+    seconds = cumulative_trapezoid(1 / speeds, points, initial=0)  # the blend's own time t at each u
+    clock = np.arange(int(seconds[-1] * fps + 1e-6) + 1) / fps
+    times = np.clip(CubicHermiteSpline(seconds, points, speeds)(clock), first, last)
     if not callable(weights):
-        w = checked(weights, count)
-        if pace == "durations":
-            times = _closed(registration, w, fps)
-            return times, np.tile(w, (len(times), 1))
-    varying = weights if callable(weights) else lambda u, t: w
-    times = _stepped(registration, varying, fps, pace)
-    at = [checked(varying(float(u), n / fps), count) for n, u in enumerate(times)]
-    return times, np.array(at)
+        return times, np.tile(constant, (len(times), 1))
+    both = zip(times.tolist(), clock.tolist(), strict=True)
+    return times, np.array([checked(weights(u, t), count) for u, t in both])
 
 
 def checked(weights: ArrayLike, count: int) -> Array:
@@ -124,73 +136,33 @@ def checked(weights: ArrayLike, count: int) -> Array:
     return w
 
 
-def clock_speed(slopes: ArrayLike, weights: ArrayLike, pace: str = "durations") -> float:
+def clock_speed(slopes: ArrayLike, weights: ArrayLike, pace: str = "durations") -> Array:
     """Say how fast the common clock goes, du/dt, where the clips' curves have these slopes [KG03, clock].
 
     Parameters
     ----------
-    slopes, weights : shape (C,).
+    slopes : shape (C,), or (C, N) for N times.
+    weights : shape (C,).
     pace : as for `frame_times`.
+
+    Returns
+    -------
+    A number, or shape (N,).
 
     Raises
     ------
-    MocapError : where the clock would stop or run backwards.
+    MocapError : where the clock would stop or run backwards, and for another pace.
 
     Examples
     --------
-    >>> round(clock_speed([1, 2], [0.5, 0.5]), 4), clock_speed([1, 2], [0.5, 0.5], "rates")
-    (0.6667, 0.75)
+    >>> clock_speed([1, 2], [0.5, 0.5]).round(4), clock_speed([1, 2], [0.5, 0.5], "rates")
+    (np.float64(0.6667), np.float64(0.75))
     """
     s, w = np.asarray(slopes, float), np.asarray(weights, float)
-    speed = 1 / float(w @ s) if pace == "durations" and w @ s else float(w @ (1 / s))
-    _require_running(speed, w)
-    return speed
-
-
-def _require_running(speed: float, weights: Array) -> None:
-    if not speed > 0:
-        some = weights.round(3).tolist()[:6]
+    if pace not in PACES:
+        raise MocapError(f"No pace '{pace}'; there are: {', '.join(PACES)}.")
+    mean = w @ s if pace == "durations" else w @ (1 / s)
+    if not np.all(mean > 0):
+        some = w.round(3).tolist()[:6]
         raise MocapError(f"With the weights {some} time would stop; take them nearer to 0 … 1.")
-
-
-def _closed(registration: Registration, weights: Array, fps: float) -> Array:
-    """For constant weights t(u) = Σ w (S(u) - S(u₀)) is known, so only its inverse is to be found."""
-
-    def elapsed(u: Array) -> Array:
-        return np.asarray(weights @ np.array([curve(u) - curve(first) for curve in registration.times]))
-
-    def slope(u: Array) -> Array:
-        return np.asarray(weights @ np.array([curve.slope(u) for curve in registration.times]))
-
-    first, last = registration.span
-    points = np.linspace(first, last, max(int((last - first) / FINE), 8) + 1)
-    _require_running(float(slope(points).min()), weights)
-    t = elapsed(points)
-    wanted = np.arange(int(t[-1] * fps + 1e-6) + 1) / fps
-    u = np.interp(wanted, t, points)
-    for _ in range(2):  # Newton's way, from a place that is right to FINE²
-        u = np.clip(u - (elapsed(u) - wanted) / slope(u), first, last)
-    return u
-
-
-def _stepped(
-    registration: Registration, weights: Callable[[float, float], ArrayLike], fps: float, pace: str
-) -> Array:
-    """Follow du/dt by one step of Runge and Kutta's fourth order for each frame."""
-
-    def speed(u: float, t: float) -> float:
-        slopes = [float(np.interp(u, *line)) for line in lines]
-        return clock_speed(slopes, checked(weights(u, t), len(slopes)), pace)
-
-    lines = [(curve.knots, curve.slope(curve.knots)) for curve in registration.times]
-    (u, last), h = registration.span, 1 / fps
-    times = [u]
-    while True:
-        t = (len(times) - 1) * h
-        k1 = speed(u, t)
-        k2 = speed(u + h / 2 * k1, t + h / 2)
-        k3 = speed(u + h / 2 * k2, t + h / 2)
-        u += h / 6 * (k1 + 2 * k2 + 2 * k3 + speed(u + h * k3, t + h))
-        if u > last + 1e-9:
-            return np.array(times)
-        times.append(min(u, last))
+    return np.asarray(1 / mean if pace == "durations" else mean)

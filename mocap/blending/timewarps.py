@@ -10,7 +10,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+from scipy.interpolate import BSpline
 from scipy.optimize import lsq_linear
 
 from mocap._shared.arrays import Array, frozen
@@ -43,10 +44,12 @@ class Curve(NamedTuple):
 
     def __call__(self, times: ArrayLike) -> Array:
         """Give the curve's values at some times."""
-        spans, t = self._place(np.asarray(times, float))
-        inside = np.clip(t, 0, 1)
-        near = self.coefficients[spans[..., None] + np.arange(3)]
-        return np.asarray((_basis(inside) * near).sum(-1) + (t - inside) * self._rise(spans, inside))
+        u, knots, c = np.asarray(times, float), self.knots, self.coefficients
+        span = np.clip(np.searchsorted(knots, u, side="right") - 1, 0, len(c) - 3)
+        inside = np.clip(u, knots[0], knots[-1])
+        mean = (self.slope(knots[span]) + self.slope(u)) / 2  # slopes are straight lines: a trapezium
+        value = (c[span] + c[span + 1]) / 2 + (inside - knots[span]) * mean
+        return np.asarray(value + (u - inside) * self.slope(u))
 
     def slope(self, times: ArrayLike) -> Array:
         """Give the curve's slopes at some times, per second: straight lines from knot to knot."""
@@ -65,19 +68,8 @@ class Curve(NamedTuple):
         within = np.clip(over, 0, knots[spans + 1] - knots[spans])
         bend = np.diff(c, 2)[spans] / 2
         t = 2 * within / (first + np.sqrt(np.maximum(first**2 + 4 * bend * within, 0)))
-        t = t + (over - within) / self._rise(spans, t)
-        return np.asarray(self.start + (spans + t) * self.step)
-
-    def _place(self, times: Array) -> tuple[NDArray[np.intp], Array]:
-        """Find the knot step of each time, and the share of it that has passed: 0 to 1, but at the ends."""
-        x = (times - self.start) / self.step
-        spans = np.clip(np.floor(x), 0, len(self.coefficients) - 3).astype(np.intp)
-        return spans, x - spans
-
-    def _rise(self, spans: NDArray[np.intp], t: Array) -> Array:
-        """Give the slope for each knot step, instead of each second."""
-        rises = np.diff(self.coefficients)
-        return np.asarray((1 - t) * rises[spans] + t * rises[spans + 1])
+        times = self.start + (spans + t) * self.step
+        return np.asarray(times + (over - within) / self.slope(times))
 
 
 def fit_curve(
@@ -111,20 +103,14 @@ def fit_curve(
     u, y = np.asarray(times, float), np.asarray(values, float)
     if not spacing > 0:
         raise MocapError(f"Knots need a spacing above 0 s, got {spacing}.")
-    if (
-        u.ndim != 1
-        or u.shape != y.shape
-        or not u.size
-        or not np.isfinite([u, y]).all()
-        or (np.diff(u) < 0).any()
-    ):
+    pairs = u.ndim == 1 and u.shape == y.shape and u.size > 0
+    if not (pairs and np.isfinite([u, y]).all() and (np.diff(u) >= 0).all()):
         raise MocapError("A curve needs finite values at as many finite times, which never fall.")
     count = max(int(np.ceil((u[-1] - u[0]) / spacing - 1e-9)), 1)
     step = (u[-1] - u[0]) / count if u[-1] > u[0] else min(spacing, 1.0)
     empty = Curve(float(u[0]), float(step), np.zeros(count + 2))
-    spans, t = empty._place(u)
-    matrix = np.zeros((len(u), count + 2))
-    np.put_along_axis(matrix, spans[:, None] + np.arange(3), _basis(t), axis=1)
+    around = u[0] + step * np.arange(-2, count + 3)  # SciPy wants two more knots at each end
+    matrix = BSpline.design_matrix(np.minimum(u, around[-3]), around, 2).toarray()
     # The n-th control point is the first one plus n differences; so each difference adds to all later ones.
     matrix = np.cumsum(matrix[:, ::-1], axis=1)[:, ::-1]
     if spacing == np.inf:  # both differences are the same
@@ -134,8 +120,3 @@ def fit_curve(
     solution = np.clip(lsq_linear(matrix, y, (low, high), method="bvls").x, low, high)
     differences = solution[[0, 1, 1]] if spacing == np.inf else solution
     return empty._replace(coefficients=frozen(np.cumsum(differences), np.float64))
-
-
-def _basis(t: Array) -> Array:
-    """Give the weights of the three control points of a knot step, shape (..., 3)."""
-    return np.stack([(1 - t) ** 2 / 2, 0.5 + t - t**2, t**2 / 2], axis=-1)
