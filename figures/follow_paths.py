@@ -39,7 +39,6 @@ from mocap.steering import (
     walk_crowd,
 )
 from mocap.steering.followed import Followed
-from mocap.synthesis import Budget
 from mocap.synthesis.walk_to_motion import with_plants
 
 FOLDER = Path(__file__).parent
@@ -135,7 +134,7 @@ def against_the_paper(found: dict[str, CompiledGraph]) -> list[str]:
     for name, graph in found.items():
         ours = [follow_path(graph, path) for path in paths]
         starts = [Wishes(start=walk.walk[0][0], slide=0) for walk in ours]
-        best = {"look": (45, 15), "budget": Budget(nodes=30_000)}
+        best = {"look": (45, 15), "budget": 30_000}
         walks = {
             "layers": ours,
             "layers, seams are free": [follow_path(graph, path, settings=FREE) for path in paths],

@@ -18,7 +18,6 @@ from mocap.body import GroundPath
 from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.steering import Settings, Wishes, follow_as_2002, follow_path
 from mocap.steering.followed import Followed
-from mocap.synthesis import Budget
 
 LOOKS = [(10, 3), (20, 7), (30, 10), (45, 15), (60, 20), (90, 28)]
 MOST = (45, 15)  # tried with the largest budget, too, on the first graph
@@ -79,7 +78,7 @@ def table(graph: CompiledGraph, paths: list[GroundPath], *, most: bool) -> list[
         for look in [MOST] if nodes == 30000 else LOOKS:
             found = each(
                 lambda path, start, look=look, nodes=nodes: follow_as_2002(
-                    graph, path, start, look=look, budget=Budget(nodes=nodes)
+                    graph, path, start, look=look, budget=nodes
                 )
             )
             lines.append(row(f"n, m = {look[0]}, {look[1]}; budget {nodes}", found))

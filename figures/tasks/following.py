@@ -18,7 +18,6 @@ from mocap.body import GroundPath, Motion, PlanarTransform, on_ground
 from mocap.errors import MocapError
 from mocap.steering import Wishes, follow_as_2002, follow_path
 from mocap.steering.followed import Followed
-from mocap.synthesis import Budget
 from tasks import BANDAI, CMU_16, HOMEWORK, WALKS, Case, graph
 from tasks._measures import skate
 
@@ -50,7 +49,7 @@ def layered(clips: tuple[Motion, ...], seed: str) -> Followed:
 def as_2002(case: Case, look: tuple[int, int]) -> Motion:
     """Search by branch and bound."""
     wishes = Wishes(start=layered(case.given["clips"], case.name).walk[0][0], slide=0)
-    line, budget = GroundPath(case.given["line"]), Budget(nodes=30_000)
+    line, budget = GroundPath(case.given["line"]), 30_000
     return follow_as_2002(graph(case.given["clips"]), line, wishes, look=look, budget=budget).motion()
 
 

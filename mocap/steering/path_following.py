@@ -17,7 +17,7 @@ from mocap.steering.followed import Followed, account
 from mocap.steering.layered_search import States, start_states
 from mocap.steering.path_objective import Route, Settings, Wishes, least_progress, make_route
 from mocap.steering.path_search import Found, find_walk
-from mocap.synthesis.bounded_search import Budget, Problem, SearchEdge, search_ahead
+from mocap.synthesis.bounded_search import Problem, SearchEdge, search_ahead
 from mocap.synthesis.ground_walks import GroundWalks, Stand
 
 WIDE = 400  # walks that stay in each layer, where all else leaves the path
@@ -177,7 +177,7 @@ def follow_as_2002(
     wishes: Wishes,
     *,
     look: tuple[int, int] = (90, 28),
-    budget: Budget | None = None,
+    budget: float = np.inf,
 ) -> Followed:
     """Follow a path by the paper's branch and bound, to compare with `follow_path` [KGP02, Eq. 9].
 
@@ -202,7 +202,7 @@ def follow_as_2002(
     >>> clips = [body.resample(datasets.sample(name), 30) for name in ("walk_circle", "walk_curve_1")]
     >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
     >>> path, wishes = body.GroundPath([[0, 0], [0, 1]]), Wishes(start=(0, 10))
-    >>> followed = follow_as_2002(graph, path, wishes, budget=Budget(nodes=100))
+    >>> followed = follow_as_2002(graph, path, wishes, budget=100)
     >>> followed.progress, followed.found.stopped
     (1.0, 'out of nodes')
 

@@ -22,7 +22,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "walk_to_motion": ["seams", "sources", "to_motion"],
         "random_walks": ["dump", "random_walk"],
-        "bounded_search": ["Budget", "Problem", "SearchResult", "branch_and_bound", "search_ahead"],
+        "bounded_search": ["Problem", "SearchResult", "branch_and_bound", "search_ahead"],
         "ground_walks": ["GroundWalks"],
     },
 )

@@ -8,12 +8,12 @@ The caller chooses the `state` of a walk: all that g and the halting rule must k
 walk itself, or sums over it.
 """
 
-import math
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import networkx as nx
+import numpy as np
 
 from mocap.errors import MocapError, NoWalk
 
@@ -47,13 +47,6 @@ class Problem:
     graph: nx.MultiDiGraph
     step: Step
     done: Callable[[State], bool]
-
-
-@dataclass(frozen=True)
-class Budget:
-    """The largest number of walks to expand."""
-
-    nodes: float = math.inf
 
 
 class SearchResult(NamedTuple):
@@ -100,7 +93,7 @@ class Branch(NamedTuple):
 
 
 def branch_and_bound(
-    problem: Problem, node: Hashable, state: State, *, horizon: float = math.inf, budget: Budget | None = None
+    problem: Problem, node: Hashable, state: State, *, horizon: float = np.inf, budget: float = np.inf
 ) -> SearchResult:
     """Find the cheapest walk that is complete, or at least `horizon` frames long [KGP02, Eq. 8].
 
@@ -109,7 +102,7 @@ def branch_and_bound(
     problem : graph, costs and halting rule.
     node, state : where the walk starts, and the state of an empty walk.
     horizon : frames to look ahead.
-    budget : when to stop; Ctrl-C stops the search, too.
+    budget : the largest number of walks to expand; Ctrl-C stops the search, too.
 
     Returns
     -------
@@ -136,7 +129,7 @@ def branch_and_bound(
     """
     if node not in problem.graph:
         raise NoWalk(f"The graph has no node {node}.")
-    stack, best, most = [Branch(0.0, node, state)], None, (budget or Budget()).nodes
+    stack, best = [Branch(0.0, node, state)], None
     furthest, expanded, cut, stopped = stack[0], 0, 0, ""
     try:
         while stack and not stopped:
@@ -146,7 +139,7 @@ def branch_and_bound(
                 cut += 1
             elif problem.done(branch.state) or branch.frames >= horizon:
                 best = branch
-            elif expanded >= most:
+            elif expanded >= budget:
                 stopped = "out of nodes"
             else:
                 expanded += 1
@@ -188,7 +181,7 @@ def search_ahead(
     state: State,
     *,
     look: tuple[int, int] = (90, 28),
-    budget: Budget | None = None,
+    budget: float = np.inf,
 ) -> SearchResult:
     """Search in stretches: find the best walk of n frames, keep its first m, repeat from there [KGP02, 4.2].
 

@@ -9,7 +9,6 @@ from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import compile_graph
 from mocap.steering.path_following import PathCost, follow_as_2002, follow_path
 from mocap.steering.path_objective import Settings, Wishes, make_route
-from mocap.synthesis.bounded_search import Budget
 from mocap.synthesis.ground_walks import Stand
 from tests.bundled import bundled, captured, walking
 
@@ -20,7 +19,7 @@ GRAPH = walking()
 def test_layers_keep_to_the_path_where_depth_first_does_not():
     """It counts squares of distances at equal arc length [KGP02, Eq. 9]."""
     ours = follow_path(GRAPH, s_curve(10))
-    theirs = follow_as_2002(GRAPH, s_curve(10), Wishes(start=ours.walk[0][0]), budget=Budget(nodes=300))
+    theirs = follow_as_2002(GRAPH, s_curve(10), Wishes(start=ours.walk[0][0]), budget=300)
     assert theirs.progress == 1.0
     assert theirs.found.expanded > 300
     assert theirs.found.cut > 0 and theirs.found.cost == pytest.approx((theirs.off_at_length**2).sum())
@@ -32,7 +31,7 @@ def test_layers_keep_to_the_path_where_depth_first_does_not():
 def test_at_its_best_the_papers_search_is_as_near_with_more_seams_and_walks():
     """As in [KGP02, 5.1]: n, m = 45, 15, and so large a budget that each stretch is searched to its end."""
     ours = follow_path(GRAPH, s_curve(6))
-    wishes, budget = Wishes(start=ours.walk[0][0], slide=0), Budget(nodes=30_000)
+    wishes, budget = Wishes(start=ours.walk[0][0], slide=0), 30_000
     theirs = follow_as_2002(GRAPH, s_curve(6), wishes, look=(45, 15), budget=budget)
     assert not theirs.found.stopped
     assert theirs.off.mean() < 0.08  # not by metres, as with a budget of 300
@@ -45,7 +44,7 @@ def test_at_its_best_the_papers_search_is_as_near_with_more_seams_and_walks():
 def test_what_the_papers_search_gains_at_its_best_it_pays_in_seams(real_data):
     """As in [KGP02, 5.1]. Where they are free in layers, too, walks in layers are nearer on these lines."""
     graph, found = captured(real_data), []
-    free, best = Settings(seam=0, match=0, width=200, tries=1), Budget(nodes=30_000)
+    free, best = Settings(seam=0, match=0, width=200, tries=1), 30_000
     for seed in (500, 502, 507):
         path = GroundPath(random_line(seed).at(np.linspace(0, 7, 141)))
         usual = follow_path(graph, path)
@@ -74,4 +73,4 @@ def test_who_stands_gets_on_by_a_little():
 def test_before_its_first_step_there_is_no_walk():
     wishes = Wishes(start=GRAPH.nodes[10])
     with pytest.raises(NoWalk, match="out of nodes before its first step"):
-        follow_as_2002(GRAPH, GroundPath([[0, 0], [0, 3]]), wishes, budget=Budget(nodes=0))
+        follow_as_2002(GRAPH, GroundPath([[0, 0], [0, 3]]), wishes, budget=0)

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.errors import MocapError, NoWalk
-from mocap.synthesis.bounded_search import Budget, Problem, branch_and_bound, search_ahead
+from mocap.synthesis.bounded_search import Problem, branch_and_bound, search_ahead
 from tests.refusals import refused
 from tests.strategies import seeds
 
@@ -78,10 +78,10 @@ def test_a_budget_gives_the_best_so_far_and_says_so():
     problem = problem_on(random_graph(2, edges=16), 9)
     best = branch_and_bound(problem, 0, ())
     for nodes in (20, 0):
-        found = branch_and_bound(problem, 0, (), budget=Budget(nodes=nodes))
+        found = branch_and_bound(problem, 0, (), budget=nodes)
         assert found.stopped == "out of nodes" and found.expanded <= nodes
         assert found.cost >= best.cost or not found.complete
-    assert branch_and_bound(problem, 0, (), budget=Budget(nodes=20)).complete
+    assert branch_and_bound(problem, 0, (), budget=20).complete
 
 
 @given(seeds)
@@ -92,7 +92,7 @@ def test_the_cheapest_edge_is_tried_first(seed):
         edges = problem.graph.out_edges(node, keys=True)
         greedy += (min(edges, key=lambda edge, walk=greedy: problem.step(walk, edge)[0]),)
         node = greedy[-1][1]
-    assert branch_and_bound(problem, 0, (), budget=Budget(6)).walk == list(greedy)
+    assert branch_and_bound(problem, 0, (), budget=6).walk == list(greedy)
 
 
 def test_an_interruption_gives_the_best_so_far():
@@ -148,6 +148,6 @@ def test_each_stretch_looks_ahead_and_keeps_as_much_as_asked(keep, expanded):
 
 
 def test_a_stretch_that_ran_out_early_is_kept_as_far_as_it_goes():
-    found = search_ahead(problem_on(line_of(6), 6), 0, (), look=(99, 99), budget=Budget(nodes=2))
+    found = search_ahead(problem_on(line_of(6), 6), 0, (), look=(99, 99), budget=2)
     assert found.stopped == "out of nodes"
     assert (len(found.walk), found.complete, found.expanded) == (6, True, 6)
