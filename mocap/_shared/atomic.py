@@ -1,22 +1,23 @@
 """A file is written whole or not at all.
 
 It is made in a folder beside its place, and moved when it is complete. A process that is killed leaves that
-folder; the next one that writes there removes it.
+folder; who writes there a day later removes it.
 """
 
 import errno
 import os
 import shutil
-import sys
 import tempfile
+import time
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
 
 from mocap.errors import MocapError
 
 UNFINISHED = ".mocap-unfinished-"  # and some letters: the folders of files that are being written
+DAY = 86_400  # seconds; nobody writes one file for so long
 
 
 @contextmanager
@@ -74,44 +75,22 @@ def _sync(path: Path, how: int) -> None:
 
 @contextmanager
 def _workshop(path: Path) -> Iterator[Path]:
-    """Make a folder beside a file to write, after removing those of processes that were killed.
-
-    A folder, because a file in it gets ordinary permissions.
-    """
+    """Make a folder beside a file to write: a file in it gets ordinary permissions."""
     if path.is_symlink():
         raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
-    made, place = tempfile.TemporaryDirectory, path.parent
-    with ExitStack() as stack:
-        with _locked(place, wait=True):
-            _tidy(place)
-            folder = stack.enter_context(made(prefix=UNFINISHED, dir=place, ignore_cleanup_errors=True))
-            stack.enter_context(_locked(Path(folder)))
+    _tidy(path.parent)
+    made = tempfile.TemporaryDirectory(prefix=UNFINISHED, dir=path.parent, ignore_cleanup_errors=True)
+    with made as folder:
         yield Path(folder)
 
 
 @cache
 def _tidy(place: Path) -> None:
-    """Remove the folders that nobody has locked; the system unlocks those of a process that ends."""
+    """Remove the folders of processes that were killed."""
     for left in place.glob(f"{UNFINISHED}*"):
-        with _locked(left) as ours:
-            if ours:
-                shutil.rmtree(left, ignore_errors=True)
-
-
-@contextmanager
-def _locked(folder: Path, *, wait: bool = False) -> Iterator[bool]:
-    """Lock a folder, and give whether that was possible; on Windows, and on some disks, it never is."""
-    with ExitStack() as stack:
-        locked = False
-        if sys.platform != "win32":
-            import fcntl
-
-            with suppress(OSError):
-                number = os.open(folder, os.O_RDONLY)
-                stack.callback(os.close, number)
-                fcntl.flock(number, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
-                locked = True
-        yield locked
+        with suppress(OSError):  # another process may do so as well
+            if time.time() - left.stat().st_mtime > DAY:
+                shutil.rmtree(left)
 
 
 def require_npz(path: str | Path) -> None:

@@ -98,16 +98,18 @@ with ProcessPoolExecutor(2, initializer=serve) as pool:
 """
 
 
-def test_what_a_kill_leaves_is_no_clip_and_the_next_one_removes_it(tmp_path):
+def test_what_a_kill_leaves_is_no_clip_and_who_writes_a_day_later_removes_it(tmp_path):
     subprocess.run([sys.executable, "-c", KILLED, tmp_path / "walk.bvh"], check=False)
     (left,) = tmp_path.iterdir()
     assert left.name.startswith(UNFINISHED) and (left / "walk.bvh").exists()
     with pytest.raises(MocapError, match="holds no"):
         find_files([tmp_path], deep=True)
     with replacing(tmp_path / "run.bvh") as beside:
-        atomic._tidy.cache_clear()  # as in another process
-        require_writable(tmp_path / "walk.bvh")
-        assert not left.exists() and beside.parent.exists()  # who lives, keeps what it has
+        for seconds, stays in ((atomic.DAY - 60, True), (atomic.DAY + 60, False)):
+            os.utime(left, times=(time.time() - seconds,) * 2)
+            atomic._tidy.cache_clear()  # as in another process
+            require_writable(tmp_path / "walk.bvh")
+            assert left.exists() == stays and beside.parent.exists()  # who lives, keeps what it has
         beside.write_text("")
     assert [file.name for file in tmp_path.iterdir()] == ["run.bvh"]
 
