@@ -7,12 +7,17 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array, Indices
 from mocap.body import Motion, Skeleton, joint_positions
 from mocap.matching.point_clouds import distinct_joints
-from mocap.plotting.style import ASKED, COLOURS
+from mocap.plotting.style import ASKED, COLOURS, own_colour
+
+ASLANT = np.array(
+    [[0.57, 0, 0.82], [-0.2, 0.97, 0.14]]
+)  # across and up, seen from the right, front and above
 
 
 def bones(skeleton: Skeleton) -> tuple[Indices, Indices, NDArray[np.str_]]:
@@ -111,6 +116,42 @@ def flat_bodies(
     ax.autoscale_view()
     ax.set(aspect="equal", xlabel=f"{'xyz'[across]} (m)", ylabel="y (m)")
     return ax
+
+
+def film_strip(motions: Sequence[Motion], *, count: int = 6) -> Figure:
+    """Draw poses side by side, evenly spread over the first motion's time; the others at the same times.
+
+    Parameters
+    ----------
+    motions : one or more; the picture goes with the first.
+    count : poses; fewer where the first motion has fewer frames.
+
+    Returns
+    -------
+    A figure that pyplot does not know, so nobody has to close it.
+
+    Examples
+    --------
+    >>> from mocap import datasets
+    >>> strip = film_strip([datasets.sample("walk_straight")], count=3)
+    >>> [ax.get_title() for ax in strip.axes]
+    ['0.00 s', '5.00 s', '10.00 s']
+    """
+    first, clouds = motions[0], [joint_positions(motion) for motion in motions]
+    frames = np.unique(np.linspace(0, len(first) - 1, count).round().astype(int))
+    figure = Figure(figsize=(1.5 * len(frames), 1.75), layout="constrained")
+    panels = figure.subplots(1, len(frames), sharex=True, sharey=True, squeeze=False)[0]
+    for ax, frame in zip(panels, frames, strict=True):
+        for number, (motion, points) in enumerate(zip(motions, clouds, strict=True)):
+            pose = points[min(len(points) - 1, round(frame / first.fps * motion.fps))]
+            flat = (pose - clouds[0][frame, 0] * [1, 0, 1]) @ ASLANT.T
+            look: dict[str, Any] = {"head": {"markersize": 5}, "linewidths": 1.6}
+            draw_body(ax, motion.skeleton, flat, colour=own_colour(number, len(motions)), **look)
+        ax.set_title(f"{frame / first.fps:.2f} s", fontsize=9)
+        ax.set_aspect("equal")
+        ax.set_axis_off()
+        ax.autoscale_view()
+    return figure
 
 
 def target_poses(

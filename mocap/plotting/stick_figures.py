@@ -3,20 +3,17 @@
 The world's (z, x, y) are matplotlib's (x, y, z): its third axis points up, ours is y.
 """
 
-from collections.abc import Sequence
-
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.artist import Artist
-from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d import Axes3D, proj3d
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
-from mocap.body import Motion, Skeleton, joint_positions
+from mocap.body import Skeleton
 from mocap.plotting.bodies import bones, head_joints
-from mocap.plotting.style import COLOURS, FLOOR, own_colour
+from mocap.plotting.style import COLOURS, FLOOR
 
 TALL = 1.9  # metres above the ground that pictures show
 ZOOM = 1.55  # of the camera, where nothing has to be brought inside the picture
@@ -49,46 +46,26 @@ def ground_axes(
 
     Examples
     --------
-    >>> ax = ground_axes((0, 5), reach=2, ax=filled(Figure()))
+    >>> ax = ground_axes((0, 5), reach=2, ax=Figure().add_subplot(projection="3d"))
     >>> np.concatenate([ax.get_ylim(), ax.get_xlim()]).tolist()  # matplotlib's y is our x, its x our z
     [-2.0, 2.0, 3.0, 7.0]
 
     Notebook: 03b-angles
     """
-    ax = ax or filled(plt.figure(figsize=(5, 5)))
+    ax = ax or plt.figure(figsize=(5, 5)).add_subplot(projection="3d", position=(0, 0, 1, 1))
     ax.set_axis_off()
     ax.computed_zorder = False  # the ground is drawn below the feet, wherever the camera stands
     ax.view_init(elev=14, azim=-55)
     ax.set_proj_type("persp", focal_length=0.6)
     ax.set_box_aspect((2 * reach, 2 * reach, tall), zoom=ZOOM)
     ax.set_zlim(0, tall)
-    ax.add_collection3d(Line3DCollection(np.zeros((1, 2, 3)), colors=FLOOR, linewidths=0.8, zorder=0))
-    look_at(ax, np.asarray(centre, float), reach)
-    return ax
-
-
-def ground_around(points: Array, ax: Axes3D | None = None) -> Axes3D:
-    """Set up ground that is wide and high enough for points, shape (..., 3), metres."""
-    low, high = (f(points.reshape(-1, 3), axis=0) for f in (np.min, np.max))
-    centre, wide = (low + high)[[0, 2]] / 2, (high - low)[[0, 2]]
-    ax = ground_axes(centre, max(1.2, *wide) / 2 + 0.3, tall=max(TALL, high[1]), ax=ax)
-    keep_inside(ax, points)
-    return ax
-
-
-def filled(figure: Figure) -> Axes3D:
-    """Add 3D axes that fill a whole figure."""
-    return figure.add_axes((0, 0, 1, 1), projection="3d")
-
-
-def look_at(ax: Axes3D, centre: Array, reach: float) -> None:
-    """Show the ground around a point (x, z); the first collection of `ax`, its lines, keeps to the world."""
-    x, z = centre
+    x, z = centre = np.asarray(centre, float)
     ax.set(xlim=(z - reach, z + reach), ylim=(x - reach, x + reach))
     along, across = (np.arange(np.ceil((c - reach) * 2), np.floor((c + reach) * 2) + 1) / 2 for c in centre)
     lines = [[(x0, 0, z - reach), (x0, 0, z + reach)] for x0 in along]
     lines += [[(x - reach, 0, z0), (x + reach, 0, z0)] for z0 in across]
-    ax.collections[0].set_segments(to_picture(lines))
+    ax.add_collection3d(Line3DCollection(to_picture(lines), colors=FLOOR, linewidths=0.8, zorder=0))
+    return ax
 
 
 def rims(discs: ArrayLike) -> Array:
@@ -158,39 +135,3 @@ class StickFigure:
         if self.head:
             self.dot.set_data_3d(*to_picture(points[self.head].mean(axis=0))[:, None])
         return [self.bones, self.dot]
-
-
-def film_strip(motions: Sequence[Motion], *, count: int = 6) -> Figure:
-    """Draw poses side by side, evenly spread over the first motion's time; the others at the same times.
-
-    Parameters
-    ----------
-    motions : one or more.
-    count : poses; fewer where the first motion has fewer frames.
-
-    Returns
-    -------
-    A figure that pyplot does not know, so nobody has to close it.
-
-    Examples
-    --------
-    >>> from mocap import datasets
-    >>> strip = film_strip([datasets.sample("walk_straight")], count=3)
-    >>> [ax.get_title() for ax in strip.axes]
-    ['0.00 s', '5.00 s', '10.00 s']
-    """
-    first = motions[0]
-    clouds = [joint_positions(motion) for motion in motions]
-    frames = np.unique(np.linspace(0, len(first) - 1, count).round().astype(int))
-    figure = Figure(figsize=(1.5 * len(frames), 1.75))
-    for panel, frame in enumerate(frames):
-        ax = figure.add_axes((panel / len(frames), 0, 1 / len(frames), 0.86), projection="3d")
-        everyone = [
-            points[min(len(points) - 1, round(frame / first.fps * motion.fps))]
-            for motion, points in zip(motions, clouds, strict=True)
-        ]
-        ground_around(np.concatenate(everyone), ax)
-        ax.set_title(f"{frame / first.fps:.2f} s", fontsize=9, y=1.0)
-        for number, (motion, points) in enumerate(zip(motions, everyone, strict=True)):
-            StickFigure(motion.skeleton, ax, 1.0, own_colour(number, len(motions))).pose(points)
-    return figure

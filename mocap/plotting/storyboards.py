@@ -83,21 +83,18 @@ def storyboard(shot: Shot, show: Sequence[str]) -> Figure:
     >>> [ax.get_title(loc="left") for ax in storyboard(shot, ["windows"]).axes]
     ['1  which two windows', '2  aligned, RMS distance 0.0 cm']
     """
-    panels = [_draw_where, _draw_windows, _draw_seam][: 3 if "weights" in show else 2]
-    figure = Figure(figsize=(4.6 * len(panels), 3.3), layout="constrained")
-    for number, (ax, draw) in enumerate(zip(figure.subplots(1, len(panels)), panels, strict=True), 1):
-        ax.set_title(f"{number}  {draw(ax, shot)}", loc="left", fontsize=11)
+    count = 3 if "weights" in show else 2
+    figure = Figure(figsize=(4.6 * count, 3.3), layout="constrained")
+    where, windows, *seam = figure.subplots(1, count)
+    shot.where(where)
+    where.set_title("1  which two windows", loc="left", fontsize=11)
+    draw_matched(windows, shot.windows[0], shot.fit.apply_motion(shot.windows[1]))
+    apart = f"2  aligned, RMS distance {100 * shot.distance:.1f} cm"
+    windows.set_title(apart, loc="left", fontsize=11)
+    for ax in seam:
+        _draw_seam(ax, shot)
+        ax.set_title("3  the seam; its window is shaded", loc="left", fontsize=11)
     return figure
-
-
-def _draw_where(ax: Axes, shot: Shot) -> str:
-    shot.where(ax)
-    return "which two windows"
-
-
-def _draw_windows(ax: Axes, shot: Shot) -> str:
-    draw_matched(ax, shot.windows[0], shot.fit.apply_motion(shot.windows[1]))
-    return f"aligned, RMS distance {100 * shot.distance:.1f} cm"
 
 
 def draw_matched(ax: Axes, *pair: Motion) -> None:
@@ -119,7 +116,7 @@ def draw_matched(ax: Axes, *pair: Motion) -> None:
     _bare(ax)
 
 
-def _draw_seam(ax: Axes, shot: Shot) -> str:
+def _draw_seam(ax: Axes, shot: Shot) -> None:
     """Draw the blend by the paper's weights from the side, with the tracks of the balls of the feet."""
     joined = join(shot.first, shot.i, shot.second, shot.j, shot.window)
     begin, end = min(shot.before, shot.i), min(shot.before, shot.i) + shot.window - 1
@@ -133,7 +130,6 @@ def _draw_seam(ax: Axes, shot: Shot) -> str:
             ax.plot(*points[:, leg.ball].T, color=COLOURS[seam.skeleton.side(leg.ball)], linewidth=1)
     ax.axvspan(*points[[begin, end], 0, 0], color=MARK, alpha=0.3, zorder=0)
     _bare(ax)
-    return "the seam; its window is shaded"
 
 
 def _facing(window: Motion) -> PlanarTransform:

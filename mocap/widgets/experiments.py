@@ -138,8 +138,8 @@ class Experiment:
         self.draw, self.alt, self.controls = draw, alt, controls
         self.error: Exception | None = None
         self._canvas = BlittedFigure()
-        dragged = [control for control in controls.values() if isinstance(control, Handles)]
-        self._dragged: Any = dragged[0] if dragged else None
+        dragged: list[Any] = [control for control in controls.values() if isinstance(control, Handles)]
+        self._dragged = dragged[0] if dragged else None
         self.picture: Any = self._dragged or ipywidgets.Image(format="png")
         self.picture.add_class("mocap-picture")
         self.message = ipywidgets.HTML(layout={"display": "none"})

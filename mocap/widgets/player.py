@@ -21,9 +21,9 @@ from mocap._shared.arrays import Array, Indices, runs
 from mocap.body import Motion, joint_positions
 from mocap.errors import MocapError
 from mocap.feet.footplants import find_footprints
+from mocap.plotting.bodies import film_strip
 from mocap.plotting.bodies_on_path import bodies_along
 from mocap.plotting.picture import legible, small_png
-from mocap.plotting.stick_figures import film_strip
 from mocap.plotting.style import COLOURS, PATH, own_colour, source_colours
 from mocap.synthesis.walk_to_motion import Seam
 from mocap.widgets.embedding import SHADED, SHARED, Embedded

@@ -2,6 +2,7 @@
 
 import matplotlib.pyplot as plt
 import numpy as np
+import pytest
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 
@@ -9,7 +10,9 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.skeleton import Skeleton
 from mocap.datasets.samples import sample
 from mocap.plotting import bones, flat_bodies, target_poses
+from mocap.plotting.bodies import ASLANT, film_strip
 from mocap.plotting.style import COLOURS
+from tests.strategies import wave
 
 
 def test_bones_have_a_line_each_and_know_their_side():
@@ -50,3 +53,18 @@ def test_poses_stand_in_rows_with_their_targets_seen_from_behind():
     lines = axes[0].collections[0]
     left = np.array([tuple(colour) == to_rgba(COLOURS["left"]) for colour in lines.get_colors()])
     assert np.concatenate(np.array(lines.get_segments())[left])[:, 0].mean() > 0
+
+
+def test_a_strip_shows_first_and_last_pose_and_all_who_play():
+    first, second = wave(50, name="a"), wave(20, name="b", phase=2)
+    strip = film_strip([first, second], count=4)
+    assert [ax.get_title() for ax in strip.axes][::3] == ["0.00 s", "1.63 s"] and len(strip.axes) == 4
+    strip.draw_without_rendering()
+    for body, motion, frame in zip(strip.axes[-1].collections, (first, second), (49, 19), strict=True):
+        drawn = np.concatenate(body.get_segments())
+        assert len(drawn) == 2 * len(bones(motion.skeleton)[0])
+        assert np.ptp(drawn[:, 1]) == pytest.approx(np.ptp((joint_positions(motion)[frame] @ ASLANT.T)[:, 1]))
+        seen = strip.axes[-1].transAxes.inverted().transform(body.axes.transData.transform(drawn))
+        assert 0 <= seen.min() <= seen.max() <= 1
+    assert plt.get_fignums() == []
+    assert len(film_strip([wave(1)]).axes) == 1

@@ -41,7 +41,10 @@ def without_text(figure):
 def test_ghosts_look_as_ever():
     motion = wave(60)
     points = joint_positions(motion)[[0, 25, 50]]
-    ax, way = stick_figures.ground_around(points), motion.root_positions * [1, 0, 1]
+    low, high, way = points.min(axis=(0, 1)), points.max(axis=(0, 1)), motion.root_positions * [1, 0, 1]
+    reach = max(1.2, *(high - low)[[0, 2]]) / 2 + 0.3
+    ax = stick_figures.ground_axes((low + high)[[0, 2]] / 2, reach, tall=max(1.9, high[1]))
+    stick_figures.keep_inside(ax, points)
     ax.plot(*stick_figures.to_picture(way).T, color=PATH, linewidth=1.5, zorder=1)
     for alpha, pose in zip((0.15, 0.15 + 0.35 / 3, 1.0), points, strict=True):
         stick_figures.StickFigure(motion.skeleton, ax, alpha).pose(pose)

@@ -12,7 +12,7 @@ from nbconvert import HTMLExporter
 from nbformat.v4 import new_code_cell, new_notebook, new_output
 from PIL import Image
 
-from mocap.plotting import grids, ground_charts, stick_figures
+from mocap.plotting import bodies, grids, ground_charts
 from mocap.plotting.picture import DPI, show
 from tests.refusals import refused
 from tests.strategies import wave
@@ -65,7 +65,7 @@ def test_a_picture_without_a_sentence_is_refused():
 @pytest.mark.parametrize(
     "draw",
     [
-        lambda: stick_figures.film_strip([wave(30), wave(30, phase=1)]),
+        lambda: bodies.film_strip([wave(30), wave(30, phase=1)]),
         lambda: grids.distance_image(np.random.default_rng(0).random((300, 300)).cumsum(0), fps=30),
         lambda: ground_charts.path_from_above(wave(90)),
     ],

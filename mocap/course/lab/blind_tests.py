@@ -25,8 +25,8 @@ from mocap.body.planar import lay_on, place
 from mocap.course.lab.sensitivity import sentence
 from mocap.errors import MocapError
 from mocap.matching.transitions import Transition, Transitions
-from mocap.plotting.picture import Picture, figure_of, stack
-from mocap.plotting.stick_figures import film_strip
+from mocap.plotting.bodies import film_strip
+from mocap.plotting.picture import Picture, stack
 from mocap.plotting.style import COLOURS
 from mocap.widgets.embedding import PICTURE, SCENE, joined
 from mocap.widgets.packing import SIDES, packed_character
@@ -97,7 +97,7 @@ class BlindTest:
         """The first pair, the left film above."""
         seam, control, on_left, *_ = self.pairs[0]
         films = [seam, control] if on_left else [control, seam]
-        return stack([figure_of(film_strip([film])) for film in films], ALT)
+        return stack([film_strip([film]) for film in films], ALT)
 
     @cached_property
     def html(self) -> str:
