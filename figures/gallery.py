@@ -60,7 +60,7 @@ from mocap.methods.match_webs.local_alignment import apart
 from mocap.methods.motion_matching.nearest_frames import foresee
 from mocap.methods.motion_matching.pose_database import PoseDatabase
 from mocap.plotting import ASKED, COLOURS, CURVES, MARK, SOURCES
-from mocap.plotting.picture import legible, letters_of
+from mocap.plotting.picture import legible, small_png
 
 Array = NDArray[np.float64]
 Edge = tuple[Hashable, Hashable, int]
@@ -763,10 +763,8 @@ def draw_all(folder: Path) -> list[Path]:
     with plt.rc_context({"figure.dpi": 110}):
         for name, draw in PICTURES.items():
             figure = draw() if name in DENSE else legible(draw(), TITLE)
-            drawn = {"Software": None, "Description": json.dumps(fingerprint(figure))}
-            drawn["letters"] = str(110 * letters_of(figure))  # pixels, for slides
             written.append(folder / f"{name}.png")
-            figure.savefig(written[-1], dpi=110, metadata=drawn)
+            written[-1].write_bytes(small_png(figure, Description=json.dumps(fingerprint(figure))))
             plt.close(figure)
     return written
 

@@ -137,15 +137,16 @@ def letters_of(figure: Figure) -> float:
     return min((float(text.get_fontsize()) for text in written), default=np.inf) / 72
 
 
-def small_png(figure: Figure) -> bytes:
-    """Draw a figure as a PNG of few colours."""
+def small_png(figure: Figure, **notes: str) -> bytes:
+    """Draw a figure as a PNG of few colours, with notes inside."""
     figure.savefig(full := io.BytesIO(), format="png", dpi=DPI, pil_kwargs={"compress_level": 1})
-    return few_colours(Image.open(full), letters_of(figure) * DPI)
+    return few_colours(Image.open(full), letters_of(figure) * DPI, **notes)
 
 
-def few_colours(picture: Image.Image, letters: float = np.inf) -> bytes:
+def few_colours(picture: Image.Image, letters: float = np.inf, **notes: str) -> bytes:
     """Encode a picture as a PNG of few colours, which says how many pixels its smallest letters have."""
-    few, note = picture.convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE), PngInfo()
-    note.add_text("letters", f"{letters:.1f}")
-    few.save(small := io.BytesIO(), "png", optimize=True, pnginfo=note)
+    few, inside = picture.convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE), PngInfo()
+    for name, note in {"letters": f"{letters:.1f}", **notes}.items():
+        inside.add_text(name, note)
+    few.save(small := io.BytesIO(), "png", optimize=True, pnginfo=inside)
     return small.getvalue()
