@@ -188,11 +188,25 @@ def distance_grid(
     dtype = np.result_type(*points).type
     level = (points[0][..., 1].mean(0, float) + points[1][..., 1].mean(0, float)) / 2
     same = np.array_equal(points[0], points[1])
-    rows, columns = (cloud(p.astype(float), level, weights, window, dtype) for p in points)
-    grid = np.empty([len(p) - window + 1 for p in points], dtype)
-    for tile in tiles(*grid.shape, upper=same):
-        grid[tile] = cloud_distances(rows.part(tile[0]), columns.part(tile[1]))
+    clouds = (cloud(p.astype(float), level, weights, window, dtype) for p in points)
+    grid = tiled_distances(*(c.part(slice(len(c.sizes) - window + 1)) for c in clouds), upper=same)
     return np.triu(grid) + np.triu(grid, 1).T if same else grid
+
+
+def tiled_distances(a: Cloud, b: Cloud, *, upper: bool = False) -> Floats:
+    """Measure D between all windows of two clouds, tile by tile; with `upper`, not below the diagonal: inf.
+
+    Examples
+    --------
+    >>> stick = np.array([[[0.0, 0, 0], [0, 1, 0]], [[0, 0, 0], [0, 2, 0]]])  # two frames of two points
+    >>> ready = cloud(stick, np.zeros(2), np.full(2, 1 / 2), 1, np.float64)
+    >>> np.array_equal(tiled_distances(ready, ready), cloud_distances(ready, ready))
+    True
+    """
+    grid = np.full((len(a.sizes), len(b.sizes)), np.inf, a.heights.dtype)
+    for tile in tiles(*grid.shape, upper=upper):
+        grid[tile] = cloud_distances(a.part(tile[0]), b.part(tile[1]))
+    return grid
 
 
 def tiles(rows: int, columns: int, *, upper: bool = False) -> Iterator[tuple[slice, slice]]:

@@ -2,7 +2,7 @@
 
 All pairs of windows are cut into blocks of `Stretch` by `Stretch`, each of which a worker gets by itself.
 
-1. *By products*: the block is measured tile by tile, and each tile is searched as `local_minima` does.
+1. *By products*: the block is measured tile by tile, and searched by `local_minima`.
 2. *By the bound* of `lower_bound`: a k-d tree finds the pairs whose projections on few directions are within
    reach; a look at all directions leaves fewer; only these are measured. A neighbour that was not measured
    costs more than the threshold, so the minima are the same.
@@ -21,7 +21,7 @@ from mocap._shared.arrays import Array, Indices
 from mocap._shared.progress import Progress
 from mocap._shared.tasks import run_in_order
 from mocap.matching.chosen_pairs import fit, pair_distances
-from mocap.matching.distance_grids import Cloud, Floats, cloud_distances, tiles
+from mocap.matching.distance_grids import Cloud, Floats, tiled_distances
 from mocap.matching.lower_bound import evenly, projections, reach, sample_directions, whole_windows
 from mocap.matching.minima import listed_minima, local_minima
 
@@ -47,12 +47,6 @@ class Stretch(NamedTuple):
     first: int
     cloud: Cloud
     places: Floats
-
-    def part(self, windows: slice) -> tuple[int, Cloud]:
-        """Take some windows, counted from `start`, with their neighbours; and say which is the first."""
-        own = self.start - self.first
-        low = max(own + windows.start - 1, 0)
-        return low, self.cloud.part(slice(low, own + windows.stop + 1))
 
 
 def find_minima(  # noqa: PLR0913 (what to find, how, and where to work)
@@ -118,24 +112,14 @@ def _places(cloud: Cloud, weights: Array, count: int) -> Floats:
 
 def _block_minima(a: Stretch, b: Stretch, below: float, far: float | None) -> Array:
     """Find the minima between two stretches: what one worker does at a time."""
-    i, j = _by_products(a, b, below) if far is None else _by_bound(a, b, below, far)
+    if far is None:
+        i, j = local_minima(tiled_distances(a.cloud, b.cloud, upper=a.start == b.start), below**2).T
+    else:
+        i, j = _by_bound(a, b, below, far)
     row, column = i + a.first, j + b.first
     own = (row >= a.start) & (row < a.stop) & (column >= b.start) & (column < b.stop)
     own &= column - row >= a.cloud.window  # no window overlaps itself, and each pair counts once
     return np.concatenate([[row[own], column[own]], fit(a.cloud, b.cloud, i[own], j[own])])
-
-
-def _by_products(a: Stretch, b: Stretch, below: float) -> Indices:
-    """Find the minima of a block, tile by tile: rows and columns of the stretches' clouds, shape (2, N)."""
-    found = [np.empty((0, 2), np.intp)]
-    for tile in tiles(a.stop - a.start, b.stop - b.start, upper=a.start == b.start):
-        parts = [stretch.part(windows) for stretch, windows in zip((a, b), tile, strict=True)]
-        corner, clouds = zip(*parts, strict=True)
-        minima = local_minima(cloud_distances(*clouds), below**2) + corner
-        own = minima - [a.start - a.first, b.start - b.first]
-        mine = (own >= [part.start for part in tile]) & (own < [part.stop for part in tile])
-        found.append(minima[mine.all(axis=1)])  # those of the neighbours are found in their own tiles
-    return np.concatenate(found).T
 
 
 def _by_bound(a: Stretch, b: Stretch, below: float, far: float) -> Indices:

@@ -7,7 +7,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array, Indices
 from mocap._shared.progress import Progress
-from mocap.matching.distance_grids import Cloud, cloud_distances, tiles
+from mocap.matching.distance_grids import Cloud, Floats, tiled_distances
 from mocap.methods.match_webs.local_alignment import apart, local_paths, minima_1d
 
 ROWS, COLUMNS = 600, 4000  # windows on the sides of the part of the grid that is worked on at a time
@@ -88,10 +88,7 @@ def paths_between(a: Cloud, b: Cloud, corner: tuple[int, int], below: float) -> 
     Shape (N, 4), path after path, best first: the path's number, the two windows, and their RMS distance in
     metres.
     """
-    grid = np.empty((len(a.sizes), len(b.sizes)), a.heights.dtype)
-    for tile in tiles(*grid.shape):
-        grid[tile] = cloud_distances(a.part(tile[0]), b.part(tile[1]))
-    np.sqrt(grid, out=grid)
+    grid: Floats = np.sqrt(tiled_distances(a, b))
     first = corner[0] - corner[1] + LEAST  # the second window is at least so much later
     if first + len(grid) > 0:
         grid[np.tri(*grid.shape, first - 1, dtype=bool)] = np.inf
