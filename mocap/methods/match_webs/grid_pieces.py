@@ -91,7 +91,7 @@ def paths_between(a: Cloud, b: Cloud, corner: tuple[int, int], below: float) -> 
     grid: Floats = np.sqrt(tiled_distances(a, b))
     first = corner[0] - corner[1] + LEAST  # the second window is at least so much later
     if first + len(grid) > 0:
-        grid[np.tri(*grid.shape, first - 1, dtype=bool)] = np.inf
+        grid[np.tri(len(grid), grid.shape[1], first - 1, dtype=bool)] = np.inf
     costs = grid - np.float32(below)
     costs += np.where(minima_1d(grid), np.float32(0), np.float32(OFF_MINIMUM * below))
     paths = apart(local_paths(costs, slope=SLOPE, least=LEAST), near=NEAR)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Indices
+from mocap._shared.arrays import Array
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, warn
 from mocap.matching.point_clouds import point_cloud
@@ -118,7 +118,9 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
         ]
         before = len(found)
         for other, number in sorted(new, key=lambda pair: pair[0].cost):
-            if _is_new(other, places):
+            common = np.minimum(places[:, 1], other.stop) - np.maximum(places[:, 0], other.start)
+            union = np.maximum(places[:, 1], other.stop) - np.minimum(places[:, 0], other.start)
+            if (common <= SAME * union).all():  # it is none of those that were found
                 match = _composed(found[number], other, number)
                 if keep and not keep(cut_out(web, _in_own_frames(web, clip, match))):
                     continue
@@ -130,14 +132,6 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
     first, last, _ = frames.indices(len(web.clips[clip]))
     own[0] = own[0]._replace(start=first, stop=last)
     return own
-
-
-def _is_new(match: Match, places: Indices) -> bool:
-    """Check that a match overlaps none of the places found, shape (N, 2), by more than half of the union."""
-    starts, stops = places.T
-    common = np.minimum(stops, match.stop) - np.maximum(starts, match.start)
-    union = np.maximum(stops, match.stop) - np.minimum(starts, match.start)
-    return bool((common <= SAME * union).all())
 
 
 def _query(web: MatchWeb, clip: int, frames: slice) -> Match:

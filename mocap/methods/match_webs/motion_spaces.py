@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import Generic, Protocol, TypeVar
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -24,16 +24,7 @@ from mocap.methods.match_webs.measures import Measure
 FPS = 30.0  # of the blends that are measured
 
 
-class OnGrid(Protocol):
-    """Examples that blend themselves, such as those on one grid of phases in `parametric_graphs`."""
-
-    def __len__(self) -> int: ...
-
-    def blend(self, weights: Array) -> Motion:
-        """Blend the examples."""
-
-
-E = TypeVar("E", bound="Registration | OnGrid")
+E = TypeVar("E")  # a `Registration`, or examples on one grid of phases that `blend` themselves
 
 
 def random_weights(
@@ -171,16 +162,21 @@ def sample_space(
 
     Notebook: 16-match-webs
     """
-    alone = np.eye(len(examples.clips if isinstance(examples, Registration) else examples))
-    known = _measured(examples, measure, alone)
+    own: Any = examples
+    registered = isinstance(examples, Registration)
+    blend = partial(blend_of, own, fps=FPS, rounds=0) if registered else own.blend
+    alone = np.eye(len(own.clips if registered else own))
+    known = _measured(blend, measure, alone)
     weights = random_weights(known, count)
-    values = np.concatenate([known, _measured(examples, measure, weights, known.shape[1])])
+    values = np.concatenate([known, _measured(blend, measure, weights, known.shape[1])])
     width = np.ptp(values, axis=0) / 2
     given = np.where(width > 0, width, 1.0) if scale is None else np.asarray(scale, float)
     return MotionSpace(examples, np.concatenate([alone, weights]), values, given, parameters)
 
 
-def blend_of(registration: Registration, weights: ArrayLike, *, fps: float | None = None) -> Motion:
+def blend_of(
+    registration: Registration, weights: ArrayLike, *, fps: float | None = None, rounds: int = 1
+) -> Motion:
     """Blend registered clips as `blending.mix` does, by way of those alone whose weight is not 0.
 
     Parameters
@@ -188,6 +184,7 @@ def blend_of(registration: Registration, weights: ArrayLike, *, fps: float | Non
     registration : of C clips, such as that of a space.
     weights : shape (C,), such as from `weights_for`.
     fps : frames per second; the clips' own by default.
+    rounds : as for `blending.mix`.
 
     Raises
     ------
@@ -203,27 +200,19 @@ def blend_of(registration: Registration, weights: ArrayLike, *, fps: float | Non
 
     Notebook: 16-match-webs
     """
-    return _mixed(registration, checked(weights, len(registration.clips)), fps, rounds=1)
-
-
-def _mixed(registration: Registration, weights: Array, fps: float | None, rounds: int) -> Motion:
-    some = np.flatnonzero(np.abs(weights) > 1e-9)
+    w = checked(weights, len(registration.clips))
+    some = np.flatnonzero(np.abs(w) > 1e-9)
     of_clips = ("clips", "times", "angles", "centres")
     parts = {part: tuple(getattr(registration, part)[n] for n in some) for part in of_clips}
     shared = registration.contacts
     parts["contacts"] = tuple(m._replace(starts=m.starts[some], stops=m.stops[some]) for m in shared)
-    reference = int(np.abs(weights[some]).argmax())
+    reference = int(np.abs(w[some]).argmax())
     few = replace(registration, reference=reference, costs=registration.costs[some], **parts)
-    return mix(few, weights[some] / weights[some].sum(), fps=fps, rounds=rounds)
+    return mix(few, w[some] / w[some].sum(), fps=fps, rounds=rounds)
 
 
-def _measured(examples: Registration | OnGrid, measure: Measure, rows: Array, numbers: int = 0) -> Array:
+def _measured(blend: Callable[[Array], Motion], measure: Measure, rows: Array, numbers: int = 0) -> Array:
     """Measure the blends of some weights (M, C): shape (M, d)."""
-    blend: Callable[[Array], Motion]
-    if isinstance(examples, Registration):
-        blend = partial(_mixed, examples, fps=FPS, rounds=0)
-    else:
-        blend = examples.blend
     values: list[Array] = []
     for row in rows:
         value = np.atleast_1d(np.asarray(measure(blend(row)), float))
