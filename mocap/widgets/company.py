@@ -23,23 +23,15 @@ from mocap.widgets.packing import drawn
 MOST = 4  # characters side by side
 
 
-class Order(NamedTuple):
-    """One command for all: heading in radians (0 is +z, π/2 is +x), speed in metres per second, and a label.
+Command = tuple[float, float, str]
+"""Heading in radians (0 is +z, π/2 is +x), speed in metres per second, and a label."""
+START: Command = (0.0, 1.1, "")
 
-    Examples
-    --------
-    >>> Order(0.5).checked()
-    Order(heading=0.5, speed=1.1, label='')
-    """
 
-    heading: float = 0.0
-    speed: float = 1.1
-    label: str = ""
-
-    def checked(self) -> Order:
-        """Return it as it is; a heading or speed that no character could take is an error."""
-        require_command(self.heading, self.speed)
-        return self
+def checked(heading: float, speed: float, label: str) -> Command:
+    """Return a command; a heading or speed that no character could take is an error."""
+    require_command(float(heading), float(speed))
+    return float(heading), float(speed), str(label)
 
 
 class Walked(NamedTuple):
@@ -67,10 +59,10 @@ class Member:
         self.name, self.character = name, character
         self.clock, self.drawn = CommandClock(character.fps), drawn(character.skeleton)
         self.steps, self.fault = 0, ""
-        self.order: Order | None = None  # the last one that it took
+        self.order: Command | None = None  # the last one that it took
         self.stands: tuple[Pose, Array] | None = None  # the last pose, and where its joints are
 
-    def walk(self, order: Order, count: int) -> Walked:
+    def walk(self, order: Command, count: int) -> Walked:
         """Take some steps; after an error it stands still until the order changes."""
         if order != self.order:
             self.order, self.fault = order, ""
@@ -79,7 +71,7 @@ class Member:
         poses, places = [], np.empty((count, len(self.drawn.joints), 3))
         for frame in range(count):
             pose, places[frame] = self._step(order)
-            self.clock.command(order.heading)
+            self.clock.command(order[0])
             self.clock.step(complex(pose.root_position[2], pose.root_position[0]))
             poses.append(pose)
             told["waited"].append(round(self.clock.waited, 3))
@@ -87,7 +79,7 @@ class Member:
             told["blending"].append(bool(pose.blending))
         return Walked(poses, places, told | {"fault": self.fault, "delays": self.clock.delays[-20:]})
 
-    def _step(self, order: Order) -> tuple[Pose, Array]:
+    def _step(self, order: Command) -> tuple[Pose, Array]:
         """Take a step, or stand still."""
         if not self.fault:
             try:
@@ -120,7 +112,7 @@ class Company:
     >>> from mocap.methods import motion_matching
     >>> database = motion_matching.tabulate([body.resample(datasets.sample("walk_curve_1"), 30)])
     >>> company = Company({"matching": motion_matching.MotionMatcher(database)})
-    >>> (walked,) = company.walk(Order(np.pi / 2, 0.8), 0.5)
+    >>> (walked,) = company.walk((np.pi / 2, 0.8, ""), 0.5)
     >>> walked.places.shape, walked.told["waited"][-1], walked.told["obeyed"][-1]
     ((15, 38, 3), 0.5, False)
     """
@@ -134,9 +126,9 @@ class Company:
         self.seconds = 0.0
         self.cost = 0.0  # of the last walk, CPU ms per step of all
         self.notes: list[str] = []  # warnings of the last walk
-        self.walk(Order(), 0.0)
+        self.walk(START, 0.0)
 
-    def walk(self, order: Order, seconds: float) -> list[Walked]:
+    def walk(self, order: Command, seconds: float) -> list[Walked]:
         """Walk on for some seconds under one order, all of them; warnings are kept as `notes`."""
         self.seconds += seconds
         start, before = time.thread_time(), self.members[0].steps

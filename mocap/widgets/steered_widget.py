@@ -16,7 +16,7 @@ from mocap.body.motion import Motion
 from mocap.errors import MocapError, shortened
 from mocap.plotting.style import COLOURS, own_colour
 from mocap.steering.characters import Character, as_motion
-from mocap.widgets.company import Company, Order
+from mocap.widgets.company import Company, checked
 from mocap.widgets.embedding import PAGE, PICTURE, SCENE, SHADED, TOUCH
 from mocap.widgets.live import Live, display_live, widget
 from mocap.widgets.packing import LOOK
@@ -42,7 +42,7 @@ class Steered(Live):
 
     def check_command(self, command: Sequence[Any]) -> list[Any]:
         """Refuse what no character could take."""
-        return list(Order(*command).checked())
+        return list(checked(*command))
 
     @property
     def delays(self) -> dict[str, list[float]]:
@@ -52,8 +52,7 @@ class Steered(Live):
     def answer(self, _: object, asked: dict[str, Any], __: object = None) -> None:
         """Answer a question of the browser: walk on, and send the frames; or say what is wrong with it."""
         try:
-            heading, speed, label = asked["command"]
-            order = Order(float(heading), float(speed), str(label)).checked()
+            order = checked(*asked["command"])
             seconds = min(max(0.0, float(asked["seconds"])), MOST)
         except (KeyError, TypeError, ValueError) as error:
             self.send({"kind": "refused", "why": shortened(f"{type(error).__name__}: {error}", 200)})
@@ -80,7 +79,6 @@ def steered(
     *,
     speeds: tuple[float, float] = (0.5, 1.6),
     labels: Sequence[str] = (),
-    record: bool = True,
     alt: str = "",
 ) -> Any:  # noqa: ANN401
     """Let the reader steer characters side by side: one command for all, by mouse, keys or touch.
@@ -96,7 +94,6 @@ def steered(
         where they are.
     speeds : the least and the most that the reader can ask for, metres per second.
     labels : kinds of motion to choose from, as `step` takes them; "" stands for any.
-    record : False shows a picture in place of the recording, for captured motion that is not to be stored.
     alt : a sentence for readers who do not see it; by default it gives the names.
 
     Returns
@@ -125,13 +122,11 @@ def steered(
     company, speed = Company(characters), min(max(1.1, low), high)
     names = ", ".join(member.name for member in company.members)
     alt = alt or f"Stick figures obey one command: {names}."
-    player = play(*_recorded(company, speed), follow=False, alt=alt)
+    data, metadata = play(*_recorded(company, speed), follow=False, alt=alt)._repr_mimebundle_()
     for clock in (member.clock for member in company.members):
         clock.delays, clock.counts = [], False  # the reader has steered nothing yet
-    data, metadata = player._repr_mimebundle_()
-    seen = data if record else player.still()._repr_mimebundle_()[0]
     said = "Recorded: ahead for 2 s, 4 s to the left, 4 s to the right. Run the cell to steer by yourself."
-    data["text/html"] = f"<p>{said}</p>{seen['text/html']}"
+    data["text/html"] = f"<p>{said}</p>{data['text/html']}"
     members = [
         {
             **{"name": member.name, "fps": member.character.fps, "joints": len(member.drawn.joints)},
@@ -151,7 +146,7 @@ def steered(
 
 def _recorded(company: Company, speed: float) -> list[Motion]:
     """Walk the recording, and put the characters side by side, the first at the left."""
-    walks = [company.walk(Order(heading, speed), seconds) for heading, seconds in RECORDED]
+    walks = [company.walk((heading, speed, ""), seconds) for heading, seconds in RECORDED]
     motions, count = [], len(company.members)
     for number, (member, parts) in enumerate(zip(company.members, zip(*walks, strict=True), strict=True)):
         poses = [pose for part in parts for pose in part.poses]

@@ -10,7 +10,6 @@ import warnings
 
 from IPython import get_ipython
 
-from mocap.widgets.company import Order
 from mocap.widgets.experiments import Experiment
 from mocap.widgets.player import Player
 
@@ -49,7 +48,7 @@ def drive(shown):
     elif hasattr(shown, "company"):  # characters that are steered
         for heading, speed in ((2.0, shown.scene["speeds"][0]), (-1.0, shown.scene["speeds"][1])):
             shown.command = [heading, speed, ""]
-            walked = shown.company.walk(Order(*shown.command), 2.0)
+            walked = shown.company.walk(tuple(shown.command), 2.0)
             assert not any(member.told["fault"] for member in walked)
     elif hasattr(shown, "picture"):  # an inspector, which runs in the page
         assert shown.picture
