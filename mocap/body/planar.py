@@ -87,14 +87,10 @@ class PlanarTransform(NamedTuple):
         cos, sin = np.cos(self.angle), np.sin(self.angle)
         return np.stack(np.broadcast_arrays(x * cos + z * sin + self.x, y, z * cos - x * sin + self.z), -1)
 
-    def apply_orientations(self, quaternions: ArrayLike) -> Array:
-        """Turn global orientations, quaternions of shape (..., 4)."""
-        return rotations.multiply(rotations.about_y(self.angle), quaternions)
-
     def apply_frames(self, roots: ArrayLike, turns: Array) -> tuple[Array, Array]:
         """Move frames of root positions (..., 3) and rotations (..., J, 4); only roots change."""
         turned = turns.copy()
-        turned[..., 0, :] = self.apply_orientations(turned[..., 0, :])
+        turned[..., 0, :] = rotations.multiply(rotations.about_y(self.angle), turned[..., 0, :])
         return self.apply_points(roots), turned
 
     def apply_motion(self, motion: Motion) -> Motion:

@@ -16,9 +16,7 @@ from mocap.datasets.downloads import fetch, kept_in, show_once
 from mocap.errors import MocapError, shortened
 
 if TYPE_CHECKING:
-    from mocap.body.limbs import Leg
     from mocap.body.motion import Motion
-    from mocap.body.skeleton import Skeleton
 
 WHOLE = "TERMS.txt"  # written when all clips of a set are there
 _TABLES = tomllib.loads(Path(__file__).with_name("sets.toml").read_text("utf-8"))
@@ -38,13 +36,6 @@ class NamedSet(NamedTuple):
     megabytes: int | None = None
     sha256: str | None = None
     clip_url: str = ""
-
-    def find_legs(self, skeleton: Skeleton) -> tuple[Leg, Leg]:
-        """Give the left and the right leg of a body of this set."""
-        from mocap.body.limbs import name_leg  # the command line lists the sets without numpy
-
-        right = [name.replace("Left", "Right").replace("_L", "_R") for name in self.legs]
-        return name_leg(skeleton, *self.legs), name_leg(skeleton, *right)
 
     def terms(self) -> str:
         """Say whose clips they are, under which licence, and what that allows."""

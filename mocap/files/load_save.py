@@ -31,8 +31,8 @@ def load(
     path : the file; capital letters in its suffix are fine.
     skeleton : for `.amc`, the `.asf` file of its skeleton. By default one in the same folder that fits: that
         of the same name, else of the name up to the first `_` (`16.asf` for `16_15.amc`), else the only one.
-    fps : frames per second, which replace those of the file. An `.amc` file has none but in a comment
-        such as `# fps 30`; by default it has 120, as most of the CMU database.
+    fps : frames per second, which replace those of the file. An `.amc` file has none; by default it is
+        120, as in most of the CMU database.
     scale : metres in one unit of the file; by default 0.01 for `.bvh`, and that of the skeleton for `.amc`.
         An `.npz` is in metres.
     stretch : metres by which bones of a `.bvh` file may change their lengths, by default 0.02. Up to this

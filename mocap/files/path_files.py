@@ -23,7 +23,7 @@ MOST = 500_000  # points, each of a millimetre in half a kilometre
 T = np.linspace(0, 1, 33)[1:]  # a curve becomes 32 straight pieces
 CURVES = {n: np.stack([comb(n, k) * (1 - T) ** (n - k) * T**k for k in range(n + 1)], axis=1) for n in (2, 3)}
 ARC_SHARES = np.linspace(0, 1, 129)[1:]
-DRAWN = {"path", "polyline", "polygon", "line"}
+DRAWN = {"path": "{d}", "polyline": "M {points}", "polygon": "M {points} Z", "line": "M {x1} {y1} {x2} {y2}"}
 UNDRAWN = {"clipPath", "defs", "marker", "mask", "pattern", "symbol"}
 
 
@@ -93,7 +93,9 @@ def _read_svg(path: Path) -> Array:
             continue
         matrix = _transformed(path, matrix, element.get("transform", ""))
         if kind in DRAWN:
-            return np.asarray(_corners(path, kind, element) @ matrix[:2, :2].T + matrix[:2, 2])
+            got = {"points": "", "d": "", **dict.fromkeys(("x1", "y1", "x2", "y2"), "0"), **element.attrib}
+            corners = _outline(path, DRAWN[kind].format_map(got))
+            return np.asarray(corners @ matrix[:2, :2].T + matrix[:2, 2])
         waiting += [(child, matrix) for child in reversed(element)]
     raise FormatError(path, None, "a path, polyline, polygon or line", "none")
 
@@ -105,7 +107,11 @@ def _transformed(path: Path, matrix: Array, text: str) -> Array:
         raise FormatError(path, None, "a transform", f"'{rest.strip(BETWEEN)}'")
     for step in steps:
         name, _, arguments = step.strip(BETWEEN).partition("(")
-        match name.strip(), _numbers(path, arguments, "numbers of a transform").tolist():
+        words = NUMBER.findall(arguments)
+        if NUMBER.sub("", arguments).strip(BETWEEN):
+            raise FormatError(path, None, "numbers of a transform", f"'{arguments.strip(BETWEEN)}'")
+        numbers = to_numbers(path, None, words, "numbers of a transform", len(words))
+        match name.strip(), numbers.tolist():
             case "matrix", [a, b, c, d, e, f]:
                 rows = [[a, c, e], [b, d, f]]
             case "translate", [x, *more] if len(more) < 2:
@@ -120,27 +126,6 @@ def _transformed(path: Path, matrix: Array, text: str) -> Array:
                 raise FormatError(path, None, "a transform", f"'{step.strip(BETWEEN)})'")
         matrix = matrix @ [*rows, [0, 0, 1]]
     return matrix
-
-
-def _numbers(path: Path, text: str, expected: str) -> Array:
-    """Read the numbers of an attribute; commas, blanks or signs part them."""
-    words = NUMBER.findall(text)
-    if NUMBER.sub("", text).strip(BETWEEN):
-        raise FormatError(path, None, expected, f"'{text.strip(BETWEEN)}'")
-    return to_numbers(path, None, words, expected, len(words))
-
-
-def _corners(path: Path, kind: str, element: ElementTree.Element) -> Array:
-    """List the points (n, 2) of one line drawn."""
-    if kind == "path":
-        return _outline(path, element.get("d", ""))
-    ends = " ".join(element.get(name, "0") for name in ("x1", "y1", "x2", "y2"))
-    text = ends if kind == "line" else element.get("points", "")
-    numbers = _numbers(path, text, f"numbers for a {kind}")
-    if len(numbers) % 2 or (kind == "line" and len(numbers) != 4):
-        raise FormatError(path, None, f"x and y for each point of a {kind}", f"{len(numbers)} numbers")
-    points = numbers.reshape(-1, 2)
-    return np.vstack([points, points[:1]]) if kind == "polygon" else points
 
 
 def _outline(path: Path, text: str) -> Array:

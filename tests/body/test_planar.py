@@ -54,7 +54,7 @@ def test_heading_is_the_turn_beside_any_lean_and_turns_with_the_body(angle, lean
     body = rotations.multiply(rotations.about_y(angle), lean)
     for same in (body, -body):
         assert heading(same) == pytest.approx(angle, abs=1e-9)
-    turned = heading(transform.apply_orientations(body))
+    turned = heading(transform.apply_frames(np.zeros(3), body[None])[1][0])
     assert np.exp(1j * turned) == pytest.approx(np.exp(1j * (angle + transform.angle)), abs=1e-9)
 
 

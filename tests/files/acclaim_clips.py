@@ -101,7 +101,7 @@ def write_acclaim(motion, path):
             tree.append(f"{f'to_{child}' if np.any(start != end) else name} {child}")
     head = [":units", "length 0.0254", ":root", "order TX TY TZ RX RY RZ", ":bonedata"]
     path.with_suffix(".asf").write_text("\n".join([*head, *bones, ":hierarchy", *tree, ""]))
-    rows = [f"# fps {motion.fps!r}", ":DEGREES"]
+    rows = [":DEGREES"]
     angles = np.degrees(euler.to_euler("xyz", motion.rotations))
     for frame, (place, turns) in enumerate(zip(motion.root_positions, angles, strict=True), 1):
         numbers = [np.concatenate([place, turns[0]]), *turns[1:]]
