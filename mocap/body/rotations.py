@@ -100,7 +100,9 @@ def about_y(angles: ArrayLike) -> Array:
     array([1., 0., 0.])
     """
     half = np.asarray(angles, float) / 2
-    return np.stack([np.cos(half), np.zeros_like(half), np.sin(half), np.zeros_like(half)], axis=-1)
+    turns = np.zeros((*half.shape, 4))
+    turns[..., 0], turns[..., 2] = np.cos(half), np.sin(half)
+    return turns
 
 
 def multiply(first: ArrayLike, second: ArrayLike) -> Array:
@@ -115,15 +117,16 @@ def multiply(first: ArrayLike, second: ArrayLike) -> Array:
 
     Notebook: 01-skeletons-and-clips
     """
-    w1, x1, y1, z1 = np.moveaxis(np.asarray(first, float), -1, 0)
-    w2, x2, y2, z2 = np.moveaxis(np.asarray(second, float), -1, 0)
-    product = [
-        w1 * w2 - x1 * x2 - y1 * y2 - z1 * z2,
-        w1 * x2 + x1 * w2 + y1 * z2 - z1 * y2,
-        w1 * y2 + y1 * w2 + z1 * x2 - x1 * z2,
-        w1 * z2 + z1 * w2 + x1 * y2 - y1 * x2,
-    ]
-    return np.stack(product, axis=-1)
+    first, second = np.asarray(first, float), np.asarray(second, float)
+    (w1, x1, y1, z1), (w2, x2, y2, z2) = ([q[..., k] for k in range(4)] for q in (first, second))
+    product = np.empty(
+        np.broadcast_shapes(first.shape, second.shape)
+    )  # filled in place: a stack takes longer
+    product[..., 0] = w1 * w2 - x1 * x2 - y1 * y2 - z1 * z2
+    product[..., 1] = w1 * x2 + x1 * w2 + y1 * z2 - z1 * y2
+    product[..., 2] = w1 * y2 + y1 * w2 + z1 * x2 - x1 * z2
+    product[..., 3] = w1 * z2 + z1 * w2 + x1 * y2 - y1 * x2
+    return product
 
 
 def inverse(quaternions: ArrayLike) -> Array:
