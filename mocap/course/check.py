@@ -22,13 +22,7 @@ from mocap._shared.limits import Overdue, time_limit
 
 Answer = Callable[..., Any]
 Table = Mapping[str, Any]
-
-
-class Mistake(NamedTuple):
-    """A wrong answer that students give, as a function, and the hint for it."""
-
-    answer: Answer
-    hint: str
+Trial = tuple[tuple[Any, ...], Any, Any]  # the arguments of a call, the right result, and the student's
 
 
 class Verdict(NamedTuple):
@@ -45,14 +39,6 @@ class Verdict(NamedTuple):
 
     def __str__(self) -> str:
         return f"{'✓' if self.right else '✗'} {self.message}"
-
-
-class Trial(NamedTuple):
-    """One call of a student's function: its arguments, the right result, and the student's."""
-
-    arguments: tuple[Any, ...]
-    wanted: Any
-    given: Any
 
 
 def close(given: Any, wanted: Any) -> bool:  # noqa: ANN401
@@ -108,7 +94,7 @@ class Check:
     ----------
     draw : takes a random generator, returns the arguments of one call.
     truth : the oracle: takes these arguments, returns the right answer.
-    mistakes : known wrong answers with their hints.
+    mistakes : known wrong answers, as functions, with their hints.
     oracles : the names of the package's functions that the right answer calls.
     seconds : the time limit of all calls; right functions take a hundredth of it.
 
@@ -141,7 +127,9 @@ class Check:
         self.oracles = [name for name, room in named.items() if re.match(r"mocap\.(?!course\.)", room or "")]
         self.draw, self.truth = self._function(table["draw"], "rng"), self._function("right", table["takes"])
         wrong = table["wrong"].items()
-        self.mistakes = [Mistake(self._function(one, table["takes"]), hint) for one, hint in wrong]
+        self.mistakes: list[tuple[Answer, str]] = [
+            (self._function(one, table["takes"]), hint) for one, hint in wrong
+        ]
 
     def _function(self, expression: str, takes: str) -> Answer:
         """Make a function of an expression of a table."""
@@ -186,9 +174,9 @@ class Check:
         except Exception as error:  # a student's function may raise anything, and the page shows it
             what = " ".join(filter(None, (type(error).__name__, place_of(error, answer))))
             wrong = f"your function raises {what}: {error}"
-        failed = [trial for trial in tried if not self._same(trial.given, trial.wanted)]
+        failed = [(wanted, given) for _, wanted, given in tried if not self._same(given, wanted)]
         if not wrong and failed:
-            wrong = self._known_mistake(tried) or self._first_wrong(failed[0])
+            wrong = self._known_mistake(tried) or self._first_wrong(*failed[0])
         return Verdict(not wrong, f"{self.name}: {wrong or f'right on {self.trials} random inputs.'}")
 
     def _try(self, answer: Answer, tried: list[Trial]) -> str:
@@ -197,12 +185,11 @@ class Check:
         for _ in range(self.trials):
             arguments = self.draw(rng)
             used = copy.deepcopy(arguments)
-            tried.append(Trial(arguments, self.truth(*copy.deepcopy(arguments)), answer(*used)))
-            if tried[-1].given is ...:
+            tried.append((arguments, self.truth(*copy.deepcopy(arguments)), answer(*used)))
+            if tried[-1][-1] is ...:
                 raise NotImplementedError
-            for mine, old in zip(used, arguments, strict=True):
-                if altered(old, mine):
-                    return "your function changes its arguments; work on a copy."
+            if any(map(altered, arguments, used)):
+                return "your function changes its arguments; work on a copy."
         return ""
 
     def _same(self, given: Any, wanted: Any) -> bool:  # noqa: ANN401
@@ -213,20 +200,20 @@ class Check:
 
     def _known_mistake(self, tried: list[Trial]) -> str:
         for answer, hint in self.mistakes:
-            if all(self._same(t.given, answer(*copy.deepcopy(t.arguments))) for t in tried):
+            if all(self._same(given, answer(*copy.deepcopy(arguments))) for arguments, _, given in tried):
                 return hint
         return ""
 
-    def _first_wrong(self, trial: Trial) -> str:
-        if trial.given is None:
+    def _first_wrong(self, wanted: Any, given: Any) -> str:  # noqa: ANN401
+        if given is None:
             return "your function returns None; does it end in `return`?"
-        if isinstance(trial.wanted, set | frozenset):  # students list its items in any type
+        if isinstance(wanted, set | frozenset):  # students list its items in any type
             return f"some are missing or wrong. It must return {self.asks}. Hint: {self.start}"
-        given, wanted = _shape(trial.given), _shape(trial.wanted)
-        if given != wanted:
-            return f"your answer has the shape {given}; it should be {wanted}."
-        if wanted == () and not isinstance(trial.wanted, str):
-            numbers = f"you return {_short(trial.given)} where it should be {_short(trial.wanted)}"
+        here, there = _shape(given), _shape(wanted)
+        if here != there:
+            return f"your answer has the shape {here}; it should be {there}."
+        if there == () and not isinstance(wanted, str):
+            numbers = f"you return {_short(given)} where it should be {_short(wanted)}"
             return f"{numbers}. It must return {self.asks}."
         return f"the shape is right, the values are wrong. It must return {self.asks}. Hint: {self.start}"
 

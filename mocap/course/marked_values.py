@@ -12,14 +12,10 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
-SMALL = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
-TEENS = ("thirteen", "fourteen", "fifteen", "sixteen", "seventeen", "eighteen", "nineteen")
-WORDS = (*SMALL, "eleven", "twelve", *TEENS, "twenty")
 ABOUT = 0.1  # an approximate number is within this share of its value
 
-_SHOWN = rf"[-−]?(?:\d{{1,3}}(?: \d{{3}})+|\d+)(?:\.\d+)?|\b(?:{'|'.join(WORDS)})"
-_MARK = re.compile(rf"(?P<shown>{_SHOWN})<!--(?P<kind>[=~])\s*(?P<expression>.+?)\s*-->", re.I | re.DOTALL)
-_COMMENT = re.compile(r"<!--[=~].*?-->", re.DOTALL)
+_SHOWN = r"[-−]?(?:\d{1,3}(?: \d{3})+|\d+)(?:\.\d+)?"
+_MARK = re.compile(rf"(?P<shown>{_SHOWN})?<!--(?P<kind>[=~])\s*(?P<expression>.+?)\s*-->", re.DOTALL)
 
 
 class Marked(NamedTuple):
@@ -30,17 +26,13 @@ class Marked(NamedTuple):
     expression: str
 
     def written(self, value: float) -> str:
-        """Write a value as this number is written: as a word or in digits, with as many decimals.
+        """Write a value as this number is written, with as many decimals.
 
         Examples
         --------
-        >>> Marked("17 000", False, "count").written(17421.0), Marked("Two", False, "n").written(3)
-        ('17 421', 'Three')
+        >>> Marked("17 000", False, "count").written(17421.0)
+        '17 421'
         """
-        if self.shown.lower() in WORDS:
-            whole = round(value)
-            word = WORDS[whole] if 0 <= whole < len(WORDS) else str(whole)
-            return word.capitalize() if self.shown[0].isupper() else word
         _, _, decimals = self.shown.partition(".")
         gap = " " if abs(value) >= 10_000 or " " in self.shown else ""
         text = f"{value:,.{len(decimals)}f}".replace(",", gap)
@@ -62,8 +54,6 @@ class Marked(NamedTuple):
 
 
 def _number(shown: str) -> float:
-    if shown.lower() in WORDS:
-        return float(WORDS.index(shown.lower()))
     return float(shown.replace(" ", "").replace("−", "-"))
 
 
@@ -79,12 +69,9 @@ def marked(text: str) -> Iterator[Marked]:
     >>> list(marked("It is 2.8<!--= 100 * off --> cm off."))
     [Marked(shown='2.8', about=False, expression='100 * off')]
     """
-    found = list(_MARK.finditer(text))
-    ends = {match.end() for match in found}
-    for comment in _COMMENT.finditer(text):
-        if comment.end() not in ends:
-            raise ValueError(f"No number stands directly before {comment[0][:80]}")
-    for match in found:
+    for match in _MARK.finditer(text):
+        if not match["shown"]:
+            raise ValueError(f"No number stands directly before {match[0][:80]}")
         yield Marked(match["shown"], match["kind"] == "~", match["expression"])
 
 

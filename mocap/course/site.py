@@ -39,7 +39,7 @@ LIVE = {  # what needs no Python, by its class
     "mocap-player": "the players play",
     "mocap-question": "quizzes and bets answer you",
     "mocap-inspector": "seams can be looked into",
-    "mocap-blind": "the blind test can be taken",
+    "mocap-blindtest": "the blind test can be taken",
     "moving": "the sliders show recorded positions",
 }
 SCRIPT = re.compile(r'<script type="module">.*?</script>', re.DOTALL)

@@ -21,7 +21,7 @@ found = matching.find_transitions(clips, window=10, below=0.06)
 plan = Plan(window=2, below=0.06, pairs=4)
 BlindTest(make_pairs(clips, found, plan), plan)
 """
-TEST = "document.querySelector('.mocap-blind').test"
+TEST = "document.querySelector('.mocap-blindtest').blindtest"
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +34,7 @@ def blind():
 def opened(page, blind, tmp_path):
     file = tmp_path / "blind.html"
     file.write_text(
-        f'<!doctype html><html lang="en"><meta charset="utf-8"><link rel="icon" href="data:,">{blind.html}'
+        f'<!doctype html><html lang="en"><meta charset="utf-8"><link rel="icon" href="data:,">{blind.html()}'
     )
     page.goto(file.as_uri())
     return page
@@ -45,11 +45,11 @@ def take(page, choose):
     page.get_by_role("button", name="Start the test").click()
     for number, on_left in enumerate(page.evaluate(f"{TEST}.spec.onLeft")):
         wait_until(
-            lambda n=number: f"Pair {n + 1} of" in page.locator(".mocap-blind [role=status]").inner_text()
+            lambda n=number: f"Pair {n + 1} of" in page.locator(".mocap-blindtest [role=status]").inner_text()
         )
         wait_until(lambda: page.evaluate(f"{TEST}.since && performance.now() - {TEST}.since > 450"))
         choose(number, "left" if on_left else "right")
-    return page.locator(".mocap-blind [role=status]").inner_text()
+    return page.locator(".mocap-blindtest [role=status]").inner_text()
 
 
 def test_a_perfect_eye_is_said_so_and_its_file_is_read(opened, tmp_path):

@@ -35,9 +35,9 @@ def test_no_two_tables_ask_for_the_same_and_no_file_hides_a_check():
 def test_the_right_answer_passes_and_each_mistake_gets_its_own_hint(name):
     check = ALL[name]
     assert check.verdict(check.truth).right
-    for mistake in check.mistakes:
-        assert check.verdict(mistake.answer) == Verdict(False, f"{name}: {mistake.hint}")
-    assert len({mistake.hint for mistake in check.mistakes}) >= 3
+    for answer, hint in check.mistakes:
+        assert check.verdict(answer) == Verdict(False, f"{name}: {hint}")
+    assert len({hint for _, hint in check.mistakes}) >= 3
     assert re.match(r"[a-z].*[^.]$", check.asks)
 
 

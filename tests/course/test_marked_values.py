@@ -31,8 +31,6 @@ def test_a_value_written_into_the_text_agrees_with_it(value, decimals):
         ("-3", -3.2, True),
         ("17 000", 17000, True),
         ("17 000", 17001, False),
-        ("Seven", 7, True),
-        ("seven", 8, False),
         ("997", np.int64(997), True),
     ],
 )
@@ -48,8 +46,8 @@ def test_an_approximate_number_is_within_a_tenth():
     assert [mark.agrees(value) for value in (440, 460, 550, 560)] == [False, True, True, False]
 
 
-def test_words_and_signs_are_kept_when_a_number_is_written_anew():
-    text = "Two<!--= n --> of −1.0<!--= x -->, and 9 000<!--= big -->, and 10<!--= same -->"
+def test_signs_and_gaps_are_kept_when_a_number_is_written_anew():
+    text = "2<!--= n --> of −1.0<!--= x -->, and 9 000<!--= big -->, and 10<!--= same -->"
     new = refreshed(text, {"n": 21, "x": -2.25, "big": 12345, "same": 10})
     assert new == "21<!--= n --> of −2.2<!--= x -->, and 12 345<!--= big -->, and 10<!--= same -->"
 
@@ -89,7 +87,3 @@ def test_people_are_given_or_a_sentence(monkeypatch, capsys):
     monkeypatch.setattr(real_clips.datasets, "cmu", lambda name: name.upper())
     assert real_clips.people("a", "b") == ["A", "B"]
     assert capsys.readouterr().out == ""
-
-
-def test_every_word_is_a_number():
-    assert [marked_values._number(word) for word in marked_values.WORDS] == list(range(21))

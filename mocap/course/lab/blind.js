@@ -15,22 +15,37 @@ function part(name, set = {}, ...inside) {
   return made;
 }
 
+const TEST_STYLE = `
+.mocap-blindtest { box-sizing: border-box; max-width: 46rem; margin: .6rem 0; padding: .5rem .9rem; color: inherit;
+  font: 15px/1.5 system-ui, sans-serif; border: 1px solid #8886; border-left: 4px solid #CC79A7; border-radius: 4px; }
+.mocap-blindtest p { margin: .35rem 0; }
+.mocap-blindtest img { max-width: 100%; background: #fff; }
+.mocap-blindtest .pair { display: grid; grid-template-columns: 1fr 1fr; gap: .6rem; }
+.mocap-blindtest canvas { display: block; width: 100%; aspect-ratio: 1; max-height: 45vh; background: #fff; border: 1px solid #8886; }
+.mocap-blindtest button, .mocap-blindtest input { font: inherit; color: inherit; background: transparent; min-height: 44px;
+  border: 1px solid #888; border-radius: 4px; padding: .2rem .8rem; }
+.mocap-blindtest button { cursor: pointer; }
+.mocap-blindtest .pair button { width: 100%; margin-top: .4rem; }
+.mocap-blindtest button:hover { background: #8882; }
+.mocap-blindtest :focus-visible { outline: 3px solid #0072B2; outline-offset: 1px; }
+@media print { .mocap-blindtest :is(button, canvas) { display: none; } }`;
+
 class BlindTest {
-  constructor(root) {
+  constructor(root, scene) {
     this.root = root;
-    this.spec = JSON.parse(atob(root.dataset.spec));
-    this.count = this.spec.onLeft.length;
+    this.spec = scene;
+    this.count = scene.onLeft.length;
     this.answers = [];
-    root.querySelector(".still").remove();
+    root.append(part("style", {}, TEST_STYLE), part("p", {}, scene.about));
     this.status = part("p", { role: "status" });
     this.stage = part("div", {}, part("button", { type: "button", onclick: () => this.start() }, "Start the test"));
     root.append(this.stage, this.status);
   }
 
   async start() {
-    const bytes = await inflated(this.root.dataset.films);
+    const bytes = await inflated(this.spec.data);
     this.films = this.spec.films.map((film) => Object.assign(new Character({ ...this.spec.body, ...film }, bytes, {}), { trail: [] }));
-    for (const still of this.root.querySelectorAll(":scope > :is(img, p:first-child)")) still.hidden = true;
+    for (const still of this.root.querySelectorAll(":scope > :is(img, p:not([role]))")) still.hidden = true;
     const sides = [["left", "←"], ["right", "→"]];
     this.buttons = sides.map(([side, arrow]) => part("button", { type: "button", onclick: () => this.answer(side) }, `${arrow} the ${side} one`));
     this.pictures = sides.map(([side]) => {
@@ -107,9 +122,4 @@ class BlindTest {
     const link = part("a", { href: URL.createObjectURL(new Blob([text], { type: "text/csv" })), download: `blind-${observer}-${below_cm}cm-${window}.csv` });
     link.click();
   }
-}
-
-for (const root of document.querySelectorAll(".mocap-blind:not([data-awake])")) {
-  root.dataset.awake = "";
-  root.test = new BlindTest(root);
 }

@@ -7,9 +7,6 @@ films show the same motion up to the seam, or else after it.
 
 from __future__ import annotations
 
-import base64
-import html
-import json
 import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -26,9 +23,9 @@ from mocap.course.lab.sensitivity import sentence
 from mocap.errors import MocapError
 from mocap.matching.transitions import Transition, Transitions
 from mocap.plotting.bodies import film_strip
-from mocap.plotting.picture import Picture, stack
+from mocap.plotting.picture import stack
 from mocap.plotting.style import COLOURS
-from mocap.widgets.embedding import PICTURE, SCENE, joined
+from mocap.widgets.embedding import PAGE, PICTURE, SCENE, Embedded
 from mocap.widgets.packing import SIDES, packed_character
 
 SECONDS = 2.6  # how long a film is
@@ -36,8 +33,10 @@ AROUND = 0.3  # a seam lies within as many seconds of the middle, so that nobody
 MATCHED = 1 / 3  # seconds of the windows over which matches were found
 NEAR = 0.75  # matches cost at least this share of the threshold, so that tests of other thresholds differ
 STEP = 0.002  # metres; coordinates of films are whole numbers of it. A pixel shows about four of them.
-ALT = "Two rows of stick figures that walk. In one of the two films is a seam; poses do not show which."
-STILL = "The films play where scripts run, such as in JupyterLab and on the course's site."
+ALT = (
+    "The films play where scripts run, as in JupyterLab and on the site of the course. Here are two rows "
+    "of stick figures that walk. In one of the two films is a seam; poses do not show which."
+)
 
 
 def blind_test(
@@ -79,12 +78,13 @@ def blind_test(
     return BlindTest(make_pairs(clips, found, plan), plan)
 
 
-@dataclass(frozen=True, eq=False)
-class BlindTest:
+@dataclass(frozen=True, eq=False, repr=False)
+class BlindTest(Embedded):
     """What `blind_test` returns; a notebook shows it live, as a picture or a sentence."""
 
     pairs: Sequence[Pair]
     plan: Plan
+    scripts = (SCENE, PICTURE, PAGE, Path(__file__).with_name("blind.js"))
 
     def __repr__(self) -> str:
         return (
@@ -92,57 +92,46 @@ class BlindTest:
             f"blends of {self.plan.window} frames, seed {self.plan.seed}."
         )
 
-    @cached_property
-    def still(self) -> Picture:
-        """The first pair, the left film above."""
-        seam, control, on_left, *_ = self.pairs[0]
-        films = [seam, control] if on_left else [control, seam]
-        return stack([film_strip([film]) for film in films], ALT)
+    @property
+    def alt(self) -> str:
+        """What the test is, and what its picture shows."""
+        return f"{self!r} {ALT}"
 
     @cached_property
-    def html(self) -> str:
-        """The test as part of a page; where no script runs, the picture and a sentence stay."""
+    def picture(self) -> bytes:
+        """The first pair, the left film above, as a PNG."""
+        seam, control, on_left, *_ = self.pairs[0]
+        films = [seam, control] if on_left else [control, seam]
+        return stack([film_strip([film]) for film in films], ALT).picture
+
+    @cached_property
+    def scene(self) -> dict[str, Any]:
+        """What the script shows: all films, of each pair the one with the seam first."""
         window, below, seed, _ = self.plan
         body, films, data = packed([film for pair in self.pairs for film in (pair.seam, pair.control)])
-        spec = {
+        return {
+            **{"about": repr(self), "body": body, "films": films, "data": data},
             "plan": {"below_cm": round(100 * below, 3), "window": window, "seed": seed},
             "onLeft": [pair.on_left for pair in self.pairs],
-            "body": body,
-            "films": films,
             "sides": [COLOURS[side] for side in SIDES],
             "sentences": [sentence(right, len(self.pairs)) for right in range(len(self.pairs) + 1)],
         }
-        hidden = base64.b64encode(json.dumps(spec).encode()).decode()
-        here, text = Path(__file__).parent, html.escape(repr(self))
-        still, _ = self.still._repr_mimebundle_()
-        return (
-            f'<div class="mocap-blind" data-spec="{hidden}" data-films="{data}"><p>{text}</p>'
-            f'<p class="still">{STILL}</p>'
-            f"{still['text/html']}</div>\n<style>{(here / 'blind.css').read_text('utf-8')}</style>\n"
-            f'<script type="module">\n{joined(SCENE, PICTURE, here / "blind.js")}</script>\n'
-        )
-
-    def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, str], dict[str, Any]]:
-        bundle, metadata = self.still._repr_mimebundle_()
-        return bundle | {"text/html": self.html, "text/plain": f"{self!r} {STILL}"}, metadata
 
 
-def packed(films: Sequence[Motion]) -> tuple[dict[str, Any], list[dict[str, Any]], str]:
+def packed(films: Sequence[Motion]) -> tuple[dict[str, Any], list[dict[str, Any]], bytes]:
     """Pack films of one body: what all have as characters of the player, what each has, and the coordinates.
 
     The numbers are second differences over time, as in the player, but in steps of two millimetres: these are
     small, and compress well.
     """
-    about: dict[str, Any] = {}
     each: list[dict[str, Any]] = []
     data = b""
     for film in films:
-        about, block = packed_character(film, COLOURS["middle"], STEP)
-        low = np.round(about["low"], 4).tolist()
-        each.append({"frames": about["frames"], "offset": len(data), "low": low})
+        body, block = packed_character(film, COLOURS["middle"], STEP)
+        low = np.round(body.pop("low"), 4).tolist()
+        each.append({"frames": body.pop("frames"), "offset": len(data), "low": low})
         data += block
-    body = {name: value for name, value in about.items() if name not in ("name", "frames", "low")}
-    return body, each, base64.b64encode(zlib.compress(data, 9)).decode()
+    return body | {"name": ""}, each, zlib.compress(data, 9)
 
 
 class Pair(NamedTuple):

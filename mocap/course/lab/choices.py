@@ -142,36 +142,32 @@ def _require_short(frames: int) -> None:
         raise MocapError(f"The inspector holds {LONGEST} frames of clips, not {frames}: give shorter pieces.")
 
 
-def of_graph(graph: MotionGraph, at: Any) -> Choices:  # noqa: ANN401
-    """Choose a transition of a graph, by default the one of least cost; a node stands for its cheapest.
+def of_graph(graph: MotionGraph) -> Choices:
+    """Choose the transition of a graph that costs least.
 
     Raises
     ------
-    MocapError : for a graph without transitions, an edge or a node that it does not have, and a node at which
-        no transition leaves or enters.
+    MocapError : for a graph without transitions.
 
     Examples
     --------
     >>> from mocap import body, datasets, graphs, matching
     >>> clip = body.resample(datasets.sample("walk_circle"), 30)
     >>> back = matching.Transition(0, 60, 0, 10, 0.02, body.PlanarTransform(0, 0, 0))
-    >>> of_graph(graphs.from_transitions([clip], [back], window=10), (0, 60)).pick[:4]
+    >>> of_graph(graphs.from_transitions([clip], [back], window=10)).pick[:4]
     (0, 60, 0, 10)
     """
     edges = [edge for edge in graph.graph.edges(keys=True) if graph.graph.edges[edge]["kind"] == "transition"]
     edges.sort(key=lambda edge: graph.graph.edges[edge]["cost"])
     if not edges:
         raise MocapError("This graph has no transitions to inspect.")
-    named = edges if at is None else [e for e in edges if isinstance(at, tuple) and at in (e, e[:2], *e[:2])]
-    if not named:
-        raise MocapError(f"No transition of this graph is {at!r:.60}, or leaves or enters there.")
     few, seen = list[Edge](), Counter[tuple[int, int]]()
     for edge in edges:
         pair = edge[0][0], edge[1][0]
         seen[pair] += 1
-        if edge == named[0] or (seen[pair] <= EACH and len(few) < MOST):
+        if seen[pair] <= EACH and len(few) < MOST:
             few.append(edge)
-    return _offered(graph, few, named[0])
+    return _offered(graph, few, few[0])
 
 
 def _offered(graph: MotionGraph, shown: Sequence[Edge], chosen: Edge) -> Choices:
@@ -188,13 +184,12 @@ def _offered(graph: MotionGraph, shown: Sequence[Edge], chosen: Edge) -> Choices
     return choices
 
 
-def of_walk(graph: MotionGraph, walk: Sequence[Edge], at: Any) -> Choices:  # noqa: ANN401
-    """Choose a seam of a walk by its number, by default the one of highest cost.
+def of_walk(graph: MotionGraph, walk: Sequence[Edge]) -> Choices:
+    """Choose the seam of a walk that costs most.
 
     Raises
     ------
-    NoWalk, MocapError : for a walk that the graph does not have, one without seams, and a seam that is not on
-        the walk.
+    NoWalk, MocapError : for a walk that the graph does not have, and one without seams.
 
     Examples
     --------
@@ -202,18 +197,14 @@ def of_walk(graph: MotionGraph, walk: Sequence[Edge], at: Any) -> Choices:  # no
     >>> clip = body.resample(datasets.sample("walk_circle"), 30)
     >>> back = matching.Transition(0, 60, 0, 10, 0.02, body.PlanarTransform(0, 0, 0))
     >>> graph = graphs.from_transitions([clip], [back], window=10)
-    >>> of_walk(graph, [((0, 20), (0, 60), 0), ((0, 60), (0, 20), 0)], None).pick
+    >>> of_walk(graph, [((0, 20), (0, 60), 0), ((0, 60), (0, 20), 0)]).pick
     Pick(first=0, i=60, second=0, j=10, before=21, after=0, number=0, seam=0, frame=40)
     """
     found = seams(graph, walk)
     if not found:
         raise MocapError("This walk takes no transition, so it has no seam to inspect.")
-    if at is None:
-        at = int(np.argmax([seam.cost for seam in found]))
-    if not isinstance(at, int | np.integer) or not 0 <= at < len(found):
-        raise MocapError(f"This walk has seams 0 to {len(found) - 1}, not {at!r:.60}.")
     taken = [edge for edge in walk if graph.graph.edges[edge]["kind"] == "transition"]
-    edges = list(dict.fromkeys(taken))
+    edges, at = list(dict.fromkeys(taken)), int(np.argmax([seam.cost for seam in found]))
     whole, most = _offered(graph, edges, taken[at]), around(graph.fps)
     starts = [seam.frame for seam in found]
     stops = [0, *(start + graph.window for start in starts)]

@@ -6,7 +6,6 @@ import os
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import networkx as nx
 import numpy as np
@@ -29,30 +28,23 @@ WINDOW, BELOW = 10, 0.05  # of the transitions: frames, and metres
 AHEAD = 1.5  # seconds that a choice looks ahead: with less, no turn is seen
 
 
-class OwnGraph(NamedTuple):
-    """A graph: its clips, the window of its transitions, and its nodes and edges as in `mocap.plain`."""
-
-    clips: tuple[Motion, ...]
-    window: int
-    graph: nx.MultiDiGraph
+OwnWalk = tuple[list[Edge], complex, complex]
+"""A walk: its edges, and how the first one's clip is placed, p ↦ turn · p + move."""
 
 
-class OwnWalk(NamedTuple):
-    """A walk: its edges, and how the first one's clip is placed, p ↦ turn · p + move."""
-
-    edges: list[Edge]
-    turn: complex = 1
-    move: complex = 0
-
-
-def build_own(clips: Sequence[Motion], window: int, threshold: float, by: Tools | None) -> OwnGraph:
-    """Build a motion graph of clips, and keep the component that plays most frames.
+class OwnGraph:
+    """A motion graph of clips, of which the component that plays most frames is kept, and walks on it.
 
     Parameters
     ----------
     clips : motions of one skeleton and one frame rate.
     window, threshold : of the transitions: frames, and metres.
     by : whose functions work; None for those of `mocap.plain`.
+
+    Attributes
+    ----------
+    pages : the copy of `mocap.plain` in which these functions have their places.
+    graph : its nodes and edges, as in `mocap.plain`.
 
     Raises
     ------
@@ -61,79 +53,73 @@ def build_own(clips: Sequence[Motion], window: int, threshold: float, by: Tools 
 
     Notebook: 08b-steering
     """
-    clips = require_alike(clips)
-    if not 2 <= window <= min(map(len, clips), default=0):
-        raise MocapError(f"A graph takes one clip or more, and a window up to the shortest, got {window}.")
-    pages = pages_of(by, window, threshold)
-    kept = pages.prune(pages.cut_and_join(clips, pages.find_transitions(clips)))
-    if len(kept) < 2:
-        raise MocapError(f"No walk goes on for ever with transitions below {threshold} m: allow more.")
-    return OwnGraph(tuple(clips), window, kept)
 
+    def __init__(self, clips: Sequence[Motion], window: int, threshold: float, by: Tools | None) -> None:
+        self.clips, self.pages = require_alike(clips), pages_of(by, window, threshold)
+        self.by = by or Tools()
+        if not 2 <= window <= min(map(len, self.clips), default=0):
+            raise MocapError(
+                f"A graph takes one clip or more, and a window up to the shortest, got {window}."
+            )
+        found = self.pages.find_transitions(self.clips)
+        self.graph: nx.MultiDiGraph = self.pages.prune(self.pages.cut_and_join(self.clips, found))
+        if len(self.graph) < 2:
+            raise MocapError(f"No walk goes on for ever with transitions below {threshold} m: allow more.")
 
-def follow_own(graph: OwnGraph, path: ArrayLike, by: Tools | None) -> OwnWalk:
-    """Find a walk along a path: all walks advance together, layer by layer, as in notebook 08 [KGP02, Eq. 9].
+    def follow(self, path: ArrayLike) -> OwnWalk:
+        """Find a walk along a path: all walks advance layer by layer, as in notebook 08 [KGP02, Eq. 9].
 
-    Parameters
-    ----------
-    graph : from `build_own`.
-    path : corners on the ground (x, z), shape (N, 2), metres.
-    by : whose functions work; None for those of `mocap.plain`.
+        Parameters
+        ----------
+        path : corners on the ground (x, z), shape (N, 2), metres.
 
-    Raises
-    ------
-    NoWalk : where no walk reaches the end of the path.
-    """
-    pages = pages_of(by, graph.window)
-    search = pages.Search(graph.clips, graph.graph, pages.points_along(np.asarray(path, float)))
-    *_, (_, walk) = search.layers()
-    if walk is None:
-        raise NoWalk(f"No walk of this graph reaches the end of a path of {search.end:.1f} m.")
-    edges = []
-    while walk.before and walk.edge:
-        edges.append(walk.edge)
-        walk = walk.before
-    return OwnWalk(edges[::-1], walk.turn, walk.move)
+        Raises
+        ------
+        NoWalk : where no walk reaches the end of the path.
+        """
+        search = self.pages.Search(self.clips, self.graph, self.pages.points_along(np.asarray(path, float)))
+        *_, (_, walk) = search.layers()
+        if walk is None:
+            raise NoWalk(f"No walk of this graph reaches the end of a path of {search.end:.1f} m.")
+        edges = []
+        while walk.before and walk.edge:
+            edges.append(walk.edge)
+            walk = walk.before
+        return edges[::-1], walk.turn, walk.move
 
+    def steer(self, command: Callable[[float], tuple[float, float]], seconds: float) -> OwnWalk:
+        """Walk for some seconds, and choose at each node the edge that fits the command of that moment.
 
-def steer_own(
-    graph: OwnGraph, command: Callable[[float], tuple[float, float]], seconds: float, by: Tools
-) -> OwnWalk:
-    """Walk for some seconds, and choose at each node the edge that fits the command of that moment.
+        Parameters
+        ----------
+        command : from the time in seconds to a heading in radians (0 is +z, π/2 is +x) and a speed, metres
+            per second.
+        seconds : how long to walk.
+        """
+        fps, pages = self.clips[0].fps, self.pages
+        search, soon = pages.Search(self.clips, self.graph, pages.points_along(np.eye(2))), round(AHEAD * fps)
+        node, lay, edges, frames = min(self.graph), (1 + 0j, 0j), [], 0
+        while frames < seconds * fps:
+            ways, tracks = list(self.graph.out_edges(node, keys=True)), []
+            for way in ways:
+                (clip, frame), (turn, move) = way[1], self.graph.edges[way]["lay"]
+                there = turn * search.roots[clip][frame : frame + soon] + move
+                tracks.append(np.concatenate([search.tracks[way], there])[: soon + 1])
+            edges.append(ways[int(self.by.next_edge(lay[0], tracks, *command(frames / fps), fps))])
+            frames += len(search.tracks[edges[-1]]) - 1
+            node, lay = edges[-1][1], pages.product(lay, self.graph.edges[edges[-1]]["lay"])
+        return edges, 1, 0
 
-    Parameters
-    ----------
-    graph : from `build_own`.
-    command : from the time in seconds to a heading in radians (0 is +z, π/2 is +x) and a speed, metres per
-        second.
-    seconds : how long to walk.
-    by : whose functions work.
+    def play(self, walk: OwnWalk) -> Motion:
+        """Play a walk, shape (F, ...): copy stretches of clip, blend transitions [KGP02, Eqs. 5 and 6]."""
+        roots, turns = self.pages.to_motion(self.clips, self.graph, *walk)
+        return Motion(self.clips[0].skeleton, roots, turns, self.clips[0].fps, "my walk")
 
-    Notebook: 08b-steering
-    """
-    fps = graph.clips[0].fps
-    soon, pages = round(AHEAD * fps), pages_of(by, graph.window)
-    search = pages.Search(graph.clips, graph.graph, pages.points_along(np.eye(2)))
-    node, lay, edges, frames = min(graph.graph), (1 + 0j, 0j), [], 0
-    while frames < seconds * fps:
-        ways, tracks = list(graph.graph.out_edges(node, keys=True)), []
-        for way in ways:
-            (clip, frame), (turn, move) = way[1], graph.graph.edges[way]["lay"]
-            there = turn * search.roots[clip][frame : frame + soon] + move
-            tracks.append(np.concatenate([search.tracks[way], there])[: soon + 1])
-        edges.append(ways[int(by.next_edge(lay[0], tracks, *command(frames / fps), fps))])
-        frames += len(search.tracks[edges[-1]]) - 1
-        node, lay = edges[-1][1], pages.product(lay, graph.graph.edges[edges[-1]]["lay"])
-    return OwnWalk(edges)
-
-
-def play_own(graph: OwnGraph, walk: OwnWalk, by: Tools | None) -> Motion:
-    """Play a walk, shape (F, ...): copy stretches of clip, blend transitions [KGP02, Eqs. 5 and 6].
-
-    Notebook: 08b-steering
-    """
-    roots, turns = pages_of(by, graph.window).to_motion(graph.clips, graph.graph, *walk)
-    return Motion(graph.clips[0].skeleton, roots, turns, graph.clips[0].fps, "my walk")
+    def seams(self, walk: OwnWalk) -> list[int]:
+        """Give the frames at which a walk's transitions begin."""
+        edges = [self.graph.edges[edge] for edge in walk[0]]
+        starts = np.cumsum([0, *(edge["frames"] for edge in edges)])
+        return [int(at) for at, edge in zip(starts, edges, strict=False) if edge["kind"] == "transition"]
 
 
 @dataclass(frozen=True)
@@ -163,16 +149,16 @@ def walk_beside(clips: Sequence[Motion], path: ArrayLike) -> Beside:
 
     Raises
     ------
-    NoWalk, MocapError : as for `build_own` and `follow_own`.
+    NoWalk, MocapError : as for `OwnGraph` and its `follow`.
 
     Notebook: 08-path-synthesis
     """
     line, ours = GroundPath(np.asarray(path, float)), tools()
     walks = {}
     for name, by in (("my walk", ours), ("plain's walk", None)):
-        graph = build_own(clips, WINDOW, BELOW, by)
-        walk = follow_own(graph, line.points, by)
-        walks[name] = play_own(graph, walk, by), _seams(graph.graph, walk)
+        graph = OwnGraph(clips, WINDOW, BELOW, by)
+        walk = graph.follow(line.points)
+        walks[name] = graph.play(walk), graph.seams(walk)
     whole = prune(build(clips, window=WINDOW, threshold=BELOW))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MocapWarning)  # what is printed says how far it is off
@@ -189,13 +175,6 @@ def walk_beside(clips: Sequence[Motion], path: ArrayLike) -> Beside:
         figures[-1].suptitle(name, fontsize=11)
     alt = "Bodies walk along a black path: in my walk, in plain's, and in the package's."
     return Beside(stack(figures, alt).picture, alt, walks["my walk"][0])
-
-
-def _seams(graph: nx.MultiDiGraph, walk: OwnWalk) -> list[int]:
-    """Give the frames at which a walk's transitions begin."""
-    edges = [graph.edges[edge] for edge in walk.edges]
-    starts = np.cumsum([0, *(edge["frames"] for edge in edges)])
-    return [int(at) for at, edge in zip(starts, edges, strict=False) if edge["kind"] == "transition"]
 
 
 def main(file: str) -> int:

@@ -30,7 +30,7 @@ NOWHERE = np.empty((0, 2))
 
 def inspector(
     *what: Motion | MotionGraph | Followed,
-    at: Any = None,  # noqa: ANN401 (a cell, an edge, a node or a seam)
+    at: tuple[int, int] | None = None,
     show: Sequence[str] = TABS,
     window: int | None = None,
 ) -> Inspector:
@@ -42,8 +42,8 @@ def inspector(
     ----------
     what : one clip or two (their distance grid is shown), a graph (its transitions along time), or what
         `steering.follow_path` found (its walk from above as well).
-    at : what is looked at first: of clips, (i, j), the first frames of both windows; of a graph, an edge or a
-        node; of a walk, the number of a seam. By default the cheapest; on a walk the seam of highest cost.
+    at : the first frames of both windows of clips, (i, j), that are looked at first. By default it is what
+        costs least, as in a graph; of a walk it is the seam that costs most.
     show : what the page explains, in this order: "windows", "turn", "weights", "seam", or the first of these.
     window : frames of a window of clips; a third of a second by default. A graph has its own.
 
@@ -71,10 +71,10 @@ def inspector(
         raise MocapError(f"An inspector shows {', '.join(TABS)}, or the first of these, not {show!r:.80}.")
     found = what[0] if len(what) == 1 else None
     if isinstance(found, Followed):
-        choices = of_walk(found.graph, found.walk, at)
+        choices = of_walk(found.graph, found.walk)
         return Inspector(choices, tabs, found.track, found.path.points)
     if isinstance(found, MotionGraph):
-        return Inspector(of_graph(found, at), tabs)
+        return Inspector(of_graph(found), tabs)
     clips = [clip for clip in what if isinstance(clip, Motion)]
     if not 0 < len(clips) == len(what) <= 2:
         raise MocapError("An inspector takes one or two clips, a graph, or what follow_path found.")

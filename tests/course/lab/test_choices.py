@@ -69,52 +69,32 @@ def test_a_cell_that_is_not_there(at, said):
 
 
 def test_of_a_graph_the_cheapest_from_each_clip_to_each_clip_can_be_pointed_at(graph):
-    choices = of_graph(graph, None)
+    choices = of_graph(graph)
     assert choices.costs[0] == min(cost for *_, cost in graph.graph.edges(data="cost") if cost)
     pairs = [(pick.first, pick.second) for pick in choices.transitions]
     assert max(map(pairs.count, pairs)) == EACH
 
 
-def test_an_edge_its_ends_and_its_key_choose_it(graph):
-    edge = next(e for e in graph.graph.edges(keys=True) if graph.graph.edges[e]["kind"] == "transition")
-    (source, leave), (target, enter), _ = edge
-    for at in (edge, edge[:2]):
-        assert of_graph(graph, at).pick[:4] == (source, leave, target, enter - graph.window)
-    pick = of_graph(graph, edge[0]).pick
-    assert edge[0] in ((pick.first, pick.i), (pick.second, pick.j + graph.window))
-
-
-@pytest.mark.parametrize("at", [(0, -3), "edge", np.zeros(3), 5])
-def test_an_edge_that_is_not_there(graph, at):
-    with pytest.raises(MocapError, match="No transition of this graph is"):
-        of_graph(graph, at)
-
-
 def test_a_graph_without_transitions_has_nothing_to_inspect():
     with pytest.raises(MocapError, match="no transitions"):
-        of_graph(from_transitions(WALKS[:1], [], window=10), None)
+        of_graph(from_transitions(WALKS[:1], [], window=10))
 
 
 def test_seams_of_a_walk_come_with_the_frames_that_the_walk_has_around_them(graph):
     walk = random_walk(graph, seconds=15, seed=3)
     found = seams(graph, walk)
-    choices = of_walk(graph, walk, None)
+    choices = of_walk(graph, walk)
     assert [pick.frame for pick in choices.seams] == [seam.frame for seam in found]
     assert choices.pick.seam == np.argmax([seam.cost for seam in found])
     for one, after in zip(choices.seams, choices.seams[1:], strict=False):
         assert one.frame + graph.window + one.after <= after.frame
         assert after.before <= min(around(30), after.frame - one.frame - graph.window)
-    for seam in range(len(found)):
-        taken = of_walk(graph, walk, seam).pick
-        assert taken.seam == seam
-        assert choices.transitions[taken.number][:4] == taken[:4]
+    for seam, taken in enumerate(choices.seams):
+        assert taken.seam == seam and choices.transitions[taken.number][:4] == taken[:4]
 
 
-def test_a_seam_that_is_not_there(graph):
+def test_a_walk_without_seams_has_nothing_to_inspect(graph):
     walk = random_walk(graph, seconds=8, seed=3)
-    for at in (99, -1, "first"):
-        with pytest.raises(MocapError, match="This walk has seams 0 to"):
-            of_walk(graph, walk, at)
     clip = [edge for edge in walk if graph.graph.edges[edge]["kind"] == "clip"][:1]
     with pytest.raises(MocapError, match="no transition"):
-        of_walk(graph, clip, None)
+        of_walk(graph, clip)

@@ -1,5 +1,6 @@
 """A motion graph of one's own: with the package's functions it is the package's, and with students', too."""
 
+import copy
 import subprocess
 import sys
 from itertools import pairwise
@@ -24,8 +25,9 @@ CURVE = body.s_curve(2).points
 PATH = body.arcs((0, 0), heading=0.0, pieces=[(2.0, 1.0), (2.0, -1.0)])
 
 
-def replaced(some, **by):
-    return SimpleNamespace(**vars(some) | by)
+def changed(some, **by):
+    vars(other := copy.copy(some)).update(by)
+    return other
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +44,7 @@ def by():
 
 @pytest.fixture(scope="module")
 def graph(clips, by):
-    return own.build_own(clips, WINDOW, BELOW, by)
+    return own.OwnGraph(clips, WINDOW, BELOW, by)
 
 
 @pytest.fixture(scope="module")
@@ -88,17 +90,17 @@ def test_nodes_edges_and_transforms_are_the_packages(graph, theirs):
 
 
 def test_with_the_same_weights_the_walk_is_the_packages_motion_and_stays_on_its_path(graph, theirs, by):
-    walk = own.follow_own(graph, PATH.points, by)
+    walk = graph.follow(PATH.points)
     keys = []
-    for start, end, key in walk.edges:
+    for start, end, key in walk[0]:
         kind, between = graph.graph.edges[start, end, key]["kind"], theirs.graph.get_edge_data(start, end)
         keys.append((start, end, next(key for key, data in between.items() if data["kind"] == kind)))
-    place = body.PlanarTransform.from_complex(walk.turn, walk.move)
+    place = body.PlanarTransform.from_complex(*walk[1:])
     package = synthesis.to_motion(theirs, keys, place=place)
-    ours = own.play_own(graph, walk, replaced(by, quintic=cubic_weights))
+    ours = changed(graph, pages=pages_of(changed(by, quintic=cubic_weights), WINDOW)).play(walk)
     assert np.allclose(ours.root_positions, package.root_positions, atol=1e-9)
     assert np.abs((ours.rotations * package.rotations).sum(-1)).min() > 1 - 1e-12
-    quintic = own.play_own(graph, walk, by)  # the exercise's weights: other poses within the windows alone
+    quintic = graph.play(walk)  # the exercise's weights: other poses within the windows alone
     assert 1e-4 < np.abs(quintic.root_positions - package.root_positions).max() < 0.02
     off = np.linalg.norm(quintic.root_positions[:, None, [0, 2]] - PATH.points, axis=-1).min(axis=1)
     assert off.mean() < 0.06
@@ -113,24 +115,25 @@ def test_a_steered_walk_takes_the_edges_that_were_chosen_and_knows_where_they_wo
         return len(tracks) - 1
 
     command = {True: (0.5, 1.0), False: (-0.5, 1.0)}
-    walk = own.steer_own(graph, lambda second: command[second < 1], 2.0, replaced(by, next_edge=last))
-    edges = [graph.graph.edges[edge] for edge in walk.edges]
-    assert all(there[0] == here[1] for here, there in pairwise(walk.edges))
-    assert [list(graph.graph.out_edges(edge[0], keys=True))[-1] for edge in walk.edges] == walk.edges
+    steered = changed(graph, by=changed(by, next_edge=last))
+    taken, *_ = steered.steer(lambda second: command[second < 1], 2.0)
+    edges = [graph.graph.edges[edge] for edge in taken]
+    assert all(there[0] == here[1] for here, there in pairwise(taken))
+    assert [list(graph.graph.out_edges(edge[0], keys=True))[-1] for edge in taken] == taken
     assert {asked[0][3], asked[-1][3]} == {0.5, -0.5}
     assert asked[-1][0] == pytest.approx(np.prod([edge["lay"][0] for edge in edges[:-1]]))
     assert 60 <= sum(edge["frames"] for edge in edges) < 90
 
 
 def test_what_holds_no_graph_and_no_walk_is_refused(clips, graph, by):
-    refused(r"below 0.001 m: allow more\.$", own.build_own, [clips[0][:40]], WINDOW, 0.001, by)
+    refused(r"below 0.001 m: allow more\.$", own.OwnGraph, [clips[0][:40]], WINDOW, 0.001, by)
     for some, window in (([], WINDOW), ([clips[0], clips[0][: WINDOW - 1]], WINDOW), (clips, 0), (clips, 1)):
-        refused(f"a window up to the shortest, got {window}", own.build_own, some, window, 0.05, by)
-    refused("resample one first", own.build_own, [clips[0], mocap.resample(clips[0], 10)], WINDOW, 0.05, by)
-    nowhere = graph._replace(graph=graph.graph.copy())
+        refused(f"a window up to the shortest, got {window}", own.OwnGraph, some, window, 0.05, by)
+    refused("resample one first", own.OwnGraph, [clips[0], mocap.resample(clips[0], 10)], WINDOW, 0.05, by)
+    nowhere = changed(graph, graph=graph.graph.copy())
     nowhere.graph.remove_edges_from(list(graph.graph.edges))
     with pytest.raises(NoWalk, match=r"No walk of this graph reaches the end of a path of 3\.0 m"):
-        own.follow_own(nowhere, [[0, 0], [0, 3]], by)
+        nowhere.follow([[0, 0], [0, 3]])
 
 
 # Two students walk a path: one has solved all, one every second exercise, and is wrong in the others.
