@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap.course import marked_values, notebooks, real_clips
+from mocap.course import notebooks, real_clips
 from mocap.course.marked_values import Marked, compare, marked, question, refreshed, values_of, wrong
 from mocap.errors import MocapError
 
