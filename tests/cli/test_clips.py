@@ -65,7 +65,7 @@ def test_view_keeps_a_file_and_opens_nothing(folder, run, monkeypatch):
 
 def test_convert_acclaim(folder, run):
     write_acclaim(load_save.load("clips/a.bvh"), folder / "one.amc")
-    assert run("convert one.amc other.BVH").out == "converted    1 of 1\n"
+    assert run("convert one.amc other.BVH --fps 30").out == "converted    1 of 1\n"
     assert same("clips/a.bvh", "other.BVH")
     assert load_save.load("other.BVH").fps == 30.0
 

@@ -41,6 +41,7 @@ def newcomer(tmp_path, monkeypatch):
     for name, clip in zip("ab", others, strict=True):
         load_save.save(clip[:240], tmp_path / "my-clips" / f"{name}.bvh")
     write_acclaim(walk[:200], tmp_path / "walk.amc")
+    monkeypatch.setattr("mocap.files.acclaim.CMU_RATE", 30.0)  # the format does not tell it
     for name, speed in (("slow", 0.8), ("brisk", 1.2)):
         straight = generate_walk([[0, 0], [0, 5]], speed=speed)
         load_save.save(resample(straight, 30), tmp_path / f"{name}.bvh")
