@@ -54,14 +54,14 @@ def bodies_along(
     --------
     >>> from mocap import datasets
     >>> figure = bodies_along(datasets.sample("walk_straight"), seams=[300])
-    >>> [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+    >>> [text.get_text() for text in figure.legends[0].get_texts()]
     ['walked path', 'seam']
     """
     asked = np.insert(np.reshape(np.asarray(path, float), (-1, 2)), 1, 0.0, axis=-1)
     clouds = places or [joint_positions(motion) for motion in motions]
     ways = [cloud[:, 0] * [1, 0, 1] for cloud in clouds]
     figure = Figure(figsize=(WIDTH, LOW), layout="constrained")
-    ax = figure.add_subplot(aspect="equal")
+    ax = figure.add_subplot(aspect="equal", anchor="S")  # what is left over is the legend's
     look = _draw_floor(ax, np.concatenate([*ways, asked]))
     ax.add_collection(PolyCollection(list(rims(discs) @ look[:2].T), facecolors=QUIET, zorder=0.5))
     lines = [(asked, ASKED, "asked path", 4.0)] if len(asked) else []
@@ -127,8 +127,8 @@ def _frame(ax: Axes, figure: Figure) -> Figure:
     words = 0.5 + 0.32 * -(-len(named) // COLUMNS)  # inches
     figure.set_size_inches(WIDTH, float(np.clip(WIDTH * high / wide + words, LOW, HIGH)))
     if named:
-        how: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (0, 1), "fontsize": 9, "frameon": False}
-        ax.legend(list(named.values()), list(named), ncols=min(COLUMNS, len(named)), **how)
+        how: dict[str, Any] = {"loc": "outside upper left", "fontsize": 9, "frameon": False}
+        figure.legend(list(named.values()), list(named), ncols=min(COLUMNS, len(named)), **how)
     ax.text(
         1, 0, "lines 1 m apart", transform=ax.transAxes, ha="right", va="top", fontsize=8, color="#666666"
     )

@@ -64,7 +64,7 @@ def test_several_characters_have_a_colour_each_and_the_asked_path_is_black():
 def test_many_characters_are_seen_as_a_group_at_the_same_three_moments():
     figure = bodies_along(*(wave(400, phase=phase, name="walk") for phase in range(6)))
     assert len(bodies(figure)) == 6 * 3
-    assert figure.axes[0].get_legend() is None  # one name for six colours would mislead
+    assert figure.legends == []  # one name for six colours would mislead
 
 
 @pytest.mark.parametrize("frames", [1, 2, 60, 3000])
