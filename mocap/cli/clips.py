@@ -138,8 +138,6 @@ def find(
     *,
     out: Path | None = None,
     below: Annotated[float, CM] = 6.0,
-    steps: Annotated[int | None, number(1, 10_000, int)] = None,
-    any_length: bool = False,
     sources: Sources,
 ) -> None:
     """Find all motions like an example, and cut them out.
@@ -153,8 +151,6 @@ def find(
     clips : .amc, .bvh or AMASS .npz files, or folders of them.
     out : folder to write the matches into, as files (default: write none).
     below : largest distance of a match, cm.
-    steps : how often to search (default: until nothing new turns up).
-    any_length : matches may last half as long as the query, or twice.
 
     Notes
     -----
@@ -168,8 +164,7 @@ def find(
     asked = places.index(example.resolve())  # the example comes last, where it is not among the clips
     motions = sources.load(found if asked < len(found) else [*found, example])
     web = match_webs.build_web(motions, below=ROOM * below / 100, progress=bar("comparing"))
-    lengths = (1 / 2, 2) if any_length else (3 / 4, 4 / 3)
-    matches = match_webs.search(web, asked, frames, below=below / 100, steps=steps, lengths=lengths)
+    matches = match_webs.search(web, asked, frames, below=below / 100)
     shown = [match for match in matches[1:] if match.clip < len(found)]
     print(f"{'clip':<20} {'frames':>13} {'seconds':>8} {'cm':>5} {'step':>5}")
     for one in shown:

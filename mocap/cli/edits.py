@@ -163,7 +163,6 @@ def blend(
     *,
     weights: Annotated[Sequence[float], number(-1, 2)] = (),
     fade: Annotated[float | None, number(0.01, 1000)] = None,
-    at: Annotated[float | None, number(0, 1e6)] = None,
     slack: Annotated[float, number(0, 1e4)] = 1.2,
     clean: bool = False,
     out: Path = Path("blend.bvh"),
@@ -178,8 +177,7 @@ def blend(
     ----------
     clips (CLIP) : an .amc, .bvh or AMASS .npz file.
     weights : one for each clip, with the sum 1 (default: all alike).
-    fade (SECONDS) : pass from the first into the second clip.
-    at (SECONDS) : middle of the fade, in the first clip's time.
+    fade (SECONDS) : pass from the first into the second clip, in the middle of what they have in common.
     slack : seconds that one clip may start or end before the others, at most half of the shortest.
     clean : find footplants and clean up footskate.
     out : file to write.
@@ -195,8 +193,6 @@ def blend(
         raise MocapError(f"{len(clips)} clips need {len(clips)} weights, got {len(weights)}.")
     if fade and (weights or len(clips) != 2):
         raise MocapError(f"--fade passes from one clip into another, got {len(clips)} clips.")
-    if at is not None and not fade:
-        raise MocapError("--at belongs to --fade.")
     motions = [reading.load(path) for path in bar("reading")(clips)]
     if clean:
         motions = [feet.mark_plants(motion) for motion in motions]
@@ -205,9 +201,7 @@ def blend(
     worst = 100 * max(registration.costs)
     tell(registered=f"{len(motions)} clips, {last - first:.2f} s in common, {worst:.1f} cm")
     weights = weights or [1 / len(clips)] * len(clips)
-    mixed = (
-        blending.crossfade(registration, seconds=fade, at=at) if fade else blending.mix(registration, weights)
-    )
+    mixed = blending.crossfade(registration, seconds=fade) if fade else blending.mix(registration, weights)
     tell(blended=f"{mixed.duration:.2f} s")
     write_out(feet.clean_up(mixed) if clean else mixed, out)
 
@@ -218,8 +212,6 @@ def retarget(
     to: Path,
     out: Path,
     format: Literal["bvh", "glb"] = "bvh",
-    steps: Annotated[float, number(0.1, 10)] = 1.0,
-    to_scale: Annotated[float | None, options.LENGTH] = None,
     reading: Reading,
 ) -> int:
     """Let one body wear the clips of others.
@@ -234,8 +226,6 @@ def retarget(
         walks, which also says how high the feet stand.
     out (DIR) : folder for the new files.
     format : format of the new files.
-    steps : length of steps, for these legs.
-    to_scale : metres per unit of length in FILE, as --scale is for IN.
 
     Notes
     -----
@@ -246,13 +236,12 @@ def retarget(
 
     pairs = [(source, out / f"{source.stem}.{format}") for source in find_files(clips)]
     require_apart(pairs, [to])
-    (stance, skeleton), failed = _body(to, to_scale), []
+    (stance, skeleton), failed = _body(to, reading), []
     for source, target in bar("retargeting")(pairs):
         try:
             motion = reading.load(source)
             stands = editing.stance_of(motion)
-            onto = stance or standing_like(skeleton, stands)
-            worn = editing.retarget(motion, onto, stands, scale=steps * onto.leg / stands.leg)
+            worn = editing.retarget(motion, stance or standing_like(skeleton, stands), stands)
             make_folder(out)
             files.save(worn, target)
         except MocapError as error:
@@ -260,16 +249,14 @@ def retarget(
     return options.tell_of_failures("retargeted", len(pairs), failed, f", in {out}")
 
 
-def _body(path: Path, scale: float | None) -> "tuple[Stance | None, body.Skeleton]":
+def _body(path: Path, reading: Reading) -> "tuple[Stance | None, body.Skeleton]":
     """Read whose body it is, and how it stands, which a skeleton alone does not say."""
     from mocap.editing.stances import stance_of_zero
     from mocap.files.load_save import load_skeleton
 
     if path.suffix.lower() == ".asf":
-        if scale:
-            raise MocapError(f"--to-scale is for clips; {path} says its unit of length itself.")
         return None, load_skeleton(path)
-    clip = Reading(scale=scale).load(path)
+    clip = Reading(scale=reading.scale).load(path)
     try:
         return editing.stance_of(clip), clip.skeleton
     except MocapError as error:
