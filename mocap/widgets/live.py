@@ -33,7 +33,6 @@ class Live:
 
     scripts: ClassVar[tuple[Path, ...]]
     shared: ClassVar[dict[str, Any]]  # names, with their values at first
-    needs: ClassVar[str] = "A live widget needs"
 
 
 @cache
@@ -44,7 +43,7 @@ def widget(kind: type[Live]) -> type[Any]:
         import traitlets
         from ipywidgets import ValueWidget
     except ImportError as error:
-        raise missing(f"{kind.needs} anywidget", "notebooks") from error
+        raise missing("What is live in a notebook needs anywidget", "notebooks") from error
     parts: dict[str, Any] = {name: traitlets.Any(value).tag(sync=True) for name, value in kind.shared.items()}
     for name in kind.shared:
         if check := getattr(kind, f"check_{name}", None):

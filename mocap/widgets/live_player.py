@@ -38,7 +38,6 @@ class LivePlayer(Live):
         "best": [],  # the line of the best walk so far, while a search is under way
         "message": "",
     }
-    needs = "A live player needs"
     player: Player
     scene: Any
     at: Any

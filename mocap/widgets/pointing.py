@@ -70,7 +70,6 @@ class Handles(Live):
         **{"description": "", "picture": b"", "box": [0.0, 0.0, 1.0, 1.0]},
         **{"limits": [], "names": [], "step": 0.05, "value": ()},
     }
-    needs = "Handles to drag need"
     ax: Axes
     count: int
     value: Any
@@ -107,9 +106,3 @@ class Handles(Live):
             draw.ellipse([*(at - 9), *(at + 9)], fill="#FFFFFF", outline="#222222", width=2)
             draw.text(at.tolist(), str(number), fill="#222222", anchor="mm")
         return picture
-
-    def elsewhere(self) -> list[tuple[tuple[float, float], ...]]:
-        """Give values that a reader may reach: as it is, one handle in the middle, another at a corner."""
-        points = np.tile(np.array(self.value), (3, 1, 1))
-        points[1, 0], points[2, -1] = np.mean(self.limits, axis=1), np.array(self.limits)[:, 1]
-        return [self.check_value(some) for some in points]

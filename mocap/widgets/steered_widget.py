@@ -34,7 +34,6 @@ class Steered(Live):
 
     scripts = (*SHADED, SCENE, PICTURE, PAGE, TOUCH, *map(Path(__file__).with_name, OWN))
     shared: ClassVar = {"scene": {}, "command": [0.0, 1.1, ""]}
-    needs = "To steer in a page needs"
     company: Company
     still: tuple[dict[str, str], dict[str, Any]]
     alt: str

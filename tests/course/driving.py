@@ -8,6 +8,7 @@ So no notebook has to run a second time. With MOCAP_SWEEP, each control moves ov
 import os
 import warnings
 
+import numpy as np
 from IPython import get_ipython
 
 from mocap.widgets.experiments import Experiment
@@ -67,8 +68,10 @@ def settings(experiment):
         elif hasattr(control, "min"):
             middle = type(control.value)((control.min + control.max) / 2)
             ends[name] = [control.min, middle, control.max]
-        elif hasattr(control, "elsewhere"):
-            ends[name] = control.elsewhere()
+        elif hasattr(control, "limits"):  # handles: as they are, one in the middle, another at a corner
+            points = np.tile(np.array(control.value), (3, 1, 1))
+            points[1, 0], points[2, -1] = np.mean(control.limits, axis=1), np.array(control.limits)[:, 1]
+            ends[name] = [control.check_value(some) for some in points]
         else:
             ends[name] = [False, True]
     yield {name: values[0] for name, values in ends.items()}

@@ -20,6 +20,7 @@ def test_rows_are_read(tmp_path, text):
         ("1,2\n3\n", "line 2: expected x and z in each line, such as '1.5, 2', got"),
         ("1,2,3\n", "line 1: expected x and z"),
         ("1,2\nfive,6\n", "line 2"),
+        ("0,0\n1,nan", "line 2: expected x and z"),
         ("x,z\n", "got no numbers"),
     ],
 )

@@ -35,11 +35,6 @@ def test_what_is_no_text_is_refused(tmp_path, data, message):
     refused(message, read_text, tmp_path / "file", kind=FormatError)
 
 
-def test_a_missing_file_and_a_folder_are_refused(tmp_path):
-    refused(r"Cannot read .*gone: No such file", read_text, tmp_path / "gone")
-    refused(r"Cannot read .*: Is a directory", read_text, tmp_path)
-
-
 def test_lines_keep_their_numbers():
     assert list(lines("# all\n\na b\t c # d\n")) == [(3, ["a", "b", "c"])]
 

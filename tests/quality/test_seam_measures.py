@@ -11,7 +11,7 @@ from mocap.body.motion import Motion, concatenate
 from mocap.body.skeleton import Skeleton
 from mocap.datasets.samples import sample
 from mocap.errors import SkeletonMismatch
-from mocap.quality.seam_measures import Spread, jumps, knee_turns, seam_quality, spread
+from mocap.quality.seam_measures import jumps, knee_turns, seam_quality, spread
 from tests.refusals import refused
 from tests.strategies import random_motion
 
@@ -88,14 +88,3 @@ def test_a_knee_that_is_turned_by_hand_turns_as_far():
     half = np.sqrt(0.5)
     rotations[699:701, knee] = [1, 0, 0, 0], [half, half, 0, 0]
     assert knee_turns(replace(WALK, rotations=rotations))[699, 0] == pytest.approx(90)
-
-
-TRIALS = (*range(11, 35), 47, 58)  # CMU 16's walks, all of them
-WINDOW = 10
-SHARES = np.array([50, 75, 90, 95])
-
-
-def beyond(usual: Spread, largest: np.ndarray) -> np.ndarray:
-    """Return by how many percent more seams than windows of the clips jump further than each of `SHARES`."""
-    limits = np.percentile(usual.within(WINDOW + 2), SHARES)
-    return 100 * (largest[:, None] > limits).mean(axis=0) - (100 - SHARES)

@@ -86,13 +86,6 @@ def test_the_path_that_was_followed_is_drawn_instead_of_the_readers_line():
     assert canvas.path == [[0, 0], [0, 1], [0, 3]]
 
 
-def test_a_shorter_walk_may_come_after_a_longer_one():
-    canvas = draw_path(lambda path: play(wave(90 // len(path)), sources=[(0, "wave")]), np.zeros((1, 2)))
-    canvas.path = [[0, 0], [0, 1], [0, 2]]
-    assert (canvas.frame, canvas.scene["frames"]) == (0, 30)
-    assert canvas.scene["characters"][0]["sources"]
-
-
 def test_an_error_is_shown_until_the_next_path():
     def follow(path):
         if len(path) > 2:
