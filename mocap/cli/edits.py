@@ -212,6 +212,7 @@ def retarget(
     to: Path,
     out: Path,
     format: Literal["bvh", "glb"] = "bvh",
+    to_scale: Annotated[float | None, options.LENGTH] = None,
     reading: Reading,
 ) -> int:
     """Let one body wear the clips of others.
@@ -226,6 +227,7 @@ def retarget(
         walks, which also says how high the feet stand.
     out (DIR) : folder for the new files.
     format : format of the new files.
+    to_scale : metres per unit of length in FILE, as --scale is for IN.
 
     Notes
     -----
@@ -236,7 +238,7 @@ def retarget(
 
     pairs = [(source, out / f"{source.stem}.{format}") for source in find_files(clips)]
     require_apart(pairs, [to])
-    (stance, skeleton), failed = _body(to, reading), []
+    (stance, skeleton), failed = _body(to, to_scale), []
     for source, target in bar("retargeting")(pairs):
         try:
             motion = reading.load(source)
@@ -249,14 +251,16 @@ def retarget(
     return options.tell_of_failures("retargeted", len(pairs), failed, f", in {out}")
 
 
-def _body(path: Path, reading: Reading) -> "tuple[Stance | None, body.Skeleton]":
+def _body(path: Path, scale: float | None) -> "tuple[Stance | None, body.Skeleton]":
     """Read whose body it is, and how it stands, which a skeleton alone does not say."""
     from mocap.editing.stances import stance_of_zero
     from mocap.files.load_save import load_skeleton
 
     if path.suffix.lower() == ".asf":
+        if scale:
+            raise MocapError(f"--to-scale is for clips; {path} says its unit of length itself.")
         return None, load_skeleton(path)
-    clip = Reading(scale=reading.scale).load(path)
+    clip = Reading(scale=scale).load(path)
     try:
         return editing.stance_of(clip), clip.skeleton
     except MocapError as error:

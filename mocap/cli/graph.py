@@ -8,7 +8,7 @@ from typing import Annotated
 
 from mocap import body, datasets, editing, graphs, quality, synthesis, widgets
 from mocap._shared.atomic import make_folder, require_folder, require_npz, require_writable
-from mocap.cli.options import Building, Seed, bar, number, require_other, tell, write_out
+from mocap.cli.options import Building, Seed, bar, check_out, number, require_other, tell, write_out
 from mocap.cli.typed_commands import Group
 from mocap.errors import MocapError, MocapWarning, NoWalk
 from mocap.files.conversion import find_files
@@ -77,6 +77,7 @@ def build(
     by_labels: bool = False,
     whole: bool = False,
     mirror: bool = False,
+    graphml: Path | None = None,
 ) -> None:
     """Build a motion graph, prune it and save it.
 
@@ -87,6 +88,7 @@ def build(
     by_labels : keep the largest component of each set of labels.
     whole : do not prune.
     mirror : add the mirror image of every clip: turns to both sides.
+    graphml : a second file to write, .graphml, for other tools.
 
     Notes
     -----
@@ -94,6 +96,8 @@ def build(
     """
     require_npz(out)
     require_writable(out)
+    if graphml:
+        check_out("graph for other tools", graphml, formats=[".graphml"])
     if by_labels and whole:
         raise MocapError("--by-labels says how to prune, --whole not to prune: give one of them.")
     found = find_files(clips)
@@ -109,6 +113,9 @@ def build(
     print(graphs.summary(graph.graph, fps=graph.fps).table())
     graphs.save(graph, out, origins)
     tell(wrote=out)
+    if graphml:
+        graphs.write_graphml(graph, graphml)
+        tell(wrote=graphml)
 
 
 def _mirrored(clips: "Sequence[body.Motion]") -> "list[body.Motion]":

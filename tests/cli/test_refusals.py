@@ -85,6 +85,7 @@ REFUSED = [
     ("graph a.bvh --by-labels --whole", "give one of them"),
     ("graph a.bvh -o g.json", "written as .npz, got"),
     ("graph a.bvh -o nowhere/g.npz", "No such file or directory"),
+    ("graph a.bvh --graphml g.xml", "graph for other tools is written as .graphml, got"),
     ("graph a.bvh --threshold 0.001", "no cycle"),
     ("graph info a.bvh", "a.bvh: expected a motion graph"),
     ("graph info", "arguments are required: file"),
@@ -115,6 +116,7 @@ REFUSED = [
     ("warp a.bvh --keys k.txt -o x.bvh", "give --loose-feet."),
     ("loop walk.bvh --shortest 60 --longest 60", "a cycle takes 60.2"),
     ("loop walk.bvh -o ./walk.bvh", "is one of the files to read"),
+    ("retarget in --to child.asf -o x --to-scale 2", "--to-scale is"),
     ("retarget in --to flat.bvh -o x", "flat.bvh: "),
     ("retarget in --to in/a.bvh -o in", "is one of the files to read"),
     ("retarget a.bvh in/a.bvh --to child.asf -o x", "both become"),
@@ -216,7 +218,7 @@ def test_a_body_of_millimetres_is_doubted(line, folder, capsys, monkeypatch, tmp
         (tmp_path / name).write_bytes((folder / name).read_bytes())
     monkeypatch.chdir(tmp_path)
     (tmp_path / "short.csv").write_text("0,0\n0,0.01\n")
-    main([*line.split(), "--scale", "0.0001"])
+    main([*line.split(), "--to-scale" if "--to" in line else "--scale", "0.0001"])
     assert "m tall: is its scale right?" in capsys.readouterr().err
 
 
