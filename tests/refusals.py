@@ -10,6 +10,7 @@ from mocap.errors import MocapError
 def refused(
     sentence: str, call: Callable, *given: object, kind: type[BaseException] = MocapError, **options: object
 ) -> None:
-    """Check that a call is refused with this sentence."""
-    with pytest.raises(kind, match=sentence):
+    """Check that a call is refused with this sentence, and in 200 characters at most."""
+    with pytest.raises(kind, match=sentence) as told:
         call(*given, **options)
+    assert len(str(told.value)) <= 200

@@ -11,8 +11,9 @@ from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.editing.copied_motion import copied
 from mocap.editing.stances import proportioned, stance_of
-from mocap.errors import MocapError, SkeletonMismatch
+from mocap.errors import SkeletonMismatch
 from tests.editing.bodies import LONG, adult, along_x, bends, child, renamed, rested, walk, without
+from tests.refusals import refused
 
 
 def farthest(a: Motion, b: Motion) -> float:
@@ -108,5 +109,4 @@ def test_bad_input():
     with pytest.raises(SkeletonMismatch):
         copied(walk(), child(), adult())
     for scale in (0, -1, np.nan, np.inf):
-        with pytest.raises(MocapError, match="needs a scale above 0"):
-            copied(walk(), adult(), child(), scale=scale)
+        refused("needs a scale above 0", copied, walk(), adult(), child(), scale=scale)

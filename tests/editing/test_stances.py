@@ -66,9 +66,7 @@ def test_where_a_walk_heads_does_not_matter(angle, x):
 
 def test_a_rest_pose_that_means_nothing_is_not_believed():
     clip = rested(walk(), along_x(walk().skeleton))
-    with pytest.raises(MocapError, match=r"does not stand: its hips are .*; give stance_of a walk") as error:
-        stance_of_zero(clip.skeleton, 0.03)
-    assert len(str(error.value)) <= 200
+    refused(r"does not stand: its hips are .*; give stance_of a walk", stance_of_zero, clip.skeleton, 0.03)
     assert np.allclose(stance_of(clip).points, stance_of(walk(), mean=True).points)
     backwards = np.tile(rotations.about_y(np.pi), (len(walk().skeleton), 1))
     refused("180° off level", stance_of_zero, rested(walk(), backwards).skeleton, 0.03)

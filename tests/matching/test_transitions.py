@@ -16,6 +16,7 @@ from mocap.matching.distance_grids import distance_grid
 from mocap.matching.minima import local_minima
 from mocap.matching.point_clouds import point_cloud
 from mocap.matching.transitions import find_transitions, join_clouds
+from tests.refusals import refused
 from tests.strategies import random_motion, wave
 
 CLIPS = [wave(70, name="a"), wave(50, phase=1.0, name="b", seed=1)]
@@ -62,8 +63,7 @@ FAR = replace(CLIPS[1], root_positions=CLIPS[1].root_positions + 1e6)
     ],
 )
 def test_what_has_no_transitions_is_refused(clips, below, error, message):
-    with pytest.raises(error, match=message):
-        find_transitions(clips, window=8, below=below)
+    refused(message, find_transitions, clips, kind=error, window=8, below=below)
     none = find_transitions([], window=8, below=0.1)
     assert (len(none), list(none), repr(none)) == (0, [], "Transitions(0)")
 
