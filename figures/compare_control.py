@@ -20,7 +20,7 @@ from mocap.body import SHAPES, GroundPath, heading, on_ground
 from mocap.errors import MocapError, MocapWarning
 from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.methods import motion_matching, parametric_graphs
-from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph
+from mocap.methods.parametric_graphs.parametric_edges import ParametricGraph
 from mocap.quality.seam_measures import Spread
 from mocap.steering.characters import Character
 

@@ -15,7 +15,7 @@ import numpy as np
 from mocap.body import Motion, on_ground, rotations
 from mocap.errors import MocapError
 from mocap.methods import motion_matching, parametric_graphs
-from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph
+from mocap.methods.parametric_graphs.parametric_edges import ParametricGraph
 from mocap.steering import Controller, command_headings, steer
 from mocap.steering.characters import Character
 from tasks import BANDAI, CMU_16, HOMEWORK, WALKS, Case, graph

@@ -8,12 +8,10 @@ Reading order (notebooks 04, 15)
 --------------------------------
 1. `weights`: how much of the first motion each frame holds
 2. `joining`: two motions into one; from clip into clip by a blend, or a cut whose offset dies away
-3. `matched_stretches`: many pairs to try blends on
-4. `timewarps`: smooth curves over time whose slope stays within bounds
-5. `contact_matches`: which plants of several clips are one and the same
-6. `clocks`: clips on one common clock, and where on it each frame of a blend is
-7. `mixing`: registered clips blended by weights, constant or moving; from one into another at leisure
-8. `registering`: which frames of clips belong together, and how they lie on one another
+3. `timewarps`: smooth curves over time whose slope stays within bounds
+4. `clocks`: clips on one common clock, the plants that they share, and the blend's own clock
+5. `mixing`: registered clips blended by weights, constant or moving; from one into another at leisure
+6. `registering`: which frames of clips belong together, and how they lie on one another
 
 References
 ----------
@@ -30,11 +28,9 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "weights": ["cubic_weights", "linear_weights", "sine_weights"],
-        "joining": ["blend", "inertialize", "join", "lay_window_on"],
-        "matched_stretches": ["draw_stretches"],
+        "joining": ["blend", "draw_stretches", "inertialize", "join", "lay_window_on"],
         "timewarps": ["Curve", "fit_curve"],
-        "contact_matches": ["match_contacts"],
-        "clocks": ["clock_speed", "frame_times"],
+        "clocks": ["clock_speed", "frame_times", "match_contacts"],
         "mixing": ["Course", "crossfade", "ground_course", "mix"],
         "registering": ["Warp", "register"],
     },

@@ -8,8 +8,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from scipy.ndimage import map_coordinates
 
 from mocap._shared.arrays import Array, frozen
-from mocap.blending.clocks import Registration
-from mocap.blending.contact_matches import match_contacts
+from mocap.blending.clocks import Registration, match_contacts
 from mocap.blending.mixing import mix
 from mocap.blending.timewarps import Curve, fit_curve
 from mocap.body.kinematics import joint_positions

@@ -23,10 +23,9 @@ Reading order (notebooks 10 to 14)
 15. `warp_plans`: a whole warp out of a small text file
 16. `body_roles`: which joint does what
 17. `stances`: how a body stands, as a value; find it, whatever the rest pose is; change its proportions
-18. `copied_motion`: every joint looks where the same joint of the other body looks
-19. `retargeting`: where the new feet may be, and all of it in one function
-20. `mirroring`: left and right swapped, by names and geometry
-21. `cycles`: the stretch of a clip that makes the best cycle, closed by a blend or by a warp
+18. `retargeting`: every joint looks where that of the other body looks; where the new feet may be
+19. `mirroring`: left and right swapped, by names and geometry
+20. `cycles`: the stretch of a clip that makes the best cycle, closed by a blend or by a warp
 
 References
 ----------
@@ -55,9 +54,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "bending": ["LIMIT", "bend"],
         "path_editing": ["moving_frames", "on_path", "plants_kept", "ride_of", "start_at"],
         "body_roles": ["roles"],
-        "copied_motion": ["copied"],
         "stances": ["proportioned", "stance_of"],
-        "retargeting": ["floor_pins", "retarget"],
+        "retargeting": ["copied", "floor_pins", "retarget"],
         "keys": ["Key", "cardinal", "keys_around", "offsets", "scaled"],
         "retiming": ["old_seconds", "retime"],
         "warp_plans": ["warp"],

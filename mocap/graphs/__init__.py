@@ -5,16 +5,15 @@ which a walk never ends. The graph itself is a `networkx.MultiDiGraph` of nodes 
 
 Reading order (notebooks 05, 06)
 --------------------------------
- 1. `motion_graph`: clips, choice points and transitions as one graph
+ 1. `motion_graph`: clips, choice points and transitions as one graph; close choice points merged
  2. `components`: strongly connected components, and reachable nodes
  3. `pruning`: remove dead ends and sinks, with a reason for each edge
  4. `thresholds`: the size of the graph at each threshold
- 5. `choice_points`: merge choice points that are close together
- 6. `graph_summary`: what a graph can play, in numbers; GraphML for other tools
- 7. `storage`: save a graph to .npz, and read it again
- 8. `edge_tables`: the frames that each edge and each hop plays, as arrays
- 9. `compiled_graph`: a whole graph as arrays, for searches
-10. `homework_graph`: the homework's simpler graph of segments
+ 5. `graph_summary`: what a graph can play, in numbers; GraphML for other tools
+ 6. `storage`: save a graph to .npz, and read it again
+ 7. `edge_tables`: the frames that each edge and each hop plays, as arrays
+ 8. `compiled_graph`: a whole graph as arrays, for searches
+ 9. `homework_graph`: the homework's simpler graph of segments
 
 References
 ----------
@@ -26,11 +25,10 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "motion_graph": ["MotionGraph", "build", "from_transitions"],
+        "motion_graph": ["MotionGraph", "build", "from_transitions", "merge_choice_points"],
         "components": ["largest_component", "numbered_edges", "NO_LABELS"],
         "pruning": ["prune", "prune_graph", "notes_example"],
         "thresholds": ["smallest_threshold", "threshold_curve", "velocity_gaps"],
-        "choice_points": ["merge_choice_points"],
         "graph_summary": ["summary", "write_graphml"],
         "storage": ["find_clips", "load", "read", "save"],
         "edge_tables": ["frame_table"],

@@ -10,11 +10,10 @@ Reading order (notebooks 02, 05, 15)
 2. `distance_grids`: all windows against all, by matrix products
 3. `other_metrics`: the homework's two metrics, and why they fail; `Metric`, the signature that all have
 4. `minima`: the entries of a grid that are lower than all eight neighbours
-5. `chosen_pairs`: some pairs of windows, one by one, and the transform that aligns each
-6. `lower_bound`: a lower bound of the distance, with the proof
-7. `pair_search`: the minima of a grid that is too large to hold, by products or by the bound
-8. `transitions`: where one clip can pass into another
-9. `time_paths`: which frame of one clip belongs to which of another
+5. `lower_bound`: a lower bound of the distance, with the proof
+6. `pair_search`: the minima of a grid that is too large to hold, by products or by the bound
+7. `transitions`: where one clip can pass into another
+8. `time_paths`: which frame of one clip belongs to which of another
 
 References
 ----------

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from mocap._shared.arrays import Array
 from mocap.body import euler, rotations
 from mocap.body.motion import Motion, require_alike
-from mocap.errors import MocapError
+from mocap.errors import MocapError, shortened
 from mocap.matching.distance_grids import check_window, diagonal_sum, tiles
 
 _SIDED = {"femur": 50, "tibia": 30, "foot": 15, "toes": 5, "clavicle": 30, "humerus": 15, "radius": 5}
@@ -112,7 +112,7 @@ def euler_grid(a: Motion, b: Motion, *, window: int) -> Array:
     skeleton, weights = a.skeleton, HOMEWORK_WEIGHTS
     bones = [j for j, name in enumerate(skeleton.names) if j and name in weights and skeleton.dofs[j]]
     if not bones:
-        raise MocapError(f"This skeleton has none of the bones with a weight: {', '.join(weights)}.")
+        raise MocapError(f"This skeleton has no bone with a weight: {shortened(', '.join(weights))}.")
     columns = np.cumsum([0, *(len(skeleton.dofs[bone]) for bone in bones)])[:-1]
 
     def apart(p: Array, q: Array) -> Array:

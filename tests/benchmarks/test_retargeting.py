@@ -6,8 +6,7 @@ Run them alone, and see the ratios: pytest -m benchmark -n 0 -s tests/benchmarks
 import pytest
 
 from mocap.body.kinematics import forward_kinematics
-from mocap.editing.copied_motion import copied
-from mocap.editing.retargeting import retarget
+from mocap.editing.retargeting import copied, retarget
 from mocap.editing.stances import stance_of
 from tests.benchmarks.timing import least
 from tests.editing.bodies import adult, child, walk, without

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mocap.blending.contact_matches import match_contacts
+from mocap.blending.clocks import match_contacts
 from mocap.blending.timewarps import Curve
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton

@@ -12,7 +12,7 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, resample
 from mocap.body.skeleton import Skeleton
 from mocap.datasets.samples import sample
-from mocap.editing.copied_motion import copied
+from mocap.editing.retargeting import copied
 from mocap.editing.stances import stance_of
 from mocap.files import load_save
 from mocap.files.path_files import load_path

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from mocap.body.motion import resample
 from mocap.cli.main import _parser, main
 from mocap.datasets import samples
-from mocap.editing.copied_motion import copied
+from mocap.editing.retargeting import copied
 from mocap.files import load_save
 from mocap.graphs import storage
 from mocap.graphs.motion_graph import build

@@ -9,7 +9,7 @@ from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
-from mocap.editing.copied_motion import copied
+from mocap.editing.retargeting import copied
 from mocap.editing.stances import proportioned, stance_of
 from mocap.errors import SkeletonMismatch
 from tests.editing.bodies import LONG, adult, along_x, bends, child, renamed, rested, walk, without

@@ -13,9 +13,8 @@ from mocap import load
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.editing.body_roles import FEET
-from mocap.editing.copied_motion import copied
 from mocap.editing.pins import pin_errors
-from mocap.editing.retargeting import dips_of, floor_pins, retarget, standing_like
+from mocap.editing.retargeting import copied, dips_of, floor_pins, retarget, standing_like
 from mocap.editing.stances import Stance, proportioned, stance_of
 from mocap.errors import MocapError, MocapWarning, SkeletonMismatch
 from mocap.feet.footplants import mark_plants, runs

@@ -7,9 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.body.planar import IDENTITY, PlanarTransform
-from mocap.graphs.choice_points import merge_choice_points
 from mocap.graphs.components import reached
-from mocap.graphs.motion_graph import build, from_transitions
+from mocap.graphs.motion_graph import build, from_transitions, merge_choice_points
 from mocap.graphs.pruning import prune
 from mocap.matching.point_clouds import align, point_cloud
 from mocap.matching.transitions import Transition

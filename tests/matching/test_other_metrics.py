@@ -89,4 +89,4 @@ def test_the_euler_grid_adds_wrapped_differences_bone_by_bone():
 
 
 def test_a_body_without_the_homeworks_bones_is_refused():
-    refused("none of the bones with a weight: lowerback", euler_grid, wave(9), wave(9), window=2)
+    refused("no bone with a weight: lowerback", euler_grid, wave(9), wave(9), window=2)

@@ -51,7 +51,7 @@ def test_blocks_and_tiles_do_not_show(by_bound, below, seed, lengths, window, bl
     grid = cloud_distances(*[whole.part(slice(0, count))] * 2)
     expected = [[i, j] for i, j in local_minima(grid, below**2).tolist() if j - i >= window]
     with pytest.MonkeyPatch.context() as patch:
-        for name, value in (("BLOCK", block), ("WIDE_BLOCK", block), ("ROWS", 5), ("AT_ONCE", 20)):
+        for name, value in (("BLOCK", block), ("WIDE_BLOCK", block), ("ROWS", 5), ("LOOKED_AT", 20)):
             patch.setattr(pair_search, name, value)
         patch.setattr(distance_grids, "TILE", (5, 7))
         found = find_minima(whole, EQUAL, below, by_bound=by_bound)

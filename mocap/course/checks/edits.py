@@ -7,7 +7,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array, Mask, Points
 from mocap.body.rotations import from_rotvec, inverse, multiply, to_rotvec
-from mocap.methods.motion_matching.springs import spring
+from mocap.methods.motion_matching.nearest_frames import spring
 from mocap.methods.parametric_graphs.parametric_edges import shrink_box
 
 # ---- Notebook 11

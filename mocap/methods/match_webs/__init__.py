@@ -8,13 +8,12 @@ at a place, and get the weights of the blend that does it.
 
 Reading order (notebooks 16)
 ----------------------------
-1. `local_alignment`: valleys of a grid, and paths through it that begin and end anywhere
-2. `grid_pieces`: the same in a grid that is too large to hold
-3. `webs`: `MatchWeb`, all paths of a set of clips, found once
-4. `match_search`: what is like the query, and what is like that
-5. `measures`: what a motion does, in a number or a few
-6. `motion_spaces`: blends of examples, drawn at random and measured
-7. `wishes`: from a wish back to weights
+1. `local_alignment`: valleys of a grid, and paths through it that begin and end anywhere; piece by piece
+2. `webs`: `MatchWeb`, all paths of a set of clips, found once
+3. `match_search`: what is like the query, and what is like that
+4. `measures`: what a motion does, in a number or a few
+5. `motion_spaces`: blends of examples, drawn at random and measured
+6. `wishes`: from a wish back to weights
 
 References
 ----------

@@ -11,7 +11,7 @@ from mocap._shared.arrays import Array
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, warn
 from mocap.matching.point_clouds import point_cloud
-from mocap.methods.match_webs.grid_pieces import LEAST
+from mocap.methods.match_webs.local_alignment import LEAST
 from mocap.methods.match_webs.webs import MatchWeb
 
 SAME = 0.5  # share of the union of two stretches above which they are one match

@@ -15,7 +15,7 @@ from mocap.body.motion import Motion, require_alike, resample
 from mocap.errors import MocapError, warn
 from mocap.matching.point_clouds import distinct_joints, unit_weights
 from mocap.matching.transitions import join_clouds
-from mocap.methods.match_webs.grid_pieces import LEAST, find_paths
+from mocap.methods.match_webs.local_alignment import LEAST, find_paths
 
 WINDOW = 5  # frames in a window, at the web's rate
 

@@ -7,9 +7,8 @@ obeys sooner; it knows nothing of what comes later.
 Reading order (notebook 18)
 ---------------------------
 1. `pose_database`: what a frame is like, in 27 numbers, and all frames side by side
-2. `springs`: how a wish, and the offset after a cut, come and go
-3. `nearest_frames`: which frame is most like the one asked for?
-4. `matching_control`: a character that searches, cuts, and lets what differs die away
+2. `nearest_frames`: which frame is most like the one asked for? Springs, by which wishes come and go
+3. `matching_control`: a character that searches, cuts, and lets what differs die away
 
 References
 ----------
@@ -23,9 +22,8 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "springs": ["spring", "spring_way"],
         "pose_database": ["GROUPS", "WEIGHTS", "features", "standardise", "tabulate"],
-        "nearest_frames": ["Wants"],
+        "nearest_frames": ["Wants", "spring", "spring_way"],
         "matching_control": ["MotionMatcher"],
     },
 )

@@ -6,9 +6,8 @@ from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.planar import PlanarTransform
 from mocap.errors import warn
-from mocap.methods.motion_matching.nearest_frames import FrameSearch, Wants, foresee
+from mocap.methods.motion_matching.nearest_frames import FrameSearch, Wants, fade, foresee
 from mocap.methods.motion_matching.pose_database import FUTURE, PoseDatabase
-from mocap.methods.motion_matching.springs import fade
 from mocap.steering.characters import Pose, require_command
 
 USUAL = Wants()

@@ -8,13 +8,11 @@ the command.
 Reading order (notebook 17)
 ---------------------------
 1. `examples`: examples of one action, such as punches, on one grid of phases
-2. `strides`: strides and steps, cut where feet strike
+2. `strides`: strides and steps, cut where feet strike; from one kind into another over a stride
 3. `stride_spaces`: ask for a turn and a speed, and get the weights of a blend
 4. `made_motions`: motions made out of mixes, and where to leave one and enter another
-5. `parametric_edges`: boxes of targets that may follow
-6. `parametric_motion_graphs`: spaces and edges, under names
-7. `changes`: from one kind of motion into another, over a stride
-8. `parametric_control`: a character that decides once per stride
+5. `parametric_edges`: boxes of targets that may follow; spaces and edges as a graph
+6. `parametric_control`: a character that decides once per stride
 
 References
 ----------
@@ -35,8 +33,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "strides": ["cut_strides"],
         "stride_spaces": ["bell_weights", "make_space", "measure_mixes"],
         "made_motions": ["optimal_transitions"],
-        "parametric_edges": ["Sampling", "build_edge", "shrink_box", "smallest_good"],
-        "parametric_motion_graphs": ["build_parametric"],
+        "parametric_edges": ["Sampling", "build_edge", "build_parametric", "shrink_box", "smallest_good"],
         "parametric_control": ["ParametricController"],
     },
 )

@@ -15,8 +15,7 @@ from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError, NoWalk
 from mocap.matching.point_clouds import align
 from mocap.methods.parametric_graphs.made_motions import HALF, WINDOW, make_motion
-from mocap.methods.parametric_graphs.parametric_edges import Way
-from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph
+from mocap.methods.parametric_graphs.parametric_edges import ParametricGraph, Way
 from mocap.methods.parametric_graphs.stride_spaces import PARAMETERS, Space
 from mocap.steering.characters import Pose, require_command
 
@@ -64,7 +63,7 @@ class ParametricController:
     Examples
     --------
     >>> from mocap import body, datasets
-    >>> from mocap.methods.parametric_graphs.parametric_motion_graphs import build_parametric
+    >>> from mocap.methods.parametric_graphs.parametric_edges import build_parametric
     >>> from mocap.methods.parametric_graphs.stride_spaces import make_space
     >>> from mocap.methods.parametric_graphs.strides import cut_strides
     >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap.methods.match_webs import build_web, grid_pieces, search
-from mocap.methods.match_webs.grid_pieces import pieces
+from mocap.methods.match_webs import build_web, local_alignment, search
+from mocap.methods.match_webs.local_alignment import pieces
 
 
 @given(st.lists(st.integers(1, 400), min_size=1, max_size=12), st.integers(60, 200), st.integers(0, 50))
@@ -25,8 +25,8 @@ def test_pieces_cover_all_windows_and_cut_only_clips_that_are_too_long(lengths, 
 def test_a_web_made_of_small_pieces_finds_what_one_piece_finds(bundled, monkeypatch):
     clips = bundled.clips[:2]
     whole = build_web(clips, below=0.05)
-    monkeypatch.setattr(grid_pieces, "ROWS", 400)
-    monkeypatch.setattr(grid_pieces, "COLUMNS", 500)
+    monkeypatch.setattr(local_alignment, "ROWS", 400)
+    monkeypatch.setattr(local_alignment, "COLUMNS", 500)
     cut = build_web(clips, below=0.05)
     assert len(whole) != len(cut)  # long paths are cut
     queries = [bundled.truth[3], bundled.truth[-1] if bundled.truth[-1][0] < 2 else bundled.truth[12]]

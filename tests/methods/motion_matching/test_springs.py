@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
 
-from mocap.methods.motion_matching.springs import fade, spring, spring_way
+from mocap.methods.motion_matching.nearest_frames import fade, spring, spring_way
 
 
 def test_after_its_half_life_0_597_of_a_gap_is_left_and_half_after_1_211():

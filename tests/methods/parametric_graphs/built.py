@@ -12,11 +12,11 @@ from mocap.body.motion import Motion, resample
 from mocap.datasets import samples
 from mocap.methods.match_webs import hand_target, random_weights, sample_space, weights_for
 from mocap.methods.parametric_graphs import Sampling, build_parametric, cut_actions, cut_strides, make_space
-from mocap.methods.parametric_graphs.changes import changing_strides
 from mocap.methods.parametric_graphs.made_motions import optimal_transitions
 from mocap.methods.parametric_graphs.parametric_control import TARGET, ParametricController
 from mocap.methods.parametric_graphs.parametric_edges import smallest_good
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, measure_mixes
+from mocap.methods.parametric_graphs.strides import changing_strides
 
 WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
 SMALL = Sampling(sources=12, targets=120)

@@ -14,8 +14,13 @@ from mocap.feet.footplants import mark_plants
 from mocap.files.load_save import load
 from mocap.methods.parametric_graphs.made_motions import optimal_transitions
 from mocap.methods.parametric_graphs.parametric_control import ParametricController
-from mocap.methods.parametric_graphs.parametric_edges import BAD, Sampling, build_edge
-from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph, build_parametric
+from mocap.methods.parametric_graphs.parametric_edges import (
+    BAD,
+    ParametricGraph,
+    Sampling,
+    build_edge,
+    build_parametric,
+)
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, make_space
 from mocap.methods.parametric_graphs.strides import cut_strides
 from mocap.quality import plant_slides

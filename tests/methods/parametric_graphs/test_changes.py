@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mocap.errors import SkeletonMismatch
-from mocap.methods.parametric_graphs.changes import changing_strides
+from mocap.methods.parametric_graphs.strides import changing_strides
 from tests.methods.parametric_graphs.built import jogs, strides
 from tests.refusals import refused
 

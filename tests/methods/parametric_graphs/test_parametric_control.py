@@ -9,7 +9,7 @@ import pytest
 from mocap.body.planar import heading
 from mocap.errors import NoWalk
 from mocap.methods.parametric_graphs.parametric_control import ParametricController
-from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph, build_parametric
+from mocap.methods.parametric_graphs.parametric_edges import ParametricGraph, build_parametric
 from mocap.quality.seam_measures import jumps, spread
 from mocap.steering import Controller, command_headings, measure_delay, steer
 from tests.bundled import bundled

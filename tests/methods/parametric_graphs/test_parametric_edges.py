@@ -11,7 +11,12 @@ from hypothesis.extra.numpy import arrays
 from mocap.errors import MocapError, NoWalk, SkeletonMismatch
 from mocap.methods.parametric_graphs import Sampling
 from mocap.methods.parametric_graphs.made_motions import optimal_transitions
-from mocap.methods.parametric_graphs.parametric_edges import BAD, build_edge, shrink_box, smallest_good
+from mocap.methods.parametric_graphs.parametric_edges import (
+    BAD,
+    build_edge,
+    shrink_box,
+    smallest_good,
+)
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters
 from tests.methods.parametric_graphs.built import SMALL, bad_ones, space, walking
 from tests.refusals import refused

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from mocap.errors import MocapError, NoWalk
-from mocap.methods.parametric_graphs.parametric_motion_graphs import build_parametric
+from mocap.methods.parametric_graphs.parametric_edges import build_parametric
 from tests.methods.parametric_graphs.built import (
     SMALL,
     by_turn_and_speed,
