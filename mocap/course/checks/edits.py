@@ -82,17 +82,10 @@ def product(*quaternions: Array) -> Array:
 
 
 def draw_clip_gap(rng: np.random.Generator) -> tuple[Array, Array, Array]:
-    """Draw places (N, 3), and boxes above, below and around them: held, free, half open, and wide."""
-    places = rng.normal(size=(8, 3))
-    low = places + rng.choice([-1.0, 1.0], (8, 3)) * rng.uniform(0.1, 1, (8, 3))
-    high = low + rng.choice([0.0, 0.05], (8, 3))
-    kind = rng.integers(0, 5, (8, 3))
-    kind[0], kind[1, 0] = [1, 2, 3], 4  # each kind at least once
-    high = np.where(kind == 4, np.maximum(low, places) + 0.2, high)
-    low = np.where(kind == 4, np.minimum(low, places - 0.2), low)
-    low = np.where((kind == 1) | (kind == 3), -np.inf, low)
-    high = np.where((kind == 2) | (kind == 3), np.inf, high)
-    return places, low, high
+    """Draw places (N, 3), and boxes: of no width, narrow and wide, some open on a side or on both."""
+    places, low, ends = rng.normal(size=(8, 3)), rng.normal(size=(8, 3)), rng.random((2, 8, 3))
+    high = low + rng.choice([0.0, 0.05, 1.0], (8, 3))
+    return places, np.where(ends[0] < 0.3, -np.inf, low), np.where(ends[1] < 0.3, np.inf, high)
 
 
 def to_the_middle(p: Array, low: Array, high: Array) -> Array:
@@ -185,24 +178,10 @@ def next_frame(costs: Array, usable: Mask, now: int, near: int, bonus: float) ->
 
 
 def draw_next_frame(rng: np.random.Generator) -> tuple[Array, Mask, int, int, float]:
-    """Draw a trap: an unusable frame, a neighbour or one just far enough is nearest, or the bonus decides."""
-    count, near, bonus = int(rng.integers(30, 60)), int(rng.integers(3, 6)), float(rng.uniform(0.2, 0.6))
-    costs, usable = rng.uniform(1.5, 9, count), rng.random(count) < 0.7
-    now = int(rng.integers(near, count - near))
-    gaps = np.abs(np.arange(count) - now)
-    far = np.flatnonzero(gaps >= near)
-    usable[rng.choice(far, 6, replace=False)] = True
-    trap = int(rng.integers(6))
-    if trap == 0:  # the nearest is not usable
-        other = int(rng.choice(far))
-        usable[other], costs[other] = False, 0.01
-    elif trap == 1:  # the nearest is a neighbour
-        beside = int(rng.choice(np.flatnonzero((gaps > 0) & (gaps < near))))
-        usable[beside], costs[beside] = True, 0.01
-    elif trap == 5:  # the nearest is just far enough
-        other = now - near
-        usable[other], costs[other] = True, 0.01
-    else:  # to play on costs a little more than the best, a little less, or much less
-        more = {2: rng.uniform(0.2, 0.8), 3: -rng.uniform(0.2, 0.8), 4: -1.5}[trap]
-        costs[now] = costs[usable & (gaps >= near)].min() + more * bonus
-    return costs, usable, now, near, bonus
+    """Draw so few frames that the best is often not usable, too near, just far enough, or hardly better."""
+    count, near = int(rng.integers(12, 18)), int(rng.integers(2, 5))
+    now, usable = int(rng.integers(near, count - near)), rng.random(count) < 0.7
+    usable[[0, -1]] = True  # of which one is far enough
+    costs = rng.uniform(1.0, 3.0, count)
+    costs[now] -= rng.integers(2)  # so that it is sometimes by far the best
+    return costs, usable, now, near, float(rng.uniform(0.2, 0.6))

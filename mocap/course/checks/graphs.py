@@ -3,7 +3,7 @@
 import itertools
 import sys
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from itertools import combinations, permutations
 from typing import Any
 
@@ -105,14 +105,9 @@ def draw_graph(rng: np.random.Generator) -> Successors:
     return {node + 1: (np.flatnonzero(row) + 1).tolist() for node, row in enumerate(joined)}
 
 
-def digraph(successors: Mapping[int, Iterable[int]]) -> nx.DiGraph:
-    """Make a graph of lists of successors."""
-    return nx.DiGraph({node: list(ends) for node, ends in successors.items()})
-
-
 def after(successors: Successors, start: int) -> set[int]:
     """Find the nodes that a walk from a node reaches."""
-    return {int(node) for node in nx.descendants(digraph(successors), start)}
+    return {int(node) for node in nx.descendants(nx.DiGraph(successors), start)}
 
 
 # ---- Notebook 06b
@@ -124,7 +119,7 @@ Weighed = list[tuple[int, int, int]]  # start, end, frames
 def draw_component_to_keep(rng: np.random.Generator) -> tuple[list[set[int]], Weighed]:
     """Draw the components of a graph, and its edges with the frames that they play."""
     while True:
-        graph = digraph(draw_graph(rng))
+        graph = nx.DiGraph(draw_graph(rng))
         parts = [set(part) for part in nx.strongly_connected_components(graph)]
         edges = [(a, b, int(rng.integers(5, 400))) for a, b in graph.edges]
         if any({a, b} <= part for a, b, _ in edges for part in parts):
@@ -153,7 +148,7 @@ def draw_why_removed(rng: np.random.Generator) -> tuple[Successors, set[int]]:
     """Draw a graph and its strongly connected component of most nodes."""
     while True:
         graph = draw_graph(rng)
-        kept = max(nx.strongly_connected_components(digraph(graph)), key=len)
+        kept = max(nx.strongly_connected_components(nx.DiGraph(graph)), key=len)
         if 1 < len(kept) < len(graph):
             return graph, {int(node) for node in kept}
 

@@ -61,8 +61,16 @@ class LayerState(NamedTuple):
     best: Steps | None = None
 
 
-def layer_states(line: Array, count: int, *, width: int = 4, look: bool = True) -> list[LayerState]:
-    """Run the layered search for a walk of some steps along a line, and keep its state after each stage.
+def lengthened(walk: Steps, turn: float, line: Array) -> Steps:
+    """Let a walk make one more step."""
+    heading = walk.heading + turn
+    place = walk.places[-1] + STRIDE * np.exp(1j * heading)
+    off = abs(place - line[len(walk.places)]) ** 2
+    return Steps((*walk.places, place), heading, walk.cost + float(off))
+
+
+def layer_states(line: Array, count: int, width: int = 4, look: bool = True) -> Iterator[LayerState]:
+    """Run the layered search for a walk of some steps along a line, and yield its state after each stage.
 
     A step is 70 cm long and turns by -30°, 0° or 30°. It costs the squared distance from where the line is at
     equal length. So the steps made are the layer, and walks stand alike at one place with one heading.
@@ -76,22 +84,10 @@ def layer_states(line: Array, count: int, *, width: int = 4, look: bool = True) 
 
     Examples
     --------
-    >>> states = layer_states(STRIDE * np.arange(4), 2)
-    >>> states[-1].message, round(states[-1].best.cost, 3)
+    >>> *_, last = layer_states(STRIDE * np.arange(4), 2)
+    >>> last.message, round(last.best.cost, 3)
     ('at the end: the cheapest costs 0.00 m²', 0.0)
     """
-    return list(_run(line, count, width, look))
-
-
-def lengthened(walk: Steps, turn: float, line: Array) -> Steps:
-    """Let a walk make one more step."""
-    heading = walk.heading + turn
-    place = walk.places[-1] + STRIDE * np.exp(1j * heading)
-    off = abs(place - line[len(walk.places)]) ** 2
-    return Steps((*walk.places, place), heading, walk.cost + float(off))
-
-
-def _run(line: Array, count: int, width: int, look: bool) -> Iterator[LayerState]:
     walks = [Steps((0j,), 0.0, 0.0)]
     for layer in range(count):
         yield LayerState(3, f"layer {layer}: {len(walks)} waiting", walks, [], {})
@@ -143,8 +139,7 @@ def layer_steps(line: Array, count: int) -> Callable[[int, int, bool], list[Arti
     mark = show_program(code, PROGRAM, 0)
 
     def draw(step: int, width: int, look: bool) -> list[Artist]:
-        states = layer_states(line, count, width=width, look=look)
-        state = states[min(step, len(states) - 1)]
+        state = [*layer_states(line, count, width, look)][: step + 1][-1]
         best = [state.best] if state.best else []
         for pen, walks in zip(pens, (state.crossed, state.kept, best), strict=True):
             _trace(pen, walks)

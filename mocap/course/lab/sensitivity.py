@@ -24,19 +24,18 @@ class DPrime(NamedTuple):
     high: float
 
 
-def d_prime(right: int, of: int, confidence: float = 0.95) -> DPrime:
+def d_prime(right: int, of: int) -> DPrime:
     """Estimate d′ from right answers about pairs: d′ = √2 z(p), where one of two films has the seam [MC05].
 
     z is the inverse of the normal distribution, and p the share of right answers; who guesses has d′ = 0. If
     all answers are right, p = 1 would make d′ infinite; so the estimate takes p = (right + ½) / (of + 1), the
     log-linear correction of [Hau95]. The interval is that of [CP34] for p, mapped by √2 z: it holds the true
-    d′ at least as often as it says, also for few answers. After right answers only it has no upper limit. To
+    d′ in at least 95 of 100 tests, also for few answers. After right answers only it has no upper limit. To
     map an exact interval is our choice; it is wider than approximate ones.
 
     Parameters
     ----------
     right, of : right answers, and all.
-    confidence : how often intervals made like this one hold the true d′.
 
     Returns
     -------
@@ -44,7 +43,7 @@ def d_prime(right: int, of: int, confidence: float = 0.95) -> DPrime:
 
     Raises
     ------
-    MocapError : for more right answers than answers, fewer than 0, and a confidence outside (0, 1).
+    MocapError : for more right answers than answers, and fewer than 0.
 
     Examples
     --------
@@ -55,21 +54,19 @@ def d_prime(right: int, of: int, confidence: float = 0.95) -> DPrime:
 
     Notebook: 09b-blend-window
     """
-    if not (0 <= right <= of and of > 0 and 0 < confidence < 1):
-        raise MocapError(f"No d′ for {right} right answers of {of} at a confidence of {confidence}.")
-    outside = (1 - confidence) / 2
-    low = stats.beta.ppf(outside, right, of - right + 1) if right else 0.0
-    high = stats.beta.ppf(1 - outside, right + 1, of - right) if right < of else 1.0
+    if not (0 <= right <= of and of > 0):
+        raise MocapError(f"No d′ for {right} right answers of {of}.")
+    low = stats.beta.ppf(0.025, right, of - right + 1) if right else 0.0
+    high = stats.beta.ppf(0.975, right + 1, of - right) if right < of else 1.0
     return DPrime(*(float(np.sqrt(2) * stats.norm.ppf(p)) for p in ((right + 0.5) / (of + 1), low, high)))
 
 
-def mean_d_prime(values: Sequence[float], confidence: float = 0.95) -> DPrime:
-    """Average the d′ of several people; the limits are Student's, as people differ.
+def mean_d_prime(values: Sequence[float]) -> DPrime:
+    """Average the d′ of several people; the limits at 95 % are Student's, as people differ.
 
     Parameters
     ----------
     values : one d′ per person, two or more.
-    confidence : how often intervals made like this one hold the true mean.
 
     Returns
     -------
@@ -81,7 +78,7 @@ def mean_d_prime(values: Sequence[float], confidence: float = 0.95) -> DPrime:
     [1.0, -0.24, 2.24]
     """
     mean, error = float(np.mean(values)), float(stats.sem(values))
-    wide = error * float(stats.t.ppf((1 + confidence) / 2, len(values) - 1))
+    wide = error * float(stats.t.ppf(0.975, len(values) - 1))
     return DPrime(mean, mean - wide, mean + wide)
 
 

@@ -198,12 +198,11 @@ def tables(marks: Sequence[Mark], grades: Sequence[Grade], points: Points, title
     made["-table"].insert(0, ("student", *worth, "points"))
     made["-moodle"].insert(0, (*MOODLE, "Grade"))
     made["-canvas"][:0] = [(*CANVAS, title), ("Points Possible", *4 * [""], round(sum(worth.values()), 4))]
-    return {end: "".join(map(_line, rows)) for end, rows in made.items()}
+    return {end: _written(rows) for end, rows in made.items()}
 
 
-def _line(values: Iterable[object]) -> str:
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerow(map(_cell, values))
+def _written(rows: Iterable[Iterable[object]]) -> str:
+    csv.writer(text := io.StringIO(), lineterminator="\n").writerows(map(_cell, row) for row in rows)
     return text.getvalue()
 
 

@@ -24,12 +24,12 @@ def test_a_beam_that_holds_all_walks_finds_the_best_of_all(seed):
     line = np.cumsum(0.7 * np.exp(1j * np.random.default_rng(seed).normal(size=6).cumsum()))
     best = min(walk.cost for walk in every_walk(line, 4))
     for look in (False, True):
-        assert layer_states(line, 4, width=99, look=look)[-1].best.cost == pytest.approx(best)
+        assert [*layer_states(line, 4, width=99, look=look)][-1].best.cost == pytest.approx(best)
 
 
 def test_the_look_ahead_needs_a_narrower_beam():
     def narrowest(look):
-        costs = [layer_states(LINE, 5, width=width, look=look)[-1].best.cost for width in range(1, 10)]
+        costs = [[*layer_states(LINE, 5, width=width, look=look)][-1].best.cost for width in range(1, 10)]
         return 1 + costs.index(min(costs))
 
     assert (narrowest(True), narrowest(False)) == (2, 6)
@@ -59,6 +59,6 @@ def test_the_line_that_ran_is_marked_and_crossed_walks_are_drawn():
         PROGRAM.index("    kept = the K best of apart, by score")
     )
     (crosses,) = (line for line in ground.lines if line.get_marker() == "x")
-    ends = [walk.places[-1] for walk in layer_states(LINE, 5)[18].crossed]
+    ends = [walk.places[-1] for walk in [*layer_states(LINE, 5)][18].crossed]
     assert crosses.get_xydata()[crosses.get_markevery()] @ [1j, 1] == pytest.approx(ends)
     assert len(ends) > 0

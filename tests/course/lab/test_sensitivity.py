@@ -49,7 +49,6 @@ def test_the_estimate_lies_in_its_interval(of, data):
     right = data.draw(st.integers(0, of))
     value, low, high = d_prime(right, of)
     assert low < value < high
-    assert d_prime(right, of, 0.5).low >= low
     assert np.isinf(high) == (right == of)
     assert np.isinf(low) == (right == 0)
 
@@ -61,11 +60,9 @@ def test_the_mean_of_a_class_holds_the_truth():
     assert np.mean([low <= truth <= high for _, low, high in classes]) >= 0.93
 
 
-@pytest.mark.parametrize(
-    ("right", "of", "sure"), [(-1, 20, 0.95), (21, 20, 0.95), (0, 0, 0.95), (5, 20, 1.0)]
-)
-def test_what_cannot_be_is_said(right, of, sure):
-    refused(f"No d′ for {right} right answers of {of}", d_prime, right, of, sure)
+@pytest.mark.parametrize(("right", "of"), [(-1, 20), (21, 20), (0, 0)])
+def test_what_cannot_be_is_said(right, of):
+    refused(f"No d′ for {right} right answers of {of}", d_prime, right, of)
 
 
 @pytest.mark.parametrize(
