@@ -148,8 +148,8 @@ def tests_of(root: Path, path: str) -> list[list[str]]:
 
 
 def make_copy(copy: Path) -> Path:
-    """Copy the package and its tests."""
-    for folder in ("mocap", "tests", "notebooks"):
+    """Copy the package, its tests and what they use."""
+    for folder in ("mocap", "tests", "notebooks", "figures"):
         shutil.copytree(ROOT / folder, copy / folder)
     for file in ("pyproject.toml", "conftest.py"):
         shutil.copy2(ROOT / file, copy)
