@@ -22,10 +22,15 @@ ASKED_FOR = ("benchmark", "exhaustive", *(() if SWEEP else ("sweep", "tools")))
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave out what takes long, unless `-m` or a sweep asks for it."""
+    """Leave out what takes long, unless `-m` or a sweep asks for it.
+
+    Sweeps run without coverage: they reach next to no lines that quick tests do not. Those of the course do.
+    """
     for item in items:
         if LONG & {item.nodeid.partition("[")[0], item.nodeid.partition("::")[0]}:
             item.add_marker(pytest.mark.sweep)
+        if item.get_closest_marker("sweep") and "/course/" not in item.nodeid:
+            item.add_marker(pytest.mark.no_cover)
     names = [name for name in ASKED_FOR if name not in config.option.markexpr]
     out = [item for item in items if any(item.get_closest_marker(name) for name in names)]
     items[:] = [item for item in items if item not in out]

@@ -151,7 +151,7 @@ def compiled(clips):
     return clips, plain.prune(plain.cut_and_join(clips, slow)), graphs.compile_graph(quick)
 
 
-@pytest.fixture(scope="module", params=["bundled", "captured"])
+@pytest.fixture
 def graphs_of_walks(request):
     if request.param == "bundled":
         names = ("walk_circle", "walk_curve_1", "walk_curve_2")
@@ -161,7 +161,9 @@ def graphs_of_walks(request):
     return compiled([mocap.resample(mocap.load(folder / f"{trial}.amc"), 30) for trial in trials])
 
 
-@pytest.mark.parametrize("name", ["S", pytest.param("corner", marks=pytest.mark.sweep)])
+@pytest.mark.parametrize(
+    ("graphs_of_walks", "name"), [("bundled", "S"), ("captured", "corner")], indirect=["graphs_of_walks"]
+)
 def test_a_walk_along_a_line_is_as_near_as_the_packages(name, graphs_of_walks):
     line, (clips, slow, quick) = LINES[name], graphs_of_walks
     roots, _ = plain.follow(clips, slow, plain.points_along(line.points))

@@ -10,11 +10,10 @@ import pytest
 from tests.browser.conftest import wait_until
 
 FOLDER = Path(__file__).parents[2] / "notebooks"
-# This one has players, sliders, choices and a canvas to draw on, the next an image to click on as well.
+# The first has players, sliders, choices and a canvas to draw on; an image to click on is in test_lab.py.
 # The experiments of all notebooks are driven without a browser, by tests/course/driving.py.
-MARKS = {"00-quickstart": [], "02-matching": [pytest.mark.sweep]}
 NOTEBOOKS = [
-    pytest.param(path, id=path.stem, marks=MARKS.get(path.stem, [pytest.mark.exhaustive]))
+    pytest.param(path, id=path.stem, marks=[pytest.mark.exhaustive] * (path.stem != "00-quickstart"))
     for path in sorted(FOLDER.glob("*.ipynb"))
 ]
 FAILED = ".jp-OutputArea-output[data-mime-type='application/vnd.jupyter.error']"

@@ -40,7 +40,7 @@ def drive_all():
 
 def drive(shown):
     if isinstance(shown, Experiment):
-        for values in settings(shown):
+        for values in {repr(values): values for values in settings(shown)}.values():  # each once
             shown.set(**values)
     elif isinstance(shown, Player):
         assert shown.scene["frames"] > 1

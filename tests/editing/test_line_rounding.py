@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from asked_lines import heart
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mocap.body.ground_path import GroundPath, arcs, circle
@@ -104,6 +104,7 @@ def test_the_walk_may_turn_faster_where_it_turns_by_itself():
     assert line.moved.max() < 0.7 * round_line(asked, straight(), FPS, LIMIT).moved.max()
 
 
+@settings(max_examples=25)
 @given(st.integers(0, 10**6))
 def test_any_line_can_be_walked_after_rounding(seed):
     random = np.random.default_rng(seed)

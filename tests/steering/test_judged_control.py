@@ -17,7 +17,7 @@ from mocap.steering.characters import Pose
 from mocap.steering.judged_control import _pivots
 from tests.bundled import bundled
 from tests.methods.motion_matching.matched import walks
-from tests.methods.parametric_graphs.built import WALKS, clips, stepping, walking
+from tests.methods.parametric_graphs.built import WALKS, clips, walking
 from tests.refusals import refused
 
 SPEED = 0.8
@@ -32,7 +32,6 @@ CHARACTERS = {
     "motion graph": lambda: Controller(graph()),
     "motion graph, turned": lambda: FootTurner(Controller(graph()), np.radians(40)),
     "strides": lambda: ParametricController(walking()),
-    "steps": lambda: ParametricController(stepping(0.04)),
     "matching": lambda: MotionMatcher(walks(), Wants(future=0.5)),
 }
 
@@ -42,9 +41,7 @@ def report(name):
     return judge_control(CHARACTERS[name], spread(clips()), speed=SPEED, seconds=40)
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.sweep] * (name == "steps")) for name in CHARACTERS]
-)
+@pytest.mark.parametrize("name", CHARACTERS)
 def test_all_obey_and_all_feet_can_be_cleaned(name):
     judged = report(name)
     assert judged.delay.mean < 3 and judged.delay.slowest < 8
