@@ -14,8 +14,7 @@ import io
 import traceback
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -26,8 +25,7 @@ from PIL import Image
 
 from mocap.errors import MocapError, missing
 from mocap.plotting.picture import Picture, few_colours, figure_of, legible, letters_of
-from mocap.widgets.live import Live, display_live, widget
-from mocap.widgets.pointing import Handles
+from mocap.widgets.live import display_live
 
 Drawn = Any  # a figure, what a function of `plotting` gives, or a list of moved artists
 
@@ -78,7 +76,7 @@ def explore(draw: Callable[..., Drawn], *, alt: str, **controls: Any) -> Experim
         if made[name] is None:
             raise MocapError(f"The control {name}={control!r} is no range, choice or widget.")
         made[name].description = name.replace("_", " ")
-    if sum(isinstance(control, Handles) for control in made.values()) > 1:
+    if sum(hasattr(control, "with_handles") for control in made.values()) > 1:
         raise MocapError("An experiment has one control of handles: put all points into it.")
     return Experiment(draw, alt, made)
 
@@ -138,8 +136,7 @@ class Experiment:
         self.draw, self.alt, self.controls = draw, alt, controls
         self.error: Exception | None = None
         self._canvas = BlittedFigure()
-        dragged: list[Any] = [control for control in controls.values() if isinstance(control, Handles)]
-        self._dragged = dragged[0] if dragged else None
+        self._dragged = next((one for one in controls.values() if hasattr(one, "with_handles")), None)
         self.picture: Any = self._dragged or ipywidgets.Image(format="png")
         self.picture.add_class("mocap-picture")
         self.message = ipywidgets.HTML(layout={"display": "none"})
@@ -149,7 +146,9 @@ class Experiment:
         parts = [control for control in controls.values() if control is not self.picture]
         parts += [below, ipywidgets.HTML(f"<small>{html.escape(alt)}</small>")]
         with suppress(MocapError):  # without anywidget, controls have no names
-            parts.append(widget(Naming)(alt=alt))
+            from mocap.widgets.shared_traits import Naming
+
+            parts.append(Naming(alt=alt))
         self.box = ipywidgets.VBox(parts, layout={"align_items": "flex-start"})
         self.set()
         for control in controls.values():
@@ -200,13 +199,6 @@ class Experiment:
 
     def _ipython_display_(self) -> None:
         display_live(self.still(), self.box, "slider")
-
-
-class Naming(Live):
-    """Gives the other widgets their names, which screen readers say."""
-
-    scripts = (Path(__file__).with_name("naming.js"),)
-    shared: ClassVar = {"alt": ""}
 
 
 def lay_out_like(figure: Figure, before: Figure) -> None:

@@ -4,7 +4,7 @@ import warnings
 from collections.abc import Callable
 from dataclasses import replace
 from time import monotonic
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,8 +17,10 @@ from mocap.body.motion import Motion
 from mocap.errors import MocapWarning
 from mocap.steering.layered_search import States
 from mocap.steering.path_search import PathSearch, watching
-from mocap.widgets.live import Live, display_live, widget
+from mocap.widgets.embedding import joined
+from mocap.widgets.live import display_live
 from mocap.widgets.player import Player, play
+from mocap.widgets.shared_traits import AnyWidget, shared
 
 Follow = Callable[[Array], Motion | Player]
 FPS = 30.0  # of a mix
@@ -26,23 +28,16 @@ TELL = 0.1  # seconds until the best walk so far is told again
 EASE = 0.4  # seconds until new weights are reached
 
 
-class LivePlayer(Live):
+class LivePlayer(AnyWidget):
     """A player whose scene Python changes, and which tells Python what it shows."""
 
-    scripts = Player.scripts
-    shared: ClassVar = {
-        "scene": {"number": 0},
-        "at": [-1, 0],  # the browser's: the number of a scene, and a frame
-        "move": [0, 0],  # Python's
-        "path": [],
-        "best": [],  # the line of the best walk so far, while a search is under way
-        "message": "",
-    }
+    _esm = joined(*Player.scripts)
+    scene = shared({"number": 0})
+    at = shared([-1, 0])  # the browser's: the number of a scene, and a frame
+    move = shared([0, 0])  # Python's
+    path, message = shared([]), shared("")
+    best = shared([])  # the line of the best walk so far, while a search is under way
     player: Player
-    scene: Any
-    at: Any
-    move: Any
-    best: Any
     told = 0.0  # when the best walk so far was told, by the clock
 
     def show(self, player: Player, frame: int = 0, **extra: bool) -> None:
@@ -101,7 +96,7 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
 
     Notebook: 08-path-synthesis
     """
-    canvas = widget(LivePlayer)()
+    canvas = LivePlayer()
 
     def walk(path: Array, **extra: bool) -> None:
         with warnings.catch_warnings(record=True, action="always", category=MocapWarning) as caught:
@@ -164,7 +159,7 @@ class Mixer:
         start = checked(given if given.size else np.full(count, 1 / count), count)
         self.registration, self.start = registration, frozen(start, np.float64)
         self.changes: list[tuple[float, Array]] = []  # new weights, and the blend's second when they begin
-        self.player = widget(LivePlayer)()
+        self.player = LivePlayer()
         self.player.show(self._played(), reports=True)
         names, self.sliders = [clip.name for clip in registration.clips], []
         for number, (name, value) in enumerate(zip(names, start, strict=True), 1):

@@ -5,7 +5,7 @@ They lie on the picture that an experiment draws, so the reader drags the very t
 
 import io
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -15,7 +15,8 @@ from PIL import Image, ImageDraw
 
 from mocap.errors import MocapError
 from mocap.plotting.picture import figure_of
-from mocap.widgets.live import Live, widget
+from mocap.widgets.embedding import joined
+from mocap.widgets.shared_traits import AnyWidget, ValueWidget, shared, validate
 
 
 def handles(ax: Axes, points: ArrayLike) -> Any:  # noqa: ANN401
@@ -55,26 +56,26 @@ def handles(ax: Axes, points: ArrayLike) -> Any:  # noqa: ANN401
         raise MocapError(f"Handles need linear axes, not {ax.get_xscale()} and {ax.get_yscale()} ones.")
     limits = [[float(end) for end in ends] for ends in (ax.get_xlim(), ax.get_ylim())]
     names = [label.split(" (")[0] for label in (ax.get_xlabel() or "across", ax.get_ylabel() or "up")]
-    control = widget(Handles)(limits=limits, names=names)
+    control = Handles(limits=limits, names=names)
     control.ax, control.count = ax, len(where)
     control.value = where
     plt.close(figure_of(ax))
     return control
 
 
-class Handles(Live):
+class Handles(AnyWidget, ValueWidget):  # type: ignore[misc]
     """A picture with points as its `value`, which Python and the reader may set."""
 
-    scripts = (Path(__file__).with_name("dragging.js"),)
-    shared: ClassVar = {
-        **{"description": "", "picture": b"", "box": [0.0, 0.0, 1.0, 1.0]},
-        **{"limits": [], "names": [], "step": 0.05, "value": ()},
-    }
+    _esm = joined(Path(__file__).with_name("dragging.js"))
+    picture, box = shared(b""), shared([0.0, 0.0, 1.0, 1.0])
+    limits, names, description = shared([]), shared([]), shared("")
+    step, value = shared(0.05), shared(())
     ax: Axes
     count: int
-    value: Any
-    limits: Any
-    layout: Any
+
+    @validate("value")
+    def _check(self, proposal: dict[str, Any]) -> tuple[tuple[float, float], ...]:
+        return self.check_value(proposal["value"])
 
     def check_value(self, value: ArrayLike) -> tuple[tuple[float, float], ...]:
         """Check that there are so many points, and that all lie within the axes."""
@@ -93,8 +94,8 @@ class Handles(Live):
         (left, right), (bottom, top) = self.limits
         corners = self.ax.transData.transform([(left, top), (right, bottom)])
         seen = figure_of(self.ax).transFigure.inverted().transform(corners)
-        self.box: Any = (seen * [1, -1] + [0, 1]).ravel().tolist()  # shares from the figure's left and top
-        self.picture: Any = png
+        self.box = (seen * [1, -1] + [0, 1]).ravel().tolist()  # shares from the figure's left and top
+        self.picture = png
 
     def with_handles(self) -> Image.Image:
         """Draw the handles into the picture."""

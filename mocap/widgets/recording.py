@@ -14,7 +14,6 @@ import numpy as np
 from PIL import Image
 
 from mocap.widgets.experiments import Experiment
-from mocap.widgets.pointing import Handles
 
 ROOM = 200_000  # bytes for the pictures of one experiment
 COUNTS = (15, 11, 8, 5)  # of positions; the most that fit in the room
@@ -52,7 +51,7 @@ def record(experiment: Experiment, *, room: int = ROOM) -> dict[str, Any] | None
     (['0', '2', '4'], 1, 3)
     """
     for name, control in experiment.controls.items():
-        if isinstance(control, Handles) or not (positions := _positions(control)):
+        if hasattr(control, "with_handles") or not (positions := _positions(control)):
             continue
         rest = control.value
         at = next(number for number, (_, value) in enumerate(positions) if value == rest)

@@ -8,7 +8,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -17,10 +17,11 @@ from mocap.errors import MocapError, shortened
 from mocap.plotting.style import COLOURS, own_colour
 from mocap.steering.characters import Character, as_motion
 from mocap.widgets.company import Company, checked
-from mocap.widgets.embedding import PAGE, PICTURE, SCENE, SHADED, TOUCH
-from mocap.widgets.live import Live, display_live, widget
+from mocap.widgets.embedding import PAGE, PICTURE, SCENE, SHADED, TOUCH, joined
+from mocap.widgets.live import display_live
 from mocap.widgets.packing import LOOK
 from mocap.widgets.player import play
+from mocap.widgets.shared_traits import AnyWidget, shared, validate
 from mocap.widgets.walk_figure import posed
 
 OWN = ("steered_walker.js", "steering_page.js", "steering.js")
@@ -29,19 +30,18 @@ APART = 1.5  # metres between two characters of the recording
 MOST = 1.0  # seconds of one answer
 
 
-class Steered(Live):
+class Steered(AnyWidget):
     """Pictures of characters, and a `command` that the reader and Python may set."""
 
-    scripts = (*SHADED, SCENE, PICTURE, PAGE, TOUCH, *map(Path(__file__).with_name, OWN))
-    shared: ClassVar = {"scene": {}, "command": [0.0, 1.1, ""]}
+    _esm = joined(*SHADED, SCENE, PICTURE, PAGE, TOUCH, *map(Path(__file__).with_name, OWN))
+    scene, command = shared({}), shared([0.0, 1.1, ""])
     company: Company
     still: tuple[dict[str, str], dict[str, Any]]
     alt: str
-    send: Any
 
-    def check_command(self, command: Sequence[Any]) -> list[Any]:
-        """Refuse what no character could take."""
-        return list(checked(*command))
+    @validate("command")
+    def _check(self, proposal: dict[str, Any]) -> list[Any]:
+        return list(checked(*proposal["value"]))
 
     @property
     def delays(self) -> dict[str, list[float]]:
@@ -136,7 +136,7 @@ def steered(
         for number, member in enumerate(company.members)
     ]
     scene = {"alt": alt, "members": members, **LOOK, "speeds": [low, high], "labels": list(labels)}
-    page = widget(Steered)(scene=scene)
+    page = Steered(scene=scene)
     page.command = [RECORDED[-1][0], speed, ""]
     page.company, page.alt, page.still = company, alt, (data, metadata)
     page.on_msg(page.answer)

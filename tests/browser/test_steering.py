@@ -30,7 +30,7 @@ def written(tmp_path_factory):
     file.write_text(
         '<!doctype html><html lang="en"><meta charset="utf-8"><link rel="icon" href="data:,">'
         '<meta name="viewport" content="width=device-width"><body class="mocap-page"><div></div>'
-        f'<script type="module">{joined(*live.scripts, FAKE)}\n{start}</script></body></html>',
+        f'<script type="module">{live._esm}\n{joined(FAKE)}\n{start}</script></body></html>',
         "utf-8",
     )
     return file.as_uri()

@@ -17,7 +17,7 @@ from PIL import Image
 
 from mocap.body.kinematics import joint_positions
 from mocap.plotting.stick_figures import StickFigure, ground_axes
-from mocap.widgets import experiments, live
+from mocap.widgets import experiments
 from mocap.widgets.experiments import explore
 from tests.refusals import refused
 from tests.strategies import wave
@@ -110,9 +110,8 @@ def test_without_ipywidgets_one_sentence_says_what_to_install(monkeypatch):
 
 def test_without_anywidget_an_experiment_has_no_names_but_works(monkeypatch):
     monkeypatch.setitem(sys.modules, "anywidget", None)
-    live.widget.cache_clear()
+    monkeypatch.delitem(sys.modules, "mocap.widgets.shared_traits")
     experiment = explore(fresh, alt="A line.", frame=(0, 9))
-    live.widget.cache_clear()
     assert len(experiment.box.children) == 3
     assert experiment.set(frame=3).error is None
 

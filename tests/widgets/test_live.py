@@ -1,14 +1,14 @@
 """Live widgets: what a cell shows of them, and what is said where anywidget is missing."""
 
+import importlib
 import sys
 
-import matplotlib.pyplot as plt
 import pytest
 from matplotlib.figure import Figure
 
 from mocap.blending import register
 from mocap.errors import MocapError
-from mocap.widgets import Mixer, draw_path, explore, handles, live, steered
+from mocap.widgets import Mixer, draw_path, explore, steered
 from mocap.widgets.live import LIVE, STILL, WIDGET
 from tests.blending.registered import walks
 from tests.strategies import wave
@@ -21,11 +21,6 @@ MADE = {
     "player": lambda: draw_path(lambda path: wave(30), [[0, 0], [0, 1]]),
     "mixer": lambda: Mixer(register([walks()[1.1, 120], walks()[1.1, -120]])),
     "steered": lambda: steered({"dot": Dot()}),
-}
-NEEDY = {
-    "handles": lambda: handles(plt.figure().add_subplot(), [[0, 1]]),
-    "player": MADE["player"],
-    "steered": MADE["steered"],
 }
 
 
@@ -42,10 +37,10 @@ def test_a_cell_shows_what_stays_with_its_sentence_and_then_the_live_widget(kind
     assert LIVE in getattr(made, "box", made)._dom_classes
 
 
-@pytest.mark.parametrize("kind", NEEDY)
+@pytest.mark.parametrize("kind", ["live_player", "pointing", "steered_widget"])
 def test_without_anywidget_one_sentence_says_what_to_install(kind, monkeypatch):
     monkeypatch.setitem(sys.modules, "anywidget", None)
-    live.widget.cache_clear()
-    with pytest.raises(MocapError, match=r"needs? anywidget: pip install '\.\[notebooks\]'"):
-        NEEDY[kind]()
-    live.widget.cache_clear()
+    for name in ("shared_traits", "live_player", "pointing", "steered_widget"):
+        monkeypatch.delitem(sys.modules, f"mocap.widgets.{name}")
+    with pytest.raises(MocapError, match=r"needs anywidget: pip install '\.\[notebooks\]'"):
+        importlib.import_module(f"mocap.widgets.{kind}")

@@ -1,0 +1,27 @@
+"""What browser and Python share of a live widget: its traits. This module needs anywidget."""
+
+from pathlib import Path
+from typing import Any
+
+from mocap.errors import missing
+from mocap.widgets.embedding import joined
+
+try:
+    import traitlets
+    from anywidget import AnyWidget as AnyWidget
+    from ipywidgets import ValueWidget as ValueWidget
+    from traitlets import validate as validate
+except ImportError as error:
+    raise missing("What is live in a notebook needs anywidget", "notebooks") from error
+
+
+def shared(value: Any) -> Any:  # noqa: ANN401
+    """Make a trait that the browser knows as well, with its value at first."""
+    return traitlets.Any(value).tag(sync=True)
+
+
+class Naming(AnyWidget):
+    """Gives the other widgets their names, which screen readers say."""
+
+    _esm = joined(Path(__file__).with_name("naming.js"))
+    alt = shared("")
