@@ -7,12 +7,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mocap.blending import draw_stretches
 from mocap.blending.joining import blend, inertialize, join, lay_window_on
 from mocap.blending.weights import linear_weights
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
+from mocap.datasets import sample
 from mocap.errors import SkeletonMismatch
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.point_clouds import point_cloud
@@ -166,3 +168,27 @@ def test_the_turn_of_a_joint_fades_by_the_quintic_from_its_angle_and_speed(i, j,
     wanted = leg(np.concatenate([a[:i], b[j : j + window] + fading, b[j + window :]]))
     gaps = rotations.angle_between(cut.rotations[:, 1:], wanted.rotations[:, 1:])
     assert gaps == pytest.approx(0, abs=1e-6)
+
+
+CLIPS = [sample(name)[:480] for name in ("walk_curve_1", "walk_curve_2")]
+HOW = {"window": 40, "below": 0.05, "reach": 70}
+
+
+def test_the_middles_match_and_the_second_is_aligned():
+    pairs = draw_stretches(CLIPS, 4, **HOW)
+    for a, b in pairs:
+        assert len(a) == len(b) == 140
+        assert {a.name, b.name} == {clip.name for clip in CLIPS}
+        gap = point_cloud(a[50:90]) - point_cloud(b[50:90])
+        assert np.sqrt((gap**2).sum(-1).mean()) < 0.05
+
+
+def test_pairs_are_different_and_the_same_in_each_call():
+    first, second = draw_stretches(CLIPS, 4, **HOW), draw_stretches(CLIPS, 4, **HOW)
+    starts = [(a.root_positions[0].tolist(), b.root_positions[0].tolist()) for a, b in first]
+    assert starts == [(a.root_positions[0].tolist(), b.root_positions[0].tolist()) for a, b in second]
+    assert len({str(start) for start in starts}) == 4
+
+
+def test_too_few_matches_are_an_error():
+    refused(r"^\d+ matches have 70 frames before .* 9999 were asked for", draw_stretches, CLIPS, 9999, **HOW)

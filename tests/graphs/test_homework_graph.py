@@ -163,7 +163,7 @@ def test_a_transition_goes_from_one_segment_to_the_other_and_on_without_a_stutte
 
 def test_bad_input_is_named():
     for settings, words in (
-        ({"metric": euler_grid}, "none of the bones with a weight"),
+        ({"metric": euler_grid}, "no bone with a weight"),
         ({"threshold": 0}, "above 0, got 0"),
         ({"threshold": np.nan}, "above 0, got nan"),
         ({"weighting": "equal"}, "not 'equal'"),

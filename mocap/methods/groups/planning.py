@@ -187,7 +187,11 @@ def plan_group(
         farthest = max(farthest, state.goal)
         if state.goal == points:
             return GroupWalk(list(state.clips), state.seconds, len(seen), obstacles.tested, obstacles.spared)
-        if (key := _key(state, timed=bool(scene.others))) in seen:
+        # States that stand alike are one, with other groups about only at the same time.
+        node, turn, move = state.at
+        cell = (move.real / CELL, move.imag / CELL, phase(turn) / SECTOR)
+        key = (node, state.goal, *map(round, cell), state.frames if scene.others else 0)
+        if key in seen:
             continue
         seen.add(key)
         if (leaving := exits.get(state.at.node)) is None:
@@ -219,13 +223,6 @@ def _check_start(graph: GroupGraph, start: Placed, scene: Scene) -> None:
             rim = f"the rim of the obstacle at x={centre.imag:g}, z={centre.real:g}"
             far = f"Member {gap.argmin() + 1} starts {gap.min():.2f} m from {rim}"
             raise NoWalk(f"{far}: {scene.body:g} m is the least.")
-
-
-def _key(state: _State, *, timed: bool) -> tuple[float, ...]:
-    """Put states that stand alike into one cell; with other groups about, only at the same time."""
-    node, turn, move = state.at
-    cell = (round(move.real / CELL), round(move.imag / CELL), round(phase(turn) / SECTOR))
-    return (node, state.goal, *cell, *([state.frames] if timed else []))
 
 
 def _go_on(exits: Exits, rows: Indices, state: _State, scene: Scene) -> Iterator[tuple[float, _State]]:

@@ -15,7 +15,7 @@ from mocap._shared.arrays import Array, Indices, Mask, Points, frozen
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions, velocities
 from mocap.body.limbs import find_legs
-from mocap.body.motion import Motion, require_alike
+from mocap.body.motion import Motion, concatenate, require_alike
 from mocap.body.planar import heading, on_ground
 from mocap.errors import MocapError
 
@@ -111,17 +111,19 @@ class PoseDatabase:
     ----------
     clips : of one skeleton and one rate.
     labels, contacts : as those of the clips, (T,) each.
+    roots, turns : shape (T, 3) and (T, J, 4), the poses.
     values : shape (T, 27), standardised features; `mean` and `scale` (27,) made them so.
     usable : shape (T,), frames that a search may find.
     last : shape (T,), the number of the last frame of each frame's clip.
     ground, heading, drift, spin : shape (T,): where the body is and faces, and its velocity and turning.
-    roots, turns : shape (T, 3) and (T, J, 4), the poses.
     speeds : shape (T, J + 1, 3): the root's in m/s, then each joint's in its own frame, rad/s.
     """
 
     clips: tuple[Motion, ...]
     labels: Mapping[str, Mask]
     contacts: Mapping[str, Mask]
+    roots: Array
+    turns: Array
     values: Array
     mean: Array
     scale: Array
@@ -131,8 +133,6 @@ class PoseDatabase:
     heading: Array
     drift: Points
     spin: Array
-    roots: Array
-    turns: Array
     speeds: Array
 
     def __len__(self) -> int:
@@ -208,13 +208,15 @@ def tabulate(clips: Sequence[Motion], *, weights: Mapping[str, float] = WEIGHTS)
     if len(longest) <= END * rate + 1:
         lasts = f"the longest, '{longest.name}', lasts {longest.duration:.2f} s"
         raise MocapError(f"A search leaves out the last {END:g} s of each clip; {lasts}.")
-    frames = [len(clip) for clip in clips]
+    joined, frames = concatenate(clips), [len(clip) for clip in clips]
     values, mean, scale = standardise(np.concatenate([features(clip) for clip in clips]), weights)
     tracks: Any = (np.concatenate(part) for part in zip(*map(_tracks, clips), strict=True))
     return PoseDatabase(
         clips,
-        _marks([clip.labels for clip in clips], frames),
-        _marks([clip.contacts for clip in clips], frames),
+        joined.labels,
+        joined.contacts,
+        joined.root_positions,
+        joined.rotations,
         frozen(values, np.float64),
         mean,
         scale,
@@ -225,12 +227,12 @@ def tabulate(clips: Sequence[Motion], *, weights: Mapping[str, float] = WEIGHTS)
 
 
 def _tracks(clip: Motion) -> tuple[Any, ...]:
-    """Follow the body with its velocity and its turning, and the pose with its speeds."""
+    """Follow the body with its velocity and its turning, and the speeds of its pose."""
     ground, facing = body_track(clip)
     speeds = np.concatenate([velocities(clip.root_positions, clip.fps)[:, None], turn_speeds(clip)], axis=1)
     moving: Points = np.gradient(ground) * clip.fps
     turning = velocities(facing, clip.fps)
-    return ground, facing, moving, turning, clip.root_positions, clip.rotations, speeds
+    return ground, facing, moving, turning, speeds
 
 
 def turn_speeds(motion: Motion) -> Array:
@@ -245,10 +247,3 @@ def turn_speeds(motion: Motion) -> Array:
     relative = rotations.multiply(rotations.inverse(motion.rotations[:-1]), motion.rotations[1:])
     steps = rotations.to_rotvec(relative) * motion.fps
     return np.concatenate([steps[:1], (steps[1:] + steps[:-1]) / 2, steps[-1:]])
-
-
-def _marks(marks: Sequence[Mapping[str, Mask]], frames: Sequence[int]) -> dict[str, Mask]:
-    """Put marks in a row; one that a clip lacks is off there."""
-    names = dict.fromkeys(name for own in marks for name in own)
-    rows = list(zip(marks, frames, strict=True))
-    return {n: np.concatenate([own.get(n, np.zeros(count, bool)) for own, count in rows]) for n in names}
