@@ -38,7 +38,7 @@ def handout(
     -----
     For example: mocap course handout notebooks/02-matching.ipynb --nbgrader -o my-course
     """
-    worth = marking.read_points(points)
+    worth = marking.grades.read_points(points)
     print(f"wrote {len(course.hand_out(notebooks, out, worth, nbgrader=nbgrader))} notebooks to {out}")
 
 
@@ -137,20 +137,20 @@ def mark(
     -----
     For example: mocap course mark handed-in -o marks.csv --points points.toml --feedback feedback
     """
-    worth, students = marking.read_points(points), marking.read_roster(roster)
+    worth, students = marking.grades.read_points(points), marking.grades.read_roster(roster)
     require_writable(out)
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends it as Ctrl-C does
-    marks: list[marking.Mark] = []
-    grades: list[marking.Grade] = []
+    marks: list[marking.grades.Mark] = []
+    grades: list[marking.grades.Grade] = []
     for some in marking.mark(folder, bar("marking"), partial(print, file=sys.stderr), jobs):
         marks += some
-        grades = marking.grade(marks, worth, students)
-        for end, text in marking.tables(marks, grades, worth, out.stem).items():
+        grades = marking.grades.grade(marks, worth, students)
+        for end, text in marking.grades.tables(marks, grades, worth, out.stem).items():
             write_text(out.with_stem(f"{out.stem}{end}"), text)  # before the next notebook runs
     if unknown := [one.sent for one in grades if students and not one.listed]:
         print(f"not in {roster}: {printable(', '.join(unknown))}", file=sys.stderr)
     if feedback:
-        print(f"wrote {len(marking.write_feedback(grades, worth, feedback))} pages to {feedback}")
+        print(f"wrote {len(marking.grades.write_feedback(grades, worth, feedback))} pages to {feedback}")
     print(f"wrote {out} and three more: {sum(one.right for one in marks)} of {len(marks)} are right")
 
 

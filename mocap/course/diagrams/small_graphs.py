@@ -66,7 +66,7 @@ def nodes_and_edges(step: int = 5) -> Figure:
         bend, colour = f"arc3,rad={0.28 * (source == target)}", PATH if step == 5 else MARK
         look: dict[str, Any] = {"connectionstyle": bend, "shrinkA": 6, "shrinkB": 6}
         arrow(ax, leaves - 1j * source, enters - 1j * target, colour, **look).set_zorder(3)
-    ax.set_title(f"{step}. {STEPS[step]}", fontsize=10, loc="left")
+    ax.set_title(STEPS[step], fontsize=10, loc="left")
     ax.set(xlabel="time in the clip (s)", xlim=(-0.2, 6.2), ylim=(-1.75, 0.95))
     ax.set_yticks([0, -1], ["clip A", "clip B"])
     ax.tick_params(left=False)

@@ -18,6 +18,6 @@ Reading order
 
 import lazy_loader
 
-GRADES = ["Grade", "Mark", "grade", "read_points", "read_roster", "tables", "write_feedback"]
-FACES = {"marks": ["mark"], "grades": GRADES}
-__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=FACES)
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__, submodules=["grades"], submod_attrs={"marks": ["mark"]}
+)

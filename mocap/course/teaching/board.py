@@ -7,8 +7,7 @@ side with the numbers of the steps.
 from __future__ import annotations
 
 import io
-import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
@@ -22,14 +21,15 @@ from mocap._shared.atomic import make_folder, replacing
 from mocap._shared.progress import Progress
 from mocap.body import GroundPath, Motion, arcs, lay_on, resample, rotations
 from mocap.course import diagrams
-from mocap.plotting.picture import few_colours, figure_of
+from mocap.plotting.picture import few_colours
 
 WINDOW, FPS = 10, 30  # frames, frames per second
 PANEL, GAP, HEAD = (760, 520), 24, 76  # pixels: a step, what is between them, the heading
 INK, DISC, PAPER = "#222222", "#0072B2", "#FFFFFF"
 SMOOTH = Image.Resampling.LANCZOS
 SMALL = (620, 440)  # pixels of a drawing on the sheet of all
-Steps = Iterator[Any]  # of figures
+FOUR = (1, 2, 3, 4)
+Steps = Iterator[Any]  # of figures, or of what a step has moved on one
 
 
 def _walks(frames: int) -> list[Motion]:
@@ -40,6 +40,14 @@ def _pair() -> tuple[Motion, Motion]:
     """Give the two windows of notebook 03, which match."""
     circle, curve = (resample(datasets.sample(f"walk_{name}"), FPS) for name in ("circle", "curve_1"))
     return circle[56 : 56 + WINDOW], curve[97 : 97 + WINDOW]
+
+
+def _cloud() -> Steps:
+    return (diagrams.window_cloud(_pair()[0], step=step) for step in FOUR)
+
+
+def _theta() -> Steps:
+    return (diagrams.laying_on(*_pair(), step=step) for step in FOUR)
 
 
 def _grid() -> Steps:
@@ -67,37 +75,28 @@ def _path() -> Steps:
 
 
 def _tarjan() -> Steps:
-    return _moved(diagrams.tarjan_steps(graphs.notes_example()), (0, 4, 6, 14, 16, 99))
+    return map(diagrams.tarjan_steps(graphs.notes_example()), (0, 4, 6, 14, 16, 99))
 
 
 def _search() -> Steps:
-    return _moved(diagrams.search_steps(graphs.notes_example(), 6, 2), (0, 2, 3, 9, 11, 13))
+    return map(diagrams.search_steps(graphs.notes_example(), 6, 2), (0, 2, 3, 9, 11, 13))
 
 
 def _layers() -> Steps:
     asked = GroundPath([[0, 0], [0, 2.1], [0.7, 2.1], [0.7, 0]]).at(0.7 * np.arange(7)) @ [1j, 1]
     draw_stage = diagrams.layer_steps(asked, 5)
-    return _moved(lambda step: draw_stage(step, 4, True), (6, 9, 13, 17, 18, 25))
+    return (draw_stage(step, 4, True) for step in (6, 9, 13, 17, 18, 25))
 
 
 def _tree() -> Steps:
     walk = resample(datasets.sample("walk_straight"), FPS)
-    return _moved(diagrams.down_the_tree(walk, 20), (0, 2, 3, 24))
+    return map(diagrams.down_the_tree(walk, 20), (0, 2, 3, 24))
 
 
-def _moved(draw: Callable[[int], Any], steps: Iterable[int]) -> Steps:
-    return (draw(step)[0].figure for step in steps)
-
-
-def _each(draw: Callable[..., Any], steps: Iterable[int], *shown: Any) -> Steps:  # noqa: ANN401
-    return (draw(*shown, step=step) for step in steps)
-
-
-FOUR = (1, 2, 3, 4)
 WHOLE = "04-laid-on"  # one figure that shows its steps itself
 BOARD: dict[str, tuple[str, Callable[[], Steps]]] = {
-    "01-window": ("A window as a cloud of points", lambda: _each(diagrams.window_cloud, FOUR, _pair()[0])),
-    "02-theta": ("Four steps to the best turn and shift", lambda: _each(diagrams.laying_on, FOUR, *_pair())),
+    "01-window": ("A window as a cloud of points", _cloud),
+    "02-theta": ("Four steps to the best turn and shift", _theta),
     "03-minima": ("A grid of distances, its minima, those below a threshold", _grid),
     "04-laid-on": ("One clip laid on the end of another: turn, then shift", _laid),
     "05-alpha": ("The share α of the first clip over a window", lambda: map(diagrams.blended_seam, FOUR)),
@@ -151,13 +150,7 @@ def _saved(page: Image.Image, path: Path) -> Path:
 def pictures_of(name: str) -> list[bytes]:
     """Draw the steps of a drawing, each as a PNG before the next: some move what they drew."""
     heading, steps = BOARD[name]
-    made = []
-    for drawn in steps():
-        texts: list[Any] = figure_of(drawn).findobj(lambda artist: hasattr(artist, "set_text"))
-        for text in [] if name == WHOLE else texts:  # the disc has the number with which a title begins
-            text.set_text(re.sub(r"^\d+\. ", "", text.get_text()))
-        made.append(plotting.show(drawn, alt=heading).picture)
-    return made
+    return [plotting.show(drawn, alt=heading).picture for drawn in steps()]
 
 
 def board_sheet(name: str) -> Image.Image:

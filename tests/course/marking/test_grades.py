@@ -8,7 +8,7 @@ from html import unescape
 import pytest
 
 from mocap.cli.main import main
-from mocap.course.marking import Mark, grade, read_points, read_roster, tables, write_feedback
+from mocap.course.marking.grades import Mark, grade, read_points, read_roster, tables, write_feedback
 from tests.course.marking.students import HONEST, SPEED, START, hand_in
 from tests.refusals import refused
 

@@ -22,19 +22,6 @@ def test_a_drawing_has_its_steps_with_numbers(name):
     assert (page[:, -board.GAP // 2 :] == 255).all()  # no heading is cut
 
 
-def test_a_step_has_one_number(monkeypatch):
-    kept = []
-    board.pictures_of.cache_clear()
-    show = board.plotting.show
-    monkeypatch.setattr(
-        board.plotting, "show", lambda figure, alt: kept.append(figure) or show(figure, alt=alt)
-    )
-    board.board_sheet("11-pinned")
-    assert not any(ax.get_title(loc="left").startswith("1. ") for ax in kept[0].axes)
-    board.board_sheet("04-laid-on")
-    assert any(ax.get_title().startswith("1. ") for ax in kept[-1].axes)  # which shows its steps itself
-
-
 def test_the_command_writes_them_and_a_sheet_of_all(tmp_path, monkeypatch, capsys):
     few = {name: board.BOARD[name] for name in ("04-laid-on", "11-pinned")}
     monkeypatch.setattr(board, "BOARD", few)
