@@ -8,9 +8,14 @@ from mocap.errors import MocapError
 
 
 def refused(
-    sentence: str, call: Callable, *given: object, kind: type[BaseException] = MocapError, **options: object
+    sentence: str,
+    call: Callable,
+    *given: object,
+    kind: type[BaseException] = MocapError,
+    most: float = 200,
+    **options: object,
 ) -> None:
-    """Check that a call is refused with this sentence, and in 200 characters at most."""
+    """Check that a call is refused with this sentence, and in so many characters at most."""
     with pytest.raises(kind, match=sentence) as told:
         call(*given, **options)
-    assert len(str(told.value)) <= 200
+    assert len(str(told.value)) <= most
