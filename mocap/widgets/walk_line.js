@@ -1,6 +1,9 @@
 // Lines on the ground: what a hand drew becomes smooth points 1 cm apart, {z, x}; and a line as a short word.
 
+import { nearest } from "./walk_search.js";
+
 const LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
+const TIGHT = 0.8; // metres: nobody walks on a smaller circle
 const STRIDE = 0.25, TURN = (Math.PI * 0.72) / 32; // a letter goes 25 cm, and turns by up to 31 times 4°
 
 export function even(points, gap) { // points [z, x] at equal distances
@@ -40,11 +43,29 @@ function sharpest(line) { // turn per metre, over 30 cm
   return most;
 }
 
-// Nobody walks on a circle of less than 80 cm: smooth a line until it asks for none.
+// Smooth a line until it asks for no circle that is too tight.
 export function walkable(points) {
   let line = smooth(points, 0.12);
-  for (let reach = 0.17; sharpest(line) > 1 / 0.8 && reach < 0.9; reach *= 1.35) line = smooth(points, reach);
+  for (let reach = 0.17; sharpest(line) > 1 / TIGHT && reach < 0.9; reach *= 1.35) line = smooth(points, reach);
   return line;
+}
+
+// A way from a place onto a line: half a metre on, which clips take to begin a turn, then by turns that can be walked
+// towards a place 70 cm further along the line.
+export function ledOnto(line, [z, x], heading) {
+  const way = [], at = arrays(line);
+  let k = 0, off = Infinity;
+  for (let far = 0; far < 12 && k + 30 < line.length && off > 0.02; far += 0.05) {
+    way.push([z, x]);
+    if (far > 0.5) {
+      k = nearest(at, [z, x], k, k + 30);
+      off = Math.hypot(line[k][0] - z, line[k][1] - x);
+      const [toZ, toX] = line[Math.min(k + 70, line.length - 1)], wanted = Math.atan2(toX - x, toZ - z) - heading;
+      heading += Math.max(-0.05 / TIGHT, Math.min(Math.atan2(Math.sin(wanted), Math.cos(wanted)), 0.05 / TIGHT));
+    }
+    [z, x] = [z + 0.05 * Math.cos(heading), x + 0.05 * Math.sin(heading)];
+  }
+  return smooth([...way, ...line.slice(k + 5)], 0.12);
 }
 
 export const arrays = (line) => ({ z: Float64Array.from(line, (p) => p[0]), x: Float64Array.from(line, (p) => p[1]) });

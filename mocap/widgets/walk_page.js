@@ -2,7 +2,7 @@
 
 import { prepare, unpack, Walk, nearest } from "./walk_search.js";
 import { bodyAt, edgeAt, footprints } from "./walk_body.js";
-import { arrays, even, firstLine, read, smooth, written } from "./walk_line.js";
+import { arrays, firstLine, ledOnto, read, written } from "./walk_line.js";
 import { Camera } from "./walk_camera.js";
 import { Hands } from "./walk_hands.js";
 import { LOOKS, rgb } from "./bodies.js";
@@ -39,17 +39,18 @@ class Page extends Hands {
 
   // ---- a line, and the walk along it ----
 
-  // Walk along points; from where the figure is, where the line begins near it, and leads on.
+  // Walk along points; where they begin near the figure, it goes on from where it is, and turns round where they lead back.
   set(points, told = true) {
     if (points.length < 80) { this.say("Draw a longer line: a metre or more."); return; }
-    const old = this.walk, near = old?.frames && Math.hypot(points[0][0] - this.place()[0], points[0][1] - this.place()[1]) < 1.2 && this.faces(points);
-    if (near) points = smooth([this.place(8), ...even(points, 0.1).slice(4)], 0.14);
+    const near = this.walk?.frames && Math.hypot(points[0][0] - this.place()[0], points[0][1] - this.place()[1]) < 1.2;
+    if (near) {
+      const [[z, x], here] = [-8, 0].map((back) => this.placeAt(this.walk.turnFrom(this.time + 6) + back));
+      points = ledOnto(points, here, Math.atan2(here[1] - x, here[0] - z));
+    } else Object.assign(this, { walk: new Walk(this.graph), time: 0 });
     this.points = points;
     this.line = arrays(points);
-    this.walk = near ? old : new Walk(this.graph, this.bits);
     this.walk.labels = this.bits;
-    this.walk.turnTo(this.line, this.time + 4);
-    if (!near) this.time = 0;
+    this.walk.follow(this.line);
     Object.assign(this, { growing: null, ghost: null, prints: near ? this.prints.filter((print) => print.frame < this.walk.frames) : [], shown: null });
     this.begun = performance.now();
     $("moments").hidden = true;
@@ -57,11 +58,6 @@ class Page extends Hands {
       history.replaceState(null, "", `#${this.about.labels[this.kind] ?? "any"}.${written(points)}`);
       document.body.classList.add("walking");
     }
-  }
-
-  faces(points) { // whether the figure is on its way to where the line leads, within 60 degrees
-    const [z, x] = this.place(-8), [az, ax] = this.place(), [bz, bx] = points[0], [cz, cx] = points[60], way = [az - z, ax - x], line = [cz - bz, cx - bx];
-    return way[0] * line[0] + way[1] * line[1] > 0.5 * Math.hypot(...way) * Math.hypot(...line);
   }
 
   fromAddress() {
@@ -138,7 +134,7 @@ class Page extends Hands {
   picture(now) {
     const since = now - this.before, seconds = clamp(since / 1000, 0, 0.1), { walk } = this;
     this.before = now;
-    this.grow(walk.frames ? 10 : clamp(since, 40, 250)); // half of the time until it sets out, however slow pictures are
+    this.grow(walk.frames - this.time < 15 ? clamp(since, 40, 250) : 10); // half of the time where the figure would wait, however slow pictures are
     if (this.playing && walk.frames && !this.stroke && !this.shown) {
       const last = walk.frames - 1 + (walk.done ? (this.figures - 1) * LAG : 0);
       this.time = Math.min(this.time + seconds * this.about.fps, last);

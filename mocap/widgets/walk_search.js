@@ -198,16 +198,18 @@ export class Walk {
     this.state = { node: edge.end, lay: edge.seam ? after(this.state.lay, edge.lay) : this.state.lay };
   }
 
-  // Follow another line from the next node after a frame on; what was to come after that node is forgotten.
-  turnTo(line, frame) {
+  // Forget what was to come after the next node after a frame; give the frame of this node.
+  turnFrom(frame) {
     const left = this.begins.findIndex((begin) => begin > frame);
     if (left > 0) {
       this.state = { node: this.edges[left].start, lay: this.lays[left] };
       this.frames = this.begins[left];
       for (const list of [this.edges, this.lays, this.begins]) list.length = left;
     }
-    Object.assign(this, { line, at: 0, since: this.frames, done: false });
+    return this.frames - 1;
   }
+
+  follow(line) { Object.assign(this, { line, at: 0, since: this.frames, done: false }); }
 
   here() { // where the root is at the walk's end
     const [c, s, z, x] = this.state.lay, { ahead } = this.state.node;

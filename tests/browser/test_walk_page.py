@@ -147,6 +147,35 @@ def test_a_hand_draws_and_it_walks(page, file, tmp_path):
     assert len(page.evaluate("[...page.line.z]")) == pytest.approx(len(line), rel=0.1)
 
 
+BACK = """([on, round]) => {
+  const far = ([z, x], [a, b]) => Math.hypot(a - z, b - x);
+  const count = (length, of) => Array.from({ length }, (_, i) => of(i));
+  const way = ([z, x], a) => count(500, (i) => [z + 0.01 * i * Math.cos(a), x + 0.01 * i * Math.sin(a)]);
+  const walk = (line) => { page.set(line); page.finish(); };
+  page.play(false);
+  page.walk = null;
+  walk(way([0, 0], 0.3));
+  page.time = on;
+  const before = page.place(), back = way(before, 0.3 + round);
+  walk(back);
+  const places = count(page.walk.frames - on, (i) => page.placeAt(on + i));
+  const steps = places.slice(1).map((place, i) => far(place, places[i]));
+  const offs = places.slice(-15).map((place) => Math.min(...back.map((point) => far(place, point))));
+  return [far(places[0], before), Math.max(...steps), Math.max(...offs)];
+}"""
+
+
+@pytest.mark.parametrize("round_", [1.5, 3.1])
+def test_a_line_that_leads_back_is_walked_from_where_the_figure_is(page, file, round_):
+    page.goto(f"file://{file}")
+    page.wait_for_function("window.page?.walk.frames")
+    for on in (40, 55, 70):
+        jump, step, off = page.evaluate(BACK, [on, round_])  # metres
+        assert jump == 0
+        assert step < 0.1  # in a frame
+        assert off < 0.2  # the walk's last half second, from the reader's line
+
+
 def test_it_is_saved_as_motion_and_as_pictures(page, file, tmp_path):
     page.goto(f"file://{file}")
     page.wait_for_function("window.page?.walk.frames")
