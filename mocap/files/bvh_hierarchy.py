@@ -69,19 +69,11 @@ def read_hierarchy(path: str | Path, text: str) -> list[Joint]:
             joints[inside[-1]].channels = _channels(path, line, rest.lower().split())
         elif keyword == "}":
             _close(path, line, joints, inside.pop())
-        allowed = ("{",) if keyword in OPENING else _allowed(joints, inside)
+        within = (WITHIN if joints[inside[-1]].name else WITHIN_END) if inside else ()
+        allowed = ("{",) if keyword in OPENING else within if joints else OUTSIDE
     if inside or allowed:
         raise FormatError(path, line, " or ".join(allowed), "the end of the hierarchy")
     return _named(path, joints)
-
-
-def _allowed(joints: list[Joint], inside: list[int]) -> tuple[str, ...]:
-    """List the keywords that may follow a brace, an offset or channels."""
-    if not joints:
-        return OUTSIDE
-    if not inside:
-        return ()
-    return WITHIN if joints[inside[-1]].name else WITHIN_END
 
 
 def _channels(path: str | Path, line: int, words: list[str]) -> list[str]:
@@ -147,8 +139,10 @@ def write_hierarchy(
             depth -= 1
             rows.append(f"{tabs[1:]}}}")
             continue
-        keyword = "JOINT" if joint else "ROOT"
-        title = "End Site" if joint in ends else f"{keyword} {_name(skeleton.names[joint])}"
+        name = skeleton.names[joint]
+        if not name.isprintable() or name != name.strip() or not name or set(name) & set("{}"):
+            raise MocapError(f"A BVH file cannot hold a joint called {shortened(repr(name))}.")
+        title = "End Site" if joint in ends else f"{'JOINT' if joint else 'ROOT'} {name}"
         offset = " ".join(f"{number:.{precision}f}" for number in (offsets[joint] if joint else np.zeros(3)))
         rows += [f"{tabs}{title}", f"{tabs}{{", f"{tabs}\tOFFSET {offset}"]
         depth += 1
@@ -159,9 +153,3 @@ def write_hierarchy(
             waiting += reversed(skeleton.children(joint))
             order.append(joint)
     return "\n".join([*rows, ""]), order
-
-
-def _name(name: str) -> str:
-    if not name.isprintable() or name != name.strip() or not name or set(name) & set("{}"):
-        raise MocapError(f"A BVH file cannot hold a joint called {shortened(repr(name))}.")
-    return name
