@@ -231,4 +231,4 @@ def test_at_4_cm_the_graph_leads_into_every_style_and_out_again():
     ],
 )
 def test_bad_wishes_are_told(call, message):
-    refused(message, call, most=500)  # all bundled clips are named
+    refused(message, call, most=2000)  # all bundled clips are named
