@@ -44,7 +44,7 @@ class OwnGraph:
     Attributes
     ----------
     pages : the copy of `mocap.plain` in which these functions have their places.
-    graph : its nodes and edges, as in `mocap.plain`.
+    found, graph : all transitions, and the nodes and edges that are kept, as in `mocap.plain`.
 
     Raises
     ------
@@ -61,8 +61,8 @@ class OwnGraph:
             raise MocapError(
                 f"A graph takes one clip or more, and a window up to the shortest, got {window}."
             )
-        found = self.pages.find_transitions(self.clips)
-        self.graph: nx.MultiDiGraph = self.pages.prune(self.pages.cut_and_join(self.clips, found))
+        self.found = self.pages.find_transitions(self.clips)
+        self.graph: nx.MultiDiGraph = self.pages.prune(self.pages.cut_and_join(self.clips, self.found))
         if len(self.graph) < 2:
             raise MocapError(f"No walk goes on for ever with transitions below {threshold} m: allow more.")
 

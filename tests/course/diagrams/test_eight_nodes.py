@@ -1,5 +1,6 @@
 """The diagrams of two searches show what these do, and they find components and the shortest walk."""
 
+from functools import cache, partial
 from itertools import pairwise
 
 import networkx as nx
@@ -31,8 +32,11 @@ STATES = tarjan_states({node: sorted(EIGHT.successors(node)) for node in sorted(
 LENGTHS = edge_lengths(EIGHT)
 
 
+TARJAN, SEARCH = cache(partial(tarjan_steps, EIGHT)), cache(partial(search_steps, EIGHT, 6, 2))
+
+
 def at(step):
-    return tarjan_steps(EIGHT)(step)[0].figure
+    return TARJAN()(step)[0].figure
 
 
 def faces(figure):
@@ -70,15 +74,16 @@ def test_the_picture_shows_numbers_stack_and_complete_components():
     assert list(EIGHT)[thick] == 8
 
 
-@pytest.mark.parametrize("step", range(22))
-def test_the_line_that_has_just_run_is_marked(step):
+def test_the_line_that_has_just_run_is_marked():
     """The line is that of the case: a new successor, one on the stack, one that has left it, or none."""
-    state, (_, _, code) = STATES[step], at(step).axes
-    (mark,) = code.patches
-    assert mark.get_y() + mark.get_height() / 2 == state.line
     words = {1: "enter", 4: "back in", 6: "closes", 8: "has left", 10: "is the first"}
-    assert words[state.line] in state.message
-    assert [text.get_text() for text in code.texts] == PROGRAM
+    assert len(STATES) == 22
+    for step, state in enumerate(STATES):
+        _, _, code = at(step).axes
+        (mark,) = code.patches
+        assert mark.get_y() + mark.get_height() / 2 == state.line
+        assert words[state.line] in state.message
+        assert [text.get_text() for text in code.texts] == PROGRAM
 
 
 def test_edges_are_thick_words_stand_beside_nodes_and_parts_have_colours():
@@ -130,8 +135,7 @@ def test_it_finds_what_an_exhaustive_search_finds(seed):
 def test_the_tree_shows_each_walk_met_so_far(step):
     events = search_events(LENGTHS, 6, 2, longest=8)
     shown = events[:step]
-    figure = search_steps(EIGHT, 6, 2)(step)[0].figure
-    left, right = figure.axes
+    left, right = SEARCH()(step)[0].figure.axes
     met = {walk for event in shown for _, walk in event.added} | {event.walk for event in shown}
     assert sorted(text.get_text() for text in right.texts if text.get_visible()) == sorted(
         str(walk[-1]) for walk in met
@@ -144,7 +148,7 @@ def test_the_tree_shows_each_walk_met_so_far(step):
 
 
 def test_the_best_walk_is_marked_in_the_graph_and_the_lengths_stand_beside_the_edges():
-    left, _ = search_steps(EIGHT, 6, 2)(99)[0].figure.axes
+    left, _ = SEARCH()(99)[0].figure.axes
     thick = [patch for patch in left.patches if patch.get_linewidth() == 3]
     assert len(thick) == 5
     lengths = [length for row in LENGTHS.values() for length in row.values()]

@@ -48,9 +48,9 @@ def graph(clips, by):
 
 
 @pytest.fixture(scope="module")
-def theirs(clips, by):
+def theirs(clips, graph):
     """The package's graph with the transitions of one's own: those on the borders of grids are missing."""
-    found = {match[:4] for match in pages_of(by, WINDOW, BELOW).find_transitions(clips)}
+    found = {match[:4] for match in graph.found}
     every = matching.find_transitions(clips, window=WINDOW, below=BELOW)
     assert len(found) < len(every)
     for t in every:
