@@ -12,20 +12,19 @@ Reading order (notebooks 10 to 14)
  4. `bodies`: which joints may turn, about which axes, at what price
  5. `steps`: how a change may run over time, and one step of the solver
  6. `solver`: the smallest smooth change, for each frame by itself or for all at once
- 7. `edits`: one face for edits: a calm change, to the last digit; and one pose, made by dragging joints
- 8. `levels`: from coarse to fine, by inverse kinematics and splines in turn
- 9. `path_editing`: the path taken off a motion, changed, and the motion put back on it
-10. `turning`: slower in bends, and leaning in, as people take them
-11. `line_rounding`: a line rounded where a walk would turn too fast on it
-12. `bending`: a walk laid on any line, with feet that stand
-13. `keys`: keys, the curve through them, and warps by offsets and by scale
-14. `retiming`: time keys, and motions at moments between their frames
-15. `warp_plans`: a whole warp out of a small text file
-16. `body_roles`: which joint does what
-17. `stances`: how a body stands, as a value; find it, whatever the rest pose is; change its proportions
-18. `retargeting`: every joint looks where that of the other body looks; where the new feet may be
-19. `mirroring`: left and right swapped, by names and geometry
-20. `cycles`: the stretch of a clip that makes the best cycle, closed by a blend or by a warp
+ 7. `edits`: a calm change, to the last digit; one pose, made by dragging joints; levels, from coarse to fine
+ 8. `path_editing`: the path taken off a motion, changed, and the motion put back on it
+ 9. `turning`: slower in bends, and leaning in, as people take them
+10. `line_rounding`: a line rounded where a walk would turn too fast on it
+11. `bending`: a walk laid on any line, with feet that stand
+12. `keys`: keys, the curve through them, and warps by offsets and by scale
+13. `retiming`: time keys, and motions at moments between their frames
+14. `warp_plans`: a whole warp out of a small text file
+15. `body_roles`: which joint does what
+16. `stances`: how a body stands, as a value; find it, whatever the rest pose is; change its proportions
+17. `retargeting`: every joint looks where that of the other body looks; where the new feet may be
+18. `mirroring`: left and right swapped, by names and geometry
+19. `cycles`: the stretch of a clip that makes the best cycle, closed by a blend or by a warp
 
 References
 ----------
@@ -49,8 +48,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "bodies": ["body_of"],
         "steps": ["Basis"],
         "solver": ["REACH", "solve"],
-        "edits": ["edit", "posed"],
-        "levels": ["hierarchy", "scattered_fit"],
+        "edits": ["edit", "hierarchy", "posed", "scattered_fit"],
         "bending": ["LIMIT", "bend"],
         "path_editing": ["moving_frames", "on_path", "plants_kept", "ride_of", "start_at"],
         "body_roles": ["roles"],

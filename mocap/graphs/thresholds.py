@@ -66,22 +66,16 @@ class ThresholdCurve(NamedTuple):
     cost: Array
     gap: Array
 
-    def suggest(self, keep: float = 0.9) -> float:
-        """Give the lowest threshold at which the largest component plays enough of the clips.
-
-        Parameters
-        ----------
-        keep : the part to play, of the frames that it plays at the best threshold.
+    def suggest(self) -> float:
+        """Give the lowest threshold at which the largest component plays 90 % of the most that it plays.
 
         Raises
         ------
         NoWalk : where the graph has no cycle at any threshold.
         """
-        if not 0 < keep <= 1:
-            raise MocapError(f"keep must be a share above 0 and at most 1, got {keep}.")
         if self.frames.max(initial=0) == 0:
             raise NoWalk("At none of these thresholds has the graph a cycle: allow costlier transitions.")
-        return float(self.threshold[self.frames >= keep * self.frames.max()].min())
+        return float(self.threshold[self.frames >= 0.9 * self.frames.max()].min())
 
 
 def threshold_curve(

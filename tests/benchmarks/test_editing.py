@@ -9,8 +9,7 @@ import pytest
 from mocap.body.ground_path import s_curve
 from mocap.body.kinematics import forward_kinematics
 from mocap.datasets.samples import sample
-from mocap.editing.edits import edit
-from mocap.editing.levels import hierarchy
+from mocap.editing.edits import edit, hierarchy
 from mocap.editing.path_editing import on_path, ride_of
 from mocap.editing.pins import Pins, plant_pins
 from mocap.editing.solver import solve
