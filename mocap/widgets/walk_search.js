@@ -102,8 +102,8 @@ export function prepare(graph) {
 
 export class Search {
   // `line`: points {z, x} of the ground, 1 cm apart; `labels`: the kinds of motion that may be played, as bits.
-  constructor(graph, line, labels = -1) {
-    Object.assign(this, { graph, line, labels, end: (line.z.length - 1) / 100, ...graph.about.search });
+  constructor(graph, line, labels = -1, dead = new Set()) {
+    Object.assign(this, { graph, line, labels, dead, end: (line.z.length - 1) / 100, ...graph.about.search });
   }
 
   price(walk, track) { // what a track costs [KGP02, Eq. 9], and how far it comes: root and line, at equal lengths
@@ -163,7 +163,7 @@ export class Search {
       waiting.delete(layer);
       for (const walk of kept) {
         for (const edge of walk.node.out) {
-          if (!(edge.labels & this.labels) || !edge.end.ahead.z.length) continue; // another kind, or a dead end
+          if (!(edge.labels & this.labels) || !edge.end.ahead.z.length || this.dead.has(edge.end)) continue; // another kind, or a dead end
           const longer = this.lengthen(walk, edge);
           if (best && longer.cost >= best.cost) continue;
           if (longer.along >= this.end) { best = longer; continue; }
@@ -174,6 +174,16 @@ export class Search {
       yield [kept, best];
     }
   }
+}
+
+// Nodes from which no walk of these kinds goes on for ever.
+function deadEnds({ nodes }, labels) {
+  const dead = new Set();
+  for (let before = -1; before < dead.size;) {
+    before = dead.size;
+    for (const node of nodes) if (!node.out.some((edge) => edge.labels & labels && !dead.has(edge.end))) dead.add(node);
+  }
+  return dead;
 }
 
 // The edges of a walk, from its start on, and how its first clip is laid.
@@ -219,10 +229,15 @@ export class Walk {
   // Search the next piece; yields the best unfinished walk after each layer, and at last adds what was found.
   * grow() {
     const { line, at } = this, ends = at + 100 * (this.far + 2) >= line.z.length, stop = ends ? line.z.length : at + 100 * this.far + 1;
-    const search = new Search(this.graph, { z: line.z.slice(at, stop), x: line.x.slice(at, stop) }, this.labels);
-    const starts = this.state ? [search.lookAhead({ cost: 0, along: 0, ...this.state })] : undefined;
     let best = null;
-    for (const [kept, found] of search.layers(starts)) { best = found; yield kept[0]; }
+    // So that the next line can be walked on from the end; else any walk of this kind; else, from here on, of any kind.
+    const kinds = [[this.labels, deadEnds(this.graph, this.labels)], [this.labels], ...(this.state ? [[-1]] : [])];
+    for (const [labels, dead] of kinds) {
+      const search = new Search(this.graph, { z: line.z.slice(at, stop), x: line.x.slice(at, stop) }, labels, dead);
+      const starts = this.state ? [search.lookAhead({ cost: 0, along: 0, ...this.state })] : undefined;
+      for (const [kept, found] of search.layers(starts)) { best = found; yield kept[0]; }
+      if (best) break;
+    }
     if (!best) { this.done = true; return; }
     const { edges, lay } = edgesOf(best);
     this.state ??= { node: edges[0].start, lay };
