@@ -15,7 +15,7 @@ from mocap._shared.archives import open_archive
 from mocap.body.fingerprints import fingerprint
 from mocap.body.motion import Motion, resample
 from mocap.body.skeleton import Skeleton
-from mocap.errors import MocapError
+from mocap.errors import MocapError, shortened
 
 FPS, UNIT, ORDER = 120.0, 2.0**-31, 6
 FEET = ["lfoot", "rfoot", "ltoes", "rtoes"]
@@ -53,7 +53,8 @@ def sample(name: str = "walk_circle") -> Motion:
     Notebook: 01-skeletons-and-clips
     """
     if name not in _KEYS:
-        raise MocapError(f"No bundled clip '{name}'; there are: {', '.join(_KEYS)}.")
+        some, more = ", ".join(_KEYS[:10]), len(_KEYS) - 10
+        raise MocapError(f"No bundled clip '{shortened(name, 40)}'; there are {some} and {more} walks.")
     keys = ("digits", "moving", "flipped", "labels", "kind", "contacts")
     with open_archive(STORE, OURS) as store:
         digits, moving, flipped, labels, kind, contacts = (store[f"{name}/{key}"].read() for key in keys)
