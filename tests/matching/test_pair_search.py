@@ -11,13 +11,15 @@ from hypothesis import strategies as st
 from mocap import load, resample
 from mocap._shared import tasks
 from mocap.graphs.motion_graph import build
-from mocap.matching import distance_grids, pair_search, transitions
+from mocap.matching import distance_grids, pair_search, principal_directions, transitions
 from mocap.matching.distance_grids import Cloud, cloud, cloud_distances, distance_grid
+from mocap.matching.lower_bound import MOST, projections, reach, whole_windows, window_numbers
 from mocap.matching.minima import local_minima
 from mocap.matching.pair_search import find_minima, is_quicker
+from mocap.matching.point_clouds import unit_weights
 from mocap.matching.transitions import find_transitions
 from tests.conftest import SWEEP
-from tests.strategies import seeds, wave
+from tests.strategies import planar, seeds, wave
 
 CLIPS = [wave(70, name="a"), wave(50, phase=1.0, name="b", seed=1)]
 each_way = pytest.mark.parametrize("by_bound", [False, True])
@@ -212,3 +214,73 @@ def test_every_transition_of_some_real_clips_is_found(real_data):
 @pytest.mark.exhaustive
 def test_every_transition_of_all_real_clips_is_found(real_data):
     assert_all_found(real_clips(real_data, "*/*.amc"))
+
+
+precisions = pytest.mark.parametrize("dtype", [np.float32, np.float64])
+
+
+def prepared(points, window, dtype, random=None):
+    """Prepare points, with equal weights or random ones of which some are 0."""
+    count = points.shape[1]
+    drawn = None if random is None else random.integers(0, 4, count) + (np.arange(count) == 0)
+    weights = unit_weights(drawn, count)
+    return cloud(points, points[..., 1].mean(0), weights, window, dtype), weights
+
+
+def apart(rows):
+    return np.linalg.norm(rows[:, None].astype(float) - rows, axis=-1)
+
+
+def measured(ready):
+    count = len(whole_windows(ready))
+    return cloud_distances(*[ready.part(slice(0, count))] * 2).astype(float)
+
+
+@precisions
+@given(seeds, st.integers(1, 6), st.integers(1, 5), st.sampled_from([0.01, 1.0, 100.0]), st.booleans())
+def test_the_bound_is_below_the_distance_of_random_clouds(dtype, seed, window, points, size, weighted):
+    random = np.random.default_rng(seed)
+    clip = random.normal(size=(14 + window, points, 3)) * size
+    ready, weights = prepared(clip, window, dtype, random if weighted else None)
+    starts = whole_windows(ready)
+    numbers = window_numbers(ready, starts, weights)
+    grid = measured(ready)
+    for count in (1, 3, MOST):
+        found = projections(ready, starts, weights, principal_directions(numbers, count))
+        least = apart(found)
+        assert np.all(least <= np.vectorize(lambda cost: reach(ready, cost))(np.sqrt(grid)))
+        assert np.all(least <= apart(numbers) + 1e-4 * size)
+
+
+@given(seeds, planar)
+def test_no_planar_transform_changes_the_numbers(seed, transform):
+    clip = np.random.default_rng(seed).normal(size=(9, 4, 3))
+    ready, weights = prepared(clip, 3, np.float64)
+    moved, _ = prepared(transform.apply_points(clip), 3, np.float64)
+    starts = whole_windows(ready)
+    numbers, others = (window_numbers(each, starts, weights) for each in (ready, moved))
+    assert numbers == pytest.approx(others, abs=1e-9)
+
+
+@precisions
+def test_the_margin_is_small_beside_a_threshold_and_grows_with_the_bodies(dtype):
+    body = np.random.default_rng(0).normal(size=(40, 31, 3)) * [0.3, 0.5, 0.3]
+    ready, _ = prepared(body, 10, dtype)
+    large, _ = prepared(10 * body, 10, dtype)
+    margins = [reach(each, 0.04) - 0.04 for each in (ready, large)]
+    assert 0 < margins[0] < (3e-4 if dtype == np.float32 else 1e-11)
+    assert margins[1] > 5 * margins[0]
+
+
+def test_a_margin_of_nothing_would_lose_pairs_in_32_bits():
+    """The measured distance of two windows can be less than the bound: this is what `reach` is for."""
+    random = np.random.default_rng(5)
+    clip = random.normal(size=(30, 8, 3)) * [0, 1, 0] + [0, 5, 0]  # only heights differ, so bound = distance
+    twice = np.concatenate([clip, clip + 1e-3 * random.normal(size=clip.shape)])
+    ready, weights = prepared(twice, 1, np.float32)
+    starts = whole_windows(ready)
+    numbers = window_numbers(ready, starts, weights)
+    least = apart(projections(ready, starts, weights, principal_directions(numbers)))
+    cost = np.sqrt(measured(ready))
+    assert np.any(least > cost)
+    assert np.all(least <= np.vectorize(lambda each: reach(ready, each))(cost))

@@ -28,12 +28,6 @@ def test_velocities_are_those_of_the_places():
     np.testing.assert_allclose(np.diff(places, axis=0) * RATE, velocities[1:], atol=1e-9)
 
 
-def test_a_seed_gives_the_same_flock_again_and_another_gives_another():
-    one, again, other = (simulate(5, 5, seed=seed).places for seed in (3, 3, 4))
-    np.testing.assert_array_equal(one, again)
-    assert np.abs(one - other).max() > 0.1
-
-
 def test_each_rule_pulls_where_it_should():
     """As in [LCF05, simulation]."""
     quiet = dict.fromkeys(("separate", "gather", "align", "steer", "keep"), 0.0)

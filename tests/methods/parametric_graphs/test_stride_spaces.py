@@ -4,11 +4,26 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from walking import generate_walk
 
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import resample
+from mocap.errors import MocapError
+from mocap.matching.distance_grids import distance_grid
 from mocap.methods.match_webs import weights_for
 from mocap.methods.parametric_graphs import cut_strides, make_space, measure_mixes
-from mocap.methods.parametric_graphs.made_motions import near_end
-from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, place_evenly
+from mocap.methods.parametric_graphs.made_motions import (
+    HALF,
+    SPAN,
+    WINDOW,
+    make_motion,
+    near_end,
+    optimal_transitions,
+)
+from mocap.methods.parametric_graphs.stride_spaces import (
+    draw_parameters,
+    place_evenly,
+)
 from tests.methods.parametric_graphs.built import BOTH, by_turn_and_speed, clips, missed, space, strides
 from tests.refusals import refused
 
@@ -100,3 +115,78 @@ def test_what_makes_no_sense_is_refused(settings, sentence):
         settings.get("strides"), strides
     )()
     refused(sentence, make_space, **asked)
+
+
+def test_it_turns_as_asked_and_its_bones_are_whole():
+    for asked in (-0.9, 0.0, 0.6):
+        made = make_motion(space(), np.array([asked]))
+        turn = made.heading[made.frame(1.0)] - made.heading[made.frame(0.0)]
+        assert abs(turn - asked) < np.radians(3)  # frames beside phases
+        motion = made.motion
+        points = joint_positions(motion)
+        bones = np.linalg.norm(points[:, 1:] - points[:, motion.skeleton.parents[1:]], axis=-1)
+        lengths = np.linalg.norm(motion.skeleton.offsets[1:], axis=-1)
+        np.testing.assert_allclose(bones, np.tile(lengths, (len(points), 1)), atol=1e-9)
+
+
+def test_feet_hardly_slide_while_they_are_planted():
+    made = make_motion(space(), np.array([0.3]))
+    points, skeleton = joint_positions(made.motion), made.motion.skeleton
+    for name, mark in made.motion.contacts.items():
+        planted = points[mark, skeleton.index(name)][:, [0, 2]]
+        assert mark.any()
+        steps = np.linalg.norm(np.diff(planted, axis=0), axis=-1)
+        assert np.median(steps) * 30 < 0.15  # m/s
+
+
+def test_it_is_the_mix_that_its_weights_say_and_knows_what_it_came_to():
+    tested, asked = space(), np.array([0.4])
+    made, weights = make_motion(tested, asked), weights_for(tested, asked)
+    assert made.values == pytest.approx(asked, abs=1e-6)
+    assert measure_mixes(tested.examples, weights[None])[0, 0] == pytest.approx(0.4, abs=2e-3)
+    frame, blend = made.frame(0.0), tested.examples.blend(weights)
+    assert np.abs(made.motion.rotations[frame] - blend.rotations[0]).max() < 0.02
+    assert blend.duration == pytest.approx((made.frame(1.0) - frame) / 30, abs=0.04)
+
+
+@pytest.mark.parametrize(("source", "target"), [("lrl", "lrl"), ("lr", "rl")])
+def test_costs_are_those_of_a_distance_grid(source, target):
+    """As in [HG07, 3.1]."""
+    first, second = space(source), space(target)
+    at, to = np.array([[-0.2], [0.0], [0.3]]), np.array([[0.1], [-0.4]])
+    found = optimal_transitions(first, second, at, to)
+    for row, asked in enumerate(at):
+        one = make_motion(first, asked)
+        centre = int(np.round(np.interp(1.0, one.phases, np.arange(len(one.phases)))))
+        for column, other in enumerate(to):
+            two = make_motion(second, other)
+            into = int(np.round(np.interp(0.0, two.phases, np.arange(len(two.phases)))))
+            some = [m.motion[c - HALF - SPAN : c + HALF + SPAN + 1] for m, c in ((one, centre), (two, into))]
+            grid = np.sqrt(np.maximum(distance_grid(*some, window=WINDOW), 0))
+            assert found.cost[row, column] == pytest.approx(grid.min(), abs=2e-4)
+
+
+def test_it_leaves_near_the_last_strike_and_enters_near_the_first():
+    tested = space()
+    found = optimal_transitions(tested, tested, np.zeros((3, 1)), np.linspace(-0.5, 0.5, 5)[:, None])
+    assert np.abs(found.leave - 1).max() < 0.2 and np.abs(found.enter).max() < 0.2
+
+
+def test_only_the_frames_near_a_strike_are_made():
+    tested = space()
+    points, phases = near_end(tested, np.array([[0.2]]), 0.0)
+    made = make_motion(tested, np.array([0.2]))
+    frames = 2 * (HALF + SPAN) + 1
+    assert points.shape[:2] == phases.shape == (1, frames)
+    middle = made.frame(phases[0, HALF + SPAN])
+    window = joint_positions(made.motion[middle - HALF : middle + HALF + 1])[:, tested.examples.joints]
+    np.testing.assert_allclose(points[0, SPAN:-SPAN], window, atol=2e-3)
+
+
+def test_windows_that_run_off_the_margins_of_quick_strides_are_refused():
+    """A quiet `np.interp` would hold the last frame; with half a stride beyond its strikes a jog has room."""
+    jogs = [resample(generate_walk([[0, 0], [s, 6], [5 * s, 12]], style="jog"), 30) for s in (-2, 0, 2)]
+    tight, wide = (make_space(cut_strides(jogs, margin=m), 0.2, -0.3, 0.3) for m in (0.3, 0.5))
+    with pytest.raises(MocapError, match=r"A window runs 0.\d+ s off a motion of 1.\d+ s, margins and all"):
+        near_end(tight, np.zeros((1, 1)), 1.0)
+    assert np.ptp(near_end(wide, np.zeros((1, 1)), 1.0)[1]) > 0.6
