@@ -139,8 +139,9 @@ def film_strip(motions: Sequence[Motion], *, count: int = 6) -> Figure:
     """
     first, clouds = motions[0], [joint_positions(motion) for motion in motions]
     frames = np.unique(np.linspace(0, len(first) - 1, count).round().astype(int))
-    figure = Figure(figsize=(1.5 * len(frames), 1.75), layout="constrained")
+    figure = Figure(figsize=(1.5 * len(frames), 1.75))
     panels = figure.subplots(1, len(frames), sharex=True, sharey=True, squeeze=False)[0]
+    figure.subplots_adjust(0.0, 0.0, 1.0, 0.86, 0.0)
     for ax, frame in zip(panels, frames, strict=True):
         for number, (motion, points) in enumerate(zip(motions, clouds, strict=True)):
             pose = points[min(len(points) - 1, round(frame / first.fps * motion.fps))]
