@@ -25,7 +25,7 @@ from mocap.plotting import graph_drawing, grids, stick_figures
 from mocap.widgets.experiments import explore
 from mocap.widgets.player import play
 from tests.benchmarks.timing import least
-from tests.browser.conftest import artefacts, browser, lab, page, run_notebook, wait_until  # noqa: F401
+from tests.browser.conftest import browser, lab, page, run_notebook, wait_until  # noqa: F401
 from tests.browser.test_page import twelve
 from tests.strategies import wave
 

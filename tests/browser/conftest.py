@@ -1,6 +1,6 @@
 """A browser, and JupyterLab in it, started once for all tests of this folder; no request leaves the machine.
 
-Screenshots are kept in the folder that MOCAP_ARTEFACTS names, else in pytest's own.
+Screenshots are made only where MOCAP_ARTEFACTS names a folder to keep them in: each takes half a second.
 """
 
 import contextlib
@@ -54,11 +54,10 @@ def wait_until(what, seconds=120.0):
     return answer
 
 
-@pytest.fixture(scope="session")
-def artefacts(tmp_path_factory):
-    folder = Path(os.environ.get("MOCAP_ARTEFACTS") or tmp_path_factory.mktemp("artefacts"))
-    folder.mkdir(parents=True, exist_ok=True)
-    return folder
+def keep(page, name):
+    """Keep a screenshot for whoever wants to look."""
+    if folder := os.environ.get("MOCAP_ARTEFACTS"):
+        page.screenshot(path=Path(folder) / f"{name}.png")
 
 
 @pytest.fixture(scope="package")  # not "session": other tests must not find Playwright's event loop running
@@ -100,11 +99,11 @@ def watched_page(browser, **screen):
 
 
 @pytest.fixture
-def page(browser, artefacts, request):
+def page(browser, request):
     """Yield a fresh page; afterwards it must have no faults."""
     with watched_page(browser) as (page, faults):
         yield page
-        page.screenshot(path=artefacts / f"{request.node.name}.png")
+        keep(page, request.node.name)
     assert faults == []
 
 

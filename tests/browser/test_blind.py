@@ -1,9 +1,7 @@
-"""The blind test as a viewer takes it: by keys, by touch, on a page without Python and in JupyterLab."""
+"""The blind test as a viewer takes it: by keys, by touch; test_lab.py takes it in JupyterLab."""
 
-import nbformat
 import numpy as np
 import pytest
-from nbformat.v4 import new_code_cell, new_notebook
 
 from mocap import datasets
 from mocap.course.lab.blind_tests import BlindTest, Plan, make_pairs
@@ -12,15 +10,6 @@ from mocap.matching import find_transitions
 from tests.browser.conftest import wait_until
 
 PLAN = Plan(window=2, below=0.06, pairs=4)
-CELL = """
-from mocap import datasets, matching
-from mocap.course.lab.blind_tests import BlindTest
-from mocap.course.lab.blind_tests import Plan, make_pairs
-clips = [datasets.sample("walk_circle")[:2400:4]]
-found = matching.find_transitions(clips, window=10, below=0.06)
-plan = Plan(window=2, below=0.06, pairs=4)
-BlindTest(make_pairs(clips, found, plan), plan)
-"""
 TEST = "document.querySelector('.mocap-blindtest').blindtest"
 
 
@@ -64,7 +53,7 @@ def test_a_perfect_eye_is_said_so_and_its_file_is_read(opened, tmp_path):
     assert point == (2.0, 1, 4, 4, d_prime(4, 4))
 
 
-def test_the_films_move_and_touch_answers(opened, artefacts):
+def test_the_films_move_and_touch_answers(opened):
     seen = []
 
     def wrong(number, side):
@@ -72,7 +61,6 @@ def test_the_films_move_and_touch_answers(opened, artefacts):
             for _ in range(2):
                 seen.append(opened.locator("canvas").first.screenshot())
                 opened.wait_for_timeout(200)
-            opened.screenshot(path=artefacts / "blind.png")
         other = {"left": "right", "right": "left"}[side]
         opened.get_by_role("button", name=f"the {other} one").click()
 
@@ -94,11 +82,3 @@ def test_the_browser_draws_the_films_that_python_made(opened, blind):
     root = opened.evaluate(f"{TEST}.films.map((film) => Array.from(film.pose(1).subarray(0, 3)))")
     films = [film for pair in blind.pairs for film in (pair.seam, pair.control)]
     assert np.allclose(root, [film.root_positions[30] for film in films], atol=0.002)
-
-
-def test_in_jupyterlab_keys_answer_and_do_not_move_the_cells(run, page):
-    kernel = {"name": "python3", "display_name": "Python 3"}
-    notebook = new_notebook(cells=[new_code_cell(CELL)], metadata={"kernelspec": kernel})
-    run(nbformat.writes(notebook), "blind.ipynb")
-    said = take(page, lambda _, side: page.keyboard.press(f"Arrow{side.title()}"))
-    assert said.startswith("You chose right in 4 of 4 pairs")

@@ -10,7 +10,7 @@ import pytest
 from tests.browser.conftest import wait_until
 
 FOLDER = Path(__file__).parents[2] / "notebooks"
-# The first has players, sliders, choices and a canvas to draw on; an image to click on is in test_lab.py.
+# The first has players, sliders, choices and a canvas to draw on.
 # The experiments of all notebooks are driven without a browser, by tests/course/driving.py.
 NOTEBOOKS = [
     pytest.param(path, id=path.stem, marks=[pytest.mark.exhaustive] * (path.stem != "00-quickstart"))

@@ -4,7 +4,7 @@ import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
-from tests.browser.conftest import run_notebook, wait_until, watched_page
+from tests.browser.conftest import keep, run_notebook, wait_until, watched_page
 from tests.course.test_site import build_small
 
 START = """
@@ -59,7 +59,7 @@ def on_the_site(page, lab, tmp_path):
 
 
 @pytest.fixture(scope="module", params=[in_jupyterlab, on_the_site])
-def opened(request, browser, tmp_path_factory, artefacts):
+def opened(request, browser, tmp_path_factory):
     """Yield the page, a function that opens it anew, and a question by its number."""
     folder = tmp_path_factory.mktemp("questions")
     with watched_page(browser) as (page, faults):
@@ -70,7 +70,7 @@ def opened(request, browser, tmp_path_factory, artefacts):
 
         again()
         yield page, again, lambda number: page.locator(".mocap-question").nth(number)
-        page.screenshot(path=artefacts / f"questions-{request.param.__name__}.png", full_page=True)
+        keep(page, f"questions-{request.param.__name__}")
     assert faults == []
 
 

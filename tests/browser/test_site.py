@@ -61,15 +61,6 @@ def test_code_can_be_hidden_and_stays_hidden(page, first):
     assert page.locator(".cell_input").first.is_visible()
 
 
-def test_the_menu_folds_on_a_phone(page, first):
-    page.set_viewport_size({"width": 390, "height": 844})
-    page.goto(first)
-    menu, fold = page.locator(".sidebar-drawer"), page.locator(".nav-overlay-icon").first
-    wait_until(lambda: menu.bounding_box()["x"] < -100)
-    fold.click()
-    wait_until(lambda: menu.bounding_box()["x"] >= 0)
-
-
 def test_pages_are_dark_where_the_reader_wants_it(page, first):
     page.emulate_media(color_scheme="dark")
     page.goto(first)

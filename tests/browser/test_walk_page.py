@@ -12,6 +12,7 @@ import mocap
 from mocap import body, datasets, graphs, plain
 from mocap.body import rotations
 from mocap.widgets.walking_page import HERE, STEPS, pack_graph, walk_page
+from tests.browser.conftest import keep, watched_page
 
 SEARCH = """([about, packed, z, x]) => {
   const bytes = Uint8Array.from(atob(packed), (c) => c.charCodeAt(0));
@@ -218,9 +219,7 @@ def test_keys_draw_and_a_tap_on_a_seam_shows_both_moments(page, file):
 
 
 @pytest.mark.parametrize(("width", "scheme"), [(390, "dark"), (848, "light")])
-def test_it_fits_and_needs_no_graphics_card(browser, file, artefacts, width, scheme):
-    from tests.browser.conftest import watched_page
-
+def test_it_fits_and_needs_no_graphics_card(browser, file, width, scheme):
     with watched_page(
         browser, viewport={"width": width, "height": 760}, color_scheme=scheme, reduced_motion="reduce"
     ) as (page, faults):
@@ -231,5 +230,5 @@ def test_it_fits_and_needs_no_graphics_card(browser, file, artefacts, width, sch
             None,
             width,
         ]
-        page.screenshot(path=artefacts / f"walk-{width}-{scheme}.png")
+        keep(page, f"walk-{width}-{scheme}")
     assert faults == []
