@@ -5,7 +5,6 @@ import itertools
 import math
 import re
 import warnings
-from argparse import ArgumentTypeError
 from collections.abc import Sequence
 from importlib.util import find_spec
 from pathlib import Path
@@ -27,45 +26,17 @@ SOON = 400  # states; where the way ahead is closed, a side finds one soon or no
 LONGEST = 24 * 3600.0  # seconds of a random walk
 
 
-def _seconds(text: str) -> float:
-    """Read a duration.
-
-    Examples
-    --------
-    >>> _seconds("60s"), _seconds("1.5min"), _seconds("2")
-    (60.0, 90.0, 2.0)
-    """
-    found = re.fullmatch(r"(\d+\.?\d*|\.\d+)\s*(s|min|h)?", text.strip())
-    seconds = float(found[1]) * UNITS[found[2] or "s"] if found else 0.0
-    if not 0 < seconds <= LONGEST:
-        raise ArgumentTypeError(f"how long is '{text[:40]}'? Write 60s, 10min or 1h, up to 24h")
-    return seconds
-
-
-def _label(text: str) -> tuple[float, str]:
-    """Read a label and where it starts, as in 6.5:sneak."""
-    metres, _, label = text.partition(":")
-    try:
-        return float(metres), label
-    except ValueError:
-        raise ArgumentTypeError(
-            f"from where on is '{text[:40]}'? Write METRES:LABEL, as in 6.5:sneak"
-        ) from None
-
-
 def walk(
     graph: Path,
     *,
     path: Path | None = None,
-    random: Annotated[float | None, _seconds] = None,
+    random: str | None = None,
     out: Path = Path("walk.bvh"),
     clips: Sequence[Path] = (),
     skeleton: Skeleton = None,
     scale: Annotated[float | None, options.LENGTH] = None,
     unit: Unit = None,
-    label: Annotated[
-        Sequence[tuple[float, str]], _label, {"action": "append", "nargs": None, "default": []}
-    ] = (),
+    label: Annotated[Sequence[str], {"action": "append", "nargs": None, "default": []}] = (),
     bend: Annotated[float | None, TURN, {"nargs": "?", "const": 100.0}] = None,
     width: Annotated[int | None, number(1, 10_000, int)] = None,
     clean: Clean = False,
@@ -105,18 +76,16 @@ def walk(
     if scale and not clips:
         raise MocapError("--scale belongs to --clips: the graph remembers the unit of its own clips.")
     options.check_out("walk", out)
-    line = files.load_path(path, scale=unit) if path else None
+    seconds, line = _seconds(random or "1s"), files.load_path(path, scale=unit) if path else None
+    wishes = steering.Wishes(labels=[_label(text) for text in label])
     found = _graph(graph, clips, Sources(skeleton, scale), out)
     if line is None:
         frames = synthesis.dump(
-            found, out, seconds=random or 1, seed=seed or 0, clean=clean, progress=bar("writing")
+            found, out, seconds=seconds, seed=seed or 0, clean=clean, progress=bar("writing")
         )
         tell(walked=f"{frames / found.fps:.1f} s at random", wrote=out)
         return 0
-    wishes, settings = (
-        steering.Wishes(labels=label),
-        steering.Settings(width or 100, progress=bar("searching")),
-    )
+    settings = steering.Settings(width=width or 100, progress=bar("searching"))
     followed = steering.follow_path(found, line, wishes, settings=settings, bend=math.radians(bend or 0))
     tell(walked=followed.report())
     options.write_out(followed.motion(clean=clean or bool(bend)), out)
@@ -142,6 +111,30 @@ def page(graph: Path, *, out: Path = Path("walk.html"), skeleton: Skeleton = Non
     with replacing(out) as beside:
         beside.write_text(made, "utf-8")
     tell(wrote=f"{out}, {len(made) / 1e6:.2f} MB")
+
+
+def _seconds(text: str) -> float:
+    """Read a duration.
+
+    Examples
+    --------
+    >>> _seconds("60s"), _seconds("1.5min"), _seconds("2")
+    (60.0, 90.0, 2.0)
+    """
+    found = re.fullmatch(r"(\d+\.?\d*|\.\d+)\s*(s|min|h)?", text.strip())
+    seconds = float(found[1]) * UNITS[found[2] or "s"] if found else 0.0
+    if not 0 < seconds <= LONGEST:
+        raise MocapError(f"How long is '{text[:40]}'? Write 60s, 10min or 1h, up to 24h.")
+    return seconds
+
+
+def _label(text: str) -> tuple[float, str]:
+    """Read a label and where it starts, as in 6.5:sneak."""
+    metres, _, label = text.partition(":")
+    try:
+        return float(metres), label
+    except ValueError:
+        raise MocapError(f"From where on is '{text[:40]}'? Write METRES:LABEL, as in 6.5:sneak.") from None
 
 
 def _graph(path: Path, clips: Sequence[Path], sources: Sources, out: Path) -> "graphs.MotionGraph":
