@@ -144,7 +144,7 @@ def plan_bending(
     own = turning_of(graph)
     walks = own.step[own.step * graph.fps > SLOWEST]
     if not len(walks):
-        raise too_slow(graph, 0.0)
+        raise too_slow(graph)
     # Straight on, at the clips' usual pace, and far enough for shorter steps.
     steady = np.arange(0.0, 2 * path.length + 2.0, float(np.median(walks)))
     pace = Ride(GroundPath(np.array([[0.0, 0.0], [0.0, steady[-1]]])), steady)

@@ -67,10 +67,14 @@ class Followed:
         return kinds.count("transition") / self.seconds
 
     @property
+    def far(self) -> float:
+        """The larger of mean distance / 4 cm and worst distance / 15 cm."""
+        return float(max(self.off.mean() / NEAR, self.off.max() / ASTRAY))
+
+    @property
     def excess(self) -> float:
-        """The largest of mean distance / 4 cm, worst distance / 15 cm, and seams per second / 1."""
-        off = self.off
-        return float(max(off.mean() / NEAR, off.max() / ASTRAY, self.seams_per_second / self.most_seams))
+        """The larger of how `far` it is, and seams per second / 1."""
+        return max(self.far, self.seams_per_second / self.most_seams)
 
     @property
     def progress(self) -> float:

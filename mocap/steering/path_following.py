@@ -8,6 +8,7 @@ import numpy as np
 
 from mocap._shared.arrays import Indices
 from mocap.body.ground_path import GroundPath
+from mocap.body.planar import on_ground
 from mocap.errors import MocapError, NoWalk, warn
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.components import reached
@@ -16,11 +17,12 @@ from mocap.steering.bent_following import plan_bending
 from mocap.steering.followed import Followed, account
 from mocap.steering.layered_search import States, start_states
 from mocap.steering.path_objective import Route, Settings, Wishes, least_progress, make_route
-from mocap.steering.path_search import Found, find_walk
+from mocap.steering.path_search import SLOWEST, Found, find_walk, too_slow
 from mocap.synthesis.bounded_search import Problem, SearchEdge, search_ahead
 from mocap.synthesis.ground_walks import GroundWalks, Stand
 
 WIDE = 400  # walks that stay in each layer, where all else leaves the path
+FAR = 1.0  # metres from the path on average: a walk that is slow, too, does not follow it
 AGAIN = 1.25  # a repeated search multiplies or divides the price of a seam by this
 
 
@@ -37,13 +39,15 @@ def follow_path(
     The search is a `LayeredSearch`; its time is linear in the path's length. No single price of a seam suits
     all paths. So where seams are too frequent, or the walk is too far off (`Followed.excess` above 1), the
     search is repeated with a wider beam, and with the price of a seam times or divided by 1.25. The best walk
-    is taken. Where it still leaves the path, a last search keeps 400 walks, at a third of the price of seams.
-    Where no clip turns as the path does, the walk cuts the corner; a warning says where.
+    is taken. Where it still leaves the path, a search keeps 400 walks, at a third of the price of seams, and
+    where that leaves it, too, a last one where they are free. Where no clip turns as the path does, the walk
+    cuts the corner; a warning says where.
 
-    Seams cost, so a walk can be nearer: the paper's own search, `follow_as_2002`, which takes two to four
-    times as many, is nearer to 23 of 30 lines of 7 m, by 1.1 cm in the median; with other clips (CMU's
-    subject 03) to 3 of 10. With `Settings(seam=0, match=0, width=200, tries=1)`, where seams are free here,
-    too, it is nearer to 5 and 0 of them only, by 3 mm at most.
+    Seams cost, so a walk can be nearer: of 42 lines of 7 m that walks keep to, the paper's own search,
+    `follow_as_2002`, which takes two to four times as many seams, is nearer to 21, by 1.9 cm at most; with
+    `Settings(seam=0, match=0, width=200, tries=1)`, where they are free here, too, to 5. Of 18 lines that
+    clips do not turn along it is nearer to 5, by up to 1.3 m; where a walk is a metre off on average, the
+    warning says that it may be.
 
     With `bend`, any walk follows any path: the search prices by how much a walk must be turned beyond what
     its clips turn, instead of its distance from the path. Then it is laid on the path [Gle01], and its feet
@@ -64,9 +68,9 @@ def follow_path(
 
     Raises
     ------
-    NoWalk : for a label that no walk can reach, a start that is not in the graph, a dead end, and with `bend`
-        for clips of which no walk goes on at 0.3 m/s.
-    MocapError : for a path longer than these clips walk in an hour, and wishes that make no sense.
+    NoWalk : for a label that no walk can reach, a start that is not in the graph, a dead end, and clips of
+        which no walk goes on at 0.3 m/s; without `bend` where the walk is a metre off on average as well.
+    MocapError : for a path that takes these clips more than an hour, and wishes that make no sense.
 
     Warns
     -----
@@ -102,19 +106,31 @@ def follow_path(
         return measure(find_walk(compiled, route, starts, settings))
 
     followed = _best_of(search, replace(settings, width=settings.width_on(route)))
-    if (departures := followed.departures) and not wishes.others:  # with others it goes aside to give way
+    if not wishes.others:  # with others it goes aside to give way
+        _tell_departures(compiled, followed, bend)
+    return followed
+
+
+def _tell_departures(graph: CompiledGraph, followed: Followed, bend: float) -> None:
+    """Refuse a walk that stands and does not follow, and warn of one that leaves the path."""
+    far = followed.off.mean() > FAR and not (bend or followed.found.stopped)
+    speed = np.abs(np.diff(on_ground(followed.track))).sum() / followed.seconds
+    if far and speed < SLOWEST:
+        off = f"{followed.off.mean():.1f} m off the line on average"
+        raise too_slow(graph, f"The nearest walk is {off}, and goes at {speed:.2f} m/s")
+    if departures := followed.departures:
         start, end, worst = max(departures, key=lambda stretch: stretch[2])
         often = "once" if len(departures) == 1 else f"{len(departures)} times"
         why = "it turns too fast there" if bend else "no clips turn as it does there"
+        why += "; `bend` turns them, and `follow_as_2002` may come nearer" if far else ""
         furthest = f"the furthest by {100 * worst:.0f} cm at {start:.1f} to {end:.1f} m"
-        warn(f"The walk leaves the path {often}, {furthest}: {why}.")
-    return followed
+        warn(f"The walk leaves the path {often}, {furthest}: {why}.", 3)
 
 
 def _best_of(search: Callable[[Settings], Followed], settings: Settings) -> Followed:
     """Search; while `excess` is above 1, search again with a wider beam and another price of a seam.
 
-    Where the best walk still leaves the path, a last search has far more walks and cheap seams.
+    Where the best walk still leaves the path, far more walks are kept, of cheap seams and then of free ones.
     """
     best = last = search(settings)
     for again in range(1, settings.tries):
@@ -124,9 +140,11 @@ def _best_of(search: Callable[[Settings], Followed], settings: Settings) -> Foll
         wider = round((1 + again / 2) * (settings.width or 0))
         last = search(replace(settings, seam=seam, width=wider))
         best = min(best, last, key=lambda walk: (walk.progress < 1, walk.excess))
-    if settings.tries > 1 and best.off.max() > best.astray and not last.found.stopped:
-        nearest = search(replace(settings, seam=settings.seam / 3, match=settings.match / 3, width=WIDE))
-        best = min(best, nearest, key=lambda walk: (walk.progress < 1, walk.off.mean()))
+    for share in (1 / 3, 0.0):  # of the price of seams
+        if settings.tries > 1 and best.off.max() > best.astray and not last.found.stopped:
+            cheap = replace(settings, seam=share * settings.seam, match=share * settings.match, width=WIDE)
+            last = search(cheap)
+            best = min(best, last, key=lambda walk: (walk.progress < 1, walk.far))
     return best
 
 

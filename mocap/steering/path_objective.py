@@ -200,8 +200,8 @@ def make_route(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Route:
     """
     fastest = float(np.abs(graph.ahead[:, -1] - graph.at).max()) / AHEAD[-1]
     if path.length > 3600 * fastest:
-        hour = f"more than these clips walk in an hour ({3600 * fastest:.0f} m, at {fastest:.2f} m/s)"
-        raise MocapError(f"The path is {path.length:.0f} m long, {hour}: is it in metres?")
+        hour = f"takes these clips more than an hour, at {fastest:.2f} m/s at most"
+        raise MocapError(f"A path of {path.length:.0f} m {hour}: is it in metres, and do they walk?")
     for where, what in (*wishes.labels, *wishes.times):
         if not 0 <= where <= path.length:
             raise MocapError(f"'{what}' is asked for {where} m along a path of {path.length:.1f} m.")

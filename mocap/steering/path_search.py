@@ -204,9 +204,9 @@ class PathSearch(LayeredSearch):
     def found(self, stopped: str) -> Found:
         """Give the best walk; where none has arrived, the cheapest of the last layer."""
         if not self.arrived and not stopped:
-            reached = max(float(states.along.max()) for states in self.history)
             if self.route.own:
-                raise too_slow(self.graph, reached)
+                raise too_slow(self.graph)
+            reached = max(float(states.along.max()) for states in self.history)
             raise NoWalk(f"Every walk ends after {reached:.1f} m of the path: prune the graph first.")
         if not self.arrived and len(self.history) < 2:
             raise NoWalk(f"The search was {stopped} before its first step.")
@@ -218,14 +218,13 @@ class PathSearch(LayeredSearch):
         return Found(edges, turn, move, along, cost, self.expanded, self.cut, stopped)
 
 
-def too_slow(graph: CompiledGraph, reached: float) -> NoWalk:
+def too_slow(graph: CompiledGraph, fault: str = f"No walk goes along the line at {SLOWEST:g} m/s") -> NoWalk:
     """Say that no walk goes on along a line as people walk, and what is missing for it."""
     clips = [on_ground(clip.root_positions) for clip in graph.source.clips]
     quick = [clip for clip in clips if np.percentile(np.abs(np.diff(clip)), 90) * graph.fps > QUICK]
     some = f"{len(quick)} of {len(clips)} clips go faster than {QUICK:g} m/s"
     helps = f"{some}, but few transitions join their steps: allow a larger threshold, or add walks"
-    helps = helps if quick else "these clips only stand: add some that walk"
-    return NoWalk(f"After {reached:.1f} m of the line every walk is slower than {SLOWEST:g} m/s; {helps}.")
+    return NoWalk(f"{fault}; {helps if quick else 'these clips only stand: add some that walk'}.")
 
 
 def _square(numbers: Points) -> Array:

@@ -2,6 +2,7 @@
 
 import time
 import warnings
+from dataclasses import replace
 from functools import cache
 from itertools import product
 
@@ -82,7 +83,9 @@ def test_any_line_with_any_walk(graph, line):
 def test_without_bending_a_straight_walk_stays_straight():
     """The naive way: 6 m off an S on average, and nothing that the search could do about it."""
     path = letter_s(1.6)
-    with pytest.warns(MocapWarning, match="no clips turn as it does there"):
+    with pytest.warns(
+        MocapWarning, match="no clips turn as it does there; `bend` turns them, and `follow_as_2002`"
+    ):
         plain = follow_path(straight_walker(), path)
     assert plain.off.mean() > 0.5
     assert not isinstance(plain, BentWalk)
@@ -141,23 +144,26 @@ def test_bad_input():
         follow_path(walking(), circle(2.0), Wishes(labels=[(99, "walk")]), bend=LIMIT)
 
 
-def require_refused(graph, path, match):
+def require_refused(graph, path, match, bend=LIMIT):
     began = time.process_time()
     with pytest.raises(NoWalk, match=match) as refused:
-        follow_path(graph, path, bend=LIMIT)
+        follow_path(graph, path, bend=bend)
     assert len(str(refused.value)) <= 200
     assert time.process_time() - began < 10  # not after minutes
 
 
-def test_clips_that_stand_cannot_be_laid_on_a_line():
+def test_clips_that_stand_cannot_follow_a_line():
     stop = samples.sample("stop_and_go")
     speed = np.hypot(*np.gradient(stop.root_positions[:, [0, 2]], axis=0).T) * stop.fps
     first = int(np.flatnonzero(speed < 0.01)[0])
-    standing = stop[first : first + 200]
     assert (speed[first : first + 200] < 0.1).all()
-    require_refused(
-        build([standing], window=20, threshold=0.2), circle(2.0), "these clips only stand: add some"
-    )
+    one = stop[first : first + 200]
+    clips = [one, replace(one[np.arange(199, -1, -1)], name="back")]
+    standing = prune(build(clips, window=20, threshold=0.2))
+    add = "m/s; these clips only stand: add some"
+    require_refused(standing, circle(2.0), f"No walk goes along the line at 0.3 {add}")
+    off = r"The nearest walk is \d\.\d m off the line on average, and goes at 0\.\d\d "
+    require_refused(standing, circle(2.0), off + add, bend=0.0)
 
 
 @pytest.mark.parametrize("threshold", [0.05, 0.12])
@@ -167,9 +173,7 @@ def test_dancers_walk_a_line_as_quickly_as_people_or_are_refused_at_once(real_da
     clips = [resample(load(file), 30) for file in files]
     graph, path = compile_graph(prune(build(clips, window=10, threshold=threshold))), LINES["sine"]()
     if threshold < 0.1:
-        require_refused(
-            graph, path, "m of the line every walk is slower than 0.3 m/s; 7 of 20 clips go faster"
-        )
+        require_refused(graph, path, "No walk goes along the line at 0.3 m/s; 7 of 20 clips go faster")
         return
     followed = quietly(graph, path)
     assert followed.progress > 0.99
