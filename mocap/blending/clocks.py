@@ -246,8 +246,8 @@ def clock_speed(slopes: ArrayLike, weights: ArrayLike, pace: str = "durations") 
 
     Examples
     --------
-    >>> clock_speed([1, 2], [0.5, 0.5]).round(4), clock_speed([1, 2], [0.5, 0.5], "rates")
-    (np.float64(0.6667), np.float64(0.75))
+    >>> float(clock_speed([1, 2], [0.5, 0.5]).round(4)), float(clock_speed([1, 2], [0.5, 0.5], "rates"))
+    (0.6667, 0.75)
     """
     s, w = np.asarray(slopes, float), np.asarray(weights, float)
     if pace not in PACES:
