@@ -37,10 +37,7 @@ def draw_climb(rng: np.random.Generator) -> tuple[Skeleton, Array, int]:
 
 def climb(skeleton: Skeleton, turns: Array, joint: int) -> Array:
     """Go from a joint to the root; each parent turns all that hangs below it."""
-    point, matrices = (
-        np.zeros(3),
-        rotations.to_matrix(turns),
-    )  # all at once: one by one takes ten times as long
+    point, matrices = np.zeros(3), rotations.to_matrix(turns)  # one by one takes ten times as long
     while joint > 0:
         offset, parent = skeleton.offsets[joint], int(skeleton.parents[joint])
         point = matrices[parent] @ (point + offset)
