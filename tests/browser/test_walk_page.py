@@ -2,6 +2,7 @@
 
 import base64
 import re
+from dataclasses import replace
 
 import networkx as nx
 import numpy as np
@@ -39,16 +40,8 @@ def wanderers(seed):
 
 def as_packed(graph):
     """Round a graph as the page does: clips and graph for the plain pages, edges in the page's order."""
-    clips = [
-        mocap.Motion(
-            clip.skeleton,
-            np.rint(clip.root_positions / STEPS["metres"]) * STEPS["metres"],
-            clip.rotations,
-            30,
-            clip.name,
-        )
-        for clip in graph.clips
-    ]
+    step = STEPS["metres"]
+    clips = [replace(clip, root_positions=np.rint(clip.root_positions / step) * step) for clip in graph.clips]
     rounded = nx.MultiDiGraph()
     rounded.add_nodes_from(graph.graph)
     order = {}
@@ -60,8 +53,8 @@ def as_packed(graph):
             off = edge["transform"].turn * there + edge["transform"].move - here
             off = (np.rint(off.real / STEPS["move"]) + 1j * np.rint(off.imag / STEPS["move"])) * STEPS["move"]
             turn = np.exp(1j * np.rint(np.angle(edge["transform"].turn) / STEPS["turn"]) * STEPS["turn"])
-            lay = turn, plain.ground(clips[start[0]].root_positions[start[1]]) + off
-            lay = turn, lay[1] - turn * plain.ground(clips[end[0]].root_positions[end[1] - 10])
+            here, there = (clips[clip].root_positions[at] for clip, at in (start, (end[0], end[1] - 10)))
+            lay = turn, plain.ground(here) + off - turn * plain.ground(there)
         key = rounded.add_edge(start, end, kind=edge["kind"], frames=edge["frames"], lay=lay)
         order[start, end, key] = number
     return clips, rounded, order
@@ -93,10 +86,7 @@ def test_it_finds_the_walk_of_the_plain_pages(scripts, seed):
         edges.append(order[best.edge])
         best = best.before
     assert found["edges"] == edges[::-1]
-    assert any(
-        graph_edge["kind"] == "transition"
-        for graph_edge in (rounded.edges[edge] for edge in order if order[edge] in edges)
-    )
+    assert "transition" in {rounded.edges[edge]["kind"] for edge in order if order[edge] in edges}
     assert found["cost"] == pytest.approx(cost, abs=1e-6)
 
 
@@ -225,10 +215,7 @@ def test_it_fits_and_needs_no_graphics_card(browser, file, width, scheme):
     ) as (page, faults):
         page.goto(f"file://{file}?flat")
         page.wait_for_function("window.page?.walk.frames")
-        assert page.evaluate("[page.playing, page.scene.gl, document.documentElement.scrollWidth]") == [
-            False,
-            None,
-            width,
-        ]
+        seen = page.evaluate("[page.playing, page.scene.gl, document.documentElement.scrollWidth]")
+        assert seen == [False, None, width]
         keep(page, f"walk-{width}-{scheme}")
     assert faults == []

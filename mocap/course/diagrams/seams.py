@@ -1,13 +1,15 @@
 """Where one clip passes into another: frames, weights, ways between two rotations, a leg, added jolts."""
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
+from matplotlib.lines import Line2D
+from matplotlib.patches import Polygon, Rectangle
 from mpl_toolkits.mplot3d import Axes3D
 
 from mocap._shared.arrays import Array
@@ -196,41 +198,48 @@ def added_by_blend(terms: Sequence[str] = ()) -> Callable[..., list[Artist]]:
 
     Notebook: 09-discussion
     """
-    above, below = axes = Figure(figsize=(7.5, 4.4), layout="constrained").subplots(2, 1)
-    speeds = [
-        above.plot([], color=colour, lw=wide, label=name)[0]
-        for name, colour, wide in (
-            ("first clip", SOURCES[0], 2.6),
-            ("second clip, aligned", SOURCES[1], 2.6),
-            ("the blend", COLOURS["middle"], 1.3),
-        )
-    ]
+    above, below = Figure(figsize=(7.5, 4.4), layout="constrained").subplots(2, 1)
+    named = zip(
+        ("first clip", "second clip, aligned", "the blend"), (*SOURCES[:2], COLOURS["middle"]), strict=True
+    )
+    speeds = [above.plot([], color=colour, lw=2.6, label=name)[0] for name, colour in named]
+    speeds[-1].set_linewidth(1.3)
     inside = above.axvspan(0, 1, color=MARK, alpha=0.15, linewidth=0)
     (added,) = below.fill([0, 0, 0], [0, 0, 0], color=MARK, alpha=0.4, lw=0, label="added jolt, measured")
     sizes = [below.plot([], color=c, label=name)[0] for name, c in zip(terms, CURVES, strict=False)]
     above.set(ylabel="forward velocity\nof 'root' (m/s)")
     below.set(xlabel="frame, counted from the start of the window", ylabel="jolt, RMS over\npoints (m/s)")
-    for ax in axes:
+    for ax in (above, below):
         ax.legend(frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
         ax.locator_params(nbins=4)  # ticks take most of the time to draw
 
-    def draw(blended: Passage, *explained: Array) -> list[Artist]:
-        start, window = blended.start, len(blended.weights)
-        travelled = blended.first.root_positions[-1] - blended.first.root_positions[0]
-        ahead = travelled / max(float(np.linalg.norm(travelled)), 1e-9)
-        for line, motion in zip(speeds, (blended.first, blended.second, blended.result), strict=True):
-            speed = np.diff(motion.root_positions, axis=0) @ ahead * motion.fps
-            line.set_data(np.arange(len(speed)) + 0.5 - start, speed)
-        inside.set_width(window - 1)
-        frames = np.arange(-1, window + 1)
-        jolts = np.pad(blended.jolts.added, 1)  # down to the ground at both ends
-        added.set_xy(np.column_stack([np.pad(frames, 1, mode="edge"), jolts]))
-        for line, term in zip(sizes, explained, strict=True):
-            line.set_data(frames, blended.size(term)[start - 2 :][: window + 2])
-        for ax in axes:
-            ax.relim()
-            ax.autoscale_view()
-            ax.figure.stale = False  # the sides move too, so all else stays as it was drawn
-        return [*speeds, inside, added, *sizes, *(side for ax in axes for side in (ax.xaxis, ax.yaxis))]
+    return partial(_move_added, speeds, inside, added, sizes)
 
-    return draw
+
+def _move_added(
+    speeds: list[Line2D],
+    inside: Rectangle,
+    added: Polygon,
+    sizes: list[Line2D],
+    blended: Passage,
+    *terms: Array,
+) -> list[Artist]:
+    """Move the curves of `added_by_blend` to another blend, and return all that moved."""
+    start, window = blended.start, len(blended.weights)
+    travelled = blended.first.root_positions[-1] - blended.first.root_positions[0]
+    ahead = travelled / max(float(np.linalg.norm(travelled)), 1e-9)
+    for line, motion in zip(speeds, (blended.first, blended.second, blended.result), strict=True):
+        speed = np.diff(motion.root_positions, axis=0) @ ahead * motion.fps
+        line.set_data(np.arange(len(speed)) + 0.5 - start, speed)
+    inside.set_width(window - 1)
+    frames = np.arange(-1, window + 1)
+    jolts = np.pad(blended.jolts.added, 1)  # down to the ground at both ends
+    added.set_xy(np.column_stack([np.pad(frames, 1, mode="edge"), jolts]))
+    for line, term in zip(sizes, terms, strict=True):
+        line.set_data(frames, blended.size(term)[start - 2 :][: window + 2])
+    axes = inside.figure.axes
+    for ax in axes:
+        ax.relim()
+        ax.autoscale_view()
+        ax.figure.stale = False  # the sides move too, so all else stays as it was drawn
+    return [*speeds, inside, added, *sizes, *(side for ax in axes for side in (ax.xaxis, ax.yaxis))]
