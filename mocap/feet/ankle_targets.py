@@ -1,8 +1,8 @@
 """Where ankles must be, and how they come there and leave: steps 1, 2 and 5 of [KSG02].
 
 Step 5 is taken with step 2, as one curve that bends least, instead of by fades: the sum that it makes least
-is a matrix of five diagonals. While only the ball stands,
-the foot may turn about it, so that the ankle need not follow.
+is a matrix of five diagonals. While only the ball stands, the foot may turn about it: how far, is found
+together with the knees.
 """
 
 from collections.abc import Mapping
@@ -10,14 +10,14 @@ from typing import NamedTuple
 
 import numpy as np
 from scipy.linalg import solveh_banded
+from scipy.ndimage import binary_closing, binary_propagation
 
 from mocap._shared.arrays import Array, Mask, runs
 from mocap.body import rotations
-from mocap.feet.leg_track import BACK, ROUNDING, LegTrack
+from mocap.feet.leg_track import BACK, BENT, ROUNDING, LegTrack
 
 # Seconds in which a correction dies away where no other plant is near. With 0.02 the ankles of captured
-# runs accelerate by 12 % more (99.9 % of the frames). With 0.08 a correction reaches so far that only 78 %
-# of the planted frames of runs can be held, not 93 %.
+# runs accelerate by 12 % more (99.9 % of the frames). With 0.1 as many frames are held.
 FADE = 0.06
 
 # Of the leg's length, 1.4 cm of 0.85 m: how far the root shall fall at most so that an upright leg reaches.
@@ -25,25 +25,75 @@ FADE = 0.06
 # are held.
 FALL = 0.0167
 
-# At most: pulls of a plant to where its leg reaches, and rises of a heel. With 8 as many frames are held.
+# At most: pulls of a plant to where its leg reaches. With 8 as many frames are held.
 PULLS = 4
 
 
-class FootTarget(NamedTuple):
-    """Where an ankle must be, `ankle` (F, 3) in metres, and how its foot turns, `turn` (F, 3) in radians.
+# Seconds. An ankle that leaves the ground for less, while its ball stands, comes back to its place: no knee
+# could lead it to another one in that time. Without it eight slow clips lose plants.
+CLOSE = 0.1
 
-    Turns are rotation vectors in the world's frame; `planted` (F,) says when the ankle or the ball stands,
-    and `side` (F,) on which side the knee bends then: 1 forwards, -1 backwards, as it was.
+# Metres: a leg that must become shorter by more, to stand in its place, is bent by `BENT`; and no triangle of
+# hip, ankle and ball is flatter, so that it shows on which side of the line from hip to ball the ankle is.
+SHORTER, FLAT = 1e-4, 1e-6
+
+
+class FootTarget(NamedTuple):
+    """Where a leg's ankle must be in each of F frames, and how its foot turns.
+
+    Parameters
+    ----------
+    track : whose ankle it is.
+    ankle : shape (F, 3), metres.
+    turn : shape (F, 3), rotation vectors in the world's frame, radians.
+    places, marks : where ankle and ball stand, (2, F, 3), metres, and when, (2, F).
+    side : (F,), on which side the knee bends while the ankle stands: 1 forwards, -1 backwards, as it was.
+    reach : (F,), how far apart hip and ankle shall come while the foot stands, metres.
     """
 
+    track: LegTrack
     ankle: Array
     turn: Array
-    planted: Mask
+    places: Array
+    marks: Mask
     side: Array
+    reach: Array
+
+    @property
+    def planted(self) -> Mask:
+        """When the ankle or the ball stands, (F,)."""
+        return np.asarray(self.marks.any(axis=0))
+
+    @property
+    def rolls(self) -> Mask:
+        """When only the ball stands, (F,): the foot may turn about it."""
+        return np.asarray(self.marks[1] & ~self.marks[0])
+
+    def rolled(self, hip: Array, distance: Array) -> Array:
+        """Turn the foot about its ball until its ankle is a distance (F,) from a hip (F, 3), metres.
+
+        Returns the way from hip to ankle, (F, 3): a side of the triangle whose third corner is the ball, at a
+        distance that makes it one. The ankle stays on its side of the line from hip to ball.
+        """
+        way, foot = self.places[1] - hip, np.linalg.norm(self.places[1] - self.ankle, axis=-1)
+        far = np.linalg.norm(way, axis=-1)
+        distance = np.clip(distance, np.abs(far - foot) + FLAT, far + foot - FLAT)
+        along = (far**2 + distance**2 - foot**2) / (2 * far)
+        ahead, across = way / far[:, None], self.ankle - hip
+        across = across - (across * ahead).sum(-1, keepdims=True) * ahead
+        across *= (np.sqrt(distance**2 - along**2) / np.linalg.norm(across, axis=-1))[:, None]
+        return np.asarray(along[:, None] * ahead + across)
+
+    def led(self) -> "FootTarget":
+        """Lead ankle and foot from plant to plant, in each of which they are where they must be [step 5]."""
+        own, fps = self.track.ankle, self.track.motion.fps
+        turn = rotations.to_rotvec(rotations.between(self.track.ball - own, self.places[1] - self.ankle))
+        ankle = own + smooth_fill(self.ankle - own, self.planted, fps)
+        return self._replace(ankle=ankle, turn=smooth_fill(turn, self.marks[1], fps))
 
 
 def foot_target(track: LegTrack, marks: Mask, held: Mapping[int, Array]) -> FootTarget:
-    """Place a foot's plants, and carry its ankle from one to the next [KSG02, step 2].
+    """Place a foot's plants, and lead its ankle from one to the next [KSG02, step 2].
 
     Parameters
     ----------
@@ -54,25 +104,25 @@ def foot_target(track: LegTrack, marks: Mask, held: Mapping[int, Array]) -> Foot
     ankle, ball, fps = track.ankle, track.ball, track.motion.fps
     flat, down = marks
     length = float(track.leg.lengths(track.motion.skeleton)[2])
-    places = _pull_in(place_plants((ankle, ball), (flat, down), length), marks, track)
+    closed = flat | down & binary_closing(flat, np.ones(1 + round(CLOSE * fps)))
+    places = _pull_in(place_plants((ankle, ball), (closed, down), length), marks, track)
     for place, own, joint in zip(places, marks, track.leg[2:], strict=True):
         for start, stop in runs(own) if joint in held else ():
             known = np.flatnonzero(np.isfinite(held[joint][start:stop, 0])) + start
             if known.size:  # a plant that is held for a part of its time stands where the nearest frame does
                 nearest = np.abs(np.arange(start, stop)[:, None] - known).argmin(axis=1)
                 place[start:stop] = held[joint][known[nearest]]
-    # Where only the ball stands, the foot's length holds the ankle. It stays as near as that allows to its
-    # own way from plant to plant: a foot that turns a little is seen less than a leg that stretches. And the
-    # heel rises where the leg is too short.
-    behind = ankle + smooth_fill(places[0] - ankle, flat, fps)
-    for _ in range(PULLS):
-        away = behind - _beyond(track, behind) - places[1]
-        behind = places[1] + length * away / np.linalg.norm(away, axis=-1, keepdims=True)
+    # Where only the ball stands, the foot's length holds the ankle. At first it stays as near as that allows
+    # to its own way from plant to plant.
+    away = ankle + smooth_fill(places[0] - ankle, flat, fps) - places[1]
+    behind = places[1] + length * away / np.linalg.norm(away, axis=-1, keepdims=True)
     goal = np.where(flat[:, None], places[0], behind)
-    turn = rotations.to_rotvec(rotations.between(ball - ankle, places[1] - goal))
-    ankle = ankle + smooth_fill(goal - ankle, flat | down, fps)
     side = np.where(track.own < -BACK, -1.0, 1.0)
-    return FootTarget(ankle, smooth_fill(turn, down, fps), flat | down, side)
+    # A leg that must become shorter stays bent while its foot stands: the knee of a straight one jolts as
+    # soon as the hip moves.
+    shorter = flat & (np.linalg.norm(goal - track.hip, axis=-1) > track.limit + SHORTER)
+    reach = np.where(binary_propagation(shorter, mask=flat), track.long(BENT), track.limit)
+    return FootTarget(track, goal, 0 * goal, places, marks, side, reach).led()
 
 
 def place_plants(joints: tuple[Array, Array], marks: tuple[Mask, Mask], length: float) -> Array:
@@ -117,25 +167,27 @@ def place_plants(joints: tuple[Array, Array], marks: tuple[Mask, Mask], length: 
 
 
 def _pull_in(places: Array, marks: Mask, track: LegTrack) -> Array:
-    """Pull plants towards the hip until the leg reaches them in each frame in which the ankle stands."""
+    """Pull plants towards the hip until the leg reaches them in each frame, or leg and foot the ball."""
+    foot = float(track.leg.lengths(track.motion.skeleton)[2])
     # A pull for the frame that is furthest out of reach may leave another one: the hip moves.
     for _ in range(PULLS):
-        beyond = np.where(marks[0][:, None], _beyond(track, places[0]), 0.0)
+        ball = np.where(marks[1][:, None], _beyond(track, places[1], foot), 0.0)
+        beyond = np.where(marks[0][:, None], _beyond(track, places[0]), ball)
         far = np.linalg.norm(beyond, axis=-1)
         for start, stop in runs(marks[0] | marks[1]) if far.any() else ():
             places[:, start:stop] -= beyond[start + far[start:stop].argmax()]
     return places
 
 
-def _beyond(track: LegTrack, ankle: Array) -> Array:
-    """Give the way that ankles (F, 3) are beyond the leg's reach, (F, 3), metres.
+def _beyond(track: LegTrack, place: Array, foot: float = 0.0) -> Array:
+    """Give the way that places (F, 3) are beyond the leg's reach, (F, 3), metres.
 
     The root may fall, the less the more the leg lies: to lower the root would not help a leg that lies.
     """
-    apart = ankle - track.hip
+    apart = place - track.hip
     distance = np.linalg.norm(apart, axis=-1)
     fall = FALL * track.length * np.minimum(apart[:, 1] / distance, 0.0) ** 2
-    excess = distance - track.limit - fall
+    excess = distance - track.limit - foot - fall
     return np.asarray(apart * (np.where(excess > 0, excess + ROUNDING, 0.0) / distance)[:, None])
 
 
@@ -173,17 +225,19 @@ def smooth_fill(values: Array, known: Mask, fps: float, fade: float = FADE) -> A
     return np.where(known[:, None], filled, solved)
 
 
-def bending_bands(weight: Array, near: float | Array) -> Array:
-    """Write Σ w_f |c_{f-1} - 2 c_f + c_{f+1}|² + near Σ |c_f|² as cᵀ B c.
+def bending_bands(weight: Array, near: float | Array, span: int = 1) -> Array:
+    """Write Σ w_f |c_{f-s} - 2 c_f + c_{f+s}|² + near Σ |c_f|² as cᵀ B c.
 
     Parameters
     ----------
-    weight : w, shape (F,); where the curve starts and ends no w counts.
+    weight : w, shape (F,); within `span` of the curve's ends no w counts.
     near : how much the curve's own size counts, a number or (F,).
+    span : s, frames.
 
     Returns
     -------
-    B's diagonal and the two below, which are those above, too: shape (3, F); what is beyond their ends is 0.
+    B's diagonal and those s and 2 s below, which are those above, too: shape (3, F); what is beyond their
+    ends is 0.
 
     Examples
     --------
@@ -192,8 +246,9 @@ def bending_bands(weight: Array, near: float | Array) -> Array:
            [-2. , -4. , -2. ,  0. ],
            [ 1. ,  1. ,  0. ,  0. ]])
     """
-    inner = np.concatenate([[0.0], weight[1:-1], [0.0]])[: len(weight)]
-    before, after = np.roll(inner, 1), np.roll(inner, -1)
+    inner = np.array(weight, float)
+    inner[:span] = inner[-span:] = 0.0
+    before, after = np.roll(inner, span), np.roll(inner, -span)
     return np.array([near + before + 4 * inner + after, 0 - 2 * (inner + after), after])
 
 

@@ -5,10 +5,10 @@ where the ankle must be (2); the root moves so that both legs reach (3); the leg
 plant the corrections come and go smoothly (5).
 
 Four things differ from the paper. Step 5 is taken with step 2, as one curve that bends least, instead of by
-fades. While only the ball stands, the foot may turn about it, so that the ankle need not follow. The root
-only rises or falls, and no bone is stretched, because a skeleton's lengths are fixed. And the root's way and
-all knees are found together, by the same sum that step 5 makes least, so that no knee pops. A plant that
-would move the root by more than 2 cm, or would still jolt a knee, is let go there.
+fades. While only the ball stands, the foot turns about it as the knee asks. The root only rises or falls, by
+at most 2 cm, and no bone is stretched, because a skeleton's lengths are fixed. And the root's way and all
+knees are found together, by the same sum that step 5 makes least, so that no knee pops. A plant that the leg
+cannot reach, or that would still jolt a knee, is let go there.
 """
 
 import warnings
@@ -72,20 +72,20 @@ def clean_up(
     """
     legs = legs_of(motion.skeleton, legs)
     marks = asked = settled_marks(motion, legs)
-    poses = forward_kinematics(motion)
-    tracks = [track_leg(motion, leg, poses) for leg in legs]
+    own = forward_kinematics(motion)
+    tracks = [track_leg(motion, leg, own) for leg in legs]
     while True:
         # Steps 1, 2 and 5: each plant gets a place, and between plants the ankles go from place to place.
-        targets = [foot_target(track, own, held or {}) for track, own in zip(tracks, marks, strict=True)]
+        targets = [foot_target(*those, held or {}) for those in zip(tracks, marks, strict=True)]
         # Steps 3 and 4: the root rises or falls, and the knees bend.
-        rise, bends, excesses = hold_plants(tracks, targets)
+        rise, targets, poses, excesses = hold_plants(targets)
         if not excesses or not marks.any():
             break
         # Each round unmarks at least one planted frame, so the rounds end: at the latest when none is left.
         marks = let_go(marks, excesses, least_frames(motion.fps))
     pose, up = motion.rotations.copy(), rise[:, None] * UP
-    for track, target, bend in zip(tracks, targets, bends, strict=True):
-        pose[:, track.leg[:3]] = pose_leg(track, bend, target.ankle - track.hip - up, target.turn)
+    for target, (bend, wanted) in zip(targets, poses, strict=True):
+        pose[:, target.track.leg[:3]] = pose_leg(target.track, bend, wanted, target.turn)
     names = [motion.skeleton.names[joint] for leg in legs for joint in leg[2:]]
     found, gone = (dict(zip(names, s.reshape(len(names), -1), strict=True)) for s in (marks, asked & ~marks))
     _warn_of_plants_let_go(motion, gone, MOST * tracks[0].length)

@@ -1,16 +1,20 @@
 """The root's height and the knees that hold all plants and bend the least: step 3 of [KSG02].
 
-While a foot stands, the root's height says how its knee is bent; a knee in the air may bend as it likes. So
-the unknowns are the root's rise in each frame, and each knee's extra angle in each frame in the air. The best
-are those whose corrections e, of the root and of each knee, are the least of
+While an ankle stands, the root's height says how its knee is bent. While only the ball stands, the knee may
+bend as it likes, and the foot turns about the ball; and so may a knee in the air. So the unknowns are the
+root's rise in each frame, and each knee's extra angle in each frame in which its ankle does not stand. The
+best are those whose corrections e, of the root and of each knee and ankle, are the least of
 
-    Σ w |e_{f-1} - 2 e_f + e_{f+1}|² + κ⁴ Σ |e_f|²
+    Σ |e_{f-1} - 2 e_f + e_{f+1}|² + κ⁴ Σ |e_f|²
 
-over the whole clip: the sum of step 5. A planted knee's angle follows (step 4). They are found by damped
-Gauss-Newton steps; what is unknown in a frame meets only its neighbours, so a step solves a banded system.
+over the whole clip: the sum of step 5. The root's rise has a bound, and so has each knee's jump from one
+picture of a film to the next. They are found by damped Gauss-Newton steps, which hold the root at its bound,
+and by multipliers for the jumps (an augmented Lagrangian). What is unknown in a frame meets only its
+neighbours, so a step solves a banded system.
 """
 
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 from scipy.linalg import solveh_banded
@@ -18,11 +22,11 @@ from scipy.ndimage import binary_propagation, maximum_filter1d
 
 from mocap._shared.arrays import Array, Mask
 from mocap.body import rotations
-from mocap.feet.ankle_targets import FALL, FootTarget, band_product, bending_bands
-from mocap.feet.leg_track import ROUNDING, UP, LegTrack
+from mocap.feet.ankle_targets import FLAT, FootTarget, band_product, bending_bands
+from mocap.feet.leg_track import BENT, ROUNDING, UP
 
-# Of the leg's length: 2 cm for a leg of 0.85 m. A plant that would move the root further is let go.
-MOST = 0.0239
+# Of the leg's length: 2 cm for a leg of 0.85 m. The root rises or falls by no more.
+MOST = 0.0235
 
 # Of the leg's length: 5 mm. A knee may jump by so much from one picture of a film (30 Hz) to the next beyond
 # what is usual. Of a figure 400 pixels high that is less than one; four times as much is plain to see.
@@ -34,161 +38,226 @@ USUAL = 99.9  # percent of a clip's own jumps: what all but one in a thousand st
 # again.
 NEAR = 0.05
 
-# How much a metre of the root counts, where a metre of a knee counts 1, and one beyond a bound 30, all
-# squared. With 4 for the root knees turn by 3.6° instead of 2.6° (95 % of the frames of slow and straight
-# legged walks); with 10 or 100 for bounds plants and jolts are the same.
-ROOT, STIFF = 2.0, 30.0
+# How much a metre of the root and of an ankle counts, where a metre of a knee counts 1, one that a leg lacks
+# 30, and one that a knee jumps too far 10, for a curve that bends freely, all squared. With 4 for the root
+# knees turn by 3.6° instead of 2.6° (95 % of the frames of slow and straight-legged walks); with 0.5 for
+# ankles a straight-legged stop at 120 Hz accelerates by 1.22 times as much as it did, with 1.5 by 1.18.
+ROOT, FOOT, STIFF, HARD = 2.0, 1.5, 30.0, 10.0
 
-# At most: solutions, each with what jolts counting double; steps in each; the gain of a step that is the last
-# one. With 5 solutions twice as many captured clips lose plants. Each doubling comes only nearer to its aim,
-# so that is a little less than `UNSEEN`.
+# At most: solutions, each with new multipliers; steps in each; the gain of a step that is the last one. The
+# multipliers come only nearer to their aim, so that is a little less than `UNSEEN`.
 TRIES, STEPS, GAIN, AIM = 10, 12, 1e-3, 0.9
 
 STEP = 1e-5  # metres and radians, for slopes
 
-Legs = Sequence[tuple[LegTrack, FootTarget]]
-
 
 def hold_plants(
-    tracks: Sequence[LegTrack], targets: Sequence[FootTarget]
-) -> tuple[Array, list[Array], list[tuple[slice, Array]]]:
+    targets: Sequence[FootTarget],
+) -> tuple[Array, list[FootTarget], list[tuple[Array, Array]], list[tuple[slice, Array]]]:
     """Find the smoothest correction that brings planted ankles to their targets.
 
     In the paper: [KSG02, step 3]. There the root moves in all directions, and step 4 may stretch the legs.
 
-    What still goes beyond its bound counts double, and double again, so that the frames around it share it.
-    And a knee that jumps too far is pushed back by as much, again and again (Lagrange multipliers).
+    A knee that still jumps too far is pushed back by as much, again and again (an augmented Lagrangian), is
+    no longer straight there, and no longer bent backwards.
 
     Parameters
     ----------
-    tracks : the legs in F frames.
-    targets : where each one's ankle must be; while it is in the air, the leg only points there.
+    targets : where each leg's ankle must be in F frames. While it is in the air, the leg only points there;
+        while only the ball stands, the foot turns about it.
 
     Returns
     -------
-    The root's rise (F,), metres; each knee's angle (F,), radians; by how much plants go beyond bounds, and
-    whose plants they are: the amount (F,) is above 0 where the root's rise is too large, a knee jumps too far
-    from one picture of a film to the next, or a leg is too short.
+    The root's rise (F,), metres; the targets over which feet have rolled; each knee's angle (F,), radians,
+    with the way from hip to ankle (F, 3), metres; by how much plants go beyond bounds, and whose plants they
+    are: the amount (F,) is above 0 where the root's rise is too large, a knee jumps too far from one picture
+    of a film to the next, or a leg is too short.
     """
-    legs = list(zip(tracks, targets, strict=True))
-    frames, fps, length = len(targets[0].ankle), tracks[0].motion.fps, tracks[0].length
-    change, stress = np.zeros((1 + len(legs), frames)), np.ones((1 + len(legs), frames))
-    span, knees = max(1, round(SHOWN * fps)), slice(1, 1 + len(legs))
-    own, push = np.array([track.knee for track in tracks]), np.zeros((2 + 2 * len(legs), frames, 3))
-    usual = np.linalg.norm(_jumps(own, span), axis=-1)  # (L, F)
-    usual = np.maximum(np.percentile(usual, USUAL, method="lower"), usual)
+    tracks = [target.track for target in targets]
+    change, length = np.zeros((1 + len(tracks), len(tracks[0].own))), tracks[0].length
+    span, own = max(1, round(SHOWN * tracks[0].motion.fps)), np.array([track.knee for track in tracks])
+    usual, push = np.linalg.norm(_jumps(own, span), axis=-1), np.zeros_like(own)
+    usual = np.maximum(np.percentile(usual, USUAL, method="lower"), usual)  # (L, F)
+    most = usual + AIM * UNSEEN * length
     for _ in range(TRIES):
-        change = _least_bent(legs, stress, change, push)
-        jumps = _jumps(own + _displacements(legs, change)[knees], span)
-        beyond = (size := np.linalg.norm(jumps, axis=-1)) - usual  # than it did, and than is usual
-        jolting = beyond > AIM * UNSEEN * length
-        # Near a jolt the root may only go far to spare it, and near a plant out of reach it must.
-        must = maximum_filter1d(jolting.any(axis=0) | (_highest(legs) < -MOST * length), 12 * span + 1)
-        over = np.vstack([(abs(change[0]) > MOST * length) & ~must, jolting])
-        if not over.any():
+        change = _least_bent(targets, change, push, most, span)
+        poses = [_pose(target, change[0], extra) for target, extra in zip(targets, change[1:], strict=True)]
+        targets = [_rolled(*those, change[0]) for those in zip(targets, poses, strict=True)]
+        jumps = _jumps(own + _displacements(targets, change)[_knees(targets)], span)
+        beyond = np.linalg.norm(jumps, axis=-1) - usual  # than it did, and than is usual
+        if not (jolting := beyond > UNSEEN * length).any():
             break
-        near = maximum_filter1d(over, 2 * span + 1, axis=1)
-        stress *= np.where(near, 2.0, 1.0)
-        # A push against a jump takes just so much off it, for a curve that bends freely.
-        more = np.maximum(beyond, 0.0) / np.maximum(size, ROUNDING) / (span * (2 * span**2 + 1) / 3)
-        push[knees] -= _jumps(more[..., None] * jumps, span)
-        legs = [_bent_forwards(*leg, jolts) for leg, jolts in zip(legs, near[1:], strict=True)]
-    poses = [_pose(*leg, change[0], extra) for leg, extra in zip(legs, change[1:], strict=True)]
-    far, jolts = abs(change[0]) - MOST * length, beyond.max(axis=0) - UNSEEN * length
-    excesses = [(slice(None), far), (slice(None), jolts)]
-    for n, ((track, target), (_, wanted)) in enumerate(zip(legs, poses, strict=True)):
-        lack = np.linalg.norm(wanted, axis=-1) - track.long(0.0) - ROUNDING
+        push = _beyond(jumps + push, most)
+        near = maximum_filter1d(jolting, 2 * span + 1, axis=1)
+        targets = [_eased(target, jolts) for target, jolts in zip(targets, near, strict=True)]
+    poses = [_pose(target, change[0], extra) for target, extra in zip(targets, change[1:], strict=True)]
+    excesses = [(slice(None), abs(change[0]) - MOST * length - ROUNDING)]
+    excesses += [(slice(None), beyond.max(axis=0) - UNSEEN * length)]
+    for n, (target, (_, wanted)) in enumerate(zip(targets, poses, strict=True)):
+        lack = np.linalg.norm(wanted, axis=-1) - target.track.long(0.0) - ROUNDING
         excesses.append((slice(n, n + 1), np.where(target.planted, lack, -1.0)))
-    return change[0], [bend for bend, _ in poses], [excess for excess in excesses if (excess[1] > 0).any()]
+    return change[0], list(targets), poses, [excess for excess in excesses if (excess[1] > 0).any()]
 
 
-def _bent_forwards(track: LegTrack, target: FootTarget, jolts: Mask) -> tuple[LegTrack, FootTarget]:
-    """Let a knee that jolts no longer be bent backwards, for the whole run of frames in which it was."""
+def _eased(target: FootTarget, jolts: Mask) -> FootTarget:
+    """Let a knee that jolts no longer be straight, nor bent backwards in the run in which it was."""
     back = target.side < 0
-    forwards = binary_propagation(back & jolts, mask=back)
-    return track, target._replace(side=np.where(forwards, 1.0, target.side))
+    side = np.where(binary_propagation(back & jolts, mask=back), 1.0, target.side)
+    return target._replace(side=side, reach=np.where(jolts, target.track.long(BENT), target.reach))
 
 
-def _pose(track: LegTrack, target: FootTarget, rise: Array, extra: Array) -> tuple[Array, Array]:
+def _pose(target: FootTarget, rise: Array, extra: Array) -> tuple[Array, Array]:
     """Give the knee's angle (F,), radians, and the way from hip to ankle (F, 3), for a risen root."""
-    wanted = target.ankle - track.hip - rise[:, None] * UP
-    held = target.side * track.bend(np.linalg.norm(wanted, axis=-1))
-    return np.where(target.planted, held, track.own + extra), wanted
+    track, free = target.track, target.track.own + extra
+    hip = track.hip + rise[:, None] * UP
+    wanted = np.where(target.rolls[:, None], target.rolled(hip, track.long(free)), target.ankle - hip)
+    held = track.bend(np.linalg.norm(wanted, axis=-1))
+    held *= np.where(target.rolls, np.copysign(1.0, free), target.side)
+    return np.where(target.planted, held, free), wanted
 
 
-def _highest(legs: Legs) -> Array:
+def _rolled(target: FootTarget, pose: tuple[Array, Array], rise: Array) -> FootTarget:
+    """Lead an ankle over the places to which its foot has rolled."""
+    ankle = target.track.hip + rise[:, None] * UP + pose[1]
+    return target._replace(ankle=np.where(target.planted[:, None], ankle, target.ankle)).led()
+
+
+def _highest(targets: Sequence[FootTarget]) -> Array:
     """Give the highest rise of the root at which all planted legs still reach, (F,), metres."""
-    return np.asarray(np.min([np.where(g.planted, t.highest(g.ankle), np.inf) for t, g in legs], axis=0))
+    tops = []
+    for target in targets:
+        foot = np.linalg.norm(target.places[1] - target.ankle, axis=-1) - FLAT
+        ball = np.where(target.rolls, target.track.highest(target.places[1], foot), np.inf)
+        tops.append(np.where(target.marks[0], target.track.highest(target.ankle), ball))
+    return np.asarray(np.min(tops, axis=0))
 
 
-def _displacements(legs: Legs, change: Array) -> Array:
-    """Give how far root and knees are moved, then how far each is beyond its bound, (2 + 2 L, F, 3)."""
-    rise, most = change[0][:, None] * UP, FALL * legs[0][0].length
-    moved, beyond = [ROOT * rise], [rise - np.clip(rise, -most, most)]
-    for (track, target), extra in zip(legs, change[1:], strict=True):
-        bend, wanted = _pose(track, target, change[0], extra)
-        knee = rise + track.hip + rotations.rotate(track.turns(bend, wanted)[1], track.knee - track.hip)
-        moved.append(knee - track.knee)
-        lack = np.maximum(np.linalg.norm(wanted, axis=-1) - track.limit, 0.0)
-        beyond.append(np.where(target.planted, lack, 0.0)[:, None] * UP)
-    return np.array(moved + beyond)
+def _displacements(targets: Sequence[FootTarget], change: Array) -> Array:
+    """Give how far the root and each knee and ankle are moved, then what each leg lacks, (1 + 3 L, F, 3).
 
-
-def _least_bent(legs: Legs, stress: Array, change: Array, push: Array) -> Array:
-    """Improve a change (1 + L, F) of the root's rise and of the knees' angles in the air.
-
-    `stress` (1 + L, F) says how much the root's bound and each knee's acceleration count in each frame,
-    `push` (2 + 2 L, F, 3) which way all displacements are pushed.
+    While the foot rolls, the leg also lacks what the knee's angle asks for, where no triangle is as long.
     """
-    near = (NEAR * legs[0][0].motion.fps) ** -4.0
-    ones = np.ones_like(change[1:])
-    bending = [bending_bands(weight, near) for weight in (ones[0], *stress[1:])]
-    bounds = [bending_bands(0 * weight, STIFF**2 * near * weight) for weight in (stress[0], *ones)]
-    bands = np.array([*bending, *bounds])
-    top = _highest(legs)
-    change = np.vstack([np.minimum(change[0], top), change[1:]])
-    here, damping = _displacements(legs, change), 1e-3
+    rise = change[0][:, None] * UP
+    moved, lacks = [ROOT * rise], []
+    for target, extra in zip(targets, change[1:], strict=True):
+        track, (bend, wanted) = target.track, _pose(target, change[0], extra)
+        knee = rise + track.hip + rotations.rotate(track.turns(bend, wanted)[1], track.knee - track.hip)
+        far = np.linalg.norm(wanted, axis=-1)
+        ankle = rise + track.hip + wanted * np.where(target.planted, 1.0, track.long(bend) / far)[:, None]
+        moved += [knee - track.knee, FOOT * (ankle - track.ankle)]
+        lack = target.planted * np.maximum(far - target.reach, 0.0)
+        lack += target.rolls * np.abs(far - track.long(track.own + extra))
+        lacks.append(lack[:, None] * UP)
+    return np.array(moved + lacks)
+
+
+def _least_bent(targets: Sequence[FootTarget], change: Array, push: Array, most: Array, span: int) -> Array:
+    """Improve a change (1 + L, F) of the root's rise and of the knees' angles where ankles do not stand.
+
+    Knees jump by at most `most` (L, F) over `span` frames, as soon as their multipliers `push` (L, F, 3) are
+    found.
+    """
+    track, ones, knees = targets[0].track, np.ones_like(change[0]), _knees(targets)
+    near, hard = (NEAR * track.motion.fps) ** -4.0, _hard(span)
+    bending, lack = bending_bands(ones, near), bending_bands(0 * ones, STIFF**2 * near)
+    bands = np.array([bending] * (1 + 2 * len(targets)) + [lack] * len(targets))
+    own = _jumps(np.array([target.track.knee for target in targets]), span) + push
+    weighed = partial(_weighed, targets, bands, (own, most, span))
+    top = np.minimum(_highest(targets), MOST * track.length)
+    bottom = np.minimum(top, -MOST * track.length)
+    rise = np.clip(change[0], bottom, top)
+    change = np.array([rise, *(_start(*those, rise) for those in zip(targets, change[1:], strict=True))])
+    (here, pull, over, cost), damping = weighed(change), 1e-3
     for _ in range(STEPS):
-        lower = [_displacements(legs, change - STEP * row[:, None]) for row in np.eye(len(change))]
-        pull = band_product(bands, here) - push
-        tried = change - _gauss_newton((here - np.array(lower)) / STEP, bands, pull, damping)
-        tried[0] = np.minimum(tried[0], top)
-        there = _displacements(legs, tried)
-        cost, less = (here * (pull - push)).sum(), (there * (band_product(bands, there) - 2 * push)).sum()
-        damping *= 0.2 if less < cost else 10.0
-        if less < cost:
-            change, here = tried, there
-        if 0 <= cost - less <= GAIN * abs(cost):
+        lower = [_displacements(targets, change - STEP * row[:, None]) for row in np.eye(len(change))]
+        slopes = (here - np.array(lower)) / STEP
+        target = np.einsum("kmfc,mfc->kf", slopes, pull)
+        # A root at its bound stays there if it is pulled beyond.
+        held = (change[0] >= top) & (target[0] < 0) | (change[0] <= bottom) & (target[0] > 0)
+        jolts = np.array([bending_bands(hard * row.any(axis=-1), 0.0, span) for row in over])
+        terms = ((slopes, bands, 1), (slopes[:, knees], jolts, span))
+        tried = change - _gauss_newton(terms, target, damping, held)
+        tried[0] = np.clip(tried[0], bottom, top)
+        there, *rest, less = weighed(tried)
+        gain = cost - less
+        damping *= 0.2 if gain > 0 else 10.0
+        if gain > 0:
+            change, here, (pull, over), cost = tried, there, rest, less
+        if 0 <= gain <= GAIN * abs(cost):
             break
     return change
 
 
-def _gauss_newton(slopes: Array, bands: Array, pull: Array, damping: float) -> Array:
-    """Solve (Σ Sᵀ B S + damping · diagonal) x = Σ Sᵀ pull for a step x, (K, F).
+def _weighed(
+    targets: Sequence[FootTarget], bands: Array, bounds: tuple[Array, Array, int], change: Array
+) -> tuple[Array, Array, Array, float]:
+    """Give how far all is moved, how hard it is pulled back, by how much knees jump too far, and the sum."""
+    own, most, span = bounds
+    moved, knees = _displacements(targets, change), _knees(targets)
+    pull, over = band_product(bands, moved), _beyond(own + _jumps(moved[knees], span), most)
+    cost = (moved * pull).sum() + _hard(span) * (over**2).sum()
+    pull[knees] += _hard(span) * _differences(over, span)
+    return moved, pull, over, float(cost)
+
+
+def _hard(span: int) -> float:
+    """Say how much a jump too far counts: a curve that bends freely jumps so much less for a push of 1."""
+    return HARD / (span * (2 * span**2 + 1) / 3)
+
+
+def _start(target: FootTarget, extra: Array, rise: Array) -> Array:
+    """Give the knee's extra angle (F,) at which a foot that rolls is where it is."""
+    track = target.track
+    held = track.bend(np.linalg.norm(target.ankle - track.hip - rise[:, None] * UP, axis=-1))
+    return np.where(target.rolls, np.copysign(held, track.own + extra) - track.own, extra)
+
+
+def _gauss_newton(
+    terms: Sequence[tuple[Array, Array, int]], target: Array, damping: float, held: Mask
+) -> Array:
+    """Solve (Σ Sᵀ B S + damping · diagonal) x = target for a step x, (K, F).
 
     Parameters
     ----------
-    slopes : S, how far each of M rows moves for each of K unknowns, (K, M, F, 3).
-    bands : B, a symmetric matrix for each row by its three lower diagonals, (M, 3, F).
-    pull : B times what the rows are now, (M, F, 3).
+    terms : for each sum S, how far each of M rows moves for each of K unknowns, (K, M, F, 3); B, a symmetric
+        matrix for each row by three of its lower diagonals, (M, 3, F), and how many frames these are apart.
+    target : (K, F).
+    held : where the first unknown stays, (F,).
     """
-    kinds, _, frames, _ = slopes.shape
-    # The unknowns of a frame stand side by side, so the whole has 3 K lower diagonals.
-    whole = np.zeros((3 * kinds, frames, kinds))
-    for later, one, other in np.ndindex(3, kinds, kinds):
-        if (row := later * kinds + other - one) >= 0:
-            then = np.roll(slopes[other], -later, axis=1)
-            whole[row, :, one] = np.einsum("mf,mfc,mfc->f", bands[:, later], slopes[one], then)
+    kinds, frames = target.shape
+    # The unknowns of a frame stand side by side, so the whole has K lower diagonals for each frame.
+    whole = np.zeros(((1 + 2 * max(span for *_, span in terms)) * kinds, frames, kinds))
+    for slopes, bands, span in terms:
+        for later, one, other in np.ndindex(3, kinds, kinds):
+            if (row := later * span * kinds + other - one) >= 0:
+                then = np.roll(slopes[other], -later * span, axis=1)
+                whole[row, :, one] += np.einsum("mf,mfc,mfc->f", bands[:, later], slopes[one], then)
     # Where nothing depends on an unknown, as on a planted knee's extra angle, the step is 0.
     whole[0] += damping * whole[0] + 1e-9 * whole[0].max() + np.finfo(float).tiny
-    target = np.einsum("kmfc,mfc->fk", slopes, pull).ravel()
-    step = solveh_banded(whole.reshape(3 * kinds, -1), target, lower=True)
+    whole[0, :, 0] += 1e9 * whole[0].max() * held
+    step = solveh_banded(whole.reshape(len(whole), -1), target.T.ravel(), lower=True)
     return np.asarray(step.reshape(frames, kinds).T)
+
+
+def _knees(targets: Sequence[FootTarget]) -> slice:
+    """Say which rows of all displacements are those of the knees."""
+    return slice(1, 1 + 2 * len(targets), 2)
+
+
+def _beyond(vectors: Array, most: Array) -> Array:
+    """Give what vectors (..., 3) are longer than `most` (...)."""
+    size = np.linalg.norm(vectors, axis=-1)
+    return np.asarray(vectors * (np.maximum(size - most, 0.0) / np.maximum(size, ROUNDING))[..., None])
+
+
+def _differences(curves: Array, span: int) -> Array:
+    """Give the second differences over `span` frames of curves (L, F, 3) that are 0 before and after."""
+    wide = np.pad(curves, ((0, 0), (span, span), (0, 0)))
+    return np.asarray(wide[:, 2 * span :] - 2 * curves + wide[:, : -2 * span])
 
 
 def _jumps(curves: Array, span: int) -> Array:
     """Give the second differences over `span` frames of curves (L, F, 3), 0 near their ends."""
-    jumps = np.zeros_like(curves)
-    ahead, behind = curves[:, 2 * span :], curves[:, : -2 * span]
-    jumps[:, span:-span] = ahead - 2 * curves[:, span:-span] + behind
+    jumps = _differences(curves, span)
+    jumps[:, :span] = jumps[:, -span:] = 0.0
     return jumps

@@ -75,11 +75,12 @@ class LegTrack(NamedTuple):
         """
         return self.long(np.minimum(np.abs(self.own), BENT))
 
-    def highest(self, ankle: Array) -> Array:
-        """How far the root may rise at most, (F,), metres, for the leg to reach to `ankle` (F, 3)."""
-        apart = self.hip - ankle
+    def highest(self, place: Array, foot: float | Array = 0.0) -> Array:
+        """How far the root may rise at most, (F,), metres, for leg and foot to reach to `place` (F, 3)."""
+        apart = self.hip - place
         level = apart[:, 0] ** 2 + apart[:, 2] ** 2
-        return np.asarray(np.sqrt(np.maximum(self.long(0.0) ** 2 - level, 0.0)) - apart[:, 1])
+        reach = (self.long(0.0) + foot) ** 2
+        return np.asarray(np.sqrt(np.maximum(reach - level, 0.0)) - apart[:, 1])
 
     def bend(self, distance: Array) -> Array:
         """How far the knee is bent, (F,), radians, where hip and ankle are a distance (F,) apart."""

@@ -181,7 +181,7 @@ def test_plants_stand_where_they_are_held():
 
 
 def test_a_plant_out_of_reach_is_let_go_with_a_warning():
-    late = {name: maximum_filter1d(marks, 49) for name, marks in WALK.contacts.items()}
+    late = {name: maximum_filter1d(marks, 61) for name, marks in WALK.contacts.items()}
     lingering = replace(WALK, contacts=late, name="n" * 300)[:360]
     gone = r"so they are let go: \w+ \d+-\d+, \w+ \d+-\d+ and \d+ more\.$"
     with pytest.warns(MocapWarning, match=gone) as caught:

@@ -5,8 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mocap._shared.arrays import runs
-from mocap.body.kinematics import forward_kinematics, joint_positions
+from mocap.body.kinematics import forward_kinematics
 from mocap.body.limbs import find_legs
 from mocap.body.motion import resample
 from mocap.datasets.samples import sample
@@ -41,21 +40,16 @@ HERE = {
 @RATES
 @pytest.mark.parametrize("kind", HERE)
 def test_all_plants_of_quiet_clips_are_held(kind, fps):
-    if (kind, fps) == ("straight stop", 120.0):
-        pytest.xfail("a knee turns about within a frame: accelerations × 1.24, where 1.2 is asked")
     check_clean_up(HERE[kind](fps), 0.995)
 
 
-def test_a_knee_that_is_bent_backwards_keeps_or_changes_its_side_as_a_whole():
-    clip, sides = unbent(skating(30.0), 12.0), set()
+@pytest.mark.parametrize("name", ["walk_straight", "sneak"])
+def test_a_knee_that_is_bent_backwards_keeps_its_side(name):
+    clip, planted = unbent(skating(30.0, name), 12.0), 0
     cleaned = clean_up(clip)
     for leg in find_legs(clip.skeleton):
         own, now = (track_leg(m, leg, forward_kinematics(m)).own for m in (clip, cleaned))
-        planted = np.any([cleaned.contacts[clip.skeleton.names[joint]] for joint in leg[2:]], axis=0)
-        for start, stop in runs(own < -1e-4):
-            bent = now[start:stop][planted[start:stop]]
-            there = set(np.sign(bent[np.abs(bent) > 1e-5]))
-            assert len(there) <= 1
-            sides |= there
-    assert sides == {-1.0, 1.0}
-    assert joint_positions(clean_up(cleaned)) == pytest.approx(joint_positions(cleaned), abs=1e-6)
+        back = (own < -1e-4) & cleaned.contacts[clip.skeleton.names[leg.ankle]]
+        assert np.all(now[back] < 1e-5)
+        planted += back.sum()
+    assert planted > 10
