@@ -24,7 +24,6 @@ from matplotlib.axes import Axes
 
 import mocap
 from mocap import datasets, graphs
-from mocap._shared.arrays import Array
 from mocap.body import SHAPES, GroundPath, circle, s_curve
 from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.plotting import ASKED, CURVES, PATH
@@ -45,6 +44,7 @@ FOLDER = Path(__file__).parent
 FREE = Settings(seam=0, match=0, width=200, tries=1)
 OWN = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight", "stop_and_go")
 CMU = (*range(11, 35), 47, 58)
+OFFS = ("off", "off_at_length")
 
 
 def compiled() -> dict[str, CompiledGraph]:
@@ -181,13 +181,8 @@ def _mean(graph: CompiledGraph, price: float) -> tuple[float, float, float]:
     """Average seams per second, and centimetres from the path in both ways, over the shapes."""
     settings = Settings(seam=price, width=100, rescue=max(1.5, 2 * price), tries=1)
     walks = [follow_path(graph, draw(), settings=settings) for draw in SHAPES.values()]
-    near, equal = (np.mean([100 * off.mean() for off in offs]) for offs in _offs(walks))
+    near, equal = (np.mean([100 * getattr(walk, name).mean() for walk in walks]) for name in OFFS)
     return float(np.mean([w.seams_per_second for w in walks])), float(near), float(equal)
-
-
-def _offs(walks: list[Followed]) -> tuple[list[Array], list[Array]]:
-    """Give the distances of walks from their nearest points, and at equal arc length."""
-    return [walk.off for walk in walks], [walk.off_at_length for walk in walks]
 
 
 def others(name: str, graph: CompiledGraph) -> str:

@@ -116,8 +116,8 @@ def _tell_departures(graph: CompiledGraph, followed: Followed, bend: float) -> N
     far = followed.off.mean() > FAR and not (bend or followed.found.stopped)
     speed = np.abs(np.diff(on_ground(followed.track))).sum() / followed.seconds
     if far and speed < SLOWEST:
-        off = f"{followed.off.mean():.1f} m off the line on average"
-        raise too_slow(graph, f"The nearest walk is {off}, and goes at {speed:.2f} m/s")
+        off = f"The nearest walk is {followed.off.mean():.1f} m off the line on average"
+        raise too_slow(graph, f"{off}, and goes at {speed:.2f} m/s")
     if departures := followed.departures:
         start, end, worst = max(departures, key=lambda stretch: stretch[2])
         often = "once" if len(departures) == 1 else f"{len(departures)} times"

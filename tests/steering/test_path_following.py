@@ -175,12 +175,7 @@ def test_a_corner_that_no_clip_can_turn_is_cut_and_told():
         (STRAIGHT, Wishes(start=(0, 99999)), NoWalk, r"no node \(0, 99999\); the nearest"),
         (STRAIGHT, Wishes(times=[(4, 3), (8, 2)]), MocapError, "must grow along the path"),
         (STRAIGHT, Wishes(times=[(4, 3), (4, 5)]), MocapError, "in one place"),
-        (
-            GroundPath([[0, 0], [0, 8000]]),
-            Wishes(),
-            MocapError,
-            r"of 8000 m takes .* an hour, at \d\.\d\d m/s at most: is it in metres",
-        ),
+        (GroundPath([[0, 0], [0, 8000]]), Wishes(), MocapError, r"hour, at \d\.\d\d m/s .*: is it in metres"),
     ],
 )
 def test_bad_wishes_are_told(path, wishes, error, message):
