@@ -103,8 +103,7 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
     query = _query(web, clip, frames)
     limit = web.below if below is None else below
     if limit > web.below:
-        held, asked = 100 * web.below, 100 * limit
-        raise MocapError(f"This web holds paths up to {held:g} cm: build another for {asked:g} cm.")
+        raise MocapError(f"This web goes up to {100 * web.below:g} cm: build another for {100 * limit:g} cm.")
     shortest, longest = (share * (query.stop - query.start) for share in lengths)
     found, asking, left_out, places = [query], [0], 0, np.array([query[1:3]])
     while asking and (steps is None or found[-1].generation < steps):
@@ -122,10 +121,9 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
             union = np.maximum(places[:, 1], other.stop) - np.minimum(places[:, 0], other.start)
             if (common <= SAME * union).all():  # it is none of those that were found
                 match = _composed(found[number], other, number)
-                if keep and not keep(cut_out(web, _in_own_frames(web, clip, match))):
-                    continue
-                found.append(match)
-                places = np.append(places, [other[1:3]], axis=0)
+                if not keep or keep(cut_out(web, _in_own_frames(web, clip, match))):
+                    found.append(match)
+                    places = np.append(places, [other[1:3]], axis=0)
         asking = list(range(before, len(found)))
     _warn(found, left_out)
     own = [_in_own_frames(web, clip, one) for one in found]
