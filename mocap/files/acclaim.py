@@ -36,7 +36,7 @@ def read_amc(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None
     ----------
     path : the file.
     asf : its skeleton.
-    fps : frames per second; by default CMU's 120, for the format does not tell.
+    fps : frames per second; by default those of a first line "# fps 30", else CMU's 120.
 
     Returns
     -------
@@ -46,7 +46,7 @@ def read_amc(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None
     ------
     FormatError : with the line that breaks the format or does not fit the skeleton.
     """
-    numbers, unit = _read_frames(path, asf)
+    numbers, unit, rate = _read_frames(path, asf)
     frames = len(numbers["root"])
     check_room(path, frames * len(asf.skeleton), sum(block.size for block in numbers.values()))
     local = np.tile(rotations.IDENTITY, (frames, len(asf.skeleton), 1))
@@ -68,12 +68,12 @@ def read_amc(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None
                 got = f"{column[frame]:g} in frame {frame}"
                 raise FormatError(path, None, f"0 for '{dof}' of '{name}', {expected}", got)
     places = asf.bones["root"].vector + moves * asf.unit
-    return Motion(asf.skeleton, places, local, fps or CMU_RATE, Path(path).stem)
+    return Motion(asf.skeleton, places, local, fps or rate or CMU_RATE, Path(path).stem)
 
 
 def read_angles(path: str | Path, asf: AcclaimSkeleton) -> dict[str, Array]:
     """Give each bone's angles, shape (F, rotational dofs), in degrees, as they are in the file."""
-    numbers, unit = _read_frames(path, asf)
+    numbers, unit, _ = _read_frames(path, asf)
     return {name: unit * block[:, asf.bones[name].turns] for name, block in numbers.items()}
 
 
@@ -96,8 +96,8 @@ def fits(counts: Mapping[str, int], asf: AcclaimSkeleton) -> bool:
     return counts.items() <= known.items() and set(asf.needed()) <= set(counts)
 
 
-def _read_frames(path: str | Path, asf: AcclaimSkeleton) -> tuple[dict[str, Array], float]:
-    """Read the numbers (F, dofs) of each bone, and the degrees that an angle of 1 has."""
+def _read_frames(path: str | Path, asf: AcclaimSkeleton) -> tuple[dict[str, Array], float, float | None]:
+    """Read the numbers (F, dofs) of each bone, the degrees that an angle of 1 has, and the rate, if told."""
     text = read_text(path)
     start = FIRST.search(text)
     head, frames = (text[: start.start()], text[start.start() :]) if start else (text, "")
@@ -106,7 +106,12 @@ def _read_frames(path: str | Path, asf: AcclaimSkeleton) -> tuple[dict[str, Arra
     usual = fits(counts, asf) and "#" not in frames and all(word[0] == ":" for word in keywords)
     numbers = (_by_columns(frames, counts) if usual else None) or _by_lines(path, text, asf)
     in_degrees = ":RADIANS" not in keywords and (asf.degrees or ":DEGREES" in keywords)
-    return {name: numbers[name] for name in asf.needed()}, 1.0 if in_degrees else np.degrees(1.0)
+    fps, words = None, text.partition("\n")[0].split()
+    if words[:2] == ["#", "fps"] and len(words) == 3:  # the format has no frame rate: a comment tells it
+        fps = float(to_numbers(path, 1, words[2:], "frames per second, above 0", 1)[0])
+        if fps <= 0:
+            raise FormatError(path, 1, "frames per second, above 0", words[2])
+    return {name: numbers[name] for name in asf.needed()}, 1.0 if in_degrees else np.degrees(1.0), fps
 
 
 def _by_columns(frames: str, counts: Mapping[str, int]) -> dict[str, Array] | None:

@@ -46,6 +46,7 @@ def ground_axes(
 
     Examples
     --------
+    >>> from matplotlib.figure import Figure
     >>> ax = ground_axes((0, 5), reach=2, ax=Figure().add_subplot(projection="3d"))
     >>> np.concatenate([ax.get_ylim(), ax.get_xlim()]).tolist()  # matplotlib's y is our x, its x our z
     [-2.0, 2.0, 3.0, 7.0]
@@ -106,7 +107,9 @@ class StickFigure:
 
     Examples
     --------
+    >>> from matplotlib.figure import Figure
     >>> from mocap import datasets
+    >>> from mocap.body.kinematics import joint_positions
     >>> from mocap.plotting import ground_axes
     >>> walk = datasets.sample("walk_straight")
     >>> body = StickFigure(walk.skeleton, ground_axes(ax=Figure().add_subplot(projection="3d")))

@@ -79,7 +79,7 @@ REFUSED = [
     ("walk walks.npz --path nowhere.csv", "nowhere.csv"),
     ("walk walks.npz --path l.csv --label walk", "METRES:LABEL"),
     ("walk walks.npz --path l.csv --label 0:fly", "there are: walk"),
-    ("walk walks.npz --path l.csv --unit 5000", "is it in metres?"),
+    ("walk walks.npz --path l.csv --unit 5000", "is it in metres, and do they walk?"),
     ("walk walks.npz --path l.csv -o walk.fbx", "as .bvh or .glb"),
     ("walk walks.npz --path l.csv --bend 0", "'0' is not a number"),
     ("graph a.bvh --by-labels --whole", "give one of them"),

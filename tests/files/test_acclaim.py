@@ -157,6 +157,15 @@ def test_columns_and_lines_read_the_same(real_data):
     assert all(np.array_equal(fast[name], slow[name]) for name in slow)
 
 
+def test_a_comment_may_tell_the_rate(write):
+    assert read_clip(write, amc_text=f"# fps 29.97\n{AMC}").fps == 29.97
+    assert read_clip(write, amc_text=f"# fps 29.97\n{AMC}", fps=60.0).fps == 60.0
+    assert read_clip(write, amc_text=f"# fps are many\n{AMC}", fps=60.0).fps == 60.0
+    for wrong in ("0", "-1", "nan"):
+        with pytest.raises(FormatError, match="line 1: expected frames per second, above 0"):
+            read_clip(write, amc_text=f"# fps {wrong}\n{AMC}")
+
+
 # Forward kinematics by hand: nothing of mocap.
 
 
