@@ -33,7 +33,7 @@ MOST = {
     "functions": 1_702,  # 1 400
     "classes": 209,  # 170
     "public names": 346,  # 250
-    "lines of tests": 23_707,  # 20 000
+    "lines of tests": 23_710,  # 20 000
 }
 
 
