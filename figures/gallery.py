@@ -433,7 +433,7 @@ def draw_bound() -> Figure:
             states.append(plain.step(states[-1], edge)[1])
         diagrams.from_above([np.array([at for at, *_ in states])], tried=tried, goal=goal, ax=ax)
         how = "with a lower bound" if bounded else "without a lower bound"
-        ax.set_title(f"{how}: {found.expanded} walks expanded", fontsize=11)
+        ax.set_title(f"{how}:\n{found.expanded} walks expanded", fontsize=11)
 
     figure = plt.figure(figsize=(10, 4.6), layout="constrained")
     axes = figure.subplots(1, 2)
