@@ -35,11 +35,11 @@ STROKES = f"""() => {{
 }}"""
 
 
-def twelve():
-    """Give a player of twelve characters that walk for a minute beside each other."""
+def twelve(count=12):
+    """Give a player of twelve characters, or fewer, that walk for a minute beside each other."""
     way = np.linspace(0, 1, 40)
     walk = resample(generate_walk(np.stack([2 * np.sin(9 * way), 60 * way], axis=1), speed=1.0), 30)
-    places = [np.array([1.2 * (k % 4), 0, 1.2 * (k // 4)]) for k in range(12)]
+    places = [np.array([1.2 * (k % 4), 0, 1.2 * (k // 4)]) for k in range(count)]
     walks = [replace(walk, root_positions=walk.root_positions + place) for place in places]
     return play(*(replace(one, name=f"member {k}") for k, one in enumerate(walks)), follow=False)
 
