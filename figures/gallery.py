@@ -28,6 +28,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 from mpl_toolkits.mplot3d import Axes3D
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 from PIL import Image
 from walking import generate_walk
@@ -54,7 +55,6 @@ from mocap.course import diagrams
 from mocap.course.diagrams import pens
 from mocap.course.diagrams.eight_nodes import EIGHT_PLACES
 from mocap.course.seam_trials import choose_matches, passage, walk_costs
-from mocap.matching import lower_bound
 from mocap.methods import groups, match_webs, motion_matching, parametric_graphs
 from mocap.methods.match_webs.local_alignment import apart
 from mocap.methods.motion_matching.nearest_frames import foresee
@@ -233,9 +233,13 @@ def draw_most_pairs() -> Figure:
     """Draw the lower bound of pairs of windows against their RMS distance, and the few below 4 cm."""
     clips = [resample(datasets.sample(name), 30)[:300] for name in ("walk_curve_1", "walk_curve_2")]
     points = [matching.point_cloud(clip) for clip in clips]
-    weights = np.full(31, 1 / 31)
-    ready = [matching.cloud(each, np.zeros(31), weights, WINDOW, np.float64) for each in points]
-    rows = [lower_bound.window_numbers(each, lower_bound.whole_windows(each)[::8], weights) for each in ready]
+    rows = []
+    for each in points:
+        windows = sliding_window_view(each, WINDOW, axis=0)[::8].transpose(0, 3, 1, 2)
+        ground = windows[..., [0, 2]]
+        radii = np.linalg.norm(ground - ground.mean(axis=(1, 2), keepdims=True), axis=-1)
+        numbers = np.stack([windows[..., 1], radii]).reshape(2, len(windows), -1)
+        rows.append(np.hstack([*numbers]) / np.sqrt(radii[0].size))
     bound = 100 * np.linalg.norm(rows[0][:, None] - rows[1], axis=-1)
     rms = 100 * np.sqrt(matching.distance_grid(*points, window=WINDOW)[::8, ::8])
     figure = plt.figure(figsize=(6, 4), layout="constrained")

@@ -86,7 +86,7 @@ def build(
     window : frames in a transition, about a third of a second.
     threshold : every transition has an RMS distance of the points below this, metres; or one threshold for
         each pair of labels, as for `matching.find_transitions`.
-    **search : joint_weights, method, progress and executor, as for
+    **search : joint_weights, progress and executor, as for
         `matching.find_transitions`.
 
     Raises

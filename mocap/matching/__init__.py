@@ -10,18 +10,13 @@ Reading order (notebooks 02, 05, 15)
 2. `distance_grids`: all windows against all, by matrix products
 3. `other_metrics`: the homework's two metrics, and why they fail; `Metric`, the signature that all have
 4. `minima`: the entries of a grid that are lower than all eight neighbours
-5. `lower_bound`: a lower bound of the distance, with the proof
-6. `pair_search`: the minima of a grid that is too large to hold, by products or by the bound
-7. `transitions`: where one clip can pass into another
-8. `time_paths`: which frame of one clip belongs to which of another
+5. `pair_search`: the minima of a grid that is too large to hold
+6. `transitions`: where one clip can pass into another
+7. `time_paths`: which frame of one clip belongs to which of another
 
 References
 ----------
 .. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
-.. [FRM94] C. Faloutsos, M. Ranganathan, Y. Manolopoulos, *Fast Subsequence Matching in Time-Series
-   Databases*, SIGMOD 1994, doi 10.1145/191839.191925.
-.. [Keo02] E. Keogh, *Exact Indexing of Dynamic Time Warping*, VLDB 2002,
-   doi 10.1016/B978-155860869-6/50043-3.
 .. [KG03] L. Kovar, M. Gleicher, *Flexible Automatic Motion Blending with Registration Curves*, SCA 2003,
    doi 10.5555/846276.846307.
 .. [SC78] H. Sakoe, S. Chiba, *Dynamic Programming Algorithm Optimization for Spoken Word Recognition*, IEEE
@@ -38,7 +33,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "point_clouds": ["align", "distinct_joints", "point_cloud", "rms_distance"],
         "distance_grids": ["cloud", "cloud_distances", "distance_grid"],
         "minima": ["local_minima"],
-        "lower_bound": ["principal_directions"],
         "transitions": ["Transition", "find_transitions"],
         "time_paths": ["path_mean", "path_sums", "time_path"],
     },

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
-from typing import Any, Literal, NamedTuple, TypedDict, get_args, overload
+from typing import Any, NamedTuple, TypedDict, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,11 +16,10 @@ from mocap.body.motion import Motion, require_alike
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError
 from mocap.matching.distance_grids import Cloud, check_window, cloud
-from mocap.matching.pair_search import find_minima, is_quicker
+from mocap.matching.pair_search import find_minima
 from mocap.matching.point_clouds import distinct_joints, point_cloud, require_near, unit_weights
 
 Integers = NDArray[np.integer[Any]]
-Method = Literal["auto", "products", "bound"]
 Thresholds = float | Mapping[tuple[str, str], float]
 """One threshold in metres, or one for each pair of labels."""
 
@@ -29,7 +28,6 @@ class Search(TypedDict, total=False):
     """How `find_transitions` searches: its parameters that have defaults, for functions that pass them on."""
 
     joint_weights: ArrayLike | None
-    method: Method
     progress: Progress
     executor: Executor | None
 
@@ -119,7 +117,6 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
     window: int,
     below: Thresholds,
     joint_weights: ArrayLike | None = None,
-    method: Method = "auto",
     progress: Progress = iter,
     executor: Executor | None = None,
 ) -> Transitions:
@@ -139,9 +136,6 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
         where that pair is not named itself. Where several pairs apply the strictest counts; where none
         applies there is no transition.
     joint_weights : of the points, as for `distance_grid`.
-    method : how to search; the transitions are the same. "products" measures all pairs of windows by matrix
-        products. "bound" measures only those that a lower bound of the distance leaves (`lower_bound` has
-        the proof). "auto" is "bound" above 5 000 windows, if a sample says that it leaves few pairs.
     progress : wraps the pairs of blocks as they are worked through, to show a bar.
     executor : where to work: threads, processes, or a cluster by `dask.distributed`'s
         `Client.get_executor()`; by default here, one block after the other. On machines of one kind the
@@ -159,8 +153,8 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
     Raises
     ------
     SkeletonMismatch, MocapError : for different skeletons or rates, clips shorter than the window, points
-        out of reach, thresholds that are not above 0, labels that no clip has, weights that are negative, all
-        0 or of the wrong shape, and another method.
+        out of reach, thresholds that are not above 0, labels that no clip has, and weights that are negative,
+        all 0 or of the wrong shape.
 
     Examples
     --------
@@ -181,17 +175,13 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
         check_window(window, len(clip), f"'{clip.name}'")
     each: Mapping[Any, float] = below if isinstance(below, Mapping) else {None: below}
     _check_thresholds(each, clips)
-    if method not in get_args(Method):
-        raise MocapError(f'A method is "auto", "products" or "bound", got {method!r}.')
     gap = int(window == 1)  # longer windows that run off a clip keep the clips apart by themselves
     if not clips:
         return _both_ways(np.empty((6, 0)), clips, gap)
     double = sum(map(len, clips)) <= FEW
     weights = unit_weights(joint_weights, len(distinct_joints(clips[0].skeleton)))
     ready = join_clouds(clips, weights, window, gap, np.float64 if double else np.float32)
-    loosest = max(each.values())
-    by_bound = method == "bound" or (method == "auto" and is_quicker(ready, weights, loosest))
-    found = find_minima(ready, weights, loosest, by_bound=by_bound, progress=progress, executor=executor)
+    found = find_minima(ready, max(each.values()), progress=progress, executor=executor)
     transitions = _both_ways(found, clips, gap)
     return transitions[transitions.cost < _limits(each, clips, window, transitions)]
 

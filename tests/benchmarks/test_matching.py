@@ -8,7 +8,6 @@ import os
 import subprocess
 import sys
 
-import draw_growth
 import numpy as np
 import pytest
 
@@ -118,13 +117,3 @@ def test_eighty_thousand_frames_in_a_minute_and_500_megabytes(real_data):
     print(f"\n{found:.0f} transitions in {seconds:.0f} s ({busy:.0f} CPU seconds), {whole:.0f} MB")
     assert whole < 500
     assert busy < 120, "two cores have 120 seconds in a minute, whoever else uses them"
-
-
-@pytest.mark.parametrize(("frames", "times"), [(80_000, 3), (200_000, 6)])
-def test_the_bound_is_many_times_as_quick_as_all_pairs(real_data, frames, times):
-    """Many kinds of motion, made from the clips as `figures/draw_growth.py` says; CPU time."""
-    every, few = (draw_growth.run_alone(real_data / "cmu", frames, m) for m in ("products", "bound"))
-    print(f"\n{frames} frames: {every['cpu']:.0f} and {few['cpu']:.0f} CPU seconds, {few['memory']:.0f} MB")
-    assert few["found"] == pytest.approx(every["found"], rel=0.01)  # flat valleys, in 32 bits
-    assert every["cpu"] >= times * few["cpu"]
-    assert frames > 80_000 or few["memory"] < 400

@@ -76,9 +76,7 @@ def build_web(clips: Sequence[Motion], *, below: float = 0.12, progress: Progres
     """Find all long paths of frames that are alike in a set of clips [KG04, match web].
 
     The distance is that of `find_transitions`. How paths are found, see `local_paths`: a cell that is no
-    one-dimensional minimum costs more, so that paths follow the floors of valleys. All pairs are measured: at
-    12 cm the bound of `matching.lower_bound` rules out only half of them (CMU subject 16), and a path needs
-    the cells around those that are left.
+    one-dimensional minimum costs more, so that paths follow the floors of valleys.
 
     Parameters
     ----------
