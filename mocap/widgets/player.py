@@ -75,7 +75,7 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     --------
     >>> from mocap import datasets
     >>> play(datasets.sample("walk_straight"))
-    Player('A stick figure plays walk_straight, ...')
+    Player('A figure plays walk_straight, ...')
 
     Notebook: 01b-motion-files
     """
@@ -123,7 +123,7 @@ class Player(Embedded):
     def alt(self) -> str:
         """What was said with the motions, else their names and seconds."""
         count = len(self.motions)
-        who = "A stick figure plays" if count == 1 else f"{count} stick figures play"
+        who = "A figure plays" if count == 1 else f"{count} figures play"
         seconds = max(motion.duration for motion in self.motions)
         return self.said or f"{who} {self.heading}, {seconds:.1f} s."
 

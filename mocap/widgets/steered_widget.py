@@ -120,7 +120,7 @@ def steered(
         raise MocapError(f"Speeds to ask for rise from 0 on, got {low:g} to {high:g} m/s.")
     company, speed = Company(characters), min(max(1.1, low), high)
     names = ", ".join(member.name for member in company.members)
-    alt = alt or f"Stick figures obey one command: {names}."
+    alt = alt or f"Figures obey one command: {names}."
     data, metadata = play(*_recorded(company, speed), follow=False, alt=alt)._repr_mimebundle_()
     for clock in (member.clock for member in company.members):
         clock.delays, clock.counts = [], False  # the reader has steered nothing yet

@@ -312,7 +312,7 @@ def test_it_fills_the_screen_when_asked(resting):
 
 def test_names_stand_for_screen_readers_and_nothing_speaks_while_it_plays(shown):
     page = shown(play(wave(300)))
-    assert page.get_by_role("application", name="A stick figure plays wave, 10.0 s.").is_visible()
+    assert page.get_by_role("application", name="A figure plays wave, 10.0 s.").is_visible()
     assert page.get_by_role("combobox", name="speed").is_visible()
     live = page.locator(".mocap-player :is(output, [aria-live], [role=status])")
     page.evaluate("window.spoken = 0")
@@ -398,7 +398,7 @@ def test_without_scripts_the_picture_stands_there(browser, tmp_path):
     context = browser.new_context(java_script_enabled=False)
     page = context.new_page()
     page.goto(file.as_uri())
-    assert page.get_by_role("img", name="A stick figure plays wave").is_visible()
+    assert page.get_by_role("img", name="A figure plays wave").is_visible()
     context.close()
 
 

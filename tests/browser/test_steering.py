@@ -224,7 +224,7 @@ def test_a_kind_of_motion_is_chosen(steering):
 
 
 def test_names_stand_for_screen_readers_and_keys_stay_here(steering):
-    assert steering.get_by_role("application", name="Stick figures obey one command").is_visible()
+    assert steering.get_by_role("application", name="Figures obey one command").is_visible()
     assert steering.get_by_role("slider", name="speed").is_visible()
     parts = steering.locator(".mocap-steering :is(.panels, button, input, select)")
     assert {part.get_attribute("data-lm-suppress-shortcuts") for part in parts.all()} == {"true"}

@@ -52,7 +52,7 @@ def test_view_opens_a_page_of_the_clip_or_says_where_it_is(folder, run, monkeypa
     monkeypatch.setattr("webbrowser.open", lambda address: opened.append(address) or opens)
     said = run("view clips/a.bvh")
     page = Path(url2pathname(urlsplit(opened[0]).path))
-    assert "A stick figure plays a" in page.read_text("utf-8")
+    assert "A figure plays a" in page.read_text("utf-8")
     assert str(page) in said.out
     assert ("open that page yourself" in said.err) == (not opens)
 

@@ -21,7 +21,7 @@ pytest.importorskip("anywidget")
 
 def test_frames_of_an_older_scene_do_not_count():
     canvas = draw_path(lambda path: wave(30 * len(path)), [[0, 0], [0, 1]])
-    assert repr(canvas) == "LivePlayer('A stick figure plays wave, 2.0 s.')"
+    assert repr(canvas) == "LivePlayer('A figure plays wave, 2.0 s.')"
     number = canvas.scene["number"]
     canvas.at = [number, 12]  # as the browser sends it
     assert canvas.frame == 12
@@ -97,7 +97,7 @@ def test_an_error_is_shown_until_the_next_path():
     assert canvas.message == "MocapError: No walk goes there."
     assert isinstance(canvas.error, MocapError)
     canvas.path = [[0, 0], [0, 2]]
-    assert (canvas.error, canvas.message) == (None, "A stick figure plays wave, 1.0 s.")
+    assert (canvas.error, canvas.message) == (None, "A figure plays wave, 1.0 s.")
     refused("No walk", draw_path, follow, [[0, 0], [0, 1], [0, 2]])
 
 

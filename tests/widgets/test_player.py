@@ -88,7 +88,7 @@ def test_page_picture_and_sentence_are_one_bundle():
     player = play(wave(30))
     data, metadata = player._repr_mimebundle_()
     assert list(data) == ["text/html", "image/png", "text/plain"]
-    assert data["text/plain"] == "A stick figure plays wave, 1.0 s." == metadata["image/png"]["alt"]
+    assert data["text/plain"] == "A figure plays wave, 1.0 s." == metadata["image/png"]["alt"]
     strip = Image.open(io.BytesIO(base64.b64decode(data["image/png"])))
     assert strip.width > 3 * strip.height
     assert play(wave(30))._repr_mimebundle_()[0] == data  # the same each time

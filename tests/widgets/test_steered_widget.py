@@ -83,7 +83,7 @@ def test_the_recording_shows_all_side_by_side_and_turns_as_it_says():
     assert set(map(len, page.delays.values())) == {0}  # they are the reader's
     data, metadata = page.still
     assert "4 s to the left" in data["text/html"] and "mocap-player" in data["text/html"]
-    assert metadata["image/png"]["alt"] == page.alt == "Stick figures obey one command: quick, slow."
+    assert metadata["image/png"]["alt"] == page.alt == "Figures obey one command: quick, slow."
     dots = [member.character for member in page.company.members]
     assert dots[0].heading == pytest.approx(-math.pi / 4, abs=0.02)
     motions = steered_widget._recorded(steered_widget.Company({"a": Dot(), "b": Dot()}), 1.0)
