@@ -1,5 +1,6 @@
 """The errors that `mocap` raises on purpose: each is one clear sentence, and says what would help."""
 
+import sys
 import warnings
 from pathlib import Path
 
@@ -107,6 +108,9 @@ class MocapWarning(UserWarning):
         return printable(super().__str__())
 
 
-def warn(sentence: str, level: int = 2) -> None:
-    """Warn by a `MocapWarning`; `level` 2 shows the line that called who warns."""
-    warnings.warn(sentence, MocapWarning, stacklevel=level + 1)
+def warn(sentence: str) -> None:
+    """Warn by a `MocapWarning`, which shows the line that called this package."""
+    frame, level = sys._getframe(), 1
+    while frame.f_back and frame.f_globals.get("__name__", "").startswith("mocap."):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(sentence, MocapWarning, stacklevel=level)

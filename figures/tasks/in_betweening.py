@@ -14,7 +14,7 @@ from mocap.body import Motion, rotations
 from mocap.body.kinematics import forward_kinematics
 from mocap.body.planar import lay_on, place
 from mocap.errors import MocapError
-from mocap.steering import Moment, in_between
+from mocap.steering import in_between
 from tasks import BANDAI, CMU_16, HOMEWORK, WALKS, Case, graph, without
 
 CLIPS = {
@@ -82,9 +82,7 @@ def linear(case: Case) -> Motion:
 def graph_walk(case: Case) -> Motion:
     """Walk through the graph of the other clips from pose to pose."""
     past, then, frames = case.given["past"], case.given["next"], int(case.given["frames"][0][0])
-    found = in_between(
-        graph(case.given["clips"]), Moment(past, PAST - 1), Moment(then), (frames + 1) / past.fps
-    )
+    found = in_between(graph(case.given["clips"]), past[PAST - 1 :], then[:1], (frames + 1) / past.fps)
     return found.motion[1:-1]
 
 

@@ -198,13 +198,13 @@ def _warn(found: Registration, rate: float, *, alike: bool) -> None:
     names = f"'{shortened(clips[found.reference].name, 40)}' and '{shortened(clips[worst].name, 40)}'"
     if found.costs[worst] > UNLIKE:
         apart = f"{100 * found.costs[worst]:.0f} cm along the path"
-        warn(f"{names} may not be the same kind of motion: {apart}.", 3)
+        warn(f"{names} may not be the same kind of motion: {apart}.")
     elif not alike:
         skate = _skate(mix(found, np.full(len(clips), 1 / len(clips)), fps=rate, rounds=0))
         own = float(np.mean([_skate(part[:: round(part.fps / rate)]) for part in found.parts]))
         if skate > max(SKATES * own, own + FASTER):
             speeds = f"{100 * skate:.1f} cm/s, in the clips at {100 * own:.1f}"
-            warn(f"{names} may not belong together: in an even blend the slowest joint goes at {speeds}.", 3)
+            warn(f"{names} may not belong together: in an even blend the slowest joint goes at {speeds}.")
 
 
 def _skate(motion: Motion) -> float:

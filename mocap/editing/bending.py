@@ -1,6 +1,5 @@
 """Lay a walk on a line: any line, rounded where it turns faster than a walk should, with feet that stand."""
 
-import warnings
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -14,7 +13,7 @@ from mocap.editing.line_rounding import RoundedLine, round_line
 from mocap.editing.path_editing import Ride, moving_frames, plants_kept, ride_of
 from mocap.editing.pins import with_plants
 from mocap.editing.turning import lean, slow_down
-from mocap.errors import MocapError, MocapWarning, shortened, warn
+from mocap.errors import MocapError, shortened, warn
 from mocap.feet.footskate import clean_up
 
 LIMIT = float(np.radians(100))  # per second: the fastest that a walk is turned; people reach 90° to 110°
@@ -133,7 +132,7 @@ def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT, ride: Ride |
     way = moving_frames(line.path, walked)
     flat = (way @ moving_frames(ride.path, own).inverse()).apply_motion(slowed)
     laid, held = lean(flat, np.asarray(way.angle), angle)
-    bent = Bent(_cleaned(laid, held), laid, path, line, replace(ride, along=own), walked)
+    bent = Bent(clean_up(laid, held=held), laid, path, line, replace(ride, along=own), walked)
     if (fastest := np.abs(bent.turned).max(initial=0.0)) > max(WILD, 2 * limit):
         why = "where it stands, or goes to and fro, its way turns at once; bend a walk that goes on"
         warn(f"'{shortened(motion.name)}' is turned by up to {np.degrees(fastest):.0f}° per second: {why}.")
@@ -146,13 +145,3 @@ def _reached(path: GroundPath, ride: Ride) -> GroundPath:
     if path.length <= most:
         return path
     return GroundPath(np.vstack([path.points[path.along < most], path.at(most)]))
-
-
-def _cleaned(laid: Motion, held: dict[int, Array]) -> Motion:
-    """Clean up the feet; warnings of plants let go show the line that calls `bend`."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always", MocapWarning)
-        found = clean_up(laid, held=held)
-    for warning in caught:
-        warn(str(warning.message), 3)
-    return found

@@ -192,7 +192,7 @@ def _cleaned(cycle: Motion) -> Motion:
     middle = slice(start, start + len(cycle))
     with warnings.catch_warnings(action="ignore", category=MocapWarning):  # of frames in all rounds
         cleaned = clean_up(rounds)[middle]
-    warn_of_plants(cycle.name, plants_kept(cleaned, rounds[middle]), 4)
+    warn_of_plants(cycle.name, plants_kept(cleaned, rounds[middle]))
     return lay_on(cleaned, cycle).apply_motion(cleaned)
 
 

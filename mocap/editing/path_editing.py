@@ -245,8 +245,8 @@ def plants_kept(cleaned: Motion, bent: Motion) -> float:
     return after / before if before else 1.0
 
 
-def warn_of_plants(name: str, kept: float, level: int) -> None:
-    """Warn where a clean-up kept less than all planted frames; `level` as for `errors.warn`."""
+def warn_of_plants(name: str, kept: float) -> None:
+    """Warn where a clean-up kept less than all planted frames."""
     if kept < 1:
         why = "to hold them would move the root by more than 2 cm, stretch a leg or jolt a knee"
-        warn(f"'{shortened(name)}': {1 - kept:.0%} of the planted frames are let go: {why}.", level)
+        warn(f"'{shortened(name)}': {1 - kept:.0%} of the planted frames are let go: {why}.")

@@ -163,4 +163,4 @@ def warn_of_gaps(motion: Motion, pins: Pins, tolerance: float = TOLERANCE) -> No
         off = f"'{motion.skeleton.names[ends[joint]]}' is {1000 * errors[frame, joint]:.3g} mm off its pin"
         missed = f"pins of {int((errors > tolerance).any(1).sum())} frames are missed"
         why = "are they within reach, and do they agree?"
-        warn(f"'{motion.name}', frame {frame}: {off}, and {missed}: {why}", 3)
+        warn(f"'{motion.name}', frame {frame}: {off}, and {missed}: {why}")

@@ -11,7 +11,6 @@ knees are found together, by the same sum that step 5 makes least, so that no kn
 cannot reach, or that would still jolt a knee, is let go there.
 """
 
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
@@ -22,7 +21,7 @@ from mocap._shared.arrays import Array, Mask, runs
 from mocap.body.kinematics import forward_kinematics
 from mocap.body.limbs import Leg, legs_of
 from mocap.body.motion import Motion
-from mocap.errors import MocapError, MocapWarning, shortened
+from mocap.errors import MocapError, shortened, warn
 from mocap.feet.ankle_targets import foot_target
 from mocap.feet.footplants import least_frames, settle
 from mocap.feet.least_bending import MOST, hold_plants
@@ -139,10 +138,8 @@ def _warn_of_plants_let_go(motion: Motion, gone: Mapping[str, Mask], most: float
     plants = [f"{name} {a}-{b - 1}" for name in motion.contacts if name in gone for a, b in runs(gone[name])]
     if plants:
         more = f" and {len(plants) - 2} more" if len(plants) > 2 else ""
-        warnings.warn(
+        warn(
             f"'{shortened(motion.name, 30)}': to hold these plants would move the root by more than "
             f"{100 * most:.2g} cm, stretch a leg or jolt a knee, so they are let go: "
-            f"{', '.join(plants[:2])}{more}.",
-            MocapWarning,
-            stacklevel=3,
+            f"{', '.join(plants[:2])}{more}."
         )

@@ -85,7 +85,7 @@ def read(path: str | Path, *, fps: float | None = None) -> Motion:
         shaped = betas is not None and few and betas.read().any()
     if shaped:
         so = "the bones are those of the mean body, so feet may stand some centimetres off the ground"
-        warn(f"{path}: betas, the shape of the body, are ignored: {so}.", 4)
+        warn(f"{path}: betas, the shape of the body, are ignored: {so}.")
     local = rotations.from_rotvec(poses.reshape(len(poses), -1, 3))
     local[:, 0] = rotations.multiply(UPRIGHT, local[:, 0])
     return Motion(SKELETON, rotations.rotate(UPRIGHT, PELVIS + trans), local, rate, Path(path).stem)

@@ -175,7 +175,7 @@ def _rigid(
         raise FormatError(path, joints[mover].line, expected, f"one that moves by {far:.2g} m")
     change = f"{1000 * rigid.stretch[worst]:.2g} mm ({shortened(joints[worst].name, 40)})"
     off = f"fitted to rigid bones, joints lie up to {1000 * rigid.apart.max():.2g} mm from their places"
-    warn(f"{path}: bones change length by up to {change}; {off} in the file.", 5)
+    warn(f"{path}: bones change length by up to {change}; {off} in the file.")
     return rigid.offsets, rigid.rotations
 
 

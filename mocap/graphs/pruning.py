@@ -200,7 +200,7 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
     pruned.remove_nodes_from([node for node in graph if node not in kept])
     frames = {labels: count for labels, (_, count) in found.items()}
     for message in _shortcomings(frames, least_frames, pruned, components):
-        warn(message, 4)  # points at the caller of `graphs.prune`
+        warn(message)
     reasons = _reasons(graph, ways, kept)
     ends = ((edge, edge[0] if edge[1] in kept else edge[1]) for edge in graph.edges(keys=True))
     removed = {edge: reasons[end] for edge, end in ends if end in reasons}

@@ -18,16 +18,14 @@ Reading order (notebooks 08, 12, 17, 18)
  5. `path_following`: find a walk along a path, in layers and by the paper's branch and bound
  6. `bent_following`: any line with any walk: a walk that turns little beyond its clips, laid on its path
  7. `waypoints_and_crowds`: places, labels and times to pass; many characters that keep apart
- 8. `moments`: a pose at a place, and the frames of a graph that look like it
- 9. `two_sided_search`: walks from the start and from the end that meet half-way
-10. `end_bending`: a walk bent and stretched so that it ends where it must
-11. `held_ends`: the last differences faded out, and feet that stand where the poses put them
-12. `in_betweens`: from one pose to another, at its place and in time: 8 to 11 in one function
-13. `characters`: the protocol, the pose that a step gives, and a walk by given commands
-14. `delays`: how soon a character obeys
-15. `graph_control`: a character on a motion graph, and how it looks ahead
-16. `foot_turning`: a character that turns about the foot that stands, beyond what its clips turn
-17. `judged_control`: one protocol for all characters
+ 8. `two_sided_search`: frames that look like two poses, and walks from both that meet half-way
+ 9. `end_bending`: a walk bent and stretched so that it ends where it must
+10. `in_betweens`: from one pose to another, at its place and in time: 8, 9, and ends that meet the poses
+11. `characters`: the protocol, the pose that a step gives, and a walk by given commands
+12. `delays`: how soon a character obeys
+13. `graph_control`: a character on a motion graph, and how it looks ahead
+14. `foot_turning`: a character that turns about the foot that stands, beyond what its clips turn
+15. `judged_control`: one protocol for all characters
 
 References
 ----------
@@ -45,7 +43,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "path_following": ["follow_as_2002", "follow_path"],
         "waypoints_and_crowds": ["Waypoint", "through_waypoints", "walk_crowd"],
         "in_betweens": ["in_between"],
-        "moments": ["Moment"],
         "characters": ["Character", "steer"],
         "delays": ["measure_delay"],
         "graph_control": ["Controller"],

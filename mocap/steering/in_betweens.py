@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+import warnings
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
+from mocap._shared.arrays import Array, Mask, runs
+from mocap.body.kinematics import joint_positions
+from mocap.body.limbs import legs_of
 from mocap.body.motion import Motion
-from mocap.editing.displacements import Displacement
+from mocap.editing.displacements import Displacement, difference, displaced
 from mocap.editing.path_editing import plants_kept, warn_of_plants
-from mocap.errors import MocapError, NoWalk
+from mocap.editing.retiming import at_frames
+from mocap.errors import MocapError, MocapWarning, NoWalk
+from mocap.feet.footplants import least_frames
+from mocap.feet.footskate import clean_up, settled_marks
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.edge_tables import Edge
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.steering.end_bending import MOST_PACE, MOST_TURN, Arrived, bend_to
-from mocap.steering.held_ends import meet_poses, stand
-from mocap.steering.moments import Moment, choices
-from mocap.steering.two_sided_search import Joined, TwoSided
+from mocap.steering.two_sided_search import Joined, TwoSided, choices, pose_at
 from mocap.synthesis.walk_to_motion import to_motion, with_plants
 
 TRIED = 24  # walks that are bent, of all that were found
@@ -28,50 +34,25 @@ POSE = 0.1  # metres by which joints may be moved where ends fade into the poses
 ROUNDS = 2
 
 
-@dataclass(frozen=True, eq=False)
-class InBetween:
-    """A motion from one moment to another, and what it took; `in_between` shows an example.
+FADE = 0.5  # seconds over which a difference fades, at most; half of a walk that is shorter than two of it
+NEAR = 0.3  # seconds from an end: a plant so near to it stands where it stands at its frame next to the end
 
-    Parameters
-    ----------
-    motion : N + 1 frames, the first and the last of them the poses asked for.
-    laid : the same before its feet were cleaned up.
-    graph, walk : where it comes from.
-    start, end : the moments asked for.
-    arrived : the walk before its ends faded, and by how much it was turned, lengthened and retimed.
-    faded : the displacement that was added to meet the poses.
-    seams : how many transitions there are.
+
+class InBetween(NamedTuple):
+    """A motion from one pose to another, and what it took; `in_between` shows an example.
+
+    `motion`: N + 1 frames, the first and the last of them the poses asked for; `walk`: the edges that it
+    plays; `arrived`: the walk before its ends faded, and by how much it was turned, lengthened and retimed;
+    `kept`: the share of the planted frames that the clean-up kept.
     """
 
     motion: Motion
-    laid: Motion
-    graph: MotionGraph
     walk: list[Edge]
-    start: Moment
-    end: Moment
     arrived: Arrived
-    faded: Displacement
-    seams: int
-
-    @property
-    def kept(self) -> float:
-        """The share of the planted frames that the clean-up kept."""
-        return plants_kept(self.motion, self.laid)
-
-    def report(self) -> str:
-        """Say what was bent, lengthened, retimed and faded to meet what was asked for."""
-        took = self.arrived
-        steps, pace = (f"{values.min():.2f} to {values.max():.2f}" for values in (took.steps, took.pace))
-        moved, warped = (np.linalg.norm(part, axis=-1).max() for part in self.faded)
-        return (
-            f"{self.motion.duration:.2f} s, {self.seams} seams; turned by up to "
-            f"{np.degrees(np.abs(took.turned).max()):.0f}° per second, steps {steps} times as long, played "
-            f"{pace} times as fast, ends moved by {100 * moved:.1f} cm and {np.degrees(warped):.0f}°, "
-            f"{self.kept:.0%} of the plants kept"
-        )
+    kept: float
 
 
-def in_between(graph: MotionGraph | CompiledGraph, start: Moment, end: Moment, seconds: float) -> InBetween:
+def in_between(graph: MotionGraph | CompiledGraph, start: Motion, end: Motion, seconds: float) -> InBetween:
     """Find a motion from one pose to another, each at its place, in a given time.
 
     Walks from both poses that meet half-way give what the clips can do. Of the best of them the one is taken
@@ -82,7 +63,8 @@ def in_between(graph: MotionGraph | CompiledGraph, start: Moment, end: Moment, s
     Parameters
     ----------
     graph : pruned.
-    start, end : poses of the graph's skeleton, at their places. Frames of its own clips are met best.
+    start, end : motions of the graph's skeleton, at their places: from the first frame of one to the last
+        frame of the other. Further frames say how fast they move. Clips of the graph are met best.
     seconds : from the first frame to the last, rounded to whole frames.
 
     Returns
@@ -105,7 +87,7 @@ def in_between(graph: MotionGraph | CompiledGraph, start: Moment, end: Moment, s
     >>> from mocap import body, datasets, graphs
     >>> clips = [body.resample(datasets.sample(name), 30) for name in ("walk_circle", "walk_curve_1")]
     >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
-    >>> start, end = Moment(clips[0], 40, (0, 0), 0.0), Moment(clips[1], 100, (1, 3), 0.5)
+    >>> start, end = body.place(clips[0][40:], 0.0, (0, 0)), body.place(clips[1][100:101], 0.5, (1, 3))
     >>> found = in_between(graph, start, end, 4.0)
     >>> len(found.motion), found.motion.root_positions[-1, [0, 2]].round(4)
     (121, array([1., 3.]))
@@ -114,22 +96,20 @@ def in_between(graph: MotionGraph | CompiledGraph, start: Moment, end: Moment, s
     if not (np.isfinite(seconds) and 2 / graph.fps <= seconds <= LONGEST):
         raise MocapError(f"A motion lasts from {2 / graph.fps:.2f} to {LONGEST:g} s, got {seconds} s.")
     frames = round(seconds * graph.fps)
-    near = (choices(graph, moment, way=way, limit=POSE) for moment, way in ((start, 1), (end, -1)))
-    search = TwoSided(graph, (next(near), next(near)), frames)
+    near = choices(graph, start, way=1, limit=POSE), choices(graph, end, way=-1, limit=POSE)
+    search = TwoSided(graph, near, frames)
     source, found = with_plants(graph.source), []
     for joined in search.best(TRIED):
         walk = [graph.edges[edge] for edge in joined.edges]
         played = to_motion(source, walk, place=joined.place)[joined.first : joined.first + joined.frames + 1]
         found.append((joined, bend_to(played, frames + 1, joined.end, joined.apart)))
     joined, arrived = _least(found, search)
-    laid, faded = meet_poses(replace(arrived.motion, name="in between"), start, end)
-    motion = laid
+    laid = motion = meet_poses(replace(arrived.motion, name="in between"), start, end)
     for _ in range(ROUNDS):
-        motion, _ = meet_poses(stand(motion), start, end, speed=False)
-    walk, seams = [graph.edges[edge] for edge in joined.edges], int(graph.blended[joined.edges].sum())
-    between = InBetween(motion, laid, graph.source, walk, start, end, arrived, faded, seams)
-    warn_of_plants(motion.name, between.kept, 3)
-    return between
+        motion = meet_poses(stand(motion), start, end, speed=False)
+    kept = plants_kept(motion, laid)
+    warn_of_plants(motion.name, kept)
+    return InBetween(motion, [graph.edges[edge] for edge in joined.edges], arrived, kept)
 
 
 def _least(found: list[tuple[Joined, Arrived]], search: TwoSided) -> tuple[Joined, Arrived]:
@@ -154,3 +134,102 @@ def _least(found: list[tuple[Joined, Arrived]], search: TwoSided) -> tuple[Joine
     helps = f"about {seconds * apart / reach:.1f} s" if too_far else "another time, or another way to face"
     ends = f"walks end {lack:.1f} m from the place that is {apart:.1f} m away"
     raise NoWalk(f"In {seconds:.1f} s {ends}: give {helps}.")
+
+
+def stand(motion: Motion) -> Motion:
+    """Clean up the feet, and change nothing in the first and in the last frames.
+
+    `feet.clean_up` puts a plant where it is on average, and lets what it changes fade over 0.2 s. A pose at
+    an end would change. So plants near an end stand where they stand next to it, and from there to the end
+    both joints of the foot are held on their own way, as if they stood.
+
+    Parameters
+    ----------
+    motion : F frames with contacts, whose feet hardly slide at both ends.
+
+    Returns
+    -------
+    The motion; plants that were let go are no longer marked.
+    """
+    legs = legs_of(motion.skeleton, None)
+    marks, places = settled_marks(motion, legs), joint_positions(motion)
+    columns = [joint for leg in legs for joint in (leg.ankle, leg.ball)]
+    known = np.full((len(motion), len(columns), 3), np.nan)  # nan where nothing is held
+    for n, own in enumerate(marks):
+        foot = slice(2 * n, 2 * n + 2)
+        for way in (slice(None), slice(None, None, -1)):  # the start is the end of the motion run backwards
+            _hold_end(known[way, foot], places[way][:, columns[foot]], own[:, way], motion.fps)
+    names = [motion.skeleton.names[joint] for joint in columns]
+    own = dict(zip(names, marks.reshape(-1, len(motion)), strict=True))
+    also = {name: own[name] | np.isfinite(known[:, n, 0]) for n, name in enumerate(names)}
+    where = dict(zip(columns, np.swapaxes(known, 0, 1), strict=True))
+    # Its warnings would also list the frames that are held here.
+    with warnings.catch_warnings(action="ignore", category=MocapWarning):
+        found = clean_up(replace(motion, contacts={**motion.contacts, **also}), legs, held=where)
+    contacts = {name: mark & own.get(name, mark) for name, mark in found.contacts.items()}
+    return replace(found, contacts=contacts)
+
+
+def _hold_end(held: Array, places: Array, marks: Mask, fps: float) -> None:
+    """Fill in where the joints are held at the end of a motion, and in the plant that is near to it.
+
+    What stands in the plant's last frame is held there, the rest a foot's length away.
+    """
+    away = places - places[:, ::-1]  # of each joint from the other one
+    span, length = least_frames(fps), np.linalg.norm(away[0, 0])
+    stands, begin = runs(marks[0] | marks[1]), len(places) - span - 1
+    if len(stands) and stands[-1][1] > len(places) - max(span, round(NEAR * fps)):
+        first, begin = stands[-1].tolist()
+        for kind in sorted((0, 1), key=lambda kind: not marks[kind, begin - 1]):
+            for start, stop in runs(marks[kind, :begin]):
+                both = np.flatnonzero(np.isfinite(held[start:stop, 1 - kind, 0])) + start
+                if stop == begin:
+                    held[start:stop, kind] = places[begin - 1, kind]
+                elif start >= first and len(both):
+                    way = away[both, kind].mean(axis=0)
+                    held[start:stop, kind] = held[both[-1], 1 - kind] + length * way / np.linalg.norm(way)
+    held[begin:] = places[begin:]
+    # Where one joint stands up to the end, the other is where the foot's own turn has it; also in the gaps so
+    # short that a clean-up closes them.
+    for kind in (0, 1):
+        alone = np.isnan(held[:, kind, 0]) & ~np.isnan(held[:, 1 - kind, 0])
+        alone[: min(begin, len(places) - 1) - span] = False
+        held[alone, kind] = held[alone, 1 - kind] + away[alone, kind]
+
+
+def meet_poses(motion: Motion, start: Motion, end: Motion, *, speed: bool = True) -> Motion:
+    """Add what the first and the last frame lack to two poses, and let it fade into the walk.
+
+    The differences fade as in `blending.inertialize`: by a quintic that starts with
+    the speed by which they change at the pose, and ends at rest. At the end of the walk it runs backwards.
+
+    Parameters
+    ----------
+    motion : F frames, which starts and ends near to the poses.
+    start, end : the poses, the first frame of the one and the last frame of the other.
+    speed : whether the fades start with the speed of the differences; else they are level.
+    """
+    begin, finish = _fading(motion, start, 1, speed=speed), _fading(motion, end, -1, speed=speed)
+    added = Displacement(*(one + other for one, other in zip(begin, finish, strict=True)))
+    return displaced(motion, added)
+
+
+def _fading(motion: Motion, asked: Motion, way: int, *, speed: bool) -> Displacement:
+    """Let the difference at an end fade: x(u) = (1 - u)⁴ (x + (4 x + v T) u), and 0 from u = 1 on.
+
+    `way` is 1 for the first frames of both motions, -1 for their last ones.
+    """
+    last = len(motion) - 1
+    frame, window = (0 if way > 0 else last), max(1.0, min(FADE * motion.fps, last / 2))
+    late = np.minimum(np.abs(np.arange(last + 1) - frame) / window, 1)
+    here = difference(pose_at(asked, way), motion[frame : frame + 1])
+    drift = [0 * part for part in here]
+    if speed and len(asked) > 1:
+        step = way * motion.fps / asked.fps
+        then = difference(pose_at(asked, way, 1), at_frames(motion, [frame + step]))
+        drift = [(b - a) * window / abs(step) for a, b in zip(here, then, strict=True)]
+    faded = []
+    for x, v in zip(here, drift, strict=True):
+        u = late.reshape(-1, *np.ones(x.ndim - 1, int))
+        faded.append((1 - u) ** 4 * (x + (4 * x + v) * u))
+    return Displacement(*faded)

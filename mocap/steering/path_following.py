@@ -124,7 +124,7 @@ def _tell_departures(graph: CompiledGraph, followed: Followed, bend: float) -> N
         why = "it turns too fast there" if bend else "no clips turn as it does there"
         why += "; `bend` turns them, and `follow_as_2002` may come nearer" if far else ""
         furthest = f"the furthest by {100 * worst:.0f} cm at {start:.1f} to {end:.1f} m"
-        warn(f"The walk leaves the path {often}, {furthest}: {why}.", 3)
+        warn(f"The walk leaves the path {often}, {furthest}: {why}.")
 
 
 def _best_of(search: Callable[[Settings], Followed], settings: Settings) -> Followed:

@@ -17,13 +17,20 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from scipy.ndimage import minimum_filter1d
 
-from mocap._shared.arrays import Array, Indices, Mask, ranges
+from mocap._shared.arrays import Array, Indices, Mask, Points, ranges
+from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
+from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph
+from mocap.graphs.edge_tables import clip_rows
+from mocap.matching.point_clouds import align, point_cloud
 from mocap.steering.end_bending import MOST_PACE, MOST_STEPS, MOST_TURN, RISE, STRETCH, TURN
 from mocap.steering.layered_search import LayeredSearch, States, standing, start_states
-from mocap.steering.moments import Choices
+
+AHEAD = 0.1  # seconds from a pose to the one before or after it, and between two choices at least
+MOST = 6  # frames of the clips that are tried for each pose
 
 # What a walk costs beside `TURN` and `STRETCH`: a seam costs as much as a second that is turned by 57° per
 # second.
@@ -38,6 +45,71 @@ WIDTH = 400  # walks that stay in a layer
 PLACE, ANGLE = 0.1, 0.15  # metres, radians: walks at one node that differ by less stand alike
 MEET = 3000  # walks from the start that are joined with those from the end
 PAIRS = 3_000_000  # joins that are compared, at most
+
+
+class Choices(NamedTuple):
+    """K frames that look like a pose: which they are, and how their clips are laid there.
+
+    `stretch` (K,): the edge that plays the frame; `since` (K,): its number among the edge's frames; `turn`
+    and `move` (K,): p ↦ turn · p + move lays its clip on the pose; `off` (K,): the distance, metres.
+    """
+
+    stretch: Indices
+    since: Indices
+    turn: Points
+    move: Points
+    off: Array
+
+
+def pose_at(motion: Motion, way: int, frames: int = 0) -> Motion:
+    """Give the frame so many `frames` after a motion's first one, for `way` 1, or before its last, for -1."""
+    at = frames if way > 0 else len(motion) - 1 - frames
+    return motion[at : at + 1]
+
+
+def choices(graph: CompiledGraph, motion: Motion, *, way: int, limit: float) -> Choices:
+    """Find the frames of a graph's clips that look most like a motion's first or last pose, and move so.
+
+    The distance is the one of [KGP02, Eqs. 1-4] over two poses that are 0.1 s apart; over one where the
+    motion is shorter. The frames are at least 0.1 s apart, too.
+
+    Parameters
+    ----------
+    graph, motion : the graph, and a motion that begins or ends with the pose.
+    way : 1 for its first frame, as for a start, and -1 for its last one, as for an end.
+    limit : the largest distance, metres.
+
+    Raises
+    ------
+    NoWalk : where no frame is as near.
+    SkeletonMismatch : for a pose of another skeleton.
+    """
+    clips = graph.source.clips
+    clips[0].skeleton.require_same(motion.skeleton)
+    own, step = (max(1, round(AHEAD * fps)) for fps in (motion.fps, graph.fps))
+    poses = [pose_at(motion, way, frames) for frames in (0, own) if frames < len(motion)]
+    rows = np.flatnonzero(~graph.blended[graph.plays.edge])
+    here, clouds = graph.plays.here[rows], np.concatenate([point_cloud(clip) for clip in clips])
+    then = [clip_rows(clips, here + np.array([0, n * way * step])) for n in range(len(poses))]
+    points = np.concatenate([clouds[frames] for frames in then], axis=1)
+    asked = np.broadcast_to(np.concatenate([point_cloud(pose)[0] for pose in poses]), points.shape)
+    laid = align(asked, points)
+    each = PlanarTransform(*(np.asarray(part)[:, None] for part in laid))
+    off = np.sqrt(((each.apply_points(points) - asked) ** 2).sum(axis=-1).mean(axis=-1))
+    # Of frames nearer than the step only the least stays; lanes of clips lie further apart than that.
+    lane = clip_rows(clips, here) + step * here[:, 0]
+    lanes = np.full(int(lane.max()) + 1, np.inf)
+    lanes[lane] = off
+    least = minimum_filter1d(lanes, 2 * step + 1, mode="constant", cval=np.inf)
+    good = np.flatnonzero(off == least[lane])
+    good = good[np.argsort(off[good], kind="stable")[:MOST]]
+    if off[good[0]] > limit:
+        far = f"is {off[good[0]]:.2f} m off the nearest pose of the clips, and {limit:g} m is the limit"
+        pose = f"The {'first' if way > 0 else 'last'} pose of '{motion.name:.60}'"
+        raise NoWalk(f"{pose} {far}: take a pose more like theirs.")
+    good = good[off[good] <= limit]
+    edge = graph.plays.edge[rows[good]]
+    return Choices(edge, rows[good] - graph.first[edge], laid.turn[good], laid.move[good], off[good])
 
 
 class Joined(NamedTuple):

@@ -12,19 +12,18 @@ from hypothesis import strategies as st
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, resample
-from mocap.body.planar import PlanarTransform, heading, on_ground
+from mocap.body.planar import PlanarTransform, heading, lay_on, on_ground, place
 from mocap.body.skeleton import Skeleton
 from mocap.datasets import samples
+from mocap.editing.displacements import difference
 from mocap.errors import MocapError, MocapWarning, NoWalk, SkeletonMismatch
 from mocap.graphs.compiled_graph import compile_graph
 from mocap.graphs.motion_graph import from_transitions
 from mocap.matching.transitions import Transition
-from mocap.steering import end_bending, in_betweens, moments, two_sided_search
+from mocap.steering import end_bending, in_betweens, two_sided_search
 from mocap.steering.end_bending import bend_to
-from mocap.steering.held_ends import meet_poses
-from mocap.steering.in_betweens import in_between
-from mocap.steering.moments import Moment, choices
-from mocap.steering.two_sided_search import TwoSided
+from mocap.steering.in_betweens import in_between, meet_poses
+from mocap.steering.two_sided_search import TwoSided, choices
 from mocap.synthesis.random_walks import random_walk
 from mocap.synthesis.walk_to_motion import require_walk, to_motion, with_plants
 from tests.bundled import bundled, captured, walking
@@ -45,12 +44,19 @@ def accelerations(motions):
     return np.percentile(np.linalg.norm(np.concatenate(parts), axis=-1), 99)
 
 
-def require_met(found, seconds):
+def ending(motion, frame, position, direction):
+    """Lay a motion so that it ends with a frame at a place."""
+    now = motion[frame : frame + 1]
+    return lay_on(now, place(now, direction, position)).apply_motion(motion[: frame + 1])
+
+
+def met(graph, start, end, seconds):
     """Hold a motion against every bar, measured on the motion itself."""
+    found = quietly(graph, start, end, seconds)
     fps = found.motion.fps
     assert len(found.motion) == round(seconds * fps) + 1
-    for frame, moment in ((0, found.start), (-1, found.end)):
-        asked, motion = moment.placed(), found.motion
+    for frame, asked in ((0, start[:1]), (-1, end[-1 + len(end) :])):
+        motion = found.motion
         assert np.linalg.norm(motion.root_positions[frame] - asked.root_positions[0]) <= 1e-3
         apart = float(heading(motion.rotations[frame, 0]) - heading(asked.rotations[0, 0]))
         assert abs(np.degrees((apart + np.pi) % (2 * np.pi) - np.pi)) <= 0.1
@@ -61,6 +67,7 @@ def require_met(found, seconds):
         assert values.max() <= 1.25 + 1e-6
     assert slide(found.motion) <= 1e-4
     assert found.kept >= 0.85
+    return found
 
 
 def pair_that_clips_can_give(graph, seed):
@@ -69,15 +76,14 @@ def pair_that_clips_can_give(graph, seed):
     seconds = rng.uniform(2.0, 6.0)
     walk = to_motion(graph, random_walk(graph, seconds=seconds + 1, seed=seed), clean=True)
     first, frames = int(rng.integers(5, 20)), round(seconds * graph.fps)
-    return Moment(walk, first), Moment(walk, first + frames), frames / graph.fps
+    return walk[first:], walk[: first + frames + 1], frames / graph.fps
 
 
 def require_pairs(graph, seeds):
     compiled, plants = compile_graph(graph), with_plants(graph)
     for seed in seeds:
         start, end, seconds = pair_that_clips_can_give(plants, seed)
-        found = quietly(compiled, start, end, seconds)
-        require_met(found, seconds)
+        found = met(compiled, start, end, seconds)
         # Clips differ, and a motion plays some of them: so it is measured against what it plays.
         assert accelerations([found.motion]) <= 1.3 * accelerations([to_motion(plants, found.walk)])
 
@@ -97,34 +103,27 @@ def asked_anywhere(graph, seed):
     one, other = (graph.source.clips[n] for n in rng.integers(len(graph.source.clips), size=2))
     seconds, way = float(rng.uniform(2.5, 6)), rng.uniform(-0.8, 0.8)
     metres = seconds * rng.uniform(0.55, 0.85)
-    start = Moment(one, int(rng.integers(5, len(one) - 40)), (0, 0), 0.0)
-    place = (metres * np.sin(way), metres * np.cos(way))
-    end = Moment(other, int(rng.integers(40, len(other) - 5)), place, 2 * way + rng.uniform(-0.5, 0.5))
-    return start, end, seconds
+    start = place(one[int(rng.integers(5, len(one) - 40)) :], 0.0, (0, 0))
+    there = (metres * np.sin(way), metres * np.cos(way))
+    frame, direction = int(rng.integers(40, len(other) - 5)), 2 * way + rng.uniform(-0.5, 0.5)
+    return start, ending(other, frame, there, direction), seconds
 
 
 def test_what_no_walk_gives_is_bent_and_still_met():
     graph = walking()
     for seed in range(6 if SWEEP else 3):
         start, end, seconds = asked_anywhere(graph, seed)
-        found = quietly(graph, start, end, seconds)
-        require_met(found, seconds)
-        require_walk(graph.source, found.walk)
-        says = ["° per second", "times as long", "times as fast", "plants kept"]
-        for words in (f"{found.seams} seams", *says):
-            assert words in found.report()
+        require_walk(graph.source, met(graph, start, end, seconds).walk)
 
 
 @pytest.mark.parametrize("fps", [120.0, 30.0])
 def test_poses_of_a_clip_that_is_not_in_the_graph_are_met(fps):
     clip = resample(samples.sample("walk_straight"), fps)
     frames = [round(seconds * fps) for seconds in (1.0, 5.0)]
-    start, end = (Moment(clip, frame) for frame in frames)
     # It walks faster than the graph's clips, and straight on where they turn: they need a second more.
-    require_met(quietly(walking(), start, end, 5.0), 5.0)
+    met(walking(), clip[frames[0] :], clip[: frames[1] + 1], 5.0)
     if fps == 30:  # poses alone, which do not say how fast they move
-        start, end = (Moment(clip[frame : frame + 1]) for frame in frames)
-        require_met(quietly(walking(), start, end, 5.0), 5.0)
+        met(walking(), *(clip[frame : frame + 1] for frame in frames), 5.0)
 
 
 def test_plants_that_are_let_go_are_warned_of(monkeypatch):
@@ -132,7 +131,7 @@ def test_plants_that_are_let_go_are_warned_of(monkeypatch):
     graph = walking()
     clip = graph.source.clips[0]
     high = replace(clip, root_positions=clip.root_positions + np.array([0, 0.06, 0]))
-    assert in_between(graph, Moment(high, 40), Moment(high, 130), 3.0).kept == 1
+    assert in_between(graph, high[40:], high[:131], 3.0).kept == 1
 
     def careless(motion):
         early = np.arange(len(motion)) < len(motion) / 2
@@ -140,16 +139,15 @@ def test_plants_that_are_let_go_are_warned_of(monkeypatch):
 
     monkeypatch.setattr(in_betweens, "stand", careless)
     with pytest.warns(MocapWarning, match="% of the planted frames are let go"):
-        found = in_between(graph, Moment(clip, 40), Moment(clip, 130), 3.0)
+        found = in_between(graph, clip[40:], clip[:131], 3.0)
     assert found.kept < 1
 
 
 @pytest.mark.parametrize(("first", "last", "off"), [(300, 307, 2e-3), (200, 320, 5e-3)])
 def test_a_clip_is_its_own_in_between_also_on_one_stretch(first, last, off):
     clip, seconds = walking().source.clips[0], (last - first) / 30
-    found = quietly(walking(), Moment(clip, first), Moment(clip, last), seconds)
-    require_met(found, seconds)
-    assert found.seams == 0
+    found = met(walking(), clip[first:], clip[: last + 1], seconds)
+    assert {walking().source.graph.edges[edge]["kind"] for edge in found.walk} == {"clip"}
     np.testing.assert_allclose(found.motion.root_positions, clip.root_positions[first : last + 1], atol=off)
 
 
@@ -157,7 +155,7 @@ def test_a_clip_is_its_own_in_between_also_on_one_stretch(first, last, off):
 
 
 @pytest.mark.parametrize(
-    ("place", "direction", "seconds", "sentence"),
+    ("there", "direction", "seconds", "sentence"),
     [
         ((0, 30), 0.0, 2.0, r"walks end 2\d\.\d m from the place that is 30.0 m away: give about \d+\.\d s"),
         ((0, -1.5), 0.0, 1.0, "give about|another time"),
@@ -165,15 +163,15 @@ def test_a_clip_is_its_own_in_between_also_on_one_stretch(first, last, off):
         pytest.param((0, 9), 0.0, 5.0, r"give about \d+\.\d s", marks=pytest.mark.sweep),
     ],
 )
-def test_too_little_time_is_refused_with_what_would_help(place, direction, seconds, sentence):
+def test_too_little_time_is_refused_with_what_would_help(there, direction, seconds, sentence):
     clip = walking().source.clips[0]
-    start, end = Moment(clip, 40, (0, 0), 0.0), Moment(clip, 200, place, direction)
+    start, end = place(clip[40:], 0.0, (0, 0)), ending(clip, 200, there, direction)
     with pytest.raises(NoWalk, match=sentence) as refused:
         in_between(walking(), start, end, seconds)
     assert len(str(refused.value)) <= 200
     if seconds == 5:  # and it does help
         more = float(str(refused.value).split("about ")[1].split(" s")[0]) + 1
-        require_met(quietly(walking(), start, end, more), more)
+        met(walking(), start, end, more)
 
 
 def test_turns_beyond_the_limit_are_refused_with_what_would_help(monkeypatch):
@@ -190,34 +188,28 @@ def test_a_pose_unlike_all_clips_is_refused():
     clip = walking().source.clips[0]
     fallen = clip.rotations.copy()
     fallen[:, 0] = rotations.multiply(fallen[:, 0], rotations.from_rotvec([np.pi / 2, 0, 0]))
-    with pytest.raises(NoWalk, match=r"Frame 7 of .* m off the nearest pose of the clips, and 0\.1 m"):
-        in_between(walking(), Moment(replace(clip, rotations=fallen), 7), Moment(clip, 90), 3.0)
+    with pytest.raises(NoWalk, match=r"The first pose of .* m off the nearest pose of the clips, and 0\.1 m"):
+        in_between(walking(), replace(clip, rotations=fallen)[7:], clip[:91], 3.0)
 
 
 def test_a_graph_without_a_way_is_refused():
     clips = [resample(samples.sample(name), 30) for name in ("walk_circle", "walk_curve_1")]
     graph = from_transitions(clips, [], window=10)
     with pytest.raises(NoWalk, match=r"No walk leads from one pose to the other in 4\.0 s"):
-        in_between(graph, Moment(clips[0], 700), Moment(clips[0], 30), 4.0)
+        in_between(graph, clips[0][700:], clips[0][:31], 4.0)
 
 
 @pytest.mark.parametrize("seconds", [0.0, -1.0, np.nan, np.inf, 1e9])
 def test_a_time_that_is_none_is_refused(seconds):
     clip = walking().source.clips[0]
     with pytest.raises(MocapError, match=r"A motion lasts from 0\.07 to 120 s, got"):
-        in_between(walking(), Moment(clip, 3), Moment(clip, 90), seconds)
+        in_between(walking(), clip[3:], clip[:91], seconds)
 
 
-def test_moments_that_make_no_sense_are_refused():
-    clip = walking().source.clips[0]
-    with pytest.raises(MocapError, match="has 1178 frames; there is no frame 1178"):
-        Moment(clip, 1178)
-    with pytest.raises(MocapError, match="A place is a finite direction and position"):
-        Moment(clip, 3, (np.nan, 0))
+def test_a_pose_of_another_skeleton_is_refused():
     dot = Motion(Skeleton(["root"], [-1], [[0, 0, 0]]), [[0, 0, 0]], [[[1, 0, 0, 0]]], 30.0)
     with pytest.raises(SkeletonMismatch):
-        in_between(walking(), Moment(dot), Moment(clip, 90), 3.0)
-    assert Moment(clip, -1).frame == len(clip) - 1
+        in_between(walking(), dot, walking().source.clips[0], 3.0)
 
 
 # ---------------------------------------------------------------------------------------------- parts
@@ -259,8 +251,10 @@ def first_half(graph, edges, frames):
 def test_the_search_finds_an_end_for_every_first_half_that_a_full_search_finds(monkeypatch, frames):
     graph = tiny()
     clip = graph.source.clips[0]
-    monkeypatch.setattr(moments, "MOST", 1)
-    near = tuple(choices(graph, Moment(clip, at), way=way, limit=np.inf) for at, way in ((20, 1), (160, -1)))
+    monkeypatch.setattr(two_sided_search, "MOST", 1)
+    near = tuple(
+        choices(graph, some, way=way, limit=np.inf) for some, way in ((clip[20:], 1), (clip[:161], -1))
+    )
     found = TwoSided(graph, near, frames).best(1000)
     most = 1.25**0.85
     lengths = {tuple(edges): n for edges, n in every_walk(frames) if 1 / most <= n / frames <= most}
@@ -308,10 +302,10 @@ def test_a_walk_that_is_played_slower_keeps_its_pace_at_both_ends():
 
 def test_poses_fade_within_half_a_second_and_are_exact():
     clip = walking().source.clips[0]
-    walk, start, end = clip[200:291], Moment(clip, 201), Moment(clip, 288)
-    met, added = meet_poses(walk, start, end)
-    for frame, moment in ((0, start), (-1, end)):
-        gaps = rotations.angle_between(met.rotations[frame], moment.placed().rotations[0])
-        assert gaps.max() < 1e-6
+    walk = clip[200:291]
+    faded = meet_poses(walk, clip[201:], clip[:289])
+    for frame, asked in ((0, 201), (-1, 288)):
+        assert rotations.angle_between(faded.rotations[frame], clip.rotations[asked]).max() < 1e-6
+    added = difference(faded, walk)
     assert np.abs(added.turns[15:-15]).max() == 0
     assert np.abs(added.root[15:-15]).max() == 0

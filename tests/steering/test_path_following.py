@@ -161,6 +161,7 @@ def test_a_corner_that_no_clip_can_turn_is_cut_and_told():
     leaves = r"leaves the path (once|\d+ times), the furthest by \d+ cm at"
     with pytest.warns(MocapWarning, match=leaves) as caught:
         followed = follow_path(GRAPH, zigzag)
+    assert caught[0].filename == __file__  # who called the package, however deep it warns
     assert followed.progress == 1.0
     assert (len(followed.departures) == 1) == ("leaves the path once" in str(caught[0].message))
     assert max(worst for _, _, worst in followed.departures) == pytest.approx(followed.off.max())

@@ -181,7 +181,7 @@ def _warn(found: Sequence[Match], left_out: int) -> None:
         many = f"One step found {leaks[0]} matches, more than {LEAK} times the step before"
         messages.append(f"{many}: one wrong match may have led to others; lower the limit.")
     for message in messages:
-        warn(message, 3)
+        warn(message)
 
 
 def crossings(web: MatchWeb, start: int, stop: int, below: float) -> Iterator[Match]:

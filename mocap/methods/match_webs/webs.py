@@ -129,5 +129,5 @@ def _long_enough(clips: Sequence[Motion], frames: int) -> Mask:
     if short:
         names = ", ".join(short[:4]) + (f" and {len(short) - 4} more" if len(short) > 4 else "")
         said = f"Too short to hold a path of {frames / MatchWeb.rate:.2g} s, and left out: {names}."
-        warn(said, 3)
+        warn(said)
     return long

@@ -93,7 +93,7 @@ class MotionMatcher:
         slow, fast = np.percentile(np.abs(self.database.drift), [1, 99])
         if (self._command is None or speed != self._command[1]) and not slow <= speed <= fast:
             clips = f"the clips' {slow:.1f} to {fast:.1f} m/s"
-            warn(f"{speed:g} m/s is outside {clips}: the nearest is walked.", 3)
+            warn(f"{speed:g} m/s is outside {clips}: the nearest is walked.")
         if label not in self._searches:
             self._searches[label] = FrameSearch(self.database, future=self.wants.future, label=label)
         self._command, self._wait = command, 0
