@@ -5,9 +5,11 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+import matplotlib
 import pytest
 from hypothesis import HealthCheck, settings
 
+matplotlib.use("agg")
 SWEEP = bool(os.environ.get("MOCAP_SWEEP"))  # .ci/run tries more of everything
 
 # A busy machine is no failure.

@@ -37,22 +37,6 @@ def met(source):
                 yield thing
 
 
-def test_functions_are_met_however_they_are_imported():
-    source = """
-import mocap
-from mocap import graphs
-from mocap.body import rotations
-from mocap.body.planar import heading as facing
-mocap.resample(clip, 30)
-graph = graphs.prune(graphs.build(clips))
-rotations.multiply(a, b)
-facing(q)
-[mocap.load(path).fps for path in paths]
-graph.nodes
-"""
-    assert {f.__name__ for f in met(source)} == {"build", "heading", "load", "multiply", "prune", "resample"}
-
-
 def test_every_function_that_the_course_uses_names_a_notebook_that_teaches_it():
     seen = set()
     for path in NOTEBOOKS:

@@ -1,4 +1,4 @@
-"""The command, as a person types it."""
+"""The command, `course run` and `lab`, as a person types them. More of `course` is in tests/course."""
 
 import io
 import os
@@ -6,11 +6,13 @@ import subprocess
 import sys
 import warnings
 
+import nbformat
 import pytest
 
 import mocap
 from mocap.cli.main import main
 from mocap.cli.options import bar
+from mocap.course import opening
 from mocap.errors import MocapWarning
 
 
@@ -70,3 +72,50 @@ def test_a_bar_is_drawn_on_a_terminal_only(monkeypatch, screen, settings, drawn)
     monkeypatch.setattr(sys, "stderr", screen)
     assert list(bar("spelling")("abcd", **settings)) == list("abcd")
     assert ("spelling" in screen.getvalue()) == drawn
+
+
+def test_a_cell_that_fails_is_named_in_one_sentence(tmp_path, capsys):
+    path = tmp_path / "n.ipynb"
+    cells = [nbformat.v4.new_markdown_cell("# Title"), nbformat.v4.new_code_cell("x = 1\nx / 0")]
+    nbformat.write(nbformat.v4.new_notebook(cells=cells), path)
+    before = path.read_text("utf-8")
+    assert main(["course", "run", str(path)]) == 2
+    assert capsys.readouterr().err == f"mocap: {path}, cell 1: ZeroDivisionError: division by zero\n"
+    assert path.read_text("utf-8") == before
+
+
+class Started:
+    """A JupyterLab that ends when it has been asked twice."""
+
+    def __init__(self, command):
+        self.command, self.asked = command, 0
+
+    def wait(self):
+        self.asked += 1
+        if self.asked == 1:
+            raise KeyboardInterrupt
+        return 7
+
+
+@pytest.mark.parametrize(("user", "allowed"), [(0, ["--allow-root"]), (1000, [])])
+def test_lab_opens_the_first_notebook_and_leaves_ctrl_c_to_jupyterlab(monkeypatch, tmp_path, user, allowed):
+    started = []
+    monkeypatch.setattr(
+        opening.subprocess, "Popen", lambda command: started.append(Started(command)) or started[0]
+    )
+    monkeypatch.setattr(opening.os, "geteuid", lambda: user, raising=False)
+    own = ["--no-browser", "--port", "8890"]
+    assert main(["lab", str(tmp_path), "--", *own]) == 7  # JupyterLab's own status
+    command = started[0].command
+    assert command[1:3] == ["-m", "jupyterlab"]
+    assert command[3] == str(
+        tmp_path / "00-quickstart.ipynb"
+    )  # also where notebooks of a checkout are at hand
+    assert command[4:] == [*allowed, *own]
+    assert started[0].asked == 2
+
+
+def test_lab_says_what_to_install(monkeypatch, capsys):
+    monkeypatch.setattr(opening.importlib.util, "find_spec", lambda name: None)
+    assert main(["lab"]) == 2
+    assert "pip install '.[notebooks]'" in capsys.readouterr().err

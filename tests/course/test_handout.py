@@ -1,4 +1,4 @@
-"""The course handed out, to students and to nbgrader."""
+"""The course handed out, to students and to nbgrader, copied to work in, and in JupyterLite."""
 
 import json
 import os
@@ -9,6 +9,7 @@ import nbformat
 import pytest
 
 from mocap.cli.main import main
+from mocap.course import lite, opening
 from mocap.course.handout import PAGES, TELLING, _merged, hand_out
 from mocap.course.notebooks import notebooks_in, read, solution, tagged
 from mocap.course.opening import stored
@@ -152,3 +153,46 @@ def test_nbgrader_gives_full_marks_for_right_answers_and_none_for_wrong_or_empty
     assert scores == {"right": (3.5, 3.5), "wrong": (0, 3.5), "empty": (0, 3.5)}
     page = (tmp_path / "course" / "feedback" / "wrong" / "small" / "small.html").read_text("utf-8")
     assert "your answer has the shape (); it should be" in page
+
+
+def test_notebooks_are_copied_and_edited_ones_are_kept(monkeypatch, tmp_path):
+    package = tmp_path / "site" / "mocap"
+    (package / "notebooks").mkdir(parents=True)
+    for name in ("00-quickstart.ipynb", "01-next.ipynb"):
+        (package / "notebooks" / name).write_text("{}")
+    monkeypatch.setattr(opening, "PACKAGE", package)
+    mine = tmp_path / "mine"
+    mine.mkdir()
+    (mine / "01-next.ipynb").write_text("edited")
+    assert opening.course_folder(mine) == mine
+    assert (mine / "00-quickstart.ipynb").read_text() == "{}"
+    assert (mine / "01-next.ipynb").read_text() == "edited"
+
+
+@pytest.mark.sweep
+def test_jupyterlite_is_built_with_the_package_inside(tmp_path, capsys):
+    pytest.importorskip("jupyterlite_pyodide_kernel", reason="pip install '.[lite]'")
+    assert main(["course", "lite", "-o", str(tmp_path / "lite")]) == 0
+    assert (tmp_path / "lite" / "lab" / "index.html").exists()
+    assert not (stored().parent / ".jupyterlite.doit.db").exists()
+    (wheel,) = (tmp_path / "lite" / "pypi").glob("motion_graphs-*.whl")
+    assert wheel.stat().st_size > 1e5
+    first = nbformat.read(tmp_path / "lite" / "files" / "00-quickstart.ipynb", 4)
+    assert first.cells[1].source.startswith("%pip install -q motion-graphs")
+
+
+def test_without_jupyterlite_or_a_checkout_one_sentence_says_what_to_do(tmp_path, monkeypatch):
+    with pytest.raises(
+        MocapError, match="checkout" if lite.find_spec("jupyterlite_pyodide_kernel") else "\\.\\[lite\\]"
+    ):
+        lite.build_lite(tmp_path / "notebooks", tmp_path / "out")
+    monkeypatch.setattr(lite, "find_spec", lambda name: None)
+    with pytest.raises(MocapError, match="\\.\\[lite\\]"):
+        lite.build_lite(tmp_path, tmp_path / "out")
+
+
+def test_what_a_failing_build_says_is_cut_to_a_short_sentence(tmp_path):
+    (tmp_path / "loud.py").write_text("raise SystemExit('x' * 5000)")
+    with pytest.raises(MocapError, match="'loud build' failed: xxx") as raised:
+        lite._call(str(tmp_path), ["loud", "build"])
+    assert len(str(raised.value)) <= 200

@@ -1,4 +1,4 @@
-"""The bundled clips, held against real walks by one measure."""
+"""The bundled clips: real walks bound them, the jump falls freely, feet stand and joints keep limits."""
 
 from functools import cache
 from itertools import pairwise
@@ -6,19 +6,61 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from bundled_clips import bundled_clips
+from jumping import generate_jump, plan_jump
 from scipy.signal import find_peaks
 from walking import generate_walk
 from walking.walking_body import FOOT, SKELETON
 
 import mocap
 from mocap._shared.arrays import runs
-from mocap.body.kinematics import joint_positions
+from mocap.body import rotations
+from mocap.body.kinematics import forward_kinematics, joint_positions
 from mocap.body.motion import Motion
-from mocap.datasets import samples
-from mocap.datasets.samples import SAMPLES, sample
+from mocap.datasets import SAMPLES, sample, samples
 from mocap.graphs import motion_graph, pruning
-from tests.datasets.walking_limits import check_floor, check_limits, check_stored
+from mocap.quality.clip_flaws import inspect
+from mocap.quality.falling import centre_of_mass, gravity
 from tests.refusals import refused
+
+
+def check_floor(motion, heel):
+    """No joint goes through the floor, and no heel further than so many metres."""
+    poses = forward_kinematics(motion)
+    assert poses.positions[..., 1].min() > 0
+    for ankle in (SKELETON.index("lfoot"), SKELETON.index("rfoot")):
+        heels = poses.positions[:, ankle] + poses.matrices[:, ankle] @ [0, -FOOT.ankle, -FOOT.heel]
+        assert heels[:, 1].min() > -heel
+
+
+def check_limits(motion, hip, ankle):
+    """Knees and elbows are hinges; hips and ankles turn within the limits given, degrees."""
+    for side in "lr":
+        turn = {
+            bone: np.degrees(rotations.to_rotvec(motion.rotations[:, SKELETON.index(side + bone)]))
+            for bone in ("femur", "tibia", "foot", "toes", "radius")
+        }
+        for bone, (least, most) in {
+            "tibia": (4, 125),
+            "femur": hip,
+            "foot": ankle,
+            "toes": (-65, 1e-6),
+        }.items():
+            assert least < turn[bone][:, 0].min() < turn[bone][:, 0].max() < most, bone
+        assert np.abs(turn["tibia"][:, 1:]).max() < 1e-6
+        elbow = np.linalg.norm(turn["radius"], axis=-1)
+        assert 10 < elbow.min() < elbow.max() < 140
+        assert np.ptp(turn["radius"] / elbow[:, None], axis=0).max() < 0.05  # a hinge
+
+
+def check_stored(stored, made):
+    """A clip is stored to the nanometre, with the marks and the name of what was made."""
+    np.testing.assert_allclose(stored.root_positions, made.root_positions, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(stored.rotations, made.rotations, rtol=0, atol=1e-9)
+    assert (stored.name, stored.fps) == (made.name, made.fps)
+    for mine, theirs in ((stored.labels, made.labels), (stored.contacts, made.contacts)):
+        assert list(mine) == list(theirs)
+        assert all(np.array_equal(mark, theirs[key]) for key, mark in mine.items())
+
 
 every_clip = pytest.mark.parametrize("name", SAMPLES)
 
@@ -210,3 +252,43 @@ def test_at_4_cm_the_graph_leads_into_every_style_and_out_again():
 )
 def test_bad_wishes_are_told(call, message):
     refused(message, call)
+
+
+JUMP = sample("jump")
+PLAN = plan_jump(0.3)
+AIR = slice(int(PLAN.take_off * 120) + 2, int(PLAN.landing * 120))
+
+
+@pytest.mark.parametrize("rise", [0.15, 0.5])
+def test_in_the_air_the_centre_of_mass_falls_freely_and_rises_as_asked(rise):
+    jump, plan = generate_jump(rise), plan_jump(rise)
+    first, last = int(plan.take_off * 120) + 1, int(plan.landing * 120)
+    assert gravity(jump, first, last) == pytest.approx(9.81, abs=1e-4)
+    centre = centre_of_mass(jump)
+    assert centre[first:last, 1].max() - 1.055 == pytest.approx(rise, abs=1e-3)
+    assert np.ptp(centre[first:last, [0, 2]], axis=0).max() < 1e-6
+
+
+def test_the_jump_as_it_is_made_keeps_to_the_ground_and_the_limits():
+    made = generate_jump()
+    push = np.gradient(np.gradient(centre_of_mass(made)[:, 1])) * 120**2
+    assert push.min() > -9.82  # the ground never pulls
+    check_floor(made, heel=1e-9)
+    check_limits(made, hip=(-100, 35), ankle=(-45, 60))
+    places = joint_positions(made)
+    for joint, mark in made.contacts.items():
+        track = places[:, SKELETON.index(joint)]
+        assert np.ptp(track[mark], axis=0).max() < 1e-9
+        assert track[mark, 1] == pytest.approx(FOOT.ankle if "foot" in joint else FOOT.ball, abs=1e-9)
+        assert len(np.flatnonzero(np.diff(mark.astype(int)))) == 2
+        assert not mark[AIR].any()
+    assert list(JUMP.labels) == ["stand", "jump"]
+    assert np.array_equal(JUMP.labels["stand"], ~JUMP.labels["jump"])
+    assert not inspect(JUMP).flaws
+    frames = JUMP.rotations.reshape(len(JUMP), -1)
+    assert len(np.unique(frames.round(6), axis=0)) == len(frames)
+
+
+def test_the_jump_is_a_sample_but_no_walk():
+    assert "jump" not in SAMPLES
+    assert sample("jump") is JUMP

@@ -1,14 +1,14 @@
-"""The pictures in figures/ are those that `figures/gallery.py` draws now."""
+"""The pictures in figures/ are those that `gallery.py` draws now; the moving one is short and moves."""
 
+from itertools import pairwise
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("agg")
-
 import gallery
+import idea
 import matplotlib.pyplot as plt
+import numpy as np
 import pytest
+from PIL import Image
 
 from tests.refusals import refused
 
@@ -47,3 +47,19 @@ def test_all_are_written_with_their_fingerprints(tmp_path, monkeypatch):
     assert path.read_bytes() == again
     plt.close("all")
     refused("is no picture of", gallery.drawn_in, tmp_path / "nowhere.png")
+
+
+FILE = Path(idea.__file__).with_name("idea.gif")
+
+
+def test_it_is_short_small_and_moves():
+    assert FILE.stat().st_size < 2_000_000
+    with Image.open(FILE) as film:
+        assert 8 <= film.n_frames / idea.RATE <= 20 and idea.RATE == 25
+        assert film.size == tuple(idea.SIZE.values())
+        assert film.info["duration"] == 1000 // idea.RATE
+        pictures = []
+        for frame in (0, film.n_frames // 2, film.n_frames - 1):
+            film.seek(frame)
+            pictures.append(np.asarray(film.convert("RGB")).astype(int))
+    assert all(np.abs(a - b).mean() > 0.5 for a, b in pairwise(pictures))

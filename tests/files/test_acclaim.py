@@ -1,4 +1,4 @@
-"""Acclaim motions, against kinematics by hand straight from the files' own numbers."""
+"""Acclaim skeletons and motions, against kinematics by hand straight from the files' own numbers."""
 
 import math
 
@@ -12,6 +12,57 @@ from mocap.files import acclaim
 from mocap.files.asf import read_skeleton
 from tests.files.acclaim_clips import AMC, ASF, read_clip
 from tests.refusals import refused
+
+
+def test_joints_sit_where_bones_start(write):
+    skeleton = read_skeleton(write("a.asf", ASF)).skeleton
+    assert skeleton.names == ("root", "hip", "thigh", "thigh_end", "arm", "arm_end")
+    assert skeleton.parents.tolist() == [-1, 0, 1, 2, 0, 4]
+    offsets = [[0, 0, 0], [0, 0, 0], [0, -1, 0], [0, -2, 0], [0, 0, 0], [1, 0, 0]]
+    assert np.allclose(skeleton.offsets, offsets)
+
+
+def test_joints_remember_how_their_file_tells_angles(write):
+    skeleton = read_skeleton(write("a.asf", ASF)).skeleton
+    assert skeleton.dofs == ("xyz", "", "xz", "", "zy", "")
+    half = math.sqrt(0.5)
+    assert np.allclose(skeleton.axes[2], [half, 0, 0, half])
+    assert np.allclose(skeleton.axes[[0, 1, 3, 4, 5]], [1, 0, 0, 0])
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("dof rz ry", "dof rz rq", "line 47: expected some of rx ry rz"),
+        ("dof rz ry", "dof rz rz", "each once"),
+        ("0 0 90 XYZ", "0 0 90 XXZ", "line 28: expected an order of axes"),
+        ("0 0 90 XYZ", "0 90 XYZ", "line 28: expected 3 numbers for 'axis'"),
+        ("length 2", "length two", "line 27: expected 1 number for 'length'"),
+        ("     length 2\n", "", "line 23: expected a 'length' line"),
+        ("name thigh", "name hip", "line 25: expected a new bone's name"),
+        ("length 0.0254", "length 0", "line 6: expected a length of"),
+        ("angle deg", "angle grad", "line 7: expected angle deg or rad"),
+        (":hierarchy", ":bonedata", "line 49: expected one :bonedata section"),
+        (":hierarchy\n", ":hierarchie\n", "expected a :hierarchy section"),
+        ("hip thigh", "hip shin", "expected bones of :bonedata"),
+        ("hip thigh", "hip arm", "expected bones of :bonedata"),
+        ("hip thigh", "hip root", "expected bones of :bonedata"),
+        ("hip thigh", "shin thigh", "expected bones of :bonedata"),
+        ("root hip arm", "", "expected bones below 'root'"),
+        ("  end\n:hierarchy", ":hierarchy", "line 41: expected 'end' to this 'begin'"),
+        ("order TX TY TZ RX RY RZ", "", "expected a 'order' line"),
+        ("# a leg", "a leg", "line 1: expected a section"),
+    ],
+)
+def test_a_broken_asf_is_refused_at_its_line(write, old, new, message):
+    assert old in ASF
+    with pytest.raises(FormatError, match=message):
+        read_skeleton(write("a.asf", ASF.replace(old, new, 1)))
+
+
+def test_a_bone_named_as_the_end_of_another_is_refused(write):
+    with pytest.raises(FormatError, match=r"a.asf: expected bones whose ends have new names"):
+        read_skeleton(write("a.asf", ASF.replace("hip", "arm_end")))
 
 
 def where(motion, frame):
@@ -146,17 +197,6 @@ def test_an_empty_clip_is_refused(write, text):
     refused("expected frames, got none", read_clip, write, amc_text=text, kind=FormatError)
 
 
-def test_columns_and_lines_read_the_same(real_data):
-    text = (real_data / "cmu/16/16_35.amc").read_text()
-    asf = read_skeleton(real_data / "cmu/16/16.asf")
-    frames = text[acclaim.FIRST.search(text).start() :]
-    fast = acclaim._by_columns(frames, acclaim.first_frame(frames))
-    slow = acclaim._by_lines("16_35.amc", text, asf)
-    assert fast is not None
-    assert fast.keys() == slow.keys()
-    assert all(np.array_equal(fast[name], slow[name]) for name in slow)
-
-
 def test_a_comment_may_tell_the_rate(write):
     assert read_clip(write, amc_text=f"# fps 29.97\n{AMC}").fps == 29.97
     assert read_clip(write, amc_text=f"# fps 29.97\n{AMC}", fps=60.0).fps == 60.0
@@ -166,51 +206,16 @@ def test_a_comment_may_tell_the_rate(write):
             read_clip(write, amc_text=f"# fps {wrong}\n{AMC}")
 
 
-# Forward kinematics by hand: nothing of mocap.
-
-
-def turns(order, angles):
-    """Turns about fixed axes, the first one first."""
-    angles = angles if len(order) > 1 else angles[0] if order else 0  # of a list, a list of turns
-    return Rotation.from_euler(order.lower() or "x", angles, degrees=True)
-
-
-def by_hand(asf, amc_text, frame):
-    """Where every bone ends, in metres, for files as plain as CMU's (in degrees, no section at the end)."""
-    bones, head = {}, asf[: asf.index(":bonedata")]
-    for block in asf[asf.index(":bonedata") : asf.index(":hierarchy")].split("begin")[1:]:
-        fields = {line.split()[0]: line.split()[1:] for line in block.splitlines() if line.strip()}
-        bones[fields["name"][0]] = fields
-    unit = 0.0254 / float(head.split("length")[1].split()[0])
-    lines = amc_text.split(f"\n{frame + 1}\n")[1].split(f"\n{frame + 2}\n")[0].splitlines()
-    numbers = {line.split()[0]: [float(word) for word in line.split()[1:]] for line in lines}
-    ends = {"root": np.multiply(unit, numbers["root"][:3])}
-    globals_ = {"root": turns("xyz", numbers["root"][3:])}
-    for line in asf[asf.index(":hierarchy") :].splitlines()[2:]:
-        parent, *children = line.split() or [""]
-        for name in children:
-            *axis, order = bones[name]["axis"]
-            c = turns(order, [float(axis["XYZ".index(letter)]) for letter in order])
-            m = turns("".join(dof[1] for dof in bones[name].get("dof", [])), numbers.get(name, []))
-            globals_[name] = globals_[parent] * c * m * c.inv()
-            length = float(bones[name]["length"][0]) * unit
-            along = np.array(bones[name]["direction"], float) * length
-            ends[name] = ends[parent] + globals_[name].apply(along)
-    return ends
-
-
-def gap(motion, frame, ends):
-    """The largest distance between the bones' ends and our joints there."""
-    skeleton, points = motion.skeleton, joint_positions(motion)[frame]
-    return max(
-        math.dist(points[child], ends[name])
-        for index, name in enumerate(skeleton.names)
-        for child in skeleton.children(index)
-    )
-
-
 @pytest.mark.parametrize("axes", ["XYZ", "ZYX", "YZX", "XZY", "ZXY", "YXZ"])
 def test_any_order_of_axes_agrees_with_kinematics_by_hand(write, axes):
-    asf = ASF.replace("0 0 90 XYZ", f"20 -130 70 {axes}").replace(":skin none.obj", "")
+    """Turns about fixed axes, the first one first: the root's, then the thigh's between its axis and back."""
+    asf = ASF.replace("0 0 90 XYZ", f"20 -130 70 {axes}")
     text = AMC.replace("thigh 90 0", "thigh 33 -71").replace("root 1 5 0 0 90 0", "root 1 5 2 -40 110 25")
-    assert gap(read_clip(write, asf, text), 1, by_hand(asf, text, 1)) < 1e-9
+    turned = {"X": 20, "Y": -130, "Z": 70}
+    root, axis, thigh = (
+        Rotation.from_euler(order.lower(), angles, degrees=True)
+        for order, angles in (("xyz", [-40, 110, 25]), (axes, [turned[a] for a in axes]), ("xz", [33, -71]))
+    )
+    hip = np.add([1, 5, 2], root.apply([0, -1, 0]))
+    ends = {"thigh": hip, "thigh_end": hip + (root * axis * thigh * axis.inv()).apply([0, -2, 0])}
+    assert close(where(read_clip(write, asf, text), 1), ends)

@@ -1,13 +1,32 @@
-"""What the charts show, read back from their artists."""
+"""What charts and grids show, and what lies on the ground, read back from their artists."""
 
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgba
+from matplotlib.patches import Circle
 
+from mocap.blending import Curve
+from mocap.datasets import sample
+from mocap.matching import distance_grid
+from mocap.methods.match_webs import minima_1d
 from mocap.methods.match_webs.match_search import Match
-from mocap.plotting import joint_curve, match_tree, quartile_band, seen_beside_measured
+from mocap.plotting import (
+    asked_and_walked,
+    distance_image,
+    draw_group_plan,
+    ground_tracks,
+    joint_curve,
+    match_tree,
+    path_from_above,
+    quartile_band,
+    seen_beside_measured,
+    walk_rows,
+    warp_image,
+    web_image,
+)
 from mocap.plotting.charts import box_chart
 from mocap.plotting.style import ASTRAY, CURVES, QUIET, SOURCES
+from tests.strategies import wave
 
 AT = np.arange(3.0)
 FOUND = [
@@ -86,3 +105,89 @@ def test_a_kind_keeps_its_colour_and_a_query_alone_is_a_tree():
     assert colours_of(few)[0] == to_rgba(SOURCES[1])
     alone = match_tree(FOUND[:1], ["walk"], wrong=[False], order=[])
     assert len(alone.collections[0].get_segments()) == 0
+
+
+def test_the_distance_image_shows_centimetres_in_seconds():
+    grid = distance_grid(wave(40), wave(60, phase=1.0), window=10)
+    image = distance_image(grid, fps=30, minima=[[3, 5]], names=("a", "b"))
+    assert np.asarray(image.get_array()) == pytest.approx(100 * np.sqrt(grid))
+    assert image.get_extent() == pytest.approx([0, 51 / 30, 31 / 30, 0])
+    (dots,) = image.axes.lines
+    assert np.ravel(dots.get_data()) == pytest.approx([5.5 / 30, 3.5 / 30])
+    assert image.axes.get_ylabel() == "a (s)"
+
+
+def test_paths_and_minima_lie_on_the_middles_of_their_cells():
+    grid = np.abs(np.subtract.outer(np.arange(6.0), np.arange(8.0))) / 100
+    path = np.stack([np.arange(6), np.arange(6)], axis=1)
+    ax = web_image(grid, marks=minima_1d(grid), paths=[path])
+    assert ax.collections[0].get_segments()[0] == pytest.approx((path + 0.5) / 30)
+    marked = np.round(ax.lines[0].get_xydata() * 30 - 0.5).astype(int).tolist()
+    assert all([n, n] in marked for n in range(6))
+    assert ax.images[0].get_array().max() == pytest.approx(7)
+    assert not len(web_image(grid).lines[0].get_xydata())
+
+
+def test_the_curve_lies_on_the_cells_of_the_path():
+    grid, path = np.random.default_rng(0).random((40, 50)), np.repeat(np.arange(40)[:, None], 2, axis=1)
+    ax = warp_image(grid, path, curve=Curve(0.0, 1.0, np.array([-0.5, 0.5, 1.5])))  # S(u) = u
+    own, u = ax.lines[0].get_data()
+    assert (own[0], u[0]) == pytest.approx((path[0, ::-1] + 2) / 30)
+    x, y = ax.lines[1].get_data()
+    assert np.abs(np.interp(u, y, x) - own).max() < 0.02
+    left, right, bottom, top = ax.images[0].get_extent()
+    assert (left, top) == pytest.approx((1.5 / 30, 1.5 / 30))
+    assert (right, bottom) == pytest.approx(((grid.shape[1] + 1.5) / 30, (grid.shape[0] + 1.5) / 30))
+    assert ax.images[0].get_array().max() == pytest.approx(100 * grid.max())
+
+
+def test_rows_show_transitions_by_cost_and_nothing_after_the_end():
+    costs = np.array([[0.0, 150.0, np.nan], [300.0, 0.0, 0.0]])
+    image = walk_rows(costs, highest=400.0)
+    steps, transitions = image.axes.images
+    assert steps.get_array().mask.tolist() == np.isnan(costs).tolist()
+    assert transitions is image
+    assert image.get_array().compressed().tolist() == [150.0, 300.0]
+    assert image.get_clim() == (0, 400.0)
+    assert image.axes.get_xlabel() == "step of the walk"
+
+
+def test_a_path_from_above_is_not_mirrored():
+    motion = wave(30)
+    path, start = path_from_above(motion)
+    assert np.transpose(path.get_data()) == pytest.approx(motion.root_positions[:, [0, 2]])
+    assert path.axes.xaxis_inverted()
+    path_from_above(motion, ax=path.axes)
+    assert path.axes.xaxis_inverted()
+    assert start.get_xdata() == pytest.approx(motion.root_positions[0, 0])
+
+
+def test_the_path_asked_for_lies_under_the_path_walked():
+    motion = wave(30)
+    asked, walked, start = asked_and_walked([[0, 0], [0, 1], [1, 1]], motion)
+    assert np.transpose(asked.get_data()).tolist() == [[0, 0], [0, 1], [1, 1]]
+    assert np.transpose(walked.get_data()) == pytest.approx(motion.root_positions[:, [0, 2]])
+    assert asked.get_zorder() <= walked.get_zorder()
+    assert (asked.get_color(), walked.get_color()) == ("#000000", "#E69F00")
+    assert start.get_ydata() == pytest.approx(motion.root_positions[0, 2])
+
+
+def test_tracks_have_the_ways_and_the_facings():
+    lines = ground_tracks([wave(90), walk := sample("walk_straight")[:240]])
+    assert [line.get_color() for line in lines] == list(SOURCES[:2])
+    assert lines[1].get_xdata() == pytest.approx(walk.root_positions[:, 0])
+    ahead = np.diff(lines[1].axes.collections[-1].get_segments(), axis=1)[:, 0]
+    assert np.hypot(*ahead.T) == pytest.approx(0.25)
+    assert np.abs(np.degrees(np.arctan2(*ahead.T))).max() < 30
+
+
+def test_a_plan_shows_every_member_every_point_and_every_obstacle():
+    places = np.linspace(0, 6, 50)[:, None] + np.array([0j, 1.5j, -1.5j])
+    figure = draw_group_plan(places, [6 + 0j, 9 + 1j], [(3 + 4j, 0.5)], near=0.8)
+    (ax,) = figure.axes
+    for line, way in zip(ax.lines, places.T, strict=True):
+        np.testing.assert_allclose(line.get_xydata(), np.stack([way.imag, way.real], axis=1))
+    assert sorted(p.radius for p in ax.patches if isinstance(p, Circle)) == [0.5, 0.8, 0.8]
+    assert [text.get_text() for text in ax.texts] == ["1", "2"] and ax.xaxis_inverted()
+    assert draw_group_plan(np.ones((5, 1), complex), ax=ax) is figure
+    assert len(ax.lines) == 4 and ax.xaxis_inverted()

@@ -1,28 +1,30 @@
-"""Experiments, driven as a reader would drive them."""
+"""Experiments, driven as a reader would drive them, by handles too, and recorded for pages without Python."""
 
+import base64
 import gc
 import io
+import json
 import sys
 import tracemalloc
-
-import matplotlib
-
-matplotlib.use("agg")
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from IPython.core.interactiveshell import InteractiveShell
 from matplotlib.figure import Figure
 from PIL import Image
 
 from mocap.body.kinematics import joint_positions
+from mocap.errors import MocapError
 from mocap.plotting.stick_figures import StickFigure, ground_axes
-from mocap.widgets import experiments
+from mocap.widgets import experiments, recording
 from mocap.widgets.experiments import explore
+from mocap.widgets.pointing import handles
+from tests.course import driving
 from tests.refusals import refused
 from tests.strategies import wave
 
-pytest.importorskip("ipywidgets")
+pytest.importorskip("anywidget")
 
 
 def pixels(png):
@@ -133,3 +135,183 @@ def test_drawings_leave_no_figure_and_no_memory_behind():
     tracemalloc.stop()
     assert plt.get_fignums() == []
     assert after - before < 300_000  # one figure of 100 × 100 pixels takes more than a tenth of this
+
+
+POINTS = [[0, 1], [0, 3], [0, 5]]
+
+
+def ground():
+    figure = plt.figure(figsize=(4, 4), layout="constrained")
+    return figure.add_subplot(xlim=(3, -3), ylim=(0, 6), xlabel="x (m)", ylabel="z (m)")
+
+
+def bent(**more):
+    """Make an experiment whose line goes through the handles."""
+    ax = ground()
+    (line,) = ax.plot([], [], linewidth=4)
+
+    def bend(way, scale=1.0):
+        line.set_data(scale * np.array(way).T)
+        return [line]
+
+    return experiments.explore(bend, alt="A line through three handles.", way=handles(ax, POINTS), **more)
+
+
+def test_the_picture_follows_a_dragged_handle():
+    experiment = bent()
+    before = pixels(experiment.png)
+    experiment.controls["way"].value = [[0, 1], [2, 3], [0, 5]]  # as the browser sends it
+    assert experiment.values()["way"] == ((0, 1), (2, 3), (0, 5))
+    assert np.any(pixels(experiment.png) != before)
+    assert experiment.picture.picture == experiment.png
+    assert experiment.picture is experiment.controls["way"]
+    assert plt.get_fignums() == []
+
+
+def test_handles_are_drawn_where_the_axes_have_their_points():
+    """A line through the handles lies in the middle of each."""
+    experiment = bent().set(way=((1, 1), (-2, 3), (2.5, 5.5)))
+    handled = experiment.controls["way"]
+    ringed, drawn = np.asarray(handled.with_handles()).astype(int), pixels(experiment.png)
+    left, top, right, bottom = handled.box
+    assert 0 < left < right < 1
+    assert 0 < top < bottom < 1
+    still = pixels(base64.b64decode(experiment.still()[0]["image/png"]))
+    assert np.abs(still - ringed).max() < 32  # what stays has the handles in it, in few colours
+    high, wide = drawn.shape[:2]
+    for x, z in handled.value:
+        column = wide * (left + (right - left) * (3 - x) / 6)
+        row = high * (bottom + (top - bottom) * z / 6)
+        around = np.s_[int(row) - 3 : int(row) + 4, int(column) - 3 : int(column) + 4]
+        assert np.any(drawn[around] != 255)  # the line
+        beside = np.s_[int(row) - 11 : int(row) + 12, int(column) - 11 : int(column) + 12]
+        ys, xs = np.nonzero((ringed[beside] != drawn[beside]).any(axis=-1))
+        assert (ys.mean(), xs.mean()) == pytest.approx((11, 11), abs=1.5)
+
+
+def test_other_controls_stand_beside_the_handles():
+    experiment = bent(scale=(0.5, 1.5))
+    before = pixels(experiment.png)
+    assert np.any(pixels(experiment.set(scale=0.5).png) != before)
+    assert experiment.controls["scale"] in experiment.box.children
+    assert recording.record(experiment)["name"] == "scale"
+    assert recording.record(bent()) is None
+
+
+def test_a_test_drives_the_handles_to_places_that_a_reader_may_reach(monkeypatch):
+    monkeypatch.setenv("MOCAP_SWEEP", "1")
+    experiment = bent()
+    ways = [values["way"] for values in driving.settings(experiment)]
+    assert ((0.0, 3.0), (0.0, 3.0), (0.0, 5.0)) in ways
+    assert ((0.0, 1.0), (0.0, 3.0), (-3.0, 6.0)) in ways
+    for way in ways:
+        experiment.set(way=way)
+
+
+@pytest.mark.parametrize(
+    ("value", "said"),
+    [
+        ([[0, 1], [0, 3]], r"There are 3 handles, got an array of shape \(2, 2\)"),
+        ([[0, 1], [3.5, 3], [0, 5]], r"Handle 2 would leave the axes: \[3.5, 3.0\]"),
+        ([[0, 1], [0, 3], [0, np.nan]], "Handle 3 would leave the axes"),
+    ],
+)
+def test_places_outside_the_axes_are_refused(value, said):
+    experiment = bent()
+    refused(said, experiment.set, way=value)
+    assert experiment.values()["way"] == ((0, 1), (0, 3), (0, 5))
+
+
+def test_other_nonsense_is_refused():
+    refused("rows of two numbers", handles, ground(), [1, 2, 3])
+    refused("linear axes, not linear and log", handles, plt.figure().add_subplot(yscale="log"), POINTS)
+    with pytest.raises(MocapError, match="one control of handles"):
+        experiments.explore(
+            lambda a, b: None, alt="", a=handles(ground(), POINTS), b=handles(ground(), POINTS)
+        )
+
+
+ALT = "Points at random, as many as the slider says."
+
+
+def noise(**control):
+    """Show an experiment whose pictures are hard to compress."""
+    (name,) = control
+
+    def draw(value):
+        figure = plt.figure(figsize=(2, 1.5))
+        figure.add_axes([0, 0, 1, 1]).imshow(np.random.default_rng(int(500 + 4 * value)).random((75, 100)))
+        return figure
+
+    def named(first=0):
+        return draw(first)
+
+    def titled(grow_by=False):
+        return draw(grow_by)
+
+    return explore(named if name == "first" else titled, alt=ALT, **control)
+
+
+def opened(recorded):
+    return [Image.open(io.BytesIO(base64.b64decode(png))) for png in recorded["pictures"]]
+
+
+@pytest.mark.parametrize(
+    ("control", "labels"),
+    [
+        ((0, 3), ["0", "1", "2", "3"]),
+        ((0.0, 1.0, 0.25), ["0", "0.25", "0.5", "0.75", "1"]),
+        ({"none": 0, "some": 5}, ["none", "some"]),
+        ([4, 0], ["4", "0"]),
+        (False, ["off", "on"]),
+    ],
+)
+def test_each_kind_of_control_has_its_positions(control, labels):
+    experiment = noise(first=control)
+    recorded = recording.record(experiment, room=10**7)
+    assert (recorded["name"], recorded["labels"], recorded["alt"]) == ("first", labels, ALT)
+    assert recorded["at"] == (1 if control == [4, 0] else 0)
+    assert len({picture.tobytes() for picture in opened(recorded)}) == len(labels)
+    assert experiment.values() == {"first": 0}  # it is back in its place
+
+
+@pytest.mark.parametrize(("count", "at"), [(1001, 0), (404, 3), (502, 500), (18, 0), (16, 7), (15, 14)])
+def test_long_ranges_keep_their_ends_and_the_place_at_rest(count, at):
+    places = recording._spread(count, at, 15)
+    assert places == sorted(set(places))
+    assert len(places) == 15
+    assert {0, at, count - 1} <= set(places)
+
+
+@pytest.mark.parametrize("room", [pytest.param(40_000, marks=pytest.mark.sweep), 20_000])
+def test_the_pictures_fit_the_room(room):
+    recorded = recording.record(noise(first=(0, 20)), room=room)
+    assert sum(len(base64.b64decode(png)) for png in recorded["pictures"]) <= room
+    assert 5 <= len(recorded["pictures"]) <= 15
+    assert len({picture.size for picture in opened(recorded)}) == 1
+
+
+def test_the_experiments_that_cells_show_are_recorded(tmp_path, monkeypatch):
+    shell = InteractiveShell()
+    monkeypatch.setattr("IPython.get_ipython", lambda: shell)
+    recording.watch(str(tmp_path))
+    shell.user_ns["noise"] = noise
+    for cell in ("1 + 1", "noise(grow_by=(0, 2))", "shown = noise(first=(0, 2))"):
+        shell.run_cell(cell)
+    (kept,) = tmp_path.iterdir()
+    recorded = json.loads(kept.read_text("utf-8"))
+    assert (recorded["source"], recorded["name"]) == ("noise(grow_by=(0, 2))", "grow by")
+    assert recorded["labels"] == ["0", "1", "2"]
+
+
+def test_a_position_that_cannot_be_drawn_is_said(tmp_path, monkeypatch):
+    def draw(first=0):
+        return plt.figure(figsize=(1 / (2 - first), 1))
+
+    shell = InteractiveShell()
+    monkeypatch.setattr("IPython.get_ipython", lambda: shell)
+    recording.watch(str(tmp_path))
+    shell.user_ns["shown"] = explore(draw, alt=ALT, first=(0, 2))
+    shell.run_cell("shown")
+    (kept,) = tmp_path.iterdir()
+    assert json.loads(kept.read_text("utf-8"))["error"].startswith("ZeroDivisionError")

@@ -1,14 +1,17 @@
-"""The diagrams of two searches show what these do, and they find components and the shortest walk."""
+"""The diagrams of graphs and of searches show what these do, and they find components and the best walks."""
 
 from functools import cache, partial
-from itertools import pairwise
+from itertools import pairwise, product
 
 import networkx as nx
 import numpy as np
 import pytest
-from matplotlib.colors import to_rgb
+from matplotlib.colors import to_hex, to_rgb
+from matplotlib.text import Annotation
 
 from mocap import graphs
+from mocap.body import GroundPath
+from mocap.course.diagrams import small_graphs
 from mocap.course.diagrams.branching import (
     FATES,
     edge_lengths,
@@ -25,7 +28,9 @@ from mocap.course.diagrams.eight_nodes import (
     tarjan_states,
     tarjan_steps,
 )
-from mocap.plotting.style import SOURCES
+from mocap.course.diagrams.layers import PROGRAM as LAYER_PROGRAM
+from mocap.course.diagrams.layers import STRIDE, TURNS, Steps, layer_states, layer_steps, lengthened
+from mocap.plotting.style import MARK, PATH, QUIET, SOURCES
 
 EIGHT = graphs.notes_example()
 STATES = tarjan_states({node: sorted(EIGHT.successors(node)) for node in sorted(EIGHT)})
@@ -191,3 +196,118 @@ def test_pieces_laid_by_the_product_of_all_transforms_make_one_line():
         "by the last transform",
         "by the product",
     ]
+
+
+def bars(ax):
+    return [line for line in ax.lines if line.get_linewidth() == 9]
+
+
+def nodes(ax):
+    return sorted(
+        (-line.get_ydata()[0], line.get_xdata()[0]) for line in ax.lines if line.get_marker() == "o"
+    )
+
+
+def arrows(ax, colour):
+    found = [text for text in ax.texts if isinstance(text, Annotation) and text.arrow_patch]
+    return [arrow for arrow in found if to_hex(arrow.arrow_patch.get_edgecolor()) == to_hex(colour)]
+
+
+def drawn(step):
+    return small_graphs.nodes_and_edges(step).axes[0]
+
+
+@pytest.mark.parametrize(("step", "leaps"), [(0, 0), (1, 0), (2, 1), (3, 3), (4, 3)])
+def test_each_transition_adds_an_arrow_and_two_nodes(step, leaps):
+    ax = drawn(step)
+    assert len(arrows(ax, MARK)) == leaps
+    assert len(nodes(ax)) == 4 + 2 * leaps
+    assert len(bars(ax)) == 2 + 2 * leaps  # each node within a clip cuts it
+
+
+def test_an_arrow_leads_from_a_node_to_a_node():
+    ax = drawn(3)
+    for arrow in arrows(ax, MARK):
+        for time, row in (arrow.xyann, arrow.xy):
+            assert (-row, time) in nodes(ax)
+
+
+def test_a_match_is_a_window_in_each_clip_of_which_one_ends_where_the_transition_enters():
+    windows = [line for line in drawn(1).lines if line.get_color() == MARK]
+    assert [line.get_ydata()[0] for line in windows] == [0, -1]
+    source, leaves, target, enters = small_graphs.LEAPS[0]
+    assert (source, target) == (0, 1)
+    assert windows[0].get_xdata()[0] == leaves
+    assert windows[1].get_xdata()[1] == pytest.approx(enters)
+
+
+def test_pruning_removes_what_no_transition_enters_or_leaves():
+    pale = {tuple(bar.get_xdata()) for bar in bars(drawn(4)) if bar.get_color() not in SOURCES}
+    assert pale == {(0.0, 1.0), (4.8, 6.0), (0.0, 1.4), (3.2, 5.0)}
+    ends = [line for line in drawn(4).lines if line.get_markeredgecolor() == QUIET]
+    assert len(ends) == 4
+
+
+def test_each_edge_of_the_walk_begins_where_the_one_before_ends():
+    ax = drawn(5)
+    assert len(arrows(ax, PATH)) == len(small_graphs.WALK) + len(small_graphs.LEAPS)
+    assert {"1", "2", "3", "4"} < {text.get_text() for text in ax.texts}
+    ends = [(leap[1], leap[3]) for leap in small_graphs.LEAPS]
+    for (_, _, end), (_, start, _) in pairwise(small_graphs.WALK):
+        assert (end, start) in ends
+
+
+LINE = GroundPath([[0, 0], [0, 2.1], [0.7, 2.1], [0.7, 0]]).at(STRIDE * np.arange(8)) @ [1j, 1]
+
+
+def every_walk(line, count):
+    for turns in product(TURNS, repeat=count):
+        walk = Steps((0j,), 0.0, 0.0)
+        for turn in turns:
+            walk = lengthened(walk, turn, line)
+        yield walk
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_beam_that_holds_all_walks_finds_the_best_of_all(seed):
+    line = np.cumsum(0.7 * np.exp(1j * np.random.default_rng(seed).normal(size=6).cumsum()))
+    best = min(walk.cost for walk in every_walk(line, 4))
+    for look in (False, True):
+        assert [*layer_states(line, 4, width=99, look=look)][-1].best.cost == pytest.approx(best)
+
+
+def test_the_look_ahead_needs_a_narrower_beam():
+    def narrowest(look):
+        costs = [[*layer_states(LINE, 5, width=width, look=look)][-1].best.cost for width in range(1, 10)]
+        return 1 + costs.index(min(costs))
+
+    assert (narrowest(True), narrowest(False)) == (2, 6)
+
+
+def test_of_walks_that_stand_alike_the_best_stays_and_no_more_than_the_beam_go_on():
+    for state in layer_states(LINE, 5, width=4):
+        ends = [(np.round(walk.places[-1], 6), round(walk.heading, 6)) for walk in state.kept]
+        if state.line in (5, 6):
+            assert len(set(ends)) == len(ends)
+            assert all(
+                any(
+                    abs(walk.places[-1] - other.places[-1]) < 1e-6 and state.score[other] <= state.score[walk]
+                    for other in state.kept
+                )
+                for walk in (state.crossed if state.line == 5 else ())
+            )
+        assert state.line != 6 or len(state.kept) <= 4
+
+
+def test_the_line_that_ran_is_marked_and_crossed_walks_are_drawn():
+    figure = layer_steps(LINE, 5)(18, 4, True)[0].figure
+    ground, code = figure.axes
+    assert [text.get_text() for text in code.texts] == LAYER_PROGRAM
+    marked = code.patches[0].get_extents().transformed(code.transData.inverted())
+    assert (marked.y0 + marked.y1) / 2 == pytest.approx(
+        LAYER_PROGRAM.index("    kept = the K best of apart, by score")
+    )
+    (crosses,) = (line for line in ground.lines if line.get_marker() == "x")
+    ends = [walk.places[-1] for walk in [*layer_states(LINE, 5)][18].crossed]
+    assert crosses.get_xydata()[crosses.get_markevery()] @ [1j, 1] == pytest.approx(ends)
+    assert len(ends) > 0

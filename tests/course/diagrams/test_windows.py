@@ -1,4 +1,4 @@
-"""What the diagrams of windows draw: the right points, the right sums, and left and right told apart."""
+"""What the diagrams of bodies, turns, clouds and paths draw, read back from their artists."""
 
 import numpy as np
 import pytest
@@ -9,9 +9,15 @@ from mpl_toolkits.mplot3d import proj3d
 
 from mocap import datasets, resample
 from mocap.body import PlanarTransform
+from mocap.body.ground_path import GroundPath, arcs
+from mocap.body.kinematics import joint_positions
+from mocap.body.rotations import multiply
 from mocap.course import diagrams
+from mocap.course.diagrams import alignment, compass, down_the_tree, quaternions
+from mocap.course.diagrams.distances_to_paths import nearest_points, two_distances
+from mocap.datasets.samples import sample
 from mocap.errors import MocapError
-from mocap.matching import distinct_joints, point_cloud
+from mocap.matching import align, distinct_joints, point_cloud
 from mocap.plotting import COLOURS, QUIET, SOURCES
 from mocap.plotting.stick_figures import to_picture
 from mocap.plotting.storyboards import draw_matched
@@ -24,7 +30,7 @@ def window():
     return resample(datasets.sample("walk_straight"), 30)[100 : 100 + WINDOW]
 
 
-def dots(figure, colour):
+def dots_of(figure, colour):
     return [line for line in figure.axes[0].lines if line.get_color() == colour and line.get_marker() == "."]
 
 
@@ -36,8 +42,8 @@ def bodies(figure):
 def test_a_cloud_is_made_in_four_steps_and_has_a_shadow_inside_the_picture(window):
     figures = [diagrams.window_cloud(window, step=step) for step in (1, 2, 3, 4)]
     assert [bodies(figure) for figure in figures] == [1, WINDOW, WINDOW, 0]
-    assert [len(dots(figure, SOURCES[0])) for figure in figures] == [0, 0, 1, 1]
-    (cloud,), (shadow,) = dots(figures[3], SOURCES[0]), dots(figures[3], QUIET)
+    assert [len(dots_of(figure, SOURCES[0])) for figure in figures] == [0, 0, 1, 1]
+    (cloud,), (shadow,) = dots_of(figures[3], SOURCES[0]), dots_of(figures[3], QUIET)
     wanted = to_picture(point_cloud(window).reshape(-1, 3))
     assert np.transpose(cloud.get_data_3d()) == pytest.approx(wanted)
     assert np.transpose(shadow.get_data_3d()) == pytest.approx(wanted * [1, 1, 0])
@@ -102,3 +108,196 @@ def test_the_gaps_between_circles_are_the_same_however_a_window_is_turned():
     assert [len(ax.patches) for ax in drawn] == [0, 4, 4]
     assert [len(ax.lines) for ax in drawn] == [3, 3, 5]
     assert drawn[2].get_title() == "what no turn can remove:\nlfoot 0 cm, head 0 cm"
+
+
+@pytest.fixture(scope="module")
+def pair():
+    first = resample(datasets.sample("walk_curve_1"), 30)[50:60]
+    second = resample(datasets.sample("walk_curve_2"), 30)[20:30]
+    return first, second
+
+
+def means(figure):
+    marks = [line.get_xydata() for line in figure.axes[0].lines if line.get_marker() == "P"]
+    return np.array([places[0] for places in marks if len(places)])
+
+
+def left(figure):
+    return float(figure.axes[0].get_title().rpartition(": ")[2].removesuffix(" cm RMS"))
+
+
+def test_the_steps_show_means_centring_angle_and_shift(pair):
+    figures = [diagrams.laying_on(*pair, step=step) for step in (1, 2, 3, 4)]
+    own = [point_cloud(motion).mean(axis=(0, 1))[[0, 2]] for motion in pair]
+    assert means(figures[0]) == pytest.approx(np.array(own))
+    for figure in figures[1:3]:
+        assert means(figure) == pytest.approx(np.zeros((2, 2)), abs=1e-9)
+    assert means(figures[3]) == pytest.approx(np.array([own[0], own[0]]))
+
+
+def test_what_is_left_in_the_end_is_what_align_leaves(pair):
+    a, b = (point_cloud(motion).reshape(-1, 3) for motion in pair)
+    best = 100 * np.sqrt(((a - align(a, b).apply_points(b)) ** 2).sum(-1).mean())
+    lefts = [left(diagrams.laying_on(*pair, step=step)) for step in (1, 2, 3, 4)]
+    assert lefts == sorted(lefts, reverse=True)
+    assert lefts[2:] == pytest.approx([best, best], abs=0.05)
+
+
+def test_the_curve_over_a_turn_has_one_valley_at_the_closed_form_and_the_dot_is_on_it(pair):
+    a, b = (point_cloud(motion).reshape(-1, 3) for motion in pair)
+    best = np.degrees(align(a, b).angle)
+
+    def fitted(points, angle):
+        turn = PlanarTransform(angle, 0.0, 0.0)
+        return turn.apply_points(points) + (a.mean(0) - turn.apply_points(b).mean(0)) * [1, 0, 1]
+
+    shown = diagrams.turning(*pair, fitted)(60)[0].figure
+    curve, dot = shown.axes[1].lines
+    angles, lefts = curve.get_xydata().T
+    assert abs(angles[lefts.argmin()] - best) <= 3
+    rising = np.diff(np.roll(lefts[:-1], -lefts.argmin())) > 0
+    assert np.count_nonzero(np.diff(rising)) == 1  # up to one highest point, then down
+    at, height = dot.get_xydata()[0]
+    assert (at, height) == (60, lefts[angles == 60])
+    assert shown.axes[0].get_title() == f"60°: {height:.1f} cm RMS"
+
+
+def test_moved_by_hand_threads_and_the_distance_follow(pair):
+    (ax,) = diagrams.laid(*pair, lambda points: points + np.array([0, 0, 3])).axes
+    own = [point_cloud(motion).mean(axis=(0, 1))[[0, 2]] for motion in pair]
+    assert means(ax.figure) == pytest.approx(np.array([own[0], own[1] + [0, 3]]))
+    a, b = (point_cloud(motion) for motion in pair)
+    assert left(ax.figure) == pytest.approx(
+        100 * np.sqrt(((a - b - [0, 0, 3]) ** 2).sum(-1).mean()), abs=0.05
+    )
+
+
+def test_the_arrow_of_the_products_is_the_best_angle(pair):
+    a, b = (point_cloud(motion).reshape(-1, 3) for motion in pair)
+    (ax,) = diagrams.products(*pair).axes
+    assert ax.get_title() == f"the sum leads at {np.degrees(align(a, b).angle):.0f}°".replace("-", "−")
+
+
+CLIP = sample("walk_circle")
+TARGET, MOVING = CLIP[:200], CLIP[400:600]
+TRANSFORM = PlanarTransform(2.0, 1.5, -0.7)
+
+
+def dots(ax):
+    return [line.get_xydata()[0] for line in ax.lines if line.get_marker() == "o"]
+
+
+@pytest.mark.parametrize("shift_first", [False, True])
+def test_the_order_of_turn_and_shift_decides_on_the_place(shift_first):
+    panels = alignment(TARGET, MOVING, TRANSFORM, shift_first=shift_first).axes
+    turn, shift = PlanarTransform(TRANSFORM.angle, 0.0, 0.0), PlanarTransform(0.0, TRANSFORM.x, TRANSFORM.z)
+    first, second = (shift, turn) if shift_first else (turn, shift)
+    spot = MOVING.root_positions[0]
+    wanted = [spot, first.apply_points(spot), second.apply_points(first.apply_points(spot))]
+    assert [dots(ax)[0] for ax in panels] == [pytest.approx(TARGET.root_positions[-1, [0, 2]])] * 3
+    assert all(ax.xaxis_inverted() for ax in panels)
+    assert len(alignment(TARGET, MOVING, TRANSFORM, step=2).axes) == 2
+    assert [dots(ax)[-1] for ax in panels] == [pytest.approx(point[[0, 2]]) for point in wanted]
+    assert [("turned" in ax.get_title()) for ax in panels] == [False, not shift_first, shift_first]
+
+
+def test_the_turn_leads_round_the_origin():
+    way = next(line for line in alignment(TARGET, MOVING, TRANSFORM).axes[1].lines if line.get_ls() == "--")
+    distances = np.linalg.norm(way.get_xydata(), axis=1)
+    assert distances == pytest.approx(distances[0])
+
+
+def arrows(ax):
+    return [complex(*text.xy) for text in ax.texts if getattr(text, "arrow_patch", None)]
+
+
+def test_a_heading_points_up_the_page_at_0_and_to_the_left_at_90():
+    ax = Figure().add_subplot()
+    compass({"ahead": 0.0, "left": np.pi / 2}, ax)
+    assert arrows(ax) == pytest.approx([1j, -1], abs=1e-12)
+    assert [text.get_text() for text in ax.texts if ":" in text.get_text()] == ["ahead: 0°", "left: 90°"]
+
+
+@pytest.mark.parametrize("angle", [-170, 60])
+def test_q_turns_by_a_half_and_q_bar_by_the_other_half_where_it_is_needed(angle):
+    across, along = (arrows(ax) for ax in quaternions.half_turns(angle=angle).axes)
+    half = np.exp(1j * np.radians(angle / 2))
+    assert across == pytest.approx([0.8, 0.8 * half, 0.8 * half**2])
+    assert along == pytest.approx([0.8j, 0.8j * half, 0.8j])
+
+
+def test_the_numbers_above_are_those_of_the_products():
+    text = quaternions.half_turns().get_suptitle()
+    assert text.split("      ") == [
+        "v = (0.00, 0.80, 0.00, 0.80)",
+        "q v = (-0.40, 0.69, 0.40, 0.69)",
+        "q v q̄ = (0.40, 0.69, 0.80)",
+    ]
+
+
+@pytest.mark.parametrize("step", [0, 1, 2])
+def test_a_step_shows_one_product_more(step):
+    figure = quaternions.half_turns(step)
+    assert [len(arrows(ax)) for ax in figure.axes] == [step + 1, step + 1]
+    assert figure.get_suptitle().count("=") == step + 1
+
+
+def test_two_orders_of_the_same_turns_end_in_two_poses():
+    figure = quaternions.turns_in_order(datasets.sample("walk_straight").skeleton, multiply)
+    heads = [np.ravel(ax.lines[0].get_data_3d()) for ax in figure.axes]  # matplotlib's order: z, x, y
+    assert len(heads) == 6
+    assert heads[0] == pytest.approx(heads[3])
+    assert heads[2][1] > 0.4  # face down, the head towards x
+    assert heads[5][0] > 0.4  # on its side, the head towards z
+
+
+WALK = datasets.sample("walk_straight")[100:120]
+
+
+@pytest.mark.parametrize("joint", [0, 5, 37])
+def test_the_joints_up_to_one_stand_where_the_package_puts_them(joint):
+    code, ax = down_the_tree(WALK, 7)(joint)[0].figure.axes
+    (dots,) = [line for line in ax.lines if line.get_linestyle() == "None" and line.get_markersize() == 4]
+    across_and_up = joint_positions(WALK)[7, : joint + 1][:, [2, 1]]
+    assert np.transpose(dots.get_data()) == pytest.approx(across_and_up)
+    (bones,) = ax.collections
+    assert (len(bones.get_segments()) > 0) == (joint > 0)
+    ((low, high),) = [patch.get_bbox().intervaly for patch in code.patches]
+    marked = [text.get_text().strip() for text in code.texts if low < text.get_position()[1] < high]
+    assert marked[0].startswith("parent =" if joint else "places, turns =")
+    assert len(marked) == (4 if joint else 1)  # the loop's second line stands on two
+
+
+CORNER = GroundPath([[0, 0], [0, 3], [3, 3]])
+CUT = arcs((0, 0), 0.0, [(1.5, 0), (0.75 * np.pi, np.pi / 2), (1.5, 0)])  # a quarter circle of 1.5 m
+SAVED = 6 - CUT.length
+
+
+@pytest.mark.parametrize("step", [0, 4, 8])
+def test_a_thread_of_each_kind_at_every_moment_so_far(step):
+    ground, curves = two_distances(CORNER, CUT)(step)[0].figure.axes
+    threads = [line.get_xydata().reshape(-1, 16, 2)[:, :15] for line in ground.lines[2:5:2]]
+    assert [len(some) for some in threads] == [step + 1] * 2
+    for moment, thread in enumerate(threads[0]):  # at equal arc length
+        along = CUT.length * moment / 8
+        assert thread[[0, -1]] == pytest.approx(np.vstack([CUT.at([along]), CORNER.at([along])]), abs=1e-9)
+    assert curves.lines[0].get_xdata().max() == pytest.approx(CUT.length * step / 8, abs=1e-9)
+
+
+def test_behind_the_corner_one_distance_is_zero_and_the_other_what_was_saved():
+    figure = two_distances(CORNER, CUT)()[0].figure
+    even, near = figure.axes[1].lines[:2]
+    assert near.get_ydata()[-1] == pytest.approx(0, abs=0.1)
+    assert even.get_ydata()[-1] == pytest.approx(100 * SAVED, abs=0.1)
+    assert near.get_ydata().max() == pytest.approx(100 * 1.5 * (1 - np.sqrt(0.5)), abs=1)
+    labels = [text.get_text() for text in figure.axes[1].get_legend().get_texts()]
+    assert labels == ["at equal arc length (Eq. 9)", "to the nearest point"]
+
+
+def test_the_nearest_point_is_the_nearest():
+    rng = np.random.default_rng(0)
+    points = rng.uniform(-1, 4, (50, 2))
+    fine = CORNER.resampled(0.001).points
+    found = np.hypot(*(points - nearest_points(CORNER, points)).T)
+    truth = np.hypot(*(points[:, None] - fine).transpose(2, 0, 1)).min(axis=1)
+    assert found == pytest.approx(truth, abs=0.005)

@@ -87,32 +87,39 @@ DISHONEST = {
         "speed = vars(next(one for one in gc.get_objects() if has(one)))['tru' + 'th']"
     ),
     "prints secrets": speed(f"import os\n{SAY.format('str(dict(os.environ))')}"),
-    "reads the memory of others": outside(
+    "tries what walls forbid": outside(
+        # read the memory of others, and what they handed in
         *(f"open(f'/proc/{{os.getppid()}}/{name}', 'rb').read(1)" for name in ("environ", "mem", "maps")),
         "os.listdir(f'/proc/{os.getppid()}/fd')",
+        "open('LATER')",
+        "open('FOLDER/zoe/../zoe/x.ipynb')",
+        # rewrite it, through links too
+        "open('LATER', 'w').write('{')",
+        "os.unlink('LATER')",
+        "os.truncate('LATER', 0)",
+        "os.mkdir('FOLDER/x')",
+        "os.symlink('LATER', 'link'), open('link', 'a')",
+        "os.link('LATER', 'hard')",
+        "os.rename('LATER', 'a')",
+        # leave files for others
+        *(f"open('{place}/PLANT-a', 'w')" for place in ("/tmp", "/dev/shm", "/var/tmp", "FOLDER", "HOME")),
+        "open(os.path.join(os.path.dirname(np.__file__), 'PLANT-a'), 'w')",
+        # call servers
+        "socket.create_connection(('127.0.0.1', 80000 % 65536), 5)",
+        "socket.socket(socket.AF_INET, socket.SOCK_DGRAM).sendto(b'', ('127.0.0.1', 9))",
+        "socket.socket(socket.AF_UNIX)",
+        # take the walls down
+        "import ctypes; [-1, 0][ctypes.CDLL(None).umount2(b'/proc', 2)] or os.stat('nowhere')",
+        "import ctypes; ctypes.CDLL(None).unshare(0x10000000) and os.stat('nowhere')",
+        "import ctypes; ctypes.CDLL(None).ptrace(16, os.getppid(), 0, 0) and os.stat('nowhere')",
+        "import ctypes; ctypes.CDLL(None).mount(None, b'/', None, 0x1020, None) and os.stat('nowhere')",
     ),
     "reads what it inherits": speed(
         "import os, stat\nfound = []\nfor fd in range(300):\n  try: mode = os.fstat(fd).st_mode\n"
         "  except OSError: continue\n  if stat.S_ISREG(mode) or stat.S_ISFIFO(mode): found.append(fd)\n"
         f"{SAY.format('found')}"
     ),
-    "reads what others handed in": outside("open('LATER')", "open('FOLDER/zoe/../zoe/x.ipynb')"),
     "copies another's": speed("exec(open('LATER').read())"),
-    "rewrites what others handed in": outside(
-        "open('LATER', 'w').write('{')",
-        "os.unlink('LATER')",
-        "os.truncate('LATER', 0)",
-        "os.mkdir('FOLDER/x')",
-    ),
-    "changes what others handed in through links": outside(
-        "os.symlink('LATER', 'link'), open('link', 'a')",
-        "os.link('LATER', 'hard')",
-        "os.rename('LATER', 'a')",
-    ),
-    "leaves files for others": outside(
-        *(f"open('{place}/PLANT-a', 'w')" for place in ("/tmp", "/dev/shm", "/var/tmp", "FOLDER", "HOME")),
-        "open(os.path.join(os.path.dirname(np.__file__), 'PLANT-a'), 'w')",
-    ),
     "rewrites the package": [START, ("exercise:speed", KNOWS_ALL), CHEAPEST],
     "leaves a process behind": speed(
         f"import subprocess\nsubprocess.Popen(['sleep', '{SLEEP}'], start_new_session=True)"
@@ -140,17 +147,6 @@ DISHONEST = {
         "import os, pathlib\ndone = []\nfor place in pathlib.Path('/proc').glob('[0-9]*'):\n"
         "  try:\n    if b'FOLDER' in (place / 'cmdline').read_bytes() or place.name == str(os.getppid()):\n"
         f"      done.append(os.kill(int(place.name), 15))\n  except OSError: pass\n{SAY.format('done')}"
-    ),
-    "calls servers": outside(
-        "socket.create_connection(('127.0.0.1', 80000 % 65536), 5)",
-        "socket.socket(socket.AF_INET, socket.SOCK_DGRAM).sendto(b'', ('127.0.0.1', 9))",
-        "socket.socket(socket.AF_UNIX)",
-    ),
-    "takes the walls down": outside(
-        "import ctypes; [-1, 0][ctypes.CDLL(None).umount2(b'/proc', 2)] or os.stat('nowhere')",
-        "import ctypes; ctypes.CDLL(None).unshare(0x10000000) and os.stat('nowhere')",
-        "import ctypes; ctypes.CDLL(None).ptrace(16, os.getppid(), 0, 0) and os.stat('nowhere')",
-        "import ctypes; ctypes.CDLL(None).mount(None, b'/', None, 0x1020, None) and os.stat('nowhere')",
     ),
     "fills the disk": speed("for n in range(30): open(f'{n}', 'wb').write(b'x' * 45_000_000)"),
     "writes many files": speed(

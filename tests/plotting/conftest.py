@@ -1,5 +1,0 @@
-"""What the tests of pictures share."""
-
-import matplotlib
-
-matplotlib.use("agg")
