@@ -1,10 +1,12 @@
-"""What a bad call is told."""
+"""What a bad call is told, and what is told without being asked."""
 
+import warnings
 from collections.abc import Callable
 
 import pytest
 
-from mocap.errors import MocapError
+from mocap.errors import MocapError, MocapWarning
+from tests.loops import for_each
 
 
 def refused(
@@ -19,3 +21,21 @@ def refused(
     with pytest.raises(kind, match=sentence) as told:
         call(*given, **options)
     assert len(str(told.value)) - len(str(getattr(told.value, "path", ""))) <= most
+
+
+def refusals(*rows: tuple) -> Callable:
+    """Make one test of rows (sentence, call, what is given), before which the kind of error may stand."""
+
+    @for_each(rows)
+    def test(row: tuple) -> None:
+        kind, *rest = row if isinstance(row[0], type) else (MocapError, *row)
+        refused(*rest, kind=kind)
+
+    return test
+
+
+def quietly(call: Callable, *given: object, **options: object) -> object:
+    """Call without the package's warnings."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MocapWarning)
+        return call(*given, **options)

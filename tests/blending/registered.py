@@ -7,12 +7,11 @@ from functools import cache
 import numpy as np
 
 from mocap._shared.arrays import runs
-from mocap.blending.clocks import frame_times
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
-from mocap.body.planar import PlanarTransform, heading, on_ground
+from mocap.body.planar import heading, on_ground
 from mocap.datasets.samples import sample
 from mocap.feet import mark_plants
 from mocap.files.load_save import load
@@ -77,11 +76,6 @@ def turned(motion):
     return float(np.degrees(facing[-1] - facing[0]))
 
 
-def slowest(motion):
-    """The 1st percentile of the root's speed over the ground, metres per second."""
-    return float(np.percentile(np.abs(np.diff(on_ground(motion.root_positions))) * motion.fps, 1))
-
-
 def strikes(motion):
     """When each foot starts to stand, seconds: left, right."""
     names, found = motion.skeleton.names, []
@@ -119,21 +113,3 @@ def frame_by_frame(a, b, *, stretch=False):
     roots = (a.root_positions[:count] + b.root_positions[:count]) / 2
     turns = rotations.slerp(a.rotations[:count], b.rotations[:count], np.full((count, 1), 0.5))
     return Motion(a.skeleton, roots, turns, a.fps, "frame by frame")
-
-
-def places_averaged(registration, weights):
-    """Registered clips laid on the reference once, at the start; then the mean of their places."""
-    times, _ = frame_times(registration, weights, fps=registration.clips[0].fps)
-    roots, turns = 0, []
-    for number, clip in enumerate(registration.clips):
-        at = at_times(clip, registration.times[number](times))
-        angle = float(registration.angles[number](times[0]))
-        turn = np.exp(1j * angle)
-        own = registration.centre(number, times[0])
-        move = registration.centre(registration.reference, times[0]) - turn * own
-        at = PlanarTransform.from_complex(turn, move).apply_motion(at)
-        roots = roots + weights[number] * at.root_positions
-        turns.append(at.rotations)
-    mean = rotations.mean(np.stack(turns, axis=-2), weights)
-    mean /= np.linalg.norm(mean, axis=-1, keepdims=True)
-    return Motion(clip.skeleton, roots, mean, clip.fps, "places averaged")

@@ -1,5 +1,7 @@
 """The blend's clock: how fast it goes, how long the blend lasts, and what it refuses."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -9,12 +11,16 @@ from mocap.blending.timewarps import Curve
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from tests.blending.registered import walks
-from tests.refusals import refused
+from tests.refusals import refusals
 
 
-@pytest.fixture(scope="module")
+@cache
 def pair():
     return register([walks()[0.8, 0], walks()[1.4, 0]])
+
+
+def clock(weights, fps=30.0, **settings):
+    return frame_times(pair(), weights, fps=fps, **settings)
 
 
 def test_the_two_means_of_the_paces_1_and_2():
@@ -24,44 +30,39 @@ def test_the_two_means_of_the_paces_1_and_2():
 
 
 @pytest.mark.parametrize("weight", [0.0, 0.25, 1.0, 1.1, -0.1])
-def test_with_constant_weights_a_blend_lasts_as_long_as_the_clips_do_on_average(pair, weight):
+def test_with_constant_weights_a_blend_lasts_as_long_as_the_clips_do_on_average(weight):
     weights = np.array([1 - weight, weight])
-    times, shares = frame_times(pair, weights, fps=120.0)
-    assert 0 <= weights @ pair.durations - (len(times) - 1) / 120 < 1 / 120
-    assert times[0] == pair.span[0] and times[-1] <= pair.span[1]
+    times, shares = clock(weights, 120.0)
+    assert 0 <= weights @ pair().durations - (len(times) - 1) / 120 < 1 / 120
+    assert times[0] == pair().span[0] and times[-1] <= pair().span[1]
     assert np.all(np.diff(times) > 0) and shares.shape == (len(times), 2)
 
 
 @pytest.mark.parametrize("pace", ["durations", "rates"])
-def test_weights_that_could_move_and_do_not_give_the_same_times(pair, pace):
-    constant, _ = frame_times(pair, [0.4, 0.6], fps=30.0, pace=pace)
-    moving, shares = frame_times(pair, lambda u, t: [0.4, 0.6], fps=30.0, pace=pace)
+def test_weights_that_could_move_and_do_not_give_the_same_times(pace):
+    constant, _ = clock([0.4, 0.6], pace=pace)
+    moving, shares = clock(lambda u, t: [0.4, 0.6], pace=pace)
     np.testing.assert_allclose(moving, constant, atol=1e-3)
     np.testing.assert_allclose(shares, np.tile([0.4, 0.6], (len(moving), 1)))
 
 
-def test_averaged_rates_play_faster_than_averaged_durations(pair):
-    lengths = [len(frame_times(pair, [0.5, 0.5], fps=120.0, pace=pace)[0]) for pace in ("rates", "durations")]
+def test_averaged_rates_play_faster_than_averaged_durations():
+    lengths = [len(clock([0.5, 0.5], 120.0, pace=pace)[0]) for pace in ("rates", "durations")]
     assert 0.95 * lengths[1] < lengths[0] < lengths[1]
 
 
-@pytest.mark.parametrize(
-    ("weights", "settings", "message"),
-    [
-        ([1.0], {}, r"2 clips needs 2 weights that add up to 1, got \[1.0\]"),
-        ([0.5, 0.6], {}, r"add up to 1, got \[0.5, 0.6\]"),
-        ([np.nan, 1], {}, r"got \[nan, 1.0\]"),
-        (np.full(9, 1 / 9), {}, r"got an array of shape \(9,\) with the sum 1"),
-        (lambda u, t: [0.5, 0.4], {}, r"got \[0.5, 0.4\]"),
-        (lambda u, t: [t + 1, -t] if t else [1, 0, 0], {}, r"got \[1.0, 0.0, 0.0\]"),
-        ([-9.0, 10.0], {}, r"the weights \[-9.0, 10.0\] time would stop"),
-        ([10.0, -9.0], {"pace": "rates"}, "time would stop"),
-        ([0.5, 0.5], {"fps": 0.0}, "rate must be above 0, got 0.0"),
-        ([0.5, 0.5], {"pace": "even"}, "No pace 'even'; there are: durations, rates"),
-    ],
+test_a_clock_that_would_stop_and_weights_that_are_none_are_refused = refusals(
+    (r"2 clips needs 2 weights that add up to 1, got \[1.0\]", clock, [1.0]),
+    (r"add up to 1, got \[0.5, 0.6\]", clock, [0.5, 0.6]),
+    (r"got \[nan, 1.0\]", clock, [np.nan, 1]),
+    (r"got an array of shape \(9,\) with the sum 1", clock, np.full(9, 1 / 9)),
+    (r"got \[0.5, 0.4\]", clock, lambda u, t: [0.5, 0.4]),
+    (r"got \[1.0, 0.0, 0.0\]", clock, lambda u, t: [t + 1, -t] if t else [1, 0, 0]),
+    (r"the weights \[-9.0, 10.0\] time would stop", clock, [-9.0, 10.0]),
+    ("time would stop", lambda: clock([10.0, -9.0], pace="rates")),
+    ("rate must be above 0, got 0.0", clock, [0.5, 0.5], 0.0),
+    ("No pace 'even'; there are: durations, rates", lambda: clock([0.5, 0.5], pace="even")),
 )
-def test_a_clock_that_would_stop_and_weights_that_are_none_are_refused(pair, weights, settings, message):
-    refused(message, frame_times, pair, weights, **{"fps": 30.0} | settings)
 
 
 FPS, SPAN = 100.0, (0.0, 3.0)

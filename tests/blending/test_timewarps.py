@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.interpolate import BSpline
 
 from mocap.blending.timewarps import Curve, fit_curve
-from tests.refusals import refused
+from tests.refusals import refusals
 from tests.strategies import seeds
 
 
@@ -65,16 +65,10 @@ def test_one_moment_and_many_points_at_it_make_a_curve():
         assert float(curve(2.0)) == pytest.approx(2.0)
 
 
-@pytest.mark.parametrize(
-    ("times", "values", "settings", "message"),
-    [
-        ([0, 1], [0, 1], {"spacing": 0}, "spacing above 0 s, got 0"),
-        ([0, 1], [0, 1], {"spacing": np.nan}, "spacing above 0 s, got nan"),
-        ([0, 1], [0], {"spacing": 1}, "finite values at as many finite times"),
-        ([], [], {"spacing": 1}, "finite values at as many finite times"),
-        ([0, np.nan], [0, 1], {"spacing": 1}, "finite values at as many finite times"),
-        ([1, 0], [0, 1], {"spacing": 1}, "which never fall"),
-    ],
+test_what_has_no_curve_is_refused = refusals(
+    *(("spacing above 0 s, got", lambda n=n: fit_curve([0, 1], [0, 1], spacing=n)) for n in (0, np.nan)),
+    ("finite values at as many finite times", lambda: fit_curve([0, 1], [0], spacing=1)),
+    ("finite values at as many finite times", lambda: fit_curve([], [], spacing=1)),
+    ("finite values at as many finite times", lambda: fit_curve([0, np.nan], [0, 1], spacing=1)),
+    ("which never fall", lambda: fit_curve([1, 0], [0, 1], spacing=1)),
 )
-def test_what_has_no_curve_is_refused(times, values, settings, message):
-    refused(message, fit_curve, times, values, **settings)

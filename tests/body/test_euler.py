@@ -13,14 +13,6 @@ from tests.strategies import random_quaternions, seeds
 ORDERS = ["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX", "XY", "ZX", "Y"]
 
 
-def test_orders_are_products_of_single_turns():
-    angles = a, b, c = 0.3, -0.7, 1.1
-    single = [from_euler(axis, [v]) for axis, v in zip("xyz", angles, strict=True)]
-    x, y, z = rotations.to_matrix(single)
-    assert rotations.to_matrix(from_euler("xyz", [a, b, c])) == pytest.approx(z @ y @ x)
-    assert rotations.to_matrix(from_euler("ZXY", [c, a, b])) == pytest.approx(z @ x @ y)
-
-
 @given(seeds, st.sampled_from([*ORDERS, *map(str.lower, ORDERS)]))
 def test_from_euler_is_scipys(seed, order):
     angles = np.random.default_rng(seed).uniform(-7, 7, (2, 3, len(order)))

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from mocap.body import ground_path
 from mocap.body.ground_path import GroundPath, arcs, spline
-from tests.refusals import refused
+from tests.refusals import refusals
 from tests.strategies import seeds
 
 
@@ -53,19 +53,12 @@ def test_points_that_repeat_count_once():
     assert GroundPath(points).points.tolist() == [[0, 0], [0, 3], [4, 3]]
 
 
-@pytest.mark.parametrize(
-    ("points", "message"),
-    [
-        ([[1, 2]], "two points"),
-        ([[1, 2], [1, 2]], "zero length"),
-        ([[0, 0], [1, np.nan], [2, 2]], "Point 1 of the path is not finite"),
-        ([[0, 0], [1e9, 0]], "metres"),
-        ([1, 2, 3], "two points"),
-        ([[0, 0, 0], [1, 1, 1]], "two points"),
-    ],
+test_what_is_no_path_is_refused = refusals(
+    *(("two points", GroundPath, points) for points in ([[1, 2]], [1, 2, 3], [[0, 0, 0], [1, 1, 1]])),
+    ("zero length", GroundPath, [[1, 2], [1, 2]]),
+    ("Point 1 of the path is not finite", GroundPath, [[0, 0], [1, np.nan], [2, 2]]),
+    ("metres", GroundPath, [[0, 0], [1e9, 0]]),
 )
-def test_what_is_no_path_is_refused(points, message):
-    refused(message, GroundPath, points)
 
 
 @pytest.mark.parametrize("angle", [2.085495351331207, *np.linspace(0, 6, 20)])

@@ -6,8 +6,7 @@ import pytest
 from mocap.body.limbs import find_legs, name_leg
 from mocap.body.skeleton import Skeleton
 from mocap.datasets.samples import SKELETON
-from mocap.errors import MocapError
-from tests.refusals import refused
+from tests.refusals import refusals
 
 
 def body(*names: str) -> Skeleton:
@@ -15,6 +14,12 @@ def body(*names: str) -> Skeleton:
     half = len(names) // 2
     parents = [-1] + [0 if j % half == 0 else j for j in range(len(names))]
     return Skeleton(["pelvis", *names], parents, np.ones((len(names) + 1, 3)))
+
+
+NAMED = body("h1", "k1", "a1", "b1", "h2", "k2", "a2", "b2")
+
+
+FOOTLESS = body("lfemur", "ltibia", "lfoot", "rfemur", "rtibia", "rfoot")
 
 
 @pytest.mark.parametrize(
@@ -39,19 +44,20 @@ def test_the_legs_of_the_bundled_body_are_as_long_as_they_are():
         assert leg.lengths(SKELETON) == pytest.approx([0.245 * 1.75, 0.246 * 1.75, 0.1368], abs=1e-3)
 
 
-def test_where_none_are_found_the_error_says_what_was_tried_and_how_to_name_them():
-    refused(r"among pelvis, a, b: tried lfemur ltibia lfoot, Left.*name_leg\(", find_legs, body("a", "b"))
-
-
 def test_legs_can_be_named_by_hand():
-    skeleton = body("h1", "k1", "a1", "b1", "h2", "k2", "a2", "b2")
-    assert tuple(name_leg(skeleton, "h2", "k2", "a2", "b2")) == (5, 6, 7, 8)
-    refused("No joint 'toe'", name_leg, skeleton, "h1", "k1", "a1", "toe")
-    refused("'a2' hangs on 'k2', not on 'k1'", name_leg, skeleton, "h1", "k1", "a2", "b2")
-    flat = Skeleton(["h", "k", "a", "b"], [-1, 0, 1, 2], [[0, 0, 0], [0, -1, 0], [0, -1, 0], [0, 0, 0]])
-    refused("'b' sits on 'a': a bone needs a length", name_leg, flat, "h", "k", "a", "b")
+    assert tuple(name_leg(NAMED, "h2", "k2", "a2", "b2")) == (5, 6, 7, 8)
 
 
-def test_a_foot_needs_a_joint_at_its_end():
-    with pytest.raises(MocapError, match="'lfoot' has no joint or end site"):
-        find_legs(body("lfemur", "ltibia", "lfoot", "rfemur", "rtibia", "rfoot"))
+FLAT = Skeleton(["h", "k", "a", "b"], [-1, 0, 1, 2], [[0, 0, 0], [0, -1, 0], [0, -1, 0], [0, 0, 0]])
+
+test_what_is_no_leg_is_told_with_what_was_tried = refusals(
+    (r"among pelvis, a, b: tried lfemur ltibia lfoot, Left.*name_leg\(", find_legs, body("a", "b")),
+    (
+        "'lfoot' has no joint or end site",
+        find_legs,
+        FOOTLESS,
+    ),
+    ("No joint 'toe'", name_leg, NAMED, "h1", "k1", "a1", "toe"),
+    ("'a2' hangs on 'k2', not on 'k1'", name_leg, NAMED, "h1", "k1", "a2", "b2"),
+    ("'b' sits on 'a': a bone needs a length", name_leg, FLAT, "h", "k", "a", "b"),
+)
