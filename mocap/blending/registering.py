@@ -19,11 +19,13 @@ from mocap.matching.distance_grids import Floats, check_window, distance_grid
 from mocap.matching.point_clouds import align, point_cloud
 from mocap.matching.time_paths import path_mean, time_path
 
-UNLIKE = 0.12  # metres, the mean RMS distance along a path: walks are 3 to 8 cm apart, a walk and a run 24
+# Metres, the mean RMS distance along a path, and seconds of the root's speed: walks are 3 to 8 cm apart, runs
+# of one kind 4 to 18, which the roots go in 0.01 to 0.06 s, a walk and a run 24, in 0.1 s.
+UNLIKE, QUICK = 0.12, 0.06
 
 # A blend of clips that belong together skates like they do: x 0.7 to 1.2 for walks of one person. By more
 # than this, times and metres per second, a warning tells.
-SKATES, FASTER = 1.4, 0.02
+SKATES, FASTER = 1.4, 0.01
 
 # Spacings to try before the warp's own, as multiples of it; the first is a straight line. The first is taken
 # whose mean distance is at most so many times that of the warp's own knots, with which the pace of two even
@@ -196,7 +198,8 @@ def _warn(found: Registration, rate: float, *, alike: bool) -> None:
     """Warn of clips that do not fit; those that were cut `alike` are blended with some of them only."""
     clips, worst = found.clips, int(np.argmax(found.costs))
     names = f"'{shortened(clips[found.reference].name, 40)}' and '{shortened(clips[worst].name, 40)}'"
-    if found.costs[worst] > UNLIKE:
+    goes = np.mean([np.abs(np.diff(on_ground(clip.root_positions))).mean() * clip.fps for clip in clips])
+    if found.costs[worst] > max(UNLIKE, QUICK * goes):
         apart = f"{100 * found.costs[worst]:.0f} cm along the path"
         warn(f"{names} may not be the same kind of motion: {apart}.")
     elif not alike:

@@ -94,7 +94,7 @@ def _read_svg(path: Path) -> Array:
         matrix = _transformed(path, matrix, element.get("transform", ""))
         if kind in DRAWN:
             got = {"points": "", "d": "", **dict.fromkeys(("x1", "y1", "x2", "y2"), "0"), **element.attrib}
-            corners = _outline(path, DRAWN[kind].format_map(got))
+            corners = _outline(path, DRAWN[kind].format_map(got), kind)
             return np.asarray(corners @ matrix[:2, :2].T + matrix[:2, 2])
         waiting += [(child, matrix) for child in reversed(element)]
     raise FormatError(path, None, "a path, polyline, polygon or line", "none")
@@ -128,12 +128,12 @@ def _transformed(path: Path, matrix: Array, text: str) -> Array:
     return matrix
 
 
-def _outline(path: Path, text: str) -> Array:
+def _outline(path: Path, text: str, kind: str) -> Array:
     """Follow the pen of a path's `d` along its first stroke; curves become short straight pieces."""
     here = start = control = 0j  # x + iy
     points: list[complex] = []
     before = ""
-    for letter, numbers in _commands(path, text):
+    for letter, numbers in _commands(path, text, kind):
         kind, base = letter.upper(), here if letter.islower() else 0j
         if len(points) > MOST:
             raise FormatError(path, None, f"a line of {MOST:,} points at most", "more")
@@ -161,7 +161,7 @@ def _outline(path: Path, text: str) -> Array:
     return np.array(points).view(float).reshape(-1, 2)
 
 
-def _commands(path: Path, text: str) -> Iterator[tuple[str, list[float]]]:
+def _commands(path: Path, text: str, kind: str) -> Iterator[tuple[str, list[float]]]:
     """Split a path's `d` into commands with as many numbers as each takes; repeated ones need no letter."""
     words, letter, at = WORD.findall(text), "", 0
     if words[:1] not in (["M"], ["m"]):
@@ -173,7 +173,8 @@ def _commands(path: Path, text: str) -> Iterator[tuple[str, list[float]]]:
                 raise FormatError(path, None, f"the commands {' '.join(TAKES)}", f"'{shortened(letter, 40)}'")
         count = TAKES[letter.upper()]
         found = list(takewhile(lambda word: not word.isalpha(), words[at : at + count]))
-        numbers = to_numbers(path, None, found, f"{count} numbers for '{letter}'", count)
+        whom = f"'{letter}'" if kind == "path" else f"each point of a {kind}"
+        numbers = to_numbers(path, None, found, f"{count} numbers for {whom}", count)
         if count == 7 and not set(numbers[3:5]) <= {0, 1}:
             raise FormatError(path, None, f"flags 0 or 1 for '{letter}'", f"'{' '.join(found)}'")
         at += count

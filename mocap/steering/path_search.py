@@ -218,12 +218,14 @@ class PathSearch(LayeredSearch):
         return Found(edges, turn, move, along, cost, self.expanded, self.cut, stopped)
 
 
-def too_slow(graph: CompiledGraph, fault: str = f"No walk goes along the line at {SLOWEST:g} m/s") -> NoWalk:
-    """Say that no walk goes on along a line as people walk, and what is missing for it."""
+def too_slow(graph: CompiledGraph, nearest: str = "") -> NoWalk:
+    """Say that no walk goes on along a line as people walk, or how the `nearest` unbent one does, and why."""
+    fault = nearest or f"No walk goes along the line at {SLOWEST:g} m/s"
     clips = [on_ground(clip.root_positions) for clip in graph.source.clips]
     quick = [clip for clip in clips if np.percentile(np.abs(np.diff(clip)), 90) * graph.fps > QUICK]
     some = f"{len(quick)} of {len(clips)} clips go faster than {QUICK:g} m/s"
-    helps = f"{some}, but few transitions join their steps: allow a larger threshold, or add walks"
+    helps = f"{some}, but few transitions join their steps: use {'`bend`, ' if nearest else ''}"
+    helps += "a larger threshold, or more walks"
     return NoWalk(f"{fault}; {helps if quick else 'these clips only stand: add some that walk'}.")
 
 

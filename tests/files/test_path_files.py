@@ -135,10 +135,10 @@ def test_groups_carry_what_is_in_them(tmp_path):
         ('<defs><path d="M 0 0 L 5 5"/></defs>', "a path, polyline, polygon or line, got none"),
         ('<path d="M 0 0 L 0 0"/>', "zero length"),
         ('<polyline points="0 0"/>', "two points"),
-        ('<polyline points="0 0 9 9 5"/>', "2 numbers for 'L', got 1"),
-        ('<polyline points="0 0 9 x"/>', "2 numbers for 'L', got 1"),
-        ('<line x2="10em"/>', "2 numbers for 'L', got 1"),
-        ('<line x2=""/>', "2 numbers for 'L', got 1"),
+        ('<polyline points="0 0 9 9 5"/>', "2 numbers for each point of a polyline, got 1"),
+        ('<polyline points="0 0 9 x"/>', "2 numbers for each point of a polyline, got 1"),
+        ('<line x2="10em"/>', "2 numbers for each point of a line, got 1"),
+        ('<line x2=""/>', "2 numbers for each point of a line, got 1"),
         ('<g display="none"><path d="M 0 0 L 5 5"/></g>', "got none"),
         ("<path", "SVG picture"),
     ],
@@ -180,7 +180,7 @@ BOMB = "".join(f'<!ENTITY e{n + 1} "{f"&e{n};" * 10}">' for n in range(9))
         (f'<path d="{"M 0 0 " * 30_000} x"/>', "the commands M L .* got 'x'"),
         (f'<path d="M 0 0 A {"1 " * 100_001}"/>', "flags 0 or 1 for 'A'|7 numbers for 'A', got 6"),
         (f'<path transform="{"translate(1)  " * 9999}!" d="M 0 0 L 1 1"/>', "a transform, got '!'"),
-        (f'<polyline points="{" " * 100_000}x"/>', "2 numbers for 'M', got 0"),
+        (f'<polyline points="{" " * 100_000}x"/>', "2 numbers for each point of a polyline, got 0"),
     ],
 )
 def test_hostile_pictures_are_refused(tmp_path, text, message):

@@ -166,6 +166,13 @@ def test_clips_that_stand_cannot_follow_a_line():
     require_refused(standing, circle(2.0), off + add, bend=0.0)
 
 
+def test_jumps_that_do_not_turn_as_a_circle_does_are_told_of_bend(real_data):
+    clips = [resample(load(real_data / "cmu" / "16" / f"16_{n:02}.amc"), 30) for n in (1, 5)]
+    jumps = compile_graph(prune(build(clips, window=10, threshold=0.06)))
+    require_refused(jumps, circle(2.0), "1 of 2 clips go .* join .* use `bend`, a larger threshold", bend=0.0)
+    assert quietly(jumps, circle(2.0)).progress == 1
+
+
 @pytest.mark.parametrize("threshold", [0.05, 0.12])
 def test_dancers_walk_a_line_as_quickly_as_people_or_are_refused_at_once(real_data, threshold):
     """At 0.05 the dancers' graph holds loops on the spot alone: walks took 366 s for ten metres."""

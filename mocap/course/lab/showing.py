@@ -70,6 +70,8 @@ def inspector(
     if not tabs or tabs != TABS[: len(tabs)]:
         raise MocapError(f"An inspector shows {', '.join(TABS)}, or the first of these, not {show!r:.80}.")
     found = what[0] if len(what) == 1 else None
+    if isinstance(found, Followed | MotionGraph) and (at or window):
+        raise MocapError("A graph and a walk bring windows of their own: leave out at= and window=.")
     if isinstance(found, Followed):
         choices = of_walk(found.graph, found.walk)
         return Inspector(choices, tabs, found.track, found.path.points)

@@ -211,6 +211,7 @@ def test_a_large_grid_is_sent_in_blocks_that_keep_its_minima():
         (WALKS, {"show": None}, "or the first of these"),
         (WALKS, {"window": 0}, "window"),
         (WALKS, {"window": 999}, "window"),
+        ((bundled("walk_circle", "walk_curve_1"),), {"at": (0, 0)}, "of their own: leave out at="),
     ],
 )
 def test_what_cannot_be_shown_gets_one_sentence(what, more, said):
