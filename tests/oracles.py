@@ -1,5 +1,7 @@
 """The slow ways, kept to judge the fast ones by."""
 
+from functools import cache
+
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
@@ -33,3 +35,37 @@ def distance_rows(a, b, window, rows, weights=None):
 def distance_oracle(a, b, window, weights=None):
     """The whole grid, row by row."""
     return np.array(list(distance_rows(a, b, window, range(len(a) - window + 1), weights)))
+
+
+def least_sum(grid, slope, begin=(0, 0), end=None):
+    """The least sum of a path between two cells, as the rule is written: a state for each length of a run."""
+    (top, left), (bottom, right) = begin, end or (grid.shape[0] - 1, grid.shape[1] - 1)
+
+    @cache
+    def best(i, j, state):
+        if i < top or j < left:
+            return np.inf
+        if state == 0:
+            if (i, j) == begin:
+                return 2 * grid[i, j]
+            return 2 * grid[i, j] + min(best(i - 1, j - 1, other) for other in range(2 * slope + 1))
+        if state <= slope:
+            return grid[i, j] + best(i - 1, j, state - 1)
+        return grid[i, j] + best(i, j - 1, 0 if state == slope + 1 else state - 1)
+
+    return min(best(bottom, right, state) for state in range(2 * slope + 1))
+
+
+def path_sum(costs, path):
+    """Costs along a path, each by the frames that its step advances; the first cell counts 2."""
+    return float(costs[tuple(path.T)] @ np.append(2, np.abs(np.diff(path, axis=0)).sum(axis=1)))
+
+
+def longest_run(path):
+    """The number of straight steps of one direction that follow each other."""
+    runs, run, last = [0], 0, None
+    for step in map(tuple, np.diff(path, axis=0).tolist()):
+        run = run + 1 if step == last else 1
+        last = step
+        runs += [run] * (step != (1, 1))
+    return max(runs)

@@ -10,15 +10,14 @@ from hypothesis import strategies as st
 
 from mocap.body.motion import resample
 from mocap.body.planar import IDENTITY, PlanarTransform
-from mocap.errors import MocapError, NoWalk
-from mocap.files import load_save
+from mocap.errors import NoWalk
 from mocap.graphs.components import reached
 from mocap.graphs.motion_graph import build, from_transitions, merge_choice_points
 from mocap.graphs.pruning import prune
 from mocap.graphs.thresholds import smallest_threshold
 from mocap.matching.point_clouds import align, point_cloud
 from mocap.matching.transitions import Transition, find_transitions
-from tests.refusals import refused
+from tests.refusals import refusals
 from tests.strategies import random_motion, wave
 
 CLIPS = [wave(90, name="a"), wave(70, phase=1.0, name="b", seed=1)]
@@ -110,47 +109,29 @@ def test_an_edge_bears_every_label_of_its_frames():
     }
 
 
-def test_each_pair_of_labels_has_a_threshold_of_its_own():
-    clips = [labelled(90, 45, name="a"), labelled(70, 30, phase=1.0, name="b", seed=1)]
-    thresholds = {("walk", "walk"): 0.02, ("run", "walk"): 0.05, ("run", "run"): 0.08}
-    graph = build(clips, window=WINDOW, threshold=thresholds)
-    loose = build(clips, window=WINDOW, threshold=0.08)
-    expected = []
-    for start, end, edge in loose.graph.edges(data=True):
-        if edge["kind"] == "transition":
-            here, there = (
-                {label for label, mark in clips[clip].labels.items() if mark[first : first + WINDOW].any()}
-                for clip, first in (start, (end[0], end[1] - WINDOW))
-            )
-            below = [thresholds.get((a, b), thresholds.get((b, a))) for a in here for b in there]
-            expected += [(start, end)] if edge["cost"] < min(below) else []
-    found = [(a, b) for a, b, kind in graph.graph.edges(data="kind") if kind == "transition"]
-    assert sorted(found) == sorted(expected)
-    assert 0 < len(found) < loose.count("transition")
+def make(clips):
+    return build(clips, window=WINDOW, threshold=0.05)
 
 
-def test_what_makes_no_graph():
-    for clips, words in (
-        ([], "at least one clip"),
-        ([wave(30), wave(30)], "given twice: wave"),
-        ([CLIPS[0], resample(CLIPS[1], 60.0)], "'a' runs at 30 Hz, 'b' at 60 Hz"),
-        ([CLIPS[0], random_motion(1, frames=30)], "differ in these joints"),
-    ):
-        refused(words, build, clips, window=WINDOW, threshold=0.05)
-    for row in ((0, 83, 1, 20), (0, 30, 1, 63), (0, -1, 1, 20), (2, 30, 1, 20), (0, 30, -1, 20)):
-        with pytest.raises(MocapError, match="lies outside the clips"):
-            from_transitions(CLIPS, [Transition(*row, 0.02, IDENTITY)], window=WINDOW)
+def merge(threshold):
+    return merge_choice_points(make(CLIPS), within=4, threshold=threshold)
 
 
-def test_the_walks_of_cmu_16(real_data):
-    numbers = (*range(11, 35), 47, 58)
-    clips = [resample(load_save.load(real_data / f"cmu/16/16_{n}.amc"), 30.0) for n in numbers]
-    whole = build(clips, window=10, threshold=0.03)
-    kept = prune(whole)
-    assert sum(map(len, clips)) == 2521
-    assert whole.count("transition") == pytest.approx(2176, abs=10)
-    assert len(whole.graph) == pytest.approx(1445, abs=10)
-    assert len(kept.graph) == pytest.approx(963, abs=10)
+def graph_with(row):
+    return from_transitions(CLIPS, [Transition(*row, 0.02, IDENTITY)], window=WINDOW)
+
+
+test_what_makes_no_graph = refusals(
+    ("at least one clip", make, []),
+    ("given twice: wave", make, [wave(30), wave(30)]),
+    ("'a' runs at 30 Hz, 'b' at 60 Hz", make, [CLIPS[0], resample(CLIPS[1], 60.0)]),
+    ("differ in these joints", make, [CLIPS[0], random_motion(1, frames=30)]),
+    *(
+        ("lies outside the clips", graph_with, row)
+        for row in ((0, 83, 1, 20), (0, 30, 1, 63), (0, -1, 1, 20), (2, 30, 1, 20), (0, 30, -1, 20))
+    ),
+    *(("above 0 m", merge, threshold) for threshold in (0, -1, np.nan)),
+)
 
 
 def transitions_of(motion_graph):
@@ -217,8 +198,3 @@ def test_what_was_reached_still_is(rows, within, threshold):
     for _, (_, enter), edge in transitions_of(merged):
         assert enter >= WINDOW
         assert edge["cost"] < max(threshold, 0.02)
-
-
-def test_a_threshold_is_a_distance(graphs):
-    for threshold in (0, -1, np.nan):
-        refused("above 0 m", merge_choice_points, graphs[0], within=4, threshold=threshold)

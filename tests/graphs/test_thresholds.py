@@ -8,12 +8,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.body.planar import PlanarTransform
-from mocap.errors import MocapError, NoWalk
+from mocap.errors import NoWalk
 from mocap.graphs.motion_graph import from_transitions
 from mocap.graphs.pruning import prune
 from mocap.graphs.thresholds import ThresholdCurve, threshold_curve, velocity_gaps
 from mocap.matching.transitions import Transitions, find_transitions
-from tests.refusals import refused
+from tests.refusals import refusals, refused
 from tests.strategies import planar, seeds, wave
 
 CLIPS = [wave(90, name="a"), wave(70, phase=1.0, name="b", seed=1)]
@@ -67,13 +67,16 @@ def test_the_suggestion_is_the_lowest_that_keeps_enough():
     refused("At none of these", curve._replace(frames=np.zeros(4, int)).suggest, kind=NoWalk)
 
 
-def test_what_makes_no_curve():
-    found = made_up(0, 5)
-    refused("no transitions", threshold_curve, CLIPS, found[:0], window=WINDOW, kind=NoWalk)
-    with pytest.raises(MocapError, match="Thresholds must be numbers"):
-        threshold_curve(CLIPS, found, window=WINDOW, thresholds=[0.1, np.nan])
-    refused("windows that lie outside", threshold_curve, CLIPS[:1], found, window=WINDOW)
-    refused("windows that lie outside", threshold_curve, CLIPS, found, window=80)
+def curve_of(found, clips=CLIPS, window=WINDOW, **settings):
+    return threshold_curve(clips, found, window=window, **settings)
+
+
+test_what_makes_no_curve = refusals(
+    (NoWalk, "no transitions", curve_of, made_up(0, 5)[:0]),
+    ("Thresholds must be numbers", lambda: curve_of(made_up(0, 5), thresholds=[0.1, np.nan])),
+    ("windows that lie outside", curve_of, made_up(0, 5), CLIPS[:1]),
+    ("windows that lie outside", curve_of, made_up(0, 5), CLIPS, 80),
+)
 
 
 def gaps_of(clips, ways):

@@ -12,7 +12,7 @@ from mocap.matching import distance_grids
 from mocap.matching.distance_grids import distance_grid, tiles
 from mocap.matching.minima import local_minima
 from tests.oracles import distance_oracle
-from tests.refusals import refused
+from tests.refusals import refusals
 from tests.strategies import planar, random_motion, seeds, wave
 
 
@@ -93,34 +93,34 @@ def test_tiles_cover_a_grid_once(rows, columns, upper):
     assert upper or seen.min() == 1
 
 
-def test_clips_that_do_not_go_together_are_refused():
-    with pytest.raises(SkeletonMismatch, match="differ in these joints: elbow"):
-        distance_grid(wave(9), random_motion(0), window=2)
-    refused("resample one first", distance_grid, wave(9), replace(wave(9), fps=60), window=2)
-    refused("'wave' has 9 frames, too few for a window of 10", distance_grid, wave(20), wave(9), window=10)
-    for window in (0, 2.5):
-        refused(f"at least one frame, got {window}", distance_grid, wave(9), wave(9), window=window)
-    refused("2 and 3 points do not match", distance_grid, np.zeros((5, 2, 3)), np.zeros((5, 3, 3)), window=2)
+POINTS = np.ones((5, 2, 3))
 
 
-@pytest.mark.parametrize(
-    ("points", "message"),
-    [
-        (np.zeros((5, 3)), r"shape \(F, P, 3\), got \(5, 3\)"),
-        (np.zeros((5, 0, 3)), r"got \(5, 0, 3\)"),
-        (np.zeros((0, 2, 3)), "has 0 frames"),
-        (np.full((5, 2, 3), np.nan), r"holds nan at \[0, 0, 0\]"),
-        (np.full((5, 2, 3), 1e30), "holds 1e[+]30"),
-    ],
+def against(points, **settings):
+    return distance_grid(POINTS, points, **{"window": 2} | settings)
+
+
+test_what_has_no_distance_is_refused = refusals(
+    (SkeletonMismatch, "joints: elbow", lambda: distance_grid(wave(9), random_motion(0), window=2)),
+    ("resample one first", lambda: distance_grid(wave(9), replace(wave(9), fps=60), window=2)),
+    ("'wave' has 9 frames, too few .* of 10", lambda: distance_grid(wave(20), wave(9), window=10)),
+    *((f"one frame, got {k}", lambda k=k: distance_grid(wave(9), wave(9), window=k)) for k in (0, 2.5)),
+    ("2 and 3 points do not match", against, np.zeros((5, 3, 3))),
+    (r"shape \(F, P, 3\), got \(5, 3\)", against, np.zeros((5, 3))),
+    (r"got \(5, 0, 3\)", against, np.zeros((5, 0, 3))),
+    ("has 0 frames", against, np.zeros((0, 2, 3))),
+    (r"holds nan at \[0, 0, 0\]", against, np.full((5, 2, 3), np.nan)),
+    ("holds 1e[+]30", against, np.full((5, 2, 3), 1e30)),
+    *(
+        (
+            "must be 2 numbers, not negative and not all 0",
+            lambda w=w: against(POINTS, joint_weights=w),
+        )
+        for w in ([1, 1, 1], [1, -1], [0, 0], [1, np.nan])
+    ),
+    (r"two dimensions, got shape \(3,\)", local_minima, np.ones(3)),
+    (r"NaN at \[2, 1\]", local_minima, np.array([[1.0, 2.0], [3.0, 4.0], [5.0, np.nan]])),
 )
-def test_points_must_be_points(points, message):
-    refused(message, distance_grid, np.zeros((5, 2, 3)), points, window=2)
-
-
-@pytest.mark.parametrize("bad", [[1, 1, 1], [1, -1], [0, 0], [1, np.nan]])
-def test_weights_must_make_sense(bad):
-    points, message = np.ones((5, 2, 3)), "Weights must be 2 numbers, not negative and not all 0"
-    refused(message, distance_grid, points, points, window=2, joint_weights=bad)
 
 
 def minima_by_loops(grid, below):
@@ -147,8 +147,3 @@ def test_grids_without_minima():
     for shape in ((0, 3), (3, 0), (0, 0)):
         assert local_minima(np.empty(shape)).shape == (0, 2)
     assert local_minima(np.ones((2, 2)), below=1).shape == (0, 2)
-
-
-def test_what_is_no_grid_is_refused():
-    refused(r"two dimensions, got shape \(3,\)", local_minima, np.ones(3))
-    refused(r"NaN at \[2, 1\]", local_minima, np.array([[1.0, 2.0], [3.0, 4.0], [5.0, np.nan]]))

@@ -1,55 +1,17 @@
 """Paths through grids against a slow recursion, another implementation, and a way that looks right."""
 
-from functools import lru_cache
-
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.matching.time_paths import origins, path_mean, path_sums, time_path, trace
-from tests.refusals import refused
+from tests.oracles import least_sum, longest_run, path_sum
+from tests.refusals import refusals, refused
 from tests.strategies import seeds
 
 slopes = st.integers(1, 3)
 sides = st.integers(2, 11)
-
-
-def least_sum(grid, slope, begin=(0, 0), end=None):
-    """The least sum of a path between two cells, as the rule is written: a state for each length of a run."""
-    (top, left), (bottom, right) = begin, end or (grid.shape[0] - 1, grid.shape[1] - 1)
-
-    @lru_cache(None)
-    def best(i, j, state):
-        if i < top or j < left:
-            return np.inf
-        if state == 0:
-            if (i, j) == begin:
-                return 2 * grid[i, j]
-            return 2 * grid[i, j] + min(best(i - 1, j - 1, other) for other in range(2 * slope + 1))
-        if state <= slope:
-            return grid[i, j] + best(i - 1, j, state - 1)
-        return grid[i, j] + best(i, j - 1, 0 if state == slope + 1 else state - 1)
-
-    return min(best(bottom, right, state) for state in range(2 * slope + 1))
-
-
-def advanced(path):
-    return np.append(2, np.abs(np.diff(path, axis=0)).sum(axis=1))
-
-
-def total(grid, path):
-    return float(grid[path[:, 0], path[:, 1]] @ advanced(path))
-
-
-def longest_run(path):
-    """Count the straight steps of one direction that follow each other."""
-    runs, run, last = [0], 0, None
-    for step in map(tuple, np.diff(path, axis=0).tolist()):
-        run = run + 1 if step == last else 1
-        last = step
-        runs += [run] * (step != (1, 1))
-    return max(runs)
 
 
 def random_grid(seed, rows, columns):
@@ -65,7 +27,7 @@ def test_no_path_has_a_lower_sum(seed, rows, columns, slope):
         refused(f"at most {slope + 1} to 1", time_path, grid, slope=slope)
         return
     path = time_path(grid, slope=slope)
-    assert total(grid, path) == pytest.approx(best, abs=1e-14)
+    assert path_sum(grid, path) == pytest.approx(best, abs=1e-14)
     assert path[0].tolist() == [0, 0] and path[-1].tolist() == [rows - 1, columns - 1]
     assert set(map(tuple, np.diff(path, axis=0).tolist())) <= {(1, 1), (1, 0), (0, 1)}
     assert longest_run(path) <= slope
@@ -96,23 +58,21 @@ def test_begun_anywhere_the_sums_are_those_of_a_local_alignment(seed, rows, colu
     for end in np.ndindex(rows, columns):
         best = min(least_sum(costs, slope, begin, end) for begin in np.ndindex(end[0] + 1, end[1] + 1))
         path = trace(sums, end)
-        assert total(costs, path) == pytest.approx(sums.totals[end], abs=1e-12)
+        assert path_sum(costs, path) == pytest.approx(sums.totals[end], abs=1e-12)
         assert sums.totals[end] == pytest.approx(best, abs=1e-12)
         assert divmod(begins[end], columns) == tuple(path[0])
         assert longest_run(path) <= slope
 
 
-@pytest.mark.parametrize(
-    ("grid", "settings", "message"),
-    [
-        (np.ones((0, 4)), {}, r"of two dimensions, got \(0, 4\)"),
-        ([[1.0, np.nan], [1.0, 1.0]], {}, "a grid of finite numbers"),
-        (np.ones((9, 4)), {"slope": 1}, "9 frames cannot be laid on 4 with slope 1: at most 2 to 1"),
-        (np.ones((4, 4)), {"slope": 0}, "from 1 to 63 and slack .* got 0 and 0"),
-        (np.ones((4, 4)), {"slack": -1}, "less than the 4 frames of a clip, got 2 and -1"),
-        (np.ones((9, 4)), {"slack": 4}, "less than the 4 frames of a clip, got 2 and 4"),
-    ],
-)
-def test_what_has_no_path_is_refused(grid, settings, message):
-    refused(message, time_path, grid, **settings)
+def test_slope_1_lays_eight_frames_on_four():
     assert len(time_path(np.ones((8, 4)), slope=1)) == 8
+
+
+test_what_has_no_path_is_refused = refusals(
+    (r"of two dimensions, got \(0, 4\)", time_path, np.ones((0, 4))),
+    ("a grid of finite numbers", time_path, [[1.0, np.nan], [1.0, 1.0]]),
+    ("9 frames cannot be laid on 4 with .* 1: at most 2 to 1", lambda: time_path(np.ones((9, 4)), slope=1)),
+    ("from 1 to 63 and slack .* got 0 and 0", lambda: time_path(np.ones((4, 4)), slope=0)),
+    ("less than the 4 frames of a clip, got 2 and -1", lambda: time_path(np.ones((4, 4)), slack=-1)),
+    ("less than the 4 frames of a clip, got 2 and 4", lambda: time_path(np.ones((9, 4)), slack=4)),
+)
