@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -166,32 +167,6 @@ def s_curve(length: float = 20.0) -> GroundPath:
     return arcs((0, 0), bend / 2, [(length / 2, -bend), (length / 2, bend)])
 
 
-def rounded_square(side: float = 6.0, radius: float = 1.5) -> GroundPath:
-    """Draw a square with rounded corners, to the left.
-
-    Examples
-    --------
-    >>> rounded_square(4.0, radius=1.0)
-    GroundPath(717 points, 14.3 m)
-    """
-    corner = (radius * np.pi / 2, np.pi / 2)
-    half = (side / 2 - radius, 0.0)
-    return arcs((0, 0), 0.0, [half, corner, *[(side - 2 * radius, 0.0), corner] * 3, half])
-
-
-def figure_eight(radius: float = 2.5) -> GroundPath:
-    """Draw a loop to the left and one to the right, joined by straight lines that cross.
-
-    Examples
-    --------
-    >>> figure_eight(1.0)
-    GroundPath(673 points, 13.4 m)
-    """
-    loop = (1.5 * np.pi * radius, 1.5 * np.pi)
-    pieces = [(radius, 0.0), loop, (2 * radius, 0.0), (loop[0], -loop[1]), (radius, 0.0)]
-    return arcs((0, 0), -np.pi / 4, pieces)
-
-
 def letter_s(radius: float = 1.5) -> GroundPath:
     """Draw a letter S, from its upper end to its lower end.
 
@@ -205,6 +180,13 @@ def letter_s(radius: float = 1.5) -> GroundPath:
     return arcs((0, 0), 0.0, [(1.25 * np.pi * radius, 1.25 * np.pi), (1.25 * np.pi * radius, -1.25 * np.pi)])
 
 
-SHAPES = {"S-curve": s_curve, "circle": circle, "square": rounded_square}
-SHAPES |= {"figure of eight": figure_eight, "letter S": letter_s}
+_SQUARE = [(1.5, 0.0), *[(0.75 * np.pi, np.pi / 2), (3.0, 0.0)] * 3, (0.75 * np.pi, np.pi / 2), (1.5, 0.0)]
+_LEFT, _RIGHT = (3.75 * np.pi, 1.5 * np.pi), (3.75 * np.pi, -1.5 * np.pi)  # the loops of the eight
+SHAPES: dict[str, Callable[[], GroundPath]] = {
+    "S-curve": s_curve,
+    "circle": circle,
+    "square": lambda: arcs((0, 0), 0.0, _SQUARE),
+    "figure of eight": lambda: arcs((0, 0), -np.pi / 4, [(2.5, 0.0), _LEFT, (5.0, 0.0), _RIGHT, (2.5, 0.0)]),
+    "letter S": letter_s,
+}
 """The shapes by name; each can be called without arguments."""

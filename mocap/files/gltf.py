@@ -146,20 +146,20 @@ def _skin(skeleton: Skeleton, block: Block) -> Record:
 
 
 def _mesh(skeleton: Skeleton, block: Block) -> Record:
-    shape = body(skeleton)
-    counted = np.uint16 if len(shape.places) < 2**16 - 1 else np.uint32  # the largest number is kept free
-    carried = np.zeros((len(shape.places), 4), np.uint16)
-    carried[:, 0] = shape.joints
-    weights = np.zeros((len(shape.places), 4), np.uint8)
+    places, normals, joints, corners = body(skeleton)
+    counted = np.uint16 if len(places) < 2**16 - 1 else np.uint32  # the largest number is kept free
+    carried = np.zeros((len(places), 4), np.uint16)
+    carried[:, 0] = joints
+    weights = np.zeros((len(places), 4), np.uint8)
     weights[:, 0] = 255  # the whole of it
     attributes = {
-        "POSITION": block.add(shape.places.astype(np.float32), bounds=True, target=VERTICES),
-        "NORMAL": block.add(shape.normals.astype(np.float32), target=VERTICES),
+        "POSITION": block.add(places.astype(np.float32), bounds=True, target=VERTICES),
+        "NORMAL": block.add(normals.astype(np.float32), target=VERTICES),
         "JOINTS_0": block.add(carried, target=VERTICES),
         "WEIGHTS_0": block.add(weights, target=VERTICES),
     }
-    corners = block.add(shape.corners.ravel().astype(counted), target=CORNERS)
-    return {"name": "body", "primitives": [{"attributes": attributes, "indices": corners, "material": 0}]}
+    indices = block.add(corners.ravel().astype(counted), target=CORNERS)
+    return {"name": "body", "primitives": [{"attributes": attributes, "indices": indices, "material": 0}]}
 
 
 def _animation(motion: Motion, block: Block) -> Record:

@@ -7,12 +7,10 @@ one, without a table of names; only a head is known by its name.
 
 import re
 from collections.abc import Iterator
-from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Indices
 from mocap.body import rotations
 from mocap.body.skeleton import Skeleton
 
@@ -23,16 +21,9 @@ THICK = 0.06  # of the geometric mean of the longest limb and of what is left of
 HEAD = 0.075  # of the longest limb: the radius of a head
 
 
-Piece = tuple[int, Array, Array, NDArray[np.intp]]  # a joint; places, normals and corners around it
-
-
-class Mesh(NamedTuple):
-    """A skinned surface: `places`, `normals` (V, 3), the `joints` (V,) that carry them, `corners` (T, 3)."""
-
-    places: Array
-    normals: Array
-    joints: NDArray[np.intp]
-    corners: NDArray[np.intp]
+Piece = tuple[
+    int, Array, Array, float
+]  # a joint; where a capsule starts, its length and direction, its radius
 
 
 def reaches(skeleton: Skeleton) -> Array:
@@ -52,7 +43,7 @@ def reaches(skeleton: Skeleton) -> Array:
     return behind
 
 
-def body(skeleton: Skeleton) -> Mesh:
+def body(skeleton: Skeleton) -> tuple[Array, Array, Indices, Indices]:
     """Put a capsule around each bone of a skeleton at rest.
 
     Parameters
@@ -61,24 +52,29 @@ def body(skeleton: Skeleton) -> Mesh:
 
     Returns
     -------
-    The surface; every corner moves with the joint at which its bone starts. A skeleton without a bone gets
-    one small ball.
+    A skinned surface: places and normals (V, 3), the joints (V,) that carry them, those at which their bones
+    start, and the corners (T, 3) of its triangles. A skeleton without a bone gets one small ball.
 
     Examples
     --------
-    >>> body(Skeleton(["hip", "knee"], [-1, 0], [[0, 0, 0], [0, -0.4, 0]])).places.min(axis=0).round(2)
+    >>> places, *_ = body(Skeleton(["hip", "knee"], [-1, 0], [[0, 0, 0], [0, -0.4, 0]]))
+    >>> places.min(axis=0).round(2)
     array([-0.02, -0.42, -0.02])
     """
     longest = reaches(skeleton)[0] or 1.0
-    pieces = list(_pieces(skeleton, longest))
-    pieces = pieces or [(0, *_capsule(np.zeros(3), np.zeros(3), THICK * longest))]
-    counts = np.cumsum([0, *(len(points) for _, points, _, _ in pieces)])
-    return Mesh(
-        np.vstack([points for _, points, _, _ in pieces]),
-        np.vstack([normals for _, _, normals, _ in pieces]),
-        np.repeat([joint for joint, *_ in pieces], np.diff(counts)),
-        np.vstack([start + corners for start, (*_, corners) in zip(counts[:-1], pieces, strict=True)]),
-    )
+    pieces = list(_pieces(skeleton, longest)) or [(0, np.zeros(3), np.zeros(3), THICK * longest)]
+    places, normals = np.array([_capsule(*piece) for _, *piece in pieces]).swapaxes(
+        0, 1
+    )  # (P, V / P, 3) each
+    count = places.shape[1]
+    corner = np.arange(count).reshape(len(RINGS), AROUND)
+    below, above = corner[:-1], corner[1:]
+    beside, over = np.roll(below, -1, axis=1), np.roll(above, -1, axis=1)
+    lower, upper = np.stack([below, beside, over], axis=-1), np.stack([below, over, above], axis=-1)
+    corners = np.concatenate([lower[1:], upper[:-1]]).reshape(-1, 3)  # at a pole a ring is one point
+    corners = corners + count * np.arange(len(pieces))[:, None, None]
+    joints = np.repeat([joint for joint, *_ in pieces], count)
+    return places.reshape(-1, 3), normals.reshape(-1, 3), joints, corners.reshape(-1, 3)
 
 
 def _pieces(skeleton: Skeleton, longest: float) -> Iterator[Piece]:
@@ -90,12 +86,12 @@ def _pieces(skeleton: Skeleton, longest: float) -> Iterator[Piece]:
     for joint, (parent, bone) in enumerate(zip(skeleton.parents.tolist(), skeleton.offsets, strict=True)):
         length = np.linalg.norm(bone) if joint else 0.0
         if length > 0 and _is_head(skeleton, joint) and not skeleton.children(joint):
-            yield joint, *_capsule(places[joint] + 0.7 * ball / length * bone, np.zeros(3), ball)
+            yield joint, places[joint] + 0.7 * ball / length * bone, np.zeros(3), ball
         if length > LEAST * longest:
             start, radius = places[parent], THICK * np.sqrt(longest * (length + behind[joint]))
             if _is_head(skeleton, parent):
                 start, bone, radius = start + 0.4 * bone, 0.2 * bone, max(radius, ball)
-            yield parent, *_capsule(start, bone, radius)
+            yield parent, start, bone, radius
 
 
 def _is_head(skeleton: Skeleton, joint: int) -> bool:
@@ -103,7 +99,7 @@ def _is_head(skeleton: Skeleton, joint: int) -> bool:
     return "head" in name and not re.search("head.*(end|top|nub|site)", name)
 
 
-def _capsule(start: Array, bone: Array, radius: float) -> tuple[Array, Array, NDArray[np.intp]]:
+def _capsule(start: Array, bone: Array, radius: float) -> tuple[Array, Array]:
     """Build rings from pole to pole; the upper half of the ball that they make is moved along the bone."""
     if bone[1] < 0:  # the same capsule from its other end: no turn from up to down is the shortest
         start, bone = start + bone, -bone
@@ -112,10 +108,4 @@ def _capsule(start: Array, bone: Array, radius: float) -> tuple[Array, Array, ND
     around, up = np.meshgrid(2 * np.pi * np.arange(AROUND) / AROUND, np.radians(RINGS))
     ball = np.stack([np.cos(up) * np.sin(around), np.sin(up), np.cos(up) * np.cos(around)], axis=-1)
     moved = radius * ball + length * (up > 0)[..., None] * [0.0, 1.0, 0.0]
-    corner = np.arange(up.size).reshape(up.shape)
-    below, above = corner[:-1], corner[1:]
-    beside, over = np.roll(below, -1, axis=1), np.roll(above, -1, axis=1)
-    lower, upper = np.stack([below, beside, over], axis=-1), np.stack([below, over, above], axis=-1)
-    corners = np.concatenate([lower[1:], upper[:-1]]).reshape(-1, 3)  # at a pole a ring is one point
-    points = start + rotations.rotate(turn, moved.reshape(-1, 3))
-    return points, rotations.rotate(turn, ball.reshape(-1, 3)), corners
+    return start + rotations.rotate(turn, moved.reshape(-1, 3)), rotations.rotate(turn, ball.reshape(-1, 3))

@@ -5,14 +5,13 @@ way among obstacles is planned by `groups`.
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap.body.ground_path import GroundPath, spline
-from mocap.errors import MocapError, warn
+from mocap.errors import warn
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.steering.followed import Followed
@@ -20,6 +19,7 @@ from mocap.steering.path_following import follow_path
 from mocap.steering.path_objective import Settings, Wishes
 
 WAITS = (0.0, 1.0, 2.0, 4.0)  # seconds, tried in this order
+WIDTH = 100  # walks that stay in each layer; of who gives way three times as many
 
 
 class Waypoint(NamedTuple):
@@ -60,7 +60,6 @@ def through_waypoints(
     graph: MotionGraph | CompiledGraph,
     waypoints: Sequence[Waypoint],
     *,
-    settings: Settings | None = None,
     bend: float = 0.0,
 ) -> WaypointWalk:
     """Find a walk through waypoints, with their labels and at their times [KGP02, 5.3].
@@ -72,11 +71,11 @@ def through_waypoints(
     ----------
     graph : pruned.
     waypoints : two or more; times count from the start of the motion.
-    settings, bend : as for `steering.follow_path`; `Settings.late` is the price of a delay.
+    bend : as for `steering.follow_path`.
 
     Raises
     ------
-    NoWalk, MocapError : as for `steering.follow_path`, and for a later waypoint at 0 s.
+    NoWalk, MocapError : as for `steering.follow_path`, such as for a later waypoint at 0 s.
 
     Examples
     --------
@@ -101,9 +100,7 @@ def through_waypoints(
     times = [(along, point.seconds) for along, point in placed if point.seconds is not None]
     if times and waypoints[0].seconds is None:
         times.insert(0, (0.0, 0.0))
-    if any(seconds == 0 for along, seconds in times if along > 0):
-        raise MocapError("Only the first waypoint can be asked for at 0 s.")
-    followed = follow_path(graph, path, Wishes(labels=labels, times=times), settings=settings, bend=bend)
+    followed = follow_path(graph, path, Wishes(labels=labels, times=times), bend=bend)
     arrivals = []
     for along, point in placed:
         frame = min(int(np.searchsorted(followed.along, along)), len(followed.along) - 1)
@@ -128,7 +125,6 @@ def walk_crowd(
     paths: Sequence[GroundPath],
     *,
     apart: float = 0.8,
-    settings: Settings | None = None,
 ) -> Crowd:
     """Find a walk along each path, so that the characters keep apart [KGP02, 5.3].
 
@@ -142,7 +138,6 @@ def walk_crowd(
     graph : pruned.
     paths : one per character.
     apart : the least distance between the roots of any two, metres.
-    settings : as for `steering.follow_path`.
 
     Raises
     ------
@@ -165,12 +160,12 @@ def walk_crowd(
 
     Notebook: 08b-steering
     """
-    compiled, settings = compile_graph(graph), settings or Settings(width=100)
-    walks = [follow_path(compiled, path, settings=settings) for path in paths]
+    compiled = compile_graph(graph)
+    walks = [follow_path(compiled, path, settings=Settings(width=WIDTH)) for path in paths]
     waits, tracks = [0.0] * len(walks), [walk.track for walk in walks]
     for one, path in enumerate(paths):
         if _nearest(tracks[one], tracks[:one]) < apart:
-            walks[one], waits[one], tracks[one] = _give_way(compiled, path, settings, tracks[:one], apart)
+            walks[one], waits[one], tracks[one] = _give_way(compiled, path, tracks[:one], apart)
     nearest = np.array([[_nearest(a, [b]) if a is not b else np.inf for b in tracks] for a in tracks])
     if nearest.min(initial=np.inf) < apart:
         a, b = np.unravel_index(nearest.argmin(), nearest.shape)
@@ -180,15 +175,14 @@ def walk_crowd(
 
 
 def _give_way(
-    graph: CompiledGraph, path: GroundPath, settings: Settings, before: Sequence[Array], apart: float
+    graph: CompiledGraph, path: GroundPath, before: Sequence[Array], apart: float
 ) -> tuple[Followed, float, Array]:
     """Find a walk that keeps away from the tracks `before`, with the shortest wait that is enough.
 
     Who gives way is free to leave the path or to slow down. Returns the walk, its wait in seconds, and its
     track with the wait.
     """
-    width = 3 * (settings.width or 100)
-    free = replace(settings, rescue=30.0, crowding=60.0, stray=0.0, tries=1, width=width)
+    free = Settings(rescue=30.0, crowding=60.0, stray=0.0, tries=1, width=3 * WIDTH)
     found: list[tuple[Followed, float, Array]] = []
     for wait in WAITS:
         frames = round(wait * graph.fps)

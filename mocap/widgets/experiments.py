@@ -67,27 +67,23 @@ def explore(draw: Callable[..., Drawn], *, alt: str, **controls: Any) -> Experim
     """
     if importlib.util.find_spec("ipywidgets") is None:
         raise missing("Experiments need ipywidgets, which is not here", "notebooks")
+    from ipywidgets import interactive
+
     defaults = {name: parameter.default for name, parameter in inspect.signature(draw).parameters.items()}
     made = {}
     for name, control in controls.items():
         if name not in defaults:
             raise MocapError(f"'{draw.__name__}' takes no '{name}'; it takes: {', '.join(defaults)}.")
-        made[name] = _widget(control, defaults[name])
+        try:
+            made[name] = interactive.widget_from_abbrev(control, defaults[name])
+        except (ValueError, TypeError):
+            made[name] = None
         if made[name] is None:
             raise MocapError(f"The control {name}={control!r} is no range, choice or widget.")
         made[name].description = name.replace("_", " ")
     if sum(hasattr(control, "with_handles") for control in made.values()) > 1:
         raise MocapError("An experiment has one control of handles: put all points into it.")
     return Experiment(draw, alt, made)
-
-
-def _widget(control: Any, default: Any) -> Any:  # noqa: ANN401 (as for `explore`)
-    """Make a widget of a control, or None."""
-    from ipywidgets import interactive
-
-    with suppress(ValueError, TypeError):
-        return interactive.widget_from_abbrev(control, default)
-    return None
 
 
 def step_aside(reason: object) -> None:

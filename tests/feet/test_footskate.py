@@ -12,7 +12,7 @@ from walking import generate
 from mocap._shared.arrays import runs
 from mocap.blending.joining import inertialize, join
 from mocap.body import rotations
-from mocap.body.ground_path import figure_eight, s_curve
+from mocap.body.ground_path import SHAPES, s_curve
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion, resample
@@ -133,7 +133,7 @@ def test_captured_feet_drift_and_afterwards_stand(real_data, trials, least, fps)
 def check_walks(graph):
     """Clean up walks out of a graph: a random one, and along paths."""
     walks = [to_motion(graph, random_walk(graph, seconds=30, seed=1))]
-    walks += [follow_path(graph, path).motion() for path in (figure_eight(2.5), s_curve(8.0))]
+    walks += [follow_path(graph, path).motion() for path in (SHAPES["figure of eight"](), s_curve(8.0))]
     assert min(slides(walk).max() for walk in walks) > 0.005
     for walk in walks:
         check_clean_up(walk, 1.0)

@@ -77,11 +77,11 @@ def test_the_file_keeps_the_rules_of_its_specification():
 
 def test_the_body_moves_with_its_bones():
     motion = walk()
-    read, shape = Glb(gltf.glb(motion)), gltf_capsules.body(motion.skeleton)
+    read, (spots, _, joints, _) = Glb(gltf.glb(motion)), gltf_capsules.body(motion.skeleton)
     rest, exact = motion.skeleton.rest, joint_positions(motion)[50]
     moved = read.skinned(50 / motion.fps)
-    before = np.linalg.norm(shape.places - rest[shape.joints], axis=-1)
-    after = np.linalg.norm(moved - exact[shape.joints], axis=-1)
+    before = np.linalg.norm(spots - rest[joints], axis=-1)
+    after = np.linalg.norm(moved - exact[joints], axis=-1)
     assert np.abs(before - after).max() < 1e-4
     assert 1.6 < np.ptp(moved[:, 1]) < 2.0  # the size of a person, metres
     assert moved[:, 1].min() > -0.06
@@ -89,16 +89,16 @@ def test_the_body_moves_with_its_bones():
 
 def test_capsules_are_closed_and_face_outwards():
     for bone in ([0, 0.4, 0], [0, -0.4, 0], [0.3, 0.1, -0.2], [0, 0, 0]):
-        shape = gltf_capsules.body(Skeleton(["a", "b"], [-1, 0], [[0, 0, 0], bone]))
-        sides = shape.places[shape.corners]
+        spots, outward, _, corners = gltf_capsules.body(Skeleton(["a", "b"], [-1, 0], [[0, 0, 0], bone]))
+        sides = spots[corners]
         normals = np.cross(sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0])
         assert np.linalg.norm(normals, axis=-1).min() > 1e-9
-        assert np.all((normals * shape.normals[shape.corners].mean(axis=1)).sum(-1) > 0)
-        assert np.allclose(np.linalg.norm(shape.normals, axis=-1), 1)
+        assert np.all((normals * outward[corners].mean(axis=1)).sum(-1) > 0)
+        assert np.allclose(np.linalg.norm(outward, axis=-1), 1)
         # Closed: each side of a triangle, by place, is met once in each direction.
-        places = {tuple(place): number for number, place in enumerate(np.round(shape.places, 9).tolist())}
-        number = [places[tuple(place)] for place in np.round(shape.places, 9).tolist()]
-        pairs = (pair for t in shape.corners for pair in zip(t, np.roll(t, -1), strict=True))
+        places = {tuple(place): number for number, place in enumerate(np.round(spots, 9).tolist())}
+        number = [places[tuple(place)] for place in np.round(spots, 9).tolist()]
+        pairs = (pair for t in corners for pair in zip(t, np.roll(t, -1), strict=True))
         edges = [(number[a], number[b]) for a, b in pairs]
         assert len(set(edges)) == len(edges)
         assert {(b, a) for a, b in edges} == set(edges)
@@ -108,8 +108,8 @@ def test_a_head_is_a_ball_whether_a_bone_starts_there_or_not():
     neck = ["hips", "neck", "Head"]
     for names, parents in ((neck, [-1, 0, 1]), ([*neck, "Head_end"], [-1, 0, 1, 2])):
         offsets = [[0, 0, 0], [0, 0.6, 0], [0, 0.1, 0], [0, 0.15, 0]][: len(names)]
-        shape = gltf_capsules.body(Skeleton(names, parents, offsets))
-        ball = shape.places[shape.joints == 2]
+        spots, _, joints, _ = gltf_capsules.body(Skeleton(names, parents, offsets))
+        ball = spots[joints == 2]
         width, height = np.ptp(ball, axis=0)[[0, 1]]
         assert 0.08 < width < height < 2 * width
 
@@ -143,10 +143,10 @@ def test_trimesh_reads_the_body_and_the_joints():
     trimesh = pytest.importorskip("trimesh", reason="pip install trimesh")
     motion = walk()
     scene = trimesh.load(io.BytesIO(gltf.glb(motion)), file_type="glb")
-    shape = gltf_capsules.body(motion.skeleton)
+    spots, _, _, corners = gltf_capsules.body(motion.skeleton)
     (mesh,) = scene.geometry.values()
-    assert len(mesh.faces) == len(shape.corners)
-    assert np.allclose(mesh.bounds, [shape.places.min(0), shape.places.max(0)], atol=1e-6)
+    assert len(mesh.faces) == len(corners)
+    assert np.allclose(mesh.bounds, [spots.min(0), spots.max(0)], atol=1e-6)
     rest = motion.skeleton.rest
     for joint, name in enumerate(motion.skeleton.names):
         place = scene.graph.get(name)[0][:3, 3]

@@ -7,6 +7,7 @@ import pytest
 
 from mocap.body.ground_path import GroundPath
 from mocap.errors import MocapWarning
+from mocap.steering import waypoints_and_crowds
 from mocap.steering.path_following import follow_path
 from mocap.steering.path_objective import Settings
 from mocap.steering.waypoints_and_crowds import walk_crowd
@@ -42,11 +43,12 @@ def test_who_meets_head_on_steps_aside_or_waits():
 
 
 @pytest.mark.filterwarnings("ignore:The walk leaves")
-def test_what_falls_short_is_told():
+def test_what_falls_short_is_told(monkeypatch):
     """Two who start in one place cannot keep apart, whoever waits; it says which, and how near they come."""
     paths = [*CROSSING, GroundPath([[0, 0.1], [0, 6]])]
+    monkeypatch.setattr(waypoints_and_crowds, "WIDTH", 30)
     with pytest.warns(MocapWarning, match=r"Characters 0 and 2 come as near as 0\.\d\d m, though 0\.80 m"):
-        crowd = walk_crowd(GRAPH, paths, settings=Settings(width=30))
+        crowd = walk_crowd(GRAPH, paths)
     tracks = [
         np.concatenate([np.repeat(walk.track[:1], round(30 * wait), axis=0), walk.track])
         for walk, wait in zip(crowd.walks, crowd.waits, strict=True)

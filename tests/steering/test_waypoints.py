@@ -36,7 +36,7 @@ def test_each_waypoint_sets_the_kind_of_motion():
 def test_impossible_waypoints_are_told():
     with pytest.raises(MocapError, match="two points"):
         through_waypoints(walking(), [Waypoint(0, 0)])
-    with pytest.raises(MocapError, match="Only the first waypoint"):
+    with pytest.raises(MocapError, match="Times must grow along the path"):
         through_waypoints(walking(), [Waypoint(0, 0), Waypoint(0, 4, seconds=0.0)])
 
 
