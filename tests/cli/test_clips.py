@@ -16,6 +16,7 @@ from mocap.body.motion import concatenate, resample
 from mocap.datasets import samples
 from mocap.files import conversion, load_save
 from tests.files.acclaim_clips import write_acclaim
+from tests.files.test_rigid_bones import chain, six_channels
 from tests.refusals import refused
 from tests.strategies import wave
 
@@ -154,51 +155,20 @@ def test_judge_ranks_files_and_names_what_it_could_not(folder, run):
     assert run("judge broken.bvh", 2).out == ""
 
 
-STRETCHING = """HIERARCHY
-ROOT Hips
-{
-OFFSET 0 0 0
-CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
-JOINT Leg
-{
-OFFSET 0 -90 0
-CHANNELS 3 Zrotation Xrotation Yrotation
-End Site
-{
-OFFSET 0 0 10
-}
-}
-JOINT Spine
-{
-OFFSET 0 50 0
-CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
-End Site
-{
-OFFSET 0 30 0
-}
-}
-}
-MOTION
-Frames: 30
-Frame Time: 0.0333333
-"""
-
-
 def test_judge_shows_bones_that_stretch_and_looks_into_folders(tmp_path, run):
     """A file whose bones stretch beyond what `load` fits is judged all the same, and says so."""
     path = tmp_path / "deep" / "stretched.bvh"
     path.parent.mkdir()
-    rows = [f"0 90 {frame} 0 0 0 0 0 0 0 {50 + frame / 5} 0 0 0 0\n" for frame in range(30)]
-    path.write_text(STRETCHING + "".join(rows))
-    refused(r"'Spine' in one place below its parent, but for 0.02 m", load_save.load, path)
+    path.write_text(six_channels(*chain(0.058)))
+    refused(r"'spine' in one place below its parent, but for 0.02 m", load_save.load, path)
     said = run(f"judge {tmp_path} --json")
     (judged,) = json.loads(said.out)
     (bones,) = (row for row in judged["measures"] if row["name"] == "bones")
-    assert bones["value"] == pytest.approx(58) and bones["where"] == "'Spine'"
-    assert judged["score"] > 3 and judged["height"] == pytest.approx(1.729, abs=1e-3)
-    assert judged["bones"]["Leg"] == pytest.approx(0.9)
+    assert bones["value"] == pytest.approx(58) and bones["where"] == "'spine'"
+    assert judged["score"] > 3 and judged["height"] == pytest.approx(0.829, abs=1e-3)
+    assert judged["bones"]["head"] == pytest.approx(0.4)
     assert "bones change length by up to 58 mm" in said.err
-    assert load_save.bone_stretch(path)["Leg"] == 0
+    assert load_save.bone_stretch(path)["head"] == 0
     refused("stretch must be 0 or more metres, got nan", load_save.load, path, stretch=float("nan"))
 
 

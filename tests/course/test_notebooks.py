@@ -132,10 +132,6 @@ def test_the_instructors_table_tells_the_notebooks_minutes():
 # The code that is seen is the code that runs
 
 
-def tree_of(source):
-    return ast.dump(ast.parse(source))
-
-
 @every_notebook
 def test_code_shown_is_the_packages_own(name):
     shown = list(notebooks.tagged(read(name), "source"))

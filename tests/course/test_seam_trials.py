@@ -124,8 +124,6 @@ def test_inertialization_is_measured_against_the_second_clip():
 
 
 CLIP = sample("walk_straight")
-LOW = int(CLIP.root_positions[:600, 1].argmin())
-SLICE = CLIP[LOW : LOW + 200]  # starts low in the stride
 
 
 def test_euler_angles_from_zero_to_pi_are_right_and_cannot_be_blended():

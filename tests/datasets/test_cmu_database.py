@@ -13,23 +13,12 @@ from mocap.editing.retargeting import retarget
 from mocap.editing.stances import stance_of
 from mocap.errors import MocapError, SkeletonMismatch
 from mocap.graphs.motion_graph import build
+from tests.files.acclaim_clips import SPINE
 from tests.refusals import refused
 
-ASF = """:root
-  order TX TY TZ RX RY RZ
-:bonedata
-  begin
-    name spine
-    direction 0 1 0
-    length 1
-    axis 0 0 0 XYZ
-    dof rx
-  end
-:hierarchy
-  root spine
-"""
 AMC = "1\nroot 0 0 0 0 0 0\nspine 0\n2\nroot 0 0 1 0 0 0\nspine 9\n"
-FILES = {"07/07.asf": ASF, "07/07_01.amc": AMC, "07/07_02.amc": AMC, "08/08.asf": ASF, "08/08_01.amc": AMC}
+FILES = {"07/07.asf": SPINE, "07/07_01.amc": AMC, "07/07_02.amc": AMC}
+FILES |= {"08/08.asf": SPINE, "08/08_01.amc": AMC}
 
 
 @pytest.fixture

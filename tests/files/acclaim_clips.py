@@ -73,6 +73,19 @@ root 1 5 0 0 90 0
 thigh 90 0
 arm 90 90
 """
+SPINE = """:root
+  order TX TY TZ RX RY RZ
+:bonedata
+  begin
+    name spine
+    direction 0 1 0
+    length 1
+    axis 0 0 0 XYZ
+    dof rx
+  end
+:hierarchy
+  root spine
+"""
 
 
 def read_clip(write, asf=ASF, amc_text=AMC, **options):

@@ -113,9 +113,7 @@ BAD = [
 @pytest.mark.parametrize(("changes", "message"), BAD)
 def test_a_broken_archive_is_refused(archive, changes, message):
     path = archive(**changes)
-    with pytest.raises(FormatError, match=message) as error:
-        amass.read(path)
-    assert len(str(error.value).replace(str(path), "")) <= 200
+    refused(message, amass.read, path, kind=FormatError)
 
 
 def test_files_of_other_kinds_are_refused(tmp_path):

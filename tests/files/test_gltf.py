@@ -30,10 +30,6 @@ def gap(motion):
     return max(np.abs(read.poses(f / motion.fps)[:, :3, 3] - exact[f]).max() for f in frames)
 
 
-def test_all_joints_are_where_ours_are():
-    assert gap(walk()) < 1e-4
-
-
 @given(seeds)
 def test_any_motion_of_any_skeleton(seed):
     motion = random_motion(seed, joints=int(seed % 9) + 1)

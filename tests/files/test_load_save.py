@@ -8,27 +8,13 @@ import tracemalloc
 import numpy as np
 import pytest
 
-from mocap.errors import FormatError, MocapError
+from mocap.errors import FormatError
 from mocap.files import load_save
 from tests.conftest import SWEEP
+from tests.files.acclaim_clips import SPINE
 from tests.refusals import refused
 from tests.strategies import wave
 
-ASF = """:units
-  length 0.45
-:root
-  order TX TY TZ RX RY RZ
-:bonedata
-  begin
-    name {bone}
-    direction 0 1 0
-    length {length}
-    axis 0 0 0 XYZ
-    dof rx
-  end
-:hierarchy
-  root {bone}
-"""
 AMC = "1\nroot 0 0 0 0 0 0\nspine 0\n"
 
 
@@ -39,7 +25,8 @@ def folder(tmp_path):
     def fill(**skeletons):
         (tmp_path / "16_15.amc").write_text(AMC)
         for name, (bone, length) in skeletons.items():
-            (tmp_path / f"{name.strip('_')}.ASF").write_text(ASF.format(bone=bone, length=length))
+            text = SPINE.replace("spine", bone).replace("length 1", f"length {length}")
+            (tmp_path / f"{name.strip('_')}.ASF").write_text(text)
         return tmp_path / "16_15.amc"
 
     return fill
@@ -57,7 +44,7 @@ def folder(tmp_path):
 )
 def test_the_skeleton_that_fits_is_found(folder, skeletons, length):
     motion = load_save.load(folder(**skeletons))
-    assert np.allclose(motion.skeleton.offsets[-1], [0, length * 0.0254 / 0.45, 0])
+    assert np.allclose(motion.skeleton.offsets[-1], [0, length * 0.0254, 0])
     assert motion.name == "16_15"
 
 
@@ -83,16 +70,6 @@ def test_options(folder):
     )
 
 
-@pytest.mark.parametrize("suffix", [".bvh", ".BVH"])
-def test_save_and_load(folder, tmp_path, suffix):
-    motion = load_save.load(folder(a=("spine", 7)))
-    load_save.save(motion, tmp_path / f"b{suffix}")
-    back = load_save.load(tmp_path / f"b{suffix}")
-    assert (back.name, back.fps) == ("b", 120.0)
-    back.skeleton.require_same(motion.skeleton)
-    assert load_save.load(tmp_path / f"b{suffix}", fps=10).fps == 10.0
-
-
 @pytest.mark.parametrize("name", ["gone.amc", "gone.bvh", "folder.bvh", "folder.amc"])
 def test_a_missing_file_or_a_folder_is_refused(tmp_path, name):
     (tmp_path / "folder.bvh").mkdir()
@@ -104,8 +81,7 @@ def test_other_formats_are_refused(folder, tmp_path):
     motion = load_save.load(folder(a=("spine", 1)))
     refused(r"mocap reads .amc .with .asf., .bvh and AMASS .npz", load_save.load, "walk.c3d")
     refused("load_skeleton reads it", load_save.load, "walk.asf")
-    with pytest.raises(MocapError, match=r"mocap writes .bvh and .glb"):
-        load_save.save(motion, tmp_path / "b.fbx")
+    refused(r"mocap writes .bvh and .glb", load_save.save, motion, tmp_path / "b.fbx")
     refused(r"give an .asf file", load_save.load_skeleton, "walk.bvh")
     refused(r"Cannot read walk.GLB: mocap writes .glb, and reads .amc", load_save.load, "walk.GLB")
     refused("All .npz files are in metres: leave out scale=2", load_save.load, "walk.npz", scale=2.0)
@@ -154,12 +130,6 @@ def test_odd_files_load_or_say_why_not(real_data, name, skeleton, result):
         refused(result, load_save.load, real_data / "odd" / name, skeleton=skeleton, kind=FormatError)
 
 
-def test_the_table_of_odd_files_is_whole(real_data):
-    assert {name for name, _, _ in ODD} == {
-        str(path.relative_to(real_data / "odd")) for path in (real_data / "odd").rglob("*.amc")
-    }
-
-
 def listed(real_data):
     """Return all clips that are not odd, and how many frames their list says they have."""
     with (real_data / "MANIFEST.tsv").open(encoding="utf-8", newline="") as file:
@@ -193,8 +163,7 @@ def test_few_numbers_do_not_fill_the_memory(tmp_path):
     head = f"HIERARCHY\nROOT a\n{{\nOFFSET 0 0 0\nCHANNELS 1 Yrotation\n{joints}}}\nMOTION\n"
     (tmp_path / "a.bvh").write_text(f"{head}Frames: 20000\nFrame Time: 0.1\n" + "1\n" * 20000)
     few = "numbers for at least a tenth of the joints, got 20000 for 20020000"
-    with pytest.raises(FormatError, match=few):
-        load_save.load(tmp_path / "a.bvh")
+    refused(few, load_save.load, tmp_path / "a.bvh", kind=FormatError)
 
 
 @pytest.mark.parametrize("count", ["999999999", "1e8"])

@@ -71,8 +71,7 @@ def test_rows_are_read(tmp_path, text):
 )
 def test_a_wrong_line_is_named(tmp_path, text, sentence):
     (tmp_path / "t.csv").write_text(text)
-    with pytest.raises(FormatError, match=sentence):
-        load_rows(tmp_path / "t.csv")
+    refused(sentence, load_rows, tmp_path / "t.csv", kind=FormatError)
 
 
 def test_graphs_and_other_archives_in_a_folder_are_no_clips(tmp_path):

@@ -23,12 +23,6 @@ from mocap.plotting.style import ASKED, COLOURS, MARK, PATH, SOURCES
 from tests.strategies import random_motion, seeds, wave
 
 
-def test_bones_have_a_line_each_and_know_their_side():
-    body = Skeleton(["hips", "lleg", "rleg", "lfoot"], [-1, 0, 0, 1], np.arange(12).reshape(4, 3))
-    starts, ends, sides = bones(body)
-    assert list(zip(starts, ends, sides, strict=True)) == [(0, 1, "middle"), (0, 2, "middle"), (1, 3, "left")]
-
-
 def sides(walk):
     """Give where the left and the right hip of frame 90 are, seen along z."""
     points = joint_positions(walk)[90]

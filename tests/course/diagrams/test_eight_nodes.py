@@ -61,13 +61,6 @@ def test_the_last_state_holds_the_strongly_connected_components(seed):
     assert last.stack == []
 
 
-def test_a_low_link_is_never_above_the_index_nor_below_what_the_stack_holds():
-    graph = EIGHT
-    for state in tarjan_states({node: sorted(graph.successors(node)) for node in graph}):
-        assert all(state.low[node] <= state.number[node] for node in state.number)
-        assert all(state.low[node] >= state.number[state.stack[0]] for node in state.stack)
-
-
 def test_the_picture_shows_numbers_stack_and_complete_components():
     figure = at(16)
     left, right, _ = figure.axes
@@ -158,12 +151,6 @@ def test_the_best_walk_is_marked_in_the_graph_and_the_lengths_stand_beside_the_e
     assert len(thick) == 5
     lengths = [length for row in LENGTHS.values() for length in row.values()]
     assert {f"{length:.1f}" for length in lengths} <= set(names_in(left))
-
-
-def test_in_the_pruned_graph_the_search_has_no_choice():
-    pruned = graphs.prune_graph(EIGHT).graph
-    fates = [event.fate for event in search_events(edge_lengths(pruned), 6, 2, longest=8)]
-    assert fates == ["expanded"] * 5 + ["complete"]
 
 
 def test_a_walk_from_above_lies_over_what_was_tried_and_left_is_left():

@@ -20,7 +20,6 @@ from mocap.course.lab.choices import EACH, LONGEST, around, of_clips, of_graph, 
 from mocap.course.lab.scenes import STEP, packed_clip, packed_skeleton, scene
 from mocap.course.lab.showing import TABS, Inspector, inspector
 from mocap.datasets.samples import sample
-from mocap.errors import MocapError
 from mocap.graphs.compiled_graph import compile_graph
 from mocap.graphs.motion_graph import from_transitions
 from mocap.matching.distance_grids import distance_grid
@@ -30,6 +29,7 @@ from mocap.synthesis.walk_to_motion import seams
 from mocap.widgets.embedding import joined
 from tests.bundled import bundled
 from tests.course.lab.students import written
+from tests.refusals import refused
 
 NOWHERE = np.zeros((0, 2))
 WALKS = [resample(sample(f"walk_curve_{n}"), 30)[:120] for n in (1, 2)]
@@ -78,9 +78,7 @@ def test_where_the_readers_function_fails_the_packages_makes_the_grid(capsys):
     ],
 )
 def test_a_cell_that_is_not_there(at, said):
-    with pytest.raises(MocapError) as refused:
-        of_clips(WALKS, 10, at)
-    assert said in str(refused.value) and len(str(refused.value)) < 200
+    refused(re.escape(said), of_clips, WALKS, 10, at)
 
 
 def test_of_a_graph_the_cheapest_from_each_clip_to_each_clip_can_be_pointed_at(graph):
@@ -91,8 +89,7 @@ def test_of_a_graph_the_cheapest_from_each_clip_to_each_clip_can_be_pointed_at(g
 
 
 def test_a_graph_without_transitions_has_nothing_to_inspect():
-    with pytest.raises(MocapError, match="no transitions"):
-        of_graph(from_transitions(WALKS[:1], [], window=10))
+    refused("no transitions", of_graph, from_transitions(WALKS[:1], [], window=10))
 
 
 def test_seams_of_a_walk_come_with_the_frames_that_the_walk_has_around_them(graph):
@@ -111,8 +108,7 @@ def test_seams_of_a_walk_come_with_the_frames_that_the_walk_has_around_them(grap
 def test_a_walk_without_seams_has_nothing_to_inspect(graph):
     walk = random_walk(graph, seconds=8, seed=3)
     clip = [edge for edge in walk if graph.graph.edges[edge]["kind"] == "clip"][:1]
-    with pytest.raises(MocapError, match="no transition"):
-        of_walk(graph, clip)
+    refused("no transition", of_walk, graph, clip)
 
 
 WALK = WALKS[0][:90]
@@ -215,15 +211,12 @@ def test_a_large_grid_is_sent_in_blocks_that_keep_its_minima():
     ],
 )
 def test_what_cannot_be_shown_gets_one_sentence(what, more, said):
-    with pytest.raises(MocapError) as refused:
-        inspector(*what, **more)
-    assert said in str(refused.value) and len(str(refused.value)) <= 200
+    refused(re.escape(said), inspector, *what, **more)
 
 
 def test_more_than_a_page_can_hold_is_refused_before_anything_is_measured():
     long = resample(sample("walk_circle"), 200)
-    with pytest.raises(MocapError, match=f"holds {LONGEST} frames of clips, not {2 * len(long)}"):
-        inspector(long)
+    refused(f"holds {LONGEST} frames of clips, not {2 * len(long)}", inspector, long)
 
 
 def test_the_scripts_shades_are_those_of_the_pictures():

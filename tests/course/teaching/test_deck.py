@@ -16,7 +16,6 @@ from mocap.course.teaching.deck import deck_file, deck_of
 from mocap.course.teaching.film_script import script_of
 from tests.refusals import refused
 
-WAY = ("00", "01", "02", "03", "04", "05", "06", "07", "08", "09", "10")
 DECKS = sorted((stored() / "slides").glob("*.md"))
 
 

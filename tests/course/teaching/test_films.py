@@ -155,11 +155,3 @@ def test_what_cannot_be_is_one_sentence(notebook, tmp_path, monkeypatch):
     with pytest.raises(ZeroDivisionError):
         films.render_film(notebook, tmp_path / "film.mp4", moving=False)
     assert not list(tmp_path.glob("film*"))
-
-
-@pytest.mark.exhaustive
-def test_a_real_film_with_recordings(tmp_path):
-    from mocap.course.opening import stored
-
-    out = films.render_film(stored() / "06-pruning.ipynb", tmp_path / "film.mp4")
-    assert out.stat().st_size < 5_000_000

@@ -14,15 +14,14 @@ from mocap.course.site import MOVING
 from mocap.course.teaching import slides
 from tests.refusals import refused
 
-NAMES = ("06-pruning",)
+NAME = "06-pruning"
 
 
 @pytest.fixture(scope="module")
 def decks(tmp_path_factory):
     folder, out = tmp_path_factory.mktemp("notebooks"), tmp_path_factory.mktemp("slides")
-    for name in NAMES:
-        shutil.copy(stored() / f"{name}.ipynb", folder)
-        shutil.copytree(stored() / "slides", folder / "slides", dirs_exist_ok=True)
+    shutil.copy(stored() / f"{NAME}.ipynb", folder)
+    shutil.copytree(stored() / "slides", folder / "slides")
     with pytest.MonkeyPatch.context() as patch, redirect_stdout(io.StringIO()) as said:
         patch.setattr(course, "stored", lambda: folder)
         assert main(["course", "slides", "-o", str(out)]) == 0
@@ -30,39 +29,30 @@ def decks(tmp_path_factory):
     return out
 
 
-def test_each_written_deck_is_a_page_that_is_listed(decks):
+@pytest.fixture(scope="module")
+def page(decks):
+    return (decks / f"{NAME}.html").read_text("utf-8")
+
+
+def test_each_written_deck_is_a_page_that_is_listed(decks, page):
     listed = re.findall(r'href="([^"]*)"', (decks / "index.html").read_text("utf-8"))
-    assert listed == [f"{name}.html" for name in NAMES]
-    for name in NAMES:
-        page = (decks / f"{name}.html").read_text("utf-8")
-        assert page.count("<section") == page.count("</section>") > 10
-        assert page.count("<div") == page.count("</div>")
-        assert "$" not in re.sub(r"(?s)<(script|style|pre|code)\b.*?</\1>", "", page)
+    assert listed == [f"{NAME}.html"]
+    assert page.count("<section") == page.count("</section>") > 10
+    assert page.count("<div") == page.count("</div>")
+    assert "$" not in re.sub(r"(?s)<(script|style|pre|code)\b.*?</\1>", "", page)
 
 
-def test_a_deck_loads_only_what_lies_beside_it(decks):
-    for name in NAMES:
-        page = (decks / f"{name}.html").read_text("utf-8")
-        for found in re.findall(r'<(?:script|link|img)[^>]* (?:src|href)="([^"]*)"', page):
-            assert found.startswith("data:") or (decks / found).is_file()
+def test_a_deck_loads_only_what_lies_beside_it_and_links_lead_to_decks_or_are_words(decks, page):
+    for found in re.findall(r'<(?:script|link|img)[^>]* (?:src|href)="([^"]*)"', page):
+        assert found.startswith("data:") or (decks / found).is_file()
+    for link in re.findall(r'<a [^>]*href="([^"]*)"', page):
+        assert link.startswith("https://") or (decks / link).is_file()
     assert "MIT" in (decks / "reveal/dist/reveal.js").read_text("utf-8")[:300]
     assert "Permission is hereby granted" in (decks / "reveal/LICENSE").read_text("utf-8")
 
 
-def test_recordings_move_on_slides_by_the_script_that_moves_them_on_the_site(decks):
-    page = (decks / "06-pruning.html").read_text("utf-8")
+def test_recordings_move_by_the_sites_script_and_only_the_speaker_reads_the_notes(page):
     assert page.count(MOVING.read_text("utf-8")) == 1
-
-
-def test_links_lead_to_decks_or_are_words(decks):
-    for name in NAMES:
-        page = (decks / f"{name}.html").read_text("utf-8")
-        for link in re.findall(r'<a [^>]*href="([^"]*)"', page):
-            assert link.startswith("https://") or (decks / link).is_file()
-
-
-def test_the_speaker_reads_the_notes_and_the_class_does_not(decks):
-    page = (decks / "06-pruning.html").read_text("utf-8")
     shown = re.sub(r'<aside class="notes">.*?</aside>', "", page, flags=re.DOTALL)
     assert "Ask: which part" in page and "Ask: which part" not in shown
 
