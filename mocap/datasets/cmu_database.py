@@ -10,10 +10,13 @@ import csv
 import re
 from functools import cache
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, overload
 
 from mocap.body.motion import Motion
+from mocap.body.skeleton import Skeleton
 from mocap.datasets.downloads import fetch
+from mocap.editing.retargeting import retarget
+from mocap.editing.stances import Stance
 from mocap.errors import MocapError, shortened
 from mocap.files.load_save import load
 
@@ -77,19 +80,40 @@ def trials(subject: int | None = None, kind: str | None = None) -> list[Trial]:
     return found
 
 
-def cmu(clip: str) -> Motion:
-    """Give a trial of the CMU database, at 120 Hz.
+@overload
+def cmu(clip: str, *, skeleton: Skeleton | Stance | None = None) -> Motion: ...
+@overload
+def cmu(
+    *, subject: int | None = None, kind: str | None = None, skeleton: Skeleton | Stance | None = None
+) -> list[Motion]: ...
+def cmu(
+    clip: str | None = None,
+    *,
+    subject: int | None = None,
+    kind: str | None = None,
+    skeleton: Skeleton | Stance | None = None,
+) -> Motion | list[Motion]:
+    """Give a trial of the CMU database, or all trials of a person or a kind, at 120 Hz.
 
-    Each person has a skeleton of their own, and a motion graph needs one for all clips: `editing.retarget`
-    lets one body wear them.
+    Each person has a skeleton of their own, and a motion graph needs one for all clips: `skeleton` lets one
+    body wear them.
 
     Parameters
     ----------
-    clip : a trial's name, such as "16_15"; `trials` lists those of a person or of a kind.
+    clip : a trial's name, such as "16_15".
+    subject : without `clip`, the person's number.
+    kind : without `clip`, a word of the description, such as "walk"; `mocap data list` shows all of them.
+    skeleton : the body that wears the motions, as for `editing.retarget`; by default each person's own. A
+        stance, such as `editing.stance_of(cmu("16_15"))`, also says how high the feet stand.
+
+    Returns
+    -------
+    The motion that `clip` names, else a list of motions.
 
     Raises
     ------
-    MocapError : for a trial that is not listed, or a file that cannot be downloaded, with what to do instead.
+    MocapError : for a trial that is not listed, or a file that cannot be downloaded, with what to do instead;
+        with `skeleton`, for what `editing.retarget` refuses, such as a trial in which a foot never stands.
 
     Examples
     --------
@@ -99,11 +123,16 @@ def cmu(clip: str) -> Motion:
 
     Notebook: 10-real-data
     """
-    subject_folder = clip.split("_")[0]
-    if f"{subject_folder}/{clip}.amc" not in _registry():
-        raise MocapError(f"No trial '{clip}' is listed; `mocap data list` shows those that are.")
-    asf = fetch_listed(f"{subject_folder}/{subject_folder}.asf")
-    return load(fetch_listed(f"{subject_folder}/{clip}.amc"), skeleton=asf, fps=120.0)
+    if clip is not None:
+        subject_folder = clip.split("_")[0]
+        if f"{subject_folder}/{clip}.amc" not in _registry():
+            raise MocapError(f"No trial '{clip}' is listed; `mocap data list` shows those that are.")
+        asf = fetch_listed(f"{subject_folder}/{subject_folder}.asf")
+        motion = load(fetch_listed(f"{subject_folder}/{clip}.amc"), skeleton=asf, fps=120.0)
+        return motion if skeleton is None else retarget(motion, skeleton)
+    if subject is None and kind is None:
+        raise MocapError('Which trials? Name one, as in cmu("16_15"), or give subject= or kind=.')
+    return [cmu(trial.name, skeleton=skeleton) for trial in trials(subject, kind)]
 
 
 def fetch_listed(name: str) -> Path:

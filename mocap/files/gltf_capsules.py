@@ -63,9 +63,8 @@ def body(skeleton: Skeleton) -> tuple[Array, Array, Indices, Indices]:
     """
     longest = reaches(skeleton)[0] or 1.0
     pieces = list(_pieces(skeleton, longest)) or [(0, np.zeros(3), np.zeros(3), THICK * longest)]
-    places, normals = np.array([_capsule(*piece) for _, *piece in pieces]).swapaxes(
-        0, 1
-    )  # (P, V / P, 3) each
+    capsules = [_capsule(start, bone, radius) for _, start, bone, radius in pieces]
+    places, normals = np.swapaxes(capsules, 0, 1)  # (P, V / P, 3) each
     count = places.shape[1]
     corner = np.arange(count).reshape(len(RINGS), AROUND)
     below, above = corner[:-1], corner[1:]
