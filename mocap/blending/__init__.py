@@ -28,10 +28,10 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "weights": ["cubic_weights", "linear_weights", "sine_weights"],
-        "joining": ["blend", "draw_stretches", "inertialize", "join", "lay_window_on"],
+        "joining": ["blend", "inertialize", "join", "lay_window_on"],
         "timewarps": ["Curve", "fit_curve"],
         "clocks": ["clock_speed", "frame_times", "match_contacts"],
         "mixing": ["Course", "crossfade", "ground_course", "mix"],
-        "registering": ["Warp", "register"],
+        "registering": ["register"],
     },
 )

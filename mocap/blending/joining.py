@@ -4,7 +4,6 @@ A pair of windows is given as `matching` counts them: frame i of one clip and fr
 that look alike.
 """
 
-from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -16,7 +15,6 @@ from mocap.body import rotations
 from mocap.body.motion import Motion, concatenate, gather_marks, require_alike
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import align, point_cloud
-from mocap.matching.transitions import find_transitions
 
 
 def blend(a: Motion, b: Motion, weights: ArrayLike) -> Motion:
@@ -111,9 +109,7 @@ def splice(a: Motion, i: int, middle: Motion, b: Motion, j: int) -> Motion:
     return concatenate(parts, name=f"{a.name} to {b.name}")
 
 
-def join(  # noqa: PLR0913 (two moments, and how to pass from one to the other)
-    a: Motion, i: int, b: Motion, j: int, window: int, *, weights: Callable[[int], Array] = cubic_weights
-) -> Motion:
+def join(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
     """Pass from one motion into another by blending two windows [KGP02, 3.3], [WP95, joining].
 
     Frames a[:i] as they are; then a[i : i+k] mixed with b[j : j+k]; then b[j+k :]. b is first laid on a by
@@ -125,7 +121,6 @@ def join(  # noqa: PLR0913 (two moments, and how to pass from one to the other)
     a, i : the motion to leave, and the first frame of the window in it.
     b, j : the motion to enter, and the first frame of the window in it.
     window : frames k of the transition.
-    weights : a function that gives for k the weights of `a`, shape (k,): one of this room's, or your own.
 
     Returns
     -------
@@ -133,8 +128,7 @@ def join(  # noqa: PLR0913 (two moments, and how to pass from one to the other)
 
     Raises
     ------
-    SkeletonMismatch, MocapError : for different skeletons or rates, windows that run off a clip, and
-        weights outside [0, 1].
+    SkeletonMismatch, MocapError : for different skeletons or rates, and windows that run off a clip.
 
     Examples
     --------
@@ -149,7 +143,7 @@ def join(  # noqa: PLR0913 (two moments, and how to pass from one to the other)
     Notebook: 04-blending
     """
     b = lay_window_on(a, i, b, j, window)
-    mixed = blend(a[i : i + window], b[j : j + window], weights(window))
+    mixed = blend(a[i : i + window], b[j : j + window], cubic_weights(window))
     return splice(a, i, mixed, b, j + window)
 
 
@@ -214,52 +208,3 @@ def _decay(offsets: Array, cut: int, window: int) -> Array:
     drift = np.gradient(offsets, axis=0)[cut] * window if len(offsets) > 1 else 0 * start  # v T
     u = (np.arange(window) / window).reshape(-1, *np.ones(start.ndim, int))
     return np.asarray((1 - u) ** 4 * (start + (4 * start + drift) * u))
-
-
-def draw_stretches(
-    clips: Sequence[Motion], count: int, *, window: int, below: float, reach: int
-) -> list[tuple[Motion, Motion]]:
-    """Draw pairs of stretches whose middles match, the second aligned with the first.
-
-    What one pair shows may be an accident. A claim about blends needs many pairs, drawn by chance.
-
-    Parameters
-    ----------
-    clips : motions of one skeleton and one frame rate; a pair comes from two of them.
-    count : how many pairs.
-    window, below : of the matches, as for `matching.find_transitions`.
-    reach : frames before and after the middle of the matched window.
-
-    Returns
-    -------
-    `count` different pairs, the same ones in each call: motions of 2 · reach frames each.
-
-    Raises
-    ------
-    MocapError : where there are fewer matches with so many frames around them.
-
-    Examples
-    --------
-    >>> from mocap.datasets.samples import sample
-    >>> clips = [sample(name)[:480] for name in ("walk_curve_1", "walk_curve_2")]
-    >>> pairs = draw_stretches(clips, 3, window=40, below=0.05, reach=60)
-    >>> [(len(a), len(b)) for a, b in pairs]
-    [(120, 120), (120, 120), (120, 120)]
-
-    Notebook: 04b-feet
-    """
-    found = find_transitions(clips, window=window, below=below)
-    lengths, half = np.array([len(clip) for clip in clips]), window // 2
-    before = np.minimum(found.leave, found.enter) + half
-    after = np.minimum(lengths[found.source] - found.leave, lengths[found.target] - found.enter) - half
-    fit = np.flatnonzero((found.source != found.target) & (before >= reach) & (after >= reach))
-    if len(fit) < count:
-        have = f"{len(fit)} matches have {reach} frames before and after their middles"
-        raise MocapError(f"{have}; {count} were asked for.")
-    drawn = np.random.default_rng(0).choice(fit, count, replace=False)
-    pairs = []
-    for source, leave, target, enter, _, transform in (found[int(n)] for n in drawn):
-        low, high = half - reach, half + reach
-        a, b = (clips[c][at + low : at + high] for c, at in ((source, leave), (target, enter)))
-        pairs.append((a, transform.apply_motion(b)))
-    return pairs

@@ -166,21 +166,20 @@ def poses(
     return np.stack([x, height, z], axis=-1), mean
 
 
-def crossfade(registration: Registration, *, seconds: float = 1.0, at: float | None = None) -> Motion:
+def crossfade(registration: Registration, *, seconds: float = 1.0) -> Motion:
     """Pass from the reference to the other clip, from the first frame of the one to the last of the other.
 
     In the paper: [KG03, transition].
 
     A transition by registration curves [KG03]: while `mix` plays, the weight of the other clip rises as
     3 s² - 2 s³ [KGP02, Eq. 7]. `join` mixes frame i with frame i, which is right for a third of a second
-    around two moments that match. Here both clips stay in step and on one course, so the fade may be long and
-    may lie anywhere in the span.
+    around two moments that match. Here both clips stay in step and on one course, so the fade may be long. It
+    lies in the middle of the span.
 
     Parameters
     ----------
     registration : of two clips.
     seconds : how long the fade takes on the common clock, which is the reference's.
-    at : the middle of the fade on this clock, seconds; by default in the middle of the span.
 
     Returns
     -------
@@ -205,7 +204,7 @@ def crossfade(registration: Registration, *, seconds: float = 1.0, at: float | N
     if len(registration.clips) != 2:
         raise MocapError(f"A crossfade needs two registered clips, got {len(registration.clips)}.")
     first, last = registration.span
-    middle = (first + last) / 2 if at is None else at
+    middle = (first + last) / 2
     if not (np.isfinite(seconds) and seconds > 0):
         raise MocapError(f"A fade must last longer than 0 s, got {seconds} s.")
     start, stop = middle - seconds / 2, middle + seconds / 2

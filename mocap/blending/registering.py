@@ -1,7 +1,6 @@
 """Registration [KG03]: which frames of several clips belong together, and how they lie on one another."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -27,37 +26,22 @@ UNLIKE, QUICK = 0.12, 0.06
 # than this, times and metres per second, a warning tells.
 SKATES, FASTER = 1.4, 0.01
 
-# Spacings to try before the warp's own, as multiples of it; the first is a straight line. The first is taken
-# whose mean distance is at most so many times that of the warp's own knots, with which the pace of two even
-# walks wobbles by a fifth. Clips that are cut alike take the warp's own: a straight line through nine punches
+RATE = 30.0  # frames per second that are compared, or the nearest rate that takes each n-th frame
+WINDOW = 5  # frames, at this rate
+SPACING = 0.3  # seconds between the knots of the curves; those of time may be farther apart
+
+# Spacings to try before this one, as multiples of it; the first is a straight line. The first is taken
+# whose mean distance is at most so many times that of the closest knots, with which the pace of two even
+# walks wobbles by a fifth. Clips that are cut alike take the closest: a straight line through nine punches
 # makes blends miss their targets by 8 mm, where these miss by 5.
 SPACINGS, AS_GOOD = (np.inf, 8.0, 4.0, 2.0), 1.06
-
-
-class Warp(NamedTuple):
-    """How to register clips.
-
-    rate : frames per second that are compared, or the nearest rate that takes each n-th frame of the clips.
-    window : frames of a window, at this rate.
-    slope : how many frames of one clip may pass in a row while the other stands: its pace stays between
-        1 / (slope + 1) and slope + 1 times the other's.
-    spacing : seconds between the knots of the curves; those of time may be farther apart.
-
-    Notebook: 15-registration
-    """
-
-    rate: float = 30.0
-    window: int = 5
-    slope: int = 2
-    spacing: float = 0.3
-
 
 _Pair = tuple[Curve, Curve, tuple[float, float], float]
 """A clip registered on the reference: its curves of time and angle, where they hold, and the path's mean."""
 
 
 def register(
-    clips: Sequence[Motion], *, reference: int = 0, slack: float = 1.2, warp: Warp | None = None
+    clips: Sequence[Motion], *, reference: int = 0, slack: float = 1.2, slope: int = 2
 ) -> Registration:
     """Find which frames of several clips belong together, and how they lie on one another [KG03, alignment].
 
@@ -81,7 +65,8 @@ def register(
     reference : the number of the clip whose clock is the common one.
     slack : seconds that one clip may start or end before the other; at most half of the shortest clip, and
         less where less than half of it would be in common. 0 for clips cut alike, at strikes for example.
-    warp : `Warp()` by default.
+    slope : how many frames of one clip may pass in a row while the other stands: its pace stays between
+        1 / (slope + 1) and slope + 1 times the other's.
 
     Returns
     -------
@@ -106,9 +91,8 @@ def register(
 
     Notebook: 15-registration
     """
-    warp = warp or Warp()
     clips = require_alike(clips)
-    step = _checked(clips, reference, slack, warp)
+    step = _checked(clips, reference, slack)
     rate = clips[0].fps / step
     clouds = [point_cloud(clip[::step]) for clip in clips]
     shortest = min(clip.duration for clip in clips)
@@ -117,7 +101,7 @@ def register(
         pairs = [
             _identity(clip)
             if n == reference
-            else _register_pair(clouds[reference], cloud, rate, warp, frames)
+            else _register_pair(clouds[reference], cloud, rate, slope, frames)
             for n, (clip, cloud) in enumerate(zip(clips, clouds, strict=True))
         ]
         times, angles, holds, costs = zip(*pairs, strict=True)
@@ -127,46 +111,44 @@ def register(
         if not frames or span[1] - span[0] >= shortest / 2:
             break
         frames //= 2
-    centres = tuple(_window_centres(clip, warp.window / rate) for clip in clips)
+    centres = tuple(_window_centres(clip, WINDOW / rate) for clip in clips)
     plants, means = match_contacts(clips, times, span), frozen(costs, np.float64)
     found = Registration(clips, reference, times, angles, centres, span, means, plants)
     _warn(found, rate, alike=slack == 0)
     return found
 
 
-def _checked(clips: Sequence[Motion], reference: int, slack: float, warp: Warp) -> int:
-    """Check what `register` is given; return how many frames make one step at the warp's rate."""
+def _checked(clips: Sequence[Motion], reference: int, slack: float) -> int:
+    """Check what `register` is given; return how many frames make one step at `RATE`."""
     if len(clips) < 2:
         raise MocapError(f"A registration needs two clips or more, got {len(clips)}.")
     if reference not in range(len(clips)):
         raise MocapError(f"The reference is one of the clips 0 to {len(clips) - 1}, got {reference}.")
-    if not (np.isfinite(warp.rate) and warp.rate > 0):
-        raise MocapError(f"A rate must be above 0, got {warp.rate}.")
     if not 0 <= slack < np.inf:
         raise MocapError(f"Slack is 0 s or more, got {slack} s.")
     shortest = min(clips, key=len)
-    step = max(round(clips[0].fps / warp.rate), 1)
-    check_window(warp.window, -(-len(shortest) // step), f"'{shortest.name}', at {warp.rate:g} Hz,")
+    step = max(round(clips[0].fps / RATE), 1)
+    check_window(WINDOW, -(-len(shortest) // step), f"'{shortest.name}', at {RATE:g} Hz,")
     return step
 
 
-def _register_pair(ours: Array, theirs: Array, rate: float, warp: Warp, slack: int) -> _Pair:
-    """Register the points of a clip on those of the reference, both at the warp's rate."""
-    grid = np.sqrt(distance_grid(ours, theirs, window=warp.window))
-    path = time_path(grid, slope=warp.slope, slack=min(slack, min(grid.shape) - 1))
-    half = (warp.window - 1) / 2
+def _register_pair(ours: Array, theirs: Array, rate: float, slope: int, slack: int) -> _Pair:
+    """Register the points of a clip on those of the reference, both at the same rate."""
+    grid = np.sqrt(distance_grid(ours, theirs, window=WINDOW))
+    path = time_path(grid, slope=slope, slack=min(slack, min(grid.shape) - 1))
+    half = (WINDOW - 1) / 2
     u, own = (path.T + half) / rate
-    bounds = {"least": 1 / (warp.slope + 1), "most": warp.slope + 1.0}
-    times = fit_curve(u, own, spacing=warp.spacing, **bounds)
+    bounds = {"least": 1 / (slope + 1), "most": slope + 1.0}
+    times = fit_curve(u, own, spacing=SPACING, **bounds)
     enough = AS_GOOD * _mean_along(grid, times, rate, half)
     wide = SPACINGS if slack else ()
-    fewer = (fit_curve(u, own, spacing=wider * warp.spacing, **bounds) for wider in wide)
+    fewer = (fit_curve(u, own, spacing=wider * SPACING, **bounds) for wider in wide)
     times = next((curve for curve in fewer if _mean_along(grid, curve, rate, half) <= enough), times)
-    frames = np.arange(warp.window)
+    frames = np.arange(WINDOW)
     clouds = zip((ours, theirs), path.T, strict=True)
     a, b = (points[cells[:, None] + frames].reshape(len(path), -1, 3) for points, cells in clouds)
     # The angle that lays each window on its partner, without jumps of whole turns.
-    angles = fit_curve(u, np.unwrap(np.asarray(align(a, b).angle)), spacing=warp.spacing)
+    angles = fit_curve(u, np.unwrap(np.asarray(align(a, b).angle)), spacing=SPACING)
     # Clips cut alike go on to their ends: the last half window, and the frames that the rate left out.
     beyond = 0.0 if slack else (half + 1) / rate
     return times, angles, (u[0] - beyond, u[-1] + beyond), path_mean(grid, path)

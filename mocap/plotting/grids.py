@@ -12,7 +12,8 @@ from matplotlib.image import AxesImage
 from matplotlib.patheffects import Normal, Stroke
 from numpy.typing import ArrayLike, NDArray
 
-from mocap.blending import Curve, Warp
+from mocap.blending import Curve
+from mocap.blending.registering import RATE, WINDOW
 from mocap.plotting.style import PATH, QUIET
 
 Grid = NDArray[np.floating[Any]]
@@ -100,8 +101,8 @@ def warp_image(grid: Grid, path: ArrayLike, *, curve: Curve | None = None, ax: A
 
     Parameters
     ----------
-    grid : √D, shape (n, m), metres, by the rate and the window of `Warp()`; rows are the windows of the
-        reference. The axes show the seconds in the middle of each window.
+    grid : √D, shape (n, m), metres, by the rate and the window of `blending.register`; rows are the windows
+        of the reference. The axes show the seconds in the middle of each window.
     path : its cells (row, column), shape (N, 2), drawn as dots.
     curve : from the reference's seconds to the other clip's, drawn where the path is.
     ax : axes; new ones by default.
@@ -115,9 +116,10 @@ def warp_image(grid: Grid, path: ArrayLike, *, curve: Curve | None = None, ax: A
     Notebook: 15-registration
     """
     ax = ax or plt.figure(figsize=(4.8, 4.4), layout="constrained").add_subplot()
-    fps, window, *_ = Warp()
-    half = (window / 2 - 1) / fps  # from the start of the first window to the edge of its cell, in its middle
-    _centimetres(100 * np.asarray(grid), path, (fps, half), ax)
+    half = (
+        WINDOW / 2 - 1
+    ) / RATE  # from the start of the first window to the edge of its cell, in its middle
+    _centimetres(100 * np.asarray(grid), path, (RATE, half), ax)
     ax.lines[-1].set_markersize(2.5)
     if curve is not None:
         u = np.asarray(ax.lines[-1].get_ydata())

@@ -219,7 +219,8 @@ def fade(**settings):
 test_what_is_no_fade_is_refused = refusals(
     ("longer than 0 s, got 0", lambda: fade(seconds=0)),
     ("longer than 0 s, got nan", lambda: fade(seconds=np.nan)),
-    ("does not lie within", lambda: fade(seconds=99.0)),
-    (r"A fade from -0.40 to 0.60 s does not lie within the \d.\d\d to \d.\d\d s", lambda: fade(at=0.1)),
-    ("does not lie within", lambda: fade(at=np.nan)),
+    (
+        r"A fade from -\d+.\d\d to \d+.\d\d s does not lie within the \d.\d\d to \d.\d\d s",
+        lambda: fade(seconds=99.0),
+    ),
 )

@@ -9,7 +9,7 @@ Reading order (notebook 17)
 ---------------------------
 1. `examples`: examples of one action, such as punches, on one grid of phases
 2. `strides`: strides and steps, cut where feet strike; from one kind into another over a stride
-3. `stride_spaces`: ask for a turn and a speed, and get the weights of a blend
+3. `stride_spaces`: ask for a turn, and get the weights of a blend that has it
 4. `made_motions`: motions made out of mixes, and where to leave one and enter another
 5. `parametric_edges`: boxes of targets that may follow; spaces and edges as a graph
 6. `parametric_control`: a character that decides once per stride

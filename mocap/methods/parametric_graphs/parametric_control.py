@@ -16,10 +16,11 @@ from mocap.errors import MocapError, NoWalk
 from mocap.matching.point_clouds import align
 from mocap.methods.parametric_graphs.made_motions import HALF, WINDOW, make_motion
 from mocap.methods.parametric_graphs.parametric_edges import ParametricGraph, Way
-from mocap.methods.parametric_graphs.stride_spaces import PARAMETERS, Space
+from mocap.methods.parametric_graphs.stride_spaces import Space
 from mocap.steering.characters import Pose, require_command
 
 TARGET = ("left", "up", "ahead")  # the parameters of a place of the world, as the body sees it at phase 0
+COMMANDED = ("turn", "speed")  # the parameters that a command sets
 ROUNDS = 8  # of asking for a place, at most: where a motion comes to lie depends on what is asked
 CLOSE = 0.002  # metres: then no more rounds
 
@@ -156,7 +157,7 @@ class ParametricController:
         node = self._towards(label, heading, speed)
         space, way, place = self.graph.space(node), self.way[node], self.end
         taken = np.full(len(way.low), np.inf)
-        for number in range(1 if set(space.parameters) <= set(PARAMETERS) else ROUNDS):
+        for number in range(1 if set(space.parameters) <= set(COMMANDED) else ROUNDS):
             wished = self._wish(space, place, heading, speed)
             asked = np.where(np.isnan(wished), (way.low + way.high) / 2, wished)
             goal = np.clip(asked, way.low, way.high)
@@ -200,7 +201,7 @@ class ParametricController:
     def _walks(self, node: str) -> bool:
         """Say whether a node obeys commands, and one that does may follow it."""
         nodes = [node, *self.graph.graph.successors(node)]
-        walks = [not set(self.graph.space(one).parameters).isdisjoint(PARAMETERS) for one in nodes]
+        walks = [not set(self.graph.space(one).parameters).isdisjoint(COMMANDED) for one in nodes]
         return walks[0] and any(walks[1:])
 
     def _missed(self, node: str, heading: float, speed: float) -> float:

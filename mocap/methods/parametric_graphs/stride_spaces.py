@@ -1,14 +1,11 @@
-"""A space of strides: ask for a turn and a speed, and get the weights of a blend that has them [KG04].
+"""A space of strides: ask for a turn, and get the weights of a blend that has it [KG04].
 
 It is a `match_webs.MotionSpace` like that of any motion (`match_webs.sample_space`), but its samples are
-bells about what is asked: many strides fill few parameters. Few examples of many parameters are blended d + 1
-at a time.
+bells about the turn that is asked: many strides fill one parameter. Few examples of many parameters are
+blended d + 1 at a time.
 """
 
-from collections.abc import Sequence
-
 import numpy as np
-from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
 from mocap.errors import MocapError
@@ -18,12 +15,11 @@ from mocap.methods.parametric_graphs.examples import Examples, mixed_way
 
 Space = MotionSpace[Examples]
 
-PARAMETERS = ("turn", "speed")
 SMALLEST = 1e-3  # a bell's weight below this share of the largest counts as 0
-SAMPLES = 120, 400  # of a space asked by one parameter, and by two
+SAMPLES = 120  # of a space
 
 
-def bell_weights(values: Array, asked: Array, width: Array) -> Array:
+def bell_weights(values: Array, asked: Array, width: Array | float) -> Array:
     """Weigh all examples by a bell: w ∝ exp(-|(λ - λ_i) / h|² / 2), (M, N) [ours; HG07 takes the k nearest].
 
     With the k nearest raw strides, a change of 2° in what is asked changes the clip by 3 cm on average; with
@@ -62,14 +58,7 @@ def measure_mixes(strides: Examples, weights: Array) -> Array:
     return np.stack([turn, way / (weights @ strides.seconds)[:, one]], axis=-1)
 
 
-def make_space(
-    strides: Examples,
-    width: ArrayLike,
-    low: ArrayLike,
-    high: ArrayLike,
-    *,
-    parameters: Sequence[str] = ("turn",),
-) -> Space:
+def make_space(strides: Examples, width: float, low: float, high: float) -> Space:
     """Sample mixes all over the range, measure what each comes to, and keep both [KG04], for [HG07, nodes].
 
     A bell's mix does not come to what was asked, by 4° on average. Looked up among what the samples come to
@@ -78,14 +67,13 @@ def make_space(
     Parameters
     ----------
     strides : N examples.
-    width : of the bell for each parameter, (d,): radians, m/s; about 14° and 0.15 m/s for captured strides.
-    low, high : the range asked for, (d,); it is cut to what the samples come to.
-    parameters : what it is asked by, d of "turn" and "speed".
+    width : of the bell, radians; about 14° for captured strides.
+    low, high : the range of turns asked for, radians; it is cut to what the samples come to.
 
     Raises
     ------
-    MocapError : for unknown parameters, a range that is none or holds too few samples, a width that is not
-        above 0, fewer strides than d + 2, and strides that do not vary.
+    MocapError : for a range that is none or holds too few samples, fewer strides than three, and strides that
+        do not vary.
 
     Examples
     --------
@@ -100,37 +88,24 @@ def make_space(
 
     Notebook: 17-parametric-graphs
     """
-    names, columns = tuple(parameters), [PARAMETERS.index(name) for name in parameters if name in PARAMETERS]
-    if not names or len(set(columns)) < len(names):
-        raise MocapError(f"A space is asked by 'turn', 'speed' or both, got {', '.join(names) or 'none'}.")
-    lowest, highest, width = (np.atleast_1d(np.asarray(value, float)) for value in (low, high, width))
-    if not (lowest < highest).all():
-        raise MocapError(f"A range has ends low < high, got {lowest} and {highest}.")
-    values = strides.values[:, columns]
-    if len(values) < len(names) + 2 or (np.ptp(values, axis=0) < width / 2).any():
-        takes = f"{' and '.join(names)} takes {len(names) + 2} strides or more that vary"
-        got = f"{len(values)} with {_spans(names, values)}"
-        raise MocapError(f"A space asked by {takes}, got {got}: add clips, or ask by something else.")
-    if len(names) == 1:
-        asked = np.linspace(lowest - width, highest + width, SAMPLES[0])
-    else:
-        random = np.random.default_rng(0)
-        around = values[random.integers(len(values), size=SAMPLES[1])]
-        asked = around + random.normal(size=around.shape) * width
-    mixes = bell_weights(values, asked, width)
-    come = measure_mixes(strides, mixes)[:, columns]
-    lowest, highest = np.maximum(lowest, come.min(axis=0)), np.minimum(highest, come.max(axis=0))
-    scale = np.maximum((highest - lowest) / 2, 1e-9)
-    space = MotionSpace(strides, mixes, come, scale, names, lowest, highest)
-    if len(space.reached) < len(names) + 2:
-        inside = f"{len(space.reached)} of {len(asked)}"
-        raise MocapError(f"Only {inside} samples lie in the range: they come to {_spans(names, come)}.")
+    if not low < high:
+        raise MocapError(f"A range has ends low < high, got {low} and {high}.")
+    values = strides.values[:, :1]
+    if len(values) < 3 or np.ptp(values) < width / 2:
+        got = f"{len(values)} with a turn of {_span(values)}"
+        raise MocapError(f"A space takes 3 strides or more that vary, got {got}: add clips.")
+    mixes = bell_weights(values, np.linspace(low - width, high + width, SAMPLES)[:, None], width)
+    come = measure_mixes(strides, mixes)[:, :1]
+    ends = np.array([[max(low, come.min())], [min(high, come.max())]])
+    space = MotionSpace(strides, mixes, come, np.maximum((ends[1] - ends[0]) / 2, 1e-9), ("turn",), *ends)
+    if len(space.reached) < 3:
+        inside = f"{len(space.reached)} of {SAMPLES} samples"
+        raise MocapError(f"Only {inside} lie in the range: they come to a turn of {_span(come)}.")
     return space
 
 
-def _spans(names: tuple[str, ...], values: Array) -> str:
-    ends = zip(names, values.min(axis=0), values.max(axis=0), strict=True)
-    return " and ".join(f"a {name} of {said(name, low)} to {said(name, high)}" for name, low, high in ends)
+def _span(turns: Array) -> str:
+    return f"{said('turn', turns.min())} to {said('turn', turns.max())}"
 
 
 def said(name: str, value: float) -> str:

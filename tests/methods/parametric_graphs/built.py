@@ -10,7 +10,7 @@ import numpy as np
 from mocap.body import joint_positions, rotations
 from mocap.body.motion import Motion, resample
 from mocap.datasets import samples
-from mocap.methods.match_webs import hand_target, random_weights, sample_space, weights_for
+from mocap.methods.match_webs import hand_target, mean_speed, random_weights, sample_space, turn, weights_for
 from mocap.methods.parametric_graphs import Sampling, build_parametric, cut_actions, cut_strides, make_space
 from mocap.methods.parametric_graphs.made_motions import optimal_transitions
 from mocap.methods.parametric_graphs.parametric_control import TARGET, ParametricController
@@ -21,7 +21,6 @@ from mocap.methods.parametric_graphs.strides import changing_strides
 WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
 SMALL = Sampling(sources=12, targets=120)
 SHARE = {"lrl": 1.0, "lr": 0.55, "rl": 0.55}  # a step turns by half of what a stride does, or little more
-BOTH = ("turn", "speed")
 
 
 @cache
@@ -60,8 +59,11 @@ def space(feet="lrl"):
 
 
 @cache
-def by_turn_and_speed(width=(0.2, 0.1), low=(-0.6, 0.7), high=(0.6, 0.85)):
-    return make_space(strides(), width, low, high, parameters=BOTH)
+def by_turn_and_speed():
+    """Strides asked by two numbers, blended three at a time."""
+    return sample_space(
+        strides(), lambda blend: [turn(blend), mean_speed(blend)], parameters=("turn", "speed")
+    )
 
 
 @cache
@@ -112,9 +114,9 @@ def arm_moved(clip, middle, shoulder, elbow):
     """Turn the right arm of a clip about a moment, and back again."""
     share = np.exp(-((np.arange(len(clip)) - middle)[:, None] ** 2) / 50)
     turns = clip.rotations.copy()
-    for joint, turn in (("rhumerus", shoulder), ("rradius", elbow)):
+    for joint, bent in (("rhumerus", shoulder), ("rradius", elbow)):
         one = clip.skeleton.index(joint)
-        turns[:, one] = rotations.multiply(turns[:, one], rotations.from_rotvec(share * turn))
+        turns[:, one] = rotations.multiply(turns[:, one], rotations.from_rotvec(share * bent))
     return replace(clip, rotations=turns)
 
 
