@@ -7,15 +7,17 @@ from pathlib import Path
 
 import matplotlib
 import pytest
+from coverage import Coverage
 from hypothesis import HealthCheck, settings
 
 matplotlib.use("agg")
 SWEEP = bool(os.environ.get("MOCAP_SWEEP"))  # .ci/run tries more of everything
 
-# A busy machine is no failure.
-settings.register_profile(
-    "house", max_examples=100 if SWEEP else 20, deadline=None, suppress_health_check=[HealthCheck.too_slow]
-)
+# A busy machine is no failure. `few` is for other versions of libraries: that a call has gone shows at once.
+for profile, count in {"house": 100 if SWEEP else 20, "few": 5}.items():
+    settings.register_profile(
+        profile, max_examples=count, deadline=None, suppress_health_check=[HealthCheck.too_slow]
+    )
 settings.load_profile("house")
 
 # What takes a second or more, by `pytest --durations=0`, and the longest notebooks: a sweep runs them.
@@ -24,19 +26,31 @@ ASKED_FOR = ("benchmark", "exhaustive", *(() if SWEEP else ("sweep", "tools")))
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave out what takes long, unless `-m` or a sweep asks for it.
-
-    Sweeps run without coverage: they reach next to no lines that quick tests do not. Those of the course do.
-    """
+    """Leave out what takes long, unless `-m` or a sweep asks for it."""
     for item in items:
         if LONG & {item.nodeid.partition("[")[0], item.nodeid.partition("::")[0]}:
             item.add_marker(pytest.mark.sweep)
-        if item.get_closest_marker("sweep") and "/course/" not in item.nodeid:
-            item.add_marker(pytest.mark.no_cover)
     names = [name for name in ASKED_FOR if name not in config.option.markexpr]
     out = [item for item in items if any(item.get_closest_marker(name) for name in names)]
     items[:] = [item for item in items if item not in out]
     config.hook.pytest_deselected(items=out)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
+    """Measure no coverage of what draws examples or takes long, nor of its fixtures, but in the course.
+
+    It would be half as slow again, and reaches next to no lines that quick tests do not.
+    """
+    drawn = getattr(getattr(item, "obj", None), "is_hypothesis_test", False)
+    long = item.get_closest_marker("sweep") and "/course/" not in item.nodeid
+    measured = Coverage.current() if drawn or long else None
+    if measured:
+        measured.stop()
+    done = yield
+    if measured:
+        measured.start()
+    return done
 
 
 def pytest_collection_finish(session: pytest.Session) -> None:

@@ -87,7 +87,7 @@ class Motion:
         if np.shape(mark) not in ((), (len(self),)):
             mark_of = f"Motion '{self.name}': mark '{name}'"
             raise MocapError(f"{mark_of} needs {len(self)} booleans, got shape {np.shape(mark)}.")
-        return frozen(np.broadcast_to(np.asarray(mark, bool), (len(self),)), np.bool_)
+        return frozen(np.asarray(mark, bool) | np.zeros(len(self), bool), np.bool_)
 
     def __len__(self) -> int:
         return len(self.root_positions)

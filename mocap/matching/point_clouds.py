@@ -24,9 +24,11 @@ def distinct_joints(skeleton: Skeleton) -> list[int]:
 
     Notebook: 02b-distance-grids
     """
-    places = np.round(skeleton.offsets * 1e9).astype(int)  # in whole nanometres
-    _, first = np.unique(np.column_stack([skeleton.parents, places]), axis=0, return_index=True)
-    return [joint for joint in sorted(first.tolist()) if joint == 0 or places[joint].any()]
+    places = np.round(skeleton.offsets * 1e9).astype(int).tolist()  # in whole nanometres
+    first: dict[tuple[int, ...], int] = {}
+    for joint, parent in enumerate(skeleton.parents.tolist()):
+        first.setdefault((parent, *places[joint]), joint)
+    return [joint for joint in first.values() if joint == 0 or any(places[joint])]
 
 
 def point_cloud(motion: Motion) -> Array:
