@@ -1,4 +1,7 @@
-"""Experiments and players in JupyterLab, as a reader meets them: one notebook, run once for all tests."""
+"""The course in JupyterLab, as a reader meets it: most tests share one notebook that is run once.
+
+All notebooks of the course, in five minutes: pytest -m "exhaustive or not exhaustive" -n 0 -k all_its_sliders
+"""
 
 from textwrap import dedent
 
@@ -9,8 +12,10 @@ import pytest
 from mocap.blending import register
 from mocap.datasets import sample
 from mocap.widgets import Mixer
+from tests.browser import test_questions as questions
 from tests.browser.conftest import keep, run_notebook, wait_until, watched_page
 from tests.browser.test_blind import take
+from tests.course.stored_notebooks import FOLDER
 
 CELLS = {
     "start": """
@@ -80,18 +85,28 @@ CELLS = {
         both = blending.register([datasets.sample(f"walk_5m_1.1_{turn}") for turn in (-120, 120)])
         mixer = Mixer(both, [1, 0])
         mixer""",
+    "steer": """
+        import math
+        from mocap.widgets import steered
+        from mocap.widgets.embedding import joined
+        from tests.widgets.steerable import Dot
+        steered({"quick": Dot(), "slow": Dot(0.7)})""",
 }
 PLAYER = ".mocap-player:visible"
+
+
+def written(cells):
+    """Write a notebook of cells."""
+    kernel = {"name": "python3", "display_name": "Python 3"}
+    return nbformat.writes(nbformat.v4.new_notebook(cells=cells, metadata={"kernelspec": kernel}))
 
 
 @pytest.fixture(scope="module")
 def ran(browser, lab):
     """Run a notebook of all cells; yield the page and its faults."""
-    cells = [nbformat.v4.new_code_cell(dedent(text).strip()) for text in CELLS.values()]
-    kernel = {"name": "python3", "display_name": "Python 3"}
-    notebook = nbformat.v4.new_notebook(cells=cells, metadata={"kernelspec": kernel})
+    notebook = written([nbformat.v4.new_code_cell(dedent(text).strip()) for text in CELLS.values()])
     with watched_page(browser) as (page, faults):
-        run_notebook(lab, page, nbformat.writes(notebook), "all.ipynb")
+        run_notebook(lab, page, notebook, "all.ipynb")
         yield page, faults
 
 
@@ -351,6 +366,19 @@ def test_a_blind_test_is_answered_by_keys(notebook):
     assert said.startswith("You chose right in 4 of 4 pairs")
 
 
+def test_keys_steer_and_nothing_else(notebook):
+    page, cell = notebook
+    root = cell("steer").locator(".mocap-steering:visible")
+    wait_until(lambda: root.evaluate("root => root.steering?.pictures > 0"))
+    count = page.locator(".jp-CodeCell").count()
+    root.locator(".panels").focus()
+    for key in ("a", "s", "d", "d", "w", "a"):  # in JupyterLab: cell above, save, delete this cell
+        page.keyboard.press(key)
+    assert page.locator(".jp-CodeCell").count() == count
+    wait_until(lambda: root.evaluate("root => root.steering.ways.length"))
+    wait_until(lambda: "mean of" in root.locator("figcaption").first.inner_text())
+
+
 def test_a_notebook_that_is_opened_again_shows_pictures(ran):
     page, _ = ran
     run = "jupyterapp.commands.execute"
@@ -359,10 +387,51 @@ def test_a_notebook_that_is_opened_again_shows_pictures(ran):
     page.reload()
     wait_until(lambda: page.locator(".jp-CodeCell").count() >= len(CELLS), 60)
     order = list(CELLS)
-    for name in ("explore", "choose", "drag", "draw"):
+    for name in ("explore", "choose", "drag", "draw", "steer"):
         place = page.locator(".jp-Notebook .jp-CodeCell").nth(order.index(name))
         place.scroll_into_view_if_needed()
         still = place.locator(".mocap-still")
         wait_until(still.is_visible)
         assert "Error displaying widget" not in place.inner_text()
         assert still.locator("img, canvas").first.is_visible()
+    assert "Run the cell to steer" in still.inner_text()
+
+
+@pytest.fixture(scope="module")
+def opened(browser, lab):
+    cells = written([questions.cell(text) for text in questions.CELLS])
+    with questions.asking(browser, lambda page: run_notebook(lab, page, cells, "questions.ipynb")) as asked:
+        yield asked
+
+
+test_an_answer_opens_when_a_bet_is_kept = (
+    questions.test_an_answer_opens_when_a_bet_is_kept_and_the_page_remembers
+)
+test_quizzes_mark_themselves = questions.test_quizzes_mark_themselves
+
+
+# The first has players, sliders, choices and a canvas to draw on.
+# The experiments of all notebooks are driven without a browser, by tests/course/driving.py.
+NOTEBOOKS = [
+    pytest.param(path, id=path.stem, marks=[pytest.mark.exhaustive] * (path.stem != "00-quickstart"))
+    for path in sorted(FOLDER.glob("*.ipynb"))
+]
+FAILED = ".jp-OutputArea-output[data-mime-type='application/vnd.jupyter.error']"
+
+
+@pytest.mark.parametrize("file", NOTEBOOKS)
+def test_it_runs_and_all_its_sliders_move(file, run, page, request):
+    if file.stem == "10-real-data":
+        request.getfixturevalue("real_data")
+    run(file.read_text("utf-8"), file.name)
+    assert page.locator(FAILED).count() == 0
+    for number in range(page.locator(".noUi-handle").count()):
+        handle = page.locator(".noUi-handle").nth(number)
+        handle.scroll_into_view_if_needed()
+        handle.focus()
+        box = handle.locator("xpath=ancestor::*[contains(@class, 'widget-vbox')]").first
+        for key, end in (("End", "aria-valuemax"), ("Home", "aria-valuemin")):
+            page.keyboard.press(key)
+            wait_until(lambda h=handle, e=end: h.get_attribute("aria-valuenow") == h.get_attribute(e))
+            page.wait_for_timeout(300)
+            assert "Error:" not in box.inner_text()

@@ -1,10 +1,13 @@
-"""Quizzes and bets as readers meet them: in JupyterLab, and on the site, which has no Python."""
+"""Quizzes and bets on the site, which has no Python; test_lab.py has them in JupyterLab."""
+
+from contextlib import contextmanager
+from functools import partial
 
 import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
-from tests.browser.conftest import keep, run_notebook, wait_until, watched_page
+from tests.browser.conftest import keep, wait_until, watched_page
 from tests.course.test_site import build_small
 
 START = """
@@ -32,18 +35,13 @@ CELLS = [
 ]
 
 
-def is_code(text):
-    return not text.startswith(("#", "*", "<"))
+def cell(text, outputs=()):
+    if text.startswith(("#", "*", "<")):
+        return new_markdown_cell(text)
+    return new_code_cell(text, outputs=list(outputs))
 
 
-def in_jupyterlab(page, lab, tmp_path):
-    cells = [(new_code_cell if is_code(text) else new_markdown_cell)(text) for text in CELLS]
-    kernel = {"name": "python3", "display_name": "Python 3"}
-    notebook = new_notebook(cells=cells, metadata={"kernelspec": kernel})
-    run_notebook(lab(), page, nbformat.writes(notebook), "questions.ipynb")
-
-
-def on_the_site(page, lab, tmp_path):
+def on_the_site(tmp_path, page):
     if not (tmp_path / "out").exists():
         space, cells = {}, []
         exec(START, space)
@@ -51,27 +49,33 @@ def on_the_site(page, lab, tmp_path):
             outputs = []
             if text.startswith(("asked", "summed")):
                 outputs = [new_output("execute_result", eval(text, space)._repr_mimebundle_())]
-            cells.append(new_code_cell(text, outputs=outputs) if is_code(text) else new_markdown_cell(text))
+            cells.append(cell(text, outputs))
         nbformat.write(new_notebook(cells=cells), tmp_path / "00-one.ipynb")
         (tmp_path / "teaching").mkdir()
         build_small(tmp_path, tmp_path / "out")
     page.goto((tmp_path / "out" / "00-one.html").as_uri())
 
 
-@pytest.fixture(scope="module", params=[in_jupyterlab, on_the_site])
-def opened(request, browser, tmp_path_factory):
-    """Yield the page, a function that opens it anew, and a question by its number."""
-    folder = tmp_path_factory.mktemp("questions")
+@contextmanager
+def asking(browser, show):
+    """Yield a page on which `show` shows the questions, a function that does so anew, and one of a number."""
     with watched_page(browser) as (page, faults):
 
         def again():
-            request.param(page, lambda: request.getfixturevalue("lab"), folder)
+            show(page)
             wait_until(lambda: page.locator(".mocap-question[data-awake]").count() == 4)
 
         again()
         yield page, again, lambda number: page.locator(".mocap-question").nth(number)
-        keep(page, f"questions-{request.param.__name__}")
+        keep(page, "questions")
     assert faults == []
+
+
+@pytest.fixture(scope="module")
+def opened(browser, tmp_path_factory):
+    """Show the questions on the site."""
+    with asking(browser, partial(on_the_site, tmp_path_factory.mktemp("questions"))) as questions:
+        yield questions
 
 
 def test_an_answer_opens_when_a_bet_is_kept_and_the_page_remembers(opened):
@@ -130,7 +134,7 @@ def test_quizzes_mark_themselves(opened):
 def test_without_a_script_only_what_is_asked_is_seen(browser, tmp_path):
     context = browser.new_context(java_script_enabled=False)
     page = context.new_page()
-    on_the_site(page, None, tmp_path)
+    on_the_site(tmp_path, page)
     text = " ".join(page.locator(".mocap-question, details").all_inner_texts())
     assert "as many / twice" in text
     assert "the right one" in text

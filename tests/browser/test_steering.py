@@ -3,12 +3,10 @@
 import json
 import math
 from pathlib import Path
-from textwrap import dedent
 
-import nbformat
 import pytest
 
-from tests.browser.conftest import run_notebook, wait_until, watched_page
+from tests.browser.conftest import wait_until
 from tests.browser.test_page import touch_of
 from tests.widgets.steerable import Dot
 
@@ -239,48 +237,3 @@ def test_it_fits_a_phone_and_a_dark_page(steering, wide, scheme):
     assert steering.evaluate("document.documentElement.scrollWidth") <= wide
     box = steering.locator(".pad").bounding_box()
     assert box["y"] + box["height"] <= 844
-
-
-CELLS = [
-    """
-    import math
-    from mocap.widgets import steered
-    from mocap.widgets.embedding import joined
-    from tests.widgets.steerable import Dot
-    page = steered({"quick": Dot(), "slow": Dot(0.7)})
-    page
-    """,
-    "print(len(page.delays['quick']), page.command)",
-]
-
-
-@pytest.mark.sweep
-def test_in_jupyterlab_keys_steer_and_nothing_else(browser, lab):
-    pytest.importorskip("anywidget")
-    cells = [nbformat.v4.new_code_cell(dedent(text).strip()) for text in CELLS]
-    kernel = {"name": "python3", "display_name": "Python 3"}
-    notebook = nbformat.v4.new_notebook(cells=cells, metadata={"kernelspec": kernel})
-    with watched_page(browser) as (page, faults):
-        run_notebook(lab, page, nbformat.writes(notebook), "steering.ipynb")
-        root = page.locator(".mocap-steering:visible")
-        wait_until(lambda: root.evaluate("root => root.steering?.pictures > 0"))
-        count = page.locator(".jp-CodeCell").count()
-        root.locator(".panels").focus()
-        for key in ("a", "s", "d", "d", "w", "a"):  # in JupyterLab: cell above, save, delete this cell
-            page.keyboard.press(key)
-        assert page.locator(".jp-CodeCell").count() == count
-        wait_until(lambda: root.evaluate("root => root.steering.ways.length"))
-        wait_until(lambda: "mean of" in root.locator("figcaption").first.inner_text())
-        page.evaluate("jupyterapp.commands.execute('notebook:run-all-cells')")
-        said = page.locator(".jp-CodeCell").nth(1).locator(".jp-OutputArea-output")
-        wait_until(lambda: "0 [" in said.inner_text())  # the cell has made it anew
-        page.evaluate("jupyterapp.commands.execute('docmanager:save')")
-        page.evaluate("jupyterapp.shell.currentWidget.sessionContext.shutdown()")
-        page.reload()
-        still = page.locator(".mocap-still")
-        wait_until(still.is_visible, 60)
-        assert "Run the cell to steer" in still.inner_text()
-        wait_until(lambda: still.locator("canvas").is_visible())
-        kernel = "window.jupyterapp?.shell.currentWidget?.sessionContext?.session?.kernel?.status"
-        wait_until(lambda: page.evaluate(kernel) == "idle", 60)  # before JupyterLab is asked to end
-        assert faults == []
