@@ -171,7 +171,7 @@ class Check:
             wrong = f"stopped after {self.seconds:g} s, when {begun}. Does a loop never end?"
         except NotImplementedError:
             wrong = f"not there yet. It must return {self.asks}. Hint: {self.start}"
-        except Exception as error:  # a student's function may raise anything, and the page shows it
+        except (Exception, SystemExit) as error:  # it may raise anything, and the page shows it
             what = " ".join(filter(None, (type(error).__name__, place_of(error, answer))))
             wrong = f"your function raises {what}: {error}"
         failed = [(wanted, given) for _, wanted, given in tried if not self._same(given, wanted)]
@@ -209,7 +209,7 @@ class Check:
             return "your function returns None; does it end in `return`?"
         if isinstance(wanted, set | frozenset):  # students list its items in any type
             return f"some are missing or wrong. It must return {self.asks}. Hint: {self.start}"
-        here, there = _shape(given), _shape(wanted)
+        here, there = np.shape(as_numbers(given)), np.shape(as_numbers(wanted))
         if here != there:
             return f"your answer has the shape {here}; it should be {there}."
         if there == () and not isinstance(wanted, str):
@@ -224,11 +224,12 @@ def written(place: Any) -> Answer:  # noqa: ANN401
     return (lambda *_: ...) if own is getattr(place, "stand_in", None) else own
 
 
-def _shape(value: Any) -> tuple[int, ...]:  # noqa: ANN401
+def as_numbers(value: Any) -> Any:  # noqa: ANN401
+    """Give a value as an array of numbers; None where it is something else."""
     try:
-        return np.shape(np.asarray(value, complex))
+        return np.asarray(value, complex)
     except (TypeError, ValueError):
-        return ()
+        return None
 
 
 def _short(value: Any) -> str:  # noqa: ANN401

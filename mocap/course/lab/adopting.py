@@ -1,4 +1,10 @@
-"""A student's function drives the course from the exercise on; until then the package's stands in."""
+"""A student's function drives the course from the exercise on; until then the package's stands in.
+
+A student's function that passed its check may still fail on other input. So each call is guarded: where the
+function raises an error, gives another form of answer than the package's (a NaN, say), or takes longer than
+`SECONDS`, one sentence says so, and the package's stands in from then on. What it prints is dropped: a line
+for each of some thousand calls would hide the page.
+"""
 
 from __future__ import annotations
 
@@ -8,11 +14,117 @@ from contextlib import redirect_stdout
 from functools import cache
 from typing import Any
 
-from mocap.course.check import Verdict
+import numpy as np
+
+from mocap._shared.limits import Overdue, time_limit
+from mocap.course.check import Check, as_numbers
 from mocap.course.checks import all_checks, nearest
-from mocap.course.lab.guarding import Slot
 from mocap.course.lab.kept_functions import keep, place, plain_source, read_text, run_sections
 from mocap.errors import MocapError
+
+SECONDS = 30.0  # of one call; what the course asks for takes a thousandth of it
+SHAPES: dict[str, tuple[int, ...]] = {"climb": (3,), "edge_cost": (2,), "hamilton": (4,)}
+"""The answers of functions that are called thousands of times; others are compared with the package's."""
+
+
+class Slot:
+    """The place of an exercise in the course; call it like the function that the exercise asks for.
+
+    Parameters
+    ----------
+    check : the exercise's check, whose oracle stands in for a function that is missing.
+
+    Attributes
+    ----------
+    own : the student's function, once it has passed the check; else None.
+    written : what the student wrote last, right or wrong: this is what a check judges.
+    kept : whether the file beside the notebooks holds it.
+    stopped : why the package's stands in again, or "".
+
+    Examples
+    --------
+    >>> from mocap.course import checks
+    >>> slot = Slot(checks.hamilton)
+    >>> slot
+    hamilton: the package's
+    >>> slot(np.array([0.0, 1, 0, 0]), np.array([0.0, 0, 1, 0]))
+    array([0., 0., 0., 1.])
+    """
+
+    def __init__(self, check: Check) -> None:
+        self.name, self.stand_in, self.check = check.name, check.truth, check
+        self.own: Callable[..., Any] | None = None
+        self.written: Callable[..., Any] = check.truth
+        self.kept, self.stopped, self._prints = False, "", False
+
+    def adopt(self, own: Callable[..., Any] | None, *, kept: bool) -> None:
+        """Put a function that has passed its check here, or take it away."""
+        self.own, self.stopped, self.kept = own, "", kept
+
+    @property
+    def yours(self) -> bool:
+        """Whether the student's function runs here."""
+        return self.own is not None and not self.stopped
+
+    def __repr__(self) -> str:
+        return f"{self.name}: " + ("yours" if self.yours else "the package's")
+
+    def __call__(self, *arguments: Any) -> Any:  # noqa: ANN401 (as the exercise asks)
+        """Give the student's answer, or the package's where there is none or it will not do."""
+        if self.own is None or self.stopped:
+            return self.stand_in(*arguments)
+        try:
+            with time_limit(SECONDS), redirect_stdout(io.StringIO()) as unseen:
+                given = self.own(*arguments)
+        except Overdue:
+            self.stopped = f"did not end within {SECONDS:g} s"
+        except (Exception, SystemExit) as error:  # a student's function may raise anything
+            self.stopped = f"raised {type(error).__name__}: {error}".removesuffix(": ")[:110]
+        else:
+            if unseen.getvalue() and not self._prints:
+                self._prints = True
+                print(f"{self.name}: yours prints; it is shown where the check runs, and not here.")
+            shape = SHAPES.get(self.name)
+            try:
+                return in_form(given, np.zeros(shape) if shape else self.stand_in(*arguments))
+            except (TypeError, ValueError) as error:
+                self.stopped = str(error)
+        print(f"{self.name}: yours {self.stopped}; the package's stands in from here on.")
+        return self.stand_in(*arguments)
+
+
+def in_form(given: Any, wanted: Any) -> Any:  # noqa: ANN401
+    """Give an answer the types of another of the same form, as what follows may need an array or a set.
+
+    Raises
+    ------
+    ValueError, TypeError : where the form is another one: another shape, or NaN where that has none.
+
+    Examples
+    --------
+    >>> in_form([[1, 2], (3,)], ({0}, np.zeros(1)))
+    ({1, 2}, array([3.]))
+    >>> in_form([1.0], (3, 4))
+    Traceback (most recent call last):
+    ValueError: gave an answer of the shape (1,)
+    """
+    listed, kind = isinstance(given, list | tuple | np.ndarray), type(wanted)
+    here, there = as_numbers(given), as_numbers(wanted)
+    if isinstance(wanted, set | frozenset) and (listed or isinstance(given, set | frozenset)):
+        return kind(tuple(item) if np.ndim(item) else item for item in given)
+    if isinstance(wanted, dict | str) or wanted is None:
+        if isinstance(given, kind):
+            return given
+    elif there is None:  # items of different kinds
+        if listed and len(given) == len(wanted):
+            return (list if kind is list else tuple)(map(in_form, given, wanted))
+    elif here is not None:
+        if here.shape == there.shape and not (np.isnan(here) & ~np.isnan(there)).any():
+            if isinstance(wanted, list | tuple):
+                return (list if kind is list else tuple)(map(in_form, given, wanted))
+            return np.asarray(given, wanted.dtype) if kind is np.ndarray else kind(given)
+        raise ValueError("gave NaN" if np.isnan(here).any() else f"gave an answer of the shape {here.shape}")
+    raise ValueError(f"gave an answer of the type {type(given).__name__} that does not fit")
 
 
 def mine(what: str | Callable[..., Any] | Slot) -> Slot:
@@ -83,23 +195,21 @@ def whose(*names: str) -> str:
     Notebook: 00-quickstart
     """
     found = slots(*names)
-    parts = []
-    for yours, of in ((True, "yours"), (False, "the package's")):
-        if some := [slot.name for slot in found if slot.yours == yours]:
-            parts.append(f"{', '.join(some)}: {of}")
-    return " · ".join(parts)
+    groups = {"yours": [slot.name for slot in found if slot.yours]}
+    groups["the package's"] = [slot.name for slot in found if not slot.yours]
+    return " · ".join(f"{', '.join(some)}: {of}" for of, some in groups.items() if some)
 
 
 def _take(slot: Slot, written: Callable[..., Any]) -> bool:
     """Adopt a function if it is right, and write it into the file; say whether it is right."""
     slot.written = written
-    if not all_checks()[slot.name].verdict(written).right:
+    if not slot.check.verdict(written).right:
         return False
     slot.adopt(written, kept=False)
     try:
         if file := place():
             plain = plain_source(written, all_checks())  # type: ignore[arg-type]
-            _read[0] = keep(file, slot.name, all_checks()[slot.name].notebook, plain)
+            _read[0] = keep(file, slot.name, slot.check.notebook, plain)
             slot.kept = True
     except MocapError as error:
         print(f"{slot.name}: adopted until this kernel ends, but not kept. {error}"[:200])
@@ -127,11 +237,8 @@ def _refresh() -> None:
         said.append(f"{file}: the course has no exercise '{name}'; it is not used."[:200])
     for slot in (_slots()[name] for name in found if name in all_checks()):
         slot.written = found[slot.name]
-        try:
-            with redirect_stdout(io.StringIO()):
-                verdict = all_checks()[slot.name].verdict(slot.written)
-        except SystemExit:
-            verdict = Verdict(False, f"{slot.name}: your function ends Python.")
+        with redirect_stdout(io.StringIO()):
+            verdict = slot.check.verdict(slot.written)
         slot.adopt(slot.written if verdict.right else None, kept=verdict.right)
         if not verdict.right:
             why = "does not pass its check any more, so the package's stands in."

@@ -12,7 +12,7 @@ import os
 import re
 import textwrap
 from collections.abc import Collection, Mapping
-from importlib import import_module
+from contextlib import suppress
 from pathlib import Path
 from types import FunctionType, ModuleType
 from typing import Any
@@ -141,19 +141,14 @@ def _gather(function: FunctionType, known: set[str], imports: set[str], helpers:
 
 def _import(name: str, value: Any) -> str:  # noqa: ANN401
     """Write the import that gives a name its value, or "" where none does."""
-    if isinstance(value, ModuleType):
-        room, _, leaf = value.__name__.rpartition(".")
-        line = f"from {room} import {leaf}" if room else f"import {leaf}"
-        return line if leaf == name else f"{line} as {name}"
     module, own = getattr(value, "__module__", None), getattr(value, "__name__", None)
-    if not module or not own or module == "__main__":
-        return ""
-    try:
-        found = getattr(import_module(module), own, None)
-    except ImportError:
-        return ""
-    line = f"from {module} import {own}"
-    return (line if own == name else f"{line} as {name}") if found is value else ""
+    if isinstance(value, ModuleType):
+        module, _, own = value.__name__.rpartition(".")
+    line = f"from {module} import {own}" if module else f"import {own}"
+    line, space = line if own == name else f"{line} as {name}", dict[str, Any]()
+    with suppress(ImportError, SyntaxError):  # there is no such module, or no such name to import
+        exec(line, space)
+    return line if module != "__main__" and name in space and space[name] is value else ""
 
 
 def _is_plain(value: Any) -> bool:  # noqa: ANN401

@@ -5,12 +5,10 @@ The commands `mocap course slides`, `mocap course film` and `mocap course board`
 
 Reading order
 -------------
-1. `prose`: Markdown as plain words, for captions
-2. `deck`: the slides of a deck, and the cells of the notebook that they show
-3. `slides`: the decks as pages for reveal.js, without a network
-4. `film_script`: what a film of a deck shows, for how long, above which words
-5. `films`: the pictures of a film, and the film
-6. `board`: drawings for the board, in numbered steps
+1. `deck`: the slides of a deck, and the cells of the notebook that they show
+2. `slides`: the decks as pages for reveal.js, without a network
+3. `films`: what a film of a deck shows, for how long, above which words; its pictures, and the film
+4. `board`: drawings for the board, in numbered steps
 """
 
 import lazy_loader

@@ -1,11 +1,19 @@
-"""A film of a notebook's deck: its headings, pictures, players and words, without a voice."""
+"""A film of a notebook's deck, without a voice: a scene for each of its slides.
+
+A scene shows the picture, the player or the recorded experiment of a slide above the slide's words; a slide
+without one is a card of its words. It lasts as long as its words take to read.
+"""
 
 from __future__ import annotations
 
+import base64
 import io
-from collections.abc import Callable, Iterator
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
 from itertools import chain, zip_longest
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,17 +22,23 @@ from PIL import Image, ImageDraw, ImageFont, ImageOps
 from mocap._shared.atomic import replacing
 from mocap._shared.progress import Progress
 from mocap.course import read
-from mocap.course.site import recorded_of
+from mocap.course.site import STILL, recorded_of
 from mocap.course.teaching.board import SMOOTH, font_of
-from mocap.course.teaching.deck import deck_file, deck_of
-from mocap.course.teaching.film_script import Scene, script_of
+from mocap.course.teaching.deck import Slide, deck_file, deck_of
 from mocap.errors import MocapError
 from mocap.widgets.film import require_ffmpeg, write_mp4
+from mocap.widgets.filmed_scene import FilmedScene, stored_scene
 
+SPEED = 15.0  # characters that are read per second
+LOOK = {"card": 3.0, "still": 5.0, "moving": 9.0, "player": 10.0}  # seconds of a scene at least
 SIZE, FPS = (1280, 720), 20.0
 TOP, EDGE, ROOM = 84, 56, (1168, 506)  # pixels: above the middle, beside it, and its size
 INK, SOFT, PAPER, DONE = "#222222", "#595959", "#FFFFFF", "#0072B2"
 SWEEP = 0.7  # seconds that a position of an experiment is shown
+COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+DIGITS = {"_": "₀₁₂₃₄₅₆₇₈₉", "^": "⁰¹²³⁴⁵⁶⁷⁸⁹"}
+GREEK = dict(zip((r"\alpha", r"\beta", r"\theta", r"\phi", r"\sigma", r"\pi"), "αβθφσπ", strict=True))
+GREEK |= {r"\times": "×", r"\le": "≤", r"\ge": "≥", r"\cdot": "·", r"\,": " ", r"\to": "→"}
 
 
 def render_film(notebook: Path, out: Path, *, moving: bool = True, progress: Progress = iter) -> Path:
@@ -61,6 +75,89 @@ def render_film(notebook: Path, out: Path, *, moving: bool = True, progress: Pro
     with replacing(out) as beside:
         write_mp4(frames_of(scenes, progress), beside, FPS)
     return out
+
+
+@dataclass
+class Scene:
+    """A scene of a film: its kind, its heading, its words, what it shows, and how long.
+
+    `pictures` are PNGs: one of a still scene, many of a moving one, with `labels`.
+    """
+
+    kind: str
+    heading: str
+    words: str
+    pictures: list[bytes] = field(default_factory=list)
+    labels: list[str] = field(default_factory=list)
+    figures: FilmedScene | None = None
+
+    @property
+    def seconds(self) -> float:
+        """How long it is shown: as long as its words take to read, or more."""
+        return max(LOOK[self.kind], len(self.words) / SPEED + 0.5)
+
+
+def script_of(slides: Iterable[Slide], recorded: Mapping[str, Any]) -> list[Scene]:
+    """Give the scenes of a film.
+
+    Parameters
+    ----------
+    slides : from `deck_of`; exercises are for the class.
+    recorded : recordings of experiments by the source of their cell; without one, a still picture is shown.
+    """
+    return [scene for slide in slides if slide.label != "Exercise" for scene in _scenes(slide, recorded)]
+
+
+def _scenes(slide: Slide, recorded: Mapping[str, Any]) -> Iterator[Scene]:
+    """Yield a scene for each thing that a slide shows, or one of its words alone."""
+    written = [cell.source for cell in slide.cells if cell.cell_type == "markdown"]
+    texts = [text for text in written if not text.startswith("![")]
+    lines = [line for text in texts for line in text.splitlines() if re.search("[^-|: ]", line)]
+    rows = (re.sub(r"^\s*(?:[-*]|\d+\.) ", "", line).strip("|").split(" | ") for line in lines)  # of tables
+    words, shown = list(filter(None, ("\t".join(map(spoken, row)) for row in rows))), False
+    heading = spoken(f"{slide.label}: {slide.heading}" if slide.label else slide.heading)
+    for cell in slide.cells:
+        for kind, *parts in _shown(cell, recorded):
+            shown = True
+            yield Scene(kind, heading, " ".join(words), *parts)
+    if not shown and words:
+        yield Scene("card", heading, "\n".join(words))
+
+
+def _shown(cell: Any, recorded: Mapping[str, Any]) -> Iterator[tuple[Any, ...]]:  # noqa: ANN401
+    """Yield what a cell shows: the kind of a scene, its pictures, their labels, and figures."""
+    if found := re.match(r"!\[.*\]\(attachment:(.*)\)", cell.source, re.DOTALL):
+        yield "still", [base64.b64decode(cell.attachments[found[1]]["image/png"])]
+    for output in cell.get("outputs", ()):
+        data, code = output.get("data", {}), cell.metadata.get("code")
+        page = data.get("text/html", "")
+        if figures := stored_scene(page):
+            yield "player", [], [], figures
+        elif STILL in page and code in recorded:
+            one = recorded[code]
+            pictures = [base64.b64decode(picture) for picture in one["pictures"]]
+            yield "moving", pictures, [f"{one['name']}: {at}" for at in one["labels"]]
+        elif "image/png" in data:
+            yield "still", [base64.b64decode(data["image/png"])]
+
+
+def spoken(text: str) -> str:
+    r"""Give a text as plain words for a caption, or nothing where a formula cannot be written as words.
+
+    Examples
+    --------
+    >>> spoken("The [*cost*](GLOSSARY.md#cost) of `grid` falls with $\\theta$.")
+    'The cost of grid falls with θ.'
+    >>> spoken(r"It is $\\frac{1}{2}$.")
+    ''
+    """
+    text = re.sub(r"[_^]\d", lambda found: DIGITS[found[0][0]][int(found[0][1])], COMMENT.sub("", text))
+    for word in sorted(GREEK, key=len, reverse=True):
+        text = text.replace(word, GREEK[word])
+    if re.search(r"\$[^$]*[\\^_{][^$]*\$|<", text):
+        return ""
+    text = re.sub(r" ?\[\d+(?:, [^\]]*)?\]", "", re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", text))
+    return " ".join(re.sub(r"[*`$]|(?<!\w)_|_(?!\w)", "", text).split())
 
 
 def frames_of(scenes: list[Scene], progress: Progress = iter) -> Iterator[NDArray[np.uint8]]:

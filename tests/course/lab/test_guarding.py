@@ -7,8 +7,8 @@ import pytest
 
 from mocap._shared.limits import time_limit
 from mocap.course import checks
-from mocap.course.lab import guarding
-from mocap.course.lab.guarding import Slot, in_form
+from mocap.course.lab import adopting
+from mocap.course.lab.adopting import Slot, in_form
 
 
 def slot(name, own):
@@ -80,7 +80,7 @@ def test_what_a_function_prints_is_dropped_with_one_sentence(capsys):
 
 
 def test_a_function_that_never_ends_is_stopped_though_it_catches_exceptions(monkeypatch, capsys):
-    monkeypatch.setattr(guarding, "SECONDS", 0.05)
+    monkeypatch.setattr(adopting, "SECONDS", 0.05)
 
     def forever(a, b):
         end = time.monotonic() + 5  # or this test would never end where it fails

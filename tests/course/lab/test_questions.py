@@ -11,8 +11,7 @@ import numpy as np
 import pytest
 
 from mocap.course import lab
-from mocap.course.lab.asking import BET, asked, asked_before, summed_up
-from mocap.course.lab.page import to_html, to_text
+from mocap.course.lab.asking import BET, asked, asked_before, summed_up, to_html, to_text
 from mocap.course.lab.questions import TEXTS, computed, filled, read_questions
 from mocap.errors import MocapError
 from tests.course.stored_notebooks import FOLDER, every_notebook, read
