@@ -17,7 +17,7 @@ from typing import Any
 
 from mocap.course.check import Check
 
-FILES = ("poses", "likeness", "graphs", "walks", "measures", "edits")
+FILES = ("poses", "likeness", "graphs", "walks", "edits")
 
 
 @cache

@@ -7,17 +7,15 @@ in the file of its subject.
 Reading order (notebooks 00 to 09)
 ----------------------------------
  1. `small_graphs`: a motion graph's nodes and edges on two clips
- 2. `quaternions`: two half turns, and turns whose order matters
- 3. `trees`: forward kinematics by joint
- 4. `windows`: what a window is, a lower bound of the distance of two, and sums along diagonals
- 5. `laying_clouds`: one cloud of points laid on another, from above
- 6. `ground`: headings, and one clip aligned with another, seen from above
- 7. `seams`: frames of a transition, ways between two rotations, a leg as a triangle, and added jolts
- 8. `eight_nodes`: the paper's small graph, and Tarjan's search on it with its low links
- 9. `branching`: the walks that branch and bound takes up, and walks from above
-10. `layers`: the layered search along a line, with the line of its code that runs
-11. `distances_to_paths`: how far a walk is from its path, at equal arc length and to the nearest point
-12. `pens`: arrows, words, discs and steps that several of them share
+ 2. `poses`: two half turns, turns whose order matters, and forward kinematics by joint
+ 3. `windows`: what a window is, a lower bound of the distance of two, and sums along diagonals
+ 4. `laying_clouds`: one cloud of points laid on another, from above
+ 5. `ground`: headings, one clip aligned with another, and how far a walk is from its path, from above
+ 6. `seams`: frames of a transition, ways between two rotations, a leg as a triangle, and added jolts
+ 7. `eight_nodes`: the paper's small graph, and Tarjan's search on it with its low links
+ 8. `branching`: the walks that branch and bound takes up, and walks from above
+ 9. `layers`: the layered search along a line, with the line of its code that runs
+10. `pens`: arrows, words, discs and steps that several of them share
 
 References
 ----------
@@ -30,15 +28,13 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "small_graphs": ["nodes_and_edges"],
-        "quaternions": ["half_turns", "turns_in_order"],
-        "trees": ["down_the_tree"],
+        "poses": ["down_the_tree", "half_turns", "turns_in_order"],
         "laying_clouds": ["laid", "laying_on", "products", "turning"],
         "windows": ["diagonal_sums", "radius_gaps", "window_cloud"],
-        "ground": ["alignment", "compass"],
+        "ground": ["alignment", "compass", "two_distances"],
         "seams": ["added_by_blend", "blended_seam", "knee_triangle", "turning_paths"],
         "eight_nodes": ["eight_node_graph", "tarjan_states", "tarjan_steps"],
         "branching": ["edge_lengths", "from_above", "laid_in_turn", "search_events", "search_steps"],
         "layers": ["layer_steps"],
-        "distances_to_paths": ["two_distances"],
     },
 )

@@ -1,7 +1,7 @@
 """Branch and bound, step by step on eight nodes, and its walks on the ground [KGP02, 4.2]."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from itertools import count, pairwise
+from itertools import pairwise
 from math import dist, inf
 from typing import Any, NamedTuple
 
@@ -134,7 +134,11 @@ def _draw_tree(ax: Axes, events: list[Event]) -> Callable[[list[Event]], list[Ar
 
     Returned is a function that shows those met so far, each in the colour of its fate.
     """
-    columns = _columns(events)
+    walks = [event.walk for event in events]  # each before those that lengthen it, from left to right
+    parents = {walk[:-1] for walk in walks}
+    columns = {walk: float(at) for at, walk in enumerate(walk for walk in walks if walk not in parents)}
+    for walk in reversed([walk for walk in walks if walk in parents]):  # above the middle of its children
+        columns[walk] = float(np.mean([columns[child] for child in walks if child[:-1] == walk]))
     faces, drawn = FATES | {"waiting": "white"}, dict[Walk, tuple[Line2D, Line2D, Text]]()
     for walk, x in columns.items():
         y = 1 - len(walk)
@@ -160,20 +164,6 @@ def _draw_tree(ax: Axes, events: list[Event]) -> Callable[[list[Event]], list[Ar
         return [part for parts in drawn.values() for part in parts]
 
     return colour
-
-
-def _columns(events: list[Event]) -> dict[Walk, float]:
-    """Give a leaf of the whole tree a column of its own, and other walks the middle of theirs."""
-    children = {event.walk: [walk for _, walk in sorted(event.added)] for event in events}
-    columns, leaves = dict[Walk, float](), count(1)
-
-    def place(walk: Walk) -> float:
-        below = [place(child) for child in children.get(walk, ())]
-        columns[walk] = sum(below) / len(below) if below else float(next(leaves))
-        return columns[walk]
-
-    place(events[0].walk)
-    return columns
 
 
 def edge_lengths(graph: nx.MultiDiGraph) -> dict[int, dict[int, float]]:

@@ -1,20 +1,24 @@
-"""The ground seen from above: headings, and how one clip is aligned with another."""
+"""The ground seen from above: headings, how one clip is laid on another, and two distances from a path."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from mocap._shared.arrays import Array
 from mocap.body import Motion, PlanarTransform, heading
+from mocap.body.ground_path import GroundPath
 from mocap.course.diagrams.pens import arrow, say, trace
-from mocap.plotting.style import COLOURS, CURVES, FLOOR, SOURCES
+from mocap.plotting.ground_charts import seen_from_above
+from mocap.plotting.style import ASKED, COLOURS, CURVES, FLOOR, PATH, QUIET, SOURCES
 
 INK = COLOURS["middle"]
 
 
 def alignment(
-    target: Motion, moving: Motion, transform: PlanarTransform, *, step: int = 3, shift_first: bool = False
+    target: Motion, moving: Motion, transform: PlanarTransform, *, shift_first: bool = False
 ) -> Figure:
     """Draw how a clip is aligned with another, seen from above: first it is turned, then it is moved.
 
@@ -23,16 +27,15 @@ def alignment(
     target : the motion up to the moment at which the clips match; it stays.
     moving : the other motion from that moment on.
     transform : the planar transform that aligns `moving`.
-    step : how many of the three panels are drawn.
     shift_first : exchange the turn and the shift, which leads to another place.
 
     Examples
     --------
     >>> from mocap import datasets
     >>> walk = datasets.sample("walk_straight")
-    >>> figure = alignment(walk[:120], walk[121:300], PlanarTransform(0.0, 0.0, 0.0), step=1)
-    >>> [ax.get_title() for ax in figure.axes]
-    ['1. as the clips are']
+    >>> figure = alignment(walk[:120], walk[121:300], PlanarTransform(0.0, 0.0, 0.0))
+    >>> figure.axes[0].get_title()
+    '1. as the clips are'
 
     Notebook: 03-transforms
     """
@@ -45,10 +48,8 @@ def alignment(
     low, high = corners.min(axis=0) - 0.8, corners.max(axis=0) + 0.8
     figure = Figure(figsize=(9, 3.4), layout="constrained")
     panels = figure.subplots(1, 3, sharex=True, sharey=True)
-    for ax in panels[step:]:
-        ax.remove()
     names = ["as the clips are", *(name for _, name in parts)]
-    for number, (ax, name) in enumerate(zip(panels[:step], names, strict=False)):
+    for number, (ax, name) in enumerate(zip(panels, names, strict=True)):
         ax.set(xlim=(high[0], low[0]), ylim=(low[1], high[1]), aspect="equal", xlabel="x (m)")
         ax.set_title(f"{number + 1}. {name}")
         _draw_walker(ax, target, SOURCES[0], at=-1)
@@ -101,3 +102,82 @@ def _draw_walker(ax: Axes, motion: Motion, colour: str, *, at: int) -> None:
     ax.plot(x[at], z[at], "o", color=colour, markersize=7)
     here, facing = complex(x[at], z[at]), float(heading(motion.rotations[at, 0]))
     arrow(ax, here, here + 0.8j * np.exp(-1j * facing), colour)
+
+
+MOMENTS = 9
+BEND = 0.8
+
+
+def two_distances(path: GroundPath, walk: GroundPath) -> Callable[..., list[Any]]:
+    """Give a function that draws a path and a walk from above, and both distances of the walk from the path.
+
+    Nine moments are evenly spaced along the walk. At each a thread leads to the path's point at equal arc
+    length, as in [KGP02, Eq. 9], and another to the path's nearest point. The curves beside them show both
+    distances. `draw(step)` shows all up to a moment, from 0, the start, to 8, the end, and gives what moved.
+
+    Parameters
+    ----------
+    path : the path asked for.
+    walk : the line that was walked.
+
+    Examples
+    --------
+    A walk parallel to a straight path: both distances are the same.
+
+    >>> path, walk = (GroundPath([[x, 0], [x, 4]]) for x in (0.0, 0.3))
+    >>> left, right = two_distances(path, walk)(4)[0].figure.axes
+    >>> [line.get_ydata()[-1].round(3).item() for line in right.lines[:2]]
+    [30.0, 30.0]
+
+    Notebook: 08c-judging-a-search
+    """
+    ground, curves = Figure(figsize=(8, 3.8), layout="constrained").subplots(1, 2, width_ratios=(1, 1.3))
+    seen_from_above(ground).plot(*path.points.T, color=ASKED, linewidth=7, label="path asked for")
+    ground.plot(*walk.points.T, color=PATH, linewidth=3.5, label="walk")
+    ground.legend(frameon=False)
+    curves.set(xlabel="metres walked", ylabel="distance (cm)", xlim=(0, walk.length))
+    moments = np.linspace(0, walk.length, MOMENTS)[:, None]
+    along = np.maximum(0, moments - moments[1] * np.linspace(1, 0, 25))  # up to each moment, (9, 25)
+    here, share, moving = walk.at(moments), np.array([*np.linspace(0, 1, 15), np.nan])[:, None], []
+    for name, point, colour, above in (
+        ("at equal arc length (Eq. 9)", path.at, CURVES[0], 4.1),
+        ("to the nearest point", lambda s: nearest_points(path, walk.at(s)), CURVES[1], 4.0),
+    ):
+        thread = point(moments) - here  # bent, so that it is seen beside the path
+        bent = here + share * thread + BEND * share * (1 - share) * thread[..., ::-1] * [1, -1]
+        apart = 100 * np.linalg.norm(walk.at(along) - point(along), axis=-1)
+        moving += [
+            _line(ground, bent, color=colour, linewidth=1.8, zorder=above),
+            _line(ground, here + thread, "o", color=colour, markersize=5, zorder=above),
+            _line(curves, np.stack([along, apart], axis=-1), color=colour, linewidth=2, label=name),
+        ]
+    moving += [_line(ground, here, "o", color=PATH, markersize=7, markeredgecolor=ASKED, zorder=5)]
+    now, highest = curves.axvline(color=QUIET, linewidth=1), curves.dataLim.y1
+    curves.set_ylim(-0.04 * highest - 0.1, 1.35 * highest + 0.1)
+    curves.legend(frameon=False, loc="upper left")
+
+    def draw(step: int = MOMENTS - 1) -> list[Any]:
+        for line, rows in moving:
+            line.set_data(*rows[: step + 1].reshape(-1, 2).T)
+        now.set_xdata([moments[step]] * 2)
+        return [now, *(line for line, _ in moving)]
+
+    return draw
+
+
+def _line(ax: Axes, rows: Array, *form: str, **look: Any) -> tuple[Any, Array]:  # noqa: ANN401
+    """Draw a line of which rows, shape (9, points, 2), belong to each moment."""
+    return ax.plot(*rows.reshape(-1, 2).T, *form, **look)[0], rows
+
+
+def nearest_points(path: GroundPath, points: Array) -> Array:
+    """Give the point of the path, to a centimetre along it, that is nearest to each of some points.
+
+    Examples
+    --------
+    >>> nearest_points(GroundPath([[0, 0], [0, 4]]), np.array([[1.0, 2.0], [0.5, 9.0]])).tolist()
+    [[0.0, 2.0], [0.0, 4.0]]
+    """
+    fine = path.at(np.linspace(0, path.length, 1 + round(100 * path.length)))
+    apart = np.linalg.norm(points[..., None, :] - fine, axis=-1)
+    return np.asarray(fine[apart.argmin(axis=-1)])

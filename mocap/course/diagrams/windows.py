@@ -7,7 +7,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Rectangle
-from mpl_toolkits.mplot3d import Axes3D
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
@@ -40,8 +39,11 @@ def window_cloud(motion: Motion, *, step: int = 4) -> Figure:
     points, cloud = joint_positions(motion), point_cloud(motion)
     flat, middle = cloud.reshape(-1, 3), len(motion) // 2
     figure = Figure(figsize=(5.2, 4.8))
-    above_and_below = np.concatenate([points, points * [1, 0, 1]])  # the shadow must fit as well
-    ax = _beside(figure.add_axes((0, 0, 1, 0.92), projection="3d"), motion, above_and_below)
+    low, high = points.min(axis=(0, 1))[[0, 2]], points.max(axis=(0, 1))[[0, 2]]
+    ax = figure.add_axes((0, 0, 1, 0.92), projection="3d")
+    ground_axes((low + high) / 2, max(1.2, *(high - low)) / 2 + 0.2, ax=ax)
+    ax.view_init(elev=12, azim=float(np.degrees(heading(motion.rotations[middle, 0]))) - 65)  # from the right
+    keep_inside(ax, np.concatenate([points, points * [1, 0, 1]]))  # with the shadow
     for frame in ([middle], range(len(motion)), range(len(motion)), [])[step - 1]:
         StickFigure(motion.skeleton, ax, 1.0 if frame == middle else 0.25).pose(points[frame])
     if step >= 3:
@@ -100,16 +102,6 @@ def radius_gaps(first: Motion, second: Motion, joints: Sequence[str], *, step: i
     ax.set(aspect="equal", xlabel="z (m)", ylabel="x (m)", xlim=(-limit, limit), ylim=(-limit, limit))
     ax.legend()
     return figure
-
-
-def _beside(ax: Axes3D, motion: Motion, points: Array) -> Axes3D:
-    """Set up ground around points, shape (..., 3), seen from the right of a body, a little from ahead."""
-    low, high = (f(points.reshape(-1, 3), axis=0)[[0, 2]] for f in (np.min, np.max))
-    ground_axes((low + high) / 2, max(1.2, *(high - low)) / 2 + 0.2, ax=ax)
-    facing = float(np.degrees(heading(motion.rotations[len(motion) // 2, 0])))
-    ax.view_init(elev=12, azim=facing - 65)
-    keep_inside(ax, points)
-    return ax
 
 
 def diagonal_sums(products: ArrayLike, window: int, *, step: int) -> Figure:

@@ -5,10 +5,9 @@ The commands `mocap course slides`, `mocap course film` and `mocap course board`
 
 Reading order
 -------------
-1. `deck`: the slides of a deck, and the cells of the notebook that they show
-2. `slides`: the decks as pages for reveal.js, without a network
-3. `films`: what a film of a deck shows, for how long, above which words; its pictures, and the film
-4. `board`: drawings for the board, in numbered steps
+1. `slides`: the slides of a deck, what they show of a notebook, and pages of them for reveal.js
+2. `films`: what a film of a deck shows, for how long, above which words; its pictures, and the film
+3. `board`: drawings for the board, in numbered steps
 """
 
 import lazy_loader

@@ -60,7 +60,7 @@ def _grid() -> Steps:
 
 def _laid() -> Steps:
     first, second = _walks(66)
-    yield diagrams.alignment(first, second[20:], lay_on(second[20:], first, len(first) - 1), step=3)
+    yield diagrams.alignment(first, second[20:], lay_on(second[20:], first, len(first) - 1))
 
 
 def _ball() -> Steps:

@@ -24,7 +24,7 @@ from mocap._shared.progress import Progress
 from mocap.course import read
 from mocap.course.site import STILL, recorded_of
 from mocap.course.teaching.board import SMOOTH, font_of
-from mocap.course.teaching.deck import Slide, deck_file, deck_of
+from mocap.course.teaching.slides import Slide, deck_file, deck_of
 from mocap.errors import MocapError
 from mocap.widgets.film import require_ffmpeg, write_mp4
 from mocap.widgets.filmed_scene import FilmedScene, stored_scene

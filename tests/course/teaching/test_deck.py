@@ -11,9 +11,9 @@ from mocap.cli.main import main
 from mocap.course.notebooks import read
 from mocap.course.opening import stored
 from mocap.course.teaching import board, films
-from mocap.course.teaching import deck as deck_module
-from mocap.course.teaching.deck import deck_file, deck_of
+from mocap.course.teaching import slides as deck_module
 from mocap.course.teaching.films import script_of
+from mocap.course.teaching.slides import deck_file, deck_of
 from tests.refusals import refused
 
 DECKS = sorted((stored() / "slides").glob("*.md"))

@@ -11,7 +11,7 @@ from PIL import Image
 
 from mocap.cli.main import main
 from mocap.course.teaching import films
-from mocap.course.teaching.deck import Slide
+from mocap.course.teaching.slides import Slide
 from mocap.course.teaching.films import SPEED, Scene, script_of, spoken
 from tests.refusals import refused
 
