@@ -176,7 +176,12 @@ class Check:
             wrong = f"your function raises {what}: {error}"
         failed = [(wanted, given) for _, wanted, given in tried if not self._same(given, wanted)]
         if not wrong and failed:
-            wrong = self._known_mistake(tried) or self._first_wrong(*failed[0])
+            fits = (
+                hint
+                for mistake, hint in self.mistakes
+                if all(self._same(given, mistake(*copy.deepcopy(one))) for one, _, given in tried)
+            )
+            wrong = next(fits, "") or self._first_wrong(*failed[0])
         return Verdict(not wrong, f"{self.name}: {wrong or f'right on {self.trials} random inputs.'}")
 
     def _try(self, answer: Answer, tried: list[Trial]) -> str:
@@ -197,12 +202,6 @@ class Check:
             return bool(self.same(given, wanted))
         except Exception:  # the answer has a type that cannot be compared
             return False
-
-    def _known_mistake(self, tried: list[Trial]) -> str:
-        for answer, hint in self.mistakes:
-            if all(self._same(given, answer(*copy.deepcopy(arguments))) for arguments, _, given in tried):
-                return hint
-        return ""
 
     def _first_wrong(self, wanted: Any, given: Any) -> str:  # noqa: ANN401
         if given is None:

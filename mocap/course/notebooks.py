@@ -163,7 +163,14 @@ def run(path: Path, figures: Path) -> None:
     texts = [cell.source for cell in notebook.cells if cell.cell_type == "markdown"]
     notebook.cells.append(nbformat.v4.new_code_cell(marked_values.question(texts)))
     execute(notebook, path)
-    _refresh(notebook, path, notebook.cells.pop().outputs)
+    printed = "".join(o.text for o in notebook.cells.pop().outputs if o.get("name") == "stdout")
+    values = json.loads(printed) if printed else {}  # none of a notebook that stepped aside
+    for number, cell in enumerate(notebook.cells):
+        if cell.cell_type == "markdown":
+            cell.source = marked_values.refreshed(cell.source, values)
+            left = marked_values.wrong(cell.source, values) if values else []
+            if left and "real" not in cell.metadata.get("tags", ()):
+                raise MocapError(f"{path}, cell {number}: {left[0]}")
     settle(notebook)
     write_text(path, nbformat.writes(notebook) + "\n")
 
@@ -194,18 +201,6 @@ def execute(notebook: Any, path: Path, seconds: int = 120) -> None:  # noqa: ANN
         raise MocapError(f"{path}, cell {at[-1]}: {error.ename}: {error.evalue:.99}") from error
 
 
-def _refresh(notebook: Any, path: Path, answer: list[Any]) -> None:  # noqa: ANN401
-    """Write the values of marked numbers into the text; a notebook that stepped aside gives no answer."""
-    printed = "".join(output.text for output in answer if output.get("name") == "stdout")
-    values = json.loads(printed) if printed else {}  # and not what warnings wrote beside it
-    for number, cell in enumerate(notebook.cells):
-        if cell.cell_type == "markdown":
-            cell.source = marked_values.refreshed(cell.source, values)
-            left = marked_values.wrong(cell.source, values) if values else []
-            if left and "real" not in cell.metadata.get("tags", ()):
-                raise MocapError(f"{path}, cell {number}: {left[0]}")
-
-
 def settle(notebook: Any) -> None:  # noqa: ANN401
     """Remove from a notebook's metadata and outputs what varies between runs."""
     notebook.metadata = {"kernelspec": KERNEL, "language_info": {"name": "python"}}
@@ -213,22 +208,16 @@ def settle(notebook: Any) -> None:  # noqa: ANN401
         cell.id = f"cell-{number:02}"
         cell.metadata = {key: value for key, value in cell.metadata.items() if key == "tags"}
         if cell.cell_type == "code":
-            cell.outputs = _merged(cell.outputs)
+            outputs, cell.outputs = cell.outputs, []
+            for output in outputs:
+                if (data := output.get("data", {})).pop(WIDGET, None) and not data:
+                    continue  # a widget alone, which ends with the kernel
+                before = cell.outputs[-1] if cell.outputs else {}
+                if output.output_type == "stream" and before.get("name") == output.name:
+                    before.text += output.text  # pieces of one stream
+                else:
+                    cell.outputs.append(output)
         if "real" in cell.metadata.get("tags", ()):  # only pictures: no captured motion is stored
             for data in (output.get("data", {}) for output in cell.get("outputs", ())):
                 if "text/html" in data:
                     data["text/html"] = MOVING.sub(r"\1", data["text/html"])
-
-
-def _merged(outputs: list[Any]) -> list[Any]:
-    """Join the pieces of each stream, and remove the names of widgets, which end with the kernel."""
-    merged: list[Any] = []
-    for output in outputs:
-        data = output.get("data", {})
-        if data.pop(WIDGET, None) and not data:
-            continue
-        if output.output_type == "stream" and merged and merged[-1].get("name") == output.name:
-            merged[-1].text += output.text
-        else:
-            merged.append(output)
-    return merged

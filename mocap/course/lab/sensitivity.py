@@ -153,31 +153,24 @@ def read_answers(files: str | Path | Iterable[str | Path]) -> list[Answer]:
     if not paths:
         raise MocapError("There are no files of answers.")
     for path in paths:
-        for answer in _read(path):
+        try:
+            head, *rows = csv.reader(path.read_text("utf-8-sig").splitlines() or [""])
+        except (OSError, UnicodeDecodeError) as error:
+            raise MocapError(f"{path}: {getattr(error, 'strerror', None) or 'is not a text'}.") from error
+        if head != COLUMNS:
+            raise FormatError(path, 1, ",".join(COLUMNS), repr(",".join(head)))
+        for number, row in enumerate(rows, 2):
+            try:
+                who, below, window, seed, pair, right, _, _ = row
+                chose = {"0": False, "1": True}[right]
+                answer = Answer(who, float(below), int(window), int(seed), int(pair), chose)
+            except (ValueError, KeyError) as error:
+                expected = "an answer in 8 columns, right 0 or 1"
+                raise FormatError(path, number, expected, repr(",".join(row))) from error
             if answers.setdefault(answer[:-1], answer) != answer:
                 twice = f"'{answer.observer}' answered pair {answer.pair} twice, differently"
                 raise MocapError(f"{path}: {twice}.")
     return list(answers.values())
-
-
-def _read(path: Path) -> list[Answer]:
-    try:
-        lines = path.read_text("utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise MocapError(f"{path}: {getattr(error, 'strerror', None) or 'is not a text'}.") from error
-    head, *rows = csv.reader(lines) if lines else [[]]
-    if head != COLUMNS:
-        raise FormatError(path, 1, ",".join(COLUMNS), repr(",".join(head)))
-    answers = []
-    for number, row in enumerate(rows, 2):
-        try:
-            observer, below, window, seed, pair, right, _, _ = row
-            chose = {"0": False, "1": True}[right]
-            answers.append(Answer(observer, float(below), int(window), int(seed), int(pair), chose))
-        except (ValueError, KeyError) as error:
-            expected = "an answer in 8 columns, right 0 or 1"
-            raise FormatError(path, number, expected, repr(",".join(row))) from error
-    return answers
 
 
 def class_curve(answers: Sequence[Answer], over: Literal["below_cm", "window"]) -> list[ClassPoint]:

@@ -134,7 +134,14 @@ def draw_where(shown: Inspector, ax: Any) -> None:  # noqa: ANN401 (axes)
     choices, pick = shown.choices, shown.choices.pick
     fps = choices.clips[0].fps
     if choices.seams:
-        _draw_walk(shown, ax)
+        ax.plot(*shown.asked.T, color=plotting.ASKED, linewidth=5, alpha=0.6)
+        ax.plot(*shown.track.T, color=plotting.PATH, linewidth=2)
+        for seam in choices.seams:
+            chosen = seam.seam == pick.seam  # which is larger
+            look = {"markersize": 11 if chosen else 6, "markeredgecolor": "black" if chosen else "white"}
+            ax.plot(*shown.track[seam.frame], "D", color=plotting.MARK, **look)
+        ax.set(xlabel="x (m)", ylabel="z (m)", aspect="equal")
+        ax.invert_xaxis()
     elif choices.graph is not None:
         plotting.timeline(choices.graph, each=EACH, most=MOST, ax=ax)
         ends = [(pick.i / fps, -pick.first), ((pick.j + choices.window) / fps, -pick.second)]
@@ -145,16 +152,3 @@ def draw_where(shown: Inspector, ax: Any) -> None:  # noqa: ANN401 (axes)
         at = (pick.j + 0.5) / fps, (pick.i + 0.5) / fps
         ax.plot(*at, "o", color="none", markeredgecolor="black", markersize=13, markeredgewidth=3)
         ax.plot(*at, "o", color="none", markeredgecolor="white", markersize=13, markeredgewidth=1.5)
-
-
-def _draw_walk(shown: Inspector, ax: Any) -> None:  # noqa: ANN401
-    """Draw the path asked for, the walk and its seams from above, the chosen one larger."""
-    asked, track = shown.asked, shown.track
-    ax.plot(*asked.T, color=plotting.ASKED, linewidth=5, alpha=0.6)
-    ax.plot(*track.T, color=plotting.PATH, linewidth=2)
-    for seam in shown.choices.seams:
-        chosen = seam.seam == shown.choices.pick.seam
-        look = {"markersize": 11 if chosen else 6, "markeredgecolor": "black" if chosen else "white"}
-        ax.plot(*track[seam.frame], "D", color=plotting.MARK, **look)
-    ax.set(xlabel="x (m)", ylabel="z (m)", aspect="equal")
-    ax.invert_xaxis()

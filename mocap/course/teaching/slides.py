@@ -71,25 +71,21 @@ def deck_of(file: Path, notebook: Any) -> list[Slide]:  # noqa: ANN401
     """
     if not file.is_file():
         raise MocapError(f"There is no deck {file}: slides and films are made of decks.")
-    parts = re.split(r"^---$", file.read_text("utf-8"), flags=re.MULTILINE)
-    return [_slide(file, notebook, part) for part in parts]
-
-
-def _slide(file: Path, notebook: Any, part: str) -> Slide:  # noqa: ANN401
-    told, _, notes = part.partition("\nNote:")
-    heading, _, body = told.strip().partition("\n")
-    label, _, rest = (heading := heading.lstrip("# ")).partition(": ")
-    label, heading = (label, rest) if label in LABELS else ("", heading)
-    texts = TAKEN.split(body)
-    if wrong := re.search(r"^\{.*", "".join(texts[::3]), re.MULTILINE):
-        raise MocapError(f"{file}: '{wrong[0]:.60}' is not {{show ...}}, {{code ...}} or {{draw ...}}.")
-    written = library().v4.new_markdown_cell
-    cells = [written(texts[0].strip())]
-    for what, name, text in zip(texts[1::3], texts[2::3], texts[3::3], strict=True):
-        cells += [_taken(file, notebook, what, name), written(text.strip())]
-    return Slide(
-        label, heading, [cell for cell in cells if cell.source or cell.get("outputs")], notes.strip()
-    )
+    slides, written = [], library().v4.new_markdown_cell
+    for part in re.split(r"^---$", file.read_text("utf-8"), flags=re.MULTILINE):
+        told, _, notes = part.partition("\nNote:")
+        heading, _, body = told.strip().partition("\n")
+        label, _, rest = (heading := heading.lstrip("# ")).partition(": ")
+        label, heading = (label, rest) if label in LABELS else ("", heading)
+        texts = TAKEN.split(body)
+        if wrong := re.search(r"^\{.*", "".join(texts[::3]), re.MULTILINE):
+            raise MocapError(f"{file}: '{wrong[0]:.60}' is not {{show ...}}, {{code ...}} or {{draw ...}}.")
+        cells = [written(texts[0].strip())]
+        for what, name, text in zip(texts[1::3], texts[2::3], texts[3::3], strict=True):
+            cells += [_taken(file, notebook, what, name), written(text.strip())]
+        cells = [cell for cell in cells if cell.source or cell.get("outputs")]
+        slides.append(Slide(label, heading, cells, notes.strip()))
+    return slides
 
 
 def _taken(file: Path, notebook: Any, what: str, name: str) -> Any:  # noqa: ANN401
