@@ -97,17 +97,12 @@ class Building(Sources):
     window: Annotated[float, number(0, 60), "seconds of a transition"] = 1 / 3
     threshold: Annotated[float, CM, "largest distance of a match, cm"] = 4.0
 
-    @property
-    def frames(self) -> int:
-        """Frames of a window, which needs at least two."""
-        if (frames := round(self.window * self.fps)) < 2:
-            raise MocapError(f"A window needs two frames or more, got {self.window:g} s at {self.fps:g} Hz.")
-        return frames
-
     def build(self, clips: "Sequence[Motion]", progress: Progress = iter) -> "MotionGraph":
         """Build the graph of some clips, not pruned yet."""
+        if (frames := round(self.window * self.fps)) < 2:
+            raise MocapError(f"A window needs two frames or more, got {self.window:g} s at {self.fps:g} Hz.")
         clips = [body.resample(clip, self.fps) for clip in clips]
-        return graphs.build(clips, window=self.frames, threshold=self.threshold / 100, progress=progress)
+        return graphs.build(clips, window=frames, threshold=self.threshold / 100, progress=progress)
 
 
 def load_graph(path: Path, skeleton: Path | None, clips: "Sequence[Motion] | None" = None) -> "MotionGraph":

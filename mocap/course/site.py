@@ -35,21 +35,15 @@ STILL_NOTES = {
     False: "A still picture: its controls move where the notebook runs.",
     True: "A recording: here you can play it and turn it; it answers you where the notebook runs.",
 }
-LIVE = {  # what needs no Python, by its class
-    "mocap-player": "the players play",
-    "mocap-question": "quizzes and bets answer you",
-    "mocap-inspector": "seams can be looked into",
-    "mocap-blindtest": "the blind test can be taken",
-    "moving": "the sliders show recorded positions",
-}
 SCRIPT = re.compile(r'<script type="module">.*?</script>', re.DOTALL)
 HEAVY = re.compile(r'(?s)<script type="module">(.*?)</script>|src="data:image/png;base64,([^"]+)"')
 AGAIN = re.compile(r"<p><small>Run this cell[^<]*</small></p>")
-RUN = (
-    "To run it live: <code>pip install 'motion-graphs[notebooks]'</code>, in a checkout "
+ABOVE = NOTE.format(
+    "Players, recorded sliders, quizzes, bets and the blind test answer you on these pages; code and other "
+    "controls are still. To run it live: <code>pip install 'motion-graphs[notebooks]'</code>, in a checkout "
     "<code>pip install '.[notebooks]'</code>, then <code>mocap lab</code>."
 )
-DARK = '<script>document.body.classList.add("mocap-page")</script>'  # players are dark where the page is
+ABOVE += '<script>document.body.classList.add("mocap-page")</script>'  # players are dark where the page is
 INDEX = """# Motion graphs
 
 <iframe src="walk.html" title="Draw a line. It walks." style="width: 100%; height: 70vh; border: 0"></iframe>
@@ -101,6 +95,8 @@ def build_site(notebooks: Path, out: Path, progress: Progress = iter, *, moving:
     nbformat, files = library(), notebooks_in(notebooks)
     if not all(map(find_spec, ("furo", "myst_nb", "sphinx"))):
         raise missing("The site needs Sphinx, MyST-NB and Furo", "site")
+    from sphinx.application import Sphinx
+
     make_folder(out)
     make_folder(out / "_shared")
     with tempfile.TemporaryDirectory() as folder:
@@ -110,7 +106,7 @@ def build_site(notebooks: Path, out: Path, progress: Progress = iter, *, moving:
             titles.append(f"{title} <{file.stem}>")
             _unpack_pictures(notebook, Path(folder), file.stem)
             _share(notebook, out)
-            notebook.cells.insert(1, nbformat.v4.new_markdown_cell(_note(notebook), id="note"))
+            notebook.cells.insert(1, nbformat.v4.new_markdown_cell(ABOVE, id="note"))
             write_text(Path(folder, file.name), nbformat.writes(notebook))
         for page in notebooks.glob("*.md"):
             shutil.copy(page, folder)
@@ -118,7 +114,11 @@ def build_site(notebooks: Path, out: Path, progress: Progress = iter, *, moving:
         titles += [page.relative_to(folder).as_posix() for page in sorted(Path(folder).rglob("*.md"))]
         index = INDEX.format("\n".join(titles), "\n".join(_write_reference(Path(folder))))
         write_text(Path(folder, "index.md"), index)
-        _run_sphinx(Path(folder), out)
+        quiet: dict[str, Any] = {
+            "status": None,
+            "warning": io.StringIO(),
+        }  # of papers cited twice
+        Sphinx(folder, HERE, out, Path(folder, ".doctrees"), "html", **quiet).build()
     clips = [resample(sample(name), 30) for name in SAMPLES]
     write_text(out / "walk.html", walk_page(graphs.prune(graphs.build(clips, window=10, threshold=0.04))))
     return out / f"{files[0].stem}.html"
@@ -202,17 +202,6 @@ def _share(notebook: Any, out: Path) -> None:  # noqa: ANN401
             data["text/html"] = HEAVY.sub(shared, data["text/html"])
 
 
-def _note(notebook: Any) -> str:  # noqa: ANN401
-    """Say what moves on a page, what does not, and how to run it."""
-    shown = str(notebook.cells)
-    live = [said for part, said in LIVE.items() if f'class="{part}' in shown]
-    said = "This page is still: code and controls do not run here."
-    if live:
-        parts = " and ".join(filter(None, [", ".join(live[:-1]), live[-1]]))
-        said = f"On this page {parts}; code and other controls are still."
-    return NOTE.format(f"{said} {RUN}") + DARK
-
-
 def _write_reference(folder: Path) -> list[str]:
     """Write a page for the face of each room, and list them."""
     make_folder(folder / "reference")
@@ -221,10 +210,3 @@ def _write_reference(folder: Path) -> list[str]:
     for room in rooms:
         write_text(folder / "reference" / f"{room}.rst", REFERENCE.format(room, "=" * len(room)))
     return [f"reference/{room}" for room in rooms]
-
-
-def _run_sphinx(folder: Path, out: Path) -> None:
-    """Make the pages; what Sphinx warns of, such as a paper that two rooms cite, is not shown."""
-    from sphinx.application import Sphinx
-
-    Sphinx(folder, HERE, out, folder / ".doctrees", "html", status=None, warning=io.StringIO()).build()

@@ -131,11 +131,7 @@ def two_distances(path: GroundPath, walk: GroundPath) -> Callable[..., list[Any]
 
     Notebook: 08c-judging-a-search
     """
-    ground, curves = Figure(figsize=(8, 3.8), layout="constrained").subplots(1, 2, width_ratios=(1, 1.3))
-    seen_from_above(ground).plot(*path.points.T, color=ASKED, linewidth=7, label="path asked for")
-    ground.plot(*walk.points.T, color=PATH, linewidth=3.5, label="walk")
-    ground.legend(frameon=False)
-    curves.set(xlabel="metres walked", ylabel="distance (cm)", xlim=(0, walk.length))
+    ground, curves = _ground_and_curves(path, walk)
     moments = np.linspace(0, walk.length, MOMENTS)[:, None]
     along = np.maximum(0, moments - moments[1] * np.linspace(1, 0, 25))  # up to each moment, (9, 25)
     here, share, moving = walk.at(moments), np.array([*np.linspace(0, 1, 15), np.nan])[:, None], []
@@ -163,6 +159,15 @@ def two_distances(path: GroundPath, walk: GroundPath) -> Callable[..., list[Any]
         return [now, *(line for line, _ in moving)]
 
     return draw
+
+
+def _ground_and_curves(path: GroundPath, walk: GroundPath) -> tuple[Axes, Axes]:
+    ground, curves = Figure(figsize=(8, 3.8), layout="constrained").subplots(1, 2, width_ratios=(1, 1.3))
+    seen_from_above(ground).plot(*path.points.T, color=ASKED, linewidth=7, label="path asked for")
+    ground.plot(*walk.points.T, color=PATH, linewidth=3.5, label="walk")
+    ground.legend(frameon=False)
+    curves.set(xlabel="metres walked", ylabel="distance (cm)", xlim=(0, walk.length))
+    return ground, curves
 
 
 def _line(ax: Axes, rows: Array, *form: str, **look: Any) -> tuple[Any, Array]:  # noqa: ANN401

@@ -8,19 +8,16 @@ from operator import index
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 
 from mocap._shared.arrays import Array, Indices, Mask
-from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, require_alike
 from mocap.course.lab.adopting import slots, whose
-from mocap.course.lab.places import squared_distances
+from mocap.course.lab.places import pages_of, squared_distances
 from mocap.errors import MocapError
 from mocap.graphs.edge_tables import Edge, edge_table
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.minima import local_minima
-from mocap.matching.point_clouds import distinct_joints
 from mocap.synthesis.walk_to_motion import seams
 
 SECONDS = 0.7  # of clip that are shown before and after a window
@@ -124,10 +121,7 @@ def _measured(first: Motion, second: Motion, window: int) -> tuple[Array, Indice
     names = "window_sums", "inner_minima"
     sums, inner = slots(*names)
     if sums.yours and window <= min(len(first), len(second)):
-        points = distinct_joints(first.skeleton)
-        clouds = [joint_positions(clip)[:, points] for clip in (first, second)]
-        windows = [sliding_window_view(cloud, window, 0).transpose(0, 3, 1, 2) for cloud in clouds]
-        a, b = (part.reshape(len(part), -1, 3) for part in windows)
+        a, b = map(pages_of(None, window).windows, (first, second))
         grid = squared_distances(a, b, window, sums)
     else:
         grid = np.asarray(distance_grid(first, second, window=window), float)
