@@ -187,8 +187,6 @@ def blend(
     Example: mocap blend slow.bvh brisk.bvh --weights 0.3 0.7 -o walk.bvh
     """
     check_out("blend", out, clips)
-    if len(clips) < 2:
-        raise MocapError("A blend needs two clips or more.")
     if weights and len(weights) != len(clips):
         raise MocapError(f"{len(clips)} clips need {len(clips)} weights, got {len(weights)}.")
     if fade and (weights or len(clips) != 2):

@@ -212,7 +212,7 @@ def settle(notebook: Any) -> None:  # noqa: ANN401
             for output in outputs:
                 if (data := output.get("data", {})).pop(WIDGET, None) and not data:
                     continue  # a widget alone, which ends with the kernel
-                before = cell.outputs[-1] if cell.outputs else {}
+                before: Any = cell.outputs[-1] if cell.outputs else {}
                 if output.output_type == "stream" and before.get("name") == output.name:
                     before.text += output.text  # pieces of one stream
                 else:

@@ -70,7 +70,7 @@ def timeline(
         x, y = np.array(motion_graph.graph.nodes).reshape(-1, 2)[:, ::-1].T / [[fps], [-1]]
         ax.plot(x, y, "o", color="white", markeredgecolor=COLOURS["middle"], markersize=5)
     costs = np.array([edge.get("cost", 0.0) for edge in edges])[~stays]
-    chosen = sorted(islice(_cheapest(frames[~stays, :, 0], costs, each), most))
+    chosen = sorted(islice(cheapest(frames[~stays, :, 0], costs, each), most))
     arcs = _arcs(ends[~stays][chosen])
     fade = min(1.0, 0.06 + 60 / (len(arcs) + 1))
     transitions = LineCollection(list(arcs), colors=MARK, linewidths=0.7, alpha=fade, zorder=1.5)
@@ -88,7 +88,7 @@ def timeline(
     return transitions
 
 
-def _cheapest(pairs: Indices, costs: Array, each: int | None) -> Iterator[int]:
+def cheapest(pairs: Indices, costs: Array, each: int | None) -> Iterator[int]:
     """Give the numbers of transitions by cost, the lowest first; from each clip to each, at most `each`."""
     seen: Counter[tuple[int, ...]] = Counter()
     for number in np.argsort(costs, kind="stable").tolist():

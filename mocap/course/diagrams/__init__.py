@@ -15,7 +15,7 @@ Reading order (notebooks 00 to 09)
  7. `eight_nodes`: the paper's small graph, and Tarjan's search on it with its low links
  8. `branching`: the walks that branch and bound takes up, and walks from above
  9. `layers`: the layered search along a line, with the line of its code that runs
-10. `pens`: arrows, words, discs and steps that several of them share
+10. `pens`: arrows, words and discs that several of them share
 
 References
 ----------

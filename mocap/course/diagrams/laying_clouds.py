@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from mocap._shared.arrays import Array
 from mocap.body import Motion, PlanarTransform, joint_positions
-from mocap.course.diagrams.pens import arrow, require_step, strokes, trace
+from mocap.course.diagrams.pens import arrow, strokes, trace
 from mocap.matching.point_clouds import align, distinct_joints, point_cloud
 from mocap.plotting import CURVES, PATH, QUIET, SOURCES, bones
 
@@ -105,7 +105,6 @@ def laying_on(first: Motion, second: Motion, *, step: int = 4) -> Figure:
 
     Notebook: 03-transforms
     """
-    require_step(step, len(STEPS))
     a, b = (point_cloud(motion).reshape(-1, 3) for motion in (first, second))
     centred = [PlanarTransform(0.0, *-cloud.mean(0)[[0, 2]]) for cloud in (a, b)]
     turn = PlanarTransform(align(a, b).angle * (step > 2), 0.0, 0.0)

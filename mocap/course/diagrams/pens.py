@@ -1,4 +1,4 @@
-"""Pens that several diagrams share: arrows and words at points of a plane, legends' discs, and steps."""
+"""Pens that several diagrams share: arrows and words at points of a plane, and legends' discs."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -9,7 +9,6 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 from matplotlib.text import Annotation
 
-from mocap.errors import MocapError
 from mocap.plotting import CURVES
 
 
@@ -48,9 +47,3 @@ def show_program(ax: Axes, program: Sequence[str], line: int) -> Rectangle:
     for number, text in enumerate(program):
         ax.text(0.01, number, text, va="center", family="monospace")
     return ax.axhspan(line - 0.5, line + 0.5, color=CURVES[0], alpha=0.25, linewidth=0)
-
-
-def require_step(step: int, last: int) -> None:
-    """Refuse a step that a diagram does not have."""
-    if step not in range(1, last + 1):
-        raise MocapError(f"This diagram has the steps 1 to {last}, got {step}.")

@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
 from mocap.body import Motion, heading, joint_positions
-from mocap.course.diagrams.pens import require_step
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import point_cloud
 from mocap.plotting.stick_figures import StickFigure, ground_axes, keep_inside, to_picture
@@ -35,13 +34,12 @@ def window_cloud(motion: Motion, *, step: int = 4) -> Figure:
 
     Notebook: 02-matching
     """
-    require_step(step, 4)
     points, cloud = joint_positions(motion), point_cloud(motion)
     flat, middle = cloud.reshape(-1, 3), len(motion) // 2
     figure = Figure(figsize=(5.2, 4.8))
     low, high = points.min(axis=(0, 1))[[0, 2]], points.max(axis=(0, 1))[[0, 2]]
-    ax = figure.add_axes((0, 0, 1, 0.92), projection="3d")
-    ground_axes((low + high) / 2, max(1.2, *(high - low)) / 2 + 0.2, ax=ax)
+    reach = max(1.2, *(high - low)) / 2 + 0.2
+    ax = ground_axes((low + high) / 2, reach, ax=figure.add_axes((0, 0, 1, 0.92), projection="3d"))
     ax.view_init(elev=12, azim=float(np.degrees(heading(motion.rotations[middle, 0]))) - 65)  # from the right
     keep_inside(ax, np.concatenate([points, points * [1, 0, 1]]))  # with the shadow
     for frame in ([middle], range(len(motion)), range(len(motion)), [])[step - 1]:
@@ -78,7 +76,6 @@ def radius_gaps(first: Motion, second: Motion, joints: Sequence[str], *, step: i
 
     Notebook: 02c-most-pairs
     """
-    require_step(step, len(CIRCLE_STEPS))
     figure = Figure(figsize=(5.6, 5.2), layout="constrained")
     ax, last, places = figure.add_subplot(), step == len(CIRCLE_STEPS), []
     for motion, colour in zip((first, second), SOURCES, strict=False):
@@ -125,7 +122,6 @@ def diagonal_sums(products: ArrayLike, window: int, *, step: int) -> Figure:
     rows, columns = (count - window + 1 for count in numbers.shape)
     if min(rows, columns) < 1 or window < 1:
         raise MocapError(f"Windows of {window} frames do not fit into an array of shape {numbers.shape}.")
-    require_step(step, window)
     sums = np.sum([numbers[f : f + rows, f : f + columns] for f in range(step)], axis=0)
     figure = Figure(figsize=(8.4, 4.2), layout="constrained")
     frames, windows = figure.subplots(1, 2, width_ratios=(numbers.shape[1], columns))

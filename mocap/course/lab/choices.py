@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
+from itertools import islice
 from operator import index
 from typing import Any, NamedTuple
 
@@ -18,6 +18,7 @@ from mocap.graphs.edge_tables import Edge, edge_table
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.minima import local_minima
+from mocap.plotting.graph_drawing import cheapest
 from mocap.synthesis.walk_to_motion import seams
 
 SECONDS = 0.7  # of clip that are shown before and after a window
@@ -152,15 +153,11 @@ def of_graph(graph: MotionGraph) -> Choices:
     (0, 60, 0, 10)
     """
     edges = [edge for edge in graph.graph.edges(keys=True) if graph.graph.edges[edge]["kind"] == "transition"]
-    edges.sort(key=lambda edge: graph.graph.edges[edge]["cost"])
     if not edges:
         raise MocapError("This graph has no transitions to inspect.")
-    few, seen = list[Edge](), Counter[tuple[int, int]]()
-    for edge in edges:
-        pair = edge[0][0], edge[1][0]
-        seen[pair] += 1
-        if seen[pair] <= EACH and len(few) < MOST:
-            few.append(edge)
+    pairs = np.array([(start[0], end[0]) for start, end, _ in edges])
+    costs = np.array([graph.graph.edges[edge]["cost"] for edge in edges])
+    few = [edges[number] for number in islice(cheapest(pairs, costs, EACH), MOST)]
     return _offered(graph, few, few[0])
 
 
