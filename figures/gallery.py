@@ -53,7 +53,7 @@ from mocap.body import SHAPES, arcs, joint_positions, planar, rotations, spline,
 from mocap.body.euler import from_euler
 from mocap.course import diagrams
 from mocap.course.diagrams import pens
-from mocap.course.diagrams.eight_nodes import EIGHT_PLACES
+from mocap.course.diagrams.small_graphs import EIGHT_PLACES
 from mocap.course.seam_trials import choose_matches, passage, walk_costs
 from mocap.methods import groups, match_webs, motion_matching, parametric_graphs
 from mocap.methods.match_webs.local_alignment import apart

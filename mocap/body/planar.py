@@ -120,7 +120,7 @@ def heading(quaternions: ArrayLike) -> Array:
     Every rotation is a turn about +y after a swing about a level axis; θ is that turn. It stays defined when
     the body lies down or looks straight up, and turning the body by α adds α exactly. The one exception is
     a swing by half a turn (upside down, q_w = q_y = 0), where it is 0. The homework took the heading from
-    the rotation matrix instead; `course.homework_slips.homework_heading` shows where that fails.
+    the rotation matrix instead; notebook 03b shows where that fails.
 
     Parameters
     ----------

@@ -9,22 +9,20 @@ Reading order
 -------------
 1. `check`: how an exercise is checked
 2. `checks`: the exercises, a table for each notebook
-3. `homework_slips`: three slips of the homework, and what fixes them
-4. `real_clips`: captured clips for notebooks that can do without, and the four collections of claims
-5. `seam_trials`: walks by a matrix, and blends of matches drawn at random, measured
-6. `marked_values`: numbers in prose, and the expressions that compute them
-7. `notebooks`: read a notebook, find its cells by their tags, run it
-8. `names`: which names some code defines and uses
-9. `handout`: copies without solutions
-10. `formulas`: formulas as MathML
-11. `site`: the course as HTML pages, beside the reference pages of the package
-12. `conf`: how Sphinx makes these pages
-13. `lite`: the course in JupyterLite
-14. `opening`: the course in JupyterLab
-15. `diagrams`: ideas drawn step by step
-16. `lab`: what students wrote is used, and what they thought is kept
-17. `marking`: marks for notebooks handed in, whose code runs sealed
-18. `teaching`: slides and films that are made from the notebooks
+3. `real_clips`: captured clips for notebooks that can do without, and the four collections of claims
+4. `seam_trials`: walks by a matrix, and blends of matches drawn at random, measured
+5. `marked_values`: numbers in prose, and the expressions that compute them
+6. `notebooks`: read a notebook, find its cells by their tags, run it
+7. `names`: which names some code defines and uses
+8. `handout`: copies without solutions
+9. `formulas`: formulas as MathML
+10. `site`: the course as HTML pages, beside the reference pages of the package
+11. `conf`: how Sphinx makes these pages
+12. `opening`: the course in JupyterLab, and in JupyterLite
+13. `diagrams`: ideas drawn step by step
+14. `lab`: what students wrote is used, and what they thought is kept
+15. `marking`: marks for notebooks handed in, whose code runs sealed
+16. `teaching`: slides and films that are made from the notebooks
 
 References
 ----------
@@ -35,13 +33,12 @@ import lazy_loader
 
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
-    submodules=["checks", "diagrams", "homework_slips", "lab", "marking", "seam_trials", "teaching"],
+    submodules=["checks", "diagrams", "lab", "marking", "seam_trials", "teaching"],
     submod_attrs={
         "real_clips": ["collections", "people"],
         "notebooks": ["read", "run"],
         "handout": ["hand_out"],
         "site": ["build_site"],
-        "lite": ["build_lite"],
-        "opening": ["open_course", "stored"],
+        "opening": ["build_lite", "open_course", "stored"],
     },
 )

@@ -1,14 +1,19 @@
-"""The course in JupyterLab."""
+"""The course in JupyterLab, and in the browser alone, as a JupyterLite site with the package as a wheel."""
 
-import importlib.util
+from __future__ import annotations
+
 import os
 import shutil
 import subprocess
 import sys
+import tempfile
 from collections.abc import Sequence
+from importlib.util import find_spec
 from pathlib import Path
 
-from mocap.errors import MocapError, missing
+from mocap._shared.atomic import write_text
+from mocap.course.notebooks import library, notebooks_in, read
+from mocap.errors import MocapError, missing, shortened
 
 PACKAGE = Path(__file__).parents[1]
 FIRST = "00-quickstart.ipynb"
@@ -63,7 +68,7 @@ def open_course(copy: Path, options: Sequence[str] = ()) -> int:
     ------
     MocapError : if JupyterLab is not installed.
     """
-    if importlib.util.find_spec("jupyterlab") is None:
+    if find_spec("jupyterlab") is None:
         raise missing("The course runs in JupyterLab, which is missing", "notebooks")
     root = ["--allow-root"] if getattr(os, "geteuid", lambda: 1)() == 0 else []
     first = str(course_folder(copy) / FIRST)
@@ -73,3 +78,54 @@ def open_course(copy: Path, options: Sequence[str] = ()) -> int:
             return started.wait()
         except KeyboardInterrupt:  # JupyterLab has it as well, and answers it
             continue
+
+
+INSTALL = "%pip install -q motion-graphs anywidget ipywidgets"  # which the browser's Python does not have
+
+
+def build_lite(notebooks: Path, out: Path) -> Path:
+    """Build a site on which the notebooks run in the reader's browser, without a server for Python.
+
+    The reader needs a network: the browser loads Python, numpy, scipy and matplotlib from it.
+
+    Parameters
+    ----------
+    notebooks : the course's folder, in a checkout, of which a wheel is built.
+    out : the folder for the site.
+
+    Returns
+    -------
+    The first page.
+
+    Raises
+    ------
+    MocapError : if JupyterLite is not installed, there is no checkout, or the build fails.
+    """
+    if not find_spec("jupyterlite_pyodide_kernel"):
+        raise missing("The site needs JupyterLite, which is not installed", "lite")
+    checkout = notebooks.parent
+    if not (checkout / "pyproject.toml").exists():
+        raise MocapError("A JupyterLite site is built from a checkout; this is an installed package.")
+    with tempfile.TemporaryDirectory() as folder:
+        wheels, contents = Path(folder, "wheels"), Path(folder, "contents")
+        _call(folder, ["pip", "wheel", "--no-deps", "--wheel-dir", wheels, checkout.resolve()])
+        contents.mkdir()
+        for file in notebooks_in(notebooks):
+            notebook = read(file)
+            notebook.cells.insert(1, library().v4.new_code_cell(INSTALL, id="install"))
+            write_text(contents / file.name, library().writes(notebook))
+        for page in notebooks.glob("[A-Z]*.md"):
+            shutil.copy(page, contents)
+        (wheel,) = wheels.glob("*.whl")
+        parts: list[str | Path] = ["--contents", contents, "--piplite-wheels", wheel]
+        _call(folder, ["jupyterlite_core", "build", *parts, "--output-dir", out.resolve()])
+    return out / "lab" / "index.html"
+
+
+def _call(folder: str, command: list[str | Path]) -> None:
+    """Run a Python module in a folder, where it may leave files."""
+    whole = [sys.executable, "-m", *map(str, command)]
+    done = subprocess.run(whole, cwd=folder, capture_output=True, text=True, check=False)
+    if done.returncode:
+        last = (done.stderr or done.stdout).strip().splitlines()[-1:]
+        raise MocapError(f"'{command[0]} {command[1]}' failed: {shortened(''.join(last), 120)}")

@@ -2,9 +2,9 @@
 
 A node is a segment; an edge leads to a segment that may follow it. Where the homework's program has a
 mistake, the default is correct and the mistake is an option: `weighting="distance"` makes the worse match
-more likely. Three more mistakes are shown in `homework_slips` only: Euler angles that flip, segments that
-repeat the last frame of the one before, and clips that are changed in place. And the homework moves segments
-in height too, so that a walk slowly rises or sinks.
+more likely. More mistakes are shown in notebook 03b only: Euler angles that flip, and segments that repeat
+the last frame of the one before. And the homework moves segments in height too, so that a walk slowly rises
+or sinks.
 """
 
 from collections.abc import Sequence

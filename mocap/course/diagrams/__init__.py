@@ -6,16 +6,15 @@ in the file of its subject.
 
 Reading order (notebooks 00 to 09)
 ----------------------------------
- 1. `small_graphs`: a motion graph's nodes and edges on two clips
+ 1. `small_graphs`: nodes and edges on two clips, and Tarjan's search on the paper's small graph
  2. `poses`: two half turns, turns whose order matters, and forward kinematics by joint
  3. `windows`: what a window is, a lower bound of the distance of two, and sums along diagonals
  4. `laying_clouds`: one cloud of points laid on another, from above
  5. `ground`: headings, one clip aligned with another, and how far a walk is from its path, from above
  6. `seams`: frames of a transition, ways between two rotations, a leg as a triangle, and added jolts
- 7. `eight_nodes`: the paper's small graph, and Tarjan's search on it with its low links
- 8. `branching`: the walks that branch and bound takes up, and walks from above
- 9. `layers`: the layered search along a line, with the line of its code that runs
-10. `pens`: arrows, words and discs that several of them share
+ 7. `branching`: the walks that branch and bound takes up, and walks from above
+ 8. `layers`: the layered search along a line, with the line of its code that runs
+ 9. `pens`: arrows, words and discs that several of them share
 
 References
 ----------
@@ -27,13 +26,12 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "small_graphs": ["nodes_and_edges"],
+        "small_graphs": ["eight_node_graph", "nodes_and_edges", "tarjan_states", "tarjan_steps"],
         "poses": ["down_the_tree", "half_turns", "turns_in_order"],
         "laying_clouds": ["laid", "laying_on", "products", "turning"],
         "windows": ["diagonal_sums", "radius_gaps", "window_cloud"],
         "ground": ["alignment", "compass", "two_distances"],
         "seams": ["added_by_blend", "blended_seam", "knee_triangle", "turning_paths"],
-        "eight_nodes": ["eight_node_graph", "tarjan_states", "tarjan_steps"],
         "branching": ["edge_lengths", "from_above", "laid_in_turn", "search_events", "search_steps"],
         "layers": ["layer_steps"],
     },

@@ -16,8 +16,8 @@ from matplotlib.lines import Line2D
 from matplotlib.text import Text
 
 from mocap._shared.arrays import Points
-from mocap.course.diagrams.eight_nodes import BOX, EIGHT_PLACES, eight_node_graph
 from mocap.course.diagrams.pens import disc, say
+from mocap.course.diagrams.small_graphs import BOX, EIGHT_PLACES, eight_node_graph
 from mocap.plain import Edge
 from mocap.plotting import ASKED, COLOURS, CURVES, PATH, QUIET
 from mocap.plotting.ground_charts import seen_from_above

@@ -1,13 +1,19 @@
-"""What a motion graph is: nodes and edges on two clips' timelines, and the homework's segments."""
+"""Small graphs: nodes and edges on two clips, and Tarjan's search on the eight nodes of Figure 4 [KGP02]."""
 
+from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 import matplotlib.pyplot as plt
+import networkx as nx
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+from matplotlib.text import Text
 
-from mocap.course.diagrams.pens import arrow, say
-from mocap.plotting.style import COLOURS, MARK, PATH, QUIET, SOURCES
+from mocap.course.diagrams.pens import arrow, disc, say, show_program
+from mocap.plotting import COLOURS, MARK, PATH, QUIET, SOURCES, node_link
 
 LENGTHS = (6.0, 5.0)  # seconds
 LEAPS = ((0, 3.6, 1, 1.4), (1, 3.2, 0, 1.8), (0, 4.8, 0, 1.0))
@@ -72,3 +78,212 @@ def nodes_and_edges(step: int = 5) -> Figure:
     ax.tick_params(left=False)
     ax.spines[["top", "right", "left"]].set_visible(False)
     return figure
+
+
+Node = Hashable
+EIGHT_PLACES: dict[Node, tuple[float, float]] = {
+    **{1: (0, 1), 2: (1, 2), 3: (1, 0), 4: (-0.2, -0.6)},
+    **{5: (3.6, 2.4), 6: (2.2, 2), 7: (3, 1), 8: (2.2, 0)},
+}
+"""Where the nodes of `graphs.notes_example` stand in the pictures of the course."""
+
+ON_STACK, UNSEEN = "#F3E9B8", "#FFFFFF"
+BOX = {"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85}
+
+
+PROGRAM = """visit(node):
+    number it, put it on the stack
+    for each successor:
+        if it is new:
+            visit it, take over its low link
+        if it is on the stack:
+            take over its number
+        if it has left the stack:
+            nothing
+    if low link = number:
+        a component is complete: take it off""".splitlines()
+"""Tarjan's visit to a node; the pictures mark the line that has just run."""
+
+
+class SearchState(NamedTuple):
+    """What Tarjan's algorithm knows after a step.
+
+    line : the number of the line of `PROGRAM` that has just run.
+    message : what it has just done.
+    node : where it stands.
+    number, low : the number and the low link of each node that it has seen.
+    stack : the nodes seen whose component is not complete, the oldest first.
+    components : those that are complete, in this order.
+    """
+
+    line: int
+    message: str
+    node: Node
+    number: dict[Node, int]
+    low: dict[Node, int]
+    stack: list[Node]
+    components: list[set[Node]]
+
+
+def tarjan_states(successors: Mapping[Node, Sequence[Node]]) -> list[SearchState]:
+    """Run Tarjan's algorithm on a graph, and keep its state after each step.
+
+    Parameters
+    ----------
+    successors : for each node those that its edges lead to; the search takes them in this order.
+
+    Examples
+    --------
+    >>> states = tarjan_states({1: [2], 2: [1, 3], 3: []})
+    >>> states[-1].components
+    [{3}, {1, 2}]
+    >>> [state.message for state in states][:3]
+    ['enter 1', 'enter 2', '2 → 1 closes a cycle']
+
+    Notebook: 06-pruning
+    """
+    number, low = dict[Node, int](), dict[Node, int]()
+    stack, components, states = list[Node](), list[set[Node]](), list[SearchState]()
+
+    def note(line: int, message: str, node: Node) -> None:
+        states.append(SearchState(line, message, node, dict(number), dict(low), [*stack], [*components]))
+
+    def visit(node: Node) -> None:
+        number[node] = low[node] = len(number)
+        stack.append(node)
+        note(1, f"enter {node}", node)
+        for child in successors[node]:
+            if child not in number:
+                visit(child)
+                low[node] = min(low[node], low[child])
+                note(4, f"back in {node} from {child}", node)
+            elif child in stack:
+                low[node] = min(low[node], number[child])
+                note(6, f"{node} → {child} closes a cycle", node)
+            else:
+                note(8, f"{child} has left the stack", node)
+        if low[node] == number[node]:
+            at = stack.index(node)
+            components.append(set(stack[at:]))
+            del stack[at:]
+            note(10, f"{node} is the first of its component", node)
+
+    for node in successors:
+        if node not in number:
+            visit(node)
+    return states
+
+
+def eight_node_graph(
+    graph: nx.MultiDiGraph,
+    *,
+    beside: Mapping[Node, object] | None = None,
+    thick: Collection[tuple[Node, Node]] = (),
+    parts: Sequence[Collection[Node]] = (),
+    ax: Axes | None = None,
+) -> Axes:
+    """Draw the eight-node graph, or a part of it.
+
+    Parameters
+    ----------
+    graph : the graph.
+    beside : what to write beside nodes.
+    thick : edges (start, end) to draw thick and orange.
+    parts : sets of nodes, each of which gets a colour; other nodes stay white.
+    ax : axes; new ones by default.
+
+    Examples
+    --------
+    >>> from mocap import graphs, plotting
+    >>> ax = eight_node_graph(graphs.notes_example(), beside={1: "first"}, parts=[{4}, {5}])
+    >>> plotting.show(ax, alt="Eight nodes, of which 4 and 5 are coloured.")
+    Picture('Eight nodes, of which 4 and 5 are coloured.')
+
+    Notebook: 06-pruning
+    """
+    ax = ax or plt.figure(figsize=(4.8, 3.5), layout="constrained").add_subplot()
+    discs, arrows = node_link(graph, places=EIGHT_PLACES, ax=ax)
+    colour = {node: SOURCES[n % len(SOURCES)] for n, part in enumerate(parts) for node in part}
+    discs.set_facecolor([colour.get(node, UNSEEN) for node in graph])
+    discs.set_edgecolor("black")
+    for name, node in zip(ax.texts, graph, strict=True):
+        name.set_color("white" if node in colour else "black")
+    for node, words in (beside or {}).items():
+        at = complex(*EIGHT_PLACES[node]) + 0.2 - 0.36j
+        say(ax, at, str(words), ha="left", bbox=BOX)
+    for drawn, edge in zip(arrows, graph.edges(), strict=True):
+        if edge in thick:
+            drawn.set(color=PATH, linewidth=3)
+    ax.margins(0.12)
+    return ax
+
+
+def tarjan_steps(graph: nx.MultiDiGraph) -> Callable[[int], list[Artist]]:
+    """Draw Tarjan's algorithm on the eight-node graph, step by step.
+
+    Beside each node stand its number and low link, on the right the stack, and the line that has just run.
+
+    Parameters
+    ----------
+    graph : the graph, or one with the same nodes.
+
+    Returns
+    -------
+    A function for `explore`: it takes the number of steps, from 0 on, and gives what it moved; the last step
+    where there are no more.
+
+    Examples
+    --------
+    >>> from mocap import graphs
+    >>> tarjan_steps(graphs.notes_example())(16)[-1].get_text()
+    'step 16: 8 → 3 closes a cycle'
+
+    Notebook: 06-pruning
+    """
+    states = tarjan_states({node: sorted(graph.successors(node)) for node in sorted(graph)})
+    figure, (left, right, code) = plt.subplots(1, 3, figsize=(11, 4.4), width_ratios=(9, 2, 12))
+    figure.subplots_adjust(left=0.01, right=0.99, top=0.93, bottom=0.23, wspace=0.04)
+    eight_node_graph(graph, beside=dict.fromkeys(graph, ""), ax=left)
+    discs, names, beside = left.collections[0], left.texts[: len(graph)], left.texts[len(graph) :]
+    boxes, words = _draw_stack(right, len(graph))
+    mark = show_program(code, PROGRAM, 0)
+    _explain(figure, len(states[-1].components))
+
+    def draw(step: int) -> list[Artist]:
+        state = states[min(step, len(states) - 1)]
+        parts = {node: SOURCES[n] for n, part in enumerate(state.components) for node in part}
+        face = dict.fromkeys(graph, UNSEEN) | dict.fromkeys(state.stack, ON_STACK) | parts
+        discs.set(facecolor=[face[node] for node in graph])
+        discs.set(linewidth=[4 if node == state.node else 1 for node in graph])
+        for node, name, links in zip(graph, names, beside, strict=True):
+            name.set_color("white" if node in parts else "black")
+            links.set_text(f"{state.number[node]} / {state.low[node]}" if node in state.number else "")
+        for at, (box, word) in enumerate(zip(boxes, words, strict=True)):
+            box.set_visible(at < len(state.stack))
+            word.set_text("".join(map(str, state.stack[at : at + 1])))
+        right.title.set_text("stack" if state.stack else "empty")
+        left.title.set_text(f"step {states.index(state)}: {state.message}")
+        mark.set_y(state.line - 0.5)
+        return [discs, *names, *beside, *boxes, *words, mark, right.title, left.title]
+
+    return draw
+
+
+def _draw_stack(ax: Axes, most: int) -> tuple[list[Rectangle], list[Text]]:
+    """Draw the stack as boxes with words, the oldest node at the bottom."""
+    ax.set(xlim=(-0.3, 1.3), ylim=(-0.8, most), xticks=[], yticks=[])
+    ax.spines[["top", "left", "right"]].set_visible(False)
+    ax.spines["bottom"].set_color(QUIET)
+    boxes = ax.barh(range(most), 1, height=0.9, color=ON_STACK, edgecolor="black", linewidth=0.8)
+    return [*boxes], [ax.text(0.5, at, "", ha="center", va="center") for at in range(most)]
+
+
+def _explain(figure: Figure, parts: int) -> None:
+    """Say what the colours of the nodes mean."""
+    named = {"not seen yet": UNSEEN, "on the stack": ON_STACK}
+    named |= {f"component {n + 1}, complete": SOURCES[n] for n in range(parts)}
+    look: dict[str, Any] = {"markersize": 9, "markeredgecolor": "black"}
+    keys = [disc(face, label=name, **look) for name, face in named.items()]
+    keys.append(disc("white", label="the search stands here", markeredgewidth=3, **look))
+    told = "beside a node: number / low link"
+    figure.legend(handles=keys, title=told, frameon=False, loc="lower left", ncols=3, alignment="left")

@@ -20,7 +20,7 @@ from mocap.course.diagrams.branching import (
     search_events,
     search_steps,
 )
-from mocap.course.diagrams.eight_nodes import (
+from mocap.course.diagrams.small_graphs import (
     ON_STACK,
     PROGRAM,
     UNSEEN,
