@@ -115,16 +115,6 @@ class Answer(NamedTuple):
     right: bool
 
 
-class ClassPoint(NamedTuple):
-    """What a class saw at one setting: how many people, their right answers, and d′ with its interval."""
-
-    setting: float
-    people: int
-    right: int
-    of: int
-    seen: DPrime
-
-
 def read_answers(files: str | Path | Iterable[str | Path]) -> list[Answer]:
     """Read the files that a class saved.
 
@@ -173,7 +163,7 @@ def read_answers(files: str | Path | Iterable[str | Path]) -> list[Answer]:
     return list(answers.values())
 
 
-def class_curve(answers: Sequence[Answer], over: Literal["below_cm", "window"]) -> list[ClassPoint]:
+def class_curve(answers: Sequence[Answer], over: Literal["below_cm", "window"]) -> dict[float, DPrime]:
     """Join the answers of a class to one curve of d′.
 
     One person alone has the interval of `d_prime`. For several, d′ is the mean of theirs, and the interval
@@ -187,7 +177,7 @@ def class_curve(answers: Sequence[Answer], over: Literal["below_cm", "window"]) 
 
     Returns
     -------
-    A point for each setting, the smallest first.
+    d′ at each setting, the smallest first, with its interval.
 
     Raises
     ------
@@ -197,7 +187,7 @@ def class_curve(answers: Sequence[Answer], over: Literal["below_cm", "window"]) 
     --------
     >>> answers = [Answer("ada", 4.0, 10, 0, pair, right=pair > 5) for pair in range(1, 21)]
     >>> class_curve(answers, "below_cm")
-    [ClassPoint(setting=4.0, people=1, right=15, of=20, seen=DPrime(...))]
+    {4.0: DPrime(value=0.90..., low=0.02..., high=1.93...)}
 
     Notebook: 09b-blend-window
     """
@@ -210,11 +200,8 @@ def class_curve(answers: Sequence[Answer], over: Literal["below_cm", "window"]) 
     people: dict[float, dict[str, list[bool]]] = defaultdict(lambda: defaultdict(list))
     for answer in answers:
         people[float(getattr(answer, over))][answer.observer].append(answer.right)
-    curve = list[ClassPoint]()
+    curve = dict[float, DPrime]()
     for setting, by in sorted(people.items()):
-        counts = [(sum(right), len(right)) for right in by.values()]
-        each = [d_prime(*count) for count in counts]
-        seen = each[0] if len(each) == 1 else mean_d_prime([one.value for one in each])
-        right, of = (sum(some) for some in zip(*counts, strict=True))
-        curve.append(ClassPoint(setting, len(each), right, of, seen))
+        each = [d_prime(sum(right), len(right)) for right in by.values()]
+        curve[setting] = each[0] if len(each) == 1 else mean_d_prime([one.value for one in each])
     return curve
