@@ -53,19 +53,6 @@ def test_a_cloud_is_made_in_four_steps_and_has_a_shadow_inside_the_picture(windo
     assert ax.bbox.contains(*ax.transData.transform(np.stack([across, up], axis=-1)).min(axis=0))
 
 
-@pytest.mark.parametrize(
-    ("draw", "last", "step"),
-    [
-        (diagrams.window_cloud, 4, 0),
-        (lambda window, step: diagrams.laying_on(window, window, step=step), 4, 5),
-        (lambda window, step: diagrams.radius_gaps(window, window, ["head"], step=step), 3, 4),
-    ],
-)
-def test_a_step_that_is_not_there_is_named(window, draw, last, step):
-    with pytest.raises(MocapError, match=f"steps 1 to {last}, got {step}"):
-        draw(window, step=step)
-
-
 def test_threads_lead_from_each_joint_to_its_partner_and_left_and_right_keep_their_colours(window):
     moved = PlanarTransform(0.0, 0.0, 0.4).apply_motion(window)  # ahead
     ax = Figure().add_subplot()
