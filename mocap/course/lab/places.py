@@ -146,8 +146,7 @@ class Places:
 
     def prune(self, graph: nx.MultiDiGraph) -> nx.MultiDiGraph:
         """Keep one component."""
-        clips = [edge for edge in graph.edges(data="kind") if edge[2] == "clip"]
-        played = [(start, end, end[1] - start[1]) for start, end, _ in clips]
+        played = [(a, b, b[1] - a[1]) for a, b, kind in graph.edges(data="kind") if kind == "clip"]
         return graph.subgraph(self._by.component_to_keep(self.components(graph), played)).copy()
 
 
