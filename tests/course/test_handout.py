@@ -9,7 +9,7 @@ import nbformat
 import pytest
 
 from mocap.cli.main import main
-from mocap.course import lite, opening
+from mocap.course import opening
 from mocap.course.handout import PAGES, TELLING, _merged, hand_out
 from mocap.course.notebooks import notebooks_in, read, solution, tagged
 from mocap.course.opening import stored
@@ -183,13 +183,13 @@ def test_jupyterlite_is_built_with_the_package_inside(tmp_path, capsys):
 
 def test_without_jupyterlite_or_a_checkout_one_sentence_says_what_to_do(tmp_path, monkeypatch):
     with pytest.raises(
-        MocapError, match="checkout" if lite.find_spec("jupyterlite_pyodide_kernel") else "\\.\\[lite\\]"
+        MocapError, match="checkout" if opening.find_spec("jupyterlite_pyodide_kernel") else "\\.\\[lite\\]"
     ):
-        lite.build_lite(tmp_path / "notebooks", tmp_path / "out")
-    monkeypatch.setattr(lite, "find_spec", lambda name: None)
-    refused("\\.\\[lite\\]", lite.build_lite, tmp_path, tmp_path / "out")
+        opening.build_lite(tmp_path / "notebooks", tmp_path / "out")
+    monkeypatch.setattr(opening, "find_spec", lambda name: None)
+    refused("\\.\\[lite\\]", opening.build_lite, tmp_path, tmp_path / "out")
 
 
 def test_what_a_failing_build_says_is_cut_to_a_short_sentence(tmp_path):
     (tmp_path / "loud.py").write_text("raise SystemExit('x' * 5000)")
-    refused("'loud build' failed: xxx", lite._call, str(tmp_path), ["loud", "build"])
+    refused("'loud build' failed: xxx", opening._call, str(tmp_path), ["loud", "build"])

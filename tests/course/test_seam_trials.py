@@ -1,12 +1,10 @@
-"""Walks by a matrix, blends of matches drawn at random, and the slips of the homework."""
+"""Walks by a matrix, and blends of matches drawn at random."""
 
 import numpy as np
 import pytest
 
 from mocap.blending import cubic_weights, inertialize, join, lay_window_on, linear_weights
-from mocap.body import Motion, Skeleton, euler, resample, rotations
-from mocap.body.motion import concatenate
-from mocap.course.homework_slips import chain_on_last, euler_from_zero_to_pi
+from mocap.body import Motion, Skeleton, resample
 from mocap.course.seam_trials import (
     Passage,
     choose_matches,
@@ -121,30 +119,3 @@ def test_inertialization_is_measured_against_the_second_clip():
     result = inertialize(WALK, 500, WALK, 233, 40)[490:590]
     assert Passage(result, first, second, 10, np.zeros(40)).jolts.added.max() < 0.2
     assert Passage(second, second, second, 10, np.zeros(40)).jolts.added == pytest.approx(0)
-
-
-CLIP = sample("walk_straight")
-
-
-def test_euler_angles_from_zero_to_pi_are_right_and_cannot_be_blended():
-    rock = euler.from_euler("zyx", np.array([[0.05, 0.3, 0.1], [-0.05, 0.3, 0.1]]))
-    angles = euler_from_zero_to_pi(rock)
-    assert np.all((angles[:, 0] >= 0) & (angles[:, 0] < np.pi))
-    back = euler.from_euler("xyz", angles[:, ::-1])
-    assert rotations.angle_between(back, rock) == pytest.approx(0, abs=1e-9)
-    truth = rotations.slerp(rock[0], rock[1], 0.5)
-    slip = euler.from_euler("xyz", angles.mean(axis=0)[::-1])
-    assert rotations.angle_between(slip, truth) > 1.0
-    assert rotations.angle_between(rock[0], truth) < 0.1
-
-
-def test_chained_on_its_last_frame_a_clip_stutters_and_as_it_is_it_does_not():
-    slices = [CLIP[start : start + 100] for start in (0, 100, 200)]
-    steps = [
-        np.linalg.norm(np.diff(chain(slices).root_positions, axis=0)[:, [0, 2]], axis=-1)
-        for chain in (chain_on_last, concatenate)
-    ]
-    assert steps[0][[99, 199]] == pytest.approx(0, abs=1e-12)
-    assert np.all(steps[1] > 0.005)
-    ends = [chain(slices).root_positions[-1, 2] for chain in (chain_on_last, concatenate)]
-    assert ends[0] < ends[1] - 0.015

@@ -20,6 +20,8 @@ from mocap.course.diagrams.branching import (
     search_events,
     search_steps,
 )
+from mocap.course.diagrams.layers import PROGRAM as LAYER_PROGRAM
+from mocap.course.diagrams.layers import STRIDE, TURNS, Steps, layer_states, layer_steps, lengthened
 from mocap.course.diagrams.small_graphs import (
     ON_STACK,
     PROGRAM,
@@ -28,8 +30,6 @@ from mocap.course.diagrams.small_graphs import (
     tarjan_states,
     tarjan_steps,
 )
-from mocap.course.diagrams.layers import PROGRAM as LAYER_PROGRAM
-from mocap.course.diagrams.layers import STRIDE, TURNS, Steps, layer_states, layer_steps, lengthened
 from mocap.plotting.style import MARK, PATH, QUIET, SOURCES
 
 EIGHT = graphs.notes_example()

@@ -13,7 +13,7 @@ from mocap.body.ground_path import GroundPath, arcs
 from mocap.body.kinematics import joint_positions
 from mocap.body.rotations import multiply
 from mocap.course import diagrams
-from mocap.course.diagrams import alignment, compass, down_the_tree, quaternions
+from mocap.course.diagrams import alignment, compass, down_the_tree, poses
 from mocap.course.diagrams.ground import nearest_points, two_distances
 from mocap.datasets.samples import sample
 from mocap.errors import MocapError
@@ -206,14 +206,14 @@ def test_a_heading_points_up_the_page_at_0_and_to_the_left_at_90():
 
 @pytest.mark.parametrize("angle", [-170, 60])
 def test_q_turns_by_a_half_and_q_bar_by_the_other_half_where_it_is_needed(angle):
-    across, along = (arrows(ax) for ax in quaternions.half_turns(angle=angle).axes)
+    across, along = (arrows(ax) for ax in poses.half_turns(angle=angle).axes)
     half = np.exp(1j * np.radians(angle / 2))
     assert across == pytest.approx([0.8, 0.8 * half, 0.8 * half**2])
     assert along == pytest.approx([0.8j, 0.8j * half, 0.8j])
 
 
 def test_the_numbers_above_are_those_of_the_products():
-    text = quaternions.half_turns().get_suptitle()
+    text = poses.half_turns().get_suptitle()
     assert text.split("      ") == [
         "v = (0.00, 0.80, 0.00, 0.80)",
         "q v = (-0.40, 0.69, 0.40, 0.69)",
@@ -223,13 +223,13 @@ def test_the_numbers_above_are_those_of_the_products():
 
 @pytest.mark.parametrize("step", [0, 1, 2])
 def test_a_step_shows_one_product_more(step):
-    figure = quaternions.half_turns(step)
+    figure = poses.half_turns(step)
     assert [len(arrows(ax)) for ax in figure.axes] == [step + 1, step + 1]
     assert figure.get_suptitle().count("=") == step + 1
 
 
 def test_two_orders_of_the_same_turns_end_in_two_poses():
-    figure = quaternions.turns_in_order(datasets.sample("walk_straight").skeleton, multiply)
+    figure = poses.turns_in_order(datasets.sample("walk_straight").skeleton, multiply)
     heads = [np.ravel(ax.lines[0].get_data_3d()) for ax in figure.axes]  # matplotlib's order: z, x, y
     assert len(heads) == 6
     assert heads[0] == pytest.approx(heads[3])

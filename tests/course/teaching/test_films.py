@@ -11,8 +11,8 @@ from PIL import Image
 
 from mocap.cli.main import main
 from mocap.course.teaching import films
-from mocap.course.teaching.slides import Slide
 from mocap.course.teaching.films import SPEED, Scene, script_of, spoken
+from mocap.course.teaching.slides import Slide
 from tests.refusals import refused
 
 
