@@ -116,6 +116,6 @@ def test_lab_opens_the_first_notebook_and_leaves_ctrl_c_to_jupyterlab(monkeypatc
 
 
 def test_lab_says_what_to_install(monkeypatch, capsys):
-    monkeypatch.setattr(opening.importlib.util, "find_spec", lambda name: None)
+    monkeypatch.setattr(opening, "find_spec", lambda name: None)
     assert main(["lab"]) == 2
     assert "pip install '.[notebooks]'" in capsys.readouterr().err
