@@ -111,12 +111,15 @@ def test_the_graph_its_components_and_what_pruning_keeps(both):
 
 
 def test_random_walks_and_their_motions(clips, both):
+    """As in [KGP02, 4.1]."""
     (_, slow), (_, quick) = both
     slow, quick = plain.prune(slow), graphs.prune(quick)
     for seed in range(5):
         walk = plain.random_walk(slow, 8, seed)
         assert walk == synthesis.random_walk(quick, seconds=8, seed=seed)
-        played(plain.to_motion(clips, slow, walk), synthesis.to_motion(quick, walk))
+        turn, move = np.exp(1j * seed), seed * (3 - 4j)
+        place = body.PlanarTransform.from_complex(turn, move)
+        played(plain.to_motion(clips, slow, walk, turn, move), synthesis.to_motion(quick, walk, place=place))
 
 
 def test_components_of_a_long_chain():

@@ -15,7 +15,7 @@ from mocap.errors import MocapWarning
 from mocap.files.load_save import load
 from tests.editing.test_path_editing import off, slide
 from tests.editing.wishes import smoothness
-from tests.refusals import refused
+from tests.refusals import refusals
 
 CLIPS = ("walk_straight", "walk_circle", "sneak", "jog")
 CORNER = GroundPath([[0, 0], [0, 4], [2, 0.6]])  # of 150°
@@ -89,10 +89,10 @@ def test_who_goes_to_and_fro_is_turned_at_once_and_that_is_said():
     assert all(len(str(warning.message)) <= 200 for warning in said)
 
 
-def test_bad_input():
-    refused("limit=0", bend, clip("jog"), circle(2.0), limit=0)
-    refused("limit=nan", bend, clip("jog"), circle(2.0), limit=np.nan)
-    refused("it stands; there is no path to edit", bend, clip("walk_straight")[:9], circle(2.0))
+test_what_cannot_be_bent_is_refused = refusals(
+    *((f"limit={limit}", lambda n=limit: bend(clip("jog"), circle(2.0), limit=n)) for limit in (0, np.nan)),
+    ("it stands; there is no path to edit", bend, clip("walk_straight")[:9], circle(2.0)),
+)
 
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")

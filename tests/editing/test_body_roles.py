@@ -8,7 +8,7 @@ from mocap.body.skeleton import Skeleton
 from mocap.datasets.samples import SKELETON
 from mocap.editing.body_roles import ROLES, legs_among, roles
 from tests.editing.bodies import DAZ, LONG, SMPL, UNDERSCORED, UP_AND_LOW, renamed, walk, without
-from tests.refusals import refused
+from tests.refusals import refusals
 
 FILES = {
     "cmu/49/49_01.amc": "root lowerback thorax lowerneck lwrist",
@@ -47,17 +47,8 @@ def test_the_trunk_is_found_by_the_tree():
     assert "chest" not in roles(armless.skeleton)  # nothing says where the arms meet
     legs = without(walk(), *SKELETON.names[13:]).skeleton
     assert set(roles(legs)) == {"pelvis"} | {r for r in ROLES if r.split()[-1] in "hip knee ankle ball"}
-
-
-def test_arms_that_hang_on_the_pelvis_make_no_chest():
     spider = without(walk(), "lowerback", "upperback", "thorax", "lclavicle", "rclavicle")
     assert "chest" not in roles(spider.skeleton)
-
-
-def test_a_body_without_known_legs_says_what_was_tried_and_what_to_do():
-    snake = Skeleton([f"vertebra_number_{n}" for n in range(30)], np.arange(30) - 1, np.ones((30, 3)))
-    none = r"No legs found among vertebra.*tried lfemur.*Rename the joints"
-    refused(none, roles, snake)
 
 
 @pytest.mark.parametrize("name", FILES)
@@ -68,3 +59,12 @@ def test_files_of_many_makers(real_data, name):
              for role in ("pelvis", "waist", "chest", "neck", "left wrist")]  # fmt: skip
     assert shown == FILES[name].split()
     assert len(found) == 21 - shown.count("-")
+
+
+test_a_body_without_known_legs_says_what_was_tried_and_what_to_do = refusals(
+    (
+        r"No legs found among vertebra.*tried lfemur.*Rename the joints",
+        roles,
+        Skeleton([f"vertebra_number_{n}" for n in range(30)], np.arange(30) - 1, np.ones((30, 3))),
+    )
+)

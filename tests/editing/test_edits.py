@@ -15,6 +15,7 @@ from tests.editing.wishes import (
     bar,
     bones,
     captured,
+    far_hand,
     hand,
     hand_at,
     plants_kept,
@@ -24,7 +25,7 @@ from tests.editing.wishes import (
     stone,
     walk,
 )
-from tests.refusals import refused
+from tests.refusals import refusals
 
 
 @pytest.fixture(autouse=True)
@@ -107,9 +108,6 @@ def test_what_cannot_be_is_said():
     clip = walk()
     wrist, elbow = (clip.skeleton.index(name) for name in ("rwrist", "rradius"))
     at = joint_positions(clip)
-    far = r"Frame \d+: 'rwrist' would be 5.\d+ m from '\w+', the bones"
-    refused(far, edit, clip, pin(clip, wrist, slice(240, 250), at[240, wrist] + np.array([0, 5, 0])))
-    refused("mark_plants finds out", edit, replace(clip, contacts={}), hand(clip, [240], 240))
     apart = [pin(clip, j, [240], at[240, j] + np.array([0, y, 0])) for j, y in ((wrist, 0.1), (elbow, -0.1))]
     with pytest.warns(MocapWarning, match=r"frame 240: 'r\w+' is \d+\S* mm off its pin") as told:
         both = edit(clip, join_pins(*apart))
@@ -176,12 +174,14 @@ def test_the_levels_end_where_the_pins_are_met():
         assert motion is clip and not told
 
 
-def test_bad_input():
-    clip = walk()
-    pins = plant_pins(clip)
-    for call, words in (
-        (lambda: hierarchy(clip, pins, knots=()), "knots come nearer"),
-        (lambda: hierarchy(clip, pins, knots=(0.25, 0.5)), r"got \(0.25, 0.5\)"),
-        (lambda: hierarchy(clip, pins, knots=(0.25, 0.0)), "above 0 s"),
-    ):
-        refused(words, call)
+def levels(*knots):
+    return hierarchy(walk(), plant_pins(walk()), knots=knots)
+
+
+test_what_cannot_be_edited_is_refused = refusals(
+    (r"Frame 24\d: 'rwrist' would be 5.\d+ m from '\w+', the bones", edit, walk(), far_hand(walk())),
+    ("mark_plants finds out", edit, replace(walk(), contacts={}), hand(walk(), [240], 240)),
+    ("knots come nearer", levels),
+    (r"got \(0.25, 0.5\)", levels, 0.25, 0.5),
+    ("above 0 s", levels, 0.25, 0.0),
+)

@@ -16,7 +16,7 @@ from mocap.editing.mirroring import mirror, symmetry
 from mocap.errors import MocapWarning
 from mocap.feet.footplants import mark_plants
 from mocap.files import load_save
-from tests.refusals import refused
+from tests.refusals import refusals
 from tests.strategies import random_quaternions, seeds
 
 WALK = resample(samples.sample("walk_curve_1"), 30)[:150]
@@ -99,11 +99,13 @@ def test_a_lopsided_body_is_mirrored_with_a_sentence():
         mirror(WALK)
 
 
-def test_what_has_no_sides_is_refused():
-    arm = Skeleton(["root", "elbow", "hand"], [-1, 0, 1], np.eye(3))
-    refused("No left and right joints here: root, elbow, hand", symmetry, arm)
-    odd = Skeleton(["root", "lhip", "rhip", "lknee", "rknee"], [-1, 0, 0, 1, 0], np.eye(5)[:, :3])
-    refused("'lknee' has no mirror image: its side has other joints", symmetry, odd)
+ARM = Skeleton(["root", "elbow", "hand"], [-1, 0, 1], np.eye(3))
+ODD = Skeleton(["root", "lhip", "rhip", "lknee", "rknee"], [-1, 0, 0, 1, 0], np.eye(5)[:, :3])
+
+test_what_has_no_sides_is_refused = refusals(
+    ("No left and right joints here: root, elbow, hand", symmetry, ARM),
+    ("'lknee' has no mirror image: its side has other joints", symmetry, ODD),
+)
 
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")

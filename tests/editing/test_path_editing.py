@@ -21,7 +21,7 @@ from mocap.feet.footplants import mark_plants, runs
 from mocap.feet.footskate import clean_up
 from mocap.files.load_save import load
 from tests.editing.wishes import smoothness
-from tests.refusals import refused
+from tests.refusals import refusals
 
 CLIPS = {"walk_straight": slice(0, 600), "jog": slice(600, 1100)}
 
@@ -179,15 +179,14 @@ def test_steps_twice_as_long_are_warned_of():
 
 
 # ------------------------------------------------------------------------------------------------ bad input
-def test_bad_input():
-    motion, ride = straight()
-    path = circle(2.0)
-    refused(r"goes 0\.\d\d m only: it stands; there is no path to edit", ride_of, motion[:9])
-    refused("knots above 0 apart", ride_of, motion, stride=0)
-    refused("chord=-1", moving_frames, path, [0.0], chord=-1)
-    refused("keep='time'", on_path, motion, path, ride, keep="time")
-    refused("The ride has 600 frames, 'walk_straight' has 300", on_path, motion[:300], path, ride)
-    refused(r"handles \(x, z\), got an array \(2, 2\)", ride.with_handles, np.zeros((2, 2)))
+test_what_has_no_path_is_refused = refusals(
+    (r"goes 0\.\d\d m only: it stands; there is no path to edit", lambda: ride_of(straight()[0][:9])),
+    ("knots above 0 apart", lambda: ride_of(straight()[0], stride=0)),
+    ("chord=-1", lambda: moving_frames(circle(2.0), [0.0], chord=-1)),
+    ("keep='time'", lambda: on_path(straight()[0], circle(2.0), straight()[1], keep="time")),
+    ("ride has 600 frames, .* has 300", lambda: on_path(straight()[0][:300], circle(2.0), straight()[1])),
+    (r"handles \(x, z\), got an array \(2, 2\)", lambda: straight()[1].with_handles(np.zeros((2, 2)))),
+)
 
 
 def test_a_clip_of_few_frames_has_a_path():

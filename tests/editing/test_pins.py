@@ -6,7 +6,7 @@ import pytest
 from mocap.body.kinematics import joint_positions
 from mocap.editing.pins import Pins, join_pins, pin, pin_errors, plant_pins
 from tests.editing.wishes import walk
-from tests.refusals import refused
+from tests.refusals import refusals
 from tests.strategies import random_motion
 
 INF = np.inf
@@ -77,29 +77,24 @@ def test_plants_are_held_at_one_place_each():
     np.testing.assert_allclose(pin_errors(clip, pin(clip, "lfoot", range(len(clip)), away))[:, 0], 0.3)
 
 
-def test_bad_pins_are_named():
-    clip = random_motion(0, frames=9)
-    cases = [
-        (lambda: pin(clip, "hand", [0], [0, 0, 0]), "No joint 'hand'"),
-        (lambda: pin(clip, 6, [0], [0, 0, 0]), "No joint 6: there are 6"),
-        (lambda: pin(clip, -1, [0], [0, 0, 0]), "No joint -1"),
-        (lambda: pin(clip, 2, [9], [0, 0, 0]), "'random0' has 9 frames, counted from 0"),
-        (lambda: pin(clip, 2, [0.5], [0, 0, 0]), "frames are their numbers, a slice"),
-        (
-            lambda: pin(clip, "joint2", [3], [0, 0]),
-            r"'joint2': a place is \(3,\) or \(1, 3\) metres, got \(2,\)",
-        ),
-        (lambda: pin(clip, 2, [3], [0, np.nan, 0]), "Frame 3, joint 2: a pin needs low ≤ high, got nan"),
-        (lambda: pin(clip, 2, [3], [0, INF, 0]), "Frame 3, joint 2: .* got inf"),
-        (lambda: pin(clip, 2, [3], [0, 2, 0], [0, 1, 0]), "Frame 3, joint 2: .* got 2 and 1 for y"),
-        (lambda: Pins((2,), np.ones((4, 1, 3)), np.zeros((4, 1, 3))), "Frame 0, joint 2"),
-        (lambda: Pins((2, 2), np.ones((4, 2, 3)), np.ones((4, 2, 3))), "2 different joints need"),
-        (lambda: Pins((2,), np.ones((4, 3)), np.ones((4, 3))), "1 different joints need"),
-        (lambda: join_pins(), "same number of frames, got none"),
-        (lambda: join_pins(box([0, 0, 0]), pin(clip, 2, [3], [0, 0, 0])), "got 1, 9"),
-        (lambda: pin_errors(clip, box([0, 0, 0])), "'random0' has 9 frames, its pins have 1"),
-        (lambda: pin_errors(clip[:1], box([0, 0, 0], joint=8)), "No joint 8"),
-        (lambda: plant_pins(clip), "No legs found"),
-    ]
-    for call, words in cases:
-        refused(words, call)
+CLIP = random_motion(0, frames=9)
+
+test_bad_pins_are_named = refusals(
+    ("No joint 'hand'", pin, CLIP, "hand", [0], [0, 0, 0]),
+    ("No joint 6: there are 6", pin, CLIP, 6, [0], [0, 0, 0]),
+    ("No joint -1", pin, CLIP, -1, [0], [0, 0, 0]),
+    ("'random0' has 9 frames, counted from 0", pin, CLIP, 2, [9], [0, 0, 0]),
+    ("frames are their numbers, a slice", pin, CLIP, 2, [0.5], [0, 0, 0]),
+    (r"'joint2': a place is \(3,\) or \(1, 3\) metres, got \(2,\)", pin, CLIP, "joint2", [3], [0, 0]),
+    ("Frame 3, joint 2: a pin needs low ≤ high, got nan", pin, CLIP, 2, [3], [0, np.nan, 0]),
+    ("Frame 3, joint 2: .* got inf", pin, CLIP, 2, [3], [0, INF, 0]),
+    ("Frame 3, joint 2: .* got 2 and 1 for y", pin, CLIP, 2, [3], [0, 2, 0], [0, 1, 0]),
+    ("Frame 0, joint 2", lambda: Pins((2,), np.ones((4, 1, 3)), np.zeros((4, 1, 3)))),
+    ("2 different joints need", lambda: Pins((2, 2), np.ones((4, 2, 3)), np.ones((4, 2, 3)))),
+    ("1 different joints need", lambda: Pins((2,), np.ones((4, 3)), np.ones((4, 3)))),
+    ("same number of frames, got none", join_pins),
+    ("got 1, 9", join_pins, box([0, 0, 0]), pin(CLIP, 2, [3], [0, 0, 0])),
+    ("'random0' has 9 frames, its pins have 1", pin_errors, CLIP, box([0, 0, 0])),
+    ("No joint 8", pin_errors, CLIP[:1], box([0, 0, 0], joint=8)),
+    ("No legs found", plant_pins, CLIP),
+)

@@ -14,7 +14,7 @@ from mocap.editing.keys import keys_around, offsets
 from mocap.feet.footskate import clean_up
 from tests.editing.test_path_editing import slide
 from tests.editing.wishes import body
-from tests.refusals import refused
+from tests.refusals import refusals
 
 UP = np.array([0.0, 1.0, 0.0])
 
@@ -27,7 +27,6 @@ def planted(motion):
     return sum(int(mark.sum()) for mark in motion.contacts.values())
 
 
-# ------------------------------------------------------------------------------------ hand to a post
 def post(motion, frame):
     """Return a place for the right hand, 32 cm from where it is: to the right, up, and ahead."""
     side, ahead = (rotations.rotate(motion.rotations[frame, 0], v) for v in ([-1.0, 0, 0], [0, 0, 1.0]))
@@ -67,28 +66,18 @@ def test_a_hand_to_a_post(frame):
     assert planted(cleaned) >= 0.99 * planted(walk)
 
 
-# ------------------------------------------------------------------------------------- a higher jump
-
-
-# ----------------------------------------------------------------------------------- a deeper crouch
-
-
-# ---------------------------------------------------------------------------------------- bad input
-@pytest.mark.parametrize(
-    ("frame", "places", "message"),
-    [
-        (999, {"lhand": [0, 1, 0]}, "'walk_straight' has 120 frames"),
-        (5, {"left hand": [0, 1, 0]}, "No joint 'left hand'"),
-        (5, {"lhand": [0, 1]}, r"'lhand': a place is \(3,\)"),
-        (5, {"lhand": [0, 6, 0]}, r"Frame 5: '\w+' would be [\d.]+ m from '\w+', the bones between reach"),
-        (5, {"lhand": [0, np.inf, 0]}, "needs low ≤ high"),
-    ],
-)
-def test_poses_that_cannot_be(frame, places, message):
-    refused(message, posed, sample("walk_straight")[:120], frame, places)
-
-
-def test_feet_that_nobody_marked_are_asked_for():
+def test_a_height_alone_may_be_asked_for_without_feet():
     bare = replace(sample("walk_straight")[:120], contacts={})
-    refused("mark_plants finds out", posed, bare, 60, {"lhand": [0, 1.2, 0]})
     assert len(posed(bare, 60, {"lhand": [np.nan, 1.2, np.nan]}, feet=False)) == 1
+
+
+SHORT = sample("walk_straight")[:120]
+
+test_poses_that_cannot_be = refusals(
+    ("'walk_straight' has 120 frames", posed, SHORT, 999, {"lhand": [0, 1, 0]}),
+    ("No joint 'left hand'", posed, SHORT, 5, {"left hand": [0, 1, 0]}),
+    (r"'lhand': a place is \(3,\)", posed, SHORT, 5, {"lhand": [0, 1]}),
+    (r"Frame 5: '\w+' would be [\d.]+ m from '\w+', the bones", posed, SHORT, 5, {"lhand": [0, 6, 0]}),
+    ("needs low ≤ high", posed, SHORT, 5, {"lhand": [0, np.inf, 0]}),
+    ("mark_plants finds out", posed, replace(SHORT, contacts={}), 60, {"lhand": [0, 1.2, 0]}),
+)

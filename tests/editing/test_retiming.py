@@ -12,12 +12,9 @@ from mocap.body.motion import resample
 from mocap.datasets.samples import sample
 from mocap.editing.retiming import at_frames, old_seconds, retime
 from tests.editing.wishes import accelerations, body
-from tests.refusals import refused
+from tests.refusals import refusals
 
 WALK = sample("walk_straight")[240:721]
-
-
-# -------------------------------------------------------------------------------------------- time
 
 
 rising = st.lists(st.floats(0.01, 10), min_size=1, max_size=6).map(lambda gaps: np.cumsum([0.0, *gaps]))
@@ -67,18 +64,13 @@ def test_a_steady_glide_stays_steady_up_to_both_ends():
     assert at_frames(motion, [0.25, 3.5, 7.75]).root_positions[:, 2] == pytest.approx([0.25, 3.5, 7.75])
 
 
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        (lambda: retime(WALK, []), "two or more pairs"),
-        (lambda: retime(WALK, [(0, 0)]), r"pairs \(new, old second\) that rise, got \[\(0, 0\)\]"),
-        (lambda: retime(WALK, [(0, 0), (1, np.nan)]), "that rise"),
-        (lambda: retime(WALK, [(0, 0), (1, 2), (2, 2)]), "that rise"),
-        (lambda: retime(WALK, [(0, 0), (2, 1), (1, 2)]), "that rise"),
-        (lambda: retime(WALK, [(0, 0), (1, 4.5)]), "Second 4.5 is not on 'walk_straight', which lasts 4 s"),
-        (lambda: retime(WALK, [(0, -0.5), (1, 2)]), "Second -0.5 is not on"),
-        (lambda: retime(WALK, [(0, 0), (1e9, 4)]), r"ask for 1.2e\+11 frames; at most 1000000"),
-    ],
+test_times_that_cannot_be = refusals(
+    ("two or more pairs", retime, WALK, []),
+    (r"pairs \(new, old second\) that rise, got \[\(0, 0\)\]", retime, WALK, [(0, 0)]),
+    ("that rise", retime, WALK, [(0, 0), (1, np.nan)]),
+    ("that rise", retime, WALK, [(0, 0), (1, 2), (2, 2)]),
+    ("that rise", retime, WALK, [(0, 0), (2, 1), (1, 2)]),
+    ("Second 4.5 is not on 'walk_straight', which lasts 4 s", retime, WALK, [(0, 0), (1, 4.5)]),
+    ("Second -0.5 is not on", retime, WALK, [(0, -0.5), (1, 2)]),
+    (r"ask for 1.2e\+11 frames; at most 1000000", retime, WALK, [(0, 0), (1e9, 4)]),
 )
-def test_times_that_cannot_be(call, message):
-    refused(message, call)

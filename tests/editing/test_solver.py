@@ -18,7 +18,7 @@ from mocap.editing.steps import Basis, Curve, Linear, linear
 from mocap.editing.turn_pins import keep_turned, limit_turns
 from mocap.errors import MocapWarning
 from tests.editing.wishes import bar, bones, captured, smoothness, stone, walk
-from tests.refusals import refused
+from tests.refusals import refusals
 from tests.strategies import seeds
 
 SPLINES = Basis(knots=0.125)
@@ -171,15 +171,17 @@ def test_nothing_asked_and_nothing_missed_change_nothing():
     assert np.abs(solve(clip, plant_pins(clip), [SPLINES]).change).max() < 1e-7  # as the clip is stored
 
 
-def test_bad_input():
-    clip, pins = walk(), plant_pins(walk())
-    for bases, words in (
-        ([], "a basis or more, got none"),
-        ([REACH._replace(passes=0)], "a pass above 0"),
-        ([Basis(damping=-1.0)], "no number below 0"),
-        ([Basis(weight=0.0)], "a weight and"),
-        ([Basis(knots=np.nan)], "no number below 0"),
-        ([SPLINES, Basis(calm=-1.0)], "no number below 0"),
-    ):
-        refused(words, solve, clip, pins, bases)
-    refused("has 9 frames, its pins have 500", lambda: solve(clip[:9], pins, [SPLINES]))
+test_what_cannot_be_solved_is_refused = refusals(
+    *(
+        (words, solve, walk(), plant_pins(walk()), bases)
+        for bases, words in (
+            ([], "a basis or more, got none"),
+            ([REACH._replace(passes=0)], "a pass above 0"),
+            ([Basis(damping=-1.0)], "no number below 0"),
+            ([Basis(weight=0.0)], "a weight and"),
+            ([Basis(knots=np.nan)], "no number below 0"),
+            ([SPLINES, Basis(calm=-1.0)], "no number below 0"),
+        )
+    ),
+    ("has 9 frames, its pins have 500", solve, walk()[:9], plant_pins(walk()), [SPLINES]),
+)

@@ -9,12 +9,11 @@ from hypothesis import strategies as st
 
 from mocap.body import rotations
 from mocap.body.planar import PlanarTransform
-from mocap.editing.body_roles import FEET, roles
+from mocap.editing.body_roles import FEET
 from mocap.editing.stances import Stance, proportioned, stance_of, stance_of_zero, standing_heights
-from mocap.errors import MocapError
 from mocap.feet.footplants import mark_plants
 from tests.editing.bodies import adult, along_x, rested, walk
-from tests.refusals import refused
+from tests.refusals import refusals, refused
 
 
 def degrees_apart(a, b):
@@ -72,13 +71,6 @@ def test_a_rest_pose_that_means_nothing_is_not_believed():
     refused("180° off level", stance_of_zero, rested(walk(), backwards).skeleton, 0.03)
 
 
-def test_heights_that_no_foot_has_are_refused():
-    body, who = walk().skeleton, roles(walk().skeleton)
-    turns = np.tile([1.0, 0, 0, 0], (len(body), 1))
-    with pytest.raises(MocapError, match="left ankle would stand 20 cm over its ball; the foot is 13"):
-        Stance(body, who, turns, {role: 0.2 * role.endswith("ankle") for role in FEET})
-
-
 def test_plants_are_marked_where_they_are_not_yet():
     bare = replace(walk(), contacts={})
     assert stance_of(bare).heights == standing_heights(mark_plants(bare), adult().roles)
@@ -88,8 +80,8 @@ def test_plants_are_marked_where_they_are_not_yet():
 def test_feet_that_never_stand_flat_and_feet_that_never_stand():
     never = np.zeros(len(walk()), bool)
     tiptoe = {**walk().contacts, "lfoot": walk().contacts["rfoot"], "ltoes": never, "rfoot": never}
-    with pytest.raises(MocapError, match="In 'walk_straight' the left ball never stands"):
-        standing_heights(replace(walk(), contacts=tiptoe), adult().roles)
+    raised = replace(walk(), contacts=tiptoe)
+    refused("In 'walk_straight' the left ball never stands", standing_heights, raised, adult().roles)
     apart = {**walk().contacts, "ltoes": walk().contacts["ltoes"] & ~walk().contacts["lfoot"]}
     loose = replace(walk(), contacts=apart)
     assert standing_heights(loose, adult().roles)["left ball"] == pytest.approx(0.026, abs=0.003)
@@ -113,6 +105,16 @@ def test_each_part_has_its_share():
     assert new.leg == pytest.approx(0.5 * adult().leg)
 
 
-@pytest.mark.parametrize("share", [0, -1, np.nan, np.inf])
-def test_bad_shares(share):
-    refused("The share of the arms must be above 0", proportioned, adult(), arms=share)
+def on_tiptoe():
+    still = np.tile([1.0, 0, 0, 0], (len(walk().skeleton), 1))
+    heights = {role: 0.2 * role.endswith("ankle") for role in FEET}
+    return Stance(walk().skeleton, adult().roles, still, heights)
+
+
+test_shares_and_heights_that_no_body_has_are_refused = refusals(
+    ("left ankle would stand 20 cm over its ball; the foot is 13", on_tiptoe),
+    *(
+        ("The share of the arms must be above 0", lambda share=share: proportioned(adult(), arms=share))
+        for share in (0, -1, np.nan, np.inf)
+    ),
+)

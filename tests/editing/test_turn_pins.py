@@ -10,7 +10,7 @@ from mocap.editing.edits import edit
 from mocap.editing.pins import join_pins, pin_errors, plant_pins
 from mocap.editing.turn_pins import keep_turned, limit_turns
 from tests.editing.wishes import bar, captured, hand, walk
-from tests.refusals import refused
+from tests.refusals import refusals
 
 NECK = ["lowerneck", "upperneck", "head"]
 
@@ -56,10 +56,7 @@ def test_turns_are_pinned_in_some_frames_and_joined():
     assert [np.isfinite(turn.high).any(axis=1).sum() for turn in some.turns] == [1, 2, 2, 2]
 
 
-def test_bad_input():
-    clip = walk()[:9]
-    for call, words in (
-        (lambda: limit_turns(clip, ["neck"]), "neck"),
-        (lambda: limit_turns(clip, NECK, more=-1.0), "0 degrees or more .* got -1"),
-    ):
-        refused(words, call)
+test_limits_that_are_none_are_refused = refusals(
+    ("neck", limit_turns, walk()[:9], ["neck"]),
+    ("0 degrees or more .* got -1", lambda: limit_turns(walk()[:9], NECK, more=-1.0)),
+)

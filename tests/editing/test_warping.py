@@ -12,8 +12,8 @@ from mocap.body.kinematics import joint_positions
 from mocap.datasets.samples import sample
 from mocap.editing.displacements import displaced
 from mocap.editing.keys import Key, cardinal, keys_around, offsets, scaled
-from mocap.errors import MocapError, SkeletonMismatch
-from tests.refusals import refused
+from mocap.errors import SkeletonMismatch
+from tests.refusals import refusals
 from tests.strategies import random_motion, seeds
 
 WALK = sample("walk_straight")[240:481]
@@ -29,7 +29,6 @@ def moved(motion, frame, *, joint="lhumerus", turn=(0.0, 0.0, 1.0), up=0.0):
     return replace(pose, rotations=turned, root_positions=pose.root_positions + np.array([0, up, 0]))
 
 
-# ------------------------------------------------------------------------------------------- the curve
 def test_the_curve_through_unevenly_spaced_keys():
     """As in [WP95, splines]."""
     at, values = [0, 10, 30], [0, 1, -1]
@@ -50,21 +49,6 @@ def test_a_curve_meets_its_keys_is_level_outside_and_smooth(gaps, seed):
     assert np.abs(np.diff(slope, axis=0)).max() < 0.02  # C¹: slopes do not jump at the keys
 
 
-@pytest.mark.parametrize(
-    ("at", "values", "tension", "message"),
-    [
-        ([0, 1], [1.0], 0, r"finite values \(1,\) at as many times"),
-        ([0, 0], [1.0, 2.0], 0, r"times that rise, got \[0. 0.\]"),
-        ([0, np.nan], [1.0, 2.0], 0, "finite values"),
-        ([0, 1], [1.0, np.inf], 0, "finite values"),
-        ([0, 1], [1.0, 2.0], 1.5, "tension lies between 0 and 1, got 1.5"),
-    ],
-)
-def test_a_curve_that_cannot_be(at, values, tension, message):
-    refused(message, cardinal, at, values, [0], tension=tension)
-
-
-# ------------------------------------------------------------------------------------------ offsets
 def test_a_key_is_met_and_nothing_changes_outside():
     """As in [WP95, offset]."""
     pose = moved(WALK, 120, up=0.05)
@@ -97,36 +81,31 @@ def test_a_change_near_an_end_of_the_clip_holds_to_the_end():
     assert [key.frame for key in keys_around(WALK, 120, moved(WALK, 120), seconds=9)] == [120]
 
 
-def test_a_level_key_keeps_the_curve_from_swinging_before_it():
-    at, values = [0, 60, 90, 120, 240], [0, 0, 0.2, 0, 0]
-    free, level = (cardinal(at, values, np.arange(60), flat=flat) for flat in ([], [1, 3]))
-    assert free.min() < -0.015  # metres, into the ground
-    assert np.abs(level).max() < 1e-15
-
-
-@pytest.mark.parametrize(
-    ("keys", "error", "message"),
-    [
-        ([], MocapError, "needs one key or more"),
-        ([Key(241)], MocapError, "at frames of 'walk_straight', 0 to 240; got .241."),
-        ([Key(-1)], MocapError, "at frames of 'walk_straight'"),
-        ([Key(1.5)], MocapError, "at numbers of frames, got .1.5"),
-        ([Key(50), Key(40)], MocapError, "in order of time"),
-        ([Key(50), Key(50)], MocapError, "once each"),
-        ([Key(50, WALK)], MocapError, "pose of a key needs one frame, got 241"),
-        ([Key(50, random_motion(1, 1))], SkeletonMismatch, "skeletons differ"),
-    ],
+test_keys_curves_and_scales_that_cannot_be = refusals(
+    ("needs one key or more", offsets, WALK, []),
+    ("at frames of 'walk_straight', 0 to 240; got .241.", offsets, WALK, [Key(241)]),
+    ("at frames of 'walk_straight'", offsets, WALK, [Key(-1)]),
+    ("at numbers of frames, got .1.5", offsets, WALK, [Key(1.5)]),
+    ("in order of time", offsets, WALK, [Key(50), Key(40)]),
+    ("once each", offsets, WALK, [Key(50), Key(50)]),
+    ("pose of a key needs one frame, got 241", offsets, WALK, [Key(50, WALK)]),
+    (SkeletonMismatch, "skeletons differ", offsets, WALK, [Key(50, random_motion(1, 1))]),
+    *(
+        ("a frame or more to come and go", keys_around, WALK, 100, moved(WALK, 100), seconds)
+        for seconds in (0.0, -1.0, float("nan"), 0.001)
+    ),
+    (r"finite values \(1,\) at as many times", cardinal, [0, 1], [1.0], [0]),
+    (r"times that rise, got \[0. 0.\]", cardinal, [0, 0], [1.0, 2.0], [0]),
+    ("finite values", cardinal, [0, np.nan], [1.0, 2.0], [0]),
+    ("finite values", cardinal, [0, 1], [1.0, np.inf], [0]),
+    ("lies between 0 and 1, got 1.5", lambda: cardinal([0, 1], [1.0, 2.0], [0], tension=1.5)),
+    (r"Frame \d+: such a gain turns 'lhumerus' by \d+°", scaled, WALK, "lhumerus", 40.0),
+    (r"one finite number, or 241, got shape \(\)", scaled, WALK, "lhumerus", np.nan),
+    (r"got shape \(2,\)", scaled, WALK, "lhumerus", [1.0, 2.0]),
+    ("No joint 'elbow'", scaled, WALK, "elbow", 1.0),
 )
-def test_keys_that_cannot_be(keys, error, message):
-    refused(message, offsets, WALK, keys, kind=error)
 
 
-@pytest.mark.parametrize("seconds", [0.0, -1.0, float("nan"), 0.001])
-def test_a_change_takes_a_frame_or_more(seconds):
-    refused("a frame or more to come and go", keys_around, WALK, 100, moved(WALK, 100), seconds)
-
-
-# -------------------------------------------------------------------------------------------- scale
 def away(motion, joint, about=None):
     turns = motion.rotations[:, motion.skeleton.index(joint)]
     reference = rotations.mean(turns) if about is None else np.asarray(about)
@@ -140,19 +119,3 @@ def test_a_scale_stretches_the_swing_about_the_mean():
     assert away(wide, "lhumerus", reference)[1] == pytest.approx(1.5 * before)
     changed = np.abs(wide.rotations - WALK.rotations).max(axis=(0, 2)) > 0
     assert np.flatnonzero(changed).tolist() == [WALK.skeleton.index("lhumerus")]
-
-
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        (lambda: scaled(WALK, "lhumerus", 40.0), r"Frame \d+: such a gain turns 'lhumerus' by \d+°"),
-        (lambda: scaled(WALK, "lhumerus", np.nan), r"one finite number, or 241, got shape \(\)"),
-        (lambda: scaled(WALK, "lhumerus", [1.0, 2.0]), r"got shape \(2,\)"),
-        (lambda: scaled(WALK, "elbow", 1.0), "No joint 'elbow'"),
-    ],
-)
-def test_scales_that_cannot_be(call, message):
-    refused(message, call)
-
-
-# ------------------------------------------------------------------------------------- Euler angles

@@ -66,6 +66,12 @@ def hand_at(clip: Motion, frames) -> Pins:
     return join_pins(plant_pins(clip), *(hand(clip, [frame], frame) for frame in frames))
 
 
+def far_hand(clip: Motion) -> Pins:
+    """Ask the right wrist to a place five metres above it, in ten frames."""
+    place = joint_positions(clip)[240, clip.skeleton.index("rwrist")]
+    return pin(clip, "rwrist", slice(240, 250), place + np.array([0, 5, 0]))
+
+
 def rms(errors: np.ndarray, pins: Pins) -> float:
     """Return the rms error in frames in which something is asked, metres."""
     return float(np.sqrt((errors[pins.asked.any(axis=1)] ** 2).mean()))

@@ -1,6 +1,5 @@
 """From one pose to another, at its place and in time: what is met, what it takes, and what is refused."""
 
-import warnings
 from dataclasses import replace
 from functools import cache
 
@@ -16,7 +15,7 @@ from mocap.body.planar import PlanarTransform, heading, lay_on, on_ground, place
 from mocap.body.skeleton import Skeleton
 from mocap.datasets import samples
 from mocap.editing.displacements import difference
-from mocap.errors import MocapError, MocapWarning, NoWalk, SkeletonMismatch
+from mocap.errors import MocapWarning, NoWalk, SkeletonMismatch
 from mocap.graphs.compiled_graph import compile_graph
 from mocap.graphs.motion_graph import from_transitions
 from mocap.matching.transitions import Transition
@@ -29,14 +28,9 @@ from mocap.synthesis.walk_to_motion import require_walk, to_motion, with_plants
 from tests.bundled import bundled, captured, walking
 from tests.conftest import SWEEP
 from tests.editing.test_path_editing import slide
+from tests.refusals import quietly, refusals
 
 OWN = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight", "stop_and_go")
-
-
-def quietly(*args, **options):
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", MocapWarning)
-        return in_between(*args, **options)
 
 
 def accelerations(motions):
@@ -52,7 +46,7 @@ def ending(motion, frame, position, direction):
 
 def met(graph, start, end, seconds):
     """Hold a motion against every bar, measured on the motion itself."""
-    found = quietly(graph, start, end, seconds)
+    found = quietly(in_between, graph, start, end, seconds)
     fps = found.motion.fps
     assert len(found.motion) == round(seconds * fps) + 1
     for frame, asked in ((0, start[:1]), (-1, end[-1 + len(end) :])):
@@ -184,32 +178,26 @@ def test_turns_beyond_the_limit_are_refused_with_what_would_help(monkeypatch):
         in_between(graph, start, end, seconds)
 
 
-def test_a_pose_unlike_all_clips_is_refused():
-    clip = walking().source.clips[0]
-    fallen = clip.rotations.copy()
-    fallen[:, 0] = rotations.multiply(fallen[:, 0], rotations.from_rotvec([np.pi / 2, 0, 0]))
-    with pytest.raises(NoWalk, match=r"The first pose of .* m off the nearest pose of the clips, and 0\.1 m"):
-        in_between(walking(), replace(clip, rotations=fallen)[7:], clip[:91], 3.0)
+CLIP = resample(samples.sample("walk_circle"), 30)
+TURNED = rotations.multiply(CLIP.rotations[:, :1], rotations.from_rotvec([np.pi / 2, 0, 0]))
+FALLEN = replace(CLIP, rotations=np.concatenate([TURNED, CLIP.rotations[:, 1:]], axis=1))
+WHOLE = from_transitions([CLIP], [], window=10)
+DOT = Motion(Skeleton(["root"], [-1], [[0, 0, 0]]), [[0, 0, 0]], [[[1, 0, 0, 0]]], 30.0)
 
 
-def test_a_graph_without_a_way_is_refused():
-    clips = [resample(samples.sample(name), 30) for name in ("walk_circle", "walk_curve_1")]
-    graph = from_transitions(clips, [], window=10)
-    with pytest.raises(NoWalk, match=r"No walk leads from one pose to the other in 4\.0 s"):
-        in_between(graph, clips[0][700:], clips[0][:31], 4.0)
+def joined(start, end, seconds, graph=None):
+    return in_between(graph or walking(), start, end, seconds)
 
 
-@pytest.mark.parametrize("seconds", [0.0, -1.0, np.nan, np.inf, 1e9])
-def test_a_time_that_is_none_is_refused(seconds):
-    clip = walking().source.clips[0]
-    with pytest.raises(MocapError, match=r"A motion lasts from 0\.07 to 120 s, got"):
-        in_between(walking(), clip[3:], clip[:91], seconds)
-
-
-def test_a_pose_of_another_skeleton_is_refused():
-    dot = Motion(Skeleton(["root"], [-1], [[0, 0, 0]]), [[0, 0, 0]], [[[1, 0, 0, 0]]], 30.0)
-    with pytest.raises(SkeletonMismatch):
-        in_between(walking(), dot, walking().source.clips[0], 3.0)
+test_what_has_no_in_between_is_refused = refusals(
+    (NoWalk, "The first pose of .* nearest pose of the clips, and 0.1 m", joined, FALLEN[7:], CLIP[:91], 3.0),
+    (NoWalk, r"leads from one pose to the other in 4\.0 s", joined, CLIP[700:], CLIP[:31], 4.0, WHOLE),
+    *(
+        (r"A motion lasts from 0\.07 to 120 s, got", joined, CLIP[3:], CLIP[:91], seconds)
+        for seconds in (0.0, -1.0, np.nan, np.inf, 1e9)
+    ),
+    (SkeletonMismatch, "joints", joined, DOT, CLIP, 3.0),
+)
 
 
 # ---------------------------------------------------------------------------------------------- parts

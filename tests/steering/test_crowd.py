@@ -1,7 +1,5 @@
 """Characters give way to one another."""
 
-import warnings
-
 import numpy as np
 import pytest
 
@@ -12,6 +10,7 @@ from mocap.steering.path_following import follow_path
 from mocap.steering.path_objective import Settings
 from mocap.steering.waypoints_and_crowds import walk_crowd
 from tests.bundled import walking
+from tests.refusals import quietly
 
 GRAPH = walking()
 CROSSING = [GroundPath([[0, 0], [0, 6]]), GroundPath([[3, 3], [-3, 3]])]
@@ -35,9 +34,7 @@ def test_who_would_collide_gives_way():
 
 def test_who_meets_head_on_steps_aside_or_waits():
     paths = [GroundPath([[0, 0], [0, 7]]), GroundPath([[0, 7], [0, 0]]), GroundPath([[3, 3], [-3, 3]])]
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", MocapWarning)
-        crowd = walk_crowd(GRAPH, paths)
+    crowd = quietly(walk_crowd, GRAPH, paths)
     assert crowd.nearest.min() > 0.7
     assert crowd.waits[0] == 0.0
 

@@ -5,9 +5,9 @@ import math
 import pytest
 
 from mocap.editing.bending import LIMIT
-from mocap.errors import MocapError
 from mocap.steering.waypoints_and_crowds import Waypoint, through_waypoints
 from tests.bundled import sneaking, walking
+from tests.refusals import refusals
 from tests.steering.test_bent_following import straight_walker
 
 
@@ -33,11 +33,10 @@ def test_each_waypoint_sets_the_kind_of_motion():
     assert motion.labels["sneak"][(along > 4.5) & (along < 7.5)].mean() > 0.9
 
 
-def test_impossible_waypoints_are_told():
-    with pytest.raises(MocapError, match="two points"):
-        through_waypoints(walking(), [Waypoint(0, 0)])
-    with pytest.raises(MocapError, match="Times must grow along the path"):
-        through_waypoints(walking(), [Waypoint(0, 0), Waypoint(0, 4, seconds=0.0)])
+test_impossible_waypoints_are_told = refusals(
+    ("two points", through_waypoints, walking(), [Waypoint(0, 0)]),
+    ("Times must grow", through_waypoints, walking(), [Waypoint(0, 0), Waypoint(0, 4, seconds=0.0)]),
+)
 
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")

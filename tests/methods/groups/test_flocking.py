@@ -9,7 +9,7 @@ from mocap.methods.groups import RATE, Trajectories, nearest_two
 from mocap.methods.groups.flocking import APART, BODY, Flock, advance, push_apart, simulate, steering_force
 from mocap.methods.groups.group_steering import away_from
 from tests.methods.groups.built import flock
-from tests.refusals import refused
+from tests.refusals import refusals
 
 
 def test_a_flock_keeps_its_pace_and_its_distance():
@@ -83,17 +83,10 @@ def test_two_are_pushed_just_apart(gap):
     assert moved.mean() == pytest.approx(places.mean())
 
 
-@pytest.mark.parametrize(
-    ("wrong", "sentence"),
-    [
-        ({"count": 1}, "two members or more, got 1"),
-        ({"count": 2.5}, "two members or more, got 2.5"),
-        ({"corridor": 1.2}, "wider than 1.3 m, got 1.2 m"),
-        ({"count": np.nan}, "two members or more, got nan"),
-    ],
+test_what_makes_no_sense_is_refused = refusals(
+    *((f"two members or more, got {count}", simulate, count, 5.0) for count in (1, 2.5, np.nan)),
+    ("wider than 1.3 m, got 1.2 m", lambda: simulate(4, 5.0, corridor=1.2)),
 )
-def test_what_makes_no_sense_is_refused(wrong, sentence):
-    refused(sentence, simulate, **{"count": 4, "seconds": 5.0, **wrong})
 
 
 def test_who_is_alone_has_nobody_near():

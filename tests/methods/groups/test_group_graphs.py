@@ -12,7 +12,7 @@ from mocap.methods.groups.flocking import APART, RATE, Configuration, Flock, Tra
 from mocap.methods.groups.group_clips import HARDEST, accelerations, bend_to, part, run_from
 from mocap.methods.groups.group_graphs import Placed, build_group, make_clips, play_group, random_group_walk
 from tests.methods.groups.built import flock, graph
-from tests.refusals import refused
+from tests.refusals import refusals
 
 every_graph = pytest.mark.parametrize(("count", "nodes"), [(12, 8), (6, 6)])
 
@@ -39,34 +39,30 @@ def test_a_walk_starts_where_it_is_placed():
     np.testing.assert_allclose(there.velocities, 1j * here.velocities, atol=1e-9)
 
 
-def test_a_node_that_no_clip_leaves_ends_a_random_walk():
+def numbered(**ends):
+    """Give the number of a clip of the group of six."""
+    clips = enumerate(graph(6, 6).clips)
+    return next(n for n, clip in clips if all(getattr(clip, end) == node for end, node in ends.items()))
+
+
+def from_0_to_1_and_no_further():
     group = graph(6, 6)
-    only = GroupGraph(group.nodes, tuple(c for c in group.clips if c.end == 1 and c.start == 0), group.tried)
-    refused("No clip leaves node 1", random_group_walk, only, 5)
+    only = GroupGraph(group.nodes, (group.clips[numbered(start=0, end=1)],), group.tried)
+    return random_group_walk(only, 5)
 
 
-@pytest.mark.parametrize(
-    ("walk", "start", "sentence"),
-    [
-        ([], None, "one clip or more"),
-        ([0], Placed(1), "A group at node 1 cannot go on by a clip that leaves 0"),
-    ],
+def much_too_near():
+    node = graph(6, 6).nodes[0]
+    return make_clips([Configuration(node.places * 0.1, node.velocities)], bends=[0.0])
+
+
+test_clips_and_walks_that_cannot_be_are_refused = refusals(
+    ("No clip leaves node 1", from_0_to_1_and_no_further),
+    ("one clip or more", lambda: play_group(graph(6, 6), [])),
+    ("A group at node 1 cannot go on by .* leaves 0", lambda: play_group(graph(6, 6), [0], Placed(1))),
+    ("at node 1 .* leaves 2", lambda: play_group(graph(6, 6), [numbered(end=1), numbered(start=2)])),
+    ("None of 3 clips can be kept: members come nearer than 0.6 m", much_too_near),
 )
-def test_walks_that_are_none_are_refused(walk, start, sentence):
-    refused(sentence, play_group, graph(6, 6), walk, start)
-
-
-def test_clips_that_do_not_follow_one_another_are_refused():
-    group = graph(6, 6)
-    to_one = next(n for n, clip in enumerate(group.clips) if clip.end == 1)
-    from_two = next(n for n, clip in enumerate(group.clips) if clip.start == 2)
-    refused("A group at node 1 cannot go on by a clip that leaves 2", play_group, group, [to_one, from_two])
-
-
-def test_bends_that_are_too_sharp_leave_no_clip_and_it_says_why():
-    nodes = graph(6, 6).nodes
-    close = Configuration(nodes[0].places * 0.1, nodes[0].velocities)
-    refused(r"None of 3 clips can be kept: members come nearer than 0.6 m", make_clips, [close], bends=[0.0])
 
 
 def test_pairs_without_a_clip_are_warned_of():

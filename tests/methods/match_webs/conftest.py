@@ -3,12 +3,11 @@
 from itertools import pairwise
 from types import SimpleNamespace
 
-import numpy as np
 import pytest
 
 from mocap import datasets, resample
 from mocap._shared.arrays import runs
-from mocap.body import find_legs, joint_positions
+from mocap.body import find_legs
 from mocap.methods.match_webs import build_web
 
 BUNDLED = ("walk_straight", "walk_circle", "sneak", "jog", "stop_and_go")
@@ -25,14 +24,6 @@ def cycles(motion, shortest, longest):
     """Strike to strike of the left foot, as slices of so many seconds."""
     found = (slice(a, b) for a, b in pairwise(strikes(motion)))
     return [part for part in found if shortest <= (part.stop - part.start) / motion.fps <= longest]
-
-
-def flights(motion):
-    """Where both feet are in the air for more than 0.1 s, with 0.4 s before and after."""
-    feet = [joint for leg in find_legs(motion.skeleton) for joint in (leg.ankle, leg.ball)]
-    heights = joint_positions(motion)[:, feet, 1]
-    air = (heights - np.percentile(heights, 5, axis=0) > 0.04).all(axis=1)
-    return [slice(int(a) - 48, int(b) + 48) for a, b in runs(air) if b - a > 12]
 
 
 def common(match, clip, part):
@@ -61,17 +52,6 @@ def bundled():
         if clip.labels["walk"][part].all()
     ]
     return SimpleNamespace(clips=clips, web=build_web(clips, below=0.08), truth=truth)
-
-
-@pytest.fixture(scope="session")
-def subject16(real_data):
-    """All 58 trials of subject 16, with a web below 12 cm, and their jumps."""
-    trials = datasets.trials(16)
-    clips = [datasets.cmu(trial.name) for trial in trials]
-    jumping = [n for n, trial in enumerate(trials) if "jump" in trial.description]
-    jumps = [(n, part) for n in jumping for part in flights(clips[n])]
-    names = [trial.name for trial in trials]
-    return SimpleNamespace(clips=clips, names=names, web=build_web(clips), jumps=jumps)
 
 
 @pytest.fixture(scope="session")

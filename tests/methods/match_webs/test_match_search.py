@@ -168,27 +168,6 @@ def test_hostile_queries_are_one_sentence(bundled, clip, frames, settings, messa
 # Real people.
 
 
-@pytest.mark.exhaustive
-def test_a_jump_finds_the_others_and_a_leak_finds_hundreds_of_other_things(subject16):
-    truth = subject16.jumps
-    assert len(truth) == 9
-    number = subject16.names.index("16_03")
-    [query] = [part for n, part in truth if n == number]
-    assert judge(search(subject16.web, number, query, steps=1), truth) == (2, 0)
-    hit, wrong = judge(search(subject16.web, number, query), truth)
-    assert hit >= 7 and wrong == 0
-    web = build_web(subject16.clips, below=0.16)
-    assert judge(search(web, number, query), truth) == (9, 0)
-    with pytest.warns(MocapWarning, match="one wrong match may have led to others"):
-        hit, wrong = judge(search(web, number, query, lengths=(1 / 2, 2), still=0), truth)
-    assert hit == 9 and wrong > 100
-    with pytest.warns(MocapWarning, match="hardly move"):  # either bound stops it
-        hit, wrong = judge(search(web, number, query, lengths=(1 / 2, 2)), truth)
-    assert hit == 9 and wrong <= 2
-    hit, wrong = judge(search(web, number, query, steps=1, lengths=(1 / 2, 2)), truth)
-    assert hit < 9  # a larger limit does not do what more steps do
-
-
 def test_a_punch_finds_all_nine_by_way_of_those_in_between(real_data):
     """As in [KG04, search in steps]."""
     clips = [datasets.cmu(trial.name) for trial in datasets.trials(2)]

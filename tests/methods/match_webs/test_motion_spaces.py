@@ -1,5 +1,7 @@
 """Blends are drawn evenly, and are measured as the clips are."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -13,11 +15,11 @@ from mocap.body import PlanarTransform, Skeleton, arcs, rotations
 from mocap.body.motion import Motion
 from mocap.methods.match_webs import blend_of, hand_target, mean_speed, random_weights, sample_space, turn
 from tests.methods.match_webs.spaces_of_walks import gait, space
-from tests.refusals import refused
+from tests.refusals import refusals, refused
 
 
-@pytest.fixture(scope="module")
-def three():
+@cache
+def speeds():
     return register([generate_walk([[0, 0], [0, 3]], speed=speed) for speed in (0.8, 1.0, 1.2)])
 
 
@@ -34,36 +36,35 @@ def test_examples_are_samples_and_all_samples_are_what_their_blends_do():
         made.values[0] = 0
 
 
-def test_a_blend_by_few_is_the_blend_of_all(three):
-    few = blend_of(three, [0, 0.3, 0.7])
-    every = mix(three, [0, 0.3, 0.7])
+def test_a_blend_by_few_is_the_blend_of_all():
+    few = blend_of(speeds(), [0, 0.3, 0.7])
+    every = mix(speeds(), [0, 0.3, 0.7])
     assert np.abs(few.rotations - every.rotations)[:, 1:].max() < 1e-9
     assert few.contacts.keys() == every.contacts.keys()
     step = [np.linalg.norm(np.diff(motion.root_positions, axis=0), axis=1) for motion in (few, every)]
     assert np.allclose(*step, atol=1e-9)
-    assert len(blend_of(three, [0, 1, 0])) == len(mix(three, [0, 1, 0]))
+    assert len(blend_of(speeds(), [0, 1, 0])) == len(mix(speeds(), [0, 1, 0]))
 
 
-def test_without_a_scale_numbers_count_by_how_much_they_vary(three):
-    made = sample_space(three, lambda motion: (mean_speed(motion), 7.0), count=4)
+def test_without_a_scale_numbers_count_by_how_much_they_vary():
+    made = sample_space(speeds(), lambda motion: (mean_speed(motion), 7.0), count=4)
     assert made.scale == pytest.approx([np.ptp(made.values[:, 0]) / 2, 1.0])
 
 
-@pytest.mark.parametrize(
-    ("measure", "settings", "message"),
-    [
-        (lambda m: (1.0, 2.0, 3.0), {}, "A measure of 3 numbers needs 4 examples, got 3"),
-        (lambda m: np.nan, {}, r"A measure gives 1 finite numbers for each blend; .* gave \[nan\]"),
-        (lambda m: [1.0] * (1 + (mean_speed(m) > 1)), {}, "A measure gives 1 finite numbers for each blend"),
-        (lambda m: [[1.0]], {}, "finite numbers for each blend"),
-    ],
+def sampled(measure):
+    return sample_space(speeds(), measure, count=3)
+
+
+test_hostile_input_is_one_sentence = refusals(
+    ("A measure of 3 numbers needs 4 examples, got 3", sampled, lambda m: (1.0, 2.0, 3.0)),
+    (r"1 finite numbers for each blend; .* gave \[nan\]", sampled, lambda m: np.nan),
+    ("gives 1 finite numbers for each blend", sampled, lambda m: [1.0] * (1 + (mean_speed(m) > 1))),
+    ("finite numbers for each blend", sampled, lambda m: [[1.0]]),
+    ("A blend of 3 clips needs 3 weights", lambda: blend_of(speeds(), [0.5, 0.5])),
+    ("A measure of 2 numbers needs 3 examples, got 2.", random_weights, [[1.0, 2], [3, 4]], 5),
+    (r"Examples need finite values of shape \(C, d\), got shape \(2,\)", random_weights, [1.0, 2], 5),
+    ("Examples need finite values", random_weights, [[np.nan], [1]], 5),
 )
-def test_hostile_input_is_one_sentence(three, measure, settings, message):
-    refused(message, sample_space, three, measure, **{"count": 3, **settings})
-
-
-def test_a_blend_needs_as_many_weights_as_clips(three):
-    refused("A blend of 3 clips needs 3 weights", blend_of, three, [0.5, 0.5])
 
 
 VALUES = np.random.default_rng(3).normal(size=(9, 2)) * [20, 0.3]
@@ -97,18 +98,6 @@ def test_partners_are_the_nearest_by_scaled_values():
 def test_a_seed_gives_the_same_again_and_another_one_others():
     one, same, other = (random_weights(VALUES, 5, seed=seed) for seed in (1, 1, 2))
     assert np.array_equal(one, same) and not np.array_equal(one, other)
-
-
-@pytest.mark.parametrize(
-    ("values", "settings", "message"),
-    [
-        ([[1.0, 2], [3, 4]], {}, "A measure of 2 numbers needs 3 examples, got 2."),
-        ([1.0, 2], {}, r"Examples need finite values of shape \(C, d\), got shape \(2,\)"),
-        ([[np.nan], [1]], {}, "Examples need finite values"),
-    ],
-)
-def test_examples_that_cannot_be_blended_are_refused(values, settings, message):
-    refused(message, random_weights, values, **{"count": 5, **settings})
 
 
 def walk(degrees, speed=1.2):

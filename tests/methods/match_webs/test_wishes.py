@@ -6,12 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.ndimage import gaussian_filter1d
 
-from mocap import datasets, load
+from mocap import load
 from mocap._shared.arrays import runs
 from mocap.blending.registering import register
 from mocap.body.planar import heading
 from mocap.methods.match_webs import (
-    hand_target,
     neighbour_weights,
     random_weights,
     sample_space,
@@ -20,8 +19,8 @@ from mocap.methods.match_webs import (
 )
 from mocap.methods.match_webs.motion_spaces import MotionSpace, blend_of
 from mocap.methods.match_webs.wishes import nearest_samples
-from tests.methods.match_webs.spaces_of_walks import PUNCHES, gait, space
-from tests.refusals import refused
+from tests.methods.match_webs.spaces_of_walks import gait, space
+from tests.refusals import refusals
 
 METHODS = ("convex", "neighbours")
 
@@ -116,64 +115,14 @@ def test_asked_without_an_example_the_others_turn_as_it_does():
     assert np.abs(off).mean() <= 2
 
 
-@pytest.mark.parametrize(
-    ("wish", "how", "message"),
-    [
-        ([1.0], {}, r"This space is asked for 2 finite numbers, got \[1.0\]"),
-        ([1.0, np.nan], {}, "asked for 2 finite numbers"),
-        ([1.0, 2.0], {"method": "rbf"}, 'A method is "convex" or "neighbours", got \'rbf\''),
-    ],
+test_hostile_wishes_are_one_sentence = refusals(
+    (r"This space is asked for 2 finite numbers, got \[1.0\]", weights_for, linear_space(), [1.0]),
+    ("asked for 2 finite numbers", weights_for, linear_space(), [1.0, np.nan]),
+    ('"convex" or "neighbours", got \'rbf\'', lambda: weights_for(linear_space(), [1.0, 2], method="rbf")),
 )
-def test_hostile_wishes_are_one_sentence(wish, how, message):
-    refused(message, weights_for, linear_space(), wish, **how)
 
 
 # Real people.
-
-
-def centimetres(motion):
-    return 100 * hand_target(motion)
-
-
-@pytest.fixture(scope="module")
-def punches(real_data):
-    """The nine punches of 02_05, from 0.6 s before the arm is longest to 0.6 s after."""
-    clip = datasets.cmu("02_05")
-    cut = []
-    for peak in PUNCHES:
-        part = clip[4 * peak - 16 : 4 * peak + 17]
-        reach = [hand_target(part[frame : frame + 1]) for frame in range(len(part))]
-        shoulder = [hand_target(part[f : f + 1], "rhumerus") for f in range(len(part))]
-        middle = 4 * peak - 16 + int(np.linalg.norm(np.subtract(reach, shoulder), axis=1).argmax())
-        cut.append(clip[middle - 72 : middle + 73])
-    with pytest.warns(match="may not be the same kind of motion"):
-        return register(cut, reference=4, slack=0)
-
-
-@pytest.mark.sweep
-def test_punches_reach_their_targets(punches):
-    made = sample_space(punches, centimetres, count=400, scale=[1, 1, 1])
-    few = MotionSpace(punches, made.weights[:109], made.values[:109], made.scale)
-
-    def reached(rows):
-        return np.array([centimetres(blend_of(punches, row, fps=30)) for row in rows])
-
-    wishes = reached(random_weights(made.values[:9], 40, spread=0, seed=99))
-
-    def off(rows):
-        return np.linalg.norm(reached(rows) - wishes, axis=1).mean()
-
-    convex, plain = (off([weights_for(few, wish, method=method) for wish in wishes]) for method in METHODS)
-    assert convex <= 0.8
-    assert plain >= 3 * convex
-    assert off([weights_for(made, wish, method="neighbours") for wish in wishes]) <= 1.8
-
-    far = np.array([[75.0, 158, 30], [10, 160, 60], [50, 60, 60], [60, 130, 110]])
-    nearest = nearest_samples(far, few.values, few.scale, 1)[1][:, 0]
-    for method in METHODS:
-        rows = [weights_for(few, wish, method=method) for wish in far]
-        assert np.min(rows) >= -0.1 - 1e-12 and np.max(rows) <= 1.1 + 1e-12
-        assert (np.linalg.norm(reached(rows) - far, axis=1) <= 1.1 * nearest).all()
 
 
 ANGLES = (45, 90, 180, -45, -90, -180)

@@ -12,7 +12,7 @@ from mocap.methods.parametric_graphs import cut_actions, smallest_good
 from mocap.methods.parametric_graphs.parametric_control import ParametricController
 from mocap.quality import plant_slides
 from tests.methods.parametric_graphs.built import HAND, SMALL, act, acting, clips, of_hands
-from tests.refusals import refused
+from tests.refusals import refusals
 
 
 @pytest.mark.parametrize("node", ["reach", "punch"])
@@ -82,16 +82,13 @@ def test_actions_are_registered_and_their_margins_run_at_their_own_pace():
     assert np.ptp(pace[:, : zero - 1]) < 1e-9 and (pace > 0).all()
 
 
-@pytest.mark.parametrize(
-    ("what", "sentence"),
-    [
-        (lambda: cut_actions([], []), "one span for each clip, got 0 and 0"),
-        (lambda: cut_actions([clips()[3]], []), "one span for each clip, got 1 and 0"),
-        (lambda: cut_actions([clips()[3]], [(2, 40)]), "takes those from -13 to 55: leave it more room"),
-        (lambda: cut_actions([clips()[3]], [(60, 40)]), "leave it more room"),
-        (lambda: ParametricController(acting()).aim([1, 2]), "A place of the world is three finite numbers"),
-        (lambda: ParametricController(acting()).aim([1, 2, np.nan]), "three finite numbers"),
-    ],
+WALK = clips()[3]
+
+test_what_makes_no_sense_is_refused = refusals(
+    ("one span for each clip, got 0 and 0", cut_actions, [], []),
+    ("one span for each clip, got 1 and 0", cut_actions, [WALK], []),
+    ("takes those from -13 to 55: leave it more room", cut_actions, [WALK], [(2, 40)]),
+    ("leave it more room", cut_actions, [WALK], [(60, 40)]),
+    ("A place of the world is three", lambda: ParametricController(acting()).aim([1, 2])),
+    ("three finite numbers", lambda: ParametricController(acting()).aim([1, 2, np.nan])),
 )
-def test_what_makes_no_sense_is_refused(what, sentence):
-    refused(sentence, what)

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from mocap.errors import MocapError, NoWalk, SkeletonMismatch
+from mocap.errors import NoWalk, SkeletonMismatch
 from mocap.methods.parametric_graphs import Sampling
 from mocap.methods.parametric_graphs.made_motions import optimal_transitions
 from mocap.methods.parametric_graphs.parametric_edges import (
@@ -28,7 +28,7 @@ from tests.methods.parametric_graphs.built import (
     walk_and_jog,
     walking,
 )
-from tests.refusals import refused
+from tests.refusals import refusals
 
 PLACES = st.floats(-10, 10).map(lambda v: round(v, 2))
 
@@ -104,21 +104,31 @@ def test_good_targets_with_bad_ones_all_around_leave_a_box_of_one():
     assert (tight.low <= tight.high + 1e-9).all()
 
 
-@pytest.mark.parametrize("settings", [{"good": 0.04, "bad": 0.03}, {"good": np.nan}])
-def test_what_makes_no_sense_is_refused(settings):
-    refused("T_GOOD <= T_BAD", build_edge, space(), space(), **settings)
+def changed(**parts):
+    return replace(space(), examples=replace(space().examples, **parts))
 
 
-def test_spaces_of_other_rates_marks_and_bodies_are_refused():
-    source, own = space(), space().examples
-    bones = replace(own.skeleton, offsets=1.2 * own.skeleton.offsets)
-    for changed, error, sentence in (
-        ({"contact_names": ("lfoot", "rfoot", "ltoes", "head")}, MocapError, "some of them lack head"),
-        ({"fps": 60.0}, MocapError, "one rate, got 30 and 60 Hz"),
-        ({"skeleton": bones}, SkeletonMismatch, ""),
-    ):
-        with pytest.raises(error, match=sentence or None):
-            build_edge(source, replace(source, examples=replace(own, **changed)), good=0.04)
+def edge_to(target=None, good=0.04, **settings):
+    return build_edge(space(), target or space(), good=good, **settings)
+
+
+def built(edges=None, good=0.03, **spaces):
+    return build_parametric({"walk": space(), **spaces}, edges, good=good, sampling=SMALL)
+
+
+BONES = replace(space().examples.skeleton, offsets=1.2 * space().examples.skeleton.offsets)
+
+test_what_cannot_be_built_is_refused = refusals(
+    ("T_GOOD <= T_BAD", lambda: edge_to(bad=0.03)),
+    ("T_GOOD <= T_BAD", lambda: edge_to(good=np.nan)),
+    ("lack head", lambda: edge_to(changed(contact_names=("lfoot", "rfoot", "ltoes", "head")))),
+    ("one rate, got 30 and 60 Hz", lambda: edge_to(changed(fps=60.0))),
+    (SkeletonMismatch, "sits", lambda: edge_to(changed(skeleton=BONES))),
+    ("There is no space 'run'; there are: walk", built, [("walk", "run")]),
+    (NoWalk, r"walk → walk: Nothing .* raise T_GOOD to 1.\d cm", built, [("walk", "walk")], 0.005),
+    (NoWalk, "Nothing follows 'walk' below 0.5 cm", built, None, 0.005),
+    ("one rate, got 30 and 60 Hz", lambda: built([("walk", "walk"), ("b", "b")], b=changed(fps=60.0))),
+)
 
 
 def test_by_default_all_edges_that_can_be_had_are_there():
@@ -134,29 +144,3 @@ def test_the_report_names_each_edge_and_its_boxes():
     assert len(stepping().report().splitlines()) == 2
     both = build_parametric({"walk": by_turn_and_speed()}, good=0.06, sampling=SMALL)
     assert "m/s of speed" in both.report()
-
-
-@pytest.mark.parametrize(
-    ("spaces", "edges", "good", "error", "sentence"),
-    [
-        (["walk"], [("walk", "run")], 0.03, MocapError, "There is no space 'run'; there are: walk"),
-        (
-            ["walk"],
-            [("walk", "walk")],
-            0.005,
-            NoWalk,
-            r"walk → walk: Nothing follows turn .* raise T_GOOD to 1.\d cm",
-        ),
-        (["walk"], None, 0.005, NoWalk, "Nothing follows 'walk' below 0.5 cm"),
-    ],
-)
-def test_what_cannot_be_built_is_refused(spaces, edges, good, error, sentence):
-    with pytest.raises(error, match=sentence) as caught:
-        build_parametric({name: space() for name in spaces}, edges, good=good, sampling=SMALL)
-    assert len(str(caught.value)) <= 200
-
-
-def test_spaces_of_two_rates_are_no_graph_even_without_an_edge_between_them():
-    slow = replace(space(), examples=replace(space().examples, fps=60.0))
-    with pytest.raises(MocapError, match="one rate, got 30 and 60 Hz"):
-        build_parametric({"a": space(), "b": slow}, [("a", "a"), ("b", "b")], good=0.05, sampling=SMALL)

@@ -15,7 +15,7 @@ from mocap.methods.parametric_graphs import cut_strides, mixed_way
 from mocap.methods.parametric_graphs.examples import MARGIN
 from mocap.methods.parametric_graphs.strides import changing_strides
 from tests.methods.parametric_graphs.built import clips, jogs, strides
-from tests.refusals import refused
+from tests.refusals import refusals
 
 
 def test_phases_0_and_1_are_strikes_of_one_foot():
@@ -109,24 +109,18 @@ def test_feet_that_are_not_marked_are_marked():
     assert len(bare) == pytest.approx(len(cut_strides([clip])), abs=3)
 
 
-@pytest.mark.parametrize(
-    ("what", "sentence"),
-    [
-        (lambda c: cut_strides([]), "one clip or more, got none"),
-        (lambda c: cut_strides([sample("walk_curve_1"), c]), "resample"),
-        (lambda c: cut_strides([c], feet="ll"), "No example of 'll' in 1 clips"),
-        (lambda c: cut_strides([c], by="ear"), "by 'strikes' or by 'curves', got 'ear'"),
-        (lambda c: cut_strides([c], label="jog"), "No example of 'lrl' labelled 'jog' in 1 clips; 0 were"),
-        (lambda c: cut_strides([c[:40]]), r"No example of 'lrl' in 1 clips; \d were left out"),
-        (
-            lambda c: cut_strides([replace(c, contacts={"head": np.ones(len(c), bool)})]),
-            "mark_plants finds out",
-        ),
-        (lambda c: cut_strides([c]).take(np.zeros(len(cut_strides([c])), bool)), "None of"),
-    ],
+CLIP = clips()[1]
+
+test_what_makes_no_sense_is_refused = refusals(
+    ("one clip or more, got none", cut_strides, []),
+    ("resample", cut_strides, [sample("walk_curve_1"), CLIP]),
+    ("No example of 'll' in 1 clips", lambda: cut_strides([CLIP], feet="ll")),
+    ("by 'strikes' or by 'curves', got 'ear'", lambda: cut_strides([CLIP], by="ear")),
+    ("No example of 'lrl' labelled 'jog' in 1 clips; 0 were", lambda: cut_strides([CLIP], label="jog")),
+    (r"No example of 'lrl' in 1 clips; \d were left out", cut_strides, [CLIP[:40]]),
+    ("mark_plants finds out", cut_strides, [replace(CLIP, contacts={"head": np.ones(len(CLIP), bool)})]),
+    ("None of", lambda: strides().take(np.zeros(len(strides()), bool))),
 )
-def test_what_makes_no_sense_is_refused(what, sentence):
-    refused(sentence, what, clips()[1])
 
 
 def test_a_joint_turned_by_half_a_circle_keeps_its_sign_from_phase_to_phase():
@@ -172,11 +166,17 @@ def test_a_kind_changed_into_itself_is_itself():
     np.testing.assert_allclose(same.seconds, walk.seconds[rows], atol=0.01)
 
 
-def test_kinds_that_do_not_fit_are_refused():
-    walk, jog = strides(), jogs()
-    refused("over the same phases", changing_strides, walk, strides("lr"))
-    refused("one rate, got 30 and 60 Hz", changing_strides, walk, replace(jog, fps=60.0))
-    refused("no turn in common", changing_strides, walk, replace(jog, values=jog.values + 9))
-    bones = replace(jog.skeleton, offsets=1.1 * jog.skeleton.offsets)
-    with pytest.raises(SkeletonMismatch):
-        changing_strides(walk, replace(jog, skeleton=bones))
+def changed_to(other):
+    return changing_strides(strides(), other)
+
+
+def large():
+    return replace(jogs().skeleton, offsets=1.1 * jogs().skeleton.offsets)
+
+
+test_kinds_that_do_not_fit_are_refused = refusals(
+    ("over the same phases", lambda: changed_to(strides("lr"))),
+    ("one rate, got 30 and 60 Hz", lambda: changed_to(replace(jogs(), fps=60.0))),
+    ("no turn in common", lambda: changed_to(replace(jogs(), values=jogs().values + 9))),
+    (SkeletonMismatch, "sits", lambda: changed_to(replace(jogs(), skeleton=large()))),
+)

@@ -1,0 +1,346 @@
+"""What work takes beside the bare work that it cannot do without, or beside the duration of its motion.
+
+See the ratios: pytest -m benchmark -n 0 -s tests/benchmarks/test_ratios.py
+Both sides take turns in one run, in CPU seconds; of each the fastest turn counts. What is linear in its input
+may take more for each frame of a large one, for caches, but grow by no worse power.
+"""
+
+from dataclasses import replace
+from functools import cache, partial
+
+import numpy as np
+import pytest
+from asked_lines import heart, sine, spiral
+from walking import generate_walk
+
+import mocap
+from mocap import datasets
+from mocap.blending.joining import blend, inertialize, join
+from mocap.blending.mixing import mix
+from mocap.blending.registering import register
+from mocap.body.ground_path import SHAPES, GroundPath, circle, s_curve
+from mocap.body.kinematics import forward_kinematics
+from mocap.body.motion import resample
+from mocap.body.planar import PlanarTransform
+from mocap.datasets import sample
+from mocap.editing.bending import LIMIT, bend
+from mocap.editing.displacements import displaced
+from mocap.editing.edits import edit, hierarchy, posed
+from mocap.editing.keys import keys_around, offsets
+from mocap.editing.path_editing import on_path, ride_of
+from mocap.editing.pins import Pins, plant_pins
+from mocap.editing.retargeting import copied, retarget
+from mocap.editing.retiming import retime
+from mocap.editing.solver import solve
+from mocap.editing.stances import stance_of
+from mocap.editing.steps import Basis
+from mocap.feet.footplants import mark_plants
+from mocap.feet.footskate import clean_up
+from mocap.graphs.motion_graph import build, from_transitions
+from mocap.graphs.pruning import prune, prune_graph
+from mocap.graphs.thresholds import threshold_curve
+from mocap.matching import distance_grid, point_cloud
+from mocap.matching.time_paths import time_path
+from mocap.matching.transitions import Transitions
+from mocap.methods.match_webs import blend_of, build_web, search, weights_for
+from mocap.steering import Controller, FootTurner, measure_delay
+from mocap.steering.path_following import follow_path
+from mocap.synthesis.random_walks import random_walk
+from mocap.synthesis.walk_to_motion import to_motion
+from tests.benchmarks.timing import fastest, least
+from tests.blending.registered import walks
+from tests.bundled import walking
+from tests.editing.bodies import adult, child, without
+from tests.editing.bodies import walk as person
+from tests.editing.test_posing import post
+from tests.editing.wishes import hand_at, stone, walk
+from tests.methods.match_webs.spaces_of_walks import gait, space
+from tests.refusals import quietly
+from tests.steering.test_bent_following import straight_walker
+from tests.strategies import wave
+
+pytestmark = pytest.mark.benchmark
+
+CORNER = GroundPath([[0, 0], [0, 4], [4, 4]])
+ANSWER = 22  # 60 ms for 4 s of motion, whose forward kinematics takes 2.7 ms
+
+
+def each(rows):
+    return pytest.mark.parametrize(("what", "most", "make"), rows, ids=[row[0] for row in rows])
+
+
+def kinematics(*motions):
+    return lambda: [forward_kinematics(motion) for motion in motions]
+
+
+# How many forward kinematics of the same motion: (what, at most, what gives the work and the motions).
+
+
+def handle_of_a_path():
+    ride = ride_of(walk())
+    path = s_curve(3 * ride.path.length)  # as sharp as a person turns
+    return lambda: clean_up(on_path(walk(), path, ride)), walk()
+
+
+def bent(name, path):
+    clip = sample(name) if name == "walk_straight" else resample(sample(name), 30)
+    frames = len(bend(clip, path).motion)
+    return partial(bend, clip, path), clip[:frames]
+
+
+def put_on_a_circle():
+    clip = sample("walk_straight")
+    return partial(on_path, clip, circle(3.0), ride_of(clip)), clip
+
+
+def dragged_key():
+    clip = sample("walk_straight")[:480]
+    place = {"rhand": post(clip, 238)}
+    return lambda: displaced(clip, offsets(clip, keys_around(clip, 238, posed(clip, 238, place)))), clip
+
+
+BODIES = {
+    "a child": child,
+    "fewer joints": lambda: stance_of(
+        without(person(), "lowerback", "upperback", "lclavicle", "rclavicle", "lowerneck")
+    ),
+}
+
+
+def worn(name, steps):
+    body = BODIES[name]()
+    scale = steps * body.leg / adult().leg
+    return lambda: retarget(person(), body, adult(), scale=scale), person()
+
+
+def three():
+    return [walks()[speed, 0] for speed in (0.8, 1.1, 1.4)]
+
+
+def pulled_hand():
+    return partial(hierarchy, walk(), hand_at(walk(), (180, 240, 300)), knots=(0.5,)), walk()
+
+
+BESIDE_KINEMATICS = [
+    ("edit", 80, lambda: (partial(edit, walk(), stone(walk(), 0.15)), walk())),
+    ("a handle of a path", ANSWER, handle_of_a_path),
+    ("a hand", ANSWER, pulled_hand),
+    ("a key", 10, dragged_key),
+    ("retime", 15, lambda: (partial(retime, person(), [(0, 0), (2, 1), (4.9, 3.9)]), person())),
+    *(
+        (f"bend {name}", 50 if path is CORNER else 36, partial(bent, name, path))  # to round takes 10 ms
+        for name in ("walk_straight", "walk_circle")
+        for path in (circle(3.0), s_curve(20), CORNER)
+    ),
+    ("on_path", 2, put_on_a_circle),
+    *((f"retarget, {body}", 90, partial(worn, body, steps)) for body in BODIES for steps in (1.0, 1.4)),
+    ("a copy alone", 20, lambda: (partial(copied, person(), adult(), child()), person())),
+    ("register three", 10, lambda: (partial(register, three()), *three())),
+    ("mix three", 10, lambda: (partial(mix, register(three()), np.full(3, 1 / 3)), *three())),
+]
+
+
+def held(what, ratio, most):
+    print(f"\n{what}: {ratio:.3g}, at most {most:.3g}")
+    assert ratio <= most
+
+
+@each(BESIDE_KINEMATICS)
+def test_edits_take_a_few_forward_kinematics(what, most, make):
+    work, *motions = make()
+    held(what, np.divide(*fastest(work, kinematics(*motions), turns=7)), most)
+
+
+# What share of the motion's own duration: (what, at most, what gives the work and the seconds).
+
+
+@cache
+def minute():
+    motion = generate_walk([[0, 0], [0, 55]], speed=0.85)[: 60 * 120]
+    push = 0.01 * np.sin(np.arange(len(motion)) / 40)[:, None]
+    return motion, replace(motion, root_positions=motion.root_positions + push)
+
+
+def joined(way):
+    return partial(way, sample("walk_circle"), 3600, sample("walk_circle"), 1000, 40), 60
+
+
+def played():
+    walk = random_walk(walking().source, seconds=600, seed=1)
+    return partial(to_motion, walking().source, walk), to_motion(walking().source, walk).duration
+
+
+def followed(graph, path, **how):
+    work = partial(quietly, follow_path, graph(), path(), **how)
+    return work, work().seconds
+
+
+BESIDE_DURATION = [
+    ("join", 0.1, lambda: joined(join)),
+    ("inertialize", 0.1, lambda: joined(inertialize)),
+    ("blend", 0.1, lambda: (partial(blend, *minute(), np.linspace(1, 0, len(minute()[0]))), 60)),
+    ("mark_plants", 0.1, lambda: (partial(mark_plants, minute()[1]), 60)),
+    ("clean_up", 0.1, lambda: (partial(clean_up, minute()[1]), 60)),
+    ("to_motion", 1 / 100, played),
+    *((f"follow a {name}", 1 / 50, partial(followed, walking, line)) for name, line in SHAPES.items()),
+    *(
+        (f"bend to a {line.__name__}", 1 / 60, partial(followed, graph, line, bend=LIMIT))
+        for line in (sine, spiral, heart)
+        for graph in (walking, straight_walker)
+    ),
+]
+
+
+@each(BESIDE_DURATION)
+def test_work_takes_a_small_share_of_the_motion(what, most, make):
+    work, seconds = make()
+    held(what, least(work, 3) / seconds, most)
+
+
+# How much longer a larger input takes: (what, at most, what gives the work and both inputs).
+
+
+def walks_of_16(folder, count):
+    """Play every walk at so many speeds: `count` times the frames, and no two clips the same."""
+    names = [f"16_{number}" for number in (*range(11, 35), 47, 58)]
+    takes = [mocap.load(folder / f"cmu/16/{name}.amc") for name in names]
+    speeds = np.linspace(0.9, 1.1, count) if count > 1 else [1.0]
+    return [
+        replace(resample(replace(take, fps=120 * speed), 30.0), name=f"{take.name} at {speed:.2f}")
+        for take in takes
+        for speed in speeds
+    ]
+
+
+def made(clips):
+    return prune(build(clips, window=10, threshold=0.03))
+
+
+def random_transitions(count):
+    random = np.random.default_rng(0)
+    leave, enter = random.integers(0, count - 10, (2, count))
+    zero = np.zeros(count, int)
+    costs = random.uniform(0.01, 0.1, count)
+    return Transitions(zero, leave, zero, enter, costs, PlanarTransform(zero, zero, zero))
+
+
+def curve(count_and_found):
+    count, found = count_and_found
+    threshold_curve([wave(count)], found, window=10, thresholds=np.linspace(0.02, 0.1, 20))
+
+
+def edges(count):
+    return from_transitions([wave(count)], random_transitions(count), window=10).graph
+
+
+def raised(name):
+    pins, up = plant_pins(sample(name)), np.array([0, 0.03, 0])
+    return sample(name), Pins(pins.joints, pins.low + up, pins.high + up)
+
+
+SPLINES = [Basis(knots=0.125)]
+GROWTH = [
+    ("the square, in pairs of frames", 16, lambda data: (made, walks_of_16(data, 1), walks_of_16(data, 4))),
+    ("pruning 4 times the edges", 8, lambda data: (prune_graph, edges(10_000), edges(40_000))),
+    (
+        "a curve of 4 times the edges",
+        8,
+        lambda data: (curve, *((count, random_transitions(count)) for count in (10_000, 40_000))),
+    ),
+    (
+        "spacetime of 4 times the frames",
+        1.5 * len(sample("walk_circle")) / len(sample("walk_straight")),
+        lambda data: (lambda both: solve(*both, SPLINES), raised("walk_straight"), raised("walk_circle")),
+    ),
+    (
+        "retargeting 4 times the frames",
+        6,
+        lambda data: (lambda clip: retarget(clip, child(), adult()), person(2.5), person(10.0)),
+    ),
+    (
+        "playing 8 times the seconds",
+        14,
+        lambda data: (
+            partial(to_motion, walking().source),
+            *(random_walk(walking().source, seconds=seconds, seed=1) for seconds in (100, 800)),
+        ),
+    ),
+    (
+        "following 8 times the line",
+        12,
+        lambda data: (lambda line: quietly(follow_path, walking(), line), s_curve(10), s_curve(80)),
+    ),
+]
+
+
+@each(GROWTH)
+def test_time_grows_no_faster_than_the_work(real_data, what, most, make):
+    work, small, large = make(real_data)
+    held(what, np.divide(*fastest(lambda: work(large), lambda: work(small), turns=3)), most)
+
+
+def test_the_walks_of_cmu_16_take_less_than_a_second(real_data):
+    clips = walks_of_16(real_data, 1)
+    assert sum(map(len, clips)) == 2521
+    held("build and prune", least(lambda: made(clips)), 1)
+
+
+# Searches beside distance grids.
+
+
+def clouds(frames):
+    return [point_cloud(sample(name)[: 4 * frames : 4]) for name in ("walk_circle", "walk_curve_1")]
+
+
+@pytest.mark.parametrize("frames", [118, 471])
+def test_a_time_path_takes_at_most_one_and_a_half_of_its_grid(frames):
+    grid = np.sqrt(distance_grid(*clouds(frames), window=5))
+    whole = partial(distance_grid, *clouds(frames), window=5)
+    held("a time path", np.divide(*fastest(lambda: time_path(grid), whole, turns=9)), 1.5)
+
+
+def test_a_web_takes_at_most_ten_distance_grids_and_grows_as_its_square(real_data):
+    """The grid is all against all of the same frames, above the diagonal alone, as the web's is."""
+    clips = [datasets.cmu(trial.name) for trial in datasets.trials(16)]
+    points = np.concatenate([point_cloud(resample(clip, 30)) for clip in clips]).astype(np.float32)
+    web = build_web(clips)
+    grid, whole, half, step = fastest(
+        lambda: distance_grid(points, points, window=5),
+        lambda: build_web(clips),
+        lambda: build_web(clips[::2]),
+        lambda: search(web, 14, slice(120, 260), steps=1),
+        turns=3,
+    )
+    held("a web in grids", whole / grid, 10)
+    held("a step of the search in webs", step / whole, 1 / 20)
+    held(
+        "a web of half the frames",
+        whole / half,
+        1.5 * (sum(map(len, clips)) / sum(map(len, clips[::2]))) ** 2,
+    )
+
+
+@pytest.mark.parametrize("method", ["convex", "neighbours"])
+def test_to_answer_a_wish_takes_at_most_a_twentieth_of_the_blend(method):
+    made = space(400)
+    rows = made.weights[-40:]
+    wishes = made.values[-40:] + np.random.default_rng(0).normal(size=(40, 2)) * made.scale / 10
+    asked, blends = fastest(
+        lambda: [weights_for(made, wish, method=method) for wish in wishes],
+        lambda: [gait(blend_of(made.examples, row, fps=30)) for row in rows],
+    )
+    held(f"weights by {method}", asked / blends, 0.05)
+
+
+# Steps of a character, milliseconds.
+
+
+def test_a_step_takes_a_millisecond_and_to_turn_about_the_standing_foot_a_third_more():
+    delay = measure_delay(Controller(walking()), turns=20)
+    held("a step", delay.step, 1.0)
+    held("the worst step", delay.worst, 5.0)
+    alone, turned = (
+        min(measure_delay(make(), turns=20, seed=seed).step for seed in range(3))
+        for make in (lambda: Controller(walking()), lambda: FootTurner(Controller(walking())))
+    )
+    held("a turned step", turned / alone, 1.3)
