@@ -393,18 +393,21 @@ class Search:
                         waiting.setdefault(max(int(new.along / LAYER), layer), []).append(new)
             yield kept, best
 
+    def walk(self) -> tuple[list[Edge], complex, complex]:
+        """Give the edges of the best walk, and how the first one's clip is laid."""
+        *_, (_, walk) = self.layers()
+        if walk is None:
+            raise ValueError("No walk comes to the end of the line.")
+        edges = []
+        while walk.before and walk.edge:
+            edges.append(walk.edge)
+            walk = walk.before
+        return edges[::-1], walk.turn, walk.move
+
 
 def follow(clips: Sequence[Motion], graph: nx.MultiDiGraph, line: Ground) -> tuple[Array, Array]:
     """Walk along a line: the frames of the best walk, roots (F, 3) and rotations (F, J, 4)."""
-    search = Search(clips, graph, line)
-    *_, (_, best) = search.layers()
-    if best is None:
-        raise ValueError("No walk comes to the end of the line.")
-    walk, edges = best, []
-    while walk.before and walk.edge:
-        edges.append(walk.edge)
-        walk = walk.before
-    return to_motion(clips, graph, edges[::-1], walk.turn, walk.move)
+    return to_motion(clips, graph, *Search(clips, graph, line).walk())
 
 
 def points_along(corners: Array) -> Ground:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mocap._shared.arrays import Array
-from mocap.blending.joining import inertialize, join, lay_window_on
+from mocap.blending.joining import blend, inertialize, lay_window_on, splice
 from mocap.blending.weights import cubic_weights
 from mocap.body.motion import Motion
 from mocap.matching.point_clouds import point_cloud
@@ -203,7 +203,8 @@ def passage(
     laid = lay_window_on(first, start, second, start, window)
     if weights is None:
         return Passage(inertialize(first, start, second, start, window), first, laid, start, np.zeros(window))
-    result = join(first, start, laid, start, window, weights=weights)
+    mixed = blend(first[start : start + window], laid[start : start + window], weights(window))
+    result = splice(first, start, mixed, laid, start + window)
     return Passage(result, first, laid, start, weights(window))
 
 

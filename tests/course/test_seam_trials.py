@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from mocap.blending import cubic_weights, inertialize, join, lay_window_on, linear_weights
+from mocap.blending.joining import blend, splice
 from mocap.body import Motion, Skeleton, resample
 from mocap.course.seam_trials import (
     Passage,
@@ -74,7 +75,8 @@ def glide(path):
 def walked(window, weights=cubic_weights):
     """Blend two moments of a walk; the window starts at frame 10 of 100."""
     second = lay_window_on(WALK, 500, WALK, 233, window)
-    joined = join(WALK, 500, WALK, 233, window, weights=weights)
+    mixed = blend(WALK[500 : 500 + window], second[233 : 233 + window], weights(window))
+    joined = splice(WALK, 500, mixed, second, 233 + window)
     return Passage(joined[490:590], WALK[490:590], second[223:323], 10, weights(window))
 
 

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Indices, Mask
+from mocap._shared.arrays import Array, Mask
 from mocap.body.motion import Motion, require_alike
 from mocap.course.lab.adopting import slots, whose
 from mocap.course.lab.places import pages_of, squared_distances
@@ -103,7 +103,15 @@ def of_clips(clips: Sequence[Motion], window: int, at: Any) -> Choices:  # noqa:
     clips = require_alike(clips)
     first, second = clips[0], clips[-1]
     _require_short(len(first) + len(second))
-    grid, places, by = _measured(first, second, window)
+    names = "window_sums", "inner_minima"
+    sums, inner = slots(*names)
+    if sums.yours and window <= min(map(len, clips)):
+        a, b = map(pages_of(None, window).windows, (first, second))
+        grid = squared_distances(a, b, window, sums)
+    else:
+        grid = np.asarray(distance_grid(first, second, window=window), float)
+    places = np.array(list(inner(grid, np.inf)) if inner.yours else [], int).reshape(-1, 2)
+    places = places if len(places) else local_minima(grid)
     lowest = places[np.argsort(grid[*places.T], kind="stable")][:MINIMA]
     minima = tuple((int(i), int(j)) for i, j in lowest)
     try:
@@ -113,22 +121,8 @@ def of_clips(clips: Sequence[Motion], window: int, at: Any) -> Choices:  # noqa:
     rows, columns = grid.shape
     if not (0 <= i < rows and 0 <= j < columns):
         raise MocapError(f"Windows start at frames 0 to {rows - 1} and 0 to {columns - 1}, not {i} and {j}.")
-    frames = around(first.fps)
+    frames, by = around(first.fps), whose(*names) if sums.yours or inner.yours else ""
     return Choices((first, second), window, Pick(0, i, 1, j, frames, frames), grid, minima, by=by)
-
-
-def _measured(first: Motion, second: Motion, window: int) -> tuple[Array, Indices, str]:
-    """Give the grid, the cells of its minima, and whose functions made them."""
-    names = "window_sums", "inner_minima"
-    sums, inner = slots(*names)
-    if sums.yours and window <= min(len(first), len(second)):
-        a, b = map(pages_of(None, window).windows, (first, second))
-        grid = squared_distances(a, b, window, sums)
-    else:
-        grid = np.asarray(distance_grid(first, second, window=window), float)
-    found = np.array(list(inner(grid, np.inf)) if inner.yours else [], int).reshape(-1, 2)
-    by = whose(*names) if sums.yours or inner.yours else ""
-    return grid, found if len(found) else local_minima(grid), by
 
 
 def _require_short(frames: int) -> None:
@@ -198,11 +192,10 @@ def of_walk(graph: MotionGraph, walk: Sequence[Edge]) -> Choices:
     edges, at = list(dict.fromkeys(taken)), int(np.argmax([seam.cost for seam in found]))
     whole, most = _offered(graph, edges, taken[at]), around(graph.fps)
     starts = [seam.frame for seam in found]
-    stops = [0, *(start + graph.window for start in starts)]
-    following = [*starts[1:], int(edge_table(graph, walk).frames.sum())]
+    bounds = [-graph.window, *starts, int(edge_table(graph, walk).frames.sum())]
+    gaps = [min(most, int(gap)) for gap in np.diff(bounds) - graph.window]  # of clip around the seams
     picks = []
     for n, (edge, start) in enumerate(zip(taken, starts, strict=True)):
-        before, after = min(most, start - stops[n]), min(most, following[n] - stops[n + 1])
         own = whole.transitions[edges.index(edge)]
-        picks.append(own._replace(seam=n, frame=start, before=before, after=after))
+        picks.append(own._replace(seam=n, frame=start, before=gaps[n], after=gaps[n + 1]))
     return whole._replace(pick=picks[at], seams=tuple(picks))

@@ -78,14 +78,12 @@ class OwnGraph:
         NoWalk : where no walk reaches the end of the path.
         """
         search = self.pages.Search(self.clips, self.graph, self.pages.points_along(np.asarray(path, float)))
-        *_, (_, walk) = search.layers()
-        if walk is None:
-            raise NoWalk(f"No walk of this graph reaches the end of a path of {search.end:.1f} m.")
-        edges = []
-        while walk.before and walk.edge:
-            edges.append(walk.edge)
-            walk = walk.before
-        return edges[::-1], walk.turn, walk.move
+        try:
+            found: OwnWalk = search.walk()
+        except ValueError as error:
+            said = f"No walk of this graph reaches the end of a path of {search.end:.1f} m."
+            raise NoWalk(said) from error
+        return found
 
     def steer(self, command: Callable[[float], tuple[float, float]], seconds: float) -> OwnWalk:
         """Walk for some seconds, and choose at each node the edge that fits the command of that moment.

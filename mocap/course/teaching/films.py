@@ -11,7 +11,7 @@ import io
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from itertools import chain, zip_longest
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -217,18 +217,16 @@ def _card(words: str) -> Image.Image:
     for size in (34, 30, 26, 22):
         font = font_of(size)
         places = [0, *np.cumsum([max(map(font.getlength, column)) + size for column in columns])]
-        lines = list(chain.from_iterable(_lines(row, mark, font) for row in rows))
+        lines = list[list[str]]()
+        for row in rows:  # one of a table stays one line, and an empty line follows a point of a list
+            points = [*wrapped(mark + row[0], font, ROOM[0]), ""]
+            lines += [row] if row[1:] else [[line] for line in points]
         if len(lines) * size * 1.35 < page.height and places[-1] <= page.width + size:
             break
     for number, cells in enumerate(lines):
         for place, cell in zip(places, cells, strict=False):
             ImageDraw.Draw(page).text((place, 10 + 1.35 * size * number), cell, INK, font)
     return page
-
-
-def _lines(row: list[str], mark: str, font: ImageFont.FreeTypeFont) -> list[list[str]]:
-    """Leave a row of a table one line, and break a point of a list into lines and an empty one."""
-    return [row] if row[1:] else [[line] for line in [*wrapped(mark + row[0], font, ROOM[0]), ""]]
 
 
 def wrapped(words: str, font: ImageFont.FreeTypeFont, width: float) -> list[str]:

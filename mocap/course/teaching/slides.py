@@ -176,8 +176,14 @@ def page_of(title: str, slides: Iterable[Slide], names: Collection[str]) -> str:
 
     sections = []
     for number, slide in enumerate(slides):
-        notes = to_html([new_markdown_cell(slide.notes)]) if slide.notes else ""
-        sections.append(_section(slide, 2 if number else 1, to_html(slide.cells), notes))
+        level = 2 if number else 1
+        label = f'<span class="kind">{slide.label}</span> ' if slide.label else ""
+        heading = f"<h{level}>{label}{html.escape(slide.heading)}</h{level}>"
+        kind = "picture" if any(cell.get("outputs") for cell in slide.cells) else "text"
+        inner = f'{heading}\n<div class="inner">{to_html(slide.cells)}</div>'
+        if slide.notes:
+            inner += f'<aside class="notes">{to_html([new_markdown_cell(slide.notes)])}</aside>'
+        sections.append(f'<section class="{kind}">{inner}</section>')
 
     def linked(found: re.Match[str]) -> str:  # to a page that is no slide only the words are left
         known = found[1].removesuffix(".html") in names
@@ -213,11 +219,3 @@ def _exporter() -> Any:  # noqa: ANN401
     from nbconvert import HTMLExporter
 
     return HTMLExporter(template_name="basic")  # type: ignore[no-untyped-call]
-
-
-def _section(slide: Slide, level: int, body: str, notes: str) -> str:
-    label = f'<span class="kind">{slide.label}</span> ' if slide.label else ""
-    heading = f"<h{level}>{label}{html.escape(slide.heading)}</h{level}>"
-    kind = "picture" if any(cell.get("outputs") for cell in slide.cells) else "text"
-    aside = f'<aside class="notes">{notes}</aside>' if notes else ""
-    return f'<section class="{kind}">{heading}\n<div class="inner">{body}</div>{aside}</section>'
