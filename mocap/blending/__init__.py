@@ -30,7 +30,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "weights": ["cubic_weights", "linear_weights", "sine_weights"],
         "joining": ["blend", "inertialize", "join", "lay_window_on"],
         "timewarps": ["Curve", "fit_curve"],
-        "clocks": ["clock_speed", "frame_times", "match_contacts"],
+        "clocks": ["frame_times"],
         "mixing": ["Course", "crossfade", "ground_course", "mix"],
         "registering": ["register"],
     },

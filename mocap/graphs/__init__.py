@@ -31,7 +31,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "thresholds": ["smallest_threshold", "threshold_curve", "velocity_gaps"],
         "graph_summary": ["summary", "write_graphml"],
         "storage": ["find_clips", "load", "read", "save"],
-        "edge_tables": ["frame_table"],
         "compiled_graph": ["compile_graph"],
         "homework_graph": [
             "Segment",

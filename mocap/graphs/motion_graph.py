@@ -8,7 +8,7 @@ each edge plays some frames, and the frames of a walk are those of its edges in 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Unpack
+from typing import Any
 
 import networkx as nx
 import numpy as np
@@ -20,7 +20,7 @@ from mocap.errors import MocapError
 from mocap.graphs.components import Labels
 from mocap.matching.pair_search import fit
 from mocap.matching.point_clouds import distinct_joints, unit_weights
-from mocap.matching.transitions import Search, Thresholds, Transition, find_transitions, join_clouds
+from mocap.matching.transitions import Thresholds, Transition, find_transitions, join_clouds
 
 Node = tuple[int, int]
 
@@ -74,7 +74,11 @@ class MotionGraph:
 
 
 def build(
-    clips: Sequence[Motion], *, window: int, threshold: Thresholds, **search: Unpack[Search]
+    clips: Sequence[Motion],
+    *,
+    window: int,
+    threshold: Thresholds,
+    **search: Any,  # noqa: ANN401 (as `find_transitions` has them)
 ) -> MotionGraph:
     """Build the motion graph of some clips: find the transitions, and cut the clips where they touch.
 

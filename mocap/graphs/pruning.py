@@ -68,8 +68,7 @@ def prune(motion_graph: MotionGraph, *, by_labels: bool = False) -> MotionGraph:
 
     Notebook: 00-quickstart
     """
-    pruning = prune_graph(motion_graph.graph, by_labels=by_labels)
-    return replace(motion_graph, graph=pruning.graph)
+    return replace(motion_graph, graph=prune_graph(motion_graph.graph, by_labels=by_labels).graph)
 
 
 Edge = tuple[Hashable, Hashable, int]  # start, end, key

@@ -31,9 +31,9 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "point_clouds": ["align", "distinct_joints", "point_cloud", "rms_distance"],
-        "distance_grids": ["cloud", "cloud_distances", "distance_grid"],
+        "distance_grids": ["distance_grid"],
         "minima": ["local_minima"],
         "transitions": ["Transition", "find_transitions"],
-        "time_paths": ["path_mean", "path_sums", "time_path"],
+        "time_paths": ["path_mean", "time_path"],
     },
 )

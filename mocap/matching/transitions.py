@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
-from typing import Any, NamedTuple, TypedDict, overload
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,14 +22,6 @@ from mocap.matching.point_clouds import distinct_joints, point_cloud, require_ne
 Integers = NDArray[np.integer[Any]]
 Thresholds = float | Mapping[tuple[str, str], float]
 """One threshold in metres, or one for each pair of labels."""
-
-
-class Search(TypedDict, total=False):
-    """How `find_transitions` searches: its parameters that have defaults, for functions that pass them on."""
-
-    joint_weights: ArrayLike | None
-    progress: Progress
-    executor: Executor | None
 
 
 FEW = 20_000  # frames up to which the work is done in 64 bits

@@ -35,7 +35,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "flocking": ["RATE", "Configuration", "Flock", "Trajectories", "nearest_two", "simulate"],
         "configurations": ["cluster", "compare", "seen_from_itself"],
-        "group_clips": ["GroupClip", "bend_to"],
+        "group_clips": ["bend_to"],
         "group_graphs": [
             "GroupGraph",
             "Placed",

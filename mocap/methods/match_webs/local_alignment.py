@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from mocap._shared.arrays import Array, Indices, Mask
 from mocap._shared.progress import Progress
 from mocap.matching.distance_grids import Cloud, Floats, tiled_distances
-from mocap.matching.time_paths import PathSums, origins, path_sums, trace
+from mocap.matching.time_paths import origins, path_sums, trace
 
 
 def minima_1d(grid: ArrayLike) -> Mask:
@@ -85,21 +85,15 @@ def local_paths(costs: ArrayLike, *, slope: int = 2, least: int = 1) -> Iterator
     """
     grid = np.asarray(costs)
     sums = path_sums(grid, np.ones(grid.shape, bool), slope=slope)
-    for end in _ends(sums, least):
-        yield trace(sums, divmod(int(end), grid.shape[1]))
-
-
-def _ends(sums: PathSums, least: int) -> Indices:
-    """List the best end of each beginning, best first, where the path advances far enough."""
     totals, begun = sums.totals.ravel(), origins(sums).ravel()
     cells = np.flatnonzero(totals < 0)
     best = np.zeros(len(totals), totals.dtype)
     np.minimum.at(best, begun[cells], totals[cells])
-    cells = cells[totals[cells] == best[begun[cells]]]
-    columns = sums.totals.shape[1]
-    advance = np.array(np.divmod(cells, columns)) - np.divmod(begun[cells], columns)
-    cells = cells[advance.min(axis=0) >= least]
-    return np.asarray(cells[np.argsort(totals[cells], kind="stable")])
+    ends = cells[totals[cells] == best[begun[cells]]]  # the best of each beginning
+    advance = np.array(np.divmod(ends, grid.shape[1])) - np.divmod(begun[ends], grid.shape[1])
+    ends = ends[advance.min(axis=0) >= least]
+    for end in ends[np.argsort(totals[ends], kind="stable")]:
+        yield trace(sums, divmod(int(end), grid.shape[1]))
 
 
 def apart(paths: Iterable[NDArray[Any]], *, near: int) -> list[NDArray[Any]]:

@@ -74,7 +74,14 @@ class MotionMatcher:
         """
         table, command = self.database, (heading, speed, label)
         if command != self._command:
-            self._take(command)
+            require_command(heading, speed)
+            slow, fast = np.percentile(np.abs(table.drift), [1, 99])
+            if (self._command is None or speed != self._command[1]) and not slow <= speed <= fast:
+                clips = f"the clips' {slow:.1f} to {fast:.1f} m/s"
+                warn(f"{speed:g} m/s is outside {clips}: the nearest is walked.")
+            if label not in self._searches:
+                self._searches[label] = FrameSearch(table, future=self.wants.future, label=label)
+            self._command, self._wait = command, 0  # what is new is searched for at once
         if self._wait <= 0 or self.frame >= table.last[self.frame]:
             self._wait = max(1, round(self.wants.every * self.fps))
             self._look(heading, speed, label)
@@ -85,18 +92,6 @@ class MotionMatcher:
         self._steps, self._wait = self._steps + 1, self._wait - 1
         self.offset, self.offset_speed = fade(self.offset, self.offset_speed, self.wants.fade, 1 / self.fps)
         return Pose(root, turns, blending, contacts)
-
-    def _take(self, command: tuple[float, float, str]) -> None:
-        """Take a new command, which is searched for at once; warn of a speed that next to no frame has."""
-        heading, speed, label = command
-        require_command(heading, speed)
-        slow, fast = np.percentile(np.abs(self.database.drift), [1, 99])
-        if (self._command is None or speed != self._command[1]) and not slow <= speed <= fast:
-            clips = f"the clips' {slow:.1f} to {fast:.1f} m/s"
-            warn(f"{speed:g} m/s is outside {clips}: the nearest is walked.")
-        if label not in self._searches:
-            self._searches[label] = FrameSearch(self.database, future=self.wants.future, label=label)
-        self._command, self._wait = command, 0
 
     def _look(self, heading: float, speed: float, label: str) -> None:
         """Search, and cut where another frame is better than to play on.

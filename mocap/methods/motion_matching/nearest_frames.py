@@ -18,10 +18,7 @@ from mocap._shared.arrays import Array
 from mocap.errors import MocapError, NoWalk
 from mocap.methods.motion_matching.pose_database import AHEAD, FUTURE, PoseDatabase, ahead_columns
 
-
-def _pull(halflife: float) -> float:
-    return float(2 * np.log(2) / halflife)
-
+PULL = 2 * np.log(2)  # times the half-life: how hard a spring pulls
 
 Value = complex | NDArray[Any]  # complex numbers are points on the ground
 
@@ -42,7 +39,7 @@ def spring(start: Value, speed: Value, goal: Value, halflife: float, seconds: Ar
 
     Notebook: 18-motion-matching
     """
-    pull = _pull(halflife)
+    pull = PULL / halflife
     gap, t = start - goal, np.asarray(seconds)
     drift = speed + gap * pull
     return np.asarray(goal + (gap + drift * t) * np.exp(-pull * t))
@@ -65,7 +62,7 @@ def spring_way(speed: Value, goal: Value, halflife: float, seconds: ArrayLike) -
 
     Notebook: 18-motion-matching
     """
-    pull, t = _pull(halflife), np.asarray(seconds)
+    pull, t = PULL / halflife, np.asarray(seconds)
     gap = speed - goal
     return np.asarray(2 * gap / pull - np.exp(-pull * t) * (2 * gap / pull + gap * t) + goal * t)
 
@@ -79,7 +76,7 @@ def fade(offset: Array, speed: Array, halflife: float, seconds: float) -> tuple[
     >>> offset.round(3), speed.round(2)
     (array([0.597]), array([-4.8]))
     """
-    pull = _pull(halflife)
+    pull = PULL / halflife
     drift = speed + offset * pull
     left = np.exp(-pull * seconds)
     return left * (offset + drift * seconds), left * (speed - drift * pull * seconds)
