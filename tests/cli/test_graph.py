@@ -8,11 +8,10 @@ from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, resample
 from mocap.body.skeleton import Skeleton
-from mocap.cli.options import Building
 from mocap.cli.walk import _plan
 from mocap.datasets import samples
 from mocap.datasets.clip_origins import Origin, find_again, is_origin
-from mocap.errors import MocapError, NoWalk
+from mocap.errors import NoWalk
 from mocap.files import load_save
 from mocap.graphs import storage
 from mocap.methods.groups.planning import Scene
@@ -62,12 +61,6 @@ def test_a_graph_is_built_saved_and_told_about(clips, run):
     assert told[3:] == built.out.splitlines()[:-2]
     loaded = storage.load("g.npz", [load_save.load(f"{name}.bvh") for name in "ab"])
     assert loaded.graph.number_of_nodes() == int(told[4].split()[1].rstrip(","))
-
-
-@pytest.mark.parametrize("seconds", [0.0, 0.04, -1.0])
-def test_a_window_lasts_two_frames_at_least(seconds):
-    with pytest.raises(MocapError, match="two frames or more"):
-        Building(window=seconds).build([])
 
 
 def test_a_whole_graph_ends_somewhere(clips, run):

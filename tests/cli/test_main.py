@@ -4,7 +4,6 @@ import io
 import os
 import subprocess
 import sys
-import warnings
 
 import nbformat
 import pytest
@@ -13,7 +12,6 @@ import mocap
 from mocap.cli.main import main
 from mocap.cli.options import bar
 from mocap.course import opening
-from mocap.errors import MocapWarning
 
 
 def test_help_is_quick():
@@ -29,17 +27,6 @@ def test_it_says_its_version(capsys):
     with pytest.raises(SystemExit, match="0"):
         main(["--version"])
     assert capsys.readouterr().out == f"mocap {mocap.__version__}\n"
-
-
-def test_a_warning_is_a_line_too(capsys, monkeypatch):
-    def warn(*_arguments, **_settings):
-        warnings.warn("7 frames stay.", MocapWarning, stacklevel=1)
-        return "x"
-
-    monkeypatch.setattr("mocap.graphs.read", warn)
-    with pytest.raises(AttributeError):
-        main(["graph", "info", "x.npz"])
-    assert capsys.readouterr().err == "mocap: 7 frames stay.\n"
 
 
 def test_as_a_module_a_closed_pipe_is_quiet():
@@ -113,9 +100,3 @@ def test_lab_opens_the_first_notebook_and_leaves_ctrl_c_to_jupyterlab(monkeypatc
     )  # also where notebooks of a checkout are at hand
     assert command[4:] == [*allowed, *own]
     assert started[0].asked == 2
-
-
-def test_lab_says_what_to_install(monkeypatch, capsys):
-    monkeypatch.setattr(opening, "find_spec", lambda name: None)
-    assert main(["lab"]) == 2
-    assert "pip install '.[notebooks]'" in capsys.readouterr().err

@@ -26,13 +26,6 @@ def commands():
     return [line for line in lines if line.startswith("mocap ") and not re.search("|".join(SLOW), line)]
 
 
-def test_the_readme_shows_commands():
-    shown = " ".join(commands())
-    for command in ("graph", "walk", "info", "view", "bend"):
-        assert f"mocap {command}" in shown
-    assert "--path" in shown and "--random" in shown
-
-
 @pytest.fixture
 def newcomer(tmp_path, monkeypatch):
     """Give a newcomer a folder with clips, and with a path."""

@@ -46,13 +46,10 @@ def test_a_hand_is_raised_and_the_clip_lasts_longer(folder, capsys):
     assert hand[0] - hand[1] == pytest.approx([0.1, 0.25, 0.05], abs=0.012)  # the walk faces +z, nearly
 
 
-def test_without_feet_another_body_can_be_warped(folder, capsys):
+def test_without_feet_another_body_can_be_warped(folder):
     keys, out = folder / "arm.txt", folder / "arm2.bvh"
     keys.write_text("at 30 hand 0 0.1 0")
     words = ["warp", str(folder / "arm.bvh"), "--keys", str(keys), "-o", str(out)]
-    assert main(words) == 2
-    assert capsys.readouterr().err.rstrip().endswith("give --loose-feet.")
-    assert not out.exists()
     assert main([*words, "--loose-feet"]) == 0
     assert len(load_save.load(out)) == 60
 

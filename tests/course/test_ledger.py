@@ -82,11 +82,3 @@ def test_every_row_of_the_page_has_as_many_columns():
     lines = [line for line in ledger.page(rows()).splitlines() if line.startswith("|")]
     assert {line.count("|") for line in lines} == {5, 7}
     assert len(lines) == 2 + len(ledger.papers()) + 2 * len(ledger.papers()) + len(PLACES)
-
-
-def test_citations_are_read_one_by_one():
-    assert ledger.cited("[KGP02, Eqs. 2-4], [HG07, Eqs. 1-2, after ACP02]; [KG03] and\n[KSG02, step 1].") == {
-        *(("KGP02", f"Eq. {number}") for number in (2, 3, 4)),
-        *(("HG07", f"Eq. {number}") for number in (1, 2)),
-        ("KSG02", "step 1"),
-    }

@@ -14,11 +14,9 @@ import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
 from mocap.course.formulas import to_mathml
-from mocap.course.opening import stored
 from mocap.course.site import STILL, build_site, prepared
 from mocap.datasets.samples import SAMPLES
 from mocap.widgets import live
-from tests.refusals import refused
 
 NAMES = ("00-quickstart", "09b-blend-window")
 PAGES = ("GLOSSARY", "FORMULAS", "PAPERS", "PROJECT", "README")
@@ -178,9 +176,3 @@ def test_experiments_move_through_recorded_positions(tmp_path):
     recorded = json.loads(re.search(r'<script type="application/json">(.*?)</script>', text)[1])
     assert recorded["labels"] == ["0", "1", "2", "3"]
     assert len(set(recorded["pictures"])) == 4
-
-
-def test_without_sphinx_a_sentence_says_what_to_install(tmp_path, monkeypatch):
-    monkeypatch.setattr("mocap.course.site.find_spec", lambda name: None)
-    refused(r"pip install '\.\[site\]'", build_site, stored(), tmp_path / "out")
-    assert not (tmp_path / "out").exists()

@@ -2,11 +2,13 @@
 
 import csv
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 
 from mocap.body import euler, rotations
 from mocap.body.kinematics import joint_positions
@@ -15,7 +17,7 @@ from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError
 from mocap.files import bvh, load_save
 from tests.refusals import refused
-from tests.strategies import wave
+from tests.strategies import random_motion, seeds, wave
 
 BVH = """HIERARCHY
 ROOT hips
@@ -54,12 +56,8 @@ Frame Time: 0.0333333
 
 
 @pytest.fixture
-def write(tmp_path):
-    def file(text):
-        (tmp_path / "a.bvh").write_bytes(text.encode())
-        return tmp_path / "a.bvh"
-
-    return file
+def write(write):
+    return partial(write, "a.bvh")
 
 
 def where(motion, frame):
@@ -251,13 +249,10 @@ def motions(draw):
         name = f"{names[parents[joint]]}_end{draw(st.sampled_from(['', '2', '3']))}"
         if draw(st.booleans()) and name not in names:
             names[joint] = name
-    random = np.random.default_rng(draw(st.integers(0, 2**32)))
-    offsets = random.normal(size=(count, 3)) * (random.random((count, 1)) < 0.8)
-    frames = draw(st.integers(1, 6))
-    turns = random.normal(size=(frames, count, 4))
-    turns /= np.linalg.norm(turns, axis=-1, keepdims=True)
+    motion = random_motion(draw(seeds), draw(st.integers(1, 6)), count)
+    offsets = motion.skeleton.offsets * draw(arrays(bool, (count, 1)))
     fps = draw(st.sampled_from([24.0, 30.0, 59.94, 60.0, 120.0, 0.1, 7.3]))
-    return Motion(Skeleton(names, parents, offsets), random.normal(size=(frames, 3)), turns, fps, "a")
+    return replace(motion, skeleton=Skeleton(names, parents, offsets), fps=fps, contacts={})
 
 
 @given(motions())

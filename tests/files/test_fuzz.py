@@ -10,7 +10,6 @@ from mocap.body.motion import Motion
 from mocap.datasets import samples
 from mocap.errors import FormatError, MocapError
 from mocap.files import load_save, path_files
-from tests.conftest import SWEEP
 from tests.files.acclaim_clips import write_acclaim
 from tests.strategies import wave
 
@@ -108,7 +107,7 @@ def survive(folder, bases, seed):
 
 
 def test_many_broken_files(bases, tmp_path):
-    count = 1000 if SWEEP else 300
+    count = 500
     loaded = sum(survive(tmp_path, bases, number) for number in range(count))
     assert 0.05 * count < loaded < 0.95 * count  # the mutations are neither harmless nor too rough
 
@@ -178,7 +177,7 @@ def test_long_words_in_paths_make_no_long_messages(tmp_path, suffix, text):
 )
 def test_broken_paths_are_read_or_refused_in_a_short_sentence(tmp_path, suffix, text):
     chance, path = random.Random(suffix), tmp_path / f"a{suffix}"
-    for _ in range(1500 if SWEEP else 300):
+    for _ in range(500):
         path.write_text(mutated(text, chance), encoding="utf-8", errors="surrogatepass")
         try:
             assert path_files.load_path(path).length > 0

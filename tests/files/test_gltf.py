@@ -12,7 +12,7 @@ from mocap.body.motion import Motion, resample
 from mocap.body.skeleton import Skeleton
 from mocap.datasets import samples
 from mocap.errors import MocapError
-from mocap.files import gltf, gltf_capsules, load_save
+from mocap.files import gltf, gltf_capsules
 from tests.files.glb_reader import Glb
 from tests.strategies import random_motion, seeds, wave
 
@@ -34,11 +34,6 @@ def gap(motion):
 def test_any_motion_of_any_skeleton(seed):
     motion = random_motion(seed, joints=int(seed % 9) + 1)
     assert gap(motion) < 1e-4
-
-
-def test_real_clips(real_data):
-    for name in ("cmu/16/16_17.amc", "bvh/pymo/AV_8Walk_Meredith_HVHA_Rep1.bvh"):
-        assert gap(load_save.load(real_data / name)) < 1e-4
 
 
 def test_between_frames_no_joint_turns_the_long_way_round():

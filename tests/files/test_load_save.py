@@ -4,6 +4,7 @@ import contextlib
 import csv
 import random
 import tracemalloc
+from functools import partial
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from mocap.errors import FormatError
 from mocap.files import load_save
 from tests.conftest import SWEEP
 from tests.files.acclaim_clips import SPINE
-from tests.refusals import refused
+from tests.refusals import refusals, refused
 from tests.strategies import wave
 
 AMC = "1\nroot 0 0 0 0 0 0\nspine 0\n"
@@ -77,16 +78,6 @@ def test_a_missing_file_or_a_folder_is_refused(tmp_path, name):
     refused(f"Cannot read .*{name}: (No such file|Is a dir)", load_save.load, tmp_path / name)
 
 
-def test_other_formats_are_refused(folder, tmp_path):
-    motion = load_save.load(folder(a=("spine", 1)))
-    refused(r"mocap reads .amc .with .asf., .bvh and AMASS .npz", load_save.load, "walk.c3d")
-    refused("load_skeleton reads it", load_save.load, "walk.asf")
-    refused(r"mocap writes .bvh and .glb", load_save.save, motion, tmp_path / "b.fbx")
-    refused(r"give an .asf file", load_save.load_skeleton, "walk.bvh")
-    refused(r"Cannot read walk.GLB: mocap writes .glb, and reads .amc", load_save.load, "walk.GLB")
-    refused("All .npz files are in metres: leave out scale=2", load_save.load, "walk.npz", scale=2.0)
-
-
 def test_the_suffix_decides(tmp_path):
     load_save.save(wave(5), tmp_path / "a.glb")
     assert (tmp_path / "a.glb").read_bytes()[:4] == b"glTF"
@@ -96,10 +87,19 @@ def test_the_suffix_decides(tmp_path):
     assert load_save.read_angles(tmp_path / "a.NPZ") == {}
 
 
-@pytest.mark.parametrize("option", ["fps", "scale"])
-@pytest.mark.parametrize("value", [0, -1.0, float("nan"), float("inf")])
-def test_options_that_make_no_sense_are_refused(option, value):
-    refused(f"{option} must be a number above 0", load_save.load, "walk.bvh", **{option: value})
+test_other_formats_and_options_that_make_no_sense_are_refused = refusals(
+    (r"mocap reads .amc .with .asf., .bvh and AMASS .npz", load_save.load, "walk.c3d"),
+    ("load_skeleton reads it", load_save.load, "walk.asf"),
+    (r"mocap writes .bvh and .glb", load_save.save, wave(3), "b.fbx"),
+    (r"give an .asf file", load_save.load_skeleton, "walk.bvh"),
+    (r"Cannot read walk.GLB: mocap writes .glb, and reads .amc", load_save.load, "walk.GLB"),
+    ("All .npz files are in metres: leave out scale=2", partial(load_save.load, "walk.npz", scale=2.0)),
+    *(
+        (f"{option} must be a number above 0", partial(load_save.load, "walk.bvh", **{option: value}))
+        for option in ("fps", "scale")
+        for value in (0, -1.0, np.nan, np.inf)
+    ),
+)
 
 
 ODD = [

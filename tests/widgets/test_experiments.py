@@ -20,7 +20,6 @@ from mocap.plotting.stick_figures import StickFigure, ground_axes
 from mocap.widgets import experiments, recording
 from mocap.widgets.experiments import explore
 from mocap.widgets.pointing import handles
-from tests.course import driving
 from tests.refusals import refused
 from tests.strategies import wave
 
@@ -198,16 +197,6 @@ def test_other_controls_stand_beside_the_handles():
     assert recording.record(bent()) is None
 
 
-def test_a_test_drives_the_handles_to_places_that_a_reader_may_reach(monkeypatch):
-    monkeypatch.setenv("MOCAP_SWEEP", "1")
-    experiment = bent()
-    ways = [values["way"] for values in driving.settings(experiment)]
-    assert ((0.0, 3.0), (0.0, 3.0), (0.0, 5.0)) in ways
-    assert ((0.0, 1.0), (0.0, 3.0), (-3.0, 6.0)) in ways
-    for way in ways:
-        experiment.set(way=way)
-
-
 @pytest.mark.parametrize(
     ("value", "said"),
     [
@@ -283,35 +272,33 @@ def test_long_ranges_keep_their_ends_and_the_place_at_rest(count, at):
     assert {0, at, count - 1} <= set(places)
 
 
-@pytest.mark.parametrize("room", [pytest.param(40_000, marks=pytest.mark.sweep), 20_000])
-def test_the_pictures_fit_the_room(room):
-    recorded = recording.record(noise(first=(0, 20)), room=room)
-    assert sum(len(base64.b64decode(png)) for png in recorded["pictures"]) <= room
+def test_the_pictures_fit_the_room():
+    recorded = recording.record(noise(first=(0, 20)), room=20_000)
+    assert sum(len(base64.b64decode(png)) for png in recorded["pictures"]) <= 20_000
     assert 5 <= len(recorded["pictures"]) <= 15
     assert len({picture.size for picture in opened(recorded)}) == 1
 
 
-def test_the_experiments_that_cells_show_are_recorded(tmp_path, monkeypatch):
+def kept_of(folder, names, *cells):
+    """Run cells that show experiments, and give what is kept of the one that is recorded."""
     shell = InteractiveShell()
-    monkeypatch.setattr("IPython.get_ipython", lambda: shell)
-    recording.watch(str(tmp_path))
-    shell.user_ns["noise"] = noise
-    for cell in ("1 + 1", "noise(grow_by=(0, 2))", "shown = noise(first=(0, 2))"):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("IPython.get_ipython", lambda: shell)
+        recording.watch(str(folder))
+    shell.user_ns.update(names)
+    for cell in cells:
         shell.run_cell(cell)
-    (kept,) = tmp_path.iterdir()
-    recorded = json.loads(kept.read_text("utf-8"))
+    (kept,) = folder.iterdir()
+    return json.loads(kept.read_text("utf-8"))
+
+
+def test_the_experiments_that_cells_show_are_recorded(tmp_path):
+    cells = ("1 + 1", "noise(grow_by=(0, 2))", "shown = noise(first=(0, 2))")
+    recorded = kept_of(tmp_path, {"noise": noise}, *cells)
     assert (recorded["source"], recorded["name"]) == ("noise(grow_by=(0, 2))", "grow by")
     assert recorded["labels"] == ["0", "1", "2"]
 
 
-def test_a_position_that_cannot_be_drawn_is_said(tmp_path, monkeypatch):
-    def draw(first=0):
-        return plt.figure(figsize=(1 / (2 - first), 1))
-
-    shell = InteractiveShell()
-    monkeypatch.setattr("IPython.get_ipython", lambda: shell)
-    recording.watch(str(tmp_path))
-    shell.user_ns["shown"] = explore(draw, alt=ALT, first=(0, 2))
-    shell.run_cell("shown")
-    (kept,) = tmp_path.iterdir()
-    assert json.loads(kept.read_text("utf-8"))["error"].startswith("ZeroDivisionError")
+def test_a_position_that_cannot_be_drawn_is_said(tmp_path):
+    shown = explore(lambda first=0: plt.figure(figsize=(1 / (2 - first), 1)), alt=ALT, first=(0, 2))
+    assert kept_of(tmp_path, {"shown": shown}, "shown")["error"].startswith("ZeroDivisionError")

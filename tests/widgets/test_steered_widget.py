@@ -3,6 +3,7 @@
 import cmath
 import math
 import warnings
+from functools import partial
 
 import numpy as np
 import pytest
@@ -16,7 +17,7 @@ from mocap.steering.delays import CommandClock, between
 from mocap.widgets import steered_widget
 from mocap.widgets.company import START, Company
 from mocap.widgets.steered_widget import steered
-from tests.refusals import refused
+from tests.refusals import refusals
 from tests.widgets.steerable import Dot
 
 pytest.importorskip("anywidget")
@@ -86,14 +87,6 @@ def test_warnings_are_kept_once_each():
     company = Company({"warning": Odd(warn)})
     company.walk((0, 5, ""), 0.2)
     assert company.notes == ["5 m/s is too fast."] and company.cost > 0
-
-
-def test_one_to_four_walk_side_by_side_and_none_twice():
-    for count in (0, 5):
-        with pytest.raises(MocapError, match=f"One to 4 characters walk side by side, got {count}"):
-            Company({str(number): Dot() for number in range(count)})
-    dot = Dot()
-    refused("two names", Company, {"a": dot, "b": dot})
 
 
 @given(st.floats(-50, 50), st.floats(-50, 50))
@@ -216,6 +209,20 @@ def test_one_alone_is_dark_and_its_speed_may_be_asked_for(page):
     assert len({member["colour"] for member in page.scene["members"]}) == 2
 
 
-@pytest.mark.parametrize("speeds", [(1.0, 1.0), (-1, 2), (math.nan, 2)])
-def test_speeds_rise_from_0_on(speeds):
-    refused("Speeds to ask for rise from 0 on", steered, {"dot": Dot()}, speeds=speeds)
+DOT = Dot()
+
+test_one_to_four_are_steered_none_twice_and_speeds_rise_from_0_on = refusals(
+    *(
+        (
+            f"One to 4 characters walk side by side, got {count}",
+            Company,
+            {str(n): Dot() for n in range(count)},
+        )
+        for count in (0, 5)
+    ),
+    ("two names", Company, {"a": DOT, "b": DOT}),
+    *(
+        ("Speeds to ask for rise from 0 on", partial(steered, {"dot": DOT}, speeds=speeds))
+        for speeds in ((1.0, 1.0), (-1, 2), (math.nan, 2))
+    ),
+)

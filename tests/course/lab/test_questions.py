@@ -16,7 +16,7 @@ from mocap.course.lab.questions import TEXTS, computed, filled, read_questions
 from mocap.errors import MocapError
 from tests.course.stored_notebooks import FOLDER, every_notebook, read
 from tests.course.test_prose import PER, UNUSUAL
-from tests.refusals import refused
+from tests.refusals import refusals, refused
 
 FILES = sorted(TEXTS.glob("*.toml"))
 
@@ -119,19 +119,14 @@ def test_marks_of_text():
 # What is not there
 
 
-@pytest.mark.parametrize(
-    ("call", "said"),
-    [
-        (lambda: lab.quiz("09-none"), "No quiz 'none' for notebook 09."),
-        (lambda: lab.quiz("none"), "There are no questions for a notebook 'none'."),
-        (lambda: lab.quiz("*-none"), r"There are no questions for a notebook '\*'."),
-        (lambda: lab.bet("09-none"), "No bet 'none' for notebook 09."),
-        (lambda: lab.bets("99"), "There are no questions for a notebook '99'."),
-        (lambda: lab.bets("09"), "Bet 09-transitions-per-step: .* fails with NameError"),
-    ],
+test_what_is_not_there_is_said = refusals(
+    ("No quiz 'none' for notebook 09.", lab.quiz, "09-none"),
+    ("There are no questions for a notebook 'none'.", lab.quiz, "none"),
+    (r"There are no questions for a notebook '\*'.", lab.quiz, "*-none"),
+    ("No bet 'none' for notebook 09.", lab.bet, "09-none"),
+    ("There are no questions for a notebook '99'.", lab.bets, "99"),
+    ("Bet 09-transitions-per-step: .* fails with NameError", lab.bets, "09"),
 )
-def test_what_is_not_there_is_said(call, said):
-    refused(said, call)
 
 
 def test_names_are_those_of_the_caller():

@@ -3,6 +3,7 @@
 import io
 import re
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -29,7 +30,7 @@ from mocap.synthesis.walk_to_motion import seams
 from mocap.widgets.embedding import joined
 from tests.bundled import bundled
 from tests.course.lab.students import written
-from tests.refusals import refused
+from tests.refusals import refusals, refused
 
 NOWHERE = np.zeros((0, 2))
 WALKS = [resample(sample(f"walk_curve_{n}"), 30)[:120] for n in (1, 2)]
@@ -66,30 +67,11 @@ def test_where_the_readers_function_fails_the_packages_makes_the_grid(capsys):
     assert of_clips(WALKS, 10, None).by == ""
 
 
-@pytest.mark.parametrize(
-    ("at", "said"),
-    [
-        ((0, 111), "Windows start at frames 0 to 110 and 0 to 110, not 0 and 111."),
-        ((-1, 0), "not -1 and 0"),
-        ("here", "at=(i, j), not by 'here'"),
-        (7, "at=(i, j), not by 7"),
-        ((1, 2, 3), "at=(i, j)"),
-        ((1.5, 2), "at=(i, j)"),
-    ],
-)
-def test_a_cell_that_is_not_there(at, said):
-    refused(re.escape(said), of_clips, WALKS, 10, at)
-
-
 def test_of_a_graph_the_cheapest_from_each_clip_to_each_clip_can_be_pointed_at(graph):
     choices = of_graph(graph)
     assert choices.costs[0] == min(cost for *_, cost in graph.graph.edges(data="cost") if cost)
     pairs = [(pick.first, pick.second) for pick in choices.transitions]
     assert max(map(pairs.count, pairs)) == EACH
-
-
-def test_a_graph_without_transitions_has_nothing_to_inspect():
-    refused("no transitions", of_graph, from_transitions(WALKS[:1], [], window=10))
 
 
 def test_seams_of_a_walk_come_with_the_frames_that_the_walk_has_around_them(graph):
@@ -185,38 +167,39 @@ def test_graphs_walks_and_paths_bring_their_maps(graph):
     assert shown.scene["walk"]["asked"][-1] == [2.0, 5.0]
 
 
-def test_one_clip_is_compared_with_itself():
-    shown = inspector(WALKS[0], at=(10, 45))
-    assert [clip["name"] for clip in shown.scene["clips"]] == ["walk_curve_1"] * 2
-
-
 def test_a_large_grid_is_sent_in_blocks_that_keep_its_minima():
     walk = resample(sample("walk_circle"), 30)
     grid = inspector(walk, window=10).scene["grid"]
     assert grid["every"] == 2 and grid["rows"] <= 600 and grid["rows"] * 2 >= len(walk) - 9
 
 
-@pytest.mark.parametrize(
-    ("what", "more", "said"),
-    [
-        ((), {}, "one or two clips, a graph"),
-        ((1,), {}, "one or two clips, a graph"),
-        ((*WALKS, WALKS[0]), {}, "one or two clips, a graph"),
-        (WALKS, {"show": ["seam"]}, "shows windows, turn, weights, seam, or the first of these"),
-        (WALKS, {"show": []}, "or the first of these"),
-        (WALKS, {"show": None}, "or the first of these"),
-        (WALKS, {"window": 0}, "window"),
-        (WALKS, {"window": 999}, "window"),
-        ((bundled("walk_circle", "walk_curve_1"),), {"at": (0, 0)}, "of their own: leave out at="),
-    ],
+NOWHERE_TO_LOOK = (
+    ((0, 111), "Windows start at frames 0 to 110 and 0 to 110, not 0 and 111."),
+    ((-1, 0), "not -1 and 0"),
+    ("here", "at=(i, j), not by 'here'"),
+    (7, "at=(i, j), not by 7"),
+    ((1, 2, 3), "at=(i, j)"),
+    ((1.5, 2), "at=(i, j)"),
 )
-def test_what_cannot_be_shown_gets_one_sentence(what, more, said):
-    refused(re.escape(said), inspector, *what, **more)
+NOT_TO_BE_SHOWN = (
+    ((), {}, "one or two clips, a graph"),
+    ((1,), {}, "one or two clips, a graph"),
+    ((*WALKS, WALKS[0]), {}, "one or two clips, a graph"),
+    (WALKS, {"show": ["seam"]}, "shows windows, turn, weights, seam, or the first of these"),
+    (WALKS, {"show": []}, "or the first of these"),
+    (WALKS, {"show": None}, "or the first of these"),
+    (WALKS, {"window": 0}, "window"),
+    (WALKS, {"window": 999}, "window"),
+    ((bundled("walk_circle", "walk_curve_1"),), {"at": (0, 0)}, "of their own: leave out at="),
+)
+LONG = resample(sample("walk_circle"), 200)
 
-
-def test_more_than_a_page_can_hold_is_refused_before_anything_is_measured():
-    long = resample(sample("walk_circle"), 200)
-    refused(f"holds {LONGEST} frames of clips, not {2 * len(long)}", inspector, long)
+test_what_cannot_be_shown_gets_one_sentence = refusals(
+    *((re.escape(said), of_clips, WALKS, 10, at) for at, said in NOWHERE_TO_LOOK),
+    ("no transitions", of_graph, from_transitions(WALKS[:1], [], window=10)),
+    *((re.escape(said), partial(inspector, *what, **more)) for what, more, said in NOT_TO_BE_SHOWN),
+    (f"holds {LONGEST} frames of clips, not {2 * len(LONG)}", inspector, LONG),
+)
 
 
 def test_the_scripts_shades_are_those_of_the_pictures():

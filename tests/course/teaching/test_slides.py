@@ -57,13 +57,6 @@ def test_recordings_move_by_the_sites_script_and_only_the_speaker_reads_the_note
     assert "Ask: which part" in page and "Ask: which part" not in shown
 
 
-def test_what_is_missing_is_one_sentence(monkeypatch, tmp_path, capsys):
-    monkeypatch.setattr(slides, "find_spec", lambda name: None)
-    assert main(["course", "slides", "-o", str(tmp_path / "out")]) == 2
-    assert "pip install '.[slides]'" in capsys.readouterr().err
-    assert not (tmp_path / "out").exists()
-
-
 def test_a_package_without_the_files_is_not_taken(monkeypatch, tmp_path):
     class Found:
         origin = str(tmp_path / "__init__.py")
