@@ -104,7 +104,8 @@ def test_join(clips):
 
 def test_the_graph_its_components_and_what_pruning_keeps(both):
     (_, slow), (_, quick) = both
-    assert list(slow.edges(keys=True)) == list(quick.graph.edges(keys=True))
+    for what in ("kind", "frames"):
+        assert list(slow.edges(keys=True, data=what)) == list(quick.graph.edges(keys=True, data=what))
     parts = {frozenset(part) for part in plain.components(slow)}
     assert parts == {frozenset(part) for part in nx.strongly_connected_components(slow)}
     assert set(plain.prune(slow).edges(keys=True)) == set(graphs.prune(quick).graph.edges(keys=True))

@@ -5,14 +5,13 @@ number is to change, a commit says why.
 """
 
 import hashlib
-import warnings
 
 import numpy as np
 import pytest
 
 import mocap
 from mocap import body, datasets, graphs, steering, synthesis
-from mocap.errors import MocapWarning
+from tests.refusals import quietly
 
 TRIALS = [f"16_{number}" for number in (*range(11, 35), 47, 58)]
 
@@ -65,7 +64,5 @@ def test_results_are_the_same(results):
     assert sizes(pruned) == expected["pruned"]
     assert fingerprint(synthesis.random_walk(pruned, seconds=60, seed=1)) == expected["random"]
     for shape in ("S-curve", "square"):
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", MocapWarning)
-            followed = steering.follow_path(pruned, body.SHAPES[shape]())
+        followed = quietly(steering.follow_path, pruned, body.SHAPES[shape]())
         assert fingerprint(followed.walk) == expected[shape], shape

@@ -16,6 +16,7 @@ from mocap.datasets.samples import sample
 from mocap.feet import mark_plants
 from mocap.files.load_save import load
 from mocap.matching.point_clouds import align, point_cloud
+from mocap.quality.standing_feet import plant_slides
 
 SPEEDS, TURNS = (0.8, 1.1, 1.4), (-120, 0, 120)  # metres per second, degrees within 5 m
 HALF = np.array([0.5, 0.5])
@@ -47,13 +48,8 @@ def skate(motion):
 
 def slides(motion):
     """The largest stray of each whole plant from its mean place, cm."""
-    positions, strays = joint_positions(motion), []
-    for name, marks in motion.contacts.items():
-        for start, stop in runs(marks):
-            if start > 0 and stop < len(motion):
-                ground = on_ground(positions[start:stop, motion.skeleton.names.index(name)])
-                strays.append(100 * np.abs(ground - ground.mean()).max())
-    return np.array(strays)
+    whole = [plant for plant in plant_slides(motion) if plant.start > 0 and plant.stop < len(motion)]
+    return np.array([plant.far for plant in whole])
 
 
 def knees(motion):

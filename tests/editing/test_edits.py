@@ -17,7 +17,6 @@ from tests.editing.wishes import (
     captured,
     far_hand,
     hand,
-    hand_at,
     plants_kept,
     rms,
     shakes,
@@ -138,22 +137,6 @@ def test_each_level_more_than_halves_what_a_stone_leaves(fps):
     assert smoothness(motion, clip) < 1.2
     assert told[-1].worst == pytest.approx(pin_errors(motion, pins).max())
     assert [level.knots for level in told] == [0.5, 0.25, 0.125, 0.06, 0.03][: len(told)]
-
-
-def test_each_level_more_than_halves_what_a_captured_walk_leaves(real_data):
-    clip = captured(real_data)
-    for pins in (stone(clip, 0.2), bar(clip, 1.35, 230)):
-        motion, told = hierarchy(clip, pins)
-        left = np.array([level.rms for level in told])
-        assert (left[1:] * 2 <= left[:-1]).all() and left[-1] < 0.001
-        assert smoothness(motion, clip) < 1.2
-
-
-def test_a_hand_listens_to_its_own_frames_only():
-    """As in [LS99, levels]."""
-    clip = walk()
-    pins = hand_at(clip, (180, 240, 300))
-    assert hierarchy(clip, pins)[1][-1].worst < 0.002
 
 
 def test_levels_do_not_fold_a_neck_under_a_bar(real_data):

@@ -47,7 +47,7 @@ def test_joints_are_where_a_mirror_shows_them():
 
 
 @given(seeds)
-@settings(max_examples=15)
+@settings(max_examples=8)
 def test_twice_is_the_identity(seed):
     for motion in (WALK, with_other_axes(WALK, seed)):
         twice = mirror(mirror(motion))
@@ -57,7 +57,7 @@ def test_twice_is_the_identity(seed):
 
 
 @given(seeds)
-@settings(max_examples=15)
+@settings(max_examples=8)
 def test_axes_may_point_anywhere(seed):
     odd = with_other_axes(WALK, seed)
     assert np.abs(joint_positions(odd) - joint_positions(WALK)).max() < 1e-9

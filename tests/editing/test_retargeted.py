@@ -17,22 +17,14 @@ from mocap.editing.pins import pin_errors
 from mocap.editing.retargeting import copied, dips_of, floor_pins, retarget, standing_like
 from mocap.editing.stances import Stance, proportioned, stance_of
 from mocap.errors import MocapWarning, SkeletonMismatch
-from mocap.feet.footplants import mark_plants, runs
+from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
 from tests.editing.bodies import LONG, adult, along_x, bends, child, renamed, rested, walk, without
+from tests.editing.test_path_editing import slide
+from tests.editing.wishes import bones
 from tests.refusals import quietly, refusals
 
 MM = 1000
-
-
-def slide(motion: Motion, stance: Stance) -> float:
-    """Measure how far planted joints stray from their mean places, millimetres."""
-    positions, far = joint_positions(motion), [0.0]
-    for joint in (joint for leg in stance.legs for joint in leg[2:]):
-        for start, stop in runs(motion.contacts[motion.skeleton.names[joint]]):
-            places = positions[start:stop, joint]
-            far.append(np.linalg.norm(places - places.mean(axis=0), axis=-1).max())
-    return MM * max(far)
 
 
 def sinks(motion: Motion, stance: Stance, clip: Motion, source: Stance) -> float:
@@ -68,16 +60,14 @@ def held_to_the_bars(clip, source, target, *, scale=None, smooth=1.05, deep=3.0)
         worn = retarget(clip, target, source, scale=scale)
     base = copied(clip, source, target, scale=scale)
     knees, *others = bent_off(worn, base, target)
-    assert slide(worn, target) <= 1e-3
+    assert MM * slide(worn) <= 1e-3
     assert kept(worn, base) >= 0.99
     assert sinks(worn, target, clip, source) <= deep
     assert jolts(worn, base, target) <= smooth
     assert knees <= 3
     if scale is None:
         assert max(others) <= 7
-    places = joint_positions(worn)
-    bones = np.linalg.norm(places[:, 1:] - places[:, worn.skeleton.parents[1:]], axis=-1)
-    assert np.abs(bones - np.linalg.norm(worn.skeleton.offsets[1:], axis=-1)).max() <= 1e-12
+    assert bones(worn) <= 1e-12
     return worn
 
 
@@ -116,7 +106,7 @@ def test_bodies_of_any_proportions_stand(shares):
     legs, trunk, arms, head = shares
     body = proportioned(adult(), legs=legs, trunk=trunk, arms=arms, head=head)
     worn = retarget(walk(1.5), body, adult())
-    assert slide(worn, body) <= 1e-3
+    assert MM * slide(worn) <= 1e-3
     assert sinks(worn, body, walk(1.5), adult()) <= 3
     assert kept(worn, copied(walk(1.5), adult(), body)) >= 0.99
 
@@ -141,7 +131,7 @@ def test_a_skeleton_alone_stands_as_high_as_the_source():
     stance = standing_like(body, adult())
     assert stance.height("ball") == pytest.approx(0.55 * adult().height("ball"))
     worn = retarget(walk(2.0), body)
-    assert slide(worn, stance) <= 1e-3
+    assert MM * slide(worn) <= 1e-3
     assert np.allclose(joint_positions(worn), joint_positions(retarget(walk(2.0), stance, adult())))
 
 
@@ -193,7 +183,7 @@ def test_feet_that_slide_are_cleaned_up_first_and_no_further_plant_is_lost(real_
     clip = mark_plants(load(real_data / name)[12:1000])
     source, target = stance_of(clip), stance_in(real_data, "Bandai-Namco")
     worn, own = retarget(clip, target, source), clean_up(clip)
-    assert slide(clip, source) > 1 > 1e-3 >= slide(worn, target)
+    assert MM * slide(clip) > 1 > 1e-3 >= MM * slide(worn)
     assert kept(worn, copied(clip, source, target)) == kept(own, clip) > 0.94
 
 

@@ -51,12 +51,11 @@ def test_the_marks_come_from_the_nearest_frame():
 
 
 @pytest.mark.parametrize("fps", [120.0, 30.0])
-def test_slow_motion_is_smooth_by_hermite_and_jolts_by_slerp(fps):
+def test_slow_motion_is_smooth(fps):
+    """By slerp it would jolt by half as much again."""
     source = resample(WALK, fps)
-    quarter = np.arange(0, len(source) - 1, 0.25)
-    smooth, straight = (replace(m, fps=4 * fps) for m in (at_frames(source, quarter), source.at(quarter)))
-    assert accelerations(smooth) < 1.1 * accelerations(WALK)
-    assert accelerations(straight) > 1.5 * accelerations(WALK)
+    slow = replace(at_frames(source, np.arange(0, len(source) - 1, 0.25)), fps=4 * fps)
+    assert accelerations(slow) < 1.1 * accelerations(WALK)
 
 
 def test_a_steady_glide_stays_steady_up_to_both_ends():

@@ -25,7 +25,7 @@ from mocap.steering.in_betweens import in_between, meet_poses
 from mocap.steering.two_sided_search import TwoSided, choices
 from mocap.synthesis.random_walks import random_walk
 from mocap.synthesis.walk_to_motion import require_walk, to_motion, with_plants
-from tests.bundled import bundled, captured, walking
+from tests.bundled import bundled, walking
 from tests.conftest import SWEEP
 from tests.editing.test_path_editing import slide
 from tests.refusals import quietly, refusals
@@ -84,11 +84,6 @@ def require_pairs(graph, seeds):
 
 def test_what_the_clips_can_give_is_met():
     require_pairs(bundled(*OWN), range(20 if SWEEP else 3))
-
-
-@pytest.mark.exhaustive
-def test_what_cmu_16_can_give_is_met(real_data):
-    require_pairs(captured(real_data).source, range(20))
 
 
 def asked_anywhere(graph, seed):

@@ -13,7 +13,7 @@ from mocap.body.limbs import find_legs
 from mocap.body.planar import PlanarTransform, on_ground
 from mocap.feet.footplants import mark_plants
 from mocap.steering import Controller, FootTurner, measure_delay, steer
-from tests.bundled import bundled, captured
+from tests.bundled import bundled
 from tests.refusals import refusals
 
 BUNDLED = graphs.compile_graph(bundled("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight"))
@@ -150,8 +150,3 @@ def test_a_controller_knows_where_its_feet_are():
             assert off[-1] < 1e-9
         controller.turn_about(controller.feet()[0], 0.01)
     assert max(off) < 0.02  # in transitions
-
-
-@pytest.mark.exhaustive
-def test_captured_walkers_obey_sooner_too(real_data):
-    require_obeying_sooner(captured(real_data), 60)

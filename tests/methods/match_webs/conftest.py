@@ -3,26 +3,24 @@
 from itertools import pairwise
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from mocap import datasets, resample
-from mocap._shared.arrays import runs
-from mocap.body import find_legs
 from mocap.methods.match_webs import build_web
+from tests.blending.registered import strikes
 
 BUNDLED = ("walk_straight", "walk_circle", "sneak", "jog", "stop_and_go")
 
 
-def strikes(motion, side=0):
-    """Frames at which a foot comes down, by the motion's own marks."""
-    leg, names = find_legs(motion.skeleton)[side], motion.skeleton.names
-    stands = motion.contacts[names[leg.ankle]] | motion.contacts[names[leg.ball]]
-    return [int(start) for start, _ in runs(stands) if start > 0]
+def at_strikes(motion):
+    """Frames at which the left foot comes down, by the motion's own marks."""
+    return np.round(strikes(motion)[0] * motion.fps).astype(int).tolist()
 
 
 def cycles(motion, shortest, longest):
     """Strike to strike of the left foot, as slices of so many seconds."""
-    found = (slice(a, b) for a, b in pairwise(strikes(motion)))
+    found = (slice(a, b) for a, b in pairwise(at_strikes(motion)))
     return [part for part in found if shortest <= (part.stop - part.start) / motion.fps <= longest]
 
 
