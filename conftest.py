@@ -16,6 +16,7 @@ from nbformat.v4 import new_code_cell
 from nbval.plugin import IPyNbCell, IPyNbFile
 
 FIRST = ("test_lab", "test_release", "test_house")  # they wait most, while others compute
+LONG = (Path(__file__).parent / "tests" / "long.txt").read_text("utf-8")  # then files that are named here
 
 REAL = Path(os.environ.get("MOCAP_REAL_DATA", Path(__file__).parents[1] / "shared" / "data")).resolve()
 THERE = all((REAL / folder).is_dir() for folder in ("cmu", "hw3"))
@@ -81,7 +82,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     notebooks.sort(key=lambda item: item.path.name, reverse=True)  # keeps the order of a notebook's cells
     first = [item for name in FIRST for item in items if item.path.stem == name]
     browser = [item for item in items if item.path.parent.name == "browser"]
-    items[:] = dict.fromkeys([*first, *notebooks, *browser, *items])
+    long = [item for item in items if item.nodeid.partition("::")[0] in LONG]
+    items[:] = dict.fromkeys([*first, *notebooks, *browser, *long, *items])
     for item in items:
         if MISSING and item.path.name == "10-real-data.ipynb":
             item.add_marker(pytest.mark.skip(reason=MISSING))

@@ -94,7 +94,7 @@ def test_the_wheel_alone_makes_a_walk_and_runs_a_notebook(archives, tmp_path):
     (site,) = env.glob("lib/*/site-packages")
     libraries = [path for path in sys.path if path.endswith(("site-packages", "dist-packages"))]
     (site / "libraries.pth").write_text("\n".join(libraries))
-    call(env / "bin" / "mocap", "demo", folder=empty)
+    call(env / "bin" / "mocap", "demo", "--seconds", "2", folder=empty)
     assert {path.name for path in (empty / "mocap-demo").iterdir()} >= {"walk.bvh", "walk.gif"}
     call(env / "bin" / "mocap", "course", "handout", "-o", "course", folder=empty)
     call(python, "-c", DEMO, folder=empty)
