@@ -269,17 +269,19 @@ def draw_components() -> Figure:
     """Draw a graph of four clips before and after pruning, where the threshold is low."""
     clips = [resample(datasets.sample(name), 30) for name in datasets.SAMPLES[3:]]
     whole = graphs.build(clips, window=WINDOW, threshold=0.018)
-    arcs = plotting.before_and_after(whole, graphs.prune(whole))
-    for arc in arcs:
-        arc.set(alpha=0.8, linewidths=1.0)
-    return plt.gcf()
+    figure, axes = plt.subplots(2, 1, figsize=(7, 7.2), sharex=True, layout="constrained")
+    for ax, graph, when in zip(axes, (whole, graphs.prune(whole)), ("before", "after"), strict=True):
+        plotting.timeline(graph, ax=ax).set(alpha=0.8, linewidths=1.0)
+        ax.set_title(f"{when}: {len(graph.graph)} nodes, {graph.count('transition')} transitions")
+    return figure
 
 
 def draw_path() -> Figure:
     """Draw a path that was asked for, black, and the walk that follows it, yellow, with its footprints."""
     path = SHAPES["figure of eight"]()
     walk = steering.follow_path(_graph(), path).motion()
-    plotting.asked_and_walked(path.points, walk)
+    ax = plotting.path_from_above(walk)[0].axes
+    ax.plot(*path.points.T, color=plotting.ASKED, linewidth=5, alpha=0.85, zorder=1)
     for step in feet.find_footprints(walk):
         size = 12 + 40 * (1 - np.exp(-(step.end - step.start) / 60))
         look = {"facecolors": COLOURS[step.side], "alpha": 0.6, "linewidths": 0, "zorder": 3}
@@ -522,7 +524,9 @@ def draw_match_webs() -> Figure:
     grid = np.sqrt(matching.distance_grid(slow, brisk, window=5))
     costs = grid - 0.12 + np.where(match_webs.minima_1d(grid), 0, 0.06)
     paths = apart(match_webs.local_paths(costs, least=9), near=3)
-    plotting.web_image(grid, paths=paths, ax=left)
+    plotting.distance_image(grid**2, fps=30, ax=left)
+    for way in paths:
+        left.plot(*(way[:, ::-1].T + 0.5) / 30, color=plotting.PATH, linewidth=2)
     left.set(xlabel="brisk walk (s)", ylabel="slow walk (s)", title="paths of similar frames")
     web = match_webs.build_web(walks, below=0.08)
     start, stop = feet.runs(walks[4].contacts["lfoot"])[1:3, 0].tolist()

@@ -27,13 +27,13 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "style": ["ASKED", "COLOURS", "CURVES", "FLOOR", "MARK", "PATH", "QUIET", "SOURCES"],
-        "bodies": ["bones", "flat_bodies", "target_poses"],
+        "bodies": ["bones", "flat_bodies"],
         "stick_figures": ["StickFigure", "ground_axes", "to_picture"],
         "bodies_on_path": ["bodies_along"],
-        "grids": ["distance_image", "walk_rows", "warp_image", "web_image"],
-        "ground_charts": ["asked_and_walked", "draw_group_plan", "ground_tracks", "path_from_above"],
-        "charts": ["box_chart", "joint_curve", "match_tree", "quartile_band", "seen_beside_measured"],
-        "graph_drawing": ["before_and_after", "node_link", "timeline"],
+        "grids": ["distance_image", "walk_rows", "warp_image"],
+        "ground_charts": ["draw_group_plan", "ground_tracks", "path_from_above"],
+        "charts": ["joint_curve", "match_tree", "quartile_band", "seen_beside_measured"],
+        "graph_drawing": ["node_link", "timeline"],
         "picture": ["show"],
     },
 )

@@ -8,12 +8,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array, Indices
 from mocap.body import Motion, Skeleton, joint_positions
 from mocap.matching.point_clouds import distinct_joints
-from mocap.plotting.style import ASKED, COLOURS, own_colour
+from mocap.plotting.style import COLOURS, own_colour
 
 ASLANT = np.array(
     [[0.57, 0, 0.82], [-0.2, 0.97, 0.14]]
@@ -153,37 +153,3 @@ def film_strip(motions: Sequence[Motion], *, count: int = 6) -> Figure:
         ax.set_axis_off()
         ax.autoscale_view()
     return figure
-
-
-def target_poses(
-    motions: Sequence[Motion], frames: Sequence[int], *, targets: ArrayLike, columns: int
-) -> list[Axes]:
-    """Draw one pose of each motion from behind, row by row, each with the place that was asked for.
-
-    Parameters
-    ----------
-    motions : each standing over the origin and facing +z at its start.
-    frames : which frame of each.
-    targets : (x, y) of each, metres; x grows to the left of the body, which is the left of the picture.
-    columns : of the grid.
-
-    Examples
-    --------
-    >>> from mocap import datasets
-    >>> walk = datasets.sample("walk_straight")
-    >>> len(target_poses([walk, walk], [0, 60], targets=[[0, 1], [0, 1]], columns=2))
-    2
-
-    Notebook: 16-match-webs
-    """
-    rows = -(-len(motions) // columns)
-    figure = plt.figure(figsize=(1.7 * columns, 1.9 * rows), layout="constrained")
-    axes = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel().tolist()
-    for ax, motion, frame, target in zip(axes, motions, frames, np.asarray(targets), strict=False):
-        points = joint_positions(motion[frame : frame + 1])[0, :, :2]
-        draw_body(ax, motion.skeleton, points, linewidths=1.6)
-        ax.plot(*target, "+", color=ASKED, markersize=11, markeredgewidth=1.8)
-        ax.set(aspect="equal", xlim=(1.0, -1.0), ylim=(0, 1.95))
-    figure.supxlabel("to the left (m)")
-    figure.supylabel("up (m)")
-    return axes

@@ -122,38 +122,6 @@ def seen_beside_measured(
     return upper, lower
 
 
-def box_chart(
-    targets: ArrayLike, costs: ArrayLike, box: tuple[float, float], *, limits: tuple[float, float]
-) -> Axes:
-    """Draw what it costs to follow one source with each target, and the box of those that may follow.
-
-    Parameters
-    ----------
-    targets : shape (N,), parameters, such as degrees of turn.
-    costs : shape (N,), centimetres.
-    box : its low and its high end.
-    limits : T_GOOD and T_BAD, centimetres: dots are good up to the first, bad above the second.
-
-    Examples
-    --------
-    >>> ax = box_chart([-30, 0, 30], [5.0, 2, 2.5], (-5, 30), limits=(3, 4))
-    >>> len(ax.collections[0].get_offsets())
-    3
-
-    Notebook: 17-parametric-graphs
-    """
-    ax = plt.figure(figsize=(6.4, 3), layout="constrained").add_subplot()
-    good, bad = limits
-    colours = [CURVES[0] if cost <= good else ASTRAY if cost > bad else QUIET for cost in np.asarray(costs)]
-    ax.axvspan(*box, color=CURVES[0], alpha=0.15)
-    ax.scatter(targets, costs, s=12, c=colours)
-    for limit, name in ((good, "T_GOOD"), (bad, "T_BAD")):
-        ax.axhline(limit, color=QUIET, linewidth=1, linestyle="dashed")
-        ax.annotate(name, (1.0, limit), xycoords=("axes fraction", "data"), va="center", fontsize=8)
-    ax.set(ylabel="cost (cm)")
-    return ax
-
-
 def match_tree(
     matches: Sequence[Match],
     kinds: Sequence[str],

@@ -178,33 +178,3 @@ def _round_above(start: Sequence[float], _: object, *, shrinkA: float, **__: obj
     """Draw a loop over the top of a disc of radius `shrinkA`, pixels."""
     corners = np.array([(-0.5, 0.8), (-1.5, 2.8), (1.5, 2.8), (0.5, 0.95)])
     return Path(start + shrinkA * corners, [Path.MOVETO, Path.CURVE4, Path.CURVE4, Path.CURVE4])
-
-
-def before_and_after(whole: MotionGraph, pruned: MotionGraph) -> list[LineCollection]:
-    """Draw a motion graph before and after pruning, one above the other.
-
-    Parameters
-    ----------
-    whole, pruned : the graph before and after.
-
-    Returns
-    -------
-    The arcs of both.
-
-    Examples
-    --------
-    >>> from mocap import datasets, graphs, plotting, resample
-    >>> whole = graphs.build([resample(datasets.sample("walk_straight"), 30)], window=10, threshold=0.03)
-    >>> drawn = before_and_after(whole, graphs.prune(whole))
-    >>> plotting.show(drawn, alt="A clip's transitions before pruning, and the fewer ones after it.")
-    Picture("A clip's transitions before pruning, and the fewer ones after it.")
-
-    Notebook: 06b-pruning-clips
-    """
-    figure = plt.figure(figsize=(7, 1.4 * len(whole.clips) + 1.6), layout="constrained")
-    both, drawn = zip((whole, pruned), ("before", "after"), strict=True), []
-    for ax, (graph, when) in zip(figure.subplots(2, 1, sharex=True), both, strict=True):
-        drawn.append(timeline(graph, ax=ax))
-        counts = f"{graph.graph.number_of_nodes()} nodes, {graph.count('transition')} transitions"
-        ax.set_title(f"{when}: {counts}")
-    return drawn

@@ -6,7 +6,6 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.image import AxesImage
 from matplotlib.patheffects import Normal, Stroke
@@ -14,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mocap.blending import Curve
 from mocap.blending.registering import RATE, WINDOW
-from mocap.plotting.style import PATH, QUIET
+from mocap.plotting.style import QUIET
 
 Grid = NDArray[np.floating[Any]]
 SEAMS = LinearSegmentedColormap.from_list("seams", ["#F2D3E4", "#CC79A7", "#5B1F45"])
@@ -65,35 +64,6 @@ def _centimetres(grid: Grid, cells: ArrayLike, clock: tuple[float, float], ax: A
     ax.plot(columns, rows, ".", color="#FFFFFF", markersize=4, label="minima")
     ax.figure.colorbar(image, ax=ax, label="RMS distance (cm)", shrink=0.8)
     return image
-
-
-def web_image(
-    grid: Grid, *, marks: ArrayLike | None = None, paths: Sequence[ArrayLike] = (), ax: Axes | None = None
-) -> Axes:
-    """Draw the distances of two clips with marked cells and with paths.
-
-    Parameters
-    ----------
-    grid : √D, shape (n, m), metres, of 30 windows per second; the axes are in seconds.
-    marks : cells to mark with dots, booleans of shape (n, m), such as from `minima_1d`.
-    paths : cells (row, column) of each path, shape (N, 2).
-    ax : axes; new ones by default.
-
-    Examples
-    --------
-    >>> ax = web_image(np.array([[0.02, 0.1], [0.1, 0.03]]), paths=[[(0, 0), (1, 1)]])
-    >>> ax.collections[0].get_segments()[0].round(3).tolist()
-    [[0.017, 0.017], [0.05, 0.05]]
-
-    Notebook: 16-match-webs
-    """
-    ax = ax or plt.figure(figsize=(6, 4), layout="constrained").add_subplot()
-    _centimetres(100 * np.asarray(grid), () if marks is None else np.argwhere(marks), (30.0, 0.0), ax)
-    ax.lines[-1].set(markersize=2, markeredgewidth=0)
-    lines = [(np.asarray(path)[:, ::-1] + 0.5) / 30 for path in paths]
-    ax.add_collection(LineCollection(lines, colors=PATH, linewidths=2))
-    ax.set(xlabel="(s)", ylabel="(s)")
-    return ax
 
 
 def warp_image(grid: Grid, path: ArrayLike, *, curve: Curve | None = None, ax: Axes | None = None) -> Axes:

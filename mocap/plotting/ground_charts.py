@@ -9,7 +9,6 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
-from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Points
 from mocap.body import Motion, heading
@@ -49,38 +48,6 @@ def path_from_above(motion: Motion, *, colour: str = PATH, ax: Axes | None = Non
     x, z = motion.root_positions[:, [0, 2]].T
     way = ax.plot(x, z, color=colour, linewidth=2, label=motion.name)
     return way + ax.plot(x[:1], z[:1], "o", color=COLOURS["middle"], markersize=6)
-
-
-def asked_and_walked(path: ArrayLike, motion: Motion, *, ax: Axes | None = None) -> list[Line2D]:
-    """Draw the path that was asked for, in black, under the path that was walked [KGP02, Fig. 6].
-
-    Parameters
-    ----------
-    path : the path asked for, shape (N, 2), points (x, z), metres.
-    motion : the walk.
-    ax : axes; new ones by default.
-
-    Returns
-    -------
-    The path asked for, the path walked, and its start.
-
-    Examples
-    --------
-    >>> from matplotlib.figure import Figure
-    >>> from mocap import datasets
-    >>> walk = datasets.sample("walk_straight")
-    >>> asked, walked, start = asked_and_walked([(0, 0), (0, 10)], walk, ax=Figure().add_subplot())
-    >>> asked.get_label(), walked.get_label()
-    ('asked for', 'walked')
-
-    Notebook: 08c-judging-a-search
-    """
-    ax = seen_from_above(ax)
-    asked = ax.plot(*np.transpose(path), color=ASKED, linewidth=5, alpha=0.85, label="asked for")
-    walked = path_from_above(motion, ax=ax)
-    walked[0].set_label("walked")
-    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, frameon=False)
-    return [*asked, *walked]
 
 
 def ground_tracks(

@@ -8,10 +8,8 @@ from matplotlib.patches import Circle
 from mocap.blending import Curve
 from mocap.datasets import sample
 from mocap.matching import distance_grid
-from mocap.methods.match_webs import minima_1d
 from mocap.methods.match_webs.match_search import Match
 from mocap.plotting import (
-    asked_and_walked,
     distance_image,
     draw_group_plan,
     ground_tracks,
@@ -22,10 +20,8 @@ from mocap.plotting import (
     seen_beside_measured,
     walk_rows,
     warp_image,
-    web_image,
 )
-from mocap.plotting.charts import box_chart
-from mocap.plotting.style import ASTRAY, CURVES, QUIET, SOURCES
+from mocap.plotting.style import ASTRAY, SOURCES
 from tests.strategies import wave
 
 AT = np.arange(3.0)
@@ -76,15 +72,6 @@ def test_what_is_seen_stands_above_what_is_measured():
     assert lower.lines[0].get_ydata().tolist() == [3.5, 1.5]
 
 
-def test_good_bad_and_other_targets_have_their_colours():
-    ax = box_chart([-40, 0, 40], [2.0, 3.5, 9], (-60, 10), limits=(3, 4))
-    (dots,), (box,) = ax.collections, ax.patches
-    assert colours_of(dots) == [to_rgba(colour) for colour in (CURVES[0], QUIET, ASTRAY)]
-    np.testing.assert_allclose(dots.get_offsets(), [[-40, 2], [0, 3.5], [40, 9]])
-    assert box.get_x() == -60 and box.get_width() == 70
-    assert [text.get_text() for text in ax.texts] == ["T_GOOD", "T_BAD"]
-
-
 def test_each_match_stands_at_its_step_linked_with_what_found_it():
     ax = match_tree(
         FOUND, ["walk", "walk", "run", "run", "walk"], wrong=[False] * 3 + [True, False], order=[]
@@ -115,17 +102,6 @@ def test_the_distance_image_shows_centimetres_in_seconds():
     (dots,) = image.axes.lines
     assert np.ravel(dots.get_data()) == pytest.approx([5.5 / 30, 3.5 / 30])
     assert image.axes.get_ylabel() == "a (s)"
-
-
-def test_paths_and_minima_lie_on_the_middles_of_their_cells():
-    grid = np.abs(np.subtract.outer(np.arange(6.0), np.arange(8.0))) / 100
-    path = np.stack([np.arange(6), np.arange(6)], axis=1)
-    ax = web_image(grid, marks=minima_1d(grid), paths=[path])
-    assert ax.collections[0].get_segments()[0] == pytest.approx((path + 0.5) / 30)
-    marked = np.round(ax.lines[0].get_xydata() * 30 - 0.5).astype(int).tolist()
-    assert all([n, n] in marked for n in range(6))
-    assert ax.images[0].get_array().max() == pytest.approx(7)
-    assert not len(web_image(grid).lines[0].get_xydata())
 
 
 def test_the_curve_lies_on_the_cells_of_the_path():
@@ -160,16 +136,6 @@ def test_a_path_from_above_is_not_mirrored():
     path_from_above(motion, ax=path.axes)
     assert path.axes.xaxis_inverted()
     assert start.get_xdata() == pytest.approx(motion.root_positions[0, 0])
-
-
-def test_the_path_asked_for_lies_under_the_path_walked():
-    motion = wave(30)
-    asked, walked, start = asked_and_walked([[0, 0], [0, 1], [1, 1]], motion)
-    assert np.transpose(asked.get_data()).tolist() == [[0, 0], [0, 1], [1, 1]]
-    assert np.transpose(walked.get_data()) == pytest.approx(motion.root_positions[:, [0, 2]])
-    assert asked.get_zorder() <= walked.get_zorder()
-    assert (asked.get_color(), walked.get_color()) == ("#000000", "#E69F00")
-    assert start.get_ydata() == pytest.approx(motion.root_positions[0, 2])
 
 
 def test_tracks_have_the_ways_and_the_facings():
