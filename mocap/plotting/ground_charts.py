@@ -43,6 +43,8 @@ def path_from_above(motion: Motion, *, colour: str = PATH, ax: Axes | None = Non
     >>> drawn = path_from_above(datasets.sample("walk_circle"))
     >>> plotting.show(drawn, alt="A circle seen from above.")
     Picture('A circle seen from above.')
+
+    Notebook: 08c-judging-a-search
     """
     ax = seen_from_above(ax)
     x, z = motion.root_positions[:, [0, 2]].T
