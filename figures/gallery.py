@@ -280,8 +280,10 @@ def draw_path() -> Figure:
     """Draw a path that was asked for, black, and the walk that follows it, yellow, with its footprints."""
     path = SHAPES["figure of eight"]()
     walk = steering.follow_path(_graph(), path).motion()
-    ax = plotting.path_from_above(walk)[0].axes
-    ax.plot(*path.points.T, color=plotting.ASKED, linewidth=5, alpha=0.85, zorder=1)
+    walked, _ = plotting.path_from_above(walk)
+    walked.set_label("walked")
+    plt.plot(*path.points.T, color=plotting.ASKED, linewidth=5, alpha=0.85, zorder=1, label="asked for")
+    plt.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, frameon=False)
     for step in feet.find_footprints(walk):
         size = 12 + 40 * (1 - np.exp(-(step.end - step.start) / 60))
         look = {"facecolors": COLOURS[step.side], "alpha": 0.6, "linewidths": 0, "zorder": 3}
