@@ -199,8 +199,6 @@ def concatenate(motions: Sequence[Motion], name: str | None = None) -> Motion:
 
     Notebook: 00-quickstart
     """
-    if not motions:
-        raise MocapError("There is nothing to concatenate.")
     motions = require_alike(motions)
     first = motions[0]
     counts = np.array([len(motion) for motion in motions])
@@ -223,7 +221,7 @@ def require_alike(motions: Sequence[Motion]) -> tuple[Motion, ...]:
 
     Raises
     ------
-    SkeletonMismatch, MocapError : for different skeletons or rates.
+    SkeletonMismatch, MocapError : for different skeletons or rates, and for none.
 
     Examples
     --------
@@ -234,7 +232,7 @@ def require_alike(motions: Sequence[Motion]) -> tuple[Motion, ...]:
     mocap.errors.MocapError: 'walk' runs at 120 Hz, 'walk' at 30 Hz: resample one first.
     """
     if not motions:
-        return ()
+        raise MocapError("This takes one clip or more, got none.")
     most, alike = max(motions, key=lambda motion: len(motion.skeleton)), []
     for motion in motions:
         try:

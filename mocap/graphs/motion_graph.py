@@ -205,8 +205,6 @@ def cut_and_join(clips: Sequence[Motion], transitions: Sequence[Transition], win
 
 def _require_names(clips: Sequence[Motion]) -> None:
     names = [clip.name for clip in clips]
-    if not names:
-        raise MocapError("A motion graph needs at least one clip.")
     if twice := sorted({name for name in names if names.count(name) > 1}):
         raise MocapError(f"Clips need different names; given twice: {', '.join(twice)}.")
 

@@ -168,8 +168,6 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
     each: Mapping[Any, float] = below if isinstance(below, Mapping) else {None: below}
     _check_thresholds(each, clips)
     gap = int(window == 1)  # longer windows that run off a clip keep the clips apart by themselves
-    if not clips:
-        return _both_ways(np.empty((6, 0)), clips, gap)
     double = sum(map(len, clips)) <= FEW
     weights = unit_weights(joint_weights, len(distinct_joints(clips[0].skeleton)))
     ready = join_clouds(clips, weights, window, gap, np.float64 if double else np.float32)

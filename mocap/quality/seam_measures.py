@@ -110,8 +110,6 @@ def spread(clips: Sequence[Motion]) -> Spread:
 
     Notebook: 04b-feet
     """
-    if not clips:
-        raise MocapError("A seam is measured against its clips; none were given.")
     clips = require_alike(clips)
     found = [jumps(clip)[0] for clip in clips]
     leap = LEAP * float(np.percentile(np.concatenate(found), MOSTLY))

@@ -41,7 +41,7 @@ test_a_bad_motion_is_refused = refusals(
     ("forwards only; got a step of -1", lambda: GIVEN[::-1]),
     ("no frames", lambda: GIVEN[4:4]),
     ("above 0, got -3", resample, GIVEN, -3),
-    ("nothing to concatenate", concatenate, []),
+    ("one clip or more, got none", concatenate, []),
     ("30 Hz, 'wave' at 60 Hz", concatenate, [wave(3), replace(wave(3), fps=60)]),
     (
         SkeletonMismatch,

@@ -166,7 +166,7 @@ test_bad_input_is_named = refusals(
         "of 'wave' has 4 frames, too few for a window of 5",
         lambda: segment_distances([wave(4)], segment=10, window=5),
     ),
-    ("nothing to concatenate", segment_distances, []),
+    ("one clip or more, got none", segment_distances, []),
     ("no bone with a weight", lambda: small(metric=euler_grid)),
     ("above 0, got 0", lambda: small(threshold=0)),
     ("above 0, got nan", lambda: small(threshold=np.nan)),

@@ -95,7 +95,7 @@ def graph_with(row):
 
 
 test_what_makes_no_graph = refusals(
-    ("at least one clip", make, []),
+    ("one clip or more, got none", make, []),
     ("given twice: wave", make, [wave(30), wave(30)]),
     ("'a' runs at 30 Hz, 'b' at 60 Hz", make, [CLIPS[0], resample(CLIPS[1], 60.0)]),
     ("differ in these joints", make, [CLIPS[0], random_motion(1, frames=30)]),

@@ -52,11 +52,6 @@ def search(clips, below):
     return find_transitions(clips, window=8, below=below)
 
 
-def test_no_clips_have_no_transitions():
-    none = search([], 0.1)
-    assert (len(none), list(none), repr(none)) == (0, [], "Transitions(0)")
-
-
 test_what_has_no_transitions_is_refused = refusals(
     (r"A threshold is above 0 m, got 0 m\.$", search, CLIPS, 0),
     (r"got nan m\.$", search, CLIPS, np.nan),

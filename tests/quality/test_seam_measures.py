@@ -63,7 +63,7 @@ test_what_is_measured_must_go_together = refusals(
         ("1201 frames, and no seam", seam_quality, WALK, seam, USUAL)
         for seam in ((-1, 5), (5, 5), (1190, 1202))
     ),
-    ("none were given", spread, []),
+    ("one clip or more, got none", spread, []),
     ("takes four frames; 'walk_straight' has 3", jumps, WALK[:3]),
     (SkeletonMismatch, "joints", spread, [WALK, random_motion(0)]),
     ("'lfoot' stands; mark_plants", seam_quality, replace(WALK, contacts={}), (5, 9), USUAL),

@@ -57,10 +57,8 @@ class OwnGraph:
     def __init__(self, clips: Sequence[Motion], window: int, threshold: float, by: Tools | None) -> None:
         self.clips, self.pages = require_alike(clips), pages_of(by, window, threshold)
         self.by = by or Tools()
-        if not 2 <= window <= min(map(len, self.clips), default=0):
-            raise MocapError(
-                f"A graph takes one clip or more, and a window up to the shortest, got {window}."
-            )
+        if not 2 <= window <= min(map(len, self.clips)):
+            raise MocapError(f"A graph takes a window of two frames up to the shortest clip, got {window}.")
         self.found = self.pages.find_transitions(self.clips)
         self.graph: nx.MultiDiGraph = self.pages.prune(self.pages.cut_and_join(self.clips, self.found))
         if len(self.graph) < 2:

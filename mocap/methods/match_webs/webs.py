@@ -106,8 +106,6 @@ def build_web(clips: Sequence[Motion], *, below: float = 0.12, progress: Progres
 
     Notebook: 16-match-webs
     """
-    if not clips:
-        raise MocapError("A web needs clips, got none.")
     clips = require_alike(clips)
     low = [resample(clip, MatchWeb.rate) for clip in clips]
     long = _long_enough(low, WINDOW + LEAST)

@@ -201,8 +201,6 @@ def tabulate(clips: Sequence[Motion], *, weights: Mapping[str, float] = WEIGHTS)
 
     Notebook: 18-motion-matching
     """
-    if not clips:
-        raise MocapError("Motion matching needs at least one clip, got none.")
     clips = require_alike(clips)
     rate, longest = clips[0].fps, max(clips, key=len)
     if len(longest) <= END * rate + 1:

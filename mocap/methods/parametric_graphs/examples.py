@@ -176,7 +176,7 @@ def cut_actions(clips: Sequence[Motion], spans: Sequence[tuple[int, int]]) -> Ex
     >>> len(cut_actions([walk, walk, walk], [(30, 65), (66, 101), (100, 136)]))
     3
     """
-    if not clips or len(spans) != len(clips):
+    if len(spans) != len(clips):
         raise MocapError(f"Actions are cut by one span for each clip, got {len(clips)} and {len(spans)}.")
     clips = require_alike(clips)
     grid = np.arange(-round(MARGIN * FINE), round((1 + MARGIN) * FINE) + 1) / FINE

@@ -63,8 +63,6 @@ def cut_strides(
     """
     if by not in ("strikes", "curves"):
         raise MocapError(f"Examples are put on one clock by 'strikes' or by 'curves', got '{by}'.")
-    if not clips:
-        raise MocapError("Examples are cut out of one clip or more, got none.")
     clips = require_alike(clips)
     clips = [clip if clip.contacts else mark_plants(clip) for clip in clips]
     step, beyond = 2 / (len(feet) - 1) / FINE, round(margin * FINE)

@@ -127,8 +127,8 @@ def test_a_steered_walk_takes_the_edges_that_were_chosen_and_knows_where_they_wo
 
 def test_what_holds_no_graph_and_no_walk_is_refused(clips, graph, by):
     refused(r"below 0.001 m: allow more\.$", own.OwnGraph, [clips[0][:40]], WINDOW, 0.001, by)
-    for some, window in (([], WINDOW), ([clips[0], clips[0][: WINDOW - 1]], WINDOW), (clips, 0), (clips, 1)):
-        refused(f"a window up to the shortest, got {window}", own.OwnGraph, some, window, 0.05, by)
+    for some, window in (([clips[0], clips[0][: WINDOW - 1]], WINDOW), (clips, 0), (clips, 1)):
+        refused(f"up to the shortest clip, got {window}", own.OwnGraph, some, window, 0.05, by)
     refused("resample one first", own.OwnGraph, [clips[0], mocap.resample(clips[0], 10)], WINDOW, 0.05, by)
     nowhere = changed(graph, graph=graph.graph.copy())
     nowhere.graph.remove_edges_from(list(graph.graph.edges))

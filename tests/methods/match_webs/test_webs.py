@@ -123,7 +123,7 @@ def still(joints=1, frames=100, fps=30.0):
 
 
 test_hostile_input_is_one_sentence = refusals(
-    ("A web needs clips, got none.", build_web, []),
+    ("one clip or more, got none", build_web, []),
     (SkeletonMismatch, "joints", build_web, [still(), still(2)]),
     ("resample one first", build_web, [still(), still(fps=60.0)]),
     ("No clip is long enough for a path: that takes 0.47 s", build_web, [still(frames=5)]),

@@ -66,7 +66,7 @@ CLIP = clips("walk_circle")[0]
 LARGE = replace(CLIP, skeleton=replace(CLIP.skeleton, offsets=2 * CLIP.skeleton.offsets))
 
 test_what_makes_no_sense_is_refused_in_one_sentence = refusals(
-    ("at least one clip", tabulate, []),
+    ("one clip or more, got none", tabulate, []),
     ("resample", tabulate, [sample("walk_circle"), CLIP]),
     (SkeletonMismatch, "bone", tabulate, [CLIP, LARGE]),
     ("No legs found", features, wave(40)),

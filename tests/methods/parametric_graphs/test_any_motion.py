@@ -85,7 +85,7 @@ def test_actions_are_registered_and_their_margins_run_at_their_own_pace():
 WALK = clips()[3]
 
 test_what_makes_no_sense_is_refused = refusals(
-    ("one span for each clip, got 0 and 0", cut_actions, [], []),
+    ("one clip or more, got none", cut_actions, [], []),
     ("one span for each clip, got 1 and 0", cut_actions, [WALK], []),
     ("takes those from -13 to 55: leave it more room", cut_actions, [WALK], [(2, 40)]),
     ("leave it more room", cut_actions, [WALK], [(60, 40)]),
