@@ -69,6 +69,8 @@ class Reading:
 
     def load(self, path: Path) -> "Motion":
         """Read a clip, and warn of a body of another size than people's."""
+        from mocap.quality.clip_flaws import warn_of_size  # the help needs no NumPy
+
         motion = self.read(path)
         warn_of_size([motion])
         return motion
@@ -83,6 +85,8 @@ class Sources:
 
     def load(self, paths: Iterable[Path]) -> "list[Motion]":
         """Read clips, and folders of them, and warn of bodies of other sizes than people's."""
+        from mocap.quality.clip_flaws import warn_of_size
+
         found = bar("reading")(find_files(paths))
         clips = [files.load(path, skeleton=self.skeleton, scale=self.scale) for path in found]
         warn_of_size(clips)
@@ -122,13 +126,6 @@ def bar(what: str) -> Progress:
     from tqdm import tqdm  # imported here, so that `mocap --help` stays quick
 
     return partial(tqdm, desc=what, delay=1.0, leave=False, disable=None)
-
-
-def warn_of_size(clips: "Sequence[Motion]") -> None:
-    """Warn of bodies of another size than people's."""
-    from mocap.quality.clip_flaws import warn_of_size as warn  # the help needs no NumPy
-
-    warn(clips)
 
 
 def tell(**rows: object) -> None:

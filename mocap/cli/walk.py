@@ -33,8 +33,7 @@ def walk(
     random: str | None = None,
     out: Path = Path("walk.bvh"),
     clips: Sequence[Path] = (),
-    skeleton: Skeleton = None,
-    scale: Annotated[float | None, options.LENGTH] = None,
+    sources: Sources,
     unit: Unit = None,
     label: Annotated[Sequence[str], {"action": "append", "nargs": None, "default": []}] = (),
     bend: Annotated[float | None, TURN, {"nargs": "?", "const": 100.0}] = None,
@@ -73,12 +72,12 @@ def walk(
         raise MocapError("--label, --bend, --width and --unit belong to --path, not to --random.")
     if random is None and seed is not None:
         raise MocapError("--seed belongs to --random: a walk along a path leaves nothing to chance.")
-    if scale and not clips:
+    if sources.scale and not clips:
         raise MocapError("--scale belongs to --clips: the graph remembers the unit of its own clips.")
     options.check_out("walk", out)
     seconds, line = _seconds(random or "1s"), files.load_path(path, scale=unit) if path else None
     wishes = steering.Wishes(labels=[_label(text) for text in label])
-    found = _graph(graph, clips, Sources(skeleton, scale), out)
+    found = _graph(graph, clips, sources, out)
     if line is None:
         frames = synthesis.dump(
             found, out, seconds=seconds, seed=seed or 0, clean=clean, progress=bar("writing")
