@@ -16,10 +16,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from mocap.blending.joining import join, lay_window_on
 from mocap.body.motion import Motion
 from mocap.body.planar import lay_on, place
 from mocap.course.lab.sensitivity import sentence
-from mocap.course.seam_trials import passage
 from mocap.errors import MocapError
 from mocap.matching.transitions import Transition, Transitions
 from mocap.plotting.bodies import film_strip
@@ -194,17 +194,22 @@ def make_pairs(clips: Sequence[Motion], found: Transitions, plan: Plan) -> list[
     if len({clip.fps for clip in clips}) != 1:
         raise MocapError("A blind test needs clips of one rate; resample them.")
     fps = clips[0].fps
-    most, beside = int((SECONDS - 2 * AROUND) * fps), round((SECONDS / 2 + AROUND) * fps)
+    most = int((SECONDS - 2 * AROUND) * fps)
     if not 1 <= plan.window <= most:
         raise MocapError(f"A window has 1 to {most} frames here, got {plan.window}.")
     rng = np.random.default_rng([plan.seed, 1])
     pairs = []
     for match in choose(clips, found, plan):
-        begin = beside - round((SECONDS / 2 + rng.uniform(-AROUND, AROUND)) * fps)
-        blended = passage(clips, match, plan.window, beside=beside)
-        own = blended[1:3] if rng.random() < 0.5 else blended[2:0:-1]
-        here = blended.first[beside : beside + 1]  # in the middle of the matched window
-        ahead, film = lay_on(here, place(here, 0.0, (0.0, 0.0))), slice(begin, begin + round(SECONDS * fps))
-        seam, control, other = (ahead.apply_motion(motion[film]) for motion in (blended.result, *own))
-        pairs.append(Pair(seam, control, bool(rng.random() < 0.5), match, other))
+        seam_at = round((SECONDS / 2 + rng.uniform(-AROUND, AROUND)) * fps)
+        first, second = (  # films in which the middle of the matched window is at the seam
+            clips[clip][(begin := at + round(MATCHED * fps / 2) - seam_at) : begin + round(SECONDS * fps)]
+            for clip, at in ((match.source, match.leave), (match.target, match.enter))
+        )
+        start = seam_at - plan.window // 2
+        second = lay_window_on(first, start, second, start, plan.window)
+        joined = join(first, start, second, start, plan.window)
+        control, other = (first, second) if rng.random() < 0.5 else (second, first)
+        ahead = lay_on(first[seam_at:], place(first[seam_at:], 0.0, (0.0, 0.0)))
+        films = ahead.apply_motion(joined), ahead.apply_motion(control)
+        pairs.append(Pair(*films, bool(rng.random() < 0.5), match, ahead.apply_motion(other)))
     return pairs
