@@ -3,7 +3,7 @@
 from functools import cache
 from pathlib import Path
 
-from mocap.body.motion import resample
+from mocap.body.motion import Motion, resample
 from mocap.datasets import samples
 from mocap.files.load_save import load
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
@@ -27,8 +27,13 @@ def sneaking() -> CompiledGraph:
     return compile_graph(bundled("walk_circle", "walk_curve_1", "sneak"))
 
 
+def walks_of_16(folder: Path) -> list[Motion]:
+    """Load the walks of CMU's subject 16, at their own rate."""
+    return [load(folder / "cmu" / "16" / f"16_{n}.amc") for n in (*range(11, 35), 47, 58)]
+
+
 @cache
 def captured(folder: Path) -> CompiledGraph:
-    """Return the graph of the walks of CMU's subject 16."""
-    files = [folder / "cmu" / "16" / f"16_{n}.amc" for n in (*range(11, 35), 47, 58)]
-    return compile_graph(prune(build([resample(load(f), 30) for f in files], window=10, threshold=0.04)))
+    """Return the graph of these walks at 30 Hz."""
+    clips = [resample(clip, 30) for clip in walks_of_16(folder)]
+    return compile_graph(prune(build(clips, window=10, threshold=0.04)))

@@ -10,6 +10,7 @@ import mocap
 from mocap import blending, body, datasets, graphs, matching, plain, steering, synthesis
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
+from tests.bundled import walks_of_16
 
 K = plain.K
 LINES = {"S": body.s_curve(8.0), "corner": body.GroundPath([[0, 0], [0, 4], [4, 4]])}
@@ -160,9 +161,7 @@ def graphs_of_walks(request):
     if request.param == "bundled":
         names = ("walk_circle", "walk_curve_1", "walk_curve_2")
         return compiled([mocap.resample(datasets.sample(name), 30)[:600] for name in names])
-    folder = request.getfixturevalue("real_data") / "cmu/16"
-    trials = [f"16_{number}" for number in (*range(11, 35), 47, 58)]
-    return compiled([mocap.resample(mocap.load(folder / f"{trial}.amc"), 30) for trial in trials])
+    return compiled([mocap.resample(clip, 30) for clip in walks_of_16(request.getfixturevalue("real_data"))])
 
 
 @pytest.mark.parametrize(

@@ -11,9 +11,8 @@ import pytest
 
 import mocap
 from mocap import body, datasets, graphs, steering, synthesis
+from tests.bundled import walks_of_16
 from tests.refusals import quietly
-
-TRIALS = [f"16_{number}" for number in (*range(11, 35), 47, 58)]
 
 EXPECTED = {
     "bundled": {
@@ -47,8 +46,7 @@ def results(request):
     if request.param == "bundled":
         clips = [datasets.sample(name) for name in datasets.SAMPLES]
     else:
-        folder = request.getfixturevalue("real_data") / "cmu/16"
-        clips = [mocap.load(folder / f"{trial}.amc") for trial in TRIALS]
+        clips = walks_of_16(request.getfixturevalue("real_data"))
     whole = graphs.build([mocap.resample(clip, 30) for clip in clips], window=10, threshold=0.04)
     return whole, graphs.prune(whole), EXPECTED[request.param]
 

@@ -13,7 +13,6 @@ import pytest
 from asked_lines import heart, sine, spiral
 from walking import generate_walk
 
-import mocap
 from mocap import datasets
 from mocap.blending.joining import blend, inertialize, join
 from mocap.blending.mixing import mix
@@ -49,7 +48,7 @@ from mocap.synthesis.random_walks import random_walk
 from mocap.synthesis.walk_to_motion import to_motion
 from tests.benchmarks.timing import fastest, least
 from tests.blending.registered import walks
-from tests.bundled import walking
+from tests.bundled import walking, walks_of_16
 from tests.editing.bodies import adult, child, without
 from tests.editing.bodies import walk as person
 from tests.editing.test_posing import post
@@ -200,14 +199,12 @@ def test_work_takes_a_small_share_of_the_motion(what, most, make):
 # How much longer a larger input takes: (what, at most, what gives the work and both inputs).
 
 
-def walks_of_16(folder, count):
+def at_speeds(folder, count):
     """Play every walk at so many speeds: `count` times the frames, and no two clips the same."""
-    names = [f"16_{number}" for number in (*range(11, 35), 47, 58)]
-    takes = [mocap.load(folder / f"cmu/16/{name}.amc") for name in names]
     speeds = np.linspace(0.9, 1.1, count) if count > 1 else [1.0]
     return [
         replace(resample(replace(take, fps=120 * speed), 30.0), name=f"{take.name} at {speed:.2f}")
-        for take in takes
+        for take in walks_of_16(folder)
         for speed in speeds
     ]
 
@@ -240,7 +237,7 @@ def raised(name):
 
 SPLINES = [Basis(knots=0.125)]
 GROWTH = [
-    ("the square, in pairs of frames", 16, lambda data: (made, walks_of_16(data, 1), walks_of_16(data, 4))),
+    ("the square, in pairs of frames", 16, lambda data: (made, at_speeds(data, 1), at_speeds(data, 4))),
     ("pruning 4 times the edges", 8, lambda data: (prune_graph, edges(10_000), edges(40_000))),
     (
         "a curve of 4 times the edges",
@@ -280,7 +277,7 @@ def test_time_grows_no_faster_than_the_work(real_data, what, most, make):
 
 
 def test_the_walks_of_cmu_16_take_less_than_a_second(real_data):
-    clips = walks_of_16(real_data, 1)
+    clips = at_speeds(real_data, 1)
     assert sum(map(len, clips)) == 2521
     held("build and prune", least(lambda: made(clips)), 1)
 

@@ -199,21 +199,3 @@ def test_the_player_of_a_minute_shows_55_pictures_a_second_as_lines(minute, page
     print(f"(at worst {min(rates):.1f}, {max(first):.0f} ms)")
     assert max(rates) >= 55
     assert min(first) <= 300
-
-
-def test_a_thousand_drawings_leave_memory_flat():
-    import resource
-
-    def draw(frame=0):
-        figure = plt.figure(figsize=(3, 3))
-        figure.add_subplot().plot([0, 1], [0, frame])
-        return figure
-
-    experiment = explore(draw, alt="A line.", frame=(0, 9))
-    kilobytes = []
-    for frame in range(1000):
-        experiment.controls["frame"].value = frame % 10
-        kilobytes.append(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
-    grown = (kilobytes[-1] - kilobytes[200]) / 1024
-    print(f"\n800 drawings more: {grown:.1f} MB")
-    assert grown < 20

@@ -17,7 +17,7 @@ from mocap.datasets.samples import sample
 from mocap.editing.displacements import spline_basis
 from mocap.editing.path_editing import moving_frames, on_path, plants_kept, ride_of, start_at
 from mocap.errors import MocapWarning
-from mocap.feet.footplants import mark_plants, runs
+from mocap.feet.footplants import runs
 from mocap.feet.footskate import clean_up
 from mocap.files.load_save import load
 from tests.editing.wishes import smoothness
@@ -34,11 +34,6 @@ def clip(name):
 @cache
 def straight():
     return clip("walk_straight"), ride_of(clip("walk_straight"))
-
-
-def captured(real_data, name):
-    motion = load(real_data / "cmu" / name.split("_")[0] / f"{name}.amc")
-    return clean_up(mark_plants(motion[12:]))  # an arm of 16_15 leaps in its first frames
 
 
 def slide(motion):

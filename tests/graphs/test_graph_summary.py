@@ -21,7 +21,6 @@ CLIPS = [wave(90, name="a"), wave(70, phase=1.0, name="b", seed=1)]
 WINDOW = 8
 MARK = {"walk": np.arange(90) < 60, "stroll": np.arange(90) > 40}
 LABELLED = prune(build([replace(CLIPS[0], labels=MARK), CLIPS[1]], window=WINDOW, threshold=0.05))
-LEVELS = np.array([1e-5, *np.linspace(0.001, 0.1, 24)])
 
 
 @given(

@@ -41,15 +41,10 @@ def planned(scene, **settings):
     return found
 
 
-@pytest.mark.parametrize("seeds", [(5, 8), pytest.param(range(12), marks=pytest.mark.exhaustive)])
-def test_courses_are_found_and_every_one_is_clear(seeds):
+@pytest.mark.parametrize("seed", [5, 8])
+def test_courses_are_found_and_every_one_is_clear(seed):
     """As in [LCF05, search]."""
-    for seed in seeds:
-        planned(course(seed))
-
-
-PLACES = (16 + 0j, 16 + 2j, 16 - 2j, 20 + 3j, 14 - 1j)
-HARD = [(width, at, long) for width, long in ((4, 0), (3, 0), (2.5, 0), (2, 0), (2.5, 10)) for at in PLACES]
+    planned(course(seed))
 
 
 def best_of_steered(scene, limit):
@@ -61,21 +56,17 @@ def best_of_steered(scene, limit):
     )
 
 
-@pytest.mark.parametrize(
-    "some", [[(2, 16 + 0j, 0), (2.5, 16 + 0j, 10)], pytest.param(HARD, marks=pytest.mark.exhaustive)]
-)
-def test_twelve_pass_gaps_and_corridors_no_later_than_steered(some):
-    for width, at, length in some:
-        scene = gap(width, at, length)
-        found = planned(scene)
-        assert found.seconds <= best_of_steered(scene, found.seconds)
+@pytest.mark.parametrize(("width", "length"), [(2, 0), (2.5, 10)])
+def test_twelve_pass_gaps_and_corridors_no_later_than_steered(width, length):
+    scene = gap(width, 16 + 0j, length)
+    found = planned(scene)
+    assert found.seconds <= best_of_steered(scene, found.seconds)
 
 
-@pytest.mark.parametrize("seeds", [(0, 6, 8, 20), pytest.param(range(48), marks=pytest.mark.exhaustive)])
-def test_whoever_leads_by_the_quicker_way_is_never_later_than_steered(seeds):
+def test_whoever_leads_by_the_quicker_way_is_never_later_than_steered():
     """Plans alone are later in half of the scenes: clips turn by 1.2 rad in four seconds, a flock at once."""
     steered = []
-    for seed in seeds:
+    for seed in (0, 6, 8, 20):
         flock, plan = lead_group(graph(), around(seed))
         all_is_well(flock, around(seed))
         seconds = (len(flock.places) - 1) / RATE
@@ -103,9 +94,8 @@ def test_bounds_spare_most_tests():
     assert found.spared >= 0.7 * (found.spared + found.tested) > 1000
 
 
-@pytest.mark.parametrize("depth", [1.5, pytest.param(7.0, marks=pytest.mark.exhaustive)])
-def test_a_plan_leaves_the_pocket_that_steering_never_leaves(depth):
-    scene = pocket(depth)
+def test_a_plan_leaves_the_pocket_that_steering_never_leaves():
+    scene = pocket(1.5)
     planned(scene, weight=3.0)
     stuck, points = steer_group(graph().nodes[0], scene, limit=60.0)
     assert points == 0 and stuck.places[-1].real.mean() < 16
