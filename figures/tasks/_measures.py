@@ -1,9 +1,12 @@
 """What several tasks measure of an answer: nothing but its bones and places is read, no marks."""
 
+from itertools import combinations
+
 import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap.body import Motion, find_legs, joint_positions
+from mocap.files.gltf_capsules import THICK, reaches
 from mocap.quality import jumps, spread
 
 LOW = 0.025  # metres: a foot joint this much over its lowest place slides as little as it likes
@@ -35,3 +38,25 @@ def shaking(motion: Motion, base: Motion) -> float:
 def accelerations(motion: Motion) -> Array:
     """Give the joints' accelerations, shape (F - 2, J), m/s²."""
     return np.asarray(np.linalg.norm(np.diff(joint_positions(motion), 2, axis=0), axis=-1) * motion.fps**2)
+
+
+def through(motion: Motion, base: Motion) -> float:
+    """Measure how deep two bones are in one another at most, beyond how deep they are in another motion, mm.
+
+    Bones of 5 % of the longest limb or more count; each is a capsule as thick as the glTF writer draws it.
+    Pairs that touch at rest, as those at a joint do, are left out.
+    """
+    skeleton, lengths = motion.skeleton, np.linalg.norm(motion.skeleton.offsets, axis=-1)
+    behind, beads, worst = reaches(skeleton), np.linspace(0, 1, 9)[:, None], 0.0
+    thick = THICK * np.sqrt(behind[0] * (lengths + behind))
+    bones = 1 + np.flatnonzero(lengths[1:] > 0.05 * behind[0])
+    posed = np.concatenate([skeleton.rest[None], joint_positions(base), joint_positions(motion)])
+    for one, other in combinations(bones, 2):
+        start, other_start = (posed[:, [skeleton.parents[bone]]] for bone in (one, other))
+        bone = posed[:, [other]] - other_start
+        away = start + beads * (posed[:, [one]] - start) - other_start  # of points along the one
+        share = np.clip((away * bone).sum(-1) / lengths[other] ** 2, 0, 1)
+        deep = thick[one] + thick[other] - np.linalg.norm(away - share[..., None] * bone, axis=-1).min(1)
+        before, after = np.split(np.maximum(deep[1:], 0), 2)
+        worst = max(worst, (after - before).max()) if deep[0] < 0 else worst
+    return 1000 * float(worst)

@@ -2,15 +2,17 @@
 
 `misses` is the largest distance of a joint from its pin; `shakes` the 95th percentile of the accelerations
 over the clip's own, from half a second before the event to half a second after it; `tips` how far the way
-from the root to the base of the neck leans otherwise, at most. Pins are boxes: row f of `low` and `high` has
-x, y and z of each of the `joints`, metres; -inf and inf leave an axis free.
+from the root to the base of the neck leans otherwise, at most; `neck` how much further than in the clip the
+head bends against that way, at most; `through` how deep two bones, drawn as capsules, are in one another
+beyond how deep they are in the clip, at most. Pins are boxes: row f of `low` and `high` has x, y and z of
+each of the `joints`, metres; -inf and inf leave an axis free.
 """
 
 from collections.abc import Iterator
 
 import numpy as np
 
-from mocap._shared.arrays import runs
+from mocap._shared.arrays import Array, runs
 from mocap.body import Motion, heading, joint_positions, rotations
 from mocap.editing import (
     REACH,
@@ -26,13 +28,14 @@ from mocap.editing import (
     solve,
 )
 from tasks import Case
+from tasks._measures import through
 
 CLIPS = {
     "bundled clips": ("walk_curve_1", "walk_straight"),
     "homework's clips": ("hw3/walk_fwd_curve1",),
     "CMU": ("16/16_15", "16/16_58", "49/49_01"),
 }
-MEASURES = {"misses (mm)": True, "shakes (×)": True, "tips (°)": True}
+MEASURES = {"misses (mm)": True, "shakes (×)": True, "tips (°)": True, "neck (°)": True, "through (mm)": True}
 BASELINES = ("each frame by itself", "linear in-betweening")
 STONES, BARS = (0.1, 0.3, 0.5), (0.9, 0.75)  # metres; shares of the height of the head's top
 HEAD, FEET = ("head_end", "head", "upperneck", "lowerneck"), ("lfoot", "ltoes")
@@ -111,18 +114,25 @@ METHODS = {
 }
 
 
-def score(case: Case, answer: Motion) -> tuple[float, float, float]:
-    """Measure what is missed, and accelerations around the event over the clip's own."""
+def between(a: Array, b: Array) -> Array:
+    """Measure the angles between ways (F, 3), degrees."""
+    sizes = np.linalg.norm(a, axis=-1) * np.linalg.norm(b, axis=-1)
+    return np.asarray(np.degrees(np.arccos(np.clip((a * b).sum(axis=-1) / sizes, -1, 1))))
+
+
+def score(case: Case, answer: Motion) -> tuple[float, ...]:
+    """Measure what is missed, accelerations around the event over the clip's own, and what the trunk does."""
     walk, (first, last) = case.given["motion"], case.truth
     gap = np.linalg.norm(pins_of(case).gap(joint_positions(answer)), axis=-1).max()
     around = round(AROUND * walk.fps)
     columns = [n for n, name in enumerate(walk.skeleton.names) if not any(word in name for word in NOISE)]
-    shakes, leans = [], []
+    shakes, trunks, necks = [], [], []
     for motion in (answer, walk):
         points = joint_positions(motion)
         sizes = np.linalg.norm(np.diff(points[:, columns], 2, axis=0), axis=-1)
         shakes.append(np.percentile(sizes[max(first - around, 0) : last + around], 95))
-        up = points[:, walk.skeleton.index("lowerneck")] - points[:, 0]
-        leans.append(up / np.linalg.norm(up, axis=-1, keepdims=True))
-    tips = np.degrees(np.arccos(np.clip((leans[0] * leans[1]).sum(axis=-1), -1, 1))).max()
-    return 1000 * float(gap), float(shakes[0] / shakes[1]), float(tips)
+        head, base = (points[:, walk.skeleton.index(name)] for name in ("head", "lowerneck"))
+        trunks.append(base - points[:, 0])
+        necks.append(between(trunks[-1], head - base))
+    tips, neck = between(*trunks).max(), max(0.0, round((necks[0] - necks[1]).max(), 3))
+    return 1000 * float(gap), float(shakes[0] / shakes[1]), float(tips), float(neck), through(answer, walk)

@@ -30,9 +30,14 @@ CLOSED = 1e-4  # metres: of pins that are missed by more a warning tells, and pl
 POSE = Basis(weight=3000.0, damping=1e-3, passes=60)
 
 # How many times their prices root and trunk, and the neck, cost. With 1 a hand that moves by 37 cm tips the
-# trunk by 25°, with these by 16°; under a bar the neck's joints turn by up to 28°, or 16°. A captured knee
-# jumps where the leg is straight; bent on a stone, a root as cheap as 1 jumps with it, by × 1.3.
-EDITED = (4.0, 8.0)
+# trunk by 26° in the median of eight walks, with 4 by 21, with these by 10. Under 16 bars the neck bends by
+# 31° more than in the clip; where it costs no more than the trunk, by 40°. A captured knee jumps where the
+# leg is straight; bent on a stone, a root as cheap as 1 jumps with it, by × 1.3.
+EDITED = (16.0, 32.0)
+LEVELLED = (
+    4.0,
+    8.0,
+)  # few passes get no further with more; with 1 the neck bends by 46° under bars, so by 34
 
 # The same for a pose. With 1 the trunk leans by 30° so that a hand moves by 30 cm, and the arm hardly turns;
 # people move the arm first.
@@ -46,8 +51,8 @@ def edit(motion: Motion, pins: Pins, *, body: Body | None = None) -> Motion:
     ----------
     motion : F frames; its `contacts` say when feet stand.
     pins : what is asked. Plants stand where they stood, unless the pins hold them elsewhere.
-    body : which joints turn, at what price; by default those above pinned ones, with root and trunk at 4 and
-        the neck at 8 times the prices of `body_of`, so that a hand that reaches hardly tips the trunk.
+    body : which joints turn, at what price; by default those above pinned ones, with root and trunk at 16 and
+        the neck at 32 times the prices of `body_of`, so that a hand that reaches hardly tips the trunk.
 
     Returns
     -------
@@ -269,13 +274,13 @@ def hierarchy(
     if not len(knots) or not all(0 < b < a for a, b in zip((np.inf, *knots), knots, strict=False)):
         raise MocapError(f"From level to level the knots come nearer, above 0 s; got {tuple(knots)[:8]}.")
     motion, levels, errors = base, [], pin_errors(base, pins)
-    body: Body | None = None
+    body = priced(base, pins, *LEVELLED)
     for seconds in knots:
         if errors.max(initial=0.0) <= TOLERANCE:
             break
         asked = np.asarray(pins.held.any(axis=-1) | (errors > 0))  # (F, P)
         frames = np.asarray(asked.any(axis=1))
-        _, _, change, body = solve(motion, pins.only(frames), [ASK], body, quiet=True)
+        _, _, change, _ = solve(motion, pins.only(frames), [ASK], body, quiet=True)
         # The root's place listens to all frames, a joint's turns to those in which a joint below is pinned.
         below = [np.isin(body.joints, base.skeleton.path_to_root(joint)[1:]) for joint in pins.joints]
         who = np.hstack([np.repeat(frames[:, None], 3, axis=1), asked @ np.array(below)])  # (F, n)

@@ -224,7 +224,7 @@ def too_slow(graph: CompiledGraph, nearest: str = "") -> NoWalk:
     clips = [on_ground(clip.root_positions) for clip in graph.source.clips]
     quick = [clip for clip in clips if np.percentile(np.abs(np.diff(clip)), 90) * graph.fps > QUICK]
     some = f"{len(quick)} of {len(clips)} clips go faster than {QUICK:g} m/s"
-    helps = f"{some}, but few transitions join their steps: use {'`bend`, ' if nearest else ''}"
+    helps = f"{some}, but few transitions join their steps: try {'`bend`, ' if nearest else ''}"
     helps += "a larger threshold, or more walks"
     return NoWalk(f"{fault}; {helps if quick else 'these clips only stand: add some that walk'}.")
 

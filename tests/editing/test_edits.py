@@ -13,10 +13,12 @@ from mocap.editing.pins import join_pins, pin, pin_errors, plant_pins
 from mocap.errors import MocapWarning
 from tests.editing.wishes import (
     bar,
+    between,
     bones,
     captured,
     far_hand,
     hand,
+    neck,
     plants_kept,
     rms,
     shakes,
@@ -66,6 +68,8 @@ def test_a_bar_to_duck_under(real_data):
         assert errors[:, :4].max() < 1e-9 and errors.max() < 0.0025
         assert plants_kept(edited, clip) == 1
         assert smoothness(edited, clip) < (1.05 if clip.name == "16_15" else 1.2)
+        assert shakes(edited, clip, pins) <= 1.15
+        assert (between(*neck(edited)) - between(*neck(clip))).max() < 45
         head = joint_positions(edited)[:, clip.skeleton.index("head")]
         low = pins.high[:, pins.joints.index(clip.skeleton.index("head")), 1]
         assert (head[:, 1] - low).max() < 0.0025
@@ -75,7 +79,9 @@ def test_a_hand_held_while_the_body_walks_on(real_data):
     for clip, around in ((captured(real_data), 240), (walk(), 250)):
         still = hand(clip, slice(around - 24, around + 24), around)
         pins = join_pins(plant_pins(clip), still)
-        check(edit(clip, still), clip, pins, 1.25)
+        check(edited := edit(clip, still), clip, pins, 1.25)
+        assert shakes(edited, clip, pins) <= 1.15
+        assert between(neck(edited)[0], neck(clip)[0]).max() < 15
 
 
 def test_a_hand_on_a_rail_slides_along_it(real_data):

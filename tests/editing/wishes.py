@@ -100,6 +100,18 @@ def shakes(motion: Motion, base: Motion, pins: Pins) -> float:
     return accelerations(motion[near], 95) / accelerations(base[near], 95)
 
 
+def neck(motion: Motion) -> tuple[np.ndarray, np.ndarray]:
+    """Return which way trunk and head point, (F, 3) each."""
+    points, index = joint_positions(motion), motion.skeleton.index
+    base = points[:, index("lowerneck")]
+    return base - points[:, 0], points[:, index("head")] - base
+
+
+def between(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Return the angles between ways (F, 3), degrees."""
+    return np.degrees(rotations.angle_between(rotations.between(a, b), rotations.IDENTITY))
+
+
 def plants_kept(motion: Motion, base: Motion) -> float:
     """Return the share of planted frames that are still planted."""
     kept = sum((motion.contacts[n] & base.contacts[n]).sum() for n in FEET)

@@ -166,7 +166,7 @@ def test_clips_that_stand_cannot_follow_a_line():
 def test_jumps_that_do_not_turn_as_a_circle_does_are_told_of_bend(real_data):
     clips = [resample(load(real_data / "cmu" / "16" / f"16_{n:02}.amc"), 30) for n in (1, 5)]
     jumps = compile_graph(prune(build(clips, window=10, threshold=0.06)))
-    require_refused(jumps, circle(2.0), "1 of 2 clips go .* join .* use `bend`, a larger threshold", bend=0.0)
+    require_refused(jumps, circle(2.0), "1 of 2 clips go .* join .* try `bend`, a larger threshold", bend=0.0)
     bent = bent_walk(jumps, circle(2.0))
     assert bent.progress > 0.97 and bent.off.mean() < 0.05
 
