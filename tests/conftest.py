@@ -14,7 +14,7 @@ matplotlib.use("agg")
 SWEEP = bool(os.environ.get("MOCAP_SWEEP"))  # .ci/run tries more of everything
 
 # A busy machine is no failure. `few` is for other versions of libraries: that a call has gone shows at once.
-for profile, count in {"house": 100 if SWEEP else 20, "few": 5}.items():
+for profile, count in {"house": 50 if SWEEP else 20, "few": 5}.items():
     settings.register_profile(
         profile, max_examples=count, deadline=None, suppress_health_check=[HealthCheck.too_slow]
     )
@@ -38,12 +38,12 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
-    """Measure no coverage of what draws examples or takes long, nor of its fixtures, but in the course.
+    """Measure no coverage of what draws examples or takes long, nor of its fixtures.
 
-    It would be half as slow again, and reaches next to no lines that quick tests do not.
+    It would be half as slow again, and reaches few lines that quick tests do not; but in the course it does.
     """
     drawn = getattr(getattr(item, "obj", None), "is_hypothesis_test", False)
-    long = item.get_closest_marker("sweep") and "/course/" not in item.nodeid
+    long = item.get_closest_marker("sweep") and ("/course/" not in item.nodeid or "/teaching/" in item.nodeid)
     measured = Coverage.current() if drawn or long else None
     if measured:
         measured.stop()

@@ -24,11 +24,9 @@ def distinct_joints(skeleton: Skeleton) -> list[int]:
 
     Notebook: 02b-distance-grids
     """
-    places = np.round(skeleton.offsets * 1e9).astype(int).tolist()  # in whole nanometres
-    first: dict[tuple[int, ...], int] = {}
-    for joint, parent in enumerate(skeleton.parents.tolist()):
-        first.setdefault((parent, *places[joint]), joint)
-    return [joint for joint in first.values() if joint == 0 or any(places[joint])]
+    places = np.column_stack([skeleton.parents, np.round(skeleton.offsets * 1e9)])  # in whole nanometres
+    first = {tuple(place): joint for joint, place in reversed([*enumerate(places.tolist())])}
+    return sorted(joint for place, joint in first.items() if joint == 0 or any(place[1:]))
 
 
 def point_cloud(motion: Motion) -> Array:

@@ -98,13 +98,45 @@ def watched_page(browser, **screen):
     context.close()
 
 
+PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
+on_a_phone = pytest.mark.parametrize("page", [PHONE], indirect=True, ids=["phone"])
+without_scripts = pytest.mark.parametrize(
+    "page", [{"java_script_enabled": False}], indirect=True, ids=["still"]
+)
+PICTURES = """() => {
+  const root = document.querySelector(".mocap-player, .mocap-inspector");
+  return (root?.player ?? root?.inspector)?.pictures > 0;
+}"""
+
+
 @pytest.fixture
 def page(browser, request):
-    """Yield a fresh page; afterwards it must have no faults."""
-    with watched_page(browser) as (page, faults):
+    """Yield a fresh page, which a test may ask to be of another kind; afterwards it must have no faults."""
+    with watched_page(browser, **getattr(request, "param", {})) as (page, faults):
         yield page
         keep(page, request.node.name)
     assert faults == []
+
+
+@pytest.fixture
+def shown(page, tmp_path):
+    """Return a function that shows the page of a player or an inspector, and waits for its first picture."""
+
+    def show(it, **media):
+        page.emulate_media(**media)
+        file = tmp_path / "page.html"
+        file.write_text(it.page(), "utf-8")
+        page.goto(file.as_uri())
+        wait_until(lambda: page.evaluate(PICTURES))
+        return page
+
+    return show
+
+
+@pytest.fixture
+def resting(shown):
+    """Return a function that shows such a page, where nothing moves by itself."""
+    return partial(shown, reduced_motion="reduce")
 
 
 @pytest.fixture(scope="package")

@@ -19,28 +19,13 @@ from mocap.matching.point_clouds import align, point_cloud
 from mocap.quality.seam_measures import jumps
 from mocap.steering.path_following import follow_path
 from mocap.synthesis.walk_to_motion import to_motion
-from tests.browser.conftest import wait_until
+from tests.browser.conftest import on_a_phone, wait_until
 from tests.browser.test_page import touch_of
 from tests.bundled import bundled
 
 IT = "document.querySelector('.mocap-inspector').inspector"
 WALKS = [resample(sample(f"walk_curve_{n}"), 30)[:200] for n in (1, 2)]
 STANDARD = 60  # milliseconds from point to picture
-
-
-@pytest.fixture
-def shown(page, tmp_path):
-    """Return a function that shows an inspector's page, at rest."""
-
-    def show(it, **media):
-        page.emulate_media(reduced_motion="reduce", **media)
-        file = tmp_path / "inspector.html"
-        file.write_text(it.page(), "utf-8")
-        page.goto(file.as_uri())
-        wait_until(lambda: page.evaluate(f"{IT}?.pictures > 0"))
-        return page
-
-    return show
 
 
 def choose(page, i, j):
@@ -52,8 +37,8 @@ def pixels(page, canvas):
     return np.asarray(shot).astype(int)
 
 
-def test_turn_and_distance_are_those_of_the_package(shown):
-    page = shown(inspector(*WALKS))
+def test_turn_and_distance_are_those_of_the_package(resting):
+    page = resting(inspector(*WALKS))
     grid = np.sqrt(distance_grid(*WALKS, window=10))
     for i, j in np.random.default_rng(1).integers(0, 190, (12, 2)).tolist():
         choose(page, i, j)
@@ -68,8 +53,8 @@ def test_turn_and_distance_are_those_of_the_package(shown):
 
 
 @pytest.mark.parametrize("kind", ["cubic", "linear"])
-def test_the_seam_and_its_jolts_are_those_of_the_package(shown, kind):
-    page = shown(inspector(*WALKS, at=(56, 20)))
+def test_the_seam_and_its_jolts_are_those_of_the_package(resting, kind):
+    page = resting(inspector(*WALKS, at=(56, 20)))
     page.locator("[data-tab=seam]").click()
     page.locator(".kinds").select_option(kind)
     found = np.array(page.evaluate(f"{IT}.seam.map((frame) => frame.places)"))
@@ -83,9 +68,9 @@ def test_the_seam_and_its_jolts_are_those_of_the_package(shown, kind):
     assert np.abs(np.array(jolts[1:-1], float) - jumps(part)[0][1:-1]).max() < 5e-3
 
 
-def test_around_a_transition_the_page_measures_the_grid_itself(shown):
+def test_around_a_transition_the_page_measures_the_grid_itself(resting):
     graph = bundled("walk_circle", "walk_curve_1")
-    page = shown(inspector(graph))
+    page = resting(inspector(graph))
     wait_until(lambda: page.evaluate(f"Boolean({IT}.maps.grid.grid)"))
     first, i, second, j = page.evaluate(
         f"(() => {{ const p = {IT}.pick; return [p.first, p.i, p.second, p.j]; }})()"
@@ -99,8 +84,8 @@ def test_around_a_transition_the_page_measures_the_grid_itself(shown):
 
 
 @pytest.mark.benchmark
-def test_from_point_to_picture_takes_less_than_sixty_milliseconds(shown):
-    page = shown(inspector(*WALKS))
+def test_from_point_to_picture_takes_less_than_sixty_milliseconds(resting):
+    page = resting(inspector(*WALKS))
     for tab in ("windows", "turn", "weights", "seam"):
         page.locator(f"[data-tab={tab}]").click()
         took = []
@@ -111,8 +96,8 @@ def test_from_point_to_picture_takes_less_than_sixty_milliseconds(shown):
         assert np.median(took) < STANDARD, (tab, took)
 
 
-def test_a_click_and_the_keys_choose_windows_and_minima(shown):
-    page = shown(inspector(*WALKS, at=(56, 20)))
+def test_a_click_and_the_keys_choose_windows_and_minima(resting):
+    page = resting(inspector(*WALKS, at=(56, 20)))
     grid = page.locator(".grid")
     grid.focus()
     for key, place in (("ArrowDown", [57, 20]), ("ArrowRight", [57, 21]), ("Shift+ArrowUp", [47, 21])):
@@ -129,8 +114,8 @@ def test_a_click_and_the_keys_choose_windows_and_minima(shown):
     wait_until(lambda: "Frames 120 to 129" in page.locator(".status").inner_text())
 
 
-def test_the_turn_is_dragged_and_comes_back(shown):
-    page = shown(inspector(*WALKS, at=(56, 20)))
+def test_the_turn_is_dragged_and_comes_back(resting):
+    page = resting(inspector(*WALKS, at=(56, 20)))
     page.locator("[data-tab=turn]").click()
     before = pixels(page, ".bodies")
     page.locator(".scrub").focus()
@@ -145,8 +130,8 @@ def test_the_turn_is_dragged_and_comes_back(shown):
     wait_until(lambda: page.locator(".now").inner_text().startswith("θ = 81°: 1.9 cm"))
 
 
-def test_the_seam_plays_on_one_clock(shown):
-    page = shown(inspector(*WALKS, at=(56, 20)))
+def test_the_seam_plays_on_one_clock(resting):
+    page = resting(inspector(*WALKS, at=(56, 20)))
     page.locator("[data-tab=seam]").click()
     still = [pixels(page, canvas) for canvas in (".bodies", ".chart", ".grid")]
     page.get_by_role("button", name="play").click()
@@ -160,10 +145,10 @@ def test_the_seam_plays_on_one_clock(shown):
     assert page.evaluate(f"{IT}.frame()") == frame + 1
 
 
-def test_seams_are_chosen_on_a_walk_and_lit_where_they_stand(shown):
+def test_seams_are_chosen_on_a_walk_and_lit_where_they_stand(resting):
     graph = bundled("walk_circle", "walk_curve_1")
     followed = follow_path(compile_graph(graph), GroundPath([[0, 0], [0, 3], [2, 5], [6, 5]]))
-    page = shown(inspector(followed))
+    page = resting(inspector(followed))
     page.locator(".walk").focus()
     first = page.evaluate(f"{IT}.pick.seam")
     page.keyboard.press("ArrowLeft" if first else "ArrowRight")
@@ -184,8 +169,8 @@ def test_seams_are_chosen_on_a_walk_and_lit_where_they_stand(shown):
     assert page.evaluate(f"{IT}.pick.seam") == 0
 
 
-def test_one_tab_is_no_choice_and_a_flat_grid_leaves_no_gap(shown):
-    page = shown(inspector(WALKS[0][:40], WALKS[1], show=["windows"]))
+def test_one_tab_is_no_choice_and_a_flat_grid_leaves_no_gap(resting):
+    page = resting(inspector(WALKS[0][:40], WALKS[1], show=["windows"]))
     page.set_viewport_size({"width": 390, "height": 844})
     assert page.locator(".tabs").is_hidden()
     wait_until(lambda: page.locator(".grid").bounding_box()["height"] < 120)
@@ -195,8 +180,8 @@ def test_one_tab_is_no_choice_and_a_flat_grid_leaves_no_gap(shown):
 
 
 @pytest.mark.parametrize("part", [".chart", ".grid"])
-def test_a_finger_across_chooses_and_a_finger_up_scrolls(shown, part):
-    page = shown(inspector(*WALKS, at=(56, 20)))
+def test_a_finger_across_chooses_and_a_finger_up_scrolls(resting, part):
+    page = resting(inspector(*WALKS, at=(56, 20)))
     page.set_viewport_size({"width": 390, "height": 844})
     page.evaluate("document.body.style.height = '3000px'")
     page.locator("[data-tab=turn]").click()
@@ -217,19 +202,12 @@ def test_a_finger_across_chooses_and_a_finger_up_scrolls(shown, part):
     assert page.evaluate(chosen) == before
 
 
-def test_it_fits_a_phone_is_dark_and_obeys_a_finger(browser, tmp_path):
-    context = browser.new_context(
-        viewport={"width": 390, "height": 844}, has_touch=True, color_scheme="dark", reduced_motion="reduce"
-    )
-    page = context.new_page()
-    file = tmp_path / "inspector.html"
-    file.write_text(inspector(*WALKS, at=(56, 20)).page(), "utf-8")
-    page.goto(file.as_uri())
-    wait_until(lambda: page.evaluate(f"{IT}?.pictures > 0"))
+@on_a_phone
+def test_it_fits_a_phone_is_dark_and_obeys_a_finger(resting):
+    page = resting(inspector(*WALKS, at=(56, 20)), color_scheme="dark")
     assert page.evaluate("document.documentElement.scrollWidth") <= 390
     page.locator(".grid").tap(position={"x": 150, "y": 150})
     assert page.evaluate(f"[{IT}.pick.i, {IT}.pick.j]") != [56, 20]
     page.locator("[data-tab=turn]").tap()
     assert page.locator("[data-tab=turn]").get_attribute("aria-pressed") == "true"
     assert page.locator(".mocap-inspector").evaluate("(root) => root.classList.contains('dark')")
-    context.close()

@@ -15,7 +15,7 @@ from mocap.widgets.embedding import PICTURE, SCENE, SHADED, joined
 from mocap.widgets.packing import drawn, packed_character
 from mocap.widgets.player import play
 from mocap.widgets.walk_figure import figure
-from tests.browser.conftest import wait_until
+from tests.browser.conftest import on_a_phone, wait_until, without_scripts
 from tests.strategies import wave
 
 PLAYER = "document.querySelector('.mocap-player').player"
@@ -42,21 +42,6 @@ def twelve(count=12):
     places = [np.array([1.2 * (k % 4), 0, 1.2 * (k // 4)]) for k in range(count)]
     walks = [replace(walk, root_positions=walk.root_positions + place) for place in places]
     return play(*(replace(one, name=f"member {k}") for k, one in enumerate(walks)), follow=False)
-
-
-@pytest.fixture
-def shown(page, tmp_path):
-    """Return a function that shows a player's page, and waits for its first picture."""
-
-    def show(player, **media):
-        page.emulate_media(**media)
-        file = tmp_path / "player.html"
-        file.write_text(player.page(), "utf-8")
-        page.goto(file.as_uri())
-        wait_until(lambda: page.evaluate(f"{PLAYER}?.pictures > 0"))
-        return page
-
-    return show
 
 
 def colours(page):
@@ -87,16 +72,6 @@ def test_where_less_motion_is_wanted_it_does_not_play_by_itself(shown):
     assert frame(page) == 0
     page.get_by_role("button", name="play").click()
     wait_until(lambda: frame(page) > 3)
-
-
-@pytest.fixture
-def resting(shown):
-    """Return a function that shows a player's page, where it rests at frame 0."""
-
-    def show(player):
-        return shown(player, reduced_motion="reduce")
-
-    return show
 
 
 def test_scrubbing_goes_to_a_frame(resting):
@@ -274,28 +249,20 @@ def test_a_corner_near_the_reader_is_off_the_edge(resting):
     assert 0.03 < min(heights) <= max(heights) < 0.97
 
 
-def test_fingers_have_room(browser, tmp_path):
-    file = tmp_path / "player.html"
-    file.write_text(play(wave(60)).page(), "utf-8")
-    context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
-    page = context.new_page()
-    page.goto(file.as_uri())
-    wait_until(lambda: page.evaluate(f"{PLAYER}?.pictures > 0"))
-    for part in page.locator(".mocap-player :is(button, select, label, .scrub input)").all():
+@on_a_phone
+def test_fingers_have_room(shown):
+    for part in shown(play(wave(60))).locator(".mocap-player :is(button, select, label, .scrub input)").all():
         if part.is_visible():
             box = part.bounding_box()
             assert min(box["width"], box["height"]) >= 44, part.evaluate("part => part.outerHTML")
-    context.close()
 
 
-def test_what_comes_into_sight_as_it_leaves_is_drawn(page, tmp_path):
+def test_what_comes_into_sight_as_it_leaves_is_drawn(page, shown):
     page.add_init_script("""
         const Real = IntersectionObserver; window.seen = [];
         window.IntersectionObserver = class extends Real { constructor(see) { super(see); seen.push(see); } };
     """)
-    (tmp_path / "player.html").write_text(play(wave(60)).page(), "utf-8")
-    page.goto((tmp_path / "player.html").as_uri())
-    wait_until(lambda: page.evaluate(f"{PLAYER}?.pictures > 0"))
+    shown(play(wave(60)))
     page.evaluate("seen[0]([{ isIntersecting: false }, { isIntersecting: true }])")
     assert page.evaluate(f"{PLAYER}.visible")
 
@@ -392,14 +359,11 @@ def test_every_part_that_takes_keys_keeps_them_from_jupyterlab(resting):
     assert {p.get_attribute("data-lm-suppress-shortcuts") for p in parts.all()} == {"true"}
 
 
-def test_without_scripts_the_picture_stands_there(browser, tmp_path):
-    file = tmp_path / "player.html"
-    file.write_text(play(wave(60)).page(), "utf-8")
-    context = browser.new_context(java_script_enabled=False)
-    page = context.new_page()
-    page.goto(file.as_uri())
+@without_scripts
+def test_without_scripts_the_picture_stands_there(page, tmp_path):
+    (tmp_path / "player.html").write_text(play(wave(60)).page(), "utf-8")
+    page.goto((tmp_path / "player.html").as_uri())
     assert page.get_by_role("img", name="A figure plays wave").is_visible()
-    context.close()
 
 
 def test_bones_of_twelve_share_their_strokes(resting):

@@ -7,7 +7,7 @@ import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
-from tests.browser.conftest import keep, wait_until, watched_page
+from tests.browser.conftest import keep, wait_until, watched_page, without_scripts
 from tests.course.test_site import build_small
 
 START = """
@@ -131,13 +131,11 @@ def test_quizzes_mark_themselves(opened):
     assert right.get_attribute("aria-pressed") == "true"
 
 
-def test_without_a_script_only_what_is_asked_is_seen(browser, tmp_path):
-    context = browser.new_context(java_script_enabled=False)
-    page = context.new_page()
+@without_scripts
+def test_without_a_script_only_what_is_asked_is_seen(page, tmp_path):
     on_the_site(tmp_path, page)
     text = " ".join(page.locator(".mocap-question, details").all_inner_texts())
     assert "as many / twice" in text
     assert "the right one" in text
     for hidden in ("As it says", "Look at its name", "Most of them do."):
         assert hidden not in text
-    context.close()

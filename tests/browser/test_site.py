@@ -6,7 +6,7 @@ import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
-from tests.browser.conftest import wait_until, watched_page
+from tests.browser.conftest import on_a_phone, wait_until
 from tests.course.test_site import EXPERIMENT, build_small, course_site
 
 
@@ -95,7 +95,6 @@ def test_a_recorded_experiment_moves(page, tmp_path):
     wait_until(lambda: page.locator(".moving output").inner_text() == "3")
 
 
-PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
 CUT_OR_SMALL = """() => {
   const box = part => part.getBoundingClientRect();
   const slides = part => part && part.tagName !== "ARTICLE" &&
@@ -110,10 +109,9 @@ CUT_OR_SMALL = """() => {
 }"""
 
 
-def test_every_page_fits_a_phone(browser, site):
-    with watched_page(browser, **PHONE) as (page, faults):
-        for file in sorted(site.glob("[0-9]*.html")):
-            page.goto(file.as_uri())
-            assert page.evaluate("document.documentElement.scrollWidth") <= 390, file.name
-            assert page.evaluate(CUT_OR_SMALL) == [], file.name
-    assert faults == []
+@on_a_phone
+def test_every_page_fits_a_phone(page, site):
+    for file in sorted(site.glob("[0-9]*.html")):
+        page.goto(file.as_uri())
+        assert page.evaluate("document.documentElement.scrollWidth") <= 390, file.name
+        assert page.evaluate(CUT_OR_SMALL) == [], file.name

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.browser.conftest import wait_until
+from tests.browser.conftest import on_a_phone, wait_until
 from tests.browser.test_page import touch_of
 from tests.widgets.steerable import Dot
 
@@ -126,13 +126,9 @@ def test_the_mouse_commands_on_the_pad_and_on_the_ground(steering):
     assert math.cos(command(steering)[0] + math.pi / 2) > 0.99
 
 
-def test_the_slider_of_a_finger_is_large(browser, steering):
-    phone = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
-    page = phone.new_page()
-    page.goto(steering.url)
-    wait_until(lambda: page.evaluate(f"{IT}?.pictures > 0"))
-    assert page.locator(".speed").bounding_box()["height"] >= 44
-    phone.close()
+@on_a_phone
+def test_the_slider_of_a_finger_is_large(steering):
+    assert steering.locator(".speed").bounding_box()["height"] >= 44
 
 
 def test_a_finger_on_the_pad_commands_and_does_not_scroll(steering):
