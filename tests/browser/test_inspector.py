@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from mocap.blending.joining import join
-from mocap.blending.weights import linear_weights
+from mocap.blending.joining import blend, lay_window_on, splice
+from mocap.blending.weights import cubic_weights, linear_weights
 from mocap.body.ground_path import GroundPath
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import resample
@@ -52,14 +52,14 @@ def test_turn_and_distance_are_those_of_the_package(resting):
         assert f"RMS distance {100 * grid[i, j]:.1f} cm" in page.locator(".status").inner_text()
 
 
-@pytest.mark.parametrize("kind", ["cubic", "linear"])
-def test_the_seam_and_its_jolts_are_those_of_the_package(resting, kind):
+@pytest.mark.parametrize("weights", [cubic_weights, linear_weights])
+def test_the_seam_and_its_jolts_are_those_of_the_package(resting, weights):
     page = resting(inspector(*WALKS, at=(56, 20)))
     page.locator("[data-tab=seam]").click()
-    page.locator(".kinds").select_option(kind)
+    page.locator(".kinds").select_option(weights.__name__.removesuffix("_weights"))
     found = np.array(page.evaluate(f"{IT}.seam.map((frame) => frame.places)"))
-    weights = {"weights": linear_weights} if kind == "linear" else {}
-    joined = join(WALKS[0], 56, WALKS[1], 20, 10, **weights)
+    laid = lay_window_on(WALKS[0], 56, WALKS[1], 20, 10)
+    joined = splice(WALKS[0], 56, blend(WALKS[0][56:66], laid[20:30], weights(10)), laid, 30)
     before, after = page.evaluate(f"[{IT}.before, {IT}.after]")
     part = joined[56 - before : 66 + after]
     assert np.abs(found - joint_positions(part)).max() < 5e-4
