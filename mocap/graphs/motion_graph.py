@@ -19,7 +19,6 @@ from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError
 from mocap.graphs.components import Labels
 from mocap.matching.pair_search import fit
-from mocap.matching.point_clouds import distinct_joints, unit_weights
 from mocap.matching.transitions import Thresholds, Transition, find_transitions, join_clouds
 
 Node = tuple[int, int]
@@ -290,8 +289,7 @@ def _measured(
     clips: Sequence[Motion], window: int, ends: Sequence[Ends]
 ) -> Iterator[tuple[Ends, Transition]]:
     """Align the windows of transitions from node to node, and measure the RMS distance that remains."""
-    weights = unit_weights(None, len(distinct_joints(clips[0].skeleton)))
-    cloud, starts = join_clouds(clips, weights, window, 0, np.float64), np.cumsum([0, *map(len, clips)])
+    cloud, starts = join_clouds(clips, None, window, 0, np.float64), np.cumsum([0, *map(len, clips)])
     clip, frame = np.moveaxis(np.array(ends, np.intp).reshape(-1, 2, 2), -1, 0)  # (N, 2) each
     leave, enter = (starts[clip] + frame - [0, window]).T
     for (a, b), (cost, *way) in zip(ends, fit(cloud, cloud, leave, enter).T.tolist(), strict=True):

@@ -169,8 +169,7 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
     _check_thresholds(each, clips)
     gap = int(window == 1)  # longer windows that run off a clip keep the clips apart by themselves
     double = sum(map(len, clips)) <= FEW
-    weights = unit_weights(joint_weights, len(distinct_joints(clips[0].skeleton)))
-    ready = join_clouds(clips, weights, window, gap, np.float64 if double else np.float32)
+    ready = join_clouds(clips, joint_weights, window, gap, np.float64 if double else np.float32)
     found = find_minima(ready, max(each.values()), progress=progress, executor=executor)
     transitions = _both_ways(found, clips, gap)
     return transitions[transitions.cost < _limits(each, clips, window, transitions)]
@@ -188,19 +187,20 @@ def _check_thresholds(below: Mapping[Any, float], clips: Sequence[Motion]) -> No
 
 
 def join_clouds(
-    clips: Sequence[Motion], weights: Array, window: int, gap: int, dtype: type[np.floating[Any]]
+    clips: Sequence[Motion], weights: ArrayLike | None, window: int, gap: int, dtype: type[np.floating[Any]]
 ) -> Cloud:
     """Put all clips one after the other; windows that would run from one into the next have infinite size.
 
     After each clip `gap` more frames are infinite, so that no window is a neighbour of one of another clip.
     """
+    share = unit_weights(weights, len(distinct_joints(clips[0].skeleton)))
     clouds, level = [], None
     for clip in clips:
         points = point_cloud(clip)
         require_near(points, f"'{clip.name}'")
         level = points[..., 1].mean(0) if level is None else level
         points = np.pad(points, ((0, gap), (0, 0), (0, 0)), mode="edge")
-        clouds.append(cloud(points, level, weights, window, dtype))
+        clouds.append(cloud(points, level, share, window, dtype))
         clouds[-1].sizes[len(clip) - window + 1 :] = np.inf
     return Cloud(*(np.concatenate(arrays) for arrays in zip(*clouds, strict=True)))
 

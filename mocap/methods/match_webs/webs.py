@@ -13,7 +13,6 @@ from mocap._shared.arrays import Array, Indices, Mask, frozen
 from mocap._shared.progress import Progress
 from mocap.body.motion import Motion, require_alike, resample
 from mocap.errors import MocapError, warn
-from mocap.matching.point_clouds import distinct_joints, unit_weights
 from mocap.matching.transitions import join_clouds
 from mocap.methods.match_webs.local_alignment import LEAST, find_paths
 
@@ -109,8 +108,8 @@ def build_web(clips: Sequence[Motion], *, below: float = 0.12, progress: Progres
     clips = require_alike(clips)
     low = [resample(clip, MatchWeb.rate) for clip in clips]
     long = _long_enough(low, WINDOW + LEAST)
-    weights, some = unit_weights(None, len(distinct_joints(clips[0].skeleton))), zip(low, long, strict=True)
-    ready = join_clouds([clip for clip, use in some if use], weights, WINDOW, 0, np.float32)
+    used = [clip for clip, use in zip(low, long, strict=True) if use]
+    ready = join_clouds(used, None, WINDOW, 0, np.float32)
     starts = np.cumsum([0, *(len(clip) * use for clip, use in zip(low, long, strict=True))])
     paths = find_paths(ready, np.unique(starts), below, progress)
     cells = np.concatenate([np.empty((0, 3)), *paths])
