@@ -14,7 +14,7 @@ from scipy.ndimage import binary_closing, binary_propagation
 
 from mocap._shared.arrays import Array, Mask, runs
 from mocap.body import rotations
-from mocap.feet.leg_track import BACK, BENT, ROUNDING, LegTrack
+from mocap.feet.leg_track import BACK, BENT, ROUNDING, LegTrack, dot
 
 # Seconds in which a correction dies away where no other plant is near. With 0.02 the ankles of captured
 # runs accelerate by 12 % more (99.9 % of the frames). With 0.1 as many frames are held.
@@ -27,7 +27,6 @@ FALL = 0.0167
 
 # At most: pulls of a plant to where its leg reaches. With 8 as many frames are held.
 PULLS = 4
-
 
 # Seconds. An ankle that leaves the ground for less, while its ball stands, comes back to its place: no knee
 # could lead it to another one in that time. Without it eight slow clips lose plants.
@@ -70,19 +69,19 @@ class FootTarget(NamedTuple):
         return np.asarray(self.marks[1] & ~self.marks[0])
 
     def rolled(self, hip: Array, distance: Array) -> Array:
-        """Turn the foot about its ball until its ankle is a distance (F,) from a hip (F, 3), metres.
+        """Turn the foot about its ball until its ankle is a distance (..., F) from a hip (..., F, 3), metres.
 
-        Returns the way from hip to ankle, (F, 3): a side of the triangle whose third corner is the ball, at a
-        distance that makes it one. The ankle stays on its side of the line from hip to ball.
+        Returns the way from hip to ankle, (..., F, 3): a side of the triangle whose third corner is the ball,
+        at a distance that makes it one. The ankle stays on its side of the line from hip to ball.
         """
         way, foot = self.places[1] - hip, np.linalg.norm(self.places[1] - self.ankle, axis=-1)
-        far = np.linalg.norm(way, axis=-1)
+        far = np.sqrt(dot(way, way))
         distance = np.clip(distance, np.abs(far - foot) + FLAT, far + foot - FLAT)
         along = (far**2 + distance**2 - foot**2) / (2 * far)
-        ahead, across = way / far[:, None], self.ankle - hip
-        across = across - (across * ahead).sum(-1, keepdims=True) * ahead
-        across *= (np.sqrt(distance**2 - along**2) / np.linalg.norm(across, axis=-1))[:, None]
-        return np.asarray(along[:, None] * ahead + across)
+        ahead, across = way / far[..., None], self.ankle - hip
+        across = across - dot(across, ahead)[..., None] * ahead
+        across *= np.sqrt((distance**2 - along**2) / dot(across, across))[..., None]
+        return np.asarray(along[..., None] * ahead + across)
 
     def led(self) -> "FootTarget":
         """Lead ankle and foot from plant to plant, in each of which they are where they must be [step 5]."""
@@ -92,7 +91,9 @@ class FootTarget(NamedTuple):
         return self._replace(ankle=ankle, turn=smooth_fill(turn, self.marks[1], fps))
 
 
-def foot_target(track: LegTrack, marks: Mask, held: Mapping[int, Array]) -> FootTarget:
+def foot_target(
+    track: LegTrack, marks: Mask, held: Mapping[int, Array], moved: Array | float = 0.0
+) -> FootTarget:
     """Place a foot's plants, and lead its ankle from one to the next [KSG02, step 2].
 
     Parameters
@@ -100,12 +101,13 @@ def foot_target(track: LegTrack, marks: Mask, held: Mapping[int, Array]) -> Foot
     track : the leg in F frames.
     marks : shape (2, F): when its ankle and its ball stand.
     held : where joints shall stand, as for `clean_up`, if not where they are on average.
+    moved : how far plants are moved from there, (F, 3), metres.
     """
     ankle, ball, fps = track.ankle, track.ball, track.motion.fps
     flat, down = marks
     length = float(track.leg.lengths(track.motion.skeleton)[2])
     closed = flat | down & binary_closing(flat, np.ones(1 + round(CLOSE * fps)))
-    places = _pull_in(place_plants((ankle, ball), (closed, down), length), marks, track)
+    places = _pull_in(place_plants((ankle, ball), (closed, down), length) + moved, marks, track)
     for place, own, joint in zip(places, marks, track.leg[2:], strict=True):
         for start, stop in runs(own) if joint in held else ():
             known = np.flatnonzero(np.isfinite(held[joint][start:stop, 0])) + start
@@ -216,7 +218,7 @@ def smooth_fill(values: Array, known: Mask, fps: float, fade: float = FADE) -> A
     """
     filled = np.where(known[:, None], values, 0.0)
     bands = bending_bands(np.ones(len(values)), (fade * fps) ** -4.0)
-    target = np.where(known[:, None], filled, -band_product(bands, filled))
+    target = np.where(known[:, None], filled, -band_product(bands, filled.T).T)
     for later in range(3):  # a known frame's row becomes that of the identity: it stays
         apart = slice(len(values) - later)
         bands[later, apart] *= ~(known[later:] | known[apart])
@@ -253,10 +255,10 @@ def bending_bands(weight: Array, near: float | Array, span: int = 1) -> Array:
 
 
 def band_product(bands: Array, curves: Array) -> Array:
-    """Multiply matrices, by their bands (..., 3, F), and curves (..., F, C)."""
-    product = bands[..., 0, :, None] * curves
+    """Multiply matrices, by their bands (..., 3, F), and curves (..., F)."""
+    product = bands[..., 0, :] * curves
     for later in (1, 2):
-        below = bands[..., later, :-later, None]
-        product[..., later:, :] += below * curves[..., :-later, :]
-        product[..., :-later, :] += below * curves[..., later:, :]
+        below = bands[..., later, :-later]
+        product[..., later:] += below * curves[..., :-later]
+        product[..., :-later] += below * curves[..., later:]
     return product

@@ -31,6 +31,11 @@ BACK = 1e-4  # radians: a knee that bends backwards by less is straight, but for
 STIFF = 1e-6
 
 
+def dot(a: Array, b: Array) -> Array:
+    """Multiply vectors (..., 3), each with its own, to numbers (...)."""
+    return np.asarray(np.einsum("...c,...c->...", a, b))
+
+
 class LegTrack(NamedTuple):
     """A leg in the F frames of a motion, and what bending its knee does.
 
@@ -42,6 +47,7 @@ class LegTrack(NamedTuple):
     matrices : how each joint is turned in the world, shape (F, J, 3, 3).
     hip, knee, ankle, ball : where they are, shape (F, 3), metres.
     axis : the knee's hinge, unit vectors of shape (F, 3).
+    shank : from knee to ankle, (3, F, 3): along the hinge, across it, and that turned about it by 90°.
     size, radius : shape (F,), m².
     own : φ in the motion, shape (F,), radians; below 0 where the knee is bent backwards.
     """
@@ -54,6 +60,7 @@ class LegTrack(NamedTuple):
     ankle: Array
     ball: Array
     axis: Array
+    shank: Array
     size: Array
     radius: Array
     own: Array
@@ -75,25 +82,30 @@ class LegTrack(NamedTuple):
         """
         return self.long(np.minimum(np.abs(self.own), BENT))
 
-    def highest(self, place: Array, foot: float | Array = 0.0) -> Array:
-        """How far the root may rise at most, (F,), metres, for leg and foot to reach to `place` (F, 3)."""
+    def rises(self, place: Array, foot: float | Array = 0.0) -> Array:
+        """How far the root may fall and rise, (2, F), metres, for leg and foot to reach to `place` (F, 3)."""
         apart = self.hip - place
         level = apart[:, 0] ** 2 + apart[:, 2] ** 2
-        reach = (self.long(0.0) + foot) ** 2
-        return np.asarray(np.sqrt(np.maximum(reach - level, 0.0)) - apart[:, 1])
+        half = np.sqrt(np.maximum((self.long(0.0) + foot) ** 2 - level, 0.0))
+        return np.array([-half, half]) - apart[:, 1]
 
     def bend(self, distance: Array) -> Array:
         """How far the knee is bent, (F,), radians, where hip and ankle are a distance (F,) apart."""
         return np.asarray(np.arccos(np.clip((distance**2 - self.size) / (2 * self.radius), -1.0, 1.0)))
 
-    def turns(self, bend: Array, wanted: Array) -> tuple[Array, Array]:
-        """How the shank turns at the knee to bend it, and then the whole leg at the hip to point there.
+    def folded(self, bend: Array) -> Array:
+        """Give the way from hip to ankle, (..., F, 3), if the knee bends to (..., F) and the thigh rests."""
+        along, across, turned = self.shank
+        more = (bend - self.own)[..., None]
+        return np.asarray(self.knee - self.hip + along + np.cos(more) * across + np.sin(more) * turned)
 
-        Rotations in the world's frame, (F, 4) each, for angles (F,) and ways from hip to ankle (F, 3).
-        """
-        fold = rotations.from_rotvec((bend - self.own)[:, None] * self.axis)
-        leg = self.knee - self.hip + rotations.rotate(fold, self.ankle - self.knee)
-        return fold, rotations.between(leg, wanted)
+    def thigh(self, bend: Array, wanted: Array) -> Array:
+        """Give the way from hip to knee, (..., F, 3), if then the leg swings to `wanted` (..., F, 3)."""
+        thigh, leg = self.knee - self.hip, self.folded(bend) / self.long(bend)[..., None]
+        way = wanted / np.sqrt(dot(wanted, wanted))[..., None]
+        half = leg + way  # the swing is a half turn about the leg, and then one about this
+        swung = 2 * dot(leg, thigh)[..., None] * way
+        return np.asarray(thigh + swung - (dot(half, thigh) / (1 + dot(leg, way)))[..., None] * half)
 
 
 def track_leg(motion: Motion, leg: Leg, poses: GlobalPoses) -> LegTrack:
@@ -121,11 +133,11 @@ def track_leg(motion: Motion, leg: Leg, poses: GlobalPoses) -> LegTrack:
         raise MocapError(f"'{name}' is straight in every frame: which way does it bend?")
     axis = np.einsum("fji,fj->fi", frame, across).sum(axis=0)  # seen from the thigh
     axis = frame @ (axis / np.linalg.norm(axis))
-    along = (thigh * axis).sum(-1) * (shank * axis).sum(-1)
-    cos = (thigh * shank).sum(-1) - along
-    sin = (thigh * np.cross(axis, shank)).sum(-1)
-    size = (thigh**2).sum(-1) + (shank**2).sum(-1) + 2 * along
-    hinge = (axis, size, np.hypot(cos, sin), -np.arctan2(sin, cos))
+    along = dot(shank, axis)[:, None] * axis
+    parts = np.array([along, shank - along, np.cross(axis, shank)])
+    level, cos, sin = dot(parts, thigh)
+    size = dot(thigh, thigh) + dot(shank, shank) + 2 * level
+    hinge = (axis, parts, size, np.hypot(cos, sin), -np.arctan2(sin, cos))
     return LegTrack(motion, leg, poses.matrices, hip, knee, ankle, ball, *hinge)
 
 
@@ -145,7 +157,9 @@ def pose_leg(track: LegTrack, bend: Array, wanted: Array, turn: ArrayLike) -> Ar
     The rotations of hip, knee and ankle relative to their parents, shape (F, 3, 4).
     """
     motion, leg = track.motion, track.leg
-    fold, swing = track.turns(bend, wanted)
+    # The shank turns at the knee to bend it; then the whole leg turns at the hip, the shortest way.
+    fold = rotations.from_rotvec((bend - track.own)[:, None] * track.axis)
+    swing = rotations.between(track.folded(bend), wanted)
     # In the world, each joint turns by what its parent does not turn it already.
     carried = rotations.multiply(swing, fold)
     sole = rotations.multiply(rotations.inverse(carried), rotations.from_rotvec(turn))

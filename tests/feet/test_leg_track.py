@@ -37,11 +37,14 @@ def test_no_knee_becomes_straighter_than_eight_degrees_or_than_it_is():
     assert pytest.approx(np.maximum(TRACK.long(TRACK.own), bent)) == TRACK.limit
 
 
-def test_a_root_as_high_as_it_may_be_stretches_the_leg_to_its_length():
-    highest = TRACK.highest(TRACK.ankle)
-    risen = TRACK.hip + highest[:, None] * UP
-    assert np.linalg.norm(risen - TRACK.ankle, axis=-1) == pytest.approx(TRACK.long(0.0))
-    assert np.all(highest >= -1e-9)
+def test_a_root_as_high_or_as_low_as_it_may_be_stretches_the_leg_to_its_length():
+    """As low as that: the hip hangs below the ankle, or a leg that lies would leave its plant."""
+    rises = TRACK.rises(TRACK.ankle)
+    ends = TRACK.hip + rises[..., None] * UP
+    for end in ends:
+        assert np.linalg.norm(end - TRACK.ankle, axis=-1) == pytest.approx(TRACK.long(0.0))
+    assert np.all(rises[1] >= -1e-9)
+    assert np.all(ends[0, :, 1] < TRACK.ankle[:, 1])
 
 
 def test_a_knee_that_never_bends_hides_its_hinge():
