@@ -8,7 +8,7 @@ Four things differ from the paper. Step 5 is taken with step 2, as one curve tha
 fades. While only the ball stands, the foot turns about it as the knee asks. The root only rises or falls, by
 at most 2 cm, and no bone is stretched, because a skeleton's lengths are fixed. And the root's way and all
 knees are found together, by the same sum that step 5 makes least, so that no knee pops. A plant that the leg
-cannot reach, or that would still jolt a knee, is let go there.
+cannot reach, or that would still jolt a knee, is moved to where its foot was then, and at last let go.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -45,7 +45,8 @@ def clean_up(
     motion : its `contacts` say when the legs' ankles and balls stand; `feet.mark_plants` finds them.
     legs : found by name by default.
     held : for some ankles and balls where they shall stand, shape (F, 3), metres, nan where that is left
-        open. All other plants are where they stand on average, or so much nearer that the leg reaches.
+        open. All other plants are where they stand on average, or so much nearer that the leg reaches,
+        or nearer to where the joint was when a knee would jolt.
 
     Returns
     -------

@@ -126,12 +126,9 @@ def _bounds(targets: Sequence[FootTarget]) -> tuple[Array, Array]:
     """Give how far the root may fall and rise for all planted legs to reach, (F,) each, metres."""
     most, every = MOST * targets[0].track.length, []
     for target in targets:
-        track, rolls = target.track, target.rolls
-        foot = np.linalg.norm(target.places[1] - target.ankle, axis=-1) - FLAT
-        rises = track.rises(
-            np.where(rolls[:, None], target.places[1], target.ankle), np.where(rolls, foot, 0.0)
-        )
-        every.append(np.where(target.planted, rises, [[-most], [most]]))
+        foot = (np.linalg.norm(target.places[1] - target.ankle, axis=-1) - FLAT) * target.rolls
+        place = np.where(target.rolls[:, None], target.places[1], target.ankle)
+        every.append(np.where(target.planted, target.track.rises(place, foot), [[-most], [most]]))
     # Where one leg asks for a lower root than another or than the bound, the lower one counts.
     top = np.minimum(np.min(every, axis=0)[1], most)
     return np.minimum(np.maximum(np.max(every, axis=0)[0], -most), top), top
@@ -188,13 +185,9 @@ def _least_bent(targets: Sequence[FootTarget], change: Array, push: Array, most:
     rise = np.clip(change[0], bottom, top)
     change = np.array([rise, *(_start(*those, rise) for those in zip(targets, change[1:], strict=True))])
     (here, pull, over, cost), damping = weighed(change), 1e-3
-    # Slopes: of the root, and of all knees at once, each of which moves its own leg only.
-    tries = STEP * np.array([[[1.0], *[[0.0]] * legs], [[0.0], *[[1.0]] * legs]])  # (2, 1 + L, 1)
-    of_root, own_leg = np.ones((1, 1 + 7 * legs, 1)), np.eye(legs).repeat(7, axis=1)[..., None]
-    own_leg = np.concatenate([np.zeros((legs, 1, 1)), own_leg], axis=1)
     for _ in range(STEPS):
-        root, knees = (here - _displacements(targets, change - tries)) / STEP
-        slopes = np.concatenate([of_root * root, own_leg * knees])  # (1 + L, 1 + 7 L, F)
+        lower = change - STEP * np.eye(1 + legs)[..., None]  # (1 + L, 1 + L, F): each unknown by itself
+        slopes = (here - _displacements(targets, lower)) / STEP  # (1 + L, 1 + 7 L, F)
         target = np.einsum("kmf,mf->kf", slopes, pull)
         # A root at its bound stays there if it is pulled beyond.
         held = (change[0] >= top) & (target[0] < 0) | (change[0] <= bottom) & (target[0] > 0)
