@@ -34,10 +34,7 @@ POSE = Basis(weight=3000.0, damping=1e-3, passes=60)
 # 31° more than in the clip; where it costs no more than the trunk, by 40°. A captured knee jumps where the
 # leg is straight; bent on a stone, a root as cheap as 1 jumps with it, by × 1.3.
 EDITED = (16.0, 32.0)
-LEVELLED = (
-    4.0,
-    8.0,
-)  # few passes get no further with more; with 1 the neck bends by 46° under bars, so by 34
+LEVELLED = 4.0, 8.0  # few passes get no further with more; with 1 necks bend by 46° under bars, so by 34
 
 # The same for a pose. With 1 the trunk leans by 30° so that a hand moves by 30 cm, and the arm hardly turns;
 # people move the arm first.
