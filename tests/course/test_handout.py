@@ -85,6 +85,7 @@ def test_without_a_library_one_sentence_says_what_to_install(
 ):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setitem(sys.modules, missing, None)
+    monkeypatch.setattr("subprocess.Popen", None)  # nor is anything started
     assert main(line.split()) == 2
     assert f"pip install '.[{extra}]'" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
