@@ -42,7 +42,7 @@ def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
 
     It would be half as slow again, and reaches few lines that quick tests do not; but in the course it does.
     """
-    drawn = getattr(getattr(item, "obj", None), "is_hypothesis_test", False)
+    drawn = getattr(getattr(item, "obj", None), "is_hypothesis_test", "/test_fuzz" in item.nodeid)
     long = item.get_closest_marker("sweep") and ("/course/" not in item.nodeid or "/teaching/" in item.nodeid)
     measured = Coverage.current() if drawn or long else None
     if measured:
