@@ -100,6 +100,12 @@ def test_a_group_is_played_at_a_fiftieth_of_its_simulation(count, nodes):
     assert played <= simulated / 50
 
 
+def test_to_build_a_group_takes_at_most_twelve_times_as_long_as_to_simulate_its_five_minutes():
+    built, simulated = fastest(lambda: groups.build_group(12), lambda: groups.simulate(12, 300), turns=2)
+    print(f"\nto build a group takes {built:.1f} s, {built / simulated:.1f} × simulating")
+    assert built <= 12 * simulated
+
+
 def test_a_search_takes_at_most_four_times_as_long_as_simulating():
     """On average over the courses among eight discs that are found; seed 0 is closed from the start."""
     group, times = graph(), []
