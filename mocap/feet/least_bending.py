@@ -14,6 +14,7 @@ neighbours, so a step solves a banded system.
 """
 
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 from scipy.linalg import solveh_banded
@@ -166,21 +167,12 @@ def _least_bent(targets: Sequence[FootTarget], change: Array, push: Array, most:
     Knees jump by at most `most` (L, F) over `span` frames, as soon as their multipliers `push` (L, 3, F) are
     found.
     """
-    track, legs = targets[0].track, len(targets)
-    # A curve that bends freely jumps by the fraction's inverse for a push of 1.
-    near, hard = (NEAR * track.motion.fps) ** -4.0, HARD / (span * (2 * span**2 + 1) / 3)
+    track, legs, hard = targets[0].track, len(targets), _hard(span)
+    near = (NEAR * track.motion.fps) ** -4.0
     bands = np.repeat([bending_bands(np.ones_like(change[0]), near)], 1 + 7 * legs, axis=0)
     bands[7::7] = bending_bands(0 * change[0], STIFF**2 * near)
     own = _jumps(np.array([target.track.knee.T for target in targets]), span) + push
-
-    def weighed(change: Array) -> tuple[Array, Array, Array, float]:
-        """Give how far all is moved, how hard it is pulled back, what knees jump too far, and the sum."""
-        moved = _displacements(targets, change)
-        pull, over = band_product(bands, moved), _beyond(own + _jumps(_knees(moved), span), most)
-        cost = (moved * pull).sum() + hard * (over**2).sum()
-        _knees(pull)[:] += hard * _differences(over, span)
-        return moved, pull, over, float(cost)
-
+    weighed = partial(_weighed, targets, bands, (own, most, span))
     bottom, top = _bounds(targets)
     rise = np.clip(change[0], bottom, top)
     change = np.array([rise, *(_start(*those, rise) for those in zip(targets, change[1:], strict=True))])
@@ -205,6 +197,22 @@ def _least_bent(targets: Sequence[FootTarget], change: Array, push: Array, most:
         if 0 <= gain <= GAIN * abs(cost):
             break
     return change
+
+
+def _weighed(
+    targets: Sequence[FootTarget], bands: Array, bounds: tuple[Array, Array, int], change: Array
+) -> tuple[Array, Array, Array, float]:
+    """Give how far all is moved, how hard it is pulled back, by how much knees jump too far, and the sum."""
+    (own, most, span), moved = bounds, _displacements(targets, change)
+    pull, over = band_product(bands, moved), _beyond(own + _jumps(_knees(moved), span), most)
+    cost = (moved * pull).sum() + _hard(span) * (over**2).sum()
+    _knees(pull)[:] += _hard(span) * _differences(over, span)
+    return moved, pull, over, float(cost)
+
+
+def _hard(span: int) -> float:
+    """Say how much a jump too far counts: a curve that bends freely jumps so much less for a push of 1."""
+    return HARD / (span * (2 * span**2 + 1) / 3)
 
 
 def _start(target: FootTarget, extra: Array, rise: Array) -> Array:
