@@ -74,7 +74,8 @@ def follow_path(
 
     Warns
     -----
-    MocapWarning : where the walk is more than 15 cm off the path, and with `bend` for plants that are let go.
+    MocapWarning : where the walk is more than 15 cm off the path, where it goes below 0.3 m/s and no times
+        are asked for, and with `bend` for plants that are let go.
 
     Examples
     --------
@@ -107,17 +108,22 @@ def follow_path(
 
     followed = _best_of(search, replace(settings, width=settings.width_on(route)))
     if not wishes.others:  # with others it goes aside to give way
-        _tell_departures(compiled, followed, bend)
+        _tell_departures(compiled, followed, bend, on_time=bool(wishes.times))
     return followed
 
 
-def _tell_departures(graph: CompiledGraph, followed: Followed, bend: float) -> None:
-    """Refuse a walk that stands and does not follow, and warn of one that leaves the path."""
+def _tell_departures(graph: CompiledGraph, followed: Followed, bend: float, *, on_time: bool) -> None:
+    """Refuse a walk that stands and does not follow, and warn of one that dawdles, or leaves the path."""
     far = followed.off.mean() > FAR and not (bend or followed.found.stopped)
     speed = np.abs(np.diff(on_ground(followed.track))).sum() / followed.seconds
     if far and speed < SLOWEST:
         off = f"The nearest walk is {followed.off.mean():.1f} m off the line on average"
         raise too_slow(graph, f"{off}, and goes at {speed:.2f} m/s")
+    if not on_time and followed.along[-1] < SLOWEST * followed.seconds and not followed.found.stopped:
+        took = f"{followed.seconds:.0f} s for {followed.along[-1]:.1f} m"
+        warn(
+            f"The walk takes {took}: the clips hardly go on{'' if bend else '; `bend` may lay others on it'}."
+        )
     if departures := followed.departures:
         start, end, worst = max(departures, key=lambda stretch: stretch[2])
         often = "once" if len(departures) == 1 else f"{len(departures)} times"

@@ -1,13 +1,19 @@
 """Walks keep to their paths, do what is asked for, and tell what they could not do."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
 from mocap.body import ground_path
 from mocap.body.ground_path import GroundPath, s_curve
+from mocap.body.motion import resample
 from mocap.body.planar import on_ground
+from mocap.datasets.samples import sample
 from mocap.errors import MocapWarning, NoWalk
+from mocap.graphs.motion_graph import build
+from mocap.graphs.pruning import prune
 from mocap.steering import followed as following
 from mocap.steering import path_following
 from mocap.steering.followed import account
@@ -156,6 +162,12 @@ def test_a_corner_that_no_clip_can_turn_is_cut_and_told():
     assert (len(followed.departures) == 1) == ("leaves the path once" in str(caught[0].message))
     assert max(worst for _, _, worst in followed.departures) == pytest.approx(followed.off.max())
     assert np.isfinite(followed.track).all()
+
+
+def test_a_walk_that_dawdles_is_told():
+    clips = [resample(replace(sample(name), fps=20), 15) for name in ("walk_circle", "walk_curve_1")]
+    with pytest.warns(MocapWarning, match=r"^The walk takes \d+ s for 3\.\d m: the clips hardly go on"):
+        follow_path(prune(build(clips, window=20, threshold=0.08)), GroundPath([[0, 0], [0, 3]]))
 
 
 def asked(path=STRAIGHT, **wishes):
