@@ -187,7 +187,7 @@ def class_curve(answers: Sequence[Answer], over: Literal["below_cm", "window"]) 
     --------
     >>> answers = [Answer("ada", 4.0, 10, 0, pair, right=pair > 5) for pair in range(1, 21)]
     >>> class_curve(answers, "below_cm")
-    {4.0: DPrime(value=0.90..., low=0.02..., high=1.93...)}
+    {4.0: DPrime(value=0.90..., low=0.03..., high=1.92...)}
 
     Notebook: 09b-blend-window
     """
