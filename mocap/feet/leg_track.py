@@ -103,9 +103,9 @@ class LegTrack(NamedTuple):
         """Give the way from hip to knee, (..., F, 3), if then the leg swings to `wanted` (..., F, 3)."""
         thigh, leg = self.knee - self.hip, self.folded(bend) / self.long(bend)[..., None]
         way = wanted / np.sqrt(dot(wanted, wanted))[..., None]
-        half = leg + way  # the swing is a half turn about the leg, and then one about this
-        swung = 2 * dot(leg, thigh)[..., None] * way
-        return np.asarray(thigh + swung - (dot(half, thigh) / (1 + dot(leg, way)))[..., None] * half)
+        # The swing is a half turn about the leg, then one about leg + way; that is 0 where they are opposite.
+        share = dot(leg + way, thigh) / np.maximum(1 + dot(leg, way), ROUNDING)
+        return np.asarray(thigh + 2 * dot(leg, thigh)[..., None] * way - share[..., None] * (leg + way))
 
 
 def track_leg(motion: Motion, leg: Leg, poses: GlobalPoses) -> LegTrack:

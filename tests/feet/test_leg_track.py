@@ -47,6 +47,11 @@ def test_a_root_as_high_or_as_low_as_it_may_be_stretches_the_leg_to_its_length()
     assert np.all(ends[0, :, 1] < TRACK.ankle[:, 1])
 
 
+def test_a_leg_that_must_turn_round_keeps_its_thigh():
+    swung = TRACK.thigh(TRACK.own, HIP - ANKLE)
+    assert np.linalg.norm(swung, axis=-1) == pytest.approx(np.linalg.norm(TRACK.knee - HIP, axis=-1))
+
+
 def test_a_knee_that_never_bends_hides_its_hinge():
     straight = CLIP.rotations.copy()
     straight[:, LEFT.knee] = rotations.IDENTITY
