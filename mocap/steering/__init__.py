@@ -1,4 +1,4 @@
-"""Steering: walks that follow a wish: along a path, through waypoints, to a pose, in a crowd, by commands.
+"""Steering: walks that follow a wish: along a path, through waypoints, in a crowd, by commands.
 
 A walk that is searched for: the path objective says what is asked for and what each deviation costs, a
 layered search finds the walk with the lowest cost, and `follow_path` joins the two; `waypoints_and_crowds`
@@ -18,14 +18,11 @@ Reading order (notebooks 08, 12, 17, 18)
  5. `path_following`: find a walk along a path, in layers and by the paper's branch and bound
  6. `bent_following`: any line with any walk: a walk that turns little beyond its clips, laid on its path
  7. `waypoints_and_crowds`: places, labels and times to pass; many characters that keep apart
- 8. `two_sided_search`: frames that look like two poses, and walks from both that meet half-way
- 9. `end_bending`: a walk bent and stretched so that it ends where it must
-10. `in_betweens`: from one pose to another, at its place and in time: 8, 9, and ends that meet the poses
-11. `characters`: the protocol, the pose that a step gives, and a walk by given commands
-12. `delays`: how soon a character obeys
-13. `graph_control`: a character on a motion graph, and how it looks ahead
-14. `foot_turning`: a character that turns about the foot that stands, beyond what its clips turn
-15. `judged_control`: one protocol for all characters
+ 8. `characters`: the protocol, the pose that a step gives, and a walk by given commands
+ 9. `delays`: how soon a character obeys
+10. `graph_control`: a character on a motion graph, and how it looks ahead
+11. `foot_turning`: a character that turns about the foot that stands, beyond what its clips turn
+12. `judged_control`: one protocol for all characters
 
 References
 ----------
@@ -42,7 +39,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "layered_search": ["States", "select"],
         "path_following": ["follow_as_2002", "follow_path"],
         "waypoints_and_crowds": ["Waypoint", "through_waypoints", "walk_crowd"],
-        "in_betweens": ["in_between"],
         "characters": ["Character", "steer"],
         "delays": ["measure_delay"],
         "graph_control": ["Controller"],

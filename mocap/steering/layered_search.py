@@ -107,21 +107,18 @@ class LayeredSearch:
     Parameters
     ----------
     starts : the first walks.
-    width : walks that stay in a round.
-    every : whether to keep every walk that arrives; else no walk goes on that costs as much as the best one.
+    width : walks that stay in a round. No walk goes on that costs as much as the best one that arrived.
     """
 
     expand: Callable[[States], States]  # longer walks; the `trail` of each is the row that it goes on from
-    score: Callable[
-        [States], Array
-    ]  # (N,), small is good: their cost, and what they are expected to cost still
+    score: Callable[[States], Array]  # (N,), small is good: the cost, and what is expected to come
     cells: Callable[[States], Indices]  # columns of whole numbers (C, N), equal where walks stand alike
     layers: Callable[[States], Indices]  # (N,)
     done: Callable[[States], Mask]  # (N,), which have arrived
 
-    def __init__(self, starts: States, width: int, *, every: bool = False) -> None:
+    def __init__(self, starts: States, width: int) -> None:
         self.waiting: dict[int, list[States]] = {0: [starts]}
-        self.width, self.first, self.every = width, width, every  # `first` of the starts go on
+        self.width = self.first = width  # `first` of the starts go on
         self.history: list[States] = []
         self.arrived: list[States] = []
         self.expanded = self.cut = 0
@@ -154,7 +151,7 @@ class LayeredSearch:
             return states
         self.arrived.append(states.take(done))
         # No cost is below 0, so a walk that costs as much as the best one cannot become better.
-        best = np.inf if self.every else min(arrived.cost.min() for arrived in self.arrived)
+        best = min(arrived.cost.min() for arrived in self.arrived)
         return states.take(~done & (states.cost < best))
 
     def trace(self, states: States, row: int) -> States:

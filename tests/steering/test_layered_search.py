@@ -49,16 +49,15 @@ class Stairs(LayeredSearch):
         return states.node >= 7
 
 
-@pytest.mark.parametrize(("every", "merge"), [(False, True), (True, False), (True, True)])
-def test_the_best_of_all_walks_arrives_or_every_one(every, merge):
+@pytest.mark.parametrize("merge", [False, True])
+def test_the_best_of_all_walks_arrives(merge):
     zero = np.zeros(1, complex)
-    search = Stairs(start_states(np.array([0]), zero + 1, zero), 1000, every=every)
+    search = Stairs(start_states(np.array([0]), zero + 1, zero), 1000)
     search.merge = merge
     rounds = list(search)
     assert rounds[0].node.tolist() == [0] and len(rounds) == len(search.history)
     assert search.expanded == sum(len(states.node) for states in rounds)
     ends = [(states, row) for states in search.arrived for row in range(len(states.node))]
-    assert merge or len(ends) == 34  # 21 ways to step 7, and 13 by step 6 to step 8
     states, row = min(ends, key=lambda end: end[0].cost[end[1]])
     assert states.cost[row] == 11  # three double steps and a single one
     walk = search.trace(states, row)

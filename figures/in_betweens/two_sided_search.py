@@ -19,14 +19,14 @@ from typing import NamedTuple
 import numpy as np
 from scipy.ndimage import minimum_filter1d
 
-from mocap._shared.arrays import Array, Indices, Mask, Points, ranges
+from in_betweens.end_bending import MOST_PACE, MOST_STEPS, MOST_TURN, RISE, STRETCH, TURN
+from mocap._shared.arrays import Array, Indices, Points, ranges
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.graphs.edge_tables import clip_rows
 from mocap.matching.point_clouds import align, point_cloud
-from mocap.steering.end_bending import MOST_PACE, MOST_STEPS, MOST_TURN, RISE, STRETCH, TURN
 from mocap.steering.layered_search import LayeredSearch, States, standing, start_states
 
 AHEAD = 0.1  # seconds from a pose to the one before or after it, and between two choices at least
@@ -166,7 +166,7 @@ class TwoSided:
         for front in (there, back):
             for _ in front:
                 pass
-        middle = States.join(there.arrived or [there.history[0].take(slice(0))])
+        middle = States.join(there.arrived)
         middle = middle.take(np.argsort(middle.cost, kind="stable")[:MEET])
         behind = States.join(back.history)
         # Pair every walk of one side with those of the other that stand at the same node, `PAIRS` at most.
@@ -232,7 +232,7 @@ class _Front(LayeredSearch):
         self, of: TwoSided, steps: States, seeds: Choices, first: int, to: tuple[complex, float]
     ) -> None:
         nodes = first + np.arange(len(seeds.off))
-        super().__init__(start_states(nodes, seeds.turn, seeds.move), WIDTH, every=True)
+        super().__init__(start_states(nodes, seeds.turn, seeds.move), WIDTH)
         self.of, (self.goal, self.most) = of, to
         self.steps = steps.take(np.argsort(steps.trail, kind="stable"))
         self.offsets = np.searchsorted(self.steps.trail, np.arange(len(of.at) + 1))
@@ -258,9 +258,11 @@ class _Front(LayeredSearch):
         """Count layers of `LAYER` seconds."""
         return states.frames // max(1, round(LAYER * self.of.graph.fps))
 
-    def done(self, states: States) -> Mask:
-        """Say which walks are long enough."""
-        return states.frames >= self.most
+    def still_going(self, states: States) -> States:
+        """Put aside every walk that is long enough, for any of them may be joined."""
+        long = states.frames >= self.most
+        self.arrived.append(states.take(long))
+        return states.take(~long)
 
 
 def steps_between(graph: CompiledGraph, starts: Choices, ends: Choices) -> States:
