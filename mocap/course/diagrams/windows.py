@@ -76,7 +76,7 @@ def radius_gaps(first: Motion, second: Motion, joints: Sequence[str], *, step: i
 
     Notebook: 02c-most-pairs
     """
-    figure = Figure(figsize=(5.6, 5.2), layout="constrained")
+    figure = Figure(figsize=(5.6, 5.6), layout="constrained")
     ax, last, places = figure.add_subplot(), step == len(CIRCLE_STEPS), []
     for motion, colour in zip((first, second), SOURCES, strict=False):
         middle = point_cloud(motion).mean((0, 1))  # of all points of the window
@@ -97,7 +97,8 @@ def radius_gaps(first: Motion, second: Motion, joints: Sequence[str], *, step: i
     ax.plot(0, 0, "+", color=QUIET)
     limit = 1.15 * radii.max() + 0.01
     ax.set(aspect="equal", xlabel="z (m)", ylabel="x (m)", xlim=(-limit, limit), ylim=(-limit, limit))
-    ax.legend()
+    ax.locator_params(nbins=5)
+    figure.legend(loc="outside lower center", ncols=2, frameon=False)
     return figure
 
 
