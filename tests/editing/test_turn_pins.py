@@ -9,7 +9,7 @@ from mocap.editing.displacements import difference
 from mocap.editing.edits import edit
 from mocap.editing.pins import join_pins, pin_errors, plant_pins
 from mocap.editing.turn_pins import keep_turned, limit_turns
-from tests.editing.wishes import bar, captured, hand, walk
+from tests.editing.wishes import bar, captured, hand, shakes, smoothness, walk
 from tests.refusals import refusals
 
 NECK = ["lowerneck", "upperneck", "head"]
@@ -30,6 +30,7 @@ def test_a_hand_reaches_and_the_trunk_stays_as_it_is(real, request):
     upright = join_pins(held, keep_turned(clip, "thorax", slice(None)))
     made = edit(clip, upright)
     assert pin_errors(made, upright).max() < 1e-5 and turned(made, clip, "thorax") < 0.01
+    assert shakes(made, clip, held) <= 1.15 and smoothness(made, clip) <= 1.15
     assert turned(edit(clip, held), clip, "thorax") > 10
 
 
