@@ -1,0 +1,139 @@
+"""The pictures show what they showed when they were last looked at; tests/drawn.py says how to draw anew.
+
+Of bodies, stick_figures, bodies_on_path, grids, ground_charts, charts, graph_drawing and storyboards.
+"""
+
+from dataclasses import replace
+from functools import cache
+
+import networkx as nx
+import numpy as np
+import pytest
+
+from mocap import Motion, datasets, graphs, plotting, resample
+from mocap.blending import Curve
+from mocap.body import Skeleton, joint_positions
+from mocap.matching import distance_grid
+from mocap.methods.match_webs.match_search import Match
+from mocap.plotting.bodies import film_strip
+from mocap.plotting.storyboards import Shot, storyboard
+from tests.drawn import hold
+from tests.strategies import wave
+
+RANDOM = np.random.default_rng(0)
+SAMPLES, GRID, ROWS = RANDOM.gamma(2.0, size=(5, 41)), RANDOM.random((40, 50)), RANDOM.random((10, 2))
+WALKS = [resample(datasets.sample(f"walk_curve_{n}"), 30)[:120] for n in (1, 2)]
+AT = np.arange(3.0)
+FOUND = [
+    Match(0, 0, 9, 0.0, -1, 0, AT, AT),
+    Match(1, 0, 9, 0.01, 0, 1, AT, AT),
+    Match(1, 20, 29, 0.02, 0, 1, AT, AT),
+    Match(2, 0, 9, 0.01, 2, 2, AT, AT),
+    Match(2, 30, 39, 0.01, 1, 2, AT, AT),
+]
+KINDS, WRONG = ["walk", "walk", "run", "run", "walk"], [False] * 3 + [True, False]
+
+
+@cache
+def graph():
+    return graphs.build([wave(90, name="a"), wave(70, phase=1, name="b", seed=1)], window=8, threshold=0.05)
+
+
+def flat(view):
+    return plotting.flat_bodies(datasets.sample("walk_straight"), [0, 90], view=view)
+
+
+def stick_figure():
+    names = ["hips", "lleg", "rleg", "lfoot", "rfoot", "head"]
+    body = Skeleton(names, [-1, 0, 0, 1, 2, 0], [[0, 0, 0]] + [[x, -0.4, 0] for x in (0.1, -0.1, 0, 0.01, 0)])
+    motion = replace(wave(5), skeleton=body, rotations=np.tile([1.0, 0, 0, 0], (5, 6, 1)), contacts={})
+    figure = plotting.StickFigure(body, plotting.ground_axes((0.3, 7.1), 1.0))
+    figure.pose(joint_positions(motion)[2])
+    return figure.bones
+
+
+def lost_marker():
+    """One frame beyond the horizon, as a lost marker gives it: it gets a coarser floor."""
+    roots = wave(50).root_positions.copy()
+    roots[20] = [0, 1, 1e7]
+    return plotting.bodies_along(replace(wave(50), root_positions=roots))
+
+
+def band():
+    points = [[10, 0.9, 0.0, 1.9], [20, -0.2, -1.1, 0.8], [30, 2.8, 1.4, np.inf]]
+    named = ("window (frames)", "jolt (m/s)")
+    yield plotting.seen_beside_measured(points, [10, 20], [[3, 4], [1, 2]], named)
+    yield plotting.quartile_band(range(5), SAMPLES, label="slide", colour="#112233")
+
+
+def small_graph():
+    small = nx.DiGraph([(1, 2), (2, 1), (2, 3), (3, 3)])
+    places = {1: (0, 0), 2: (1, 0), 3: (1, 1)}
+    discs, _ = plotting.node_link(small, places=places, kept=small.subgraph([1, 2]))
+    return discs
+
+
+def plan():
+    places = np.linspace(0, 6, 50)[:, None] + np.array([0j, 1.5j, -1.5j])
+    figure = plotting.draw_group_plan(places, [6 + 0j, 9 + 1j], [(3 + 4j, 0.5)], near=0.8)
+    return plotting.draw_group_plan(np.ones((5, 1), complex), ax=figure.axes[0])
+
+
+def boards():
+    """Show a seam in panels, and one of a body without legs."""
+    shot = Shot(WALKS[0], 56, WALKS[1], 20, 10, 20, 20, lambda ax: ax.plot(0, 0))
+    for depth in (1, 2, 3, 4):
+        yield storyboard(shot, ["windows", "turn", "weights", "seam"][:depth])
+    pair = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 1, 0]])
+    pole = Motion(pair, np.linspace(0, [0, 1, 2], 30), np.tile([1.0, 0, 0, 0], (30, 2, 1)), 30.0, "pole")
+    yield storyboard(Shot(pole, 0, pole, 5, 2, 0, 0, lambda ax: None), ["windows", "turn", "weights"])
+
+
+PICTURES = {
+    "flat bodies": lambda: map(flat, ("side", "front")),
+    "strip": lambda: [
+        film_strip([wave(50, name="a"), wave(20, name="b", phase=2)], count=4),
+        film_strip([wave(1)]),
+    ],
+    "stick figure": lambda: [stick_figure()],
+    "bodies along": lambda: map(plotting.bodies_along, (wave(1), wave(100), wave(2000))),
+    "lost marker": lambda: [lost_marker()],
+    "sources": lambda: [
+        plotting.bodies_along(wave(200), sources=[(0, "a"), (100, "b"), (150, "a")], seams=[95, 145])
+    ],
+    "two and a path": lambda: [
+        plotting.bodies_along(wave(100, name="a"), wave(100, phase=1, name="b"), path=[(0, 0), (1, 2)])
+    ],
+    "six": lambda: [plotting.bodies_along(*(wave(400, phase=phase, name="walk") for phase in range(6)))],
+    "obstacle": lambda: [plotting.bodies_along(wave(30), discs=[[0, 1, 0.5]])],
+    "joint curve": lambda: [plotting.joint_curve(ROWS, fps=10, labels=["x (m)", "y (m)"])[0]],
+    "bands": band,
+    "matches": lambda: (
+        plotting.match_tree(FOUND[:n], KINDS[:n], wrong=WRONG[:n], order=order)
+        for n, order in ((5, []), (2, ["run", "walk"]), (1, []))
+    ),
+    "distances": lambda: [
+        plotting.distance_image(
+            distance_grid(wave(40), wave(60, phase=1.0), window=10), fps=30, minima=[[3, 5]], names=("a", "b")
+        )
+    ],
+    "warp": lambda: [
+        plotting.warp_image(
+            GRID,
+            np.repeat(np.arange(40)[:, None], 2, axis=1),
+            curve=Curve(0.0, 1.0, np.array([-0.5, 0.5, 1.5])),
+        )
+    ],
+    "rows": lambda: [plotting.walk_rows(np.array([[0.0, 150.0, np.nan], [300.0, 0.0, 0.0]]), highest=400.0)],
+    "path": lambda: [plotting.path_from_above(wave(30))[0]],
+    "tracks": lambda: [plotting.ground_tracks([wave(90), datasets.sample("walk_straight")[:240]])],
+    "plan": lambda: [plan()],
+    "timeline": lambda: (plotting.timeline(graph(), **how) for how in ({}, {"most": 3}, {"each": 2})),
+    "small graph": lambda: [small_graph()],
+    "storyboard": boards,
+}
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_a_picture_is_drawn_as_ever(name):
+    hold(__file__, name, PICTURES[name]())
