@@ -55,6 +55,7 @@ from mocap.course import diagrams
 from mocap.course.diagrams import pens
 from mocap.course.diagrams.small_graphs import EIGHT_PLACES
 from mocap.course.seam_trials import choose_matches, passage, walk_costs
+from mocap.graphs import homework_graph
 from mocap.methods import groups, match_webs, motion_matching, parametric_graphs
 from mocap.methods.match_webs.local_alignment import apart
 from mocap.methods.motion_matching.nearest_frames import foresee
@@ -136,7 +137,7 @@ def draw_segments() -> Figure:
     A transition leaves the end of a box and enters the start of another.
     """
     clips = [datasets.sample(name) for name in datasets.SAMPLES[:3]]
-    graph = graphs.segment_graph(clips, threshold=250)
+    graph = homework_graph.segment_graph(clips, threshold=250)
     nodes, wide, high = dict(graph.nodes(data=True)), 0.9, 0.42
     firsts = {part["clip"]: node for node, part in reversed(nodes.items())}
     at = {node: (node - firsts[part["clip"]], -2 * part["clip"]) for node, part in nodes.items()}
@@ -377,7 +378,9 @@ def draw_angles() -> Figure:
 
 def draw_dying_walks() -> Figure:
     """Draw random walks on the homework's graph as rows; at the threshold 185, more than half of them die."""
-    graph = graphs.segment_graph([datasets.sample(name) for name in datasets.SAMPLES[:3]], threshold=185)
+    graph = homework_graph.segment_graph(
+        [datasets.sample(name) for name in datasets.SAMPLES[:3]], threshold=185
+    )
     odds = nx.to_numpy_array(graph, weight="probability")
     costs = np.zeros_like(odds)
     for leave, enter, cost in graph.edges(data="cost", default=0):

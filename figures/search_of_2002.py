@@ -16,6 +16,7 @@ import mocap
 from mocap import datasets, graphs
 from mocap.body import GroundPath
 from mocap.graphs.compiled_graph import CompiledGraph
+from mocap.graphs.motion_graph import merge_choice_points
 from mocap.steering import Settings, Wishes, follow_as_2002, follow_path
 from mocap.steering.followed import Followed
 
@@ -33,7 +34,7 @@ def dense_and_sparse() -> dict[str, CompiledGraph]:
     whole = graphs.build(clips, window=10, threshold=0.04)
     found = {
         "threshold 4 cm": whole,
-        "threshold 4 cm, choice points merged": graphs.merge_choice_points(whole, within=5, threshold=0.04),
+        "threshold 4 cm, choice points merged": merge_choice_points(whole, within=5, threshold=0.04),
         "threshold 2.5 cm": graphs.build(clips, window=10, threshold=0.025),
     }
     return {name: graphs.compile_graph(graphs.prune(graph)) for name, graph in found.items()}

@@ -29,9 +29,9 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "weights": ["cubic_weights", "linear_weights", "sine_weights"],
         "joining": ["blend", "inertialize", "join", "lay_window_on"],
-        "timewarps": ["Curve", "fit_curve"],
+        "timewarps": ["fit_curve"],
         "clocks": ["frame_times"],
-        "mixing": ["Course", "crossfade", "ground_course", "mix"],
+        "mixing": ["crossfade", "ground_course", "mix"],
         "registering": ["register"],
     },
 )

@@ -174,8 +174,6 @@ def letter_s(radius: float = 1.5) -> GroundPath:
     --------
     >>> letter_s(1.0)
     GroundPath(395 points, 7.9 m)
-
-    Notebook: 08-path-synthesis
     """
     return arcs((0, 0), 0.0, [(1.25 * np.pi * radius, 1.25 * np.pi), (1.25 * np.pi * radius, -1.25 * np.pi)])
 

@@ -24,22 +24,14 @@ import lazy_loader
 
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
+    submodules=["homework_graph"],
     submod_attrs={
-        "motion_graph": ["MotionGraph", "build", "from_transitions", "merge_choice_points"],
-        "components": ["largest_component", "numbered_edges", "NO_LABELS"],
+        "motion_graph": ["MotionGraph", "build", "from_transitions"],
+        "components": ["largest_component"],
         "pruning": ["prune", "prune_graph", "notes_example"],
-        "thresholds": ["smallest_threshold", "threshold_curve", "velocity_gaps"],
+        "thresholds": ["smallest_threshold", "threshold_curve"],
         "graph_summary": ["summary", "write_graphml"],
         "storage": ["find_clips", "load", "read", "save"],
         "compiled_graph": ["compile_graph"],
-        "homework_graph": [
-            "Segment",
-            "connect",
-            "segment_distances",
-            "segment_graph",
-            "segment_motion",
-            "segment_walk",
-            "segments",
-        ],
     },
 )

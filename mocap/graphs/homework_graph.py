@@ -26,8 +26,16 @@ from mocap.matching.distance_grids import check_window
 from mocap.matching.other_metrics import Metric, euler_grid
 
 
-def segments(frames: int, length: int) -> list[slice]:
-    """Cut a clip into slices of one length; the last slice also takes the frames that are left over.
+class Segment(NamedTuple):
+    """Frames [start, end) of the clip with this number."""
+
+    clip: int
+    start: int
+    end: int
+
+
+def segments(clips: Sequence[Motion], length: int) -> list[Segment]:
+    """Cut clips into segments of one length; a clip's last one also takes the frames that are left over.
 
     Raises
     ------
@@ -35,14 +43,18 @@ def segments(frames: int, length: int) -> list[slice]:
 
     Examples
     --------
-    >>> [(s.start, s.stop) for s in segments(700, 200)]
+    >>> from mocap import datasets
+    >>> [(part.start, part.end) for part in segments([datasets.sample("walk_circle")[:700]], 200)]
     [(0, 200), (200, 400), (400, 700)]
 
     Notebook: 05b-choice-points
     """
-    check_window(length, max(frames, length), "A clip")
-    starts = list(range(0, max(frames - length, 0) + 1, length))
-    return [slice(*ends) for ends in zip(starts, [*starts[1:], frames], strict=True)]
+    parts = []
+    for number, clip in enumerate(clips):
+        check_window(length, max(len(clip), length), "A clip")
+        starts = range(0, max(len(clip) - length, 0) + 1, length)
+        parts += [Segment(number, *ends) for ends in pairwise([*starts, len(clip)])]
+    return parts
 
 
 def segment_distances(
@@ -70,21 +82,13 @@ def segment_distances(
     clips = require_alike(clips)
     for clip in clips:
         check_window(window, min(segment, len(clip)), f"A segment of '{clip.name}'")
-    pieces = [clip[cut] for clip in clips for cut in segments(len(clip), segment)]
+    pieces = [clips[clip][start:end] for clip, start, end in segments(clips, segment)]
     tails = concatenate([piece[-window:] for piece in pieces])
     heads = concatenate([piece[:window] for piece in pieces])
     if metric is euler_grid:  # its sum over a window needs no other pairs of frames
         sums = [metric(tails[k::window], heads[k::window], window=1) for k in range(window)]
         return np.asarray(np.sum(sums, axis=0))
     return metric(tails, heads, window=window)[::window, ::window]
-
-
-class Segment(NamedTuple):
-    """Frames [start, end) of the clip with this number."""
-
-    clip: int
-    start: int
-    end: int
 
 
 def segment_graph(  # noqa: PLR0913 - the homework's own five knobs, and the metric
@@ -129,9 +133,7 @@ def segment_graph(  # noqa: PLR0913 - the homework's own five knobs, and the met
             short = f"a segment of {length} frames is too short for windows of {window}"
             raise MocapError(f"'{clip.name}': {short} at both its ends.")
     distances = segment_distances(clips, segment=segment, window=window, metric=metric)
-    cuts = enumerate(segments(len(clip), segment) for clip in clips)
-    parts = [Segment(clip, part.start, part.stop) for clip, slices in cuts for part in slices]
-    graph = connect(parts, distances, threshold, weighting)
+    graph = connect(segments(clips, segment), distances, threshold, weighting)
     graph.graph["window"] = window
     return graph
 
@@ -144,7 +146,7 @@ def connect(
     Parameters
     ----------
     parts : the segments of all clips, in order.
-    distances : D, shape (S, S), as `graphs.segment_distances` gives it.
+    distances : D, shape (S, S), as `segment_distances` gives it.
     threshold, weighting : as for `segment_graph`.
 
     Examples

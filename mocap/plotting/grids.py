@@ -11,8 +11,8 @@ from matplotlib.image import AxesImage
 from matplotlib.patheffects import Normal, Stroke
 from numpy.typing import ArrayLike, NDArray
 
-from mocap.blending import Curve
 from mocap.blending.registering import RATE, WINDOW
+from mocap.blending.timewarps import Curve
 from mocap.plotting.style import QUIET
 
 Grid = NDArray[np.floating[Any]]

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from mocap import Motion, datasets, graphs, plotting, resample
-from mocap.blending import Curve
+from mocap.blending.timewarps import Curve
 from mocap.body import Skeleton, joint_positions
 from mocap.matching import distance_grid
 from mocap.methods.match_webs.match_search import Match

@@ -19,7 +19,8 @@ from PIL import Image, ImageDraw, ImageFont, ImageOps
 from mocap import datasets, graphs, matching, plotting
 from mocap._shared.atomic import make_folder, replacing
 from mocap._shared.progress import Progress
-from mocap.body import GroundPath, Motion, arcs, lay_on, resample, rotations
+from mocap.body import GroundPath, Motion, arcs, resample, rotations
+from mocap.body.planar import lay_on
 from mocap.course import diagrams
 from mocap.plotting.picture import few_colours
 
