@@ -34,8 +34,8 @@ def info(file: Path, *, joints: bool = False, reading: Reading) -> None:
     file : an .amc, .bvh or .npz file.
     joints : list the names of the joints, too.
     """
-    motion = reading.read(file)
-    print(quality.inspect(motion, files.read_angles(file, skeleton=reading.skeleton)).table())
+    motion, angles, _ = reading.read(file)
+    print(quality.inspect(motion, angles).table())
     if joints:
         for joint, name in enumerate(motion.skeleton.names):
             print(f"{'  ' * len(motion.skeleton.path_to_root(joint)[1:])}{printable(name)}")
@@ -89,15 +89,14 @@ def judge(
     -----
     Example: mocap judge made.bvh --against clips/ --path line.csv
     """
-    from mocap.files.load_save import bone_stretch  # the help needs no NumPy
+    from mocap.files.load_save import read  # the help needs no NumPy
 
     clips = [files.load(clip, **asdict(reading)) for clip in find_files(against)]
     line = files.load_path(path, scale=unit) if path else None
     judged, problems = [], []
     for file in bar("judging")(find_files(made, deep=True)):
         try:
-            motion = files.load(file, stretch=math.inf, **asdict(reading))
-            stretch = bone_stretch(file, scale=reading.scale)
+            motion, _, stretch = read(file, reading.skeleton, reading.fps, reading.scale, math.inf)
             judged.append(quality.judge(motion, against=clips, path=line, stretch=stretch))
         except MocapError as error:
             problems.append(str(error))

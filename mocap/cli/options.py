@@ -5,7 +5,7 @@ import math
 import os
 import re
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -18,6 +18,7 @@ from mocap.files.conversion import find_files
 
 if TYPE_CHECKING:
     from mocap.body.motion import Motion
+    from mocap.files.recordings import Recording
     from mocap.graphs.motion_graph import MotionGraph
 
 
@@ -61,17 +62,20 @@ class Reading:
     fps: Annotated[float | None, RATE, "frames per second (default: as in the file; 120 for .amc)"] = None
     scale: Annotated[float | None, LENGTH, "metres per unit (default: 0.01; for .amc as in the .asf)"] = None
 
-    def read(self, path: Path) -> "Motion":
+    def read(self, path: Path) -> "Recording":
         """Read a clip; raise MocapError as `files.load`, and for a skeleton that the clip does not need."""
+        from mocap.files.load_save import read  # the help needs no NumPy
+        from mocap.files.rigid_bones import STRETCH
+
         if self.skeleton and path.suffix.lower() in (".bvh", ".npz"):
             raise MocapError(f"--skeleton is for .amc clips; {path} needs none.")
-        return files.load(path, **asdict(self))
+        return read(path, self.skeleton, self.fps, self.scale, STRETCH)
 
     def load(self, path: Path) -> "Motion":
         """Read a clip, and warn of a body of another size than people's."""
-        from mocap.quality.clip_flaws import warn_of_size  # the help needs no NumPy
+        from mocap.quality.clip_flaws import warn_of_size
 
-        motion = self.read(path)
+        motion = self.read(path).motion
         warn_of_size([motion])
         return motion
 

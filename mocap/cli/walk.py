@@ -194,7 +194,7 @@ def crowd(
     Example: mocap crowd --members 12 --through points.csv --around discs.csv -o crowd/
     """
     require_folder(out)
-    from mocap.files.number_tables import load_rows
+    from mocap.files.text import load_rows  # the help needs no NumPy
 
     points = load_rows(through)
     discs: Any = load_rows(around, ("x", "z", "radius")) if around else []

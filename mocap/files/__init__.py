@@ -7,9 +7,9 @@ Reading order (notebooks 01, 10)
 -------------------------------
  1. `load_save`: load and save; the suffix decides
  2. `conversion`: which motion files there are, and whole folders of them converted
- 3. `number_tables`: tables of numbers in .csv files
- 4. `path_files`: paths from .csv and .svg
- 5. `text`: text files, their lines and numbers, checked
+ 3. `path_files`: paths from .csv and .svg
+ 4. `text`: text files, their lines, numbers and tables, checked
+ 5. `recordings`: what a motion file says, besides the motion
  6. `asf`: the skeleton of Acclaim files
  7. `acclaim`: the numbers of Acclaim files, and what they mean
  8. `bvh_hierarchy`: the skeleton of BVH files

@@ -21,13 +21,14 @@ from mocap.body import euler, rotations
 from mocap.body.motion import Motion
 from mocap.errors import FormatError
 from mocap.files.asf import MOVES, TURNS, AcclaimSkeleton
+from mocap.files.recordings import Recording
 from mocap.files.text import check_room, lines, quick_numbers, read_text, to_numbers
 
 CMU_RATE = 120.0  # frames per second in most of the CMU database
 FIRST = re.compile(r"^[ \t]*\d+[ \t]*$", re.MULTILINE)  # the number of a frame
 
 
-def read_amc(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None) -> Motion:
+def read(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None) -> Recording:
     """Read an AMC file.
 
     The root's position is its position at rest + T; its rotation is M O, with O its orientation at rest.
@@ -38,15 +39,12 @@ def read_amc(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None
     asf : its skeleton.
     fps : frames per second; by default those of a first line "# fps 30", else CMU's 120.
 
-    Returns
-    -------
-    The motion, named after the file.
-
     Raises
     ------
     FormatError : with the line that breaks the format or does not fit the skeleton.
     """
     numbers, unit, rate = _read_frames(path, asf)
+    angles = {name: unit * block[:, asf.bones[name].turns] for name, block in numbers.items()}
     frames = len(numbers["root"])
     check_room(path, frames * len(asf.skeleton), sum(block.size for block in numbers.values()))
     local = np.tile(rotations.IDENTITY, (frames, len(asf.skeleton), 1))
@@ -55,7 +53,7 @@ def read_amc(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None
         bone = asf.bones[name]
         own = np.tile(rotations.IDENTITY, (frames, 1))
         if bone.turns:
-            own = euler.from_euler(bone.order, np.radians(unit * block[:, bone.turns]))
+            own = euler.from_euler(bone.order, np.radians(angles[name]))
         turned = rotations.multiply(own, bone.axis)
         if name != "root":  # L = C M C⁻¹
             turned = rotations.multiply(bone.axis, rotations.multiply(own, rotations.inverse(bone.axis)))
@@ -68,13 +66,8 @@ def read_amc(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None
                 got = f"{column[frame]:g} in frame {frame}"
                 raise FormatError(path, None, f"0 for '{dof}' of '{name}', {expected}", got)
     places = asf.bones["root"].vector + moves * asf.unit
-    return Motion(asf.skeleton, places, local, fps or rate or CMU_RATE, Path(path).stem)
-
-
-def read_angles(path: str | Path, asf: AcclaimSkeleton) -> dict[str, Array]:
-    """Give each bone's angles, shape (F, rotational dofs), in degrees, as they are in the file."""
-    numbers, unit, _ = _read_frames(path, asf)
-    return {name: unit * block[:, asf.bones[name].turns] for name, block in numbers.items()}
+    motion = Motion(asf.skeleton, places, local, fps or rate or CMU_RATE, Path(path).stem)
+    return Recording(motion, angles, {})
 
 
 def first_frame(text: str) -> dict[str, int]:

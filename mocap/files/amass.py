@@ -24,6 +24,7 @@ from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError, warn
+from mocap.files.recordings import Recording
 
 _JOINTS: dict[str, Any] = tomllib.loads(Path(__file__).with_name("smpl.toml").read_text("utf-8"))
 SKELETON = replace(Skeleton.from_table(_JOINTS), dofs=["xyz"] * len(_JOINTS))
@@ -51,7 +52,7 @@ def is_amass(path: str | Path) -> bool:
         return False
 
 
-def read(path: str | Path, *, fps: float | None = None) -> Motion:
+def read(path: str | Path, *, fps: float | None = None) -> Recording:
     """Read an archive.
 
     Parameters
@@ -61,7 +62,7 @@ def read(path: str | Path, *, fps: float | None = None) -> Motion:
 
     Returns
     -------
-    A motion of `SKELETON`, named after the file, y up.
+    A motion of `SKELETON`, y up; no angles.
 
     Raises
     ------
@@ -88,7 +89,8 @@ def read(path: str | Path, *, fps: float | None = None) -> Motion:
         warn(f"{path}: betas, the shape of the body, are ignored: {so}.")
     local = rotations.from_rotvec(poses.reshape(len(poses), -1, 3))
     local[:, 0] = rotations.multiply(UPRIGHT, local[:, 0])
-    return Motion(SKELETON, rotations.rotate(UPRIGHT, PELVIS + trans), local, rate, Path(path).stem)
+    places = rotations.rotate(UPRIGHT, PELVIS + trans)
+    return Recording(Motion(SKELETON, places, local, rate, Path(path).stem), {}, {})
 
 
 def _count(path: str | Path, members: Mapping[str, Member], key: str) -> int:

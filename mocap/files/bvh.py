@@ -24,6 +24,7 @@ from mocap.body.motion import Motion, turning
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError, shortened, warn
 from mocap.files.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
+from mocap.files.recordings import Recording
 from mocap.files.rigid_bones import STRETCH, fit
 from mocap.files.text import LARGEST, check_room, quick_numbers, read_text, to_numbers
 
@@ -37,7 +38,7 @@ TIMES = re.compile(
 
 def read(
     path: str | Path, *, scale: float = SCALE, fps: float | None = None, stretch: float = STRETCH
-) -> Motion:
+) -> Recording:
     """Read a BVH file.
 
     Position channels below the root are allowed. Where they move, and no bone's length changes by more than
@@ -51,10 +52,6 @@ def read(
     fps : frames per second; by default from the frame time, a whole number where its digits allow it.
     stretch : metres by which a bone's length may change.
 
-    Returns
-    -------
-    The motion, named after the file.
-
     Raises
     ------
     FormatError : with the line that breaks the format.
@@ -63,23 +60,19 @@ def read(
     -----
     MocapWarning : where bones were fitted, with how much they stretch, and how far joints moved.
     """
-    joints, places, local, rate = _read_poses(path, scale, fps)
-    offsets, local = _rigid(path, joints, (places, local), stretch)
-    names, parents = [joint.name for joint in joints], np.array([joint.parent for joint in joints])
-    skeleton = Skeleton(names, parents, offsets, dofs=[_turns(joint)[::-1] for joint in joints])
-    return Motion(skeleton, places[:, 0], local, rate, Path(path).stem)
-
-
-def bone_stretch(path: str | Path, *, scale: float = SCALE) -> dict[str, float]:
-    """Measure by how much each joint's bone, from its parent to it, changes its length, metres."""
-    joints, places, *_ = _read_poses(path, scale, 1.0)
-    changes = np.ptp(np.linalg.norm(places[:, 1:], axis=-1), axis=0)
-    return {joint.name: float(change) for joint, change in zip(joints[1:], changes, strict=True)}
-
-
-def _read_poses(path: str | Path, scale: float, fps: float | None) -> tuple[list[Joint], Array, Array, float]:
-    """Read joints, their places below their parents (F, J, 3), metres, rotations (F, J, 4), and the rate."""
     joints, blocks, rate = _channels(path, fps=fps)
+    angles = {joint.name: block[:, _turning(joint)] for joint, block in zip(joints, blocks, strict=True)}
+    joints, places, local = _poses(joints, blocks, scale)
+    lengths = np.ptp(np.linalg.norm(places, axis=-1), axis=0).tolist()
+    names, parents = [joint.name for joint in joints], np.array([joint.parent for joint in joints])
+    offsets, local = _rigid(path, joints, (places, local), stretch)
+    skeleton = Skeleton(names, parents, offsets, dofs=[_turns(joint)[::-1] for joint in joints])
+    motion = Motion(skeleton, places[:, 0], local, rate, Path(path).stem)
+    return Recording(motion, angles, dict(zip(names[1:], lengths[1:], strict=True)))
+
+
+def _poses(joints: list[Joint], blocks: list[Array], scale: float) -> tuple[list[Joint], Array, Array]:
+    """Turn channels into joints, their places below their parents (F, J, 3), metres, and rotations."""
     frames = len(blocks[0])
     places = np.tile(np.array([joint.offset for joint in joints]), (frames, 1, 1))
     local = np.tile(rotations.IDENTITY, (frames, len(joints), 1))
@@ -95,7 +88,7 @@ def _read_poses(path: str | Path, scale: float, fps: float | None) -> tuple[list
         local[:, 1] = rotations.multiply(local[:, 0], local[:, 1])
         joints = [replace(joint, parent=joint.parent - 1) for joint in joints[1:]]
         places, local = places[:, 1:], local[:, 1:]
-    return joints, scale * places, local, rate
+    return joints, scale * places, local
 
 
 def _channels(path: str | Path, *, fps: float | None = None) -> tuple[list[Joint], list[Array], float]:
@@ -114,12 +107,6 @@ def _channels(path: str | Path, *, fps: float | None = None) -> tuple[list[Joint
     values = _values(path, text, times, sum(counts))
     check_room(path, len(values) * len(joints), values.size)
     return joints, np.split(values, np.cumsum(counts)[:-1], axis=1), fps or _rate(path, text, times)
-
-
-def read_angles(path: str | Path) -> dict[str, Array]:
-    """Give each joint's angles, shape (F, rotation channels), in degrees, as they are in the file."""
-    joints, blocks, _ = _channels(path, fps=1.0)
-    return {joint.name: block[:, _turning(joint)] for joint, block in zip(joints, blocks, strict=True)}
 
 
 def _values(path: str | Path, text: str, times: re.Match[str], width: int) -> Array:

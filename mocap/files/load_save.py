@@ -10,6 +10,7 @@ from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError
 from mocap.files import acclaim, amass, bvh, gltf
 from mocap.files.asf import read_skeleton
+from mocap.files.recordings import Recording
 from mocap.files.rigid_bones import STRETCH
 from mocap.files.text import read_text
 
@@ -55,15 +56,21 @@ def load(
 
     Notebook: 01b-motion-files
     """
+    return read(path, skeleton, fps, scale, stretch).motion
+
+
+def read(
+    path: str | Path, skeleton: str | Path | None, fps: float | None, scale: float | None, stretch: float
+) -> Recording:
+    """Read a motion as `load` does, and what else its file says: angles, and by how much bones stretch."""
     path = Path(path)
-    _check("fps", fps)
-    _check("scale", scale)
+    _check(fps=fps, scale=scale)
     if not stretch >= 0:
         raise MocapError(f"stretch must be 0 or more metres, got {stretch}.")
     match path.suffix.lower():
         case ".amc":
             asf = _skeleton_for(path) if skeleton is None else Path(skeleton)
-            return acclaim.read_amc(path, read_skeleton(asf, scale=scale), fps=fps)
+            return acclaim.read(path, read_skeleton(asf, scale=scale), fps=fps)
         case ".bvh":
             return bvh.read(path, scale=scale or bvh.SCALE, fps=fps, stretch=stretch)
         case ".npz":
@@ -127,36 +134,7 @@ def read_angles(path: str | Path, *, skeleton: str | Path | None = None) -> dict
 
     Notebook: 01b-motion-files
     """
-    path = Path(path)
-    match path.suffix.lower():
-        case ".bvh":
-            return bvh.read_angles(path)
-        case ".npz":
-            return {}  # it has rotation vectors
-    asf = _skeleton_for(path) if skeleton is None else Path(skeleton)
-    return acclaim.read_angles(path, read_skeleton(asf))
-
-
-def bone_stretch(path: str | Path, *, scale: float | None = None) -> dict[str, float]:
-    """Measure by how much each bone of a file changes its length: the longest less the shortest, metres.
-
-    Only a `.bvh` file can have such bones; for the other formats the answer is empty.
-
-    Parameters
-    ----------
-    path, scale : as for `load`.
-
-    Returns
-    -------
-    Metres by joint; the bone is that from its parent to it.
-
-    Examples
-    --------
-    >>> bone_stretch("walk.amc")
-    {}
-    """
-    _check("scale", scale)
-    return bvh.bone_stretch(path, scale=scale or bvh.SCALE) if Path(path).suffix.lower() == ".bvh" else {}
+    return read(path, skeleton, None, None, math.inf).angles
 
 
 def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
@@ -200,9 +178,10 @@ def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
             raise MocapError(f"Cannot write {path}: mocap writes {WRITTEN}.")
 
 
-def _check(name: str, value: float | None) -> None:
-    if value is not None and not (math.isfinite(value) and value > 0):
-        raise MocapError(f"{name} must be a number above 0, got {value}.")
+def _check(**options: float | None) -> None:
+    for name, value in options.items():
+        if value is not None and not (math.isfinite(value) and value > 0):
+            raise MocapError(f"{name} must be a number above 0, got {value}.")
 
 
 def _skeleton_for(path: Path) -> Path:

@@ -12,8 +12,7 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.body.ground_path import GroundPath
 from mocap.errors import FormatError, MocapError, shortened
-from mocap.files.number_tables import load_rows
-from mocap.files.text import read_text, to_numbers
+from mocap.files.text import load_rows, read_text, to_numbers
 
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 BETWEEN = " ,\t\n"  # what parts numbers, besides their signs

@@ -1,6 +1,8 @@
-"""Text files: read whole or refused, with checks of their lines and numbers."""
+"""Text files: read whole or refused, with checks of their lines and numbers, and tables of numbers."""
 
+import re
 from collections.abc import Iterator
+from contextlib import suppress
 from io import StringIO
 from pathlib import Path
 
@@ -105,17 +107,14 @@ def to_numbers(path: str | Path, line: int | None, words: list[str], expected: s
     """
     if len(words) != count:
         raise FormatError(path, line, expected, str(len(words)))
-    for place, word in enumerate(words, 1):
-        try:
-            large = not abs(float(word)) < LARGEST  # true for nan, too
-        except ValueError:
-            large = False
-        else:
-            if not large:
-                continue
-        got = f"'{shortened(word, 40)}'{f' as number {place}' if count > 1 else ''}"
-        raise FormatError(path, line, f"{expected}, all below {LARGEST:g}" if large else expected, got)
-    return np.array([float(word) for word in words])
+    if (numbers := quick_numbers(words)) is not None:
+        return numbers
+    place, word = next((n, word) for n, word in enumerate(words, 1) if quick_numbers([word]) is None)
+    with suppress(ValueError):
+        float(word)  # it is a number, but a large one
+        expected = f"{expected}, all below {LARGEST:g}"
+    got = f"'{shortened(word, 40)}'{f' as number {place}' if count > 1 else ''}"
+    raise FormatError(path, line, expected, got)
 
 
 def quick_numbers(words: list[str]) -> Array | None:
@@ -130,3 +129,45 @@ def quick_numbers(words: list[str]) -> Array | None:
     except ValueError:
         return None
     return numbers if np.all(np.abs(numbers) < LARGEST) else None
+
+
+def load_rows(path: str | Path, names: tuple[str, ...] = ("x", "z")) -> Array:
+    r"""Read a table of numbers from a `.csv` file as people write it, one row per line.
+
+    Numbers stand between commas, semicolons or blanks; lines without numbers at the start are a heading, and
+    what follows a # is left out.
+
+    Parameters
+    ----------
+    path : the file.
+    names : of the columns, for errors.
+
+    Returns
+    -------
+    Shape (rows, columns); numbers may be infinite or NaN.
+
+    Raises
+    ------
+    FormatError, MocapError : for a file that cannot be read, a line with more or fewer numbers, and no line.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder, "discs.csv")
+    ...     _ = file.write_text("x, z, radius\n1, 2, 0.5  # a stone\n")
+    ...     load_rows(file, ("x", "z", "radius"))
+    array([[1. , 2. , 0.5]])
+    """
+    rows: list[Array] = []
+    example = ", ".join(("1.5", "2", "0.5")[: len(names)])
+    expected = f"{', '.join(names[:-1])} and {names[-1]} in each line, such as '{example}'"
+    for number, line in enumerate(read_text(path).split("\n"), 1):
+        text = line.partition("#")[0]
+        parts = [part.split() or [""] for part in text.replace(";", ",").split(",")]
+        if not text.strip() or (not rows and not re.search(r"\d", line)):
+            continue
+        rows.append(to_numbers(path, number, [word for part in parts for word in part], expected, len(names)))
+    if not rows:
+        raise FormatError(path, None, expected, "no numbers")
+    return np.array(rows)

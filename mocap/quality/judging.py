@@ -121,7 +121,7 @@ def judge(
     against : the clips that it was made of, if it was made of clips; resampled to its frame rate.
     path : what it should follow.
     stretch : by how much bones change their lengths in the motion's file, metres, by joint, as
-        `files.load_save.bone_stretch` gives it; a motion that was loaded has rigid bones.
+        `files.load_save.read` gives it; a motion that was loaded has rigid bones.
 
     Raises
     ------

@@ -1,6 +1,7 @@
 """The commands for clip files, as a person types them, and `files.conversion`."""
 
 import json
+import math
 import os
 from dataclasses import replace
 from pathlib import Path
@@ -168,7 +169,7 @@ def test_judge_shows_bones_that_stretch_and_looks_into_folders(tmp_path, run):
     assert judged["score"] > 3 and judged["height"] == pytest.approx(0.829, abs=1e-3)
     assert judged["bones"]["head"] == pytest.approx(0.4)
     assert "bones change length by up to 58 mm" in said.err
-    assert load_save.bone_stretch(path)["head"] == 0
+    assert load_save.read(path, None, None, None, math.inf).stretch["head"] == 0
     refused("stretch must be 0 or more metres, got nan", load_save.load, path, stretch=float("nan"))
 
 

@@ -3,8 +3,7 @@
 import numpy as np
 
 from mocap.body import euler
-from mocap.files import acclaim
-from mocap.files.asf import read_skeleton
+from mocap.files import load_save
 
 ASF = """# a leg and an arm
 :version 1.10
@@ -89,7 +88,7 @@ SPINE = """:root
 
 
 def read_clip(write, asf=ASF, amc_text=AMC, **options):
-    return acclaim.read_amc(write("a.amc", amc_text), read_skeleton(write("a.asf", asf)), **options)
+    return load_save.load(write("a.amc", amc_text), skeleton=write("a.asf", asf), **options)
 
 
 def write_acclaim(motion, path):

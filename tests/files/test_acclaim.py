@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from mocap.body.kinematics import joint_positions
 from mocap.errors import FormatError
-from mocap.files import acclaim
+from mocap.files import load_save
 from mocap.files.asf import read_skeleton
 from tests.files.acclaim_clips import AMC, ASF, read_clip
 from tests.refusals import refused
@@ -113,7 +113,7 @@ def test_degrees_and_radians(write):
         (ASF, AMC.replace(":DEGREES\n", "")),
     ]:
         assert np.allclose(read_clip(write, asf, text).rotations, expected)
-        angles = acclaim.read_angles(write("a.amc", text), read_skeleton(write("a.asf", asf)))
+        angles = load_save.read_angles(write("a.amc", text), skeleton=write("a.asf", asf))
         assert np.allclose(angles["arm"], [[0, 0], [90, 90]])
 
 

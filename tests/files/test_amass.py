@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from mocap.body import limbs
 from mocap.body.kinematics import joint_positions
 from mocap.errors import FormatError, MocapWarning
-from mocap.files import amass
+from mocap.files import amass, load_save
 from tests.refusals import refused
 from tests.strategies import seeds
 
@@ -54,7 +54,7 @@ def by_hand(poses, trans):
 def test_joints_are_where_smpl_puts_them(tmp_path_factory, seed):
     path, arrays = tmp_path_factory.getbasetemp() / "a.npz", numbers(2, seed, width=66 + seed % 100)
     np.savez(path, **arrays)
-    motion = amass.read(path)
+    motion = load_save.load(path)
     x, z, y = np.moveaxis(joint_positions(motion), -1, 0) * np.array([1, 1, -1])[:, None, None]
     ours = np.stack([x, y, z], axis=-1)  # back to z up
     for frame in range(2):
@@ -65,7 +65,7 @@ def test_joints_are_where_smpl_puts_them(tmp_path_factory, seed):
 def test_the_body_stands_upright_and_faces_where_the_archive_says(archive):
     upright = np.zeros((1, 66))
     upright[0, :3] = [np.pi / 2, 0, 0]  # SMPL's T-pose looks along +z, and has y up; archives turn it to z up
-    motion = amass.read(archive(poses=upright, trans=np.array([[2.0, 3.0, 1.2]])))
+    motion = load_save.load(archive(poses=upright, trans=np.array([[2.0, 3.0, 1.2]])))
     at = dict(zip(motion.skeleton.names, joint_positions(motion)[0], strict=True))
     assert at["head"][1] - at["left_ankle"][1] > 1.2
     assert at["left_wrist"][0] > at["right_wrist"][0]
@@ -76,18 +76,18 @@ def test_the_body_stands_upright_and_faces_where_the_archive_says(archive):
 
 
 def test_older_and_newer_names_of_the_rate(archive):
-    assert amass.read(archive(mocap_framerate=None, mocap_frame_rate=np.array([60]))).fps == 60.0
-    assert amass.read(archive(mocap_framerate=None), fps=25.0).fps == 25.0
+    assert load_save.load(archive(mocap_framerate=None, mocap_frame_rate=np.array([60]))).fps == 60.0
+    assert load_save.load(archive(mocap_framerate=None), fps=25.0).fps == 25.0
 
 
 def test_betas_are_ignored_with_a_sentence(archive):
     path = archive(betas=np.ones(16))
     with pytest.warns(MocapWarning, match="betas, the shape of the body, are ignored") as caught:
-        shaped = amass.read(path)
+        shaped = load_save.load(path)
     assert len(str(caught[0].message).replace(str(path), "")) <= 200
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        plain = amass.read(archive())
+        plain = load_save.load(archive())
     assert np.array_equal(shaped.rotations, plain.rotations)
 
 
@@ -113,10 +113,10 @@ BAD = [
 @pytest.mark.parametrize(("changes", "message"), BAD)
 def test_a_broken_archive_is_refused(archive, changes, message):
     path = archive(**changes)
-    refused(message, amass.read, path, kind=FormatError)
+    refused(message, load_save.load, path, kind=FormatError)
 
 
 def test_files_of_other_kinds_are_refused(tmp_path):
     for path, reason in ((tmp_path / "gone.npz", "No such file"), (tmp_path, "Is a directory")):
-        refused(f"Cannot read {path}: {reason}", amass.read, path)
+        refused(f"Cannot read {path}: {reason}", load_save.load, path)
         assert not amass.is_amass(path)

@@ -65,7 +65,7 @@ def where(motion, frame):
 
 
 def test_positions_worked_out_by_hand(write):
-    motion = bvh.read(write(BVH))
+    motion = load_save.load(write(BVH))
     assert motion.skeleton.names == ("hips", "left leg", "left leg_end", "left leg_end2", "head")
     assert motion.skeleton.parents.tolist() == [-1, 0, 1, 1, 0]
     assert (len(motion), motion.fps, motion.name) == (2, 30.0, "a")
@@ -81,9 +81,9 @@ def test_positions_worked_out_by_hand(write):
 
 def test_scale_and_fps(write):
     path = write(BVH)
-    metres = bvh.read(path, scale=1.0, fps=24.0)
+    metres = load_save.load(path, scale=1.0, fps=24.0)
     assert metres.fps == 24.0
-    assert np.allclose(joint_positions(metres), 100 * joint_positions(bvh.read(path)))
+    assert np.allclose(joint_positions(metres), 100 * joint_positions(load_save.load(path)))
 
 
 def in_frames(text, old, new):
@@ -126,8 +126,8 @@ ROOT = "CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation"
     ],
 )
 def test_the_same_motion_written_otherwise(write, change):
-    expected = bvh.read(write(BVH))
-    motion = bvh.read(write(change(BVH)))
+    expected = load_save.load(write(BVH))
+    motion = load_save.load(write(change(BVH)))
     expected.skeleton.require_same(motion.skeleton)
     assert motion.fps == expected.fps
     assert np.allclose(joint_positions(motion), joint_positions(expected), atol=1e-12)
@@ -139,7 +139,7 @@ def test_any_order_of_channels(write, order):
     angles = dict(zip("XYZ", [20.0, -130.0, 70.0], strict=True))
     text = BVH.replace("3 Yrotation Zrotation Xrotation", f"{len(order)} {names}")
     numbers = " ".join(str(angles[axis]) for axis in order)
-    motion = bvh.read(write(in_frames(text, " 0 0 0\n", f" {numbers}\n")))
+    motion = load_save.load(write(in_frames(text, " 0 0 0\n", f" {numbers}\n")))
     expected = np.eye(3)
     for axis in order:  # the first stands on the left
         expected = expected @ rotations.to_matrix(euler.from_euler(axis, [np.radians(angles[axis])]))
@@ -166,7 +166,7 @@ def test_any_order_of_channels(write, order):
     ],
 )
 def test_frame_rates(write, seconds, fps):
-    assert bvh.read(write(BVH.replace("0.0333333", seconds))).fps == pytest.approx(fps, rel=1e-12)
+    assert load_save.load(write(BVH.replace("0.0333333", seconds))).fps == pytest.approx(fps, rel=1e-12)
 
 
 def with_reference(second_root):
@@ -178,11 +178,11 @@ def with_reference(second_root):
 
 
 def test_a_reference_that_carries_the_hips_is_left_out(write):
-    expected = bvh.read(write(BVH))
-    motion = bvh.read(write(with_reference("0 0 0 0 0 0")))
+    expected = load_save.load(write(BVH))
+    motion = load_save.load(write(with_reference("0 0 0 0 0 0")))
     expected.skeleton.require_same(motion.skeleton)
     assert np.allclose(joint_positions(motion), joint_positions(expected))
-    turned = bvh.read(write(with_reference("7 0 0 0 0 90")))  # +z becomes +x
+    turned = load_save.load(write(with_reference("7 0 0 0 0 90")))  # +z becomes +x
     start = where(expected, 1)
     for name, point in where(turned, 1).items():
         x, y, z = start[name]
@@ -230,7 +230,7 @@ def test_a_reference_that_carries_the_hips_is_left_out(write):
 )
 def test_a_broken_file_is_refused_at_its_line(write, old, new, message):
     assert old in BVH
-    refused(message, bvh.read, write(BVH.replace(old, new, 1)), kind=FormatError)
+    refused(message, load_save.load, write(BVH.replace(old, new, 1)), kind=FormatError)
 
 
 NAMES = st.text(
@@ -259,7 +259,7 @@ def motions(draw):
 def test_what_is_written_reads_back(tmp_path_factory, motion):
     path = tmp_path_factory.getbasetemp() / "a.bvh"
     bvh.write(motion, path, precision=11)
-    back = bvh.read(path)
+    back = load_save.load(path)
     assert set(back.skeleton.names) == set(motion.skeleton.names)
     order = [back.skeleton.index(name) for name in motion.skeleton.names]
     assert np.abs(joint_positions(back)[:, order] - joint_positions(motion)).max() < 1e-9
@@ -268,7 +268,7 @@ def test_what_is_written_reads_back(tmp_path_factory, motion):
     assert [back.skeleton.names[back.skeleton.parents[joint]] for joint in order[1:]] == parents
     assert back.fps == pytest.approx(motion.fps, rel=1e-12)
     bvh.write(back, path)
-    assert bvh.read(path).skeleton.names == back.skeleton.names  # depth first by now
+    assert load_save.load(path).skeleton.names == back.skeleton.names  # depth first by now
 
 
 def test_curves_are_continuous(tmp_path):
@@ -302,7 +302,7 @@ def test_numbers_that_no_file_holds_are_refused(tmp_path):
 
 def test_world_positions_that_others_found(real_data):
     folder = real_data / "bvh/olaf_bvh_toolbox"
-    motion = bvh.read(folder / "walk01.bvh", scale=1.0)
+    motion = load_save.load(folder / "walk01.bvh", scale=1.0)
     with (folder / "walk01_pos.csv").open() as file:
         rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
     assert len(rows) == len(motion)

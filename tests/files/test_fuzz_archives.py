@@ -15,7 +15,7 @@ from numpy.lib.format import write_array, write_array_header_1_0
 from mocap._shared.archives import pack
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
-from mocap.files import amass
+from mocap.files import load_save
 from mocap.graphs import storage
 from mocap.graphs.graph_summary import summary
 from mocap.graphs.motion_graph import build
@@ -46,7 +46,7 @@ def use_graph(path):
 
 
 def use_amass(path):
-    assert isinstance(amass.read(path), Motion)
+    assert isinstance(load_save.load(path), Motion)
 
 
 KINDS = {"graph": (save_graph, use_graph), "amass": (save_amass, use_amass)}

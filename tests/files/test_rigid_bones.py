@@ -12,7 +12,7 @@ from mocap.body.motion import Motion, resample
 from mocap.body.skeleton import Skeleton
 from mocap.datasets import samples
 from mocap.errors import FormatError, MocapWarning
-from mocap.files import bvh, rigid_bones
+from mocap.files import load_save, rigid_bones
 
 WALK = resample(samples.sample("walk_straight"), 30)[:90]
 
@@ -93,7 +93,7 @@ def test_a_bvh_file_that_stretches_a_little_is_read_with_a_warning(tmp_path):
     (tmp_path / "a.bvh").write_text(six_channels(*chain(0.01)))
     told = "bones change length by up to 10 mm (spine); fitted to rigid bones, joints lie up to 5 mm"
     with pytest.warns(MocapWarning, match=re.escape(told)) as caught:
-        motion = bvh.read(tmp_path / "a.bvh")
+        motion = load_save.load(tmp_path / "a.bvh")
     assert len(str(caught[0].message).replace(str(tmp_path), "")) <= 200
     spine = motion.skeleton.index("spine")
     assert np.allclose(motion.skeleton.offsets[spine], [0, 0.405, 0])
@@ -104,7 +104,7 @@ def test_a_bvh_file_that_stretches_far_is_refused(tmp_path, amount):
     (tmp_path / "a.bvh").write_text(six_channels(*chain(amount)))
     told = rf"line 11: expected 'spine' in one place below its parent, but for 0.02 m, got .* by {amount:g}"
     with pytest.raises(FormatError, match=told):
-        bvh.read(tmp_path / "a.bvh")
+        load_save.load(tmp_path / "a.bvh")
 
 
 def test_children_that_part_are_refused_even_if_their_bones_keep_their_lengths():

@@ -7,8 +7,7 @@ import pytest
 
 from mocap.errors import FormatError
 from mocap.files import conversion, load_save
-from mocap.files.number_tables import load_rows
-from mocap.files.text import lines, read_text, to_numbers
+from mocap.files.text import lines, load_rows, read_text, to_numbers
 from tests.refusals import refused
 from tests.strategies import wave
 
