@@ -47,13 +47,10 @@ def minima_1d(grid: ArrayLike) -> Mask:
     Notebook: 16-match-webs
     """
     cells = np.asarray(grid)
-    marks = np.zeros(cells.shape, bool)
-    for values, found in ((cells, marks), (cells.T, marks.T)):
-        low = np.ones(values.shape, bool)
-        low[:, 1:] = values[:, 1:] <= values[:, :-1]
-        low[:, :-1] &= values[:, :-1] <= values[:, 1:]
-        found |= low
-    return np.asarray(marks & (cells < np.inf))
+    around = np.pad(cells, 1, mode="edge")
+    in_row = (cells <= around[1:-1, :-2]) & (cells <= around[1:-1, 2:])
+    in_column = (cells <= around[:-2, 1:-1]) & (cells <= around[2:, 1:-1])
+    return np.asarray((in_row | in_column) & (cells < np.inf))
 
 
 def local_paths(costs: ArrayLike, *, slope: int = 2, least: int = 1) -> Iterator[Indices]:

@@ -93,11 +93,15 @@ class Examples:
     def blend(self, weights: Array) -> Motion:
         """Blend the action by weights (N,): one frame per phase from 0 to 1, as long as the mix takes."""
         zero, one = self.ends
-        (roots,), (turns,), _ = self.mixed(weights[None], np.arange(zero, one + 1.0)[None])
-        marks = np.tensordot(weights, self.contacts[:, zero : one + 1], 1) > 0.5
-        contacts = dict(zip(self.contact_names, marks.T, strict=True))
         rate = (one - zero) / float(weights @ self.seconds[:, one])
-        return Motion(self.skeleton, roots, turns, rate, "blend", contacts=contacts)
+        return self.motion(weights, np.arange(zero, one + 1.0), rate)[0]
+
+    def motion(self, weights: Array, places: Array, fps: float) -> tuple[Motion, Array]:
+        """Blend by weights (N,) at F places between the G phases: the motion, and its heading (F,)."""
+        (roots,), (turns,), (facing,) = self.mixed(weights[None], places[None])
+        marks = np.tensordot(weights, self.contacts[:, np.rint(places).astype(int)], 1) > 0.5
+        contacts = dict(zip(self.contact_names, marks.T, strict=True))
+        return Motion(self.skeleton, roots, turns, fps, "blend", contacts=contacts), facing
 
     def mixed(self, weights: Array, places: Array) -> tuple[Array, Array, Array]:
         """Mix M poses at F places between the G phases: roots (M, F, 3), rotations, headings (M, F).
@@ -179,7 +183,8 @@ def cut_actions(clips: Sequence[Motion], spans: Sequence[tuple[int, int]]) -> Ex
     if len(spans) != len(clips):
         raise MocapError(f"Actions are cut by one span for each clip, got {len(clips)} and {len(spans)}.")
     clips = require_alike(clips)
-    grid = np.arange(-round(MARGIN * FINE), round((1 + MARGIN) * FINE) + 1) / FINE
+    margin = round(MARGIN * FINE)
+    grid = np.arange(-margin, FINE + margin + 1) / FINE
     found = []
     for clip, (first, last) in zip(clips, spans, strict=True):
         frames = first + grid * (last - first)
@@ -188,8 +193,7 @@ def cut_actions(clips: Sequence[Motion], spans: Sequence[tuple[int, int]]) -> Ex
             beyond = f"{action} from {frames[0]:.0f} to {frames[-1]:.0f}"
             raise MocapError(f"'{clip.name}' has {len(clip)} frames; {beyond}: leave it more room, or out.")
         found.append((clip if clip.contacts else mark_plants(clip), frames))
-    zero, one = np.searchsorted(grid, [-1e-9, 1 - 1e-9])
-    return tabled(on_one_clock(found, (int(zero), int(one))), grid)
+    return tabled(on_one_clock(found, (margin, margin + FINE)), grid)
 
 
 def tabled(found: Sequence[Cut], grid: Array, *, dropped: int = 0) -> Examples:

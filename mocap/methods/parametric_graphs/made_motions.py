@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Mask
+from mocap._shared.arrays import Array
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
@@ -68,10 +68,7 @@ def make_motion(space: Space, asked: Array) -> MadeMotion:
     seconds, rate = weights @ examples.seconds, examples.fps
     times = np.arange(np.ceil(seconds[0] * rate), np.floor(seconds[-1] * rate) + 1) / rate
     places = np.interp(times, seconds, np.arange(len(seconds)))
-    (roots,), (turns,), (facing,) = examples.mixed(weights[None], places[None])
-    contacts: Mask = np.tensordot(weights, examples.contacts[:, np.rint(places).astype(int)], 1) > 0.5
-    marks = dict(zip(examples.contact_names, contacts.T, strict=True))
-    motion = Motion(examples.skeleton, roots, turns, rate, "made", contacts=marks)
+    motion, facing = examples.motion(weights, places, rate)
     return MadeMotion(motion, np.interp(times, seconds, examples.grid), facing, values)
 
 

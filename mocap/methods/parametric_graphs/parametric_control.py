@@ -81,7 +81,7 @@ class ParametricController:
         if self.node not in graph.graph:
             raise MocapError(f"There is no node '{self.node}'; there are: {', '.join(graph.graph)}.")
         space, self.target = graph.space(self.node), np.full(3, np.nan)
-        self.skeleton, self.fps = space.examples.skeleton, graph.fps
+        self.skeleton, self.fps = space.examples.skeleton, space.examples.fps
         usual = {"turn": 0.0, "speed": float(np.median(space.examples.values[:, 1]))}
         middle = np.median(space.reached, axis=0)
         asked = [usual.get(name, own) for name, own in zip(space.parameters, middle, strict=True)]

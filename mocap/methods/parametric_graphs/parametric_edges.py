@@ -209,11 +209,6 @@ class ParametricGraph:
 
     graph: nx.DiGraph
 
-    @property
-    def fps(self) -> float:
-        """Frames per second, the same for all spaces."""
-        return float(self.space(next(iter(self.graph))).examples.fps)
-
     def space(self, node: str) -> Space:
         """Give the space of a node."""
         found: Space = self.graph.nodes[node]["space"]
@@ -223,17 +218,6 @@ class ParametricGraph:
         """Give the edge from a node to another one, or to itself."""
         found: ParametricEdge = self.graph.edges[node, other]["edge"]
         return found
-
-    def report(self) -> str:
-        """Say in one line per edge how wide its boxes are and which cost it needs."""
-        lines = []
-        for node, other, data in self.graph.edges(data=True):
-            edge: ParametricEdge = data["edge"]
-            wide = (edge.high - edge.low).mean(axis=0)
-            names = self.space(other).parameters
-            boxes = " and ".join(map("{} of {}".format, map(said, names, wide), names))
-            lines.append(f"{node} → {other}: boxes of {boxes}, from {100 * edge.least:.1f} cm on")
-        return "\n".join(lines)
 
 
 def build_parametric(

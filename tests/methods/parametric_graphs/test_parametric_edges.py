@@ -22,9 +22,7 @@ from mocap.methods.parametric_graphs.stride_spaces import draw_parameters
 from tests.methods.parametric_graphs.built import (
     SMALL,
     bad_ones,
-    by_turn_and_speed,
     space,
-    stepping,
     walk_and_jog,
     walking,
 )
@@ -135,12 +133,4 @@ def test_by_default_all_edges_that_can_be_had_are_there():
     """As in [HG07, graph]."""
     some = {name: walk_and_jog().space(name) for name in ("walk", "jog")}
     graph = build_parametric(some, good=0.05, sampling=SMALL)
-    assert set(graph.graph.edges) == {("walk", "walk"), ("jog", "jog")} and graph.fps == 30
-
-
-def test_the_report_names_each_edge_and_its_boxes():
-    assert walking().report().startswith("walk → walk: boxes of ")
-    assert "of turn, from 1." in walking().report()
-    assert len(stepping().report().splitlines()) == 2
-    both = build_parametric({"walk": by_turn_and_speed()}, good=0.06, sampling=SMALL)
-    assert "m/s of speed" in both.report()
+    assert set(graph.graph.edges) == {("walk", "walk"), ("jog", "jog")}
