@@ -1,6 +1,6 @@
 """What the discussion shares: random walks by a matrix, matches drawn at random, and blends of these.
 
-Both questions are asked of many collections of clips in the same way, in notebooks 09 and 09b.
+All are measured on many collections of clips in the same way, in notebooks 09 and 09b.
 """
 
 from collections.abc import Callable, Sequence
@@ -51,35 +51,6 @@ def walk_costs(odds: Array, costs: Array, *, walks: int = 40, steps: int = 60, s
     return rows
 
 
-def visit(odds: Array, jumps: Array, costs: Array, *, steps: int = 60) -> tuple[float, float]:
-    """Follow all random walks at once, from starts that are equally likely, without random numbers.
-
-    Parameters
-    ----------
-    odds : shape (S, S), P.
-    jumps : the part of P that belongs to transitions.
-    costs : of transitions, shape (S, S).
-
-    Returns
-    -------
-    Transitions per step, and their mean cost; 0 and 0 where there are none.
-
-    Examples
-    --------
-    >>> odds = np.array([[0, 0.5, 0.5], [1, 0, 0], [1, 0, 0]])
-    >>> visit(odds, odds * [[0, 0, 1], [0, 0, 0], [0, 0, 0]], np.full((3, 3), 7.0))
-    (0.25, 7.0)
-
-    Notebook: 09-discussion
-    """
-    at, visits = np.full(len(odds), 1 / len(odds)), np.zeros(len(odds))
-    for _ in range(steps):
-        visits, at = visits + at * odds.any(axis=1), at @ odds
-    taken = visits[:, None] * jumps
-    total = float(taken.sum())
-    return total / max(float(visits.sum()), 1e-9), float((taken * costs).sum()) / max(total, 1e-9)
-
-
 def choose_matches(
     clips: Sequence[Motion],
     found: Transitions,
@@ -113,24 +84,6 @@ def choose_matches(
     return [found[number] for number in numbers[:count]]
 
 
-class Jolts(NamedTuple):
-    """Jolts from the frame before a blend's window to the one after it, m/s: the RMS over the points.
-
-    A jolt is |x_{f+1} - 2 x_f + x_{f-1}| · fps. `added` is |ẍ_result - (α ẍ_first + (1 - α) ẍ_second)| / fps,
-    with the weights α: what the blend itself adds.
-    """
-
-    result: Array
-    first: Array
-    second: Array
-    added: Array
-
-    @property
-    def stands_out(self) -> bool:
-        """Whether the result has a larger jolt than both clips have at these frames."""
-        return bool(self.result.max() > max(self.first.max(), self.second.max()))
-
-
 class Passage(NamedTuple):
     """A blend and its two clips on one clock: frame f of the result is made of frame f of both.
 
@@ -161,13 +114,17 @@ class Passage(NamedTuple):
         return np.asarray(np.sqrt((points**2).sum(axis=-1).mean(axis=-1)) * self.first.fps)
 
     @property
-    def jolts(self) -> Jolts:
-        """The jolts of the result and of both clips, and what the blend adds."""
+    def jolts(self) -> Array:
+        """The jolts of the result and of both clips, and those that the blend itself adds, shape (4, F), m/s.
+
+        A jolt is |x_{f+1} - 2 x_f + x_{f-1}| · fps, the RMS over the points, from the frame before the window
+        to the one after it. The blend adds |ẍ_result - (α ẍ_first + (1 - α) ẍ_second)| / fps.
+        """
         frames = slice(max(self.start - 2, 0), self.start + len(self.weights) + 2)
         result, first, second = (np.diff(point_cloud(motion[frames]), 2, axis=0) for motion in self[:3])
         share = self.alpha[frames][1:-1, None, None]
         added = result - share * first - (1 - share) * second
-        return Jolts(*(self.size(change) for change in (result, first, second, added)))
+        return np.array([self.size(change) for change in (result, first, second, added)])
 
     @property
     def slide(self) -> float:
@@ -206,49 +163,3 @@ def passage(
     mixed = blend(first[start : start + window], laid[start : start + window], weights(window))
     result = splice(first, start, mixed, laid, start + window)
     return Passage(result, first, laid, start, weights(window))
-
-
-class Blends(NamedTuple):
-    """What blends of N matches over W windows do, shape (W, N) each.
-
-    added : the largest added jolt, m/s.
-    leads : whether the second of both terms is larger than the first.
-    stands_out : whether the result jolts more than both clips.
-    slide : the slide added, cm.
-    """
-
-    added: Array
-    leads: Array
-    stands_out: Array
-    slide: Array
-
-
-def measure_blends(
-    clips: Sequence[Motion],
-    matches: Sequence[Transition],
-    windows: Sequence[int],
-    terms: Callable[[Array, Array], Sequence[Array]],
-) -> Blends:
-    """Blend each match over each window by cubic weights, and measure what the blend adds.
-
-    Parameters
-    ----------
-    clips, matches : as for `passage`.
-    windows : W numbers of frames.
-    terms : gives for `Passage.gap` and `Passage.alpha` two arrays (F - 2, 3P), of which the leading one is
-        asked for.
-
-    Examples
-    --------
-    >>> measure_blends([], [], [4, 10], lambda gap, alpha: (gap, gap)).added.shape
-    (2, 0)
-
-    Notebook: 09-discussion
-    """
-    each = list[tuple[float, ...]]()
-    for window in windows:
-        for blended in (passage(clips, match, window) for match in matches):
-            place, speed = (blended.size(term).max() for term in terms(blended.gap, blended.alpha))
-            jolts = blended.jolts
-            each.append((jolts.added.max(), speed > place, jolts.stands_out, blended.slide))
-    return Blends(*np.reshape(np.array(each, float), (len(windows), len(matches), 4)).transpose(2, 0, 1))

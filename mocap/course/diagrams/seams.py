@@ -233,7 +233,7 @@ def _move_added(
         line.set_data(np.arange(len(speed)) + 0.5 - start, speed)
     inside.set_width(window - 1)
     frames = np.arange(-1, window + 1)
-    jolts = np.pad(blended.jolts.added, 1)  # down to the ground at both ends
+    jolts = np.pad(blended.jolts[3], 1)  # down to the ground at both ends
     added.set_xy(np.column_stack([np.pad(frames, 1, mode="edge"), jolts]))
     for line, term in zip(sizes, terms, strict=True):
         line.set_data(frames, blended.size(term)[start - 2 :][: window + 2])
