@@ -3,26 +3,18 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 import networkx as nx
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion, require_alike
 from mocap.course.lab.adopting import whose
 from mocap.course.lab.places import NAMES, Tools, pages_of
 from mocap.course.lab.places import tools as tools
-from mocap.errors import MocapError, MocapWarning, NoWalk
-from mocap.graphs import build, prune
+from mocap.errors import MocapError
 from mocap.plain import Edge
-from mocap.plotting import bodies_along
-from mocap.plotting.picture import Picture, stack
-from mocap.steering import follow_path
-from mocap.synthesis import seams
 
 WINDOW, BELOW = 10, 0.05  # of the transitions: frames, and metres
 AHEAD = 1.5  # seconds that a choice looks ahead: with less, no turn is seen
@@ -73,14 +65,10 @@ class OwnGraph:
 
         Raises
         ------
-        NoWalk : where no walk reaches the end of the path.
+        ValueError : where no walk comes to the end of the path.
         """
         search = self.pages.Search(self.clips, self.graph, self.pages.points_along(np.asarray(path, float)))
-        try:
-            found: OwnWalk = search.walk()
-        except ValueError as error:
-            said = f"No walk of this graph reaches the end of a path of {search.end:.1f} m."
-            raise NoWalk(said) from error
+        found: OwnWalk = search.walk()
         return found
 
     def steer(self, command: Callable[[float], tuple[float, float]], seconds: float) -> OwnWalk:
@@ -110,67 +98,6 @@ class OwnGraph:
         """Play a walk, shape (F, ...): copy stretches of clip, blend transitions [KGP02, Eqs. 5 and 6]."""
         roots, turns = self.pages.to_motion(self.clips, self.graph, *walk)
         return Motion(self.clips[0].skeleton, roots, turns, self.clips[0].fps, "my walk")
-
-    def seams(self, walk: OwnWalk) -> list[int]:
-        """Give the frames at which a walk's transitions begin."""
-        edges = [self.graph.edges[edge] for edge in walk[0]]
-        starts = np.cumsum([0, *(edge["frames"] for edge in edges)])
-        return [int(at) for at, edge in zip(starts, edges, strict=False) if edge["kind"] == "transition"]
-
-
-@dataclass(frozen=True)
-class Beside(Picture):
-    """A picture of three walks along one path: one's own, that of `mocap.plain`, and the package's.
-
-    Parameters
-    ----------
-    motion : the walk of the functions in their places; `mocap.save` writes it as BVH.
-    """
-
-    motion: Motion
-
-
-def walk_beside(clips: Sequence[Motion], path: ArrayLike) -> Beside:
-    """Walk along a path by the functions of the exercises, by `mocap.plain`, and by the package.
-
-    Parameters
-    ----------
-    clips : motions of one skeleton and one frame rate, some hundred frames in all: one's own code is slow.
-    path : corners on the ground (x, z), shape (N, 2), metres, as from a canvas.
-
-    Returns
-    -------
-    The walks, which the last line of a cell shows; whose functions ran, and how near the walks are, is
-    printed.
-
-    Raises
-    ------
-    NoWalk, MocapError : as for `OwnGraph` and its `follow`.
-
-    Notebook: 08-path-synthesis
-    """
-    line, ours = GroundPath(np.asarray(path, float)), tools()
-    walks = {}
-    for name, by in (("my walk", ours), ("plain's walk", None)):
-        graph = OwnGraph(clips, WINDOW, BELOW, by)
-        walk = graph.follow(line.points)
-        walks[name] = graph.play(walk), graph.seams(walk)
-    whole = prune(build(clips, window=WINDOW, threshold=BELOW))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", MocapWarning)  # what is printed says how far it is off
-        followed = follow_path(whole, line)
-    walks["the package's walk"] = followed.motion(), [seam.frame for seam in seams(whole, followed.walk)]
-    print(f"{whose(*NAMES[:-1])}.")
-    figures = []
-    for name, (walked, marks) in walks.items():
-        ground = walked.root_positions[:, None, [0, 2]]
-        off = 100 * np.linalg.norm(ground - line.resampled(0.02).points, axis=-1).min(axis=1)
-        print(f"{name + ':':19} {len(walked) / walked.fps:.1f} s long, {len(marks)} seams, ", end="")
-        print(f"{off.mean():.1f} cm off on average, {off.max():.0f} cm at worst")
-        figures.append(bodies_along(walked, seams=marks, path=line.points))
-        figures[-1].suptitle(name, fontsize=11)
-    alt = "Bodies walk along a black path: in my walk, in plain's, and in the package's."
-    return Beside(stack(figures, alt).picture, alt, walks["my walk"][0])
 
 
 def main(file: str) -> int:
