@@ -10,7 +10,7 @@ Reading order (notebooks 00 to 09)
  2. `poses`: two half turns, turns whose order matters, and forward kinematics by joint
  3. `windows`: what a window is, a lower bound of the distance of two, and sums along diagonals
  4. `laying_clouds`: one cloud of points laid on another, from above
- 5. `ground`: headings, one clip aligned with another, and how far a walk is from its path, from above
+ 5. `ground`: one clip aligned with another, and how far a walk is from its path, from above
  6. `seams`: frames of a transition, ways between two rotations, a leg as a triangle, and added jolts
  7. `branching`: the walks that branch and bound takes up, and walks from above
  8. `layers`: the layered search along a line, with the line of its code that runs
@@ -28,9 +28,9 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "small_graphs": ["eight_node_graph", "nodes_and_edges", "tarjan_states", "tarjan_steps"],
         "poses": ["down_the_tree", "half_turns", "turns_in_order"],
-        "laying_clouds": ["laid", "laying_on", "products", "turning"],
+        "laying_clouds": ["laid", "laying_on", "turning"],
         "windows": ["diagonal_sums", "radius_gaps", "window_cloud"],
-        "ground": ["alignment", "compass", "two_distances"],
+        "ground": ["alignment", "two_distances"],
         "seams": ["added_by_blend", "blended_seam", "knee_triangle", "turning_paths"],
         "branching": ["edge_lengths", "from_above", "laid_in_turn", "search_events", "search_steps"],
         "layers": ["layer_steps"],

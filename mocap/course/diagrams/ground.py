@@ -1,6 +1,6 @@
-"""The ground seen from above: headings, how one clip is laid on another, and two distances from a path."""
+"""The ground seen from above: how one clip is laid on another, and two distances from a path."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from mocap._shared.arrays import Array
 from mocap.body import Motion, PlanarTransform, heading
 from mocap.body.ground_path import GroundPath
-from mocap.course.diagrams.pens import arrow, say, trace
+from mocap.course.diagrams.pens import arrow, trace
 from mocap.plotting.ground_charts import seen_from_above
 from mocap.plotting.style import ASKED, COLOURS, CURVES, FLOOR, PATH, QUIET, SOURCES
 
@@ -65,34 +65,6 @@ def alignment(
     panels[0].set_ylabel("z (m)")
     panels[0].legend(frameon=False)
     return figure
-
-
-def compass(headings: Mapping[str, float], ax: Axes) -> None:
-    """Draw headings as arrows, seen from above, with their values.
-
-    Parameters
-    ----------
-    headings : radians, each by its name.
-    ax : axes.
-
-    Examples
-    --------
-    >>> ax = Figure().add_subplot()
-    >>> compass({"left": np.pi / 2}, ax)
-    >>> ax.texts[0].get_text()
-    'left: 90°'
-
-    Notebook: 03b-angles
-    """
-    for row, (name, angle) in enumerate(headings.items()):
-        text = f"{name}: {np.degrees(angle):.0f}°".replace("-", "−")
-        ax.text(-1.5, -1.75 - 0.25 * row, text, color=CURVES[row])
-        wide = 7.0 if row == 0 else 1.8  # so that all are seen
-        arrow(ax, 0j, 1j * np.exp(1j * angle), CURVES[row], wide)  # z points up the page and x to the left
-    for place, word in ((1.2j, "0°"), (-1.2j, "±180°"), (-1.25 + 0j, "90°"), (1.25 + 0j, "−90°")):
-        say(ax, place, word, color=INK)
-    ax.set(xlim=(-1.5, 1.5), ylim=(-1.8 - 0.25 * len(headings), 1.4), aspect="equal")
-    ax.set_axis_off()
 
 
 def _draw_walker(ax: Axes, motion: Motion, colour: str, *, at: int) -> None:

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from mocap._shared.arrays import Array
 from mocap.body import Motion, PlanarTransform, joint_positions
-from mocap.course.diagrams.pens import arrow, strokes, trace
+from mocap.course.diagrams.pens import strokes
 from mocap.matching.point_clouds import align, distinct_joints, point_cloud
 from mocap.plotting import CURVES, PATH, QUIET, SOURCES, bones
 
@@ -116,38 +116,6 @@ def laying_on(first: Motion, second: Motion, *, step: int = 4) -> Figure:
     (ax,) = figure.axes
     ax.set_title(f"{STEPS[step - 1]}: {ax.get_title()}")
     return figure
-
-
-def products(first: Motion, second: Motion) -> Figure:
-    """Draw what turn each pair of points asks for, and the direction of their sum [KGP02, Eq. 2].
-
-    The product of a pair, conj(h) g, has the angle by which this point must be turned, and as its length the
-    product of both distances from the mean. The dashes lead at 0°.
-
-    Parameters
-    ----------
-    first, second : windows of as many frames; each is measured from its mean.
-
-    Examples
-    --------
-    >>> from mocap import datasets
-    >>> walk = datasets.sample("walk_straight")[:10]
-    >>> products(walk, walk).axes[0].get_title()
-    'the sum leads at 0°'
-
-    Notebook: 03-transforms
-    """
-    g, h = (point_cloud(motion).reshape(-1, 3) @ [1j, 0, 1] for motion in (first, second))
-    each = np.conj(h - h.mean()) * (g - g.mean())
-    ways = 1j * each / abs(each).max()  # z up the page, x to the left
-    ax = Figure(figsize=(4.6, 4.6), layout="constrained").add_subplot()
-    trace(ax, 1.1j * np.arange(2), color=QUIET, linestyle="--")
-    trace(ax, ways, color=CURVES[0], linestyle="", marker=".", markersize=4)
-    arrow(ax, 0j, 1.1 * ways.sum() / abs(ways.sum()), PATH)
-    ax.set(aspect="equal", xlim=(-1.3, 1.3), ylim=(-1.3, 1.3))
-    ax.set_title(f"the sum leads at {round(np.degrees(np.angle(each.sum())))}°".replace("-", "−"))
-    ax.set_axis_off()
-    return ax.figure  # type: ignore[return-value]
 
 
 def _places(first: Motion, second: Motion, move: Callable[[Array], Array]) -> Array:

@@ -37,12 +37,6 @@ def threads():
     return ax
 
 
-def headings():
-    ax = Figure().add_subplot()
-    diagrams.compass({"ahead": 0.0, "left": np.pi / 2, "behind": -3}, ax)
-    return ax
-
-
 def laid_in_turn():
     """Draw a clip of three frames, left after two by a transition that turns left, and entered anew."""
     graph, a, b = nx.MultiDiGraph(), ((0, 0), (0, 2), 0), ((0, 2), (0, 0), 0)
@@ -95,11 +89,9 @@ PICTURES = {
     "laying on": lambda: (diagrams.laying_on(*PAIR, step=step) for step in (1, 2, 3, 4)),
     "turning": lambda: drawn(diagrams.turning(*PAIR, fitted), 60, -90),
     "laid by hand": lambda: [diagrams.laid(*PAIR, lambda points: points + np.array([0, 0, 3]))],
-    "products": lambda: [diagrams.products(*PAIR)],
     "alignment": lambda: (
         diagrams.alignment(CIRCLE[:200], CIRCLE[400:600], MOVED, shift_first=first) for first in (False, True)
     ),
-    "compass": lambda: [headings()],
     "half turns": lambda: (diagrams.half_turns(*how) for how in ((0,), (1,), (2,), (2, -170))),
     "orders": lambda: [diagrams.turns_in_order(WALK.skeleton, rotations.multiply)],
     "down the tree": lambda: drawn(diagrams.down_the_tree(WALK[100:120], 7), 0, 5, 37),
