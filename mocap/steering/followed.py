@@ -115,7 +115,7 @@ def account(graph: CompiledGraph, path: GroundPath, route: Route, found: Found) 
     away, piece = body[:, None] - route.points[near], np.diff(route.points)[near]
     share = np.clip((away * piece.conj()).real / np.abs(piece) ** 2, 0, 1)
     off = np.abs(away - share * piece).min(axis=1)
-    at_length = np.abs(body - route.at(np.cumsum(least_progress(graph, route)[rows])))
+    at_length = np.abs(body - route.at(np.cumsum(least_progress(graph)[rows])))
     walk, place = [graph.edges[edge] for edge in found.edges], (found.turn, found.move)
     laid = (walk, PlanarTransform.from_complex(*place), from_ground(body), found.along)
     return Followed(graph.source, path, *laid, off, at_length, (label >= 0) & ~bears, found)

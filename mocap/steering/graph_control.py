@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import cmath
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
@@ -23,20 +22,11 @@ from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph, Node
 from mocap.steering.characters import Pose, require_command
+from mocap.steering.layered_search import States, hop_states, start_states
 
 SEAM = 0.1  # m²/s, as all costs here
 LABEL = 4.0  # m²/s per second
 AHEAD, WIDTH = 3.0, 64  # seconds to look ahead, walks that stay in each round
-
-
-class WalksAhead(NamedTuple):
-    """N walks from the end of the hop that the character plays, shape (N,) each."""
-
-    first: Indices  # the first hop of each, -1 for a walk without hops
-    node: Indices  # the node at its end
-    turn: Points  # turns the clip of that node
-    frames: Indices
-    cost: Array
 
 
 class LookAhead:
@@ -54,40 +44,38 @@ class LookAhead:
         leaves = np.repeat(np.arange(len(graph.nodes)), np.diff(hops.first))
         end = graph.turn[hops.last] * graph.at[graph.target[hops.last]] + graph.move[hops.last]
         self.moved = end - graph.at[leaves]
-        self.seconds: Array = hops.frames / graph.fps
-        self.price = np.where(graph.blended[hops.last], SEAM, 0.0)
+        self.hops = hop_states(graph, np.abs(self.moved), np.where(graph.blended, SEAM, 0.0))
         without = np.pad(np.cumsum(~bears, axis=1), ((0, 0), (1, 0)))  # (L, T + 1), frames
         played: Indices = without[:, hops.starts + hops.counts] - without[:, hops.starts]  # (L, H, 2)
         self.lacks: Array = played.sum(axis=-1) / graph.fps
 
-    def longer(self, walks: WalksAhead, velocity: complex, label: int) -> WalksAhead | None:
+    def longer(self, walks: States, velocity: complex, label: int) -> States | None:
         """Lengthen every walk below the horizon by every hop that leaves its node; keep the best walks.
 
         Parameters
         ----------
-        walks : so far.
+        walks : from the end of the hop under way; their `hop` is the first one of each, -1 for none.
         velocity, label : the command: a velocity on the ground, z + ix, and a label's number or -1.
 
         Returns
         -------
         The `WIDTH` walks with the lowest cost per frame, the best first; None where no walk can be longer.
         """
-        graph, hops = self.graph, self.graph.hops
         short = walks.frames < AHEAD * self.graph.fps
-        of, hop = hops.leaving(walks.node[short])
+        going = walks.take(short)
+        of, hop = self.graph.hops.leaving(going.node)
         if not len(hop):
             return None
-        of, last = np.flatnonzero(short)[of], hops.last[hop]
-        off = walks.turn[of] * self.moved[hop] - velocity * self.seconds[hop]
-        cost = (off.real**2 + off.imag**2) / self.seconds[hop] + self.price[hop]
+        steps = self.hops.take(hop)
+        seconds = steps.frames / self.graph.fps
+        off = going.turn[of] * self.moved[hop] - velocity * seconds
+        cost = (off.real**2 + off.imag**2) / seconds + steps.cost
         if label >= 0:
             cost += LABEL * self.lacks[label, hop]
-        first, turn = np.where(walks.first[of] < 0, hop, walks.first[of]), walks.turn[of] * graph.turn[last]
-        frames, cost = walks.frames[of] + hops.frames[hop], walks.cost[of] + cost
-        longer = WalksAhead(first, graph.target[last], turn, frames, cost)
-        walks = WalksAhead._make(np.concatenate([a[~short], b]) for a, b in zip(walks, longer, strict=True))
-        best = np.argsort(walks.cost / walks.frames)[:WIDTH]
-        return WalksAhead._make(values[best] for values in walks)
+        longer = going.then(of, steps._replace(cost=cost))
+        first = np.where(going.hop[of] < 0, hop, going.hop[of])
+        walks = States.join([walks.take(~short), longer._replace(hop=first)])
+        return walks.take(np.argsort(walks.cost / walks.frames)[:WIDTH])
 
 
 class Controller:
@@ -118,7 +106,7 @@ class Controller:
     (38, 4)
     """
 
-    walks: WalksAhead  # from the end of the hop under way
+    walks: States  # from the end of the hop under way; `hop` is the first of each
 
     def __init__(self, graph: MotionGraph | CompiledGraph, *, start: Node | None = None) -> None:
         self.graph = compile_graph(graph)
@@ -229,8 +217,8 @@ class Controller:
 
     def _restart(self) -> None:
         """Look ahead anew, from the end of the hop under way, with one walk without hops."""
-        none, turn = np.zeros(1, np.intp), np.array([self.end_turn])
-        self.walks, self.decided = WalksAhead(none - 1, none + self.node, turn, none, np.zeros(1)), False
+        self.walks = start_states(np.array([self.node]), np.array([self.end_turn]), np.zeros(1, complex))
+        self.decided = False
 
     def _look(self) -> None:
         """Look ahead by one round; without longer walks the choice is clear."""
@@ -241,7 +229,7 @@ class Controller:
         """Take the first hop of the best walk, and look ahead from its end."""
         while not self.decided:
             self._look()
-        hop = int(self.walks.first[0])
+        hop = int(self.walks.hop[0])
         if hop < 0:
             raise NoWalk(f"The walk ends at node {self.graph.nodes[self.node]}: prune the graph first.")
         self.edges = self.graph.hops.edges(np.array([hop])).tolist()

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array, Indices, Mask, Points
+from mocap.graphs.compiled_graph import CompiledGraph
 
 
 class States(NamedTuple):
@@ -62,6 +63,20 @@ def start_states(nodes: Indices, turn: Points, move: Points) -> States:
     """Start a walk at each of some nodes, whose clips are laid by p ↦ turn · p + move."""
     none, zero = np.zeros(len(nodes), np.intp), np.zeros(len(nodes))
     return States(nodes, turn, move, zero, none, zero, none - 1, none - 1)
+
+
+def hop_states(graph: CompiledGraph, along: Array, price: Array) -> States:
+    """Take each of the H hops of a graph as a walk of its own.
+
+    Parameters
+    ----------
+    graph : the compiled graph.
+    along : metres of each hop (H,).
+    price : of each edge (E,); a hop costs what the edge costs by which it leaves its clip.
+    """
+    last, every = graph.hops.last, np.arange(len(along))
+    place = graph.turn[last], graph.move[last]
+    return States(graph.target[last], *place, along, graph.hops.frames, price[last], every, every)
 
 
 def standing(states: States, at: Points, place: float, turn: float) -> Indices:

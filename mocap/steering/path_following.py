@@ -181,7 +181,7 @@ class PathCost(GroundWalks):
 
     def __init__(self, graph: CompiledGraph, route: Route) -> None:
         super().__init__(graph)
-        self.route, self.progress = route, least_progress(graph, route)
+        self.route, self.progress = route, least_progress(graph)
 
     def cost(self, stand: Stand, edge: SearchEdge) -> tuple[float, Stand]:
         """Give the cost of an edge after a walk that stands so, and where it leads."""

@@ -217,7 +217,7 @@ def make_route(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Route:
     return Route(on_ground(points), float(along[1]), label, _clock(along, wishes), wishes, together)
 
 
-def least_progress(graph: CompiledGraph, route: Route) -> Array:
+def least_progress(graph: CompiledGraph) -> Array:
     """Give each frame's progress, all edges, (T,): its step, or γ if it is less [KGP02, least progress]."""
     return np.maximum(graph.step, LEAST / graph.fps)
 

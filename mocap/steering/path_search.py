@@ -17,7 +17,7 @@ from mocap._shared.arrays import Array, Indices, Mask, Points
 from mocap.body.planar import on_ground
 from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import AHEAD, CompiledGraph
-from mocap.steering.layered_search import LayeredSearch, States, standing
+from mocap.steering.layered_search import LayeredSearch, States, hop_states, standing
 from mocap.steering.path_objective import LEAST, Route, Settings, least_progress
 
 LAYER = 0.15  # metres of path
@@ -86,13 +86,11 @@ class PathSearch(LayeredSearch):
         if own:
             self.first = len(starts.node)  # all cost the same before they turn
         # Metres by which each frame of all edges moves on (T,), and each hop (H,).
-        self.progress = np.maximum(own.step, CREEP / graph.fps) if own else least_progress(graph, route)
+        self.progress = np.maximum(own.step, CREEP / graph.fps) if own else least_progress(graph)
         before = np.concatenate([[0.0], np.cumsum(self.progress)])
         length = (before[hops.starts + hops.counts] - before[hops.starts]).sum(axis=1)
-        # The hops as walks of one hop each, at the price of their transitions.
-        price = np.where(graph.blended, settings.seam + settings.match * graph.cost**2, 0.0)[hops.last]
-        every, place = np.arange(len(length)), (graph.turn[hops.last], graph.move[hops.last])
-        self.hops = States(graph.target[hops.last], *place, length, hops.frames, price, every, every)
+        price = np.where(graph.blended, settings.seam + settings.match * graph.cost**2, 0.0)
+        self.hops = hop_states(graph, length, price)
         # Metres from each node in the next `AHEAD` seconds (N, 3).
         self.ahead = np.cumsum(np.abs(np.diff(graph.ahead, axis=1, prepend=graph.at[:, None])), axis=1)
 
