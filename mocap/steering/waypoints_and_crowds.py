@@ -57,10 +57,7 @@ class WaypointWalk(NamedTuple):
 
 
 def through_waypoints(
-    graph: MotionGraph | CompiledGraph,
-    waypoints: Sequence[Waypoint],
-    *,
-    bend: float = 0.0,
+    graph: MotionGraph | CompiledGraph, waypoints: Sequence[Waypoint], *, bend: float = 0.0
 ) -> WaypointWalk:
     """Find a walk through waypoints, with their labels and at their times [KGP02, 5.3].
 
@@ -121,17 +118,13 @@ class Crowd(NamedTuple):
 
 
 def walk_crowd(
-    graph: MotionGraph | CompiledGraph,
-    paths: Sequence[GroundPath],
-    *,
-    apart: float = 0.8,
+    graph: MotionGraph | CompiledGraph, paths: Sequence[GroundPath], *, apart: float = 0.8
 ) -> Crowd:
     """Find a walk along each path, so that the characters keep apart [KGP02, 5.3].
 
-    First each walk is found as if alone; then the characters are
-    visited in order. One that comes too near to an earlier one searches again, with a price on each frame too
-    near. Where this does not help, it also waits before it starts. So the first gives way to nobody, and the
-    others give way to those before them.
+    First each walk is found as if alone; then the characters are visited in order. One that comes too near to
+    an earlier one searches again, with a price on each frame too near. Where this does not help, it also
+    waits before it starts. So the first gives way to nobody, and the others give way to those before them.
 
     Parameters
     ----------

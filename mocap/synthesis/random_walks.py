@@ -20,6 +20,7 @@ from mocap.synthesis.walk_to_motion import places, to_motion, with_plants
 
 MARGIN = 5.0  # seconds: longer than any footplant of a walk, and than the reach of any correction
 LONGEST = 3600.0  # seconds of a walk that is made in memory
+PIECE = 30.0  # seconds: the least duration of a piece of a long one
 
 
 def random_walk(
@@ -72,9 +73,8 @@ def cut_walk(
     motion_graph: MotionGraph, edges: Iterator[Edge], seconds: float, piece: float = np.inf
 ) -> Iterator[list[Edge]]:
     """Cut a walk without end into pieces of at least `piece` seconds, and end it after `seconds`."""
-    for name, value in (("walk", seconds), ("piece", piece)):
-        if not value > 0 or (name == "walk" and np.isinf(value)):
-            raise MocapError(f"A {name} must last longer than 0 s, got {value} s.")
+    if not 0 < seconds < np.inf:
+        raise MocapError(f"A walk must last longer than 0 s, got {seconds} s.")
     fps, done, frames = motion_graph.fps, 0, 0
     walk: list[Edge] = []
     for edge in edges:
@@ -125,7 +125,7 @@ def wander(
 
 
 def stream(
-    motion_graph: MotionGraph, *, seconds: float, seed: int = 0, piece: float = 30.0, clean: bool = False
+    motion_graph: MotionGraph, *, seconds: float, seed: int = 0, clean: bool = False
 ) -> Iterator[Motion]:
     """Play a random walk piece by piece, so that only one piece is in memory.
 
@@ -134,12 +134,11 @@ def stream(
     motion_graph : pruned, so that the walk never ends.
     seconds : the least duration of all pieces together.
     seed : the walk is that of `synthesis.random_walk` with this seed.
-    piece : the least duration of a piece, seconds.
     clean : whether to remove footskate, as in `synthesis.to_motion`.
 
     Yields
     ------
-    Motions; each starts where the one before ends. Together they are the walk, frame by frame.
+    Motions of 30 s or more; each starts where the one before ends. Together they are the walk.
 
     Examples
     --------
@@ -151,7 +150,7 @@ def stream(
     """
     if clean:
         motion_graph = with_plants(motion_graph)
-    pieces = _motions(motion_graph, cut_walk(motion_graph, wander(motion_graph, seed=seed), seconds, piece))
+    pieces = _motions(motion_graph, cut_walk(motion_graph, wander(motion_graph, seed=seed), seconds, PIECE))
     yield from _cleaned(pieces) if clean else pieces
 
 
@@ -224,7 +223,7 @@ def dump(  # noqa: PLR0913 (which walk, where to, how long, and how)
     if suffix == ".glb" and seconds > LONGEST:
         raise MocapError(f"A .glb of a walk may last {LONGEST:g} s, not {seconds:g}: write .bvh.")
     # A .bvh file starts with its number of frames. The same seed gives the same walk, so count them first.
-    walks = cut_walk(motion_graph, wander(motion_graph, seed=seed), seconds, 30.0)
+    walks = cut_walk(motion_graph, wander(motion_graph, seed=seed), seconds, PIECE)
     counts = [sum(motion_graph.graph.edges[edge]["frames"] for edge in walk) for walk in walks]
     pieces = stream(motion_graph, seconds=seconds, seed=seed, clean=clean)
     shown = (next(pieces) for _ in progress(counts))

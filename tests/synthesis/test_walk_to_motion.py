@@ -21,6 +21,7 @@ from mocap.graphs.edge_tables import edge_table
 from mocap.graphs.motion_graph import build, from_transitions
 from mocap.graphs.pruning import prune
 from mocap.matching.transitions import Transition
+from mocap.synthesis import random_walks
 from mocap.synthesis.random_walks import dump, random_walk, stream, wander
 from mocap.synthesis.walk_to_motion import places, seams, sources, to_motion, with_plants
 from tests.bundled import bundled
@@ -148,10 +149,11 @@ def test_cleaned_feet_stand_still():
     assert slide(clean) < 1e-3 < slide(plain)
 
 
-def test_the_pieces_are_the_whole():
+def test_the_pieces_are_the_whole(monkeypatch):
     """As in [KGP02, 5.3]."""
     whole = to_motion(GRAPH, random_walk(GRAPH, seconds=60, seed=5))
-    pieces = list(stream(GRAPH, seconds=60, seed=5, piece=7))
+    monkeypatch.setattr(random_walks, "PIECE", 7.0)
+    pieces = list(stream(GRAPH, seconds=60, seed=5))
     assert len(pieces) > 6
     joined = concatenate(pieces)
     assert joined.root_positions == pytest.approx(whole.root_positions, abs=1e-9)
@@ -170,14 +172,15 @@ def test_a_file_written_in_pieces_is_one_written_at_once(tmp_path):
 
 
 @pytest.mark.parametrize("piece", [1, 8])
-def test_pieces_are_cleaned_as_the_whole_would_be(piece):
+def test_pieces_are_cleaned_as_the_whole_would_be(monkeypatch, piece):
     """Cut anywhere, feet stand where they would without the cut; no frame is lost, and none comes twice.
 
     A leg gets no straighter than it ever is in what is cleaned at once: a few frames differ by millimetres.
     """
     graph = bundled("walk_circle", "walk_curve_1")
     whole = to_motion(graph, random_walk(graph, seconds=30, seed=2), clean=True)
-    joined = concatenate(list(stream(graph, seconds=30, seed=2, piece=piece, clean=True)))
+    monkeypatch.setattr(random_walks, "PIECE", piece)
+    joined = concatenate(list(stream(graph, seconds=30, seed=2, clean=True)))
     assert len(joined) == len(whole)
     off = np.abs(joint_positions(joined) - joint_positions(whole)).max(axis=(1, 2))
     assert off.max() < 0.006

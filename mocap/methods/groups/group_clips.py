@@ -66,11 +66,7 @@ class GroupClip:
 
 
 def run_from(
-    starts: Configuration,
-    bends: Array,
-    rules: Flock,
-    random: np.random.Generator,
-    goals: Configuration | None = None,
+    starts: Configuration, bends: Array, random: np.random.Generator, goals: Configuration | None = None
 ) -> Configuration:
     """Simulate R runs of four seconds side by side, freely or drawn to goals.
 
@@ -78,7 +74,7 @@ def run_from(
     ----------
     starts : (R, N).
     bends : (R,) radians by which each run turns.
-    rules, random : as for `whims`.
+    random : draws the whims.
     goals : (R, N), where each member should be at the end, and how it should move then. From the middle of
         the run on it is drawn by 2/s² (s - p) + 2 √2/s (v' - v) to the spot s where it would be by now if
         it came there straight on at its last velocity v'. Then it keeps apart from others only where they
@@ -88,9 +84,8 @@ def run_from(
     -------
     Places and velocities, shape (F + 1, R, N).
     """
+    rules = Flock() if goals is None else Flock(separate=0.0, gather=0.0, align=0.0)
     wishes, frames, total = whims(starts.places.shape, rules, random), [starts], round(SECONDS * RATE)
-    if goals is not None:
-        rules = rules._replace(separate=0.0, gather=0.0, align=0.0)
     pull: Points | float = 0.0
     for frame in range(total):
         now, done = frames[-1], frame / total
@@ -167,11 +162,7 @@ def accelerations(paths: Points) -> Array:
 
 
 def clips_from(
-    start: int,
-    nodes: Sequence[Configuration],
-    bends: Sequence[float],
-    rules: Flock,
-    random: np.random.Generator,
+    start: int, nodes: Sequence[Configuration], random: np.random.Generator
 ) -> tuple[list[GroupClip], int]:
     """Make clips from one node to each, for each bend and each shift aside [LCF05, clips].
 
@@ -184,15 +175,15 @@ def clips_from(
     def copies(count: int) -> Configuration:
         return Configuration(*(np.tile(part, (count, 1)) for part in nodes[start]))
 
-    angles = np.asarray(bends)
-    free = run_from(copies(len(angles)), angles, rules, random)
+    angles = np.array(BENDS)
+    free = run_from(copies(len(angles)), angles, random)
     match = compare(Configuration(*(part[-1][:, None] for part in free)), every, rounds=4)  # (B, K)
     rows, ends, shift = map(np.ravel, np.meshgrid(range(len(angles)), range(len(nodes)), SHIFTS))
     order, turn, move = (part[rows, ends] for part in match[1:])
     move = move + 1j * shift * turn
     places, velocities = (turn[:, None] * np.take_along_axis(part[ends], order, axis=-1) for part in every)
     goals = Configuration(places + move[:, None], velocities)
-    runs, clips = run_from(copies(len(rows)), angles[rows], rules, random, goals), []
+    runs, clips = run_from(copies(len(rows)), angles[rows], random, goals), []
     for row, end in enumerate(ends.tolist()):
         goal, run = (Configuration(*(part[..., row, :] for part in some)) for some in (goals, runs))
         paths, apart = part(bend_to(run, goal))

@@ -9,8 +9,8 @@ import numpy as np
 from mocap._shared.arrays import Points
 from mocap.errors import MocapError, warn
 from mocap.methods.groups.configurations import cluster, seen_from_itself
-from mocap.methods.groups.flocking import APART, Configuration, Flock, Trajectories, simulate
-from mocap.methods.groups.group_clips import BENDS, HARDEST, GroupClip, clips_from
+from mocap.methods.groups.flocking import APART, Configuration, Trajectories, simulate
+from mocap.methods.groups.group_clips import HARDEST, GroupClip, clips_from
 
 CORRIDORS = (2.5, 2.0, 1.7)  # metres from wall to wall
 COLUMN = 60.0  # seconds in each
@@ -65,21 +65,13 @@ class Placed(NamedTuple):
         return Placed(clip.end, self.turn * clip.turn, self.turn * clip.move + self.move)
 
 
-def make_clips(
-    nodes: Sequence[Configuration],
-    *,
-    rules: Flock | None = None,
-    bends: Sequence[float] = BENDS,
-    seed: int = 0,
-) -> GroupGraph:
+def make_clips(nodes: Sequence[Configuration], *, seed: int = 0) -> GroupGraph:
     """Join nodes by clips of four seconds, for each ordered pair, bend and shift aside [ours, after LCF05].
 
     Parameters
     ----------
     nodes : configurations, each seen from itself.
-    rules : of the simulation.
-    bends : radians by which runs turn.
-    seed : of their whims.
+    seed : of the members' whims.
 
     Returns
     -------
@@ -97,26 +89,24 @@ def make_clips(
     """
     for node in nodes:
         seen_from_itself(node)  # refuses who stands
-    rules, random = rules or Flock(), np.random.default_rng(seed)
-    made = [clips_from(start, nodes, bends, rules, random) for start in range(len(nodes))]
+    random = np.random.default_rng(seed)
+    made = [clips_from(start, nodes, random) for start in range(len(nodes))]
     clips, tried = tuple(clip for kept, _ in made for clip in kept), sum(count for _, count in made)
     if not clips:
         why = f"members come nearer than {APART:g} m, or need more than {HARDEST:g} m/s²"
         raise MocapError(f"None of {tried} clips can be kept: {why}.")
     if missing := len(nodes) ** 2 - len({(clip.start, clip.end) for clip in clips}):
-        pairs = f"{missing} of {len(nodes) ** 2} pairs"
-        warn(f"No clip joins {pairs} of nodes.")
+        warn(f"No clip joins {missing} of {len(nodes) ** 2} pairs of nodes.")
     return GroupGraph(tuple(nodes), clips, tried)
 
 
-def build_group(  # noqa: PLR0913 (how many, how long, how fine, and by which rules)
+def build_group(  # noqa: PLR0913 (how many, how long and how fine)
     members: int,
     *,
     nodes: int = 8,
     corridors: Sequence[float] = CORRIDORS,
     simulated: float = 300.0,
     reach: float = 0.5,
-    rules: Flock | None = None,
     seed: int = 0,
 ) -> GroupGraph:
     """Build a group motion graph: simulate, cluster, and join the nodes by clips [LCF05, graph].
@@ -131,7 +121,7 @@ def build_group(  # noqa: PLR0913 (how many, how long, how fine, and by which ru
     nodes, reach : as for `cluster`, on open ground.
     corridors : metres from wall to wall; one column or two come of each; none: the group stays wide.
     simulated : seconds of flocking over open ground to take the nodes from.
-    rules, seed : as for `simulate`.
+    seed : as for `simulate`.
 
     Raises
     ------
@@ -149,11 +139,11 @@ def build_group(  # noqa: PLR0913 (how many, how long, how fine, and by which ru
 
     Notebook: 19-group-graphs
     """
-    found = cluster(simulate(members, simulated, rules=rules, seed=seed), nodes=nodes, reach=reach).nodes
+    found = cluster(simulate(members, simulated, seed=seed), nodes=nodes, reach=reach).nodes
     for width in corridors:
-        narrow = simulate(members, COLUMN, corridor=width, rules=rules, seed=seed)
+        narrow = simulate(members, COLUMN, corridor=width, seed=seed)
         found += cluster(narrow, nodes=2, reach=reach).nodes
-    return make_clips(found, rules=rules, seed=seed)
+    return make_clips(found, seed=seed)
 
 
 def random_group_walk(graph: GroupGraph, clips: int, *, start: int = 0, seed: int = 0) -> list[int]:

@@ -22,8 +22,8 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "pose_database": ["GROUPS", "WEIGHTS", "features", "standardise", "tabulate"],
-        "nearest_frames": ["Wants", "spring", "spring_way"],
+        "pose_database": ["GROUPS", "WEIGHTS", "features", "tabulate"],
+        "nearest_frames": ["Wants"],
         "matching_control": ["MotionMatcher"],
     },
 )

@@ -144,19 +144,19 @@ class PoseDatabase:
         return self.clips[0].fps
 
 
-def standardise(values: Array, weights: Mapping[str, float]) -> tuple[Array, Array, Array]:
+def standardise(values: Array) -> tuple[Array, Array, Array]:
     """Take the mean off, and divide each group by its mean standard deviation over its weight [Hol20].
 
-    One scale for each group, because a column that hardly varies must not be blown up.
+    The weights are `WEIGHTS`. One scale for each group, because a column that hardly varies must not be
+    blown up.
 
     Parameters
     ----------
     values : shape (T, 27), as `features` gives them.
-    weights : a number from 0 on for each group of `GROUPS`; 0 leaves a group out.
 
     Returns
     -------
-    The standardised values, the mean and the scale, (27,) each; a group of weight 0 has the scale infinity.
+    The standardised values, the mean and the scale, (27,) each.
 
     Raises
     ------
@@ -165,27 +165,26 @@ def standardise(values: Array, weights: Mapping[str, float]) -> tuple[Array, Arr
     Examples
     --------
     >>> from mocap.datasets.samples import sample
-    >>> values, mean, scale = standardise(features(sample("walk_circle")), WEIGHTS)
+    >>> values, mean, scale = standardise(features(sample("walk_circle")))
     >>> [round(float(values[:, GROUPS[name]].std(axis=0).mean()), 2) for name in GROUPS]
     [0.75, 1.0, 1.0, 1.0, 1.5]
     """
     scale = np.empty(values.shape[1])
     for name, columns in GROUPS.items():
         deviation = float(values[:, columns].std(axis=0).mean())
-        if weights[name] and deviation < 1e-9:
+        if deviation < 1e-9:
             raise MocapError(f"The '{name}' never vary in these clips, so they cannot be compared.")
-        scale[columns] = deviation / weights[name] if weights[name] else np.inf
+        scale[columns] = deviation / WEIGHTS[name]
     mean = values.mean(axis=0)
     return (values - mean) / scale, mean, scale
 
 
-def tabulate(clips: Sequence[Motion], *, weights: Mapping[str, float] = WEIGHTS) -> PoseDatabase:
+def tabulate(clips: Sequence[Motion]) -> PoseDatabase:
     """Prepare clips for motion matching; the time is linear in their frames.
 
     Parameters
     ----------
     clips : of one skeleton and one rate; a clip no longer than a second serves only to be played to its end.
-    weights : of the groups of features, as for `standardise`.
 
     Raises
     ------
@@ -207,7 +206,7 @@ def tabulate(clips: Sequence[Motion], *, weights: Mapping[str, float] = WEIGHTS)
         lasts = f"the longest, '{longest.name}', lasts {longest.duration:.2f} s"
         raise MocapError(f"A search leaves out the last {END:g} s of each clip; {lasts}.")
     joined, frames = concatenate(clips), [len(clip) for clip in clips]
-    values, mean, scale = standardise(np.concatenate([features(clip) for clip in clips]), weights)
+    values, mean, scale = standardise(np.concatenate([features(clip) for clip in clips]))
     tracks: Any = (np.concatenate(part) for part in zip(*map(_tracks, clips), strict=True))
     return PoseDatabase(
         clips,
