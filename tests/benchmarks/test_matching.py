@@ -1,66 +1,15 @@
-"""How fast matching is, as ratios within one run, on a machine that does nothing else meanwhile.
+"""What memory a search for transitions takes; its ratios are in test_ratios.py.
 
-Run them alone, and see the ratios: pytest -m benchmark -n 0 -s tests/benchmarks/test_matching.py
-Both sides of a ratio take turns, and of each the fastest turn counts.
+Run it alone, and see the numbers: pytest -m benchmark -n 0 -s tests/benchmarks/test_matching.py
 """
 
 import os
 import subprocess
 import sys
 
-import numpy as np
 import pytest
 
-from mocap import load, resample
-from mocap.matching.distance_grids import distance_grid
-from mocap.matching.point_clouds import point_cloud
-from mocap.matching.transitions import find_transitions
-from tests.benchmarks.timing import fastest
-
 pytestmark = pytest.mark.benchmark
-WINDOW = 10
-
-
-@pytest.fixture(scope="module")
-def clips(real_data):
-    names = ("circle", "curve1", "curve2")
-    return [resample(load(real_data / "hw3" / f"walk_fwd_{name}.AMC"), 30) for name in names]
-
-
-@pytest.fixture(scope="module")
-def points(clips):
-    joined = np.concatenate([point_cloud(clip) for clip in clips])
-    assert joined.shape == (3798, 31, 3)
-    return joined
-
-
-@pytest.mark.parametrize("dtype", [np.float32, np.float64])
-def test_all_pairs_take_at_most_six_bare_products(points, dtype):
-    cloud = points.astype(dtype)
-    flat = np.tile(cloud.reshape(len(cloud), -1), 2)[:, : 5 * 31]  # (n, 5 P)
-    product, grid = fastest(lambda: flat @ flat.T, lambda: distance_grid(cloud, cloud, window=WINDOW))
-    print(f"\n{dtype.__name__}: product {product:.3f} s, grid {grid:.3f} s = {grid / product:.1f} products")
-    assert grid <= 6 * product
-
-
-def test_the_window_hardly_matters(points):
-    cloud = points.astype(np.float32)
-    short, long = fastest(*(lambda k=k: distance_grid(cloud, cloud, window=k) for k in (10, 40)))
-    print(f"\nwindow 10: {short:.3f} s, 40: {long:.3f} s = {long / short:.2f} times")
-    assert long <= 1.5 * short
-
-
-def test_minima_and_candidates_take_at_most_twice_the_bound(points, clips):
-    flat = np.tile(points.reshape(len(points), -1), 2)[:, : 5 * 31]  # 64 bits, as the search of few clips
-    found = []
-    product, grid, search = fastest(
-        lambda: flat @ flat.T,
-        lambda: distance_grid(points, points, window=WINDOW),
-        lambda: found.append(len(find_transitions(clips, window=WINDOW, below=0.04))),
-    )
-    ratios = f"{search / grid:.1f} grids = {search / product:.1f} products"
-    print(f"\n{found[0]} transitions in {search:.3f} s = {ratios}")
-    assert search <= 2 * 6 * product
 
 
 SEARCH = """

@@ -5,6 +5,8 @@ Both sides take turns in one run, in CPU seconds; of each the fastest turn count
 may take more for each frame of a large one, for caches, but grow by no worse power.
 """
 
+import subprocess
+import sys
 from dataclasses import replace
 from functools import cache, partial
 
@@ -13,14 +15,15 @@ import pytest
 from asked_lines import heart, sine, spiral
 from walking import generate_walk
 
-from mocap import datasets
+from mocap import datasets, load, save
 from mocap.blending.joining import blend, inertialize, join
 from mocap.blending.mixing import mix
 from mocap.blending.registering import register
 from mocap.body.ground_path import SHAPES, GroundPath, circle, s_curve
 from mocap.body.kinematics import forward_kinematics
-from mocap.body.motion import resample
+from mocap.body.motion import Motion, resample
 from mocap.body.planar import PlanarTransform
+from mocap.body.rotations import to_matrix
 from mocap.datasets import sample
 from mocap.editing.bending import LIMIT, bend
 from mocap.editing.displacements import displaced
@@ -35,12 +38,13 @@ from mocap.editing.stances import stance_of
 from mocap.editing.steps import Basis
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
+from mocap.files import load_path
 from mocap.graphs.motion_graph import build, from_transitions
 from mocap.graphs.pruning import prune, prune_graph
 from mocap.graphs.thresholds import threshold_curve
 from mocap.matching import distance_grid, point_cloud
 from mocap.matching.time_paths import time_path
-from mocap.matching.transitions import Transitions
+from mocap.matching.transitions import Transitions, find_transitions
 from mocap.methods.match_webs import blend_of, build_web, search, weights_for
 from mocap.steering import Controller, FootTurner, measure_delay
 from mocap.steering.path_following import follow_path
@@ -274,6 +278,104 @@ GROWTH = [
 def test_time_grows_no_faster_than_the_work(real_data, what, most, make):
     work, small, large = make(real_data)
     held(what, np.divide(*fastest(lambda: work(large), lambda: work(small), turns=3)), most)
+
+
+# How many times the bare work that it cannot do without: (what, at most, what gives the work and that work).
+
+
+def homework(data):
+    return [load(data / "hw3" / f"walk_fwd_{name}.AMC") for name in ("circle", "curve1", "curve2")]
+
+
+def reading(data, folder, suffix):
+    path = data / "hw3/walk_fwd_circle.AMC"
+    if suffix == ".bvh":
+        save(load(path), path := folder / "a.bvh")
+    return partial(load, path), partial(np.array, numbers_of(path).split(), float)
+
+
+def numbers_of(path):
+    """Return the numbers alone of a file's frames, as text."""
+    text = path.read_text()
+    text = text.partition("Frame Time")[2].partition("\n")[2] or text.partition(":DEGREES")[2]
+    return " ".join(word for word in text.split() if not word[0].isalpha())
+
+
+def writing(data, folder):
+    motion, path = homework(data)[0], folder / "a.bvh"
+    save(motion, path)
+    values = np.array(numbers_of(path).split(), float)
+    return partial(save, motion, path), lambda: "%.6f " * len(values) % tuple(values.tolist())
+
+
+def placing(data, folder):
+    """Kinematics of 15 000 frames, beside the products of matrices down the tree."""
+    motion = homework(data)[0]
+    local = np.tile(motion.rotations, (3, 1, 1))[:15000]
+    turns, parents = to_matrix(np.swapaxes(local, 0, 1)), motion.skeleton.parents  # (J, F, 3, 3)
+
+    def chain():
+        whole = np.empty_like(turns)
+        whole[0] = turns[0]
+        for joint in range(1, len(parents)):
+            whole[joint] = whole[parents[joint]] @ turns[joint]
+
+    return kinematics(Motion(motion.skeleton, np.zeros((15000, 3)), local, 120.0)), chain
+
+
+def drawing(data, folder, step):
+    for name, count in (("half", 30_000 // len(step)), ("whole", 60_000 // len(step))):
+        (folder / f"{name}.svg").write_text(f'<svg><path d="M 0 0 {step * count}"/></svg>')
+    return (partial(load_path, folder / f"{name}.svg") for name in ("whole", "half"))
+
+
+def pairs(data, folder, dtype=np.float64):
+    """All pairs of the homework's windows, beside one product of matrices of that size."""
+    clips = [resample(clip, 30) for clip in homework(data)]
+    cloud = np.concatenate([point_cloud(clip) for clip in clips]).astype(dtype)
+    assert cloud.shape == (3798, 31, 3)
+    flat = np.tile(cloud.reshape(len(cloud), -1), 2)[:, : 5 * 31]  # (n, 5 P)
+    return cloud, clips, lambda: flat @ flat.T
+
+
+def of_pairs(data, folder, dtype):
+    cloud, _, product = pairs(data, folder, dtype)
+    return partial(distance_grid, cloud, cloud, window=10), product
+
+
+def of_windows(data, folder):
+    cloud = pairs(data, folder, np.float32)[0]
+    return (partial(distance_grid, cloud, cloud, window=window) for window in (40, 10))
+
+
+def of_minima(data, folder):
+    _, clips, product = pairs(data, folder)
+    return partial(find_transitions, clips, window=10, below=0.04), product
+
+
+BESIDE_BARE = [
+    *((f"read {s}", 3, partial(reading, suffix=s)) for s in (".amc", ".bvh")),
+    ("write .bvh", 3, writing),
+    ("forward kinematics", 3, placing),
+    *(
+        (f"a drawing of twice as many {step}", 3, partial(drawing, step=step))
+        for step in ("L 12.3 45.6 L 22.1 17.9 ", "12.3 45.6 22.1 17.9 ", "c 1 2 3 4 5 6 l 7 8 ")
+    ),
+    *((f"all pairs, {kind.__name__}", 6, partial(of_pairs, dtype=kind)) for kind in (np.float32, np.float64)),
+    ("a window of 40 beside 10", 1.5, of_windows),
+    ("minima and candidates", 12, of_minima),
+]
+
+
+@each(BESIDE_BARE)
+def test_work_takes_a_few_times_the_bare_work(real_data, tmp_path, what, most, make):
+    held(what, np.divide(*fastest(*make(real_data, tmp_path), turns=9)), most)
+
+
+def test_importing_is_light():
+    code = "import time, mocap, sys; assert 'matplotlib' not in sys.modules; print(time.process_time())"
+    runs = [subprocess.check_output([sys.executable, "-c", code], text=True) for _ in range(5)]
+    held("importing", min(map(float, runs)), 0.25)
 
 
 def test_the_walks_of_cmu_16_take_less_than_a_second(real_data):
