@@ -38,6 +38,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "match_search": ["cut_out", "search"],
         "measures": ["hand_target", "mean_speed", "turn"],
         "motion_spaces": ["MotionSpace", "blend_of", "random_weights", "sample_space"],
-        "wishes": ["neighbour_weights", "weights_for"],
+        "wishes": ["weights_for"],
     },
 )

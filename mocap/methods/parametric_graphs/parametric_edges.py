@@ -15,25 +15,8 @@ from mocap.methods.parametric_graphs.stride_spaces import Space, draw_parameters
 
 NEIGHBOURS = 4  # more than the parameters: with one more, as in [HG07, 4], boxes jump
 BAD = 1.35  # T_BAD over T_GOOD: with 2 no bad target cuts a box
+SAMPLING = (50, 1000)  # sources and targets of an edge
 EPSILON = 0.005  # of half a range, by which a box keeps off bad targets
-
-
-class Sampling(NamedTuple):
-    """How finely an edge is sampled: sources, targets, and the seed of their draw [HG07: 50, 1000].
-
-    In the paper: [HG07, 4].
-
-    Examples
-    --------
-    >>> Sampling(targets=200)
-    Sampling(sources=50, targets=200, seed=0)
-
-    Notebook: 17-parametric-graphs
-    """
-
-    sources: int = 50
-    targets: int = 1000
-    seed: int = 0
 
 
 class Way(NamedTuple):
@@ -115,15 +98,17 @@ def shrink_box(good: Array, bad: Array, scale: Array, eps: float = EPSILON) -> t
     return low, high
 
 
-def _sample(source: Space, target: Space, sampling: Sampling) -> tuple[Array, Array, OptimalTransitions]:
+def _sample(
+    source: Space, target: Space, sampling: tuple[int, int]
+) -> tuple[Array, Array, OptimalTransitions]:
     """Place sources, draw targets, and compare all pairs."""
     source.examples.require_joinable(target.examples)
-    at = place_evenly(source, sampling.sources)
-    to = draw_parameters(target, sampling.targets, np.random.default_rng(sampling.seed))
+    at = place_evenly(source, sampling[0])
+    to = draw_parameters(target, sampling[1], np.random.default_rng(0))
     return at, to, optimal_transitions(source, target, at, to)
 
 
-def smallest_good(source: Space, target: Space, sampling: Sampling | None = None) -> float:
+def smallest_good(source: Space, target: Space, sampling: tuple[int, int] = SAMPLING) -> float:
     """Find the smallest T_GOOD, in metres, at which every source has a target.
 
     As `graphs.smallest_threshold` does for motion graphs: the largest, over sources, of the least cost.
@@ -135,19 +120,24 @@ def smallest_good(source: Space, target: Space, sampling: Sampling | None = None
     >>> from mocap.methods.parametric_graphs.strides import cut_strides
     >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
     >>> space = make_space(strides, 0.4, -0.8, 0.8)
-    >>> 0.005 < smallest_good(space, space, Sampling(targets=100)) < 0.05
+    >>> 0.005 < smallest_good(space, space, (50, 100)) < 0.05
     True
 
     Notebook: 17-parametric-graphs
     """
-    _, _, found = _sample(source, target, sampling or Sampling())
+    _, _, found = _sample(source, target, sampling)
     return float(found.cost.min(axis=1).max())
 
 
 def build_edge(
-    source: Space, target: Space, *, good: float, bad: float | None = None, sampling: Sampling | None = None
+    source: Space,
+    target: Space,
+    *,
+    good: float,
+    bad: float | None = None,
+    sampling: tuple[int, int] = SAMPLING,
 ) -> ParametricEdge:
-    """Say for each source which box of targets may follow, and when to leave and enter [HG07, 3.2; no edge].
+    """Say for each source which box may follow, and when to leave and enter [HG07, 3.2; no edge; 4].
 
     Parameters
     ----------
@@ -155,7 +145,7 @@ def build_edge(
     good : T_GOOD, metres: targets at most this far bound the box.
     bad : T_BAD, metres: targets farther than this are kept out of it; 1.35 T_GOOD by default. Those between
         may be in it.
-    sampling : how many sources to place, and targets to draw.
+    sampling : how many sources to place, and targets to draw; 50 and 1000 as in the paper.
 
     Raises
     ------
@@ -169,7 +159,7 @@ def build_edge(
     >>> from mocap.methods.parametric_graphs.strides import cut_strides
     >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
     >>> space = make_space(strides, 0.4, -0.8, 0.8)
-    >>> edge = build_edge(space, space, good=0.05, sampling=Sampling(targets=200))
+    >>> edge = build_edge(space, space, good=0.05, sampling=(50, 200))
     >>> way = edge.look_up(np.array([0.0]))
     >>> bool(way.low[0] < 0 < way.high[0])
     True
@@ -179,7 +169,7 @@ def build_edge(
     bad = BAD * good if bad is None else bad
     if not good <= bad:
         raise MocapError(f"Thresholds are T_GOOD <= T_BAD, got {good} and {bad} m.")
-    at, to, found = _sample(source, target, sampling or Sampling())
+    at, to, found = _sample(source, target, sampling)
     cost, least = found.cost, found.cost.min(axis=1)
     if (least > good).any():
         asked, worst = at[int(least.argmax())], float(least.max())
@@ -225,7 +215,7 @@ def build_parametric(
     edges: Sequence[tuple[str, str]] | None = None,
     *,
     good: float,
-    sampling: Sampling | None = None,
+    sampling: tuple[int, int] = SAMPLING,
 ) -> ParametricGraph:
     """Build a parametric motion graph [HG07, graph]: an author names the spaces, and which may follow which.
 

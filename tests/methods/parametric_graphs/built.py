@@ -11,7 +11,7 @@ from mocap.body import joint_positions, rotations
 from mocap.body.motion import Motion, resample
 from mocap.datasets import samples
 from mocap.methods.match_webs import hand_target, mean_speed, random_weights, sample_space, turn, weights_for
-from mocap.methods.parametric_graphs import Sampling, build_parametric, cut_actions, cut_strides, make_space
+from mocap.methods.parametric_graphs import build_parametric, cut_actions, cut_strides, make_space
 from mocap.methods.parametric_graphs.made_motions import optimal_transitions
 from mocap.methods.parametric_graphs.parametric_control import TARGET, ParametricController
 from mocap.methods.parametric_graphs.parametric_edges import smallest_good
@@ -19,7 +19,7 @@ from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, measu
 from mocap.methods.parametric_graphs.strides import changing_strides
 
 WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
-SMALL = Sampling(sources=12, targets=120)
+SMALL = (12, 120)  # sources, targets
 SHARE = {"lrl": 1.0, "lr": 0.55, "rl": 0.55}  # a step turns by half of what a stride does, or little more
 
 
@@ -74,8 +74,7 @@ def walking(good=0.03):
 @cache
 def stepping(good=0.03):
     spaces = {"left": space("lr"), "right": space("rl")}
-    few = Sampling(sources=30, targets=300)
-    return build_parametric(spaces, [("left", "right"), ("right", "left")], good=good, sampling=few)
+    return build_parametric(spaces, [("left", "right"), ("right", "left")], good=good, sampling=(30, 300))
 
 
 def missed(tested, goals):

@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from mocap.errors import NoWalk, SkeletonMismatch
-from mocap.methods.parametric_graphs import Sampling
 from mocap.methods.parametric_graphs.made_motions import optimal_transitions
 from mocap.methods.parametric_graphs.parametric_edges import (
     BAD,
@@ -33,7 +32,7 @@ PLACES = st.floats(-10, 10).map(lambda v: round(v, 2))
 
 def test_few_sources_leave_bad_targets_in_the_boxes_between_them_and_few_targets_leave_boxes_small():
     """As in [HG07, 4]."""
-    source, samples = space(), (Sampling(5, 300), Sampling(50, 300), Sampling(5, 20))
+    source, samples = space(), ((5, 300), (50, 300), (5, 20))
     few, many, small = (build_edge(source, source, good=0.03, sampling=sampling) for sampling in samples)
     assert len(many.at) == 50 and (small.high - small.low).mean() < 0.95 * (few.high - few.low).mean()
     assert bad_ones(source, source, few, BAD * 0.03)[0] > 0.12
