@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Annotated
 
 from mocap import body, datasets, editing, graphs, quality, synthesis, widgets
-from mocap._shared.atomic import make_folder, require_folder, require_npz, require_writable
+from mocap._shared.atomic import make_folder, require_folder
 from mocap.cli.options import Building, Seed, bar, check_out, number, require_other, tell, write_out
 from mocap.cli.typed_commands import Group
 from mocap.errors import MocapError, MocapWarning, NoWalk
@@ -94,14 +94,12 @@ def build(
     -----
     Example: mocap graph clips/ --mirror -o graph.npz
     """
-    require_npz(out)
-    require_writable(out)
-    if graphml:
-        check_out("graph for other tools", graphml, formats=[".graphml"])
     if by_labels and whole:
         raise MocapError("--by-labels says how to prune, --whole not to prune: give one of them.")
     found = find_files(clips)
-    require_other(out, found)
+    check_out("graph", out, found, [".npz"])
+    if graphml:
+        check_out("graph for other tools", graphml, found, [".graphml"])
     motions = building.load(found)
     origins = [datasets.Origin(file, building.skeleton, building.scale) for file in found]
     if mirror:

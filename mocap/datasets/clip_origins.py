@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 
@@ -64,11 +65,9 @@ def is_origin(text: str) -> bool:
     >>> is_origin('{"path": ["walk.bvh"], "skeleton": [], "scale": null}'), is_origin("walk.bvh")
     (True, False)
     """
-    try:
-        kept = json.loads(text)
-        places = [*kept["path"], *kept["skeleton"]]
-        scale, mirrored = kept["scale"], kept.get("mirrored", False)
-    except (ValueError, TypeError, KeyError, AttributeError):
-        return False
-    fine = (scale is None or isinstance(scale, float)) and isinstance(mirrored, bool)
-    return fine and all(isinstance(place, str) for place in places)
+    with suppress(ValueError):
+        match json.loads(text):
+            case {"path": [*path], "skeleton": [*skeleton], "scale": float() | None, **more}:
+                fine = isinstance(more.get("mirrored", False), bool)
+                return fine and all(isinstance(place, str) for place in path + skeleton)
+    return False

@@ -124,14 +124,10 @@ def _unpack(archive: Path, folder: Path, progress: Progress) -> None:
     """Write all .bvh files of an archive into a folder, without the archive's own folders."""
     try:
         with zipfile.ZipFile(archive) as files:
-            places = {name: PurePosixPath(name) for name in files.namelist()}
-            clips = [
-                name
-                for name, place in places.items()
-                if place.suffix.lower() == ".bvh" and not place.name.startswith("._")  # which macOS adds
-            ]
+            found = [name for name in files.namelist() if name.lower().endswith(".bvh")]
+            clips = [name for name in found if not PurePosixPath(name).name.startswith("._")]  # of macOS
             for name in progress(clips):
-                with replacing(folder / places[name].name) as beside:
+                with replacing(folder / PurePosixPath(name).name) as beside:
                     beside.write_bytes(files.read(name))
     except (zipfile.BadZipFile, zlib.error, NotImplementedError, EOFError) as error:
         raise MocapError(f"{archive} is damaged, or no .zip file: delete it, and try again.") from error

@@ -12,7 +12,7 @@ from mocap.files import acclaim, amass, bvh, gltf
 from mocap.files.asf import read_skeleton
 from mocap.files.recordings import Recording
 from mocap.files.rigid_bones import STRETCH
-from mocap.files.text import read_text
+from mocap.files.text import check_above_0, read_text
 
 READ, WRITTEN = ".amc (with .asf), .bvh and AMASS .npz", ".bvh and .glb"
 
@@ -64,7 +64,7 @@ def read(
 ) -> Recording:
     """Read a motion as `load` does, and what else its file says: angles, and by how much bones stretch."""
     path = Path(path)
-    _check(fps=fps, scale=scale)
+    check_above_0(fps=fps, scale=scale)
     if not stretch >= 0:
         raise MocapError(f"stretch must be 0 or more metres, got {stretch}.")
     match path.suffix.lower():
@@ -176,12 +176,6 @@ def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
             gltf.write(motion, path)
         case _:
             raise MocapError(f"Cannot write {path}: mocap writes {WRITTEN}.")
-
-
-def _check(**options: float | None) -> None:
-    for name, value in options.items():
-        if value is not None and not (math.isfinite(value) and value > 0):
-            raise MocapError(f"{name} must be a number above 0, got {value}.")
 
 
 def _skeleton_for(path: Path) -> Path:

@@ -12,7 +12,7 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.body.ground_path import GroundPath
 from mocap.errors import FormatError, MocapError, shortened
-from mocap.files.text import load_rows, read_text, to_numbers
+from mocap.files.text import check_above_0, load_rows, read_text, to_numbers
 
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 BETWEEN = " ,\t\n"  # what parts numbers, besides their signs
@@ -58,8 +58,7 @@ def load_path(path: str | Path, *, scale: float | None = None) -> GroundPath:
     [[0.0, 0.0], [0.0, 3.0], [4.0, 3.0]]
     """
     path = Path(path)
-    if scale is not None and not (np.isfinite(scale) and scale > 0):
-        raise MocapError(f"scale must be a number above 0, got {scale}.")
+    check_above_0(scale=scale)
     match path.suffix.lower():
         case ".csv":
             points = (scale or 1.0) * load_rows(path)
@@ -136,11 +135,11 @@ def _outline(path: Path, text: str, kind: str) -> Array:
         kind, base = letter.upper(), here if letter.islower() else 0j
         if len(points) > MOST:
             raise FormatError(path, None, f"a line of {MOST:,} points at most", "more")
-        if kind in "HV":
-            across, along = (base.real + numbers[0], here.imag), (here.real, base.imag + numbers[0])
-            end = complex(*(across if kind == "H" else along))
-        else:
-            end = start if kind == "Z" else base + complex(*numbers[-2:])
+        if kind == "H":
+            numbers = [numbers[0], here.imag - base.imag]
+        elif kind == "V":
+            numbers = [here.real - base.real, numbers[0]]
+        end = start if kind == "Z" else base + complex(*numbers[-2:])
         if kind == "M":
             if len(points) > 1:
                 break  # a second stroke

@@ -1,5 +1,6 @@
 """Text files: read whole or refused, with checks of their lines and numbers, and tables of numbers."""
 
+import math
 import re
 from collections.abc import Iterator
 from contextlib import suppress
@@ -68,6 +69,13 @@ def check_room(path: str | Path, poses: int, numbers: int) -> None:
     """
     if poses > 10_000_000 and poses > 10 * numbers:
         raise FormatError(path, None, "numbers for at least a tenth of the joints", f"{numbers} for {poses}")
+
+
+def check_above_0(**options: float | None) -> None:
+    """Refuse a number that was given, but is not finite and above 0."""
+    for name, value in options.items():
+        if value is not None and not (math.isfinite(value) and value > 0):
+            raise MocapError(f"{name} must be a number above 0, got {value}.")
 
 
 def lines(text: str) -> Iterator[tuple[int, list[str]]]:
