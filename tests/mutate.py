@@ -32,7 +32,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 MODULES = {
-    "matching": "point_clouds distance_grids minima pair_search transitions",
+    "matching": "point_clouds distance_grids minima transitions",
     "blending": "weights joining",
     "body": "planar rotations",
     "graphs": "components pruning compiled_graph edge_tables motion_graph",

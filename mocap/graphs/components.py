@@ -5,13 +5,13 @@ from itertools import chain, compress
 
 import networkx as nx
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from mocap._shared.arrays import Indices, Mask
+
 Labels = frozenset[str]
 Nodes = frozenset[Hashable]
-Indices = NDArray[np.int64]
 
 NO_LABELS: Labels = frozenset()
 
@@ -70,7 +70,7 @@ def largest_components(
     return found
 
 
-def largest_component(ways: Indices, frames: Indices, count: int) -> tuple[NDArray[np.bool_], int]:
+def largest_component(ways: Indices, frames: Indices, count: int) -> tuple[Mask, int]:
     """Find the strongly connected component that plays most frames; of equal ones, the one with most edges.
 
     Parameters

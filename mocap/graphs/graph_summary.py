@@ -98,11 +98,11 @@ def _reachable(graph: nx.MultiDiGraph) -> dict[Labels, frozenset[Labels]]:
     for start, _, edge in graph.edges(data=True):
         if edge["kind"] == "clip":
             starts.setdefault(edge["labels"], set()).add(start)
-    found = {}
-    for here, nodes in starts.items():
-        ways = reached(graph, nodes)
-        found[here] = frozenset(there for there in starts if there != here and starts[there] & ways)
-    return found
+    ways = {here: reached(graph, nodes) for here, nodes in starts.items()}
+    return {
+        here: frozenset(there for there in starts if there != here and starts[there] & ways[here])
+        for here in starts
+    }
 
 
 def write_graphml(motion_graph: MotionGraph, path: str | Path) -> None:

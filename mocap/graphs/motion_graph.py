@@ -18,7 +18,7 @@ from mocap.body.motion import Motion, require_alike
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError
 from mocap.graphs.components import Labels
-from mocap.matching.pair_search import fit
+from mocap.matching.minima import fit
 from mocap.matching.transitions import Thresholds, Transition, find_transitions, join_clouds
 
 Node = tuple[int, int]
@@ -247,15 +247,16 @@ def merge_choice_points(motion_graph: MotionGraph, *, within: int, threshold: fl
     if not threshold > 0:
         raise MocapError(f"The threshold must be above 0 m, got {threshold} m.")
     clips, window = motion_graph.clips, motion_graph.window
-    ways: dict[Ends, Transition] = {}
-    for a, b, edge in motion_graph.graph.edges(data=True):
-        if edge["kind"] == "transition":
-            ways[a, b] = Transition(a[0], a[1], b[0], b[1] - window, edge["cost"], edge["transform"])
-    goals = _goals(list(ways), within)
-    old, measured = list(ways), dict(ways)
+    measured = {
+        (a, b): Transition(*a, b[0], b[1] - window, edge["cost"], edge["transform"])
+        for a, b, edge in motion_graph.graph.edges(data=True)
+        if edge["kind"] == "transition"
+    }
+    old = list(measured)
+    goals = _goals(old, within)
     while True:  # each round sends at least one point back, or is the last
         new = [(goals[a], goals[b]) for a, b in old]
-        fresh = [ends for ends in dict.fromkeys(new) if ends not in measured and _fits(clips, window, *ends)]
+        fresh = [ends for ends in dict.fromkeys(new) if ends not in measured]
         measured.update(_measured(clips, window, fresh))
         fine = {ends for ends, way in measured.items() if way.cost < threshold}
         bad = [a for a, b in zip(old, new, strict=True) if a != b and b not in fine]
@@ -279,16 +280,16 @@ def _goals(ways: Sequence[Ends], within: int) -> dict[Node, Node]:
     return {node: max((n for n in g if n in left), default=g[0]) for g in groups for node in g}
 
 
-def _fits(clips: Sequence[Motion], window: int, leave: Node, enter: Node) -> bool:
-    """Check that a transition lies inside its clips, and that its two windows do not overlap."""
-    inside = leave[1] + window <= len(clips[leave[0]]) and enter[1] >= window
-    return inside and (leave[0] != enter[0] or abs(enter[1] - window - leave[1]) >= window)
-
-
 def _measured(
     clips: Sequence[Motion], window: int, ends: Sequence[Ends]
 ) -> Iterator[tuple[Ends, Transition]]:
-    """Align the windows of transitions from node to node, and measure the RMS distance that remains."""
+    """Align windows from node to node, where they lie inside their clips apart, and measure what remains."""
+    ends = [
+        (a, b)
+        for a, b in ends
+        if a[1] + window <= len(clips[a[0]]) and b[1] >= window
+        if a[0] != b[0] or abs(b[1] - window - a[1]) >= window
+    ]
     cloud, starts = join_clouds(clips, None, window, 0, np.float64), np.cumsum([0, *map(len, clips)])
     clip, frame = np.moveaxis(np.array(ends, np.intp).reshape(-1, 2, 2), -1, 0)  # (N, 2) each
     leave, enter = (starts[clip] + frame - [0, window]).T

@@ -79,7 +79,7 @@ class ThresholdCurve(NamedTuple):
 
 
 def threshold_curve(
-    clips: Sequence[Motion], transitions: Transitions, *, window: int, thresholds: ArrayLike | None = None
+    clips: Sequence[Motion], transitions: Transitions, *, window: int, thresholds: ArrayLike
 ) -> ThresholdCurve:
     """Compute for many thresholds how large the motion graph is, and how much of it pruning keeps.
 
@@ -91,7 +91,7 @@ def threshold_curve(
     clips : the motions.
     transitions : found between them with the loosest threshold of interest.
     window : frames in a transition.
-    thresholds : shape (T,), metres; by default 30, evenly spaced up to just above the highest cost.
+    thresholds : shape (T,), metres.
 
     Returns
     -------
@@ -99,7 +99,6 @@ def threshold_curve(
 
     Raises
     ------
-    NoWalk : where there are no transitions, unless `thresholds` are given.
     MocapError : for transitions outside the clips, and thresholds that are not numbers.
 
     Examples
@@ -115,10 +114,7 @@ def threshold_curve(
 
     Notebook: 05b-choice-points
     """
-    if thresholds is None and len(transitions) == 0:
-        raise NoWalk("There are no transitions: allow costlier ones.")
-    largest = np.nextafter(transitions.cost.max(initial=0), np.inf)
-    values = np.linspace(0, largest, 31)[1:] if thresholds is None else np.array(thresholds, float).ravel()
+    values = np.array(thresholds, float).ravel()
     if np.isnan(values).any():
         raise MocapError(f"Thresholds must be numbers, got {values.tolist()}.")
     lengths = np.array([len(clip) for clip in clips])

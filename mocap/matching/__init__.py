@@ -9,10 +9,9 @@ Reading order (notebooks 02, 05, 15)
 1. `point_clouds`: the points a motion drives, and how to align two clouds of them
 2. `distance_grids`: all windows against all, by matrix products
 3. `other_metrics`: the homework's two metrics, and why they fail; `Metric`, the signature that all have
-4. `minima`: the entries of a grid that are lower than all eight neighbours
-5. `pair_search`: the minima of a grid that is too large to hold
-6. `transitions`: where one clip can pass into another
-7. `time_paths`: which frame of one clip belongs to which of another
+4. `minima`: the entries of a grid that are lower than all eight neighbours, however large it is
+5. `transitions`: where one clip can pass into another
+6. `time_paths`: which frame of one clip belongs to which of another
 
 References
 ----------

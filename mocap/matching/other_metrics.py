@@ -7,7 +7,6 @@ body. All three are a `Metric`, so where one is asked for you can try the others
 """
 
 from collections.abc import Callable, Mapping
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,11 +26,8 @@ HOMEWORK_WEIGHTS: Mapping[str, float] = {
 """How much each bone counts in the homework's metric; the other bones do not count."""
 
 
-class Metric(Protocol):
-    """What all metrics have in common: their other keywords have defaults."""
-
-    def __call__(self, a: Motion, b: Motion, *, window: int) -> NDArray[np.floating]:
-        """Compare all windows of a with all of b."""
+Metric = Callable[..., NDArray[np.floating]]
+"""What all metrics have in common: `metric(a, b, window=k)`; their other keywords have defaults."""
 
 
 def root_grid(a: Motion, b: Motion, *, window: int) -> Array:

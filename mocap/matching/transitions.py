@@ -16,7 +16,7 @@ from mocap.body.motion import Motion, require_alike
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError
 from mocap.matching.distance_grids import Cloud, check_window, cloud
-from mocap.matching.pair_search import find_minima
+from mocap.matching.minima import find_minima
 from mocap.matching.point_clouds import distinct_joints, point_cloud, require_near, unit_weights
 
 Integers = NDArray[np.integer[Any]]
@@ -88,9 +88,7 @@ class Transitions(Sequence[Transition]):
         return from_columns(*(column[index] for column in self.columns))
 
     def __iter__(self) -> Iterator[Transition]:
-        for start in range(0, len(self), 1024):  # in parts: as records they take ten times the memory
-            part = (column[start : start + 1024].tolist() for column in self.columns)
-            yield from map(_record, *part)
+        return map(_record, *(column.tolist() for column in self.columns))
 
 
 def _record(source: int, leave: int, target: int, enter: int, cost: float, *way: float) -> Transition:

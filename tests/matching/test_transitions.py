@@ -11,7 +11,7 @@ from mocap._shared import tasks
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import SkeletonMismatch
-from mocap.matching import pair_search, transitions
+from mocap.matching import minima, transitions
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.minima import local_minima
 from mocap.matching.transitions import find_transitions, join_clouds
@@ -148,7 +148,7 @@ def test_a_cost_is_below_its_threshold():
 @pytest.mark.sweep
 def test_a_cluster_gives_the_same_and_survives_the_loss_of_a_worker(monkeypatch):
     distributed = pytest.importorskip("distributed")
-    monkeypatch.setattr(pair_search, "BLOCK", 40)
+    monkeypatch.setattr(minima, "BLOCK", 40)
     monkeypatch.setattr(tasks, "AHEAD", 2)
     expected = find_transitions(CLIPS, window=8, below=0.1)
     cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)

@@ -9,10 +9,9 @@ from hypothesis import strategies as st
 
 from mocap._shared import tasks
 from mocap.graphs.motion_graph import build
-from mocap.matching import distance_grids, pair_search
+from mocap.matching import distance_grids, minima
 from mocap.matching.distance_grids import Cloud, cloud, cloud_distances, distance_grid
-from mocap.matching.minima import local_minima
-from mocap.matching.pair_search import find_minima
+from mocap.matching.minima import find_minima, local_minima
 from mocap.matching.transitions import find_transitions
 from tests.strategies import seeds, wave
 
@@ -51,7 +50,7 @@ def test_blocks_and_tiles_do_not_show(below, seed, lengths, window, block):
     grid = cloud_distances(*[whole.part(slice(0, count))] * 2)
     expected = [[i, j] for i, j in local_minima(grid, below**2).tolist() if j - i >= window]
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(pair_search, "BLOCK", block)
+        patch.setattr(minima, "BLOCK", block)
         patch.setattr(distance_grids, "TILE", (5, 7))
         found = find_minima(whole, below)
     order = np.lexsort(found[1::-1])
@@ -87,7 +86,7 @@ class Late:
 
 
 def test_only_a_few_blocks_are_out_at_once_and_they_are_shown(monkeypatch):
-    monkeypatch.setattr(pair_search, "BLOCK", 10)
+    monkeypatch.setattr(minima, "BLOCK", 10)
     monkeypatch.setattr(tasks, "AHEAD", 4)
     whole, executor, seen = clouds([30], 2, 0), Late(), []
     expected = find_minima(whole, 2.0)
@@ -121,7 +120,7 @@ def test_weights_of_joints_are_those_of_the_grid():
     [(ThreadPoolExecutor, 3), pytest.param(ProcessPoolExecutor, 2, marks=pytest.mark.sweep)],
 )
 def test_any_number_of_workers_gives_the_same_bit_for_bit(executor, workers, monkeypatch):
-    monkeypatch.setattr(pair_search, "BLOCK", 40)
+    monkeypatch.setattr(minima, "BLOCK", 40)
     here = find_transitions(CLIPS, window=8, below=0.1)
     with executor(workers) as pool:
         there = find_transitions(CLIPS, window=8, below=0.1, executor=pool)
