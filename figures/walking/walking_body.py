@@ -19,9 +19,9 @@ from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 from mocap._shared.arrays import Array
 from mocap.body import euler, rotations
 from mocap.body.skeleton import Skeleton
-from mocap.body.two_bone_ik import two_bone
 from mocap.errors import MocapError
 from walking.footsteps import Foot, FootPath
+from walking.two_bone_ik import two_bone
 
 STATURE = 1.75  # metres
 FPS = 120.0

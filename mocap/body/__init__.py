@@ -13,8 +13,7 @@ Reading order (notebooks 01, 03)
 6. `euler`: Euler angles and their traps
 7. `ground_path`: lines on the ground, by metres along them
 8. `limbs`: which joints are the legs
-9. `two_bone_ik`: bend a limb of two bones to a target
-10. `fingerprints`: what a clip is known by, whatever it is called
+9. `fingerprints`: what a clip is known by, whatever it is called
 
 References
 ----------
@@ -33,6 +32,5 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "planar": ["PlanarTransform", "heading", "on_ground", "place"],
         "ground_path": ["GroundPath", "SHAPES", "arcs", "circle", "s_curve", "spline"],
         "limbs": ["find_legs"],
-        "two_bone_ik": ["two_bone"],
     },
 )

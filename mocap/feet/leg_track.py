@@ -1,8 +1,8 @@
 """One leg over a clip: how far its knee lets it reach, and its ankle in another place: step 4 of [KSG02].
 
 All five steps of a clean-up ask for the same few things about a leg. A `LegTrack` measures each of them once.
-`two_bone_ik` poses a limb from nothing; here there is a pose to begin with, and the leg changes as little as
-its new ankle allows. The knee, a hinge, bends as it must. Then the whole leg swings at the hip.
+There is a pose to begin with, and the leg changes as little as its new ankle allows. The knee, a hinge, bends
+as it must. Then the whole leg swings at the hip.
 """
 
 from typing import NamedTuple

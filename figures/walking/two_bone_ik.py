@@ -60,8 +60,6 @@ def two_bone(start: ArrayLike, target: ArrayLike, lengths: tuple[float, float], 
     >>> leg = two_bone([0, 1, 0], [0, 0.2, 0], (0.5, 0.5), [0, 0, 1])
     >>> leg.middle.round(6), bool(leg.reached)
     (array([0. , 0.6, 0.3]), True)
-
-    Notebook: 04b-feet
     """
     upper, lower = lengths
     if not min(lengths) > 0:

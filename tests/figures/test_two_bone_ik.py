@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 from hypothesis import given
+from walking.two_bone_ik import two_bone
 
 from mocap.body import rotations
-from mocap.body.two_bone_ik import two_bone
 from tests.refusals import refusals
 from tests.strategies import seeds
 
