@@ -248,7 +248,7 @@ def merge_choice_points(motion_graph: MotionGraph, *, within: int, threshold: fl
         raise MocapError(f"The threshold must be above 0 m, got {threshold} m.")
     clips, window = motion_graph.clips, motion_graph.window
     measured = {
-        (a, b): Transition(*a, b[0], b[1] - window, edge["cost"], edge["transform"])
+        (a, b): Transition(a[0], a[1], b[0], b[1] - window, edge["cost"], edge["transform"])
         for a, b, edge in motion_graph.graph.edges(data=True)
         if edge["kind"] == "transition"
     }

@@ -19,11 +19,11 @@ from itertools import permutations
 import networkx as nx
 import numpy as np
 
+from mocap._shared.arrays import Indices
 from mocap._shared.collector import uncollected
 from mocap.errors import NoWalk, warn
 from mocap.graphs.components import (
     NO_LABELS,
-    Indices,
     Labels,
     Nodes,
     component_numbers,
