@@ -29,55 +29,6 @@ LABEL = 4.0  # m²/s per second
 AHEAD, WIDTH = 3.0, 64  # seconds to look ahead, walks that stay in each round
 
 
-class LookAhead:
-    """How a controlled character looks ahead on a compiled graph, with H hops and L labels.
-
-    Parameters
-    ----------
-    graph : the compiled graph.
-    """
-
-    def __init__(self, graph: CompiledGraph) -> None:
-        hops, bears = graph.hops, graph.bears
-        self.graph = graph
-        # The root's way on the ground over each hop (H,), in the coordinates of the clip that it leaves.
-        leaves = np.repeat(np.arange(len(graph.nodes)), np.diff(hops.first))
-        end = graph.turn[hops.last] * graph.at[graph.target[hops.last]] + graph.move[hops.last]
-        self.moved = end - graph.at[leaves]
-        self.hops = hop_states(graph, np.abs(self.moved), np.where(graph.blended, SEAM, 0.0))
-        without = np.pad(np.cumsum(~bears, axis=1), ((0, 0), (1, 0)))  # (L, T + 1), frames
-        played: Indices = without[:, hops.starts + hops.counts] - without[:, hops.starts]  # (L, H, 2)
-        self.lacks: Array = played.sum(axis=-1) / graph.fps
-
-    def longer(self, walks: States, velocity: complex, label: int) -> States | None:
-        """Lengthen every walk below the horizon by every hop that leaves its node; keep the best walks.
-
-        Parameters
-        ----------
-        walks : from the end of the hop under way; their `hop` is the first one of each, -1 for none.
-        velocity, label : the command: a velocity on the ground, z + ix, and a label's number or -1.
-
-        Returns
-        -------
-        The `WIDTH` walks with the lowest cost per frame, the best first; None where no walk can be longer.
-        """
-        short = walks.frames < AHEAD * self.graph.fps
-        going = walks.take(short)
-        of, hop = self.graph.hops.leaving(going.node)
-        if not len(hop):
-            return None
-        steps = self.hops.take(hop)
-        seconds = steps.frames / self.graph.fps
-        off = going.turn[of] * self.moved[hop] - velocity * seconds
-        cost = (off.real**2 + off.imag**2) / seconds + steps.cost
-        if label >= 0:
-            cost += LABEL * self.lacks[label, hop]
-        longer = going.then(of, steps._replace(cost=cost))
-        first = np.where(going.hop[of] < 0, hop, going.hop[of])
-        walks = States.join([walks.take(~short), longer._replace(hop=first)])
-        return walks.take(np.argsort(walks.cost / walks.frames)[:WIDTH])
-
-
 class Controller:
     """A character on a motion graph; each `step` takes a command and gives the next pose [KGP02, 5.3].
 
@@ -111,7 +62,16 @@ class Controller:
     def __init__(self, graph: MotionGraph | CompiledGraph, *, start: Node | None = None) -> None:
         self.graph = compile_graph(graph)
         self.skeleton, self.fps = self.graph.source.clips[0].skeleton, self.graph.fps
-        self.ahead = LookAhead(self.graph)
+        # The root's way on the ground over each hop (H,), in the coordinates of the clip that it leaves.
+        hops, last = self.graph.hops, self.graph.hops.last
+        leaves = np.repeat(np.arange(len(self.graph.nodes)), np.diff(hops.first))
+        end = self.graph.turn[last] * self.graph.at[self.graph.target[last]] + self.graph.move[last]
+        self.moved = end - self.graph.at[leaves]
+        self.hops = hop_states(self.graph, np.abs(self.moved), np.where(self.graph.blended, SEAM, 0.0))
+        # Seconds of each hop without each of the L labels, (L, H).
+        without = np.pad(np.cumsum(~self.graph.bears, axis=1), ((0, 0), (1, 0)))  # (L, T + 1), frames
+        played: Indices = without[:, hops.starts + hops.counts] - without[:, hops.starts]  # (L, H, 2)
+        self.lacks: Array = played.sum(axis=-1) / self.graph.fps
         self.edges: list[int] = []  # of the hop under way, still to be played; the first one is being played
         self.frame = 0  # of the first edge
         self.turn, self.move = 1 + 0j, 0j  # place its clip: p ↦ turn · p + move
@@ -221,9 +181,26 @@ class Controller:
         self.decided = False
 
     def _look(self) -> None:
-        """Look ahead by one round; without longer walks the choice is clear."""
-        longer = self.ahead.longer(self.walks, *self.command)
-        self.walks, self.decided = longer or self.walks, longer is None
+        """Lengthen every walk below the horizon by every hop that leaves its node; keep the best walks.
+
+        The best are the `WIDTH` with the lowest cost per frame. Without longer walks the choice is clear.
+        """
+        (velocity, label), short = self.command, self.walks.frames < AHEAD * self.fps
+        going = self.walks.take(short)
+        of, hop = self.graph.hops.leaving(going.node)
+        self.decided = not len(hop)
+        if self.decided:
+            return
+        steps = self.hops.take(hop)
+        seconds = steps.frames / self.fps
+        off = going.turn[of] * self.moved[hop] - velocity * seconds
+        cost = (off.real**2 + off.imag**2) / seconds + steps.cost
+        if label >= 0:
+            cost += LABEL * self.lacks[label, hop]
+        longer = going.then(of, steps._replace(cost=cost))
+        first = np.where(going.hop[of] < 0, hop, going.hop[of])
+        walks = States.join([self.walks.take(~short), longer._replace(hop=first)])
+        self.walks = walks.take(np.argsort(walks.cost / walks.frames)[:WIDTH])
 
     def _choose(self) -> None:
         """Take the first hop of the best walk, and look ahead from its end."""
