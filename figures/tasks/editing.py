@@ -24,6 +24,7 @@ from mocap.editing import (
     hierarchy,
     join_pins,
     pin,
+    pin_errors,
     plant_pins,
     solve,
 )
@@ -51,7 +52,7 @@ def cases(collection: str, clips: list[Motion]) -> Iterator[Case]:
         wishes = {f"stone {height:g}": stone(walk, height) for height in STONES}
         wishes |= {"hand": hand(walk)} | {f"bar {share:g}": bar(walk, share) for share in BARS}
         for name, pins in wishes.items():
-            asked = np.linalg.norm(pins.gap(joint_positions(walk)), axis=-1).max(axis=1) > 0.01
+            asked = pin_errors(walk, pins).max(axis=1) > 0.01
             low, high = (ends.reshape(len(walk), -1) for ends in (pins.low, pins.high))
             given = {"motion": walk, "joints": [pins.joints], "low": low, "high": high}
             event = np.flatnonzero(asked)[[0, -1]]
@@ -97,7 +98,7 @@ def in_between(case: Case) -> Motion:
     """Solve the pinned frames, and let the change come and go along a straight line in half a second."""
     walk, pins = case.given["motion"], pins_of(case)
     change = difference(solve(walk, pins, [REACH]).motion, walk)
-    asked = np.linalg.norm(pins.gap(joint_positions(walk)), axis=-1).max(axis=1) > 0.03  # not feet that slide
+    asked = pin_errors(walk, pins).max(axis=1) > 0.03  # not feet that slide
     keys, frames = np.flatnonzero(asked), np.arange(len(walk))
     nearest = keys[np.abs(frames[:, None] - keys).argmin(axis=1)]
     share = np.clip(1 - np.abs(frames - nearest) / (AROUND * walk.fps), 0, 1)
@@ -123,7 +124,7 @@ def between(a: Array, b: Array) -> Array:
 def score(case: Case, answer: Motion) -> tuple[float, ...]:
     """Measure what is missed, accelerations around the event over the clip's own, and what the trunk does."""
     walk, (first, last) = case.given["motion"], case.truth
-    gap = np.linalg.norm(pins_of(case).gap(joint_positions(answer)), axis=-1).max()
+    gap = pin_errors(answer, pins_of(case)).max()
     around = round(AROUND * walk.fps)
     columns = [n for n, name in enumerate(walk.skeleton.names) if not any(word in name for word in NOISE)]
     shakes, trunks, necks = [], [], []

@@ -59,17 +59,19 @@ def warp(
     Example: mocap warp walk.bvh --keys keys.txt -o warped.bvh
     """
     check_out("warped clip", out, [source])
-    from mocap.editing.warp_plans import load_plan  # the help needs no NumPy
+    from mocap.editing import warp_plans  # the help needs no NumPy
 
-    plan, motion = load_plan(keys), reading.load(source)
+    motion = reading.load(source)
+    plan = warp_plans.load_plan(keys, motion)
     if not loose_feet:
         try:
             body.find_legs(motion.skeleton)
         except MocapError as error:
             raise MocapError(f"{str(error).partition(':')[0]}: give --loose-feet.") from None
         motion = feet.mark_plants(motion)
-    warped = editing.warp(motion, plan, window=window, feet=not loose_feet)
-    tell(keys=f"{len(plan.wishes)} of poses, {len(plan.times)} of time")
+    warped = warp_plans.warp(motion, plan, window=window, feet=not loose_feet)
+    poses = sum(map(len, plan.wishes.values()))
+    tell(keys=f"{poses} of poses, {len(plan.times)} of time")
     write_out(warped, out, about=f": {len(warped)} frames, {warped.duration:.2f} s")
 
 
@@ -138,8 +140,10 @@ def loop(
     Example: mocap loop walk.bvh --straight --clean -o loop.bvh
     """
     check_out("cycle", out, [clip])
+    from mocap.editing.cycles import find_loop, repeated  # the help needs no NumPy
+
     motion = reading.load(clip)
-    found = editing.find_loop(motion, seconds=(shortest, longest))
+    found = find_loop(motion, seconds=(shortest, longest))
     seam, missed = (f"{100 * metres:.0f} cm" for metres in (found.seam, found.missed))
     if found.seam > POOR:
         said = f"{clip}: the ends of the best cycle are {seam} apart: it may leap there."
@@ -155,7 +159,7 @@ def loop(
     tell(seam=f"{100 * found.seam:.1f} cm RMS")
     tell(misses=f"{100 * found.missed:.1f} cm of the clip's other poses, on average")
     tell(**{"a round": f"{step:.2f} m, turns {side} by {abs(math.degrees(turn)):.0f}°"})
-    write_out(editing.repeated(cycle, times), out)
+    write_out(repeated(cycle, times), out)
 
 
 def blend(

@@ -98,8 +98,7 @@ def body_of(
     if not all(np.isfinite(factor) and factor > 0 for factor in factors.values()):
         raise MocapError(f"Factors of prices are above 0, got {dict(prices or {})}.")
     turns, paths = turning(motion), [skeleton.path_to_root(joint) for joint in range(len(skeleton))]
-    places, turned = (pinned.joints, pinned.turns) if isinstance(pinned, Pins) else (pinned, ())
-    ways = [*(paths[joint][1:] for joint in places), *(paths[turn.joint] for turn in turned if turn.world)]
+    ways = pinned.movers(skeleton) if isinstance(pinned, Pins) else [paths[joint][1:] for joint in pinned]
     above = sorted(set().union(*ways))
     positions = joint_positions(motion[:: max(1, len(motion) // POSES)])
     joints: list[int] = []

@@ -125,7 +125,7 @@ def _refined(motion: Motion, ends: tuple[float, float], shortest: float, missed:
     return Loop(around[0][int(i)], around[1][int(j)], float(np.sqrt(max(grid[i, j], 0.0))), missed)
 
 
-def loop(motion: Motion, found: Loop, *, straight: bool = False, clean: bool = False) -> Motion:
+def loop(motion: Motion, found: Loop | None = None, *, straight: bool = False, clean: bool = False) -> Motion:
     """Cut a cycle out of a clip and close it.
 
     What follows the cycle in the clip passes into its beginning, within 0.2 s, as a transition of a motion
@@ -134,15 +134,15 @@ def loop(motion: Motion, found: Loop, *, straight: bool = False, clean: bool = F
     Parameters
     ----------
     motion : F frames.
-    found : from `find_loop`, or frames of your own choice.
+    found : from `find_loop`, which is the default, or frames of your own choice.
     straight : whether to take out the turn of one round, evenly, so that the cycle goes on straight ahead.
         Feet that stand are then turned with the body.
     clean : whether to mark the plants anew and remove footskate, as it would be in the midst of many rounds.
 
     Returns
     -------
-    last - first + 1 frames. The last one is the first one, moved over the ground; `editing.repeated` lays one
-    round behind the other.
+    last - first + 1 frames. The last one is the first one, moved over the ground; `repeated` lays one round
+    behind the other.
 
     Raises
     ------
@@ -156,12 +156,12 @@ def loop(motion: Motion, found: Loop, *, straight: bool = False, clean: bool = F
     --------
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_straight")[120:600]
-    >>> round_ = loop(walk, find_loop(walk), straight=True)
+    >>> round_ = loop(walk, straight=True)
     >>> turn = heading(round_.rotations[[0, -1], 0])
     >>> bool(abs(turn[1] - turn[0]) < 1e-9)
     True
     """
-    window = max(2, round(SEAM * motion.fps))
+    found, window = found or find_loop(motion), max(2, round(SEAM * motion.fps))
     if not 0 <= found.first < found.last < len(motion) - window or found.last - found.first < window:
         asked = f"A cycle from frame {found.first} to {found.last} of {len(motion)}"
         raise MocapError(f"{asked} leaves no room for a seam of {window} frames.")
@@ -211,7 +211,7 @@ def repeated(cycle: Motion, times: int) -> Motion:
     Examples
     --------
     >>> from mocap.datasets import sample
-    >>> stride = loop(walk := sample("walk_straight"), find_loop(walk))
+    >>> stride = loop(sample("walk_straight"))
     >>> len(repeated(stride, 3)) == 3 * (len(stride) - 1) + 1
     True
     """

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -11,7 +10,6 @@ from scipy import sparse
 
 from mocap._shared.arrays import Array, Indices
 from mocap.body.motion import Motion
-from mocap.body.skeleton import Skeleton
 from mocap.editing.bodies import Body, body_of, require_reachable
 from mocap.editing.displacements import displaced, spline_basis
 from mocap.editing.pins import Pins, join_pins, pin, pin_errors, plant_pins
@@ -79,7 +77,7 @@ def edit(motion: Motion, pins: Pins, *, body: Body | None = None) -> Motion:
 
     Notebook: 14-levels
     """
-    if len(pins) == len(motion) and not (pins.asked.any() or pins.turns):
+    if len(pins) == len(motion) and not pins.asked.any():
         return motion
     pins = join_pins(plants := plant_pins(motion), pins)
     body = body or priced(motion, pins, *EDITED)
@@ -134,42 +132,38 @@ def posed(motion: Motion, frame: int, places: Mapping[str, ArrayLike], *, feet: 
     """
     if not 0 <= frame < len(motion):
         raise MocapError(f"'{motion.name}' has {len(motion)} frames, none with number {frame}.")
-    pins = _standing(motion).only([frame]) if feet else Pins((), *np.zeros((2, len(motion), 0, 3)))
+    pins = plant_pins(motion).only([frame]) if feet else Pins((), *np.zeros((2, len(motion), 0, 3)))
     for joint, place in places.items():
         free = np.isnan(place)
         box = (np.where(free, end, place) for end in (-np.inf, np.inf))
         pins = join_pins(pins, pin(motion, joint, [frame], *box))
     require_reachable(motion, pins)
-    body = _dragged(motion, pins.joints, *POSED)
+    body = priced(motion, pins.joints, *POSED)
     now = replace(motion[frame : frame + 1], name=f"{motion.name}[{frame}]")
     return replace(solve(now, pins.at([frame]), [POSE], body).motion, name=motion.name)
 
 
 def priced(motion: Motion, pinned: Pins | Sequence[int], trunk: float, neck: float) -> Body:
-    """Choose the joints that turn, at prices times those of `stiff`, the root's way too."""
-    body = body_of(motion, pinned, prices=stiff(motion.skeleton, trunk, neck))
-    return body._replace(price=np.append(trunk * body.price[:3], body.price[3:]))
+    """Choose the joints that turn, at so many times the prices of `body_of`; the root's way costs more, too.
 
-
-# A joint that is dragged asks for the same ones many times.
-_standing, _dragged = lru_cache(maxsize=1)(plant_pins), lru_cache(maxsize=1)(priced)
-
-
-def stiff(skeleton: Skeleton, trunk: float, neck: float) -> dict[str, float]:
-    """Give factors for the prices of trunk, with a third of the body below its joints, and of neck and head.
+    The trunk is joints that have a third of the body below them, the neck the other ones up to the head.
 
     Examples
     --------
-    >>> from mocap.datasets.samples import SKELETON
-    >>> stiff(SKELETON, 4, 8)
-    {'root': 4, 'lowerback': 4, 'upperback': 4, 'thorax': 4, 'lowerneck': 8, 'upperneck': 8, 'head': 8}
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")
+    >>> head = [walk.skeleton.index("head")]
+    >>> (priced(walk, head, 4, 8).price / body_of(walk, head).price).tolist()[::3]  # metres, then joints
+    [4.0, 4.0, 4.0, 4.0, 4.0, 8.0, 8.0]
     """
+    skeleton = motion.skeleton
     paths = [skeleton.path_to_root(joint) for joint in range(len(skeleton))]
     below = np.bincount(np.concatenate(paths))
     heads = {joint for path in paths if skeleton.names[path[0]].lower().endswith("head") for joint in path}
     above_heads = np.isin(range(len(paths)), [*heads])
-    factors = np.where(below > len(skeleton) / 3, trunk, np.where(above_heads, neck, 1))
-    return {n: factor for n, factor in zip(skeleton.names, factors.tolist(), strict=True) if factor != 1}
+    factors = np.where(below > len(skeleton) / 3, trunk, np.where(above_heads, neck, 1)).tolist()
+    body = body_of(motion, pinned, prices=dict(zip(skeleton.names, factors, strict=True)))
+    return body._replace(price=np.append(trunk * body.price[:3], body.price[3:]))
 
 
 # Few passes of inverse kinematics at each level: what is left the next level asks again.
@@ -278,11 +272,11 @@ def hierarchy(
     for seconds in knots:
         if errors.max(initial=0.0) <= TOLERANCE:
             break
-        asked = np.asarray(pins.held.any(axis=-1) | (errors > 0))  # (F, P)
+        asked = np.asarray(pins.held.any(axis=-1) | (errors > 0))  # (F, P + T)
         frames = np.asarray(asked.any(axis=1))
         _, _, change, _ = solve(motion, pins.only(frames), [ASK], body, quiet=True)
         # The root's place listens to all frames, a joint's turns to those in which a joint below is pinned.
-        below = [np.isin(body.joints, base.skeleton.path_to_root(joint)[1:]) for joint in pins.joints]
+        below = [np.isin(body.joints, movers) for movers in pins.movers(base.skeleton)]
         who = np.hstack([np.repeat(frames[:, None], 3, axis=1), asked @ np.array(below)])  # (F, n)
         basis = spline_basis(len(base), seconds * base.fps)
         fits = [scattered_fit(basis, change[at, n, None], np.flatnonzero(at)) for n, at in enumerate(who.T)]

@@ -2,8 +2,8 @@
 
 A pin is a box for a joint in a frame: `low` ≤ p ≤ `high` on each axis. The same number twice holds an axis,
 -∞ and ∞ leave it free, and one of the two is a floor or a ceiling. For all of these one formula gives the gap
-to close, clip(p, low, high) - p. For turns the same holds of rotation vectors. [Gle98] and [LS99] list their
-constraints kind by kind; the box is ours.
+to close, clip(p, low, high) - p. How a joint is turned is such a p as well: a rotation vector times 0.3 m.
+[Gle98] and [LS99] list their constraints kind by kind; the box is ours.
 """
 
 from collections.abc import Sequence
@@ -14,9 +14,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array, Mask, frozen
-from mocap.body.kinematics import forward_kinematics, joint_positions
+from mocap.body.kinematics import GlobalPoses, forward_kinematics, joint_positions
 from mocap.body.limbs import Leg, legs_of
 from mocap.body.motion import Motion
+from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
 from mocap.feet.ankle_targets import place_plants
 from mocap.feet.footplants import mark_plants
@@ -30,13 +31,13 @@ Rows = slice | Sequence[int] | NDArray[np.intp] | Mask
 
 @dataclass(frozen=True, eq=False)
 class Pins:
-    """Boxes for P joints in F frames [Gle98, constraints].
+    """Boxes for P joints' places and for T turns in F frames [Gle98, constraints].
 
     Parameters
     ----------
     joints : P different joints, as indices.
-    low, high : shape (F, P, 3), metres; an axis is held where they are equal, and free from -∞ to ∞.
-    turns : how joints are turned, from `limit_turns` and `keep_turned`.
+    low, high : shape (F, P + T, 3), metres; an axis is held where they are equal, and free from -∞ to ∞.
+    turns : T turns that are in a box too, from `limit_turns` and `keep_turned`.
 
     Raises
     ------
@@ -47,7 +48,7 @@ class Pins:
     >>> rail = Pins((4,), [[[0.3, 0.9, -np.inf]]], [[[0.3, 0.9, np.inf]]])
     >>> rail.held
     array([[[ True,  True, False]]])
-    >>> rail.gap(np.zeros((1, 5, 3)))
+    >>> rail.gap(np.zeros((1, 1, 3)))
     array([[[0.3, 0.9, 0. ]]])
 
     Notebook: 14-levels
@@ -62,7 +63,7 @@ class Pins:
         object.__setattr__(self, "joints", tuple(int(joint) for joint in self.joints))
         for key in ("low", "high"):
             object.__setattr__(self, key, frozen(getattr(self, key), np.float64))
-        shape = (len(self.low), len(self.joints), 3)
+        shape = (len(self.low), len(self.joints) + len(self.turns), 3)
         if self.low.shape != shape or self.high.shape != shape or len(set(self.joints)) < len(self.joints):
             raise MocapError(f"{len(self.joints)} different joints need boxes {shape}, got {self.low.shape}.")
         wrong = ~(self.low <= self.high) | (self.low == np.inf) | (self.high == -np.inf)
@@ -70,40 +71,51 @@ class Pins:
             frame, pin, axis = at = tuple(np.argwhere(wrong)[0])
             got = f"{self.low[at]:.4g} and {self.high[at]:.4g} for {'xyz'[axis]}"
             needs = f"a pin needs low ≤ high, got {got}; from -inf to inf an axis is free"
-            raise MocapError(f"Frame {frame}, joint {self.joints[pin]}: {needs}.")
+            raise MocapError(f"Frame {frame}, joint {self.ends[pin]}: {needs}.")
 
     def __len__(self) -> int:
         return len(self.low)
 
     @property
+    def ends(self) -> list[int]:
+        """The joints of all boxes, those of the turns behind those of the places."""
+        return [*self.joints, *(turn.joint for turn in self.turns)]
+
+    @property
     def held(self) -> Mask:
-        """The axes that are held, (F, P, 3)."""
+        """The axes that are held, (F, P + T, 3)."""
         return np.asarray(self.low == self.high)
 
     @property
     def asked(self) -> Mask:
-        """Where anything is asked of a joint, (F, P)."""
+        """Where anything is asked of a joint, (F, P + T)."""
         return np.asarray((np.isfinite(self.low) | np.isfinite(self.high)).any(axis=-1))
 
     def at(self, rows: Rows) -> "Pins":
         """Take some frames."""
-        return Pins(self.joints, self.low[rows], self.high[rows], tuple(turn.at(rows) for turn in self.turns))
+        turns = (turn._replace(reference=turn.reference[rows]) for turn in self.turns)
+        return Pins(self.joints, self.low[rows], self.high[rows], tuple(turns))
 
     def only(self, rows: Rows) -> "Pins":
         """Free all other frames."""
-        keep = np.zeros((len(self), 1), bool)
+        keep = np.zeros((len(self), 1, 1), bool)
         keep[rows] = True
-        low, high = np.where(keep[:, None], self.low, -np.inf), np.where(keep[:, None], self.high, np.inf)
-        turns = (
-            turn._replace(low=np.where(keep, turn.low, -np.inf), high=np.where(keep, turn.high, np.inf))
-            for turn in self.turns
-        )
-        return Pins(self.joints, low, high, tuple(turns))
+        low, high = np.where(keep, self.low, -np.inf), np.where(keep, self.high, np.inf)
+        return Pins(self.joints, low, high, self.turns)
 
-    def gap(self, positions: Array) -> Array:
-        """Measure clip(p, low, high) - p, (F, P, 3), metres, for all joints' positions (F, J, 3)."""
-        places = positions[:, list(self.joints)]
+    def places(self, motion: Motion, poses: GlobalPoses) -> Array:
+        """Give what the boxes are for, (F, P + T, 3), metres, from a motion and its joints in the world."""
+        arms = (turn.arm(motion, poses.matrices)[:, None] for turn in self.turns)
+        return np.concatenate([poses.positions[:, list(self.joints)], *arms], axis=1)
+
+    def gap(self, places: Array) -> Array:
+        """Measure clip(p, low, high) - p, (F, P + T, 3), metres."""
         return np.asarray(np.clip(places, self.low, self.high) - places)
+
+    def movers(self, skeleton: Skeleton) -> list[list[int]]:
+        """Find the joints whose turns move what each box is for."""
+        above = [skeleton.path_to_root(joint)[1:] for joint in self.joints]
+        return above + [skeleton.path_to_root(t.joint) if t.world else [t.joint] for t in self.turns]
 
 
 def pin(
@@ -183,17 +195,19 @@ def join_pins(*several: Pins) -> Pins:
         counts = ", ".join(str(len(pins)) for pins in several) or "none"
         raise MocapError(f"Pins that are joined need the same number of frames, got {counts}.")
     joints = tuple(dict.fromkeys(joint for pins in several for joint in pins.joints))
-    low = np.full((len(several[0]), len(joints), 3), -np.inf)
-    high = -low
+    turns = tuple(turn for pins in several for turn in pins.turns)
+    low = np.full((len(several[0]), len(joints) + len(turns), 3), -np.inf)
+    high, next_turn = -low, len(joints)
     for pins in several:
         columns = [joints.index(joint) for joint in pins.joints]
+        columns += range(next_turn, next_turn := next_turn + len(pins.turns))
         before = low[:, columns], high[:, columns]
         common = np.maximum(before[0], pins.low), np.minimum(before[1], pins.high)
         apart = common[0] > common[1]
         later = pins.held | (apart & (before[0] != before[1]))
         for kind, new, old, both in zip((low, high), (pins.low, pins.high), before, common, strict=True):
             kind[:, columns] = np.select([later, apart], [new, old], both)
-    return Pins(joints, low, high, tuple(turn for pins in several for turn in pins.turns))
+    return Pins(joints, low, high, turns)
 
 
 def plant_pins(motion: Motion, legs: Sequence[Leg] | None = None, heights: ArrayLike | None = None) -> Pins:
@@ -240,11 +254,11 @@ def plant_pins(motion: Motion, legs: Sequence[Leg] | None = None, heights: Array
 
 
 def pin_errors(motion: Motion, pins: Pins) -> Array:
-    """Measure how far each pinned joint is from its box, (F, P), metres; 0 where nothing is asked.
+    """Measure how far each pinned joint is from its box, (F, P + T), metres; 0 where nothing is asked.
 
     Parameters
     ----------
-    motion, pins : F frames. The pins' T `turns` follow as more columns: 0.3 m times the angle that is missed.
+    motion, pins : F frames. A turn is missed by 0.3 m times the angle.
 
     Raises
     ------
@@ -260,10 +274,8 @@ def pin_errors(motion: Motion, pins: Pins) -> Array:
     Notebook: 12-path-editing
     """
     require_pins_of(motion, pins)
-    poses = forward_kinematics(motion)
-    gaps = [*np.swapaxes(pins.gap(poses.positions), 0, 1)]
-    gaps += [turn.gap(turn.away(motion, poses.matrices)) for turn in pins.turns]
-    return np.asarray(np.linalg.norm(gaps, axis=-1).T).reshape(len(motion), -1)
+    places = pins.places(motion, forward_kinematics(motion))
+    return np.asarray(np.linalg.norm(pins.gap(places), axis=-1))
 
 
 def require_pins_of(motion: Motion, pins: Pins) -> None:

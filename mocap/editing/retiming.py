@@ -12,45 +12,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import PchipInterpolator
 
-from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
 
 MOST = 1_000_000  # frames of a retimed clip; more is a slip in a key
-TimeKeys = Sequence[tuple[float, float]]
 
 
-def old_seconds(keys: TimeKeys, seconds: ArrayLike) -> Array:
-    """Look up which old second each new one shows: g(t'), by PCHIP through the time keys.
-
-    Parameters
-    ----------
-    keys : two or more pairs (new second, old second); both rise.
-    seconds : shape (N,): new seconds; before the first key and after the last one g stays as it is there.
-
-    Returns
-    -------
-    Shape (N,), never falling.
-
-    Raises
-    ------
-    MocapError : for fewer than two keys, and seconds that do not rise.
-
-    Examples
-    --------
-    >>> old_seconds([(0, 0), (2, 1), (3, 2)], [0, 1, 2, 3]).round(3)
-    array([0.   , 0.369, 1.   , 2.   ])
-
-    Notebook: 11-warping
-    """
-    new, old = _checked(keys)
-    curve = PchipInterpolator(new, old)
-    return np.asarray(np.clip(curve(np.clip(np.asarray(seconds, float), new[0], new[-1])), old[0], old[-1]))
-
-
-def retime(motion: Motion, keys: TimeKeys) -> Motion:
-    """Let a motion's moments happen at other times [WP95, time warp].
+def retime(motion: Motion, keys: Sequence[tuple[float, float]]) -> Motion:
+    """Let a motion's moments happen at other times, by PCHIP through the time keys [WP95, time warp].
 
     Parameters
     ----------
@@ -64,7 +34,7 @@ def retime(motion: Motion, keys: TimeKeys) -> Motion:
 
     Raises
     ------
-    MocapError : as `old_seconds`, and for old seconds off the clip.
+    MocapError : for fewer than two keys, seconds that do not rise, and old seconds off the clip.
 
     Examples
     --------
@@ -75,8 +45,10 @@ def retime(motion: Motion, keys: TimeKeys) -> Motion:
 
     Notebook: 11-warping
     """
-    new, old = _checked(keys)
-    slack = 1e-6 / motion.fps
+    pairs, slack = np.asarray(keys, float), 1e-6 / motion.fps
+    if np.shape(pairs)[1:] != (2,) or len(pairs) < 2 or not (np.diff(pairs, axis=0) > 0).all():
+        raise MocapError(f"A retiming needs two or more pairs (new, old second) that rise, got {keys[:6]}.")
+    new, old = pairs.T
     if old[0] < -slack or old[-1] > motion.duration + slack:
         off = old[0] if old[0] < 0 else old[-1]
         raise MocapError(f"Second {off:g} is not on '{motion.name}', which lasts {motion.duration:g} s.")
@@ -84,7 +56,7 @@ def retime(motion: Motion, keys: TimeKeys) -> Motion:
     if count > MOST:
         raise MocapError(f"These time keys ask for {count:.3g} frames; at most {MOST} are made.")
     times = new[0] + np.arange(int(count)) / motion.fps
-    return at_frames(motion, old_seconds(keys, times) * motion.fps)
+    return at_frames(motion, PchipInterpolator(new, old)(times) * motion.fps)
 
 
 def at_frames(motion: Motion, frames: ArrayLike) -> Motion:
@@ -128,11 +100,3 @@ def at_frames(motion: Motion, frames: ArrayLike) -> Motion:
             turn += weight[:, None, None] * away
     turned, nearest = rotations.multiply(base, rotations.from_rotvec(turn)), np.round(moments).astype(int)
     return replace(motion[nearest], root_positions=root, rotations=turned)
-
-
-def _checked(keys: TimeKeys) -> tuple[Array, Array]:
-    """Give the new and the old seconds of some time keys."""
-    pairs = np.asarray(keys, float)
-    if np.shape(pairs)[1:] != (2,) or len(pairs) < 2 or not (np.diff(pairs, axis=0) > 0).all():
-        raise MocapError(f"A retiming needs two or more pairs (new, old second) that rise, got {keys[:6]}.")
-    return pairs[:, 0], pairs[:, 1]

@@ -113,7 +113,7 @@ def solve(
     body = body or body_of(base, pins)
     change, worst = np.zeros((len(base), len(body.price))), [float(pin_errors(base, pins).max(initial=0.0))]
     for number, way in enumerate(bases):
-        if number == 0 and (np.isfinite(pins.high) & ~pins.held).any():
+        if number == 0 and (np.isfinite(pins.high) & ~pins.held)[:, : len(pins.joints)].any():
             way = way._replace(damping=CEILING)
         if not (way.knots >= 0 <= way.calm and way.weight > 0 <= way.damping and way.lead >= 0 < way.passes):
             raise MocapError(f"A basis needs a weight and a pass above 0, and no number below 0; got {way}.")
@@ -159,8 +159,8 @@ def warn_of_gaps(motion: Motion, pins: Pins, tolerance: float = TOLERANCE) -> No
     errors = pin_errors(motion, pins)
     if errors.max(initial=0.0) > tolerance:
         frame, joint = np.unravel_index(errors.argmax(), errors.shape)
-        ends = [*pins.joints, *(turn.joint for turn in pins.turns)]
-        off = f"'{motion.skeleton.names[ends[joint]]}' is {1000 * errors[frame, joint]:.3g} mm off its pin"
+        name, far = motion.skeleton.names[pins.ends[joint]], 1000 * errors[frame, joint]
+        off = f"'{name}' is {far:.3g} mm off its pin"
         missed = f"pins of {int((errors > tolerance).any(1).sum())} frames are missed"
         why = "are they within reach, and do they agree?"
         warn(f"'{motion.name}', frame {frame}: {off}, and {missed}: {why}")

@@ -77,7 +77,7 @@ def led(base: Motion, pins: Pins, seconds: float) -> Pins:
     Without it angles change smoothly, but a foot at the end of a chain of them accelerates.
     """
     places, low, high = joint_positions(base)[:, list(pins.joints)], pins.low.copy(), pins.high.copy()
-    for joint, axis in np.argwhere(pins.held.any(axis=0)):
+    for joint, axis in np.argwhere(pins.held[:, : len(pins.joints)].any(axis=0)):
         at, held = np.s_[:, joint, axis], pins.held[:, joint, axis]
         away = np.where(held, low[at] - places[at], 0.0)[:, None]
         way = places[at] + smooth_fill(away, held, base.fps, seconds)[:, 0]
@@ -100,26 +100,20 @@ def linear(base: Motion, body: Body, x: Array, pins: Pins) -> Linear:
     joints, which = np.unique(body.joints, return_inverse=True)
     spins = poses.matrices[:, joints] @ right_jacobian(change.turns[:, joints])
     axes = np.einsum("ftij,tj->fti", spins[:, which], body.axes)  # in the world, (F, T, 3)
-    slopes = np.zeros((len(base), len(pins.joints), 3, x.shape[1]))
-    slopes[..., :3] = np.eye(3)
-    for number, end in enumerate(pins.joints):
-        above = np.flatnonzero(np.isin(body.joints, base.skeleton.path_to_root(end)[1:]))
-        arms = poses.positions[:, [end]] - poses.positions[:, body.joints[above]]
-        slopes[:, number][..., 3 + above] = np.swapaxes(np.cross(axes[:, above], arms), 1, 2)
-    places = poses.positions[:, list(pins.joints)]
+    places = pins.places(moved, poses)
+    slopes = np.zeros((*places.shape, x.shape[1]))
+    slopes[:, : len(pins.joints), :, :3] = np.eye(3)
+    for number, (end, movers) in enumerate(zip(pins.ends, pins.movers(base.skeleton), strict=True)):
+        above = np.flatnonzero(np.isin(body.joints, movers))
+        if number < len(pins.joints):
+            arms = poses.positions[:, [end]] - poses.positions[:, body.joints[above]]
+            ways = np.swapaxes(np.cross(axes[:, above], arms), 1, 2)
+        else:
+            inside = np.einsum("fji,ftj->fit", poses.matrices[:, end], axes[:, above])
+            ways = ARM * np.linalg.solve(right_jacobian(places[:, number] / ARM), inside)
+        slopes[:, number][..., 3 + above] = ways
     slopes *= (places != np.clip(places, pins.low + NEAR, pins.high - NEAR))[..., None]
-    gaps = [pins.gap(poses.positions).reshape(len(base), -1)]
-    rows = [slopes.reshape(len(base), -1, x.shape[1])]
-    for turn in pins.turns:
-        away = turn.away(moved, poses.matrices)
-        own = base.skeleton.path_to_root(turn.joint) if turn.world else [turn.joint]
-        above = np.flatnonzero(np.isin(body.joints, own))
-        inside = np.einsum("fji,ftj->fit", poses.matrices[:, turn.joint], axes[:, above])
-        rows.append(np.zeros((len(base), 3, x.shape[1])))
-        rows[-1][..., 3 + above] = ARM * np.linalg.solve(right_jacobian(away), inside)
-        rows[-1] *= (away != np.clip(away, turn.low + NEAR, turn.high - NEAR))[..., None]
-        gaps.append(turn.gap(away))
-    return Linear(np.concatenate(gaps, axis=1), np.concatenate(rows, axis=1))
+    return Linear(pins.gap(places).reshape(len(base), -1), slopes.reshape(len(base), -1, x.shape[1]))
 
 
 class Curve:
@@ -136,8 +130,6 @@ class Curve:
         knots, ends = self.basis.shape[1], max(frames - 2, 0)
         second = self.basis[:ends] - 2 * self.basis[1 : ends + 1] + self.basis[2 : ends + 2]
         self.bends = (way.calm * base.fps) ** 2 * second
-        if way.alone:
-            return
         near = (self.basis.T @ self.basis + abs(self.bends.T) @ abs(self.bends)).tocoo()
         apart = range(1 + int((near.col - near.row).max()))
         both = (self.basis.tocsc(), self.bends.tocsc())
@@ -161,8 +153,6 @@ class Curve:
         matrix[:, diagonal, diagonal] += (1 + damping) * self.price
         wanted = now.gap + np.einsum("fmn,fn->fm", now.slopes, x)
         pull = np.einsum("fnm,fm->fn", upward, wanted) + damping * self.price * x
-        if self.alone:
-            return np.asarray(np.linalg.solve(matrix, pull[..., None])[..., 0])
         right = self.basis.T @ pull + damping * self.price * (self.bends.T @ (self.bends @ c))
         band = np.zeros((len(self.pairs) * n, knots * n))  # lower form: entry (i, j) stands at (i - j, j)
         for d, (pair, bent) in enumerate(zip(self.pairs, self.bent, strict=True)):

@@ -16,35 +16,25 @@ ARM = 0.3  # metres: a turn that is missed by an angle counts as a place missed 
 
 
 class Turn(NamedTuple):
-    """A box for how one joint is turned: low ≤ log(r⁻¹ q) ≤ high on each axis.
+    """How one joint is turned, q, as a place for which `Pins` have a box: ARM log(r⁻¹ q).
 
     Parameters
     ----------
     joint : its index.
     reference : r, quaternions (F, 4).
-    low, high : shape (F, 3), radians, as for `Pins`.
     world : whether q is the joint's turn in the world, or against its parent.
     """
 
     joint: int
     reference: Array
-    low: Array
-    high: Array
     world: bool
 
-    def away(self, motion: Motion, matrices: Array) -> Array:
-        """Give log(r⁻¹ q), (F, 3); `matrices` (F, J, 3, 3) are the joints' turns in the world."""
+    def arm(self, motion: Motion, matrices: Array) -> Array:
+        """Give ARM log(r⁻¹ q), (F, 3), metres; `matrices` (F, J, 3, 3) are the joints' turns in the world."""
         world = self.world
         turned = rotations.from_matrix(matrices[:, self.joint]) if world else motion.rotations[:, self.joint]
-        return rotations.to_rotvec(rotations.multiply(rotations.inverse(self.reference), turned))
-
-    def at(self, rows: Rows) -> "Turn":
-        """Take some frames."""
-        return self._replace(reference=self.reference[rows], low=self.low[rows], high=self.high[rows])
-
-    def gap(self, away: Array) -> Array:
-        """Give the way into the box, (F, 3), metres at the arm's end."""
-        return np.asarray(ARM * (np.clip(away, self.low, self.high) - away))
+        away = rotations.to_rotvec(rotations.multiply(rotations.inverse(self.reference), turned))
+        return np.asarray(ARM * away)
 
 
 def limit_turns(motion: Motion, joints: Sequence[str], *, more: float = 10.0) -> Pins:
@@ -69,22 +59,19 @@ def limit_turns(motion: Motion, joints: Sequence[str], *, more: float = 10.0) ->
     --------
     >>> from mocap.datasets import sample
     >>> neck = limit_turns(sample("walk_straight")[:60], ["lowerneck", "upperneck"])
-    >>> [turn.high[0].round(2).tolist() for turn in neck.turns]
+    >>> (neck.high[0] / ARM).round(2).tolist()  # radians
     [[0.18, 0.18, 0.18], [0.18, 0.2, 0.19]]
 
     Notebook: 14-levels
     """
     if not 0 <= more < np.inf:
         raise MocapError(f"Limits lie 0 degrees or more beyond what a clip does, got {more}.")
-    turns = []
-    for joint in (motion.skeleton.index(name) for name in joints):
-        mean = rotations.mean(motion.rotations[:, joint])
-        away = rotations.to_rotvec(rotations.multiply(rotations.inverse(mean), motion.rotations[:, joint]))
-        bounds = (mean, away.min(axis=0) - np.radians(more), away.max(axis=0) + np.radians(more))
-        reference, low, high = (np.tile(values, (len(motion), 1)) for values in bounds)
-        turns.append(Turn(joint, reference, low, high, world=False))
-    nowhere = np.zeros((len(motion), 0, 3))
-    return Pins((), nowhere, nowhere, tuple(turns))
+    numbers = [motion.skeleton.index(name) for name in joints]
+    means = (np.tile(rotations.mean(motion.rotations[:, number]), (len(motion), 1)) for number in numbers)
+    turns = tuple(Turn(number, mean, world=False) for number, mean in zip(numbers, means, strict=True))
+    zero, reach = np.zeros((len(motion), len(turns), 3)), ARM * np.radians(more)
+    arms = Pins((), zero, zero, turns).places(motion, forward_kinematics(motion))
+    return Pins((), zero + arms.min(axis=0) - reach, zero + arms.max(axis=0) + reach, turns)
 
 
 def keep_turned(motion: Motion, joint: str, frames: Rows) -> Pins:
@@ -106,13 +93,12 @@ def keep_turned(motion: Motion, joint: str, frames: Rows) -> Pins:
     --------
     >>> from mocap.datasets import sample
     >>> upright = keep_turned(sample("walk_straight")[:60], "thorax", slice(20, 40))
-    >>> int((upright.turns[0].low == 0).all(axis=1).sum())
+    >>> int(upright.asked.sum())
     20
 
     Notebook: 14-levels
     """
     number = motion.skeleton.index(joint)
     own = rotations.from_matrix(forward_kinematics(motion).matrices[:, number])
-    zero, nowhere = np.zeros((len(motion), 3)), np.zeros((len(motion), 0, 3))
-    turn = Turn(number, own, zero, zero, world=True)
-    return Pins((), nowhere, nowhere, (turn,)).only(frames)
+    zero = np.zeros((len(motion), 1, 3))
+    return Pins((), zero, zero, (Turn(number, own, world=True),)).only(frames)

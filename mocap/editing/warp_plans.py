@@ -2,7 +2,6 @@
 
 import math
 import re
-from collections.abc import Sequence
 from difflib import get_close_matches
 from pathlib import Path
 from typing import NamedTuple
@@ -31,80 +30,102 @@ POSE = re.compile(
 
 
 class Wish(NamedTuple):
-    """One line about one moment: a joint that is moved, or `joint` "same" or "level" for the pose as it was.
+    """What one line, number `line`, asks of a frame: that a joint be at a place (3,).
 
-    `line` is its number in the file, `moment` a frame, or a second where `in_seconds`; `move` are metres to
-    the body's left, up, and ahead of it. With `level` the change stands still there.
+    For the pose as it was the `joint` is "same" or "level", and the place None. With `level` the change
+    stands still there.
     """
 
     line: int
-    moment: float
-    in_seconds: bool
     joint: str
-    move: tuple[float, ...] = ()
-    level: bool = False
+    place: Array | None
+    level: bool
 
 
 class WarpPlan(NamedTuple):
-    """What a file of keys says: `wishes` about poses in its order, and `times`: (line, new, old second)."""
+    """What a file of keys says: `wishes` of poses, by frame, and `times`: (line, new second, old second)."""
 
     path: str
-    wishes: tuple[Wish, ...]
-    times: tuple[tuple[int, float, float], ...]
+    wishes: dict[int, list[Wish]]
+    times: list[tuple[int, float, float]]
 
 
-def load_plan(path: str | Path) -> WarpPlan:
-    """Read a warp from a text file with one key in each line; what follows a # is left out.
+def load_plan(path: str | Path, motion: Motion) -> WarpPlan:
+    """Read how a motion shall be warped, from a text file with one key in each line.
 
     `at 1.5s lhand 0.10 0.25 0` moves the left hand, at second 1.5, by 10 cm to the body's left and by 25 cm
     up; without the s the moment is a frame. Several joints may be moved at one moment. `at 1s same` says that
     the pose is as it was there. A line that ends with `level` says that the change stands still as well, as
     at take-off and landing: `at 1s level`, or `at 1s lhand 0.10 0.25 0 level`. `time 2.5 2` shows the clip's
-    second 2 at second 2.5.
+    second 2 at second 2.5. What follows a # is left out.
 
     Parameters
     ----------
     path : the file.
+    motion : F frames.
 
     Raises
     ------
     MocapError : for a file that cannot be read.
-    FormatError : for a line of another form, with its number, and for a file without a key.
+    FormatError : for a line of another form, or with a joint or a moment that the motion does not have, with
+        its number; and for a file without a key.
 
     Examples
     --------
     >>> from tempfile import TemporaryDirectory
+    >>> from mocap.datasets import sample
     >>> with TemporaryDirectory() as folder:
     ...     file = Path(folder, "keys.txt")
     ...     _ = file.write_text("at 1.5s lhand 0.1 0.25 0  # to the post")
-    ...     load_plan(file).wishes[0].move
-    (0.1, 0.25, 0.0)
+    ...     plan = load_plan(file, sample("walk_straight"))
+    >>> [(frame, wish.joint) for frame, wishes in plan.wishes.items() for wish in wishes]
+    [(180, 'lhand')]
     """
-    wishes: list[Wish] = []
-    times: list[tuple[int, float, float]] = []
+    plan = WarpPlan(str(path), {}, [])
     for number, words in lines(read_text(path)):
-        found = POSE.fullmatch(" ".join(words))
-        if found:
-            at = float(to_numbers(path, number, [found["moment"]], "a moment", 1)[0])
-            move = (found["move"] or "").split()
-            metres = to_numbers(path, number, move, "LEFT UP AHEAD, in metres", len(move)).tolist()
-            joint = found["joint"] or found["word"]
-            level = found["word"] == "level" or bool(found["level"])
-            wishes.append(Wish(number, at, bool(found["seconds"]), joint, tuple(metres), level))
+        if found := POSE.fullmatch(" ".join(words)):
+            _add_wish(plan, motion, number, found)
         elif words[0] == "time" and len(words) == 3:
             new, old = to_numbers(path, number, words[1:], "time NEW OLD, in seconds", 2).tolist()
-            if times and not (times[-1][1] < new and times[-1][2] < old):
-                line, *last = times[-1]
+            line, *last = plan.times[-1] if plan.times else (0, -math.inf, -math.inf)
+            if not (last[0] < new and last[1] < old):
                 expected = f"two seconds after {last[0]:g} and {last[1]:g}, those of line {line}"
                 raise FormatError(path, number, expected, f"{new:g} and {old:g}")
-            times.append((number, new, old))
+            if not 0 <= old <= motion.duration + 0.5 / motion.fps:
+                expected = f"an old second up to {motion.duration:g}, the clip's last"
+                raise FormatError(path, number, expected, f"{old:g}")
+            plan.times.append((number, new, min(old, motion.duration)))
         else:
             raise FormatError(path, number, AT if words[0] == "at" else LINE, f"'{' '.join(words)}'")
-    if not wishes and not times:
+    if not plan.wishes and not plan.times:
         raise FormatError(path, None, LINE, "no key")
-    if len(times) == 1:
-        raise FormatError(path, times[0][0], "two lines or more about time", "one")
-    return WarpPlan(str(path), tuple(wishes), tuple(times))
+    if len(plan.times) == 1:
+        raise FormatError(path, plan.times[0][0], "two lines or more about time", "one")
+    return plan
+
+
+def _add_wish(plan: WarpPlan, motion: Motion, line: int, found: re.Match[str]) -> None:
+    """Add what a line asks of a pose to the plan."""
+    moment = float(to_numbers(plan.path, line, [found["moment"]], "a moment", 1)[0])
+    frame = round(moment * motion.fps if found["seconds"] else moment)
+    if frame >= len(motion):
+        last = f"{len(motion) - 1}, or second {motion.duration:g}"
+        raise FormatError(plan.path, line, f"a moment up to frame {last}", f"frame {frame}")
+    joint, place, names = found["joint"] or found["word"], None, motion.skeleton.names
+    if found["joint"]:
+        move = to_numbers(plan.path, line, found["move"].split(), "LEFT UP AHEAD, in metres", 3)
+        if joint not in names:
+            alike = ", ".join(get_close_matches(joint[:80], names, cutoff=0.0))
+            raise FormatError(plan.path, line, f"a joint, such as {alike}", f"'{joint}'")
+        now = motion[frame : frame + 1]
+        turn = rotations.about_y(heading(now.rotations[0, 0]))
+        place = joint_positions(now)[0, names.index(joint)] + rotations.rotate(turn, move)
+    for other in plan.wishes.setdefault(frame, []):
+        if place is None or other.place is None or joint == other.joint:
+            got = f"'{joint}' beside '{other.joint}' of line {other.line}"
+            raise FormatError(plan.path, line, f"one wish for a joint at frame {frame}", got)
+    level = found["word"] == "level" or bool(found["level"])
+    plan.wishes[frame].append(Wish(line, joint, place, level))
 
 
 def warp(motion: Motion, plan: WarpPlan, *, window: float = HALF_SECOND, feet: bool = True) -> Motion:
@@ -116,15 +137,14 @@ def warp(motion: Motion, plan: WarpPlan, *, window: float = HALF_SECOND, feet: b
     Parameters
     ----------
     motion : F frames.
-    plan : as `load_plan` reads it.
+    plan : as `load_plan` reads it for this motion.
     window : seconds.
     feet : keep feet that stand in their places, at the keys by `posed`, and between them by `edit`, which
         brings the joints to their places as well; asks for the motion's `contacts`.
 
     Raises
     ------
-    FormatError : for a joint or a moment that the motion does not have, with the plan's line.
-    MocapError : for places out of reach, times that do not rise, missing contacts, and a window of no frame.
+    MocapError : for places out of reach, missing contacts, and a window of no frame.
 
     Warns
     -----
@@ -133,70 +153,32 @@ def warp(motion: Motion, plan: WarpPlan, *, window: float = HALF_SECOND, feet: b
     Examples
     --------
     >>> from mocap.datasets import sample
+    >>> from mocap.body import joint_positions
     >>> walk = sample("walk_straight")
-    >>> plan = WarpPlan("keys.txt", (Wish(1, 1.5, True, "lhand", (0.1, 0.25, 0.0)),), ())
-    >>> warp(walk, plan)
+    >>> place = joint_positions(walk)[180, walk.skeleton.index("lhand")] + [0.1, 0.25, 0.0]
+    >>> warp(walk, WarpPlan("keys.txt", {180: [Wish(1, "lhand", place, level=False)]}, []))
     Motion('walk_straight', 1201 frames at 120 Hz, 38 joints)
     """
     if not (math.isfinite(window) and window * motion.fps >= 1):
         raise MocapError(f"A window lasts a frame or longer, got {window} s at {motion.fps:g} Hz.")
-    last = motion.duration
-    for line, _, old in plan.times:
-        if not 0 <= old <= last + 0.5 / motion.fps:
-            raise FormatError(plan.path, line, f"an old second up to {last:g}, the clip's last", f"{old:g}")
-    moments = _by_frame(motion, plan)
-    if moments:
-        wanted, keys = {frame: _places(motion, frame, wishes) for frame, wishes in moments.items()}, []
-        for frame, wishes in moments.items():
-            try:
-                pose = posed(motion, frame, wanted[frame], feet=feet) if wanted[frame] else None
-            except MocapError as error:
-                raise MocapError(f"{plan.path}, line {wishes[0].line}: {error}") from None
-            keys.append(Key(frame, pose, any(wish.level for wish in wishes)))
-        motion = _through(motion, keys, window)
-        if feet:
-            places = ((joint, frame, to) for frame, own in wanted.items() for joint, to in own.items())
-            asked = [pin(motion, joint, [frame], place) for joint, frame, place in places]
-            motion = edit(motion, join_pins(plant_pins(motion), *asked))
+    keys, pins = [], []
+    for frame, wishes in sorted(plan.wishes.items()):
+        places = {wish.joint: wish.place for wish in wishes if wish.place is not None}
+        try:
+            pose = posed(motion, frame, places, feet=feet) if places else None
+        except MocapError as error:
+            raise MocapError(f"{plan.path}, line {wishes[0].line}: {error}") from None
+        keys.append(Key(frame, pose, any(wish.level for wish in wishes)))
+        pins += [pin(motion, joint, [frame], place) for joint, place in places.items()]
+    if pins:
+        half = round(window * motion.fps)
+        ends = [
+            Key(key.frame + way) for key, way in ((keys[0], -half), (keys[-1], half)) if key.pose is not None
+        ]
+        known = [*keys, *(end for end in ends if 0 <= end.frame < len(motion))]
+        motion = displaced(motion, offsets(motion, sorted(known, key=lambda key: key.frame)))
+        motion = edit(motion, join_pins(plant_pins(motion), *pins)) if feet else motion
     if plan.times:
-        motion = retime(motion, [(new, min(old, last)) for _, new, old in plan.times])
+        motion = retime(motion, [(new, old) for _, new, old in plan.times])
         motion = clean_up(motion) if feet else motion
     return motion
-
-
-def _by_frame(motion: Motion, plan: WarpPlan) -> dict[int, list[Wish]]:
-    """Sort the wishes by their frames, and refuse those that the motion cannot have."""
-    moments: dict[int, list[Wish]] = {}
-    for wish in plan.wishes:
-        frame = round(wish.moment * motion.fps if wish.in_seconds else wish.moment)
-        names = motion.skeleton.names
-        if frame >= len(motion):
-            last = f"{len(motion) - 1}, or second {motion.duration:g}"
-            raise FormatError(plan.path, wish.line, f"a moment up to frame {last}", f"frame {frame}")
-        if wish.move and wish.joint not in names:
-            alike = ", ".join(get_close_matches(wish.joint[:80], names, cutoff=0.0))
-            raise FormatError(plan.path, wish.line, f"a joint, such as {alike}", f"'{wish.joint}'")
-        for other in moments.setdefault(frame, []):
-            if not (wish.move and other.move) or wish.joint == other.joint:
-                got = f"'{wish.joint}' beside '{other.joint}' of line {other.line}"
-                raise FormatError(plan.path, wish.line, f"one wish for a joint at frame {frame}", got)
-        moments[frame].append(wish)
-    return dict(sorted(moments.items()))
-
-
-def _places(motion: Motion, frame: int, wishes: Sequence[Wish]) -> dict[str, Array]:
-    """Give the places of the joints that are moved in one frame, (3,) each, metres."""
-    now = motion[frame : frame + 1]
-    at, turn = joint_positions(now)[0], rotations.about_y(heading(now.rotations[0, 0]))
-    index = motion.skeleton.index
-    return {w.joint: at[index(w.joint)] + rotations.rotate(turn, w.move) for w in wishes if w.move}
-
-
-def _through(motion: Motion, keys: Sequence[Key], window: float) -> Motion:
-    """Warp through keys; add those from which on the motion is as it was, where the plan has none."""
-    if all(key.pose is None for key in keys):
-        return motion
-    half = round(window * motion.fps)
-    ends = [Key(key.frame + way) for key, way in ((keys[0], -half), (keys[-1], half)) if key.pose is not None]
-    known = [*keys, *(end for end in ends if 0 <= end.frame < len(motion))]
-    return displaced(motion, offsets(motion, sorted(known, key=lambda key: key.frame)))

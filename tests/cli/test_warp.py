@@ -27,10 +27,14 @@ def folder(tmp_path_factory):
     return place
 
 
-def plan(folder, text):
+def plan(folder, text, motion=WALK):
     path = folder / "keys.txt"
     path.write_text(text)
-    return load_plan(path)
+    return load_plan(path, motion)
+
+
+def by_plan(folder, text):
+    return warp(WALK, plan(folder, text))
 
 
 def test_a_hand_is_raised_and_the_clip_lasts_longer(folder, capsys):
@@ -56,7 +60,7 @@ def test_without_feet_another_body_can_be_warped(folder):
 
 def test_the_move_is_by_the_bodys_own_directions(folder):
     turned = sample("walk_circle")[1200:1500]
-    key = plan(folder, "at 150 lhand 0.10 0.2 0.05")
+    key = plan(folder, "at 150 lhand 0.10 0.2 0.05", turned)
     moved = joint_positions(warp(turned, key))[150, HAND] - joint_positions(turned)[150, HAND]
     assert np.linalg.norm(moved) == pytest.approx(np.linalg.norm([0.1, 0.2, 0.05]), abs=1e-5)
     assert moved[1] == pytest.approx(0.2, abs=1e-5)
@@ -143,7 +147,7 @@ def test_a_file_of_another_form_names_the_line(folder, text, message):
     ],
 )
 def test_a_plan_that_the_clip_cannot_follow(folder, text, message):
-    refused(message, warp, WALK, plan(folder, text))
+    refused(message, by_plan, folder, text)
 
 
 @pytest.mark.parametrize("window", [0.0, np.nan, -1.0])
@@ -161,7 +165,7 @@ def test_any_words_are_a_plan_or_one_sentence(tmp_path_factory, text):
     path = tmp_path_factory.getbasetemp() / "any.txt"
     path.write_text(text, encoding="utf-8")
     try:
-        warp(WALK[:40], load_plan(path), feet=False)
+        warp(WALK[:40], load_plan(path, WALK[:40]), feet=False)
     except MocapError as error:
         assert "\n" not in str(error)
         assert len(str(error)) <= 200 + len(str(path))

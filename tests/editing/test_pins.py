@@ -30,7 +30,7 @@ def box(low, high=None, joint=1):
 def test_the_gap_is_the_way_into_the_box(low, high, gap):
     """As in [Gle98, constraints]."""
     pins = box(low, high)
-    assert pins.gap(np.zeros((1, 3, 3)))[0, 0].tolist() == gap
+    assert pins.gap(np.zeros((1, 1, 3)))[0, 0].tolist() == gap
     assert pins.held[0, 0].tolist() == [a == b for a, b in zip(low, high, strict=True)]
     assert pins.asked.all()
     assert not box([-INF] * 3, [INF] * 3).asked.any()

@@ -35,7 +35,7 @@ def test_slopes_are_those_of_finite_differences(seed):
     x = random.normal(size=(len(clip), len(body.price))) * 0.3
     here = linear(clip, body, x, pins)
     active = here.slopes.any(axis=-1)
-    assert (active[:, :24] >= pins.held.reshape(len(clip), 24)).all()
+    assert (active[:, :24] >= pins.held[:, :8].reshape(len(clip), 24)).all()
     assert active[[1, 2], -3:].all() and not active[3:, -3:].any()
     assert here.worst == pytest.approx(pin_errors(displaced(clip, body.displacement(x, 38)), pins).max())
     for column in range(x.shape[1]):

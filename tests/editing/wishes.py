@@ -10,7 +10,7 @@ from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, resample
 from mocap.datasets.samples import sample
-from mocap.editing.pins import Pins, join_pins, pin, plant_pins
+from mocap.editing.pins import Pins, join_pins, pin, pin_errors, plant_pins
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
 from mocap.files.load_save import load
@@ -95,7 +95,7 @@ def smoothness(motion: Motion, base: Motion) -> float:
 
 def shakes(motion: Motion, base: Motion, pins: Pins) -> float:
     """Return the accelerations' 95th percentile within half a second of what is asked, over the source's."""
-    asked = np.flatnonzero(np.linalg.norm(pins.gap(joint_positions(base)), axis=-1).max(axis=1) > 0.01)
+    asked = np.flatnonzero(pin_errors(base, pins).max(axis=1) > 0.01)
     near = slice(max(0, asked[0] - round(base.fps / 2)), asked[-1] + round(base.fps / 2))
     return accelerations(motion[near], 95) / accelerations(base[near], 95)
 
