@@ -26,7 +26,7 @@ def skate(motion: Motion) -> float:
 
 def jolting(motion: Motion, clips: tuple[Motion, ...]) -> float:
     """Give the share of frames whose velocity jumps further than 99.9 % of the clips' own, percent."""
-    return 100 * float((jumps(motion)[0] > np.percentile(spread(clips).within(1), USUAL)).mean())
+    return 100 * float((jumps(motion) > np.percentile(spread(clips).within(1), USUAL)).mean())
 
 
 def shaking(motion: Motion, base: Motion) -> float:

@@ -119,9 +119,8 @@ def multiply(first: ArrayLike, second: ArrayLike) -> Array:
     """
     first, second = np.asarray(first, float), np.asarray(second, float)
     (w1, x1, y1, z1), (w2, x2, y2, z2) = ([q[..., k] for k in range(4)] for q in (first, second))
-    product = np.empty(
-        np.broadcast_shapes(first.shape, second.shape)
-    )  # filled in place: a stack takes longer
+    # It is filled in place: a stack takes longer.
+    product = np.empty(np.broadcast_shapes(first.shape, second.shape))
     product[..., 0] = w1 * w2 - x1 * x2 - y1 * y2 - z1 * z2
     product[..., 1] = w1 * x2 + x1 * w2 + y1 * z2 - z1 * y2
     product[..., 2] = w1 * y2 + y1 * w2 + z1 * x2 - x1 * z2

@@ -51,11 +51,11 @@ class GraphFile(NamedTuple):
 
     fps: float
     window: int
-    names: tuple[str, ...]
-    frames: tuple[int, ...]
-    fingerprints: tuple[str, ...]
+    names: list[str]
+    frames: list[int]
+    fingerprints: list[str]
+    origins: list[str]
     graph: nx.MultiDiGraph
-    origins: tuple[str, ...] = ()
 
 
 def save(motion_graph: MotionGraph, path: str | Path, origins: Sequence[Origin] = ()) -> None:
@@ -167,9 +167,7 @@ def read(path: str | Path) -> GraphFile:
             cost, transform = next(ways)
             edge |= {"kind": "transition", "cost": cost, "transform": PlanarTransform(*transform)}
         graph.add_edge(nodes[start], nodes[end], key, **edge)
-    names, frames, known = (tuple(arrays[key].tolist()) for key in ("names", "frames", "fingerprints"))
-    fps, window, origins = (arrays[key].tolist() for key in ("fps", "window", "origins"))
-    return GraphFile(fps, window, names, frames, known, graph, tuple(origins))
+    return GraphFile(**{key: arrays[key].tolist() for key in GraphFile._fields[:-1]}, graph=graph)
 
 
 def _unpack(path: str | Path) -> Arrays:

@@ -111,8 +111,7 @@ def warn_of_size(motions: Iterable[Motion]) -> None:
     for motion in motions:
         height = height_of(joint_positions(motion))
         if not SMALLEST < height < TALLEST:
-            tall = f"'{shortened(motion.name)}' is {height:.2g} m tall: is its scale right?"
-            warn(tall)
+            warn(f"'{shortened(motion.name)}' is {height:.2g} m tall: is its scale right?")
             return
 
 

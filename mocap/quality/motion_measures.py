@@ -50,10 +50,10 @@ class Judged(NamedTuple):
 
 
 def _jolt(body: Judged) -> Found:
-    own, fps = jumps(body.motion)[0], body.motion.fps
+    own, fps = jumps(body.motion), body.motion.fps
     usual = float(np.percentile(own, MOSTLY))
     if body.against:
-        clips = Spread(tuple(jumps(resample(clip, fps))[0] for clip in body.against))
+        clips = Spread(tuple(jumps(resample(clip, fps)) for clip in body.against))
         usual = float(np.percentile(clips.within(max(2, round(WINDOW * fps))), USUAL))
     frame = 1 + int(own[1:-1].argmax())
     apart = np.linalg.norm(np.diff(body.places[frame - 1 : frame + 2], 2, axis=0), axis=-1)

@@ -28,39 +28,31 @@ USUAL = 99.9
 LEAP, MOSTLY = 5.0, 90
 
 
-def jumps(motion: Motion) -> tuple[Array, Array]:
-    """Measure how velocity and acceleration jump from frame to frame: the RMS over all joints.
-
-    With positions x, |x_{f+1} - 2 x_f + x_{f-1}| · fps is the jump of velocity at frame f, and
-    |x_{f+1} - 3 x_f + 3 x_{f-1} - x_{f-2}| · fps² that of acceleration just before it.
+def jumps(motion: Motion) -> Array:
+    """Measure how velocity jumps at each frame: the RMS over all joints of |x_{f+1} - 2 x_f + x_{f-1}| · fps.
 
     Parameters
     ----------
-    motion : F frames, at least four.
+    motion : F frames, at least three.
 
     Returns
     -------
-    Velocity jumps, m/s, and acceleration jumps, m/s², shape (F,) each; 0 at the ends, where none can be
-    measured.
+    Shape (F,), m/s; 0 at both ends, where none can be measured.
 
     Examples
     --------
     >>> from mocap.body.skeleton import Skeleton
     >>> dot = Skeleton(["root"], [-1], [[0, 0, 0]])
     >>> stop = Motion(dot, [[x, 1, 0] for x in (0, 1, 2, 2, 2)], np.tile([1.0, 0, 0, 0], (5, 1, 1)), 10.0)
-    >>> jumps(stop)[0]
+    >>> jumps(stop)
     array([ 0.,  0., 10.,  0.,  0.])
 
     Notebook: 04-blending
     """
-    if len(motion) < 4:
-        raise MocapError(f"To see accelerations jump takes four frames; '{motion.name}' has {len(motion)}.")
-    points = point_cloud(motion)
-    velocity, acceleration = (  # root mean squares over the points
-        np.sqrt((np.diff(points, n, axis=0) ** 2).sum(axis=-1).mean(axis=-1)) * motion.fps ** (n - 1)
-        for n in (2, 3)
-    )
-    return np.pad(velocity, 1), np.pad(acceleration, (2, 1))
+    if len(motion) < 3:
+        raise MocapError(f"To see velocity jump takes three frames; '{motion.name}' has {len(motion)}.")
+    changes = np.diff(point_cloud(motion), 2, axis=0)
+    return np.pad(np.sqrt((changes**2).sum(axis=-1).mean(axis=-1)) * motion.fps, 1)
 
 
 class Spread(NamedTuple):
@@ -111,7 +103,7 @@ def spread(clips: Sequence[Motion]) -> Spread:
     Notebook: 04b-feet
     """
     clips = require_alike(clips)
-    found = [jumps(clip)[0] for clip in clips]
+    found = [jumps(clip) for clip in clips]
     leap = LEAP * float(np.percentile(np.concatenate(found), MOSTLY))
     return Spread(tuple(np.where(jump > leap, np.nan, jump) for jump in found))
 
@@ -156,7 +148,7 @@ def seam_quality(motion: Motion, seam: tuple[int, int], usual: Spread) -> SeamQu
     if not 0 <= seam[0] < seam[1] <= len(motion):
         none = f"no seam from {seam[0]} to {seam[1]}"
         raise MocapError(f"'{motion.name}' has {len(motion)} frames, and {none}.")
-    found = jumps(motion)[0][max(seam[0] - 1, 0) : seam[1] + 1]
+    found = jumps(motion)[max(seam[0] - 1, 0) : seam[1] + 1]
     largest = usual.within(len(found))
     if len(largest) == 0 or not largest[-1] > 0:
         raise MocapError("The clips do not move, so nothing at a seam can be measured against them.")

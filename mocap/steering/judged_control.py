@@ -107,7 +107,7 @@ def judge_control(
         slides[0],
         slides[1],
         planted[1] / planted[0],
-        float((jumps(motion)[0] > limit).mean()),
+        float((jumps(motion) > limit).mean()),
         _wags(motion, headings),
         _pivots(motion),
         float(np.abs(np.diff(on_ground(motion.root_positions))).mean() * motion.fps),
