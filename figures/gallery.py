@@ -505,9 +505,15 @@ def draw_registration() -> Figure:
     grid_axes, ground = figure.subplots(1, 2)
     slow, brisk = (generate_walk([[0, 0], [0, 5]], speed=speed, seed=1) for speed in (0.8, 1.4))
     grid = np.sqrt(matching.distance_grid(resample(slow, 30), resample(brisk, 30), window=5))
-    curve = blending.register([slow, brisk]).times[1]
-    plotting.warp_image(grid, matching.time_path(grid, slack=36), curve=curve, ax=grid_axes)
-    grid_axes.set(xlabel="brisk walk (s)", ylabel="slow walk (s)", title="which frame belongs to which")
+    found, names = blending.register([slow, brisk]), ("slow walk", "brisk walk")
+    path, moments = matching.time_path(grid, slack=36), np.linspace(*found.span, 200)
+    plotting.distance_image(grid**2, fps=30, minima=path, names=names, ax=grid_axes)
+    for colour, wide in (
+        ("black", 4),
+        ("white", 2),
+    ):  # 0.05 s: the axes show starts of windows, S their middles
+        grid_axes.plot(found.times[1](moments) - 0.05, moments - 0.05, color=colour, linewidth=wide)
+    grid_axes.set_title("which frame belongs to which")
     turns = [arcs((0.0, 0.0), 0.0, [(5.0, np.radians(turn))]).points[::20] for turn in (120, -120)]
     both = blending.register([generate_walk(path, speed=1.1, seed=1) for path in turns])
     blends = [blending.mix(both, [1 - share, share]) for share in np.linspace(0, 1, 5)]

@@ -11,7 +11,7 @@ Reading order (notebooks 00 to 19)
 4. `bodies_on_path`: a whole walk in one picture
 5. `grids`: distances and costs as images
 6. `ground_charts`: paths and ways from above
-7. `charts`: curves, bands, bars and trees
+7. `charts`: curves and bands
 8. `graph_drawing`: motion graphs as timelines and as nodes with arrows
 10. `storyboards`: a transition in panels
 11. `picture`: a figure as a picture in a notebook
@@ -30,9 +30,9 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "bodies": ["bones", "flat_bodies"],
         "stick_figures": ["StickFigure", "ground_axes", "to_picture"],
         "bodies_on_path": ["bodies_along"],
-        "grids": ["distance_image", "walk_rows", "warp_image"],
+        "grids": ["distance_image", "walk_rows"],
         "ground_charts": ["draw_group_plan", "ground_tracks", "path_from_above"],
-        "charts": ["joint_curve", "match_tree", "quartile_band", "seen_beside_measured"],
+        "charts": ["joint_curve", "quartile_band"],
         "graph_drawing": ["node_link", "timeline"],
         "picture": ["show"],
     },

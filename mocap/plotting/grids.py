@@ -1,4 +1,4 @@
-"""Grids as images: distances of windows with minima, paths and curves; costs of pairs; walks as rows."""
+"""Grids as images: distances of windows with minima; walks as rows."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -8,11 +8,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.image import AxesImage
-from matplotlib.patheffects import Normal, Stroke
 from numpy.typing import ArrayLike, NDArray
 
-from mocap.blending.registering import RATE, WINDOW
-from mocap.blending.timewarps import Curve
 from mocap.plotting.style import QUIET
 
 Grid = NDArray[np.floating[Any]]
@@ -50,54 +47,13 @@ def distance_image(
     """
     ax = ax or plt.figure(figsize=(5, 4.2), layout="constrained").add_subplot()
     centimetres = 100 * np.sqrt(grid, dtype=np.float32)  # half the bytes, so the image is drawn faster
-    image = _centimetres(centimetres, minima, (fps, 0.0), ax)
-    ax.set(xlabel=f"{names[1]} (s)".strip(), ylabel=f"{names[0]} (s)".strip())
-    return image
-
-
-def _centimetres(grid: Grid, cells: ArrayLike, clock: tuple[float, float], ax: Axes) -> AxesImage:
-    """Draw distances, with dots on cells (row, column); the clock is windows per second, and its start."""
-    fps, start = clock
-    extent = start, start + grid.shape[1] / fps, start + grid.shape[0] / fps, start
-    image = ax.imshow(grid, cmap="cividis", extent=extent, interpolation="nearest", aspect="equal")
-    rows, columns = start + (np.reshape(cells, (-1, 2)).T + 0.5) / fps
+    extent = 0, grid.shape[1] / fps, grid.shape[0] / fps, 0
+    image = ax.imshow(centimetres, cmap="cividis", extent=extent, interpolation="nearest", aspect="equal")
+    rows, columns = (np.reshape(minima, (-1, 2)).T + 0.5) / fps
     ax.plot(columns, rows, ".", color="#FFFFFF", markersize=4, label="minima")
     ax.figure.colorbar(image, ax=ax, label="RMS distance (cm)", shrink=0.8)
+    ax.set(xlabel=f"{names[1]} (s)".strip(), ylabel=f"{names[0]} (s)".strip())
     return image
-
-
-def warp_image(grid: Grid, path: ArrayLike, *, curve: Curve | None = None, ax: Axes | None = None) -> Axes:
-    """Draw the distances of two clips with the path of time through them.
-
-    Parameters
-    ----------
-    grid : √D, shape (n, m), metres, by the rate and the window of `blending.register`; rows are the windows
-        of the reference. The axes show the seconds in the middle of each window.
-    path : its cells (row, column), shape (N, 2), drawn as dots.
-    curve : from the reference's seconds to the other clip's, drawn where the path is.
-    ax : axes; new ones by default.
-
-    Examples
-    --------
-    >>> cells = warp_image(np.array([[0.02, 0.1], [0.1, 0.03]]), [(0, 0), (1, 1)]).lines[0]
-    >>> cells.get_xydata().round(3).tolist()  # a window of five frames, thirty a second
-    [[0.067, 0.067], [0.1, 0.1]]
-
-    Notebook: 15-registration
-    """
-    ax = ax or plt.figure(figsize=(4.8, 4.4), layout="constrained").add_subplot()
-    half = (
-        WINDOW / 2 - 1
-    ) / RATE  # from the start of the first window to the edge of its cell, in its middle
-    _centimetres(100 * np.asarray(grid), path, (RATE, half), ax)
-    ax.lines[-1].set_markersize(2.5)
-    if curve is not None:
-        u = np.asarray(ax.lines[-1].get_ydata())
-        times = np.linspace(u[0], u[-1], 200)
-        (line,) = ax.plot(curve(times), times, color="#FFFFFF", linewidth=2)
-        line.set_path_effects([Stroke(linewidth=4, foreground="#000000"), Normal()])
-    ax.set(xlabel="other clip (s)", ylabel="reference (s)")
-    return ax
 
 
 def walk_rows(costs: ArrayLike, *, highest: float, ax: Axes | None = None) -> AxesImage:

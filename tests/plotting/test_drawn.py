@@ -11,27 +11,16 @@ import numpy as np
 import pytest
 
 from mocap import Motion, datasets, graphs, plotting, resample
-from mocap.blending.timewarps import Curve
 from mocap.body import Skeleton, joint_positions
 from mocap.matching import distance_grid
-from mocap.methods.match_webs.match_search import Match
 from mocap.plotting.bodies import film_strip
 from mocap.plotting.storyboards import Shot, storyboard
 from tests.drawn import hold
 from tests.strategies import wave
 
 RANDOM = np.random.default_rng(0)
-SAMPLES, GRID, ROWS = RANDOM.gamma(2.0, size=(5, 41)), RANDOM.random((40, 50)), RANDOM.random((10, 2))
+SAMPLES, ROWS = RANDOM.gamma(2.0, size=(5, 41)), RANDOM.random((10, 2))
 WALKS = [resample(datasets.sample(f"walk_curve_{n}"), 30)[:120] for n in (1, 2)]
-AT = np.arange(3.0)
-FOUND = [
-    Match(0, 0, 9, 0.0, -1, 0, AT, AT),
-    Match(1, 0, 9, 0.01, 0, 1, AT, AT),
-    Match(1, 20, 29, 0.02, 0, 1, AT, AT),
-    Match(2, 0, 9, 0.01, 2, 2, AT, AT),
-    Match(2, 30, 39, 0.01, 1, 2, AT, AT),
-]
-KINDS, WRONG = ["walk", "walk", "run", "run", "walk"], [False] * 3 + [True, False]
 
 
 @cache
@@ -57,13 +46,6 @@ def lost_marker():
     roots = wave(50).root_positions.copy()
     roots[20] = [0, 1, 1e7]
     return plotting.bodies_along(replace(wave(50), root_positions=roots))
-
-
-def band():
-    points = [[10, 0.9, 0.0, 1.9], [20, -0.2, -1.1, 0.8], [30, 2.8, 1.4, np.inf]]
-    named = ("window (frames)", "jolt (m/s)")
-    yield plotting.seen_beside_measured(points, [10, 20], [[3, 4], [1, 2]], named)
-    yield plotting.quartile_band(range(5), SAMPLES, label="slide", colour="#112233")
 
 
 def small_graph():
@@ -107,21 +89,10 @@ PICTURES = {
     "six": lambda: [plotting.bodies_along(*(wave(400, phase=phase, name="walk") for phase in range(6)))],
     "obstacle": lambda: [plotting.bodies_along(wave(30), discs=[[0, 1, 0.5]])],
     "joint curve": lambda: [plotting.joint_curve(ROWS, fps=10, labels=["x (m)", "y (m)"])[0]],
-    "bands": band,
-    "matches": lambda: (
-        plotting.match_tree(FOUND[:n], KINDS[:n], wrong=WRONG[:n], order=order)
-        for n, order in ((5, []), (2, ["run", "walk"]), (1, []))
-    ),
+    "bands": lambda: [plotting.quartile_band(range(5), SAMPLES, label="slide", colour="#112233")],
     "distances": lambda: [
         plotting.distance_image(
             distance_grid(wave(40), wave(60, phase=1.0), window=10), fps=30, minima=[[3, 5]], names=("a", "b")
-        )
-    ],
-    "warp": lambda: [
-        plotting.warp_image(
-            GRID,
-            np.repeat(np.arange(40)[:, None], 2, axis=1),
-            curve=Curve(0.0, 1.0, np.array([-0.5, 0.5, 1.5])),
         )
     ],
     "rows": lambda: [plotting.walk_rows(np.array([[0.0, 150.0, np.nan], [300.0, 0.0, 0.0]]), highest=400.0)],
