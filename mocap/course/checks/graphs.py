@@ -26,11 +26,6 @@ def draw_chance_to_last(rng: np.random.Generator) -> tuple[Array, int]:
     return odds / np.maximum(odds.sum(axis=1, keepdims=True), 1e-9), int(rng.integers(2, 9))
 
 
-def alive(probabilities: Array, steps: int) -> Array:
-    """Give, for each start, the probability that this many steps can be taken."""
-    return np.asarray(np.linalg.matrix_power(probabilities, steps).sum(axis=1))
-
-
 # ---- Notebook 05b
 
 
@@ -139,11 +134,6 @@ def draw_missing_ways(rng: np.random.Generator) -> tuple[nx.DiGraph, dict[str, s
     return graph, kinds
 
 
-def without_way(graph: nx.Graph, kinds: Mapping[str, set[int]]) -> set[tuple[str, str]]:
-    """Find the pairs of kinds between which no walk leads."""
-    return {(a, b) for a, b in permutations(kinds, 2) if not nx.has_path(graph, min(kinds[a]), min(kinds[b]))}
-
-
 def draw_why_removed(rng: np.random.Generator) -> tuple[Successors, set[int]]:
     """Draw a graph and its strongly connected component of most nodes."""
     while True:
@@ -183,14 +173,6 @@ def counted(graph: Graph, node: int, edges: int) -> int:
     for _ in range(edges):
         walks = {n: sum(walks[end] for end in ends) for n, ends in graph.items()}
     return walks[node]
-
-
-def end_nodes(graph: Graph, node: int, edges: int) -> int:
-    """Count the nodes at which walks of so many edges end."""
-    ends = {node}
-    for _ in range(edges):
-        ends = {end for start in ends for end in graph[start]}
-    return len(ends)
 
 
 def off(points: Array, before: int, goal: complex, frames: int) -> float:

@@ -249,11 +249,3 @@ def draw_lay_group(rng: np.random.Generator) -> tuple[Points, Points, Points, Po
     shaken = rng.normal(0, 0.5, (2, count, 2)) @ [1, 1j]
     move = complex(*rng.normal(0, 6, 2))
     return pa, va, (pa + shaken[0]) * turn + move, (va + shaken[1]) * turn
-
-
-def slots_after(orders: Indices) -> Indices:
-    """Follow members through one order after the other."""
-    slots = np.arange(orders.shape[1])
-    for order in orders:
-        slots = order[slots]
-    return slots
