@@ -12,7 +12,7 @@ import numpy as np
 from mocap._shared.arrays import Array, Mask
 from mocap.body.motion import Motion, require_alike
 from mocap.course.lab.adopting import slots, whose
-from mocap.course.lab.places import pages_of, squared_distances
+from mocap.course.lab.own import pages_of, squared_distances
 from mocap.errors import MocapError
 from mocap.graphs.edge_tables import Edge, edge_table
 from mocap.graphs.motion_graph import MotionGraph

@@ -1,7 +1,7 @@
 // The transition inspector: point at a cell of a grid, an edge of a graph or a seam of a walk, and see the two
 // windows, the turn that aligns them, the weights that mix them, and the seam.
 //
-// `scenes.py` packs a scene; the scripts beside this file compute, draw maps, and draw bodies. All of it runs in the
+// `showing.py` packs a scene; the scripts beside this file compute, draw maps, and draw bodies. All of it runs in the
 // page, so it needs no Python. The hand on the bodies is the player's.
 
 const TABS = { windows: "windows", turn: "turn θ", weights: "weights α", seam: "seam" };

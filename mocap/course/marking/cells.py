@@ -13,7 +13,7 @@ from mocap.course.notebooks import read, tagged
 
 ORACLES = (
     r"\bchecks\b(?!\.\w+\()|[.'\"](?:truth|mistakes|stand_in|get_objects|modules|_getframe)\b"
-    r"|\b(?:all_checks|lab\.places|lab\.slots|mine\(\s*['\"]|exec\(|eval\(|getsource|importlib|__(?:import|dict|globals|builtins|closure)__)"
+    r"|\b(?:all_checks|lab\.own\s+import|lab\.slots|mine\(\s*['\"]|exec\(|eval\(|getsource|importlib|__(?:import|dict|globals|builtins|closure)__)"
 )
 """Ways to a right answer: a check that is not just called, its parts, and what can hide such names."""
 

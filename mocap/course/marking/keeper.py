@@ -32,7 +32,7 @@ from mocap.course.marking import walls
 MEMORY = 4 << 30  # bytes of all processes of a student
 PROCESSES = 16
 COMMON = ("matplotlib.pyplot", "scipy.optimize", "networkx", "mocap.plotting", "mocap.widgets")
-OURS = ("marking.student", "checks", "diagrams", "lab.places")
+OURS = ("marking.student", "checks", "diagrams", "lab.own")
 
 
 def keep(control: socket.socket) -> None:

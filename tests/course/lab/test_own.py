@@ -14,7 +14,8 @@ from mocap import body, datasets, graphs, matching, synthesis
 from mocap.blending.weights import cubic_weights
 from mocap.course import checks, lab
 from mocap.course.lab import own
-from mocap.course.lab.places import NAMES, pages_of, squared_distances
+from mocap.course.lab.adopting import NAMES
+from mocap.course.lab.own import pages_of, squared_distances
 from tests.course.lab.conftest import new_kernel
 from tests.course.lab.students import solutions, written, wrong
 from tests.refusals import refused

@@ -18,8 +18,7 @@ from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.course import lab
 from mocap.course.lab.choices import EACH, LONGEST, around, of_clips, of_graph, of_walk
-from mocap.course.lab.scenes import STEP, packed_clip, packed_skeleton, scene
-from mocap.course.lab.showing import TABS, Inspector, inspector
+from mocap.course.lab.showing import STEP, TABS, Inspector, inspector, packed_clip, packed_skeleton, scene
 from mocap.datasets.samples import sample
 from mocap.graphs.compiled_graph import compile_graph
 from mocap.graphs.motion_graph import from_transitions
