@@ -12,17 +12,16 @@ Reading order
 3. `real_clips`: captured clips for notebooks that can do without, and the four collections of claims
 4. `seam_trials`: walks by a matrix, and blends of matches drawn at random, measured
 5. `marked_values`: numbers in prose, and the expressions that compute them
-6. `notebooks`: read a notebook, find its cells by their tags, run it
-7. `names`: which names some code defines and uses
-8. `handout`: copies without solutions
-9. `formulas`: formulas as MathML
-10. `site`: the course as HTML pages, beside the reference pages of the package
-11. `conf`: how Sphinx makes these pages
-12. `opening`: the course in JupyterLab, and in JupyterLite
-13. `diagrams`: ideas drawn step by step
-14. `lab`: what students wrote is used, and what they thought is kept
-15. `marking`: marks for notebooks handed in, whose code runs sealed
-16. `teaching`: slides and films that are made from the notebooks
+6. `notebooks`: read a notebook, find its cells by their tags and the names that they use, run it
+7. `handout`: copies without solutions
+8. `formulas`: formulas as MathML
+9. `site`: the course as HTML pages, beside the reference pages of the package
+10. `conf`: how Sphinx makes these pages
+11. `opening`: the course in JupyterLab, and in JupyterLite
+12. `diagrams`: ideas drawn step by step
+13. `lab`: what students wrote is used, and what they thought is kept
+14. `marking`: marks for notebooks handed in, whose code runs sealed
+15. `teaching`: slides and films that are made from the notebooks
 
 References
 ----------
@@ -33,10 +32,10 @@ import lazy_loader
 
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
-    submodules=["checks", "diagrams", "lab", "marking", "seam_trials", "teaching"],
+    submodules=["checks", "diagrams", "lab"],
     submod_attrs={
         "real_clips": ["collections", "people"],
-        "notebooks": ["read", "run"],
+        "notebooks": ["run"],
         "handout": ["hand_out"],
         "site": ["build_site"],
         "opening": ["build_lite", "open_course", "stored"],

@@ -1,4 +1,4 @@
-"""The course's notebooks as data: read a notebook, find its cells by their tags, run it again.
+"""The course's notebooks as data: read a notebook, find its cells and their names, run it again.
 
 The tags of a cell say what it is. `source:ROOM.FILE.FUNCTION` shows the package's own code. `ask:NAME` is the
 text of an exercise, `exercise:NAME` the stub of its function, `check:NAME` its check and `solution:NAME` its
@@ -14,6 +14,7 @@ import inspect
 import json
 import os
 import re
+import symtable
 import textwrap
 import warnings
 from collections.abc import Iterator
@@ -137,6 +138,30 @@ def solution(cell: Any) -> str:  # noqa: ANN401
     """Return the code in a folded solution."""
     (code,) = re.findall(r"```python\n(.*?)```", cell.source, re.DOTALL)
     return str(code)
+
+
+def names_of(source: str) -> tuple[set[str], set[str]]:
+    """Return the names that some code defines, and those that it uses from outside of its functions.
+
+    Code that is no Python has none.
+
+    Examples
+    --------
+    >>> names_of("def half(x): return x / two")
+    ({'half'}, {'two'})
+    """
+    try:
+        top = symtable.symtable(source, "", "exec")
+    except (SyntaxError, ValueError):
+        return set(), set()
+    made = [symbol for symbol in top.get_symbols() if symbol.is_assigned() or symbol.is_imported()]
+    used, tables = set(), [top]
+    while tables:
+        table = tables.pop()
+        tables += table.get_children()
+        symbols = [symbol for symbol in table.get_symbols() if symbol.is_referenced()]
+        used |= {symbol.get_name() for symbol in symbols if table is top or symbol.is_global()}
+    return {symbol.get_name() for symbol in made}, used
 
 
 def run(path: Path, figures: Path) -> None:

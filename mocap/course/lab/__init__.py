@@ -33,6 +33,5 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "adopting": ["mine", "whose"],
         "asking": ["bet", "bets", "quiz"],
         "blind_tests": ["blind_test"],
-        "sensitivity": ["class_curve", "d_prime", "read_answers"],
     },
 )

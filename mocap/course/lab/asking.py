@@ -11,6 +11,7 @@ import base64
 import html
 import json
 import re
+import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -18,7 +19,7 @@ from pathlib import Path
 from typing import Any
 from zlib import crc32
 
-from mocap.course.lab.questions import Names, cell_names, computed, filled, question, read_questions, require
+from mocap.course.lab.questions import Names, computed, filled, question, read_questions, require
 from mocap.errors import MocapError
 
 CODE = re.compile(r"`([^`]+)`")
@@ -90,9 +91,7 @@ def to_text(text: str) -> str:
     >>> to_text("Is `D < 4` *always* so?")
     'Is D < 4 always so?'
     """
-    parts = CODE.split(text)
-    parts[::2] = [STRESSED.sub(r"\1", part) for part in parts[::2]]
-    return "".join(parts)
+    return html.unescape(re.sub(r"<[^>]*>", "", to_html(text)))
 
 
 def listed(items: Iterable[str], kind: str = "ul") -> str:
@@ -125,7 +124,7 @@ def quiz(key: str) -> Shown:
 
     Notebooks: 00-quickstart to 19-group-graphs
     """
-    return asked(key, question("quiz", key), cell_names())
+    return asked(key, question("quiz", key), sys._getframe(1).f_globals)
 
 
 def asked(key: str, quiz: dict[str, Any], names: Names) -> Shown:
@@ -172,7 +171,7 @@ def bet(*keys: str) -> Shown:
 
     Notebooks: 00-quickstart to 19-group-graphs
     """
-    return asked_before({key: question("bet", key) for key in keys}, cell_names())
+    return asked_before({key: question("bet", key) for key in keys}, sys._getframe(1).f_globals)
 
 
 def asked_before(bets: Bets, names: Names) -> Shown:
@@ -215,7 +214,7 @@ def bets(notebook: str) -> Shown:
     Notebooks: 00-quickstart to 19-group-graphs
     """
     found = read_questions(notebook)["bet"]
-    return summed_up({f"{notebook}-{name}": bet for name, bet in found.items()}, cell_names())
+    return summed_up({f"{notebook}-{name}": bet for name, bet in found.items()}, sys._getframe(1).f_globals)
 
 
 def summed_up(bets: Bets, names: Names) -> Shown:

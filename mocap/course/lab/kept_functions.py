@@ -18,7 +18,7 @@ from types import FunctionType, ModuleType
 from typing import Any
 
 from mocap._shared.atomic import write_text
-from mocap.course.names import names_of
+from mocap.course.notebooks import names_of
 from mocap.errors import MocapError
 
 HEAD = '''"""My motion graph: what I wrote in the course, and what passed its check.

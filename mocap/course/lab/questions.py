@@ -16,7 +16,6 @@ A bet has `ask`, and `came_out`: one of its `choices`, or an expression for a nu
 from __future__ import annotations
 
 import re
-import sys
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
@@ -54,11 +53,6 @@ def question(kind: str, key: str) -> dict[str, Any]:
     if name not in found:
         raise MocapError(f"No {kind} {shortened(repr(name), 40)} for notebook {notebook}.")
     return dict(found[name])
-
-
-def cell_names() -> Names:
-    """Give the names of the notebook whose cell called the function that calls this one."""
-    return sys._getframe(2).f_globals
 
 
 def computed(expression: str, names: Names) -> float:

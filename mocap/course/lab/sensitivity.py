@@ -56,9 +56,8 @@ def d_prime(right: int, of: int) -> DPrime:
     """
     if not (0 <= right <= of and of > 0):
         raise MocapError(f"No d′ for {right} right answers of {of}.")
-    low = stats.beta.ppf(0.025, right, of - right + 1) if right else 0.0
-    high = stats.beta.ppf(0.975, right + 1, of - right) if right < of else 1.0
-    return DPrime(*(float(np.sqrt(2) * stats.norm.ppf(p)) for p in ((right + 0.5) / (of + 1), low, high)))
+    limits = stats.binomtest(right, of).proportion_ci()
+    return DPrime(*(float(np.sqrt(2) * stats.norm.ppf(p)) for p in ((right + 0.5) / (of + 1), *limits)))
 
 
 def mean_d_prime(values: Sequence[float]) -> DPrime:

@@ -8,8 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from mocap.course.check import Check
-from mocap.course.names import names_of
-from mocap.course.notebooks import read, tagged
+from mocap.course.notebooks import names_of, read, tagged
 
 ORACLES = (
     r"\bchecks\b(?!\.\w+\()|[.'\"](?:truth|mistakes|stand_in|get_objects|modules|_getframe)\b"

@@ -22,7 +22,6 @@ import numpy as np
 import mocap
 from mocap._shared.progress import Progress
 from mocap._shared.tasks import serve
-from mocap.course import stored
 from mocap.course.check import Verdict
 from mocap.course.checks import all_checks
 from mocap.course.marking.cells import Cell, Sheet, code_cells, course_sheets, named_oracle, sheet_of
@@ -30,6 +29,7 @@ from mocap.course.marking.grades import Mark, sent_by
 from mocap.course.marking.plain_data import unpack
 from mocap.course.marking.sealed import Ended, Sealed, protection
 from mocap.course.notebooks import library
+from mocap.course.opening import stored
 from mocap.errors import MocapError
 
 SECONDS = 30  # time limit of an exercise

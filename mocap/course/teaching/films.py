@@ -21,7 +21,7 @@ from PIL import Image, ImageDraw, ImageFont, ImageOps
 
 from mocap._shared.atomic import replacing
 from mocap._shared.progress import Progress
-from mocap.course import read
+from mocap.course.notebooks import read
 from mocap.course.site import STILL, recorded_of
 from mocap.course.teaching.board import SMOOTH, font_of
 from mocap.course.teaching.slides import Slide, deck_file, deck_of

@@ -58,7 +58,7 @@ def deck_of(file: Path, notebook: Any) -> list[Slide]:  # noqa: ANN401
     Parameters
     ----------
     file : the deck.
-    notebook : from `course.read`, for pictures and code.
+    notebook : from `notebooks.read`, for pictures and code.
 
     Returns
     -------

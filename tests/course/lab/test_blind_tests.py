@@ -11,9 +11,8 @@ from scipy.stats import norm
 from mocap import datasets
 from mocap.body import joint_positions
 from mocap.course import lab
-from mocap.course.lab import class_curve
 from mocap.course.lab.blind_tests import STEP, BlindTest, Plan, choose, make_pairs, packed
-from mocap.course.lab.sensitivity import COLUMNS, d_prime, mean_d_prime, read_answers, sentence
+from mocap.course.lab.sensitivity import COLUMNS, class_curve, d_prime, mean_d_prime, read_answers, sentence
 from mocap.matching import find_transitions
 from mocap.plotting import bones
 from tests.refusals import refusals, refused

@@ -5,10 +5,10 @@ import re
 import nbformat
 import pytest
 
-from mocap.course import read, stored
 from mocap.course.checks import all_checks
 from mocap.course.marking.cells import Cell, code_cells, course_sheets, named_oracle, needed, sheet_of
-from mocap.course.notebooks import notebooks_in, tagged
+from mocap.course.notebooks import notebooks_in, read, tagged
+from mocap.course.opening import stored
 
 
 @pytest.fixture(scope="module")
