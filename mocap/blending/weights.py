@@ -3,7 +3,6 @@
 import numpy as np
 
 from mocap._shared.arrays import Array
-from mocap._shared.easing import quintic_step
 from mocap.errors import MocapError
 
 
@@ -43,20 +42,6 @@ def linear_weights(window: int) -> Array:
     Notebook: 09b-blend-window
     """
     return 1 - window_steps(window)
-
-
-def quintic_weights(window: int) -> Array:
-    """Give weights that are C² at both ends, so that accelerations do not jump either.
-
-    α(p) = 1 - 10 t³ + 15 t⁴ - 6 t⁵ with t = (p+1)/k: the polynomial of the lowest degree whose slope and
-    curvature are 0 where it reaches 1 and 0.
-
-    Examples
-    --------
-    >>> quintic_weights(4).round(4)
-    array([0.8965, 0.5   , 0.1035, 0.    ])
-    """
-    return 1 - quintic_step(window_steps(window))
 
 
 def sine_weights(window: int) -> Array:

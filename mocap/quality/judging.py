@@ -57,8 +57,8 @@ class Judgement(NamedTuple):
     --------
     >>> from mocap.datasets.samples import sample
     >>> judged = judge(sample("walk_straight"))
-    >>> judged.worst.ratio < 1, judged.stand_out
-    (True, [])
+    >>> judged.worst.ratio < 1, judged.score
+    (True, 0.0)
     """
 
     name: str
@@ -78,11 +78,6 @@ class Judgement(NamedTuple):
     def score(self) -> float:
         """How many times the measures must be halved, in all, to be within their limits; 0 is best."""
         return float(sum(np.log2(max(measure.ratio, 1.0)) for measure in self.measures))
-
-    @property
-    def stand_out(self) -> list[Measure]:
-        """The measures beyond their limits, the worst first."""
-        return sorted((m for m in self.measures if m.ratio > 1), key=lambda m: -m.ratio)
 
     def as_dict(self) -> dict[str, Any]:
         """Give plain numbers and texts, for JSON."""
@@ -133,8 +128,8 @@ def judge(
     >>> from mocap.datasets.samples import sample
     >>> walk = sample("walk_straight")
     >>> gliding = replace(walk, root_positions=walk.root_positions * [0.8, 1, 0.8])
-    >>> [measure.name for measure in judge(gliding).stand_out]
-    ['skate', 'slide']
+    >>> [measure.name for measure in judge(gliding).measures if measure.ratio > 1]
+    ['slide', 'skate']
     """
     if len(motion) < 12:
         name = shortened(motion.name)

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 from mocap._shared.arrays import Array, Indices, Mask
 from mocap._shared.easing import quintic_step
 from mocap.blending.joining import blend
-from mocap.blending.weights import cubic_weights, quintic_weights
+from mocap.blending.weights import cubic_weights
 from mocap.body import euler, rotations
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
