@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import re
 import tomllib
 import zipfile
 import zlib
@@ -35,7 +34,6 @@ class NamedSet(NamedTuple):
     legs: list[str]
     megabytes: int | None = None
     sha256: str | None = None
-    clip_url: str = ""
 
     def terms(self) -> str:
         """Say whose clips they are, under which licence, and what that allows."""
@@ -136,7 +134,7 @@ def _unpack(archive: Path, folder: Path, progress: Progress) -> None:
 
 
 def from_set(name: str, clip: str) -> Motion:
-    """Read a clip of a named set, from your own copy or fetched; its terms are printed once.
+    """Read a clip of a named set, from your own copy or the one fetched; its terms are printed once.
 
     Parameters
     ----------
@@ -145,8 +143,8 @@ def from_set(name: str, clip: str) -> Motion:
 
     Raises
     ------
-    MocapError : for an unknown set, a clip that is not there, with how to get it, a clip that cannot be
-        fetched, and a file that is not the one listed.
+    MocapError : for an unknown set, a clip that is not there, with how to get it, and a file that is not the
+        one listed.
 
     Examples
     --------
@@ -156,17 +154,12 @@ def from_set(name: str, clip: str) -> Motion:
     """
     from mocap.files.load_save import load
 
-    folder = folder_of(name)
-    known, sha256 = SETS[name], HASHES.get(clip)
+    folder, known = folder_of(name), SETS[name]
     show_once(known.terms())
     path = next((path for path in _clips(folder) if path.stem == clip), None)
     if path is None:
-        part = re.fullmatch(r"dataset-([12])_[\w-]+", clip)
-        if not known.clip_url or not part:
-            gets = f"`mocap data fetch {name}` gets the set ({known.size()}) from {known.address}"
-            raise MocapError(f"No clip '{shortened(clip, 40)}' in {folder}: {gets}, or unpack it there.")
-        url = known.clip_url.format(part=part[1], clip=clip)
-        path = fetch(f"{name}/{clip}.bvh", url, sha256, known.terms())
-    if sha256 and hashlib.sha256(path.read_bytes()).hexdigest() != sha256:
+        gets = f"`mocap data fetch {name}` gets the set ({known.size()}) from {known.address}"
+        raise MocapError(f"No clip '{shortened(clip, 40)}' in {folder}: {gets}, or unpack it there.")
+    if clip in HASHES and hashlib.sha256(path.read_bytes()).hexdigest() != HASHES[clip]:
         raise MocapError(f"{path} is not the file listed: its checksum differs. Get it anew.")
     return load(path)

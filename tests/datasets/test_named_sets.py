@@ -59,8 +59,7 @@ def server(monkeypatch, tmp_path, data, server):
     known = {"archive": f"{server.url}/set.zip", "megabytes": 1}
     digest = hashlib.sha256(server.files["set.zip"]).hexdigest()
     monkeypatch.setitem(SETS, "lafan1", SETS["lafan1"]._replace(**known, sha256=digest))
-    single = {"clip_url": server.url + "/{part}/{clip}.bvh"}
-    monkeypatch.setitem(SETS, "bandai_namco", SETS["bandai_namco"]._replace(**known, **single))
+    monkeypatch.setitem(SETS, "bandai_namco", SETS["bandai_namco"]._replace(**known))
     return server
 
 
@@ -124,26 +123,11 @@ def test_another_archive_a_damaged_one_and_an_empty_one_are_refused(server, data
     assert list_set("bandai_namco") == []
 
 
-def test_a_single_clip_is_fetched_once(server, tmp_path):
-    name = "dataset-2_walk_shy_001"
-    server.files[f"2/{name}.bvh"] = bvh(tmp_path, "bandai_namco", 1.0)
-    assert len(from_set("bandai_namco", name)) == len(from_set("bandai_namco", name)) == 3
-    assert sum(server.asked.values()) == 1
-
-
-def test_a_clip_listed_by_its_checksum_is_not_taken_from_elsewhere(server, data, tmp_path):
-    name = next(iter(HASHES))
-    server.files[f"1/{name}.bvh"] = bvh(tmp_path, "bandai_namco")
-    refused(r"is not the file listed: its checksum differs", from_set, "bandai_namco", name)
-    assert list_set("bandai_namco") == []
-
-
 def test_what_cannot_be_fetched_or_kept_is_one_sentence(server, data, monkeypatch, capsys):
     monkeypatch.setitem(SETS, "lafan1", SETS["lafan1"]._replace(archive="http://127.0.0.1:9/set.zip"))
     assert main(["data", "fetch", "lafan1", "--accept"]) == 2
     said = capsys.readouterr().err.splitlines()[-1]
     assert said.startswith("mocap: 127.0.0.1:9/.../set.zip breaks off or does not answer") and len(said) < 200
-    refused(r"dataset-1_x_001\.bvh answers 404", from_set, "bandai_namco", "dataset-1_x_001")
     (data / "100style").write_text("a file")
     refused(r"Cannot keep 100style/100style\.zip in .*: let MOCAP_DATA name", fetch_set, "100style")
 
