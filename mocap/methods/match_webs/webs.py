@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mocap._shared.arrays import Array, Indices, Mask, frozen
+from mocap._shared.arrays import Array, Indices, frozen
 from mocap._shared.progress import Progress
 from mocap.body.motion import Motion, require_alike, resample
 from mocap.errors import MocapError, warn
@@ -107,7 +107,13 @@ def build_web(clips: Sequence[Motion], *, below: float = 0.12, progress: Progres
     """
     clips = require_alike(clips)
     low = [resample(clip, MatchWeb.rate) for clip in clips]
-    long = _long_enough(low, WINDOW + LEAST)
+    long = [len(clip) >= WINDOW + LEAST for clip in low]
+    lasts = f"{(WINDOW + LEAST) / MatchWeb.rate:.2g} s"
+    if not any(long):
+        raise MocapError(f"No clip is long enough for a path: that takes {lasts}.")
+    if short := [f"'{clip.name}'" for clip, use in zip(low, long, strict=True) if not use]:
+        names = ", ".join(short[:4]) + (f" and {len(short) - 4} more" if len(short) > 4 else "")
+        warn(f"Too short to hold a path of {lasts}, and left out: {names}.")
     used = [clip for clip, use in zip(low, long, strict=True) if use]
     ready = join_clouds(used, None, WINDOW, 0, np.float32)
     starts = np.cumsum([0, *(len(clip) * use for clip, use in zip(low, long, strict=True))])
@@ -115,16 +121,3 @@ def build_web(clips: Sequence[Motion], *, below: float = 0.12, progress: Progres
     cells = np.concatenate([np.empty((0, 3)), *paths])
     offsets = np.cumsum([0, *map(len, paths)])
     return MatchWeb(clips, starts, float(below), cells[:, :2] + WINDOW // 2, cells[:, 2], offsets)
-
-
-def _long_enough(clips: Sequence[Motion], frames: int) -> Mask:
-    """Say which clips can hold a path, and warn of the others."""
-    long = np.array([len(clip) >= frames for clip in clips])
-    short = [f"'{clip.name}'" for clip, use in zip(clips, long, strict=True) if not use]
-    if not long.any():
-        raise MocapError(f"No clip is long enough for a path: that takes {frames / MatchWeb.rate:.2g} s.")
-    if short:
-        names = ", ".join(short[:4]) + (f" and {len(short) - 4} more" if len(short) > 4 else "")
-        said = f"Too short to hold a path of {frames / MatchWeb.rate:.2g} s, and left out: {names}."
-        warn(said)
-    return long
