@@ -1,7 +1,6 @@
 """The commands that make clips of clips: `mocap warp`, `bend`, `loop`, `blend` and `retarget`."""
 
 import math
-import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -10,7 +9,7 @@ from mocap import blending, body, editing, feet, files, quality
 from mocap._shared.atomic import make_folder, require_folder
 from mocap.cli import options
 from mocap.cli.options import TURN, Clean, Reading, Unit, bar, check_out, number, tell, write_out
-from mocap.errors import MocapError, MocapWarning
+from mocap.errors import MocapError, warn
 from mocap.files.conversion import find_files, require_apart, with_file
 
 if TYPE_CHECKING:
@@ -146,11 +145,9 @@ def loop(
     found = find_loop(motion, seconds=(shortest, longest))
     seam, missed = (f"{100 * metres:.0f} cm" for metres in (found.seam, found.missed))
     if found.seam > POOR:
-        said = f"{clip}: the ends of the best cycle are {seam} apart: it may leap there."
-        warnings.warn(said, MocapWarning, stacklevel=1)
+        warn(f"{clip}: the ends of the best cycle are {seam} apart: it may leap there.")
     if found.missed > LITTLE:
-        said = f"{clip}: the clip's other poses are {missed} away: it may hold no whole cycle."
-        warnings.warn(said, MocapWarning, stacklevel=1)
+        warn(f"{clip}: the clip's other poses are {missed} away: it may hold no whole cycle.")
     cycle = editing.loop(motion, found, straight=straight, clean=clean)
     turn = quality.inspect(cycle).turn
     step = math.hypot(*(cycle.root_positions[-1] - cycle.root_positions[0])[[0, 2]])

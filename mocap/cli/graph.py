@@ -10,7 +10,7 @@ from mocap import body, datasets, editing, graphs, quality, synthesis, widgets
 from mocap._shared.atomic import make_folder, require_folder
 from mocap.cli.options import Building, Seed, bar, check_out, number, require_other, tell, write_out
 from mocap.cli.typed_commands import Group
-from mocap.errors import MocapError, MocapWarning, NoWalk
+from mocap.errors import MocapError, MocapWarning, NoWalk, warn
 from mocap.files.conversion import find_files
 
 SHOWN = 7  # names of clips
@@ -123,7 +123,7 @@ def _mirrored(clips: "Sequence[body.Motion]") -> "list[body.Motion]":
         images = [editing.mirror(clip) for clip in clips]
     if caught:
         more = f" So it is with {len(caught) - 1} more." if len(caught) > 1 else ""
-        warnings.warn(f"{caught[0].message}{more}", MocapWarning, stacklevel=2)
+        warn(f"{caught[0].message}{more}")
     return images
 
 
