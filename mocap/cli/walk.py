@@ -1,7 +1,6 @@
 """Characters that walk through a graph: `mocap walk`, along a path or at random, and `mocap crowd`."""
 
 import cmath
-import itertools
 import math
 import re
 import warnings
@@ -14,7 +13,6 @@ from mocap import datasets, editing, files, graphs, plotting, steering, synthesi
 from mocap._shared.atomic import make_folder, replacing, require_folder
 from mocap.cli import options
 from mocap.cli.options import TURN, Building, Clean, Seed, Skeleton, Sources, Unit, bar, number, tell
-from mocap.datasets.clip_origins import find_again
 from mocap.errors import MocapError, MocapWarning, NoWalk
 from mocap.files.conversion import find_files
 from mocap.methods import groups
@@ -138,26 +136,20 @@ def _label(text: str) -> tuple[float, str]:
 
 def _graph(path: Path, clips: Sequence[Path], sources: Sources, out: Path) -> "graphs.MotionGraph":
     """Read the graph, and the clips that it was built of: those given, or those that it remembers."""
+    from mocap.editing.mirroring import mirrored_name  # the help needs no NumPy
+    from mocap.graphs.storage import find_origins
+
     found = graphs.read(path)
-    options.require_other(out, find_files(clips) if clips else _remembered(path, out.suffix))
+    files_read = find_files(clips) if clips else [origin.path for origin in find_origins(path)]
+    options.require_other(out, files_read)
     with warnings.catch_warnings():
         lopsided = ".* so its mirror image does not"  # `mocap graph` has said so
         warnings.filterwarnings("ignore", lopsided, MocapWarning)
         if not clips:
             return options.load_graph(path, sources.skeleton)
-        from mocap.editing.mirroring import mirrored_name  # the help needs no NumPy
-
         given = sources.load(clips)
         given += [editing.mirror(c) for c in given if mirrored_name(c.name) in found.names]
     return options.load_graph(path, None, given)
-
-
-def _remembered(path: Path, suffix: str) -> list[Path]:
-    """List the files of a graph's clips, as it remembers them or of their names beside it."""
-    found, folder = graphs.read(path), path.parent
-    places = itertools.zip_longest(found.names, found.origins)
-    origins = [(name, find_again(text, folder) if text else None) for name, text in places]
-    return [origin.path if origin else folder / f"{name}{suffix}" for name, origin in origins]
 
 
 def crowd(

@@ -213,10 +213,21 @@ def find_clips(path: str | Path, *, skeleton: Path | None = None, progress: Prog
     ------
     MocapError : where the file of a clip is in none of these places, or cannot be read.
     """
-    found = read(path)
+    placed = find_origins(path)
+    if not placed:
+        return [sample(name) for name in read(path).names]
+    clips = []
+    for origin in progress(placed):
+        clip = load_motion(origin.path, skeleton=skeleton or origin.skeleton, scale=origin.scale)
+        clips.append(mirror(clip) if origin.mirrored else clip)
+    return clips
+
+
+def find_origins(path: str | Path) -> list[Origin]:
+    """Find the files of a saved graph's clips, as `find_clips` reads them; none for bundled samples."""
+    found, folder = read(path), Path(path).parent
     if set(found.names) <= set(SAMPLES) and not found.origins:
-        return [sample(name) for name in found.names]
-    folder = Path(path).parent
+        return []
     beside = {file.stem: file for file in sorted(folder.iterdir()) if is_clip(file)}
     placed: list[Origin] = []
     for name, text in itertools.zip_longest(found.names, found.origins):
@@ -224,11 +235,7 @@ def find_clips(path: str | Path, *, skeleton: Path | None = None, progress: Prog
         if origin is None and name not in beside:
             raise MocapError(f"The clip '{shortened(name)}' is no longer where {path} found it: give clips=.")
         placed.append(origin or Origin(beside[name]))
-    clips = []
-    for origin in progress(placed):
-        clip = load_motion(origin.path, skeleton=skeleton or origin.skeleton, scale=origin.scale)
-        clips.append(mirror(clip) if origin.mirrored else clip)
-    return clips
+    return placed
 
 
 def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
