@@ -77,7 +77,7 @@ def test_a_graph_with_mirror_images_finds_its_clips_again(tmp_path, monkeypatch,
     monkeypatch.chdir(tmp_path)
     load_save.save(resample(samples.sample("walk_circle"), 30)[:400], "a.bvh")
     run("graph a.bvh --mirror -o graph.npz")
-    assert storage.read("graph.npz").names == ("a", "a_mirrored")
+    assert storage.read("graph.npz").names == ["a", "a_mirrored"]
     clip, image = storage.find_clips("graph.npz")
     assert np.allclose(joint_positions(image)[:, 0], joint_positions(clip)[:, 0] * [-1, 1, 1])
     for more in ("", "--clips a.bvh"):

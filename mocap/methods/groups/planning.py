@@ -43,9 +43,9 @@ class Scene(NamedTuple):
     body: float = 0.3
     others: tuple[Points, ...] = ()
 
-    def check(self, places: Points) -> None:
-        """Raise MocapError for what makes no sense, NoWalk for `places` of members too near to a disc."""
-        start = complex(places.mean())
+    def check(self, places: Points | complex) -> None:
+        """Raise MocapError for what makes no sense, NoWalk for `places` too near to a disc."""
+        start = complex(np.mean(places))
         if not self.points or np.ndim(self.points) != 1 or not np.isfinite([start, *self.points]).all():
             says = f"A scene has finite points z + ix to pass, one or more, from a start; got {self.points}"
             raise MocapError(f"{says[:160]} from {start}.")
