@@ -17,6 +17,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import FancyArrowPatch, Patch
 from matplotlib.spines import Spine
 from matplotlib.text import Annotation, Text
+from matplotlib.ticker import FixedLocator
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
 
 from mocap.plotting.picture import figure_of
@@ -34,7 +35,9 @@ PLACES = {
     FancyArrowPatch: lambda arrow: [arrow.get_linewidth()],
     Patch: lambda patch: [patch.get_patch_transform().transform(patch.get_path().vertices)],
 }
-LOOKS = ("color", "facecolor", "edgecolor", "markeredgecolor")
+COLOURS = ("color", "facecolor", "edgecolor", "markeredgecolor")
+SIZES = ("linewidth", "zorder", "alpha", "markersize", "fontsize")
+MARKS = ("marker", "markevery", "drawstyle", "ha", "va")
 
 
 def sketch(figure):
@@ -46,7 +49,9 @@ def sketch(figure):
         legends = [legend for legend in (ax.get_legend(), *figure.legends) if legend]
         said = [*frame[1:], ax.xaxis.label, ax.yaxis.label]
         words += [t.get_text() for t in (*said, *(t for legend in legends for t in legend.get_texts()))]
-        shown.setdefault("axes", []).extend([*ax.get_xlim(), *ax.get_ylim()])
+        fixed = [axis for axis in (ax.xaxis, ax.yaxis) if isinstance(axis.get_major_locator(), FixedLocator)]
+        ticks = [tick for axis in fixed for tick in axis.get_majorticklocs()]
+        shown.setdefault("axes", []).extend([*ax.get_xlim(), *ax.get_ylim(), *ticks])
         for artist in artists:
             kind = next((kind for kind in PLACES if isinstance(artist, kind)), None)
             if kind and not isinstance(artist, Spine):
@@ -57,14 +62,15 @@ def sketch(figure):
 
 
 def numbers_of(artist, places):
-    """Give the numbers of an artist: where it is, its colours, how wide its lines are, and its marks."""
-    looks = [getattr(artist, f"get_{look}")() for look in LOOKS if hasattr(artist, f"get_{look}")]
-    colours = [to_rgba_array(look) for look in looks if not isinstance(look, str) or look != "auto"]
-    wide = [artist.get_linewidth()] if hasattr(artist, "get_linewidth") else []
-    marks = []
-    if isinstance(artist, Line2D):
-        marks = [*f"{artist.get_linestyle()} {artist.get_marker()} {artist.get_markevery()}".encode()]
-    return np.concatenate([*map(np.ravel, (*places(artist), *colours, *wide, marks))])
+    """Give the numbers of an artist: where it is, its colours, its sizes, and the letters of its marks."""
+    colours = [to_rgba_array(look) for look in looks(artist, COLOURS) if not np.array_equal(look, "auto")]
+    sizes = [size for size in looks(artist, SIZES) if size is not None]
+    marks = [*str(looks(artist, MARKS)).encode()]
+    return np.concatenate([*map(np.ravel, (*places(artist), *colours, *sizes, marks))])
+
+
+def looks(artist, names):
+    return [getattr(artist, f"get_{name}")() for name in names if hasattr(artist, f"get_{name}")]
 
 
 def weighed(values):
