@@ -677,7 +677,7 @@ def draw_warping() -> Figure:
     walk, jump = datasets.sample("walk_straight")[:480], datasets.sample("jump")
     place = joint_positions(walk)[WARPED, walk.skeleton.index("rhand")] + [-0.15, 0.30, 0.15]
     pose = editing.posed(walk, WARPED, {"rhand": place})
-    keys = editing.keys_around(walk, WARPED, pose)
+    keys = editing.keys_around(walk, [editing.Key(WARPED, pose)])
     reaching = editing.displaced(walk, editing.offsets(walk, keys))
     apex = int(jump.root_positions[:, 1].argmax())
     lifted = replace(

@@ -233,16 +233,13 @@ def retarget(
     Example: mocap retarget clips/ --to hero.bvh -o worn/
     """
     require_folder(out)
-    from mocap.editing.retargeting import standing_like  # the help needs no NumPy
-
     pairs = [(source, out / f"{source.stem}.{format}") for source in find_files(clips)]
     require_apart(pairs, [to])
-    (stance, skeleton), failed = _body(to, to_scale), []
+    wearer, failed = _body(to, to_scale), []
     for source, target in bar("retargeting")(pairs):
         try:
             motion = reading.load(source)
-            stands = editing.stance_of(motion)
-            worn = editing.retarget(motion, stance or standing_like(skeleton, stands), stands)
+            worn = editing.retarget(motion, wearer)
             make_folder(out)
             files.save(worn, target)
         except MocapError as error:
@@ -250,20 +247,20 @@ def retarget(
     return options.tell_of_failures("retargeted", len(pairs), failed, f", in {out}")
 
 
-def _body(path: Path, scale: float | None) -> "tuple[Stance | None, body.Skeleton]":
-    """Read whose body it is, and how it stands, which a skeleton alone does not say."""
+def _body(path: Path, scale: float | None) -> "Stance | body.Skeleton":
+    """Read whose body it is, and, of a clip in which somebody stands, how it stands."""
     from mocap.editing.stances import stance_of_zero
     from mocap.files.load_save import load_skeleton
 
     if path.suffix.lower() == ".asf":
         if scale:
             raise MocapError(f"--to-scale is for clips; {path} says its unit of length itself.")
-        return None, load_skeleton(path)
+        return load_skeleton(path)
     clip = Reading(scale=scale).load(path)
     try:
-        return editing.stance_of(clip), clip.skeleton
+        return editing.stance_of(clip)
     except MocapError as error:
         try:  # nobody stands in it, but its rest pose alone may do
-            return None, stance_of_zero(clip.skeleton, 0.0).skeleton
+            return stance_of_zero(clip.skeleton, 0.0).skeleton
         except MocapError:
             raise MocapError(f"{path}: {error}") from None

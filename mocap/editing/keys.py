@@ -89,19 +89,20 @@ def cardinal(
     return np.asarray(curve)
 
 
-def keys_around(motion: Motion, frame: int, pose: Motion, seconds: float = HALF_SECOND) -> list[Key]:
-    """Put a key between two that say "as it was", some time before and after it.
+def keys_around(motion: Motion, keys: Sequence[Key], seconds: float = HALF_SECOND) -> list[Key]:
+    """Add two keys to some, which say "as it was", some time before the first and after the last of them.
 
     Parameters
     ----------
     motion : F frames.
-    frame, pose : the key.
-    seconds : how long before the key the change begins, and how long after it the change ends; where the clip
-        begins or ends sooner, the key on that side is left out, and the change holds to the clip's end.
+    keys : one or more, in order of time.
+    seconds : how long before the first key the change begins, and how long after the last one it ends. Where
+        the clip begins or ends sooner, that key is left out, and the change holds to the clip's end; and
+        where that of `keys` says "as it was" already.
 
     Returns
     -------
-    One to three keys, for `offsets`.
+    The keys, for `offsets`.
 
     Raises
     ------
@@ -111,7 +112,7 @@ def keys_around(motion: Motion, frame: int, pose: Motion, seconds: float = HALF_
     --------
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_straight")
-    >>> [key.frame for key in keys_around(walk, 100, walk[100:101])]
+    >>> [key.frame for key in keys_around(walk, [Key(100, walk[100:101])])]
     [40, 100, 160]
 
     Notebook: 11-warping
@@ -119,8 +120,11 @@ def keys_around(motion: Motion, frame: int, pose: Motion, seconds: float = HALF_
     if not (np.isfinite(seconds) and seconds * motion.fps >= 1):
         raise MocapError(f"A change takes a frame or more to come and go, got {seconds} s.")
     half = round(seconds * motion.fps)
-    keys = [Key(frame - half), Key(frame, pose), Key(frame + half)]
-    return [key for key in keys if key.pose is not None or 0 <= key.frame < len(motion)]
+    before, after = (
+        [Key(key.frame + way)] if key.pose is not None and 0 <= key.frame + way < len(motion) else []
+        for key, way in ((keys[0], -half), (keys[-1], half))
+    )
+    return [*before, *keys, *after]
 
 
 def offsets(motion: Motion, keys: Sequence[Key]) -> Displacement:

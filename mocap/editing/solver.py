@@ -45,20 +45,19 @@ CLOSE = Basis(calm=0.06, weight=1e6, damping=0.1)
 class Solved(NamedTuple):
     """The solver's answer: the `motion`, and the worst gap at first and after each pass, metres.
 
-    `change` (F, n) holds the numbers of the `body` that the last basis added.
+    `change` (F, n) holds the numbers of the body that the last basis added.
 
     Examples
     --------
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_straight")[:9]
-    >>> Solved(walk, [0.02, 0.001], np.zeros((9, 13)), body_of(walk, [4, 5])).worst[-1]
+    >>> Solved(walk, [0.02, 0.001], np.zeros((9, 13))).worst[-1]
     0.001
     """
 
     motion: Motion
     worst: list[float]
     change: Array
-    body: Body
 
 
 def solve(
@@ -128,7 +127,7 @@ def solve(
             worst += left
     if not quiet:
         warn_of_gaps(base, pins)
-    return Solved(base, worst, change, body)
+    return Solved(base, worst, change)
 
 
 def _descend(base: Motion, pins: Pins, body: Body, way: Basis) -> tuple[Array, list[float]]:

@@ -13,7 +13,7 @@ from mocap.body.motion import Motion
 from mocap.body.planar import heading
 from mocap.editing.displacements import displaced
 from mocap.editing.edits import edit, posed
-from mocap.editing.keys import HALF_SECOND, Key, offsets
+from mocap.editing.keys import HALF_SECOND, Key, keys_around, offsets
 from mocap.editing.pins import join_pins, pin, plant_pins
 from mocap.editing.retiming import retime
 from mocap.errors import FormatError, MocapError
@@ -159,8 +159,6 @@ def warp(motion: Motion, plan: WarpPlan, *, window: float = HALF_SECOND, feet: b
     >>> warp(walk, WarpPlan("keys.txt", {180: [Wish(1, "lhand", place, level=False)]}, []))
     Motion('walk_straight', 1201 frames at 120 Hz, 38 joints)
     """
-    if not (math.isfinite(window) and window * motion.fps >= 1):
-        raise MocapError(f"A window lasts a frame or longer, got {window} s at {motion.fps:g} Hz.")
     keys, pins = [], []
     for frame, wishes in sorted(plan.wishes.items()):
         places = {wish.joint: wish.place for wish in wishes if wish.place is not None}
@@ -170,13 +168,8 @@ def warp(motion: Motion, plan: WarpPlan, *, window: float = HALF_SECOND, feet: b
             raise MocapError(f"{plan.path}, line {wishes[0].line}: {error}") from None
         keys.append(Key(frame, pose, any(wish.level for wish in wishes)))
         pins += [pin(motion, joint, [frame], place) for joint, place in places.items()]
-    if pins:
-        half = round(window * motion.fps)
-        ends = [
-            Key(key.frame + way) for key, way in ((keys[0], -half), (keys[-1], half)) if key.pose is not None
-        ]
-        known = [*keys, *(end for end in ends if 0 <= end.frame < len(motion))]
-        motion = displaced(motion, offsets(motion, sorted(known, key=lambda key: key.frame)))
+    if keys:
+        motion = displaced(motion, offsets(motion, keys_around(motion, keys, window)))
         motion = edit(motion, join_pins(plant_pins(motion), *pins)) if feet else motion
     if plan.times:
         motion = retime(motion, [(new, old) for _, new, old in plan.times])

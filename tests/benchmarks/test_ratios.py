@@ -28,7 +28,7 @@ from mocap.datasets import sample
 from mocap.editing.bending import LIMIT, bend
 from mocap.editing.displacements import displaced
 from mocap.editing.edits import edit, hierarchy, posed
-from mocap.editing.keys import keys_around, offsets
+from mocap.editing.keys import Key, keys_around, offsets
 from mocap.editing.path_editing import on_path, ride_of
 from mocap.editing.pins import Pins, plant_pins
 from mocap.editing.retargeting import copied, retarget
@@ -99,7 +99,9 @@ def put_on_a_circle():
 def dragged_key():
     clip = sample("walk_straight")[:480]
     place = {"rhand": post(clip, 238)}
-    return lambda: displaced(clip, offsets(clip, keys_around(clip, 238, posed(clip, 238, place)))), clip
+    return lambda: displaced(
+        clip, offsets(clip, keys_around(clip, [Key(238, posed(clip, 238, place))]))
+    ), clip
 
 
 BODIES = {

@@ -152,7 +152,7 @@ def test_a_plan_that_the_clip_cannot_follow(folder, text, message):
 
 @pytest.mark.parametrize("window", [0.0, np.nan, -1.0])
 def test_a_window_lasts_a_frame(folder, window):
-    refused("A window lasts a frame or longer", warp, WALK, plan(folder, "at 5 same"), window=window)
+    refused("A change takes a frame or more", warp, WALK, plan(folder, "at 5 same"), window=window)
 
 
 words = st.sampled_from(

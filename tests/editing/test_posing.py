@@ -10,7 +10,7 @@ from mocap.body.kinematics import joint_positions
 from mocap.datasets.samples import sample
 from mocap.editing.displacements import displaced
 from mocap.editing.edits import posed
-from mocap.editing.keys import keys_around, offsets
+from mocap.editing.keys import Key, keys_around, offsets
 from mocap.feet.footskate import clean_up
 from tests.editing.test_path_editing import slide
 from tests.editing.wishes import body
@@ -40,7 +40,7 @@ def check_hand(motion, frame, columns):
     pose = posed(motion, frame, {"rhand": target})
     ratios = []
     for seconds in (0.15, 0.5):
-        keys = keys_around(motion, frame, pose, seconds)
+        keys = keys_around(motion, [Key(frame, pose)], seconds)
         change = offsets(motion, keys)
         warped = displaced(motion, change)
         assert np.linalg.norm(joint_positions(warped)[frame, hand] - target) < 1e-5  # 0.01 mm

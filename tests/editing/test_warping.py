@@ -52,7 +52,7 @@ def test_a_curve_meets_its_keys_is_level_outside_and_smooth(gaps, seed):
 def test_a_key_is_met_and_nothing_changes_outside():
     """As in [WP95, offset]."""
     pose = moved(WALK, 120, up=0.05)
-    change = offsets(WALK, keys_around(WALK, 120, pose))
+    change = offsets(WALK, keys_around(WALK, [Key(120, pose)]))
     warped = displaced(WALK, change)
     assert joint_positions(warped)[120] == pytest.approx(joint_positions(pose)[0], abs=1e-5)  # 0.01 mm
     outside = np.r_[0:61, 180:241]
@@ -74,11 +74,11 @@ def test_every_key_of_any_body_is_met(seed):
 
 
 def test_a_change_near_an_end_of_the_clip_holds_to_the_end():
-    keys = keys_around(WALK, 20, moved(WALK, 20, up=0.1))
+    keys = keys_around(WALK, [Key(20, moved(WALK, 20, up=0.1))])
     assert [key.frame for key in keys] == [20, 80]
     assert offsets(WALK, keys).root[:21, 1] == pytest.approx(0.1)
-    assert [key.frame for key in keys_around(WALK, 230, moved(WALK, 230))] == [170, 230]
-    assert [key.frame for key in keys_around(WALK, 120, moved(WALK, 120), seconds=9)] == [120]
+    assert [key.frame for key in keys_around(WALK, [Key(230, moved(WALK, 230))])] == [170, 230]
+    assert [key.frame for key in keys_around(WALK, [Key(120, moved(WALK, 120))], seconds=9)] == [120]
 
 
 test_keys_curves_and_scales_that_cannot_be = refusals(
@@ -91,7 +91,7 @@ test_keys_curves_and_scales_that_cannot_be = refusals(
     ("pose of a key needs one frame, got 241", offsets, WALK, [Key(50, WALK)]),
     (SkeletonMismatch, "skeletons differ", offsets, WALK, [Key(50, random_motion(1, 1))]),
     *(
-        ("a frame or more to come and go", keys_around, WALK, 100, moved(WALK, 100), seconds)
+        ("a frame or more to come and go", keys_around, WALK, [Key(100, moved(WALK, 100))], seconds)
         for seconds in (0.0, -1.0, float("nan"), 0.001)
     ),
     (r"finite values \(1,\) at as many times", cardinal, [0, 1], [1.0], [0]),
