@@ -7,6 +7,11 @@ ask for a path; that a walk arrives at a pose in time is ours.
 
 1. `two_sided_search`: frames that look like two poses, and walks from both that meet half-way
 2. `end_bending`: a walk bent and stretched so that it ends where it must
+
+References
+----------
+.. [Gle01] M. Gleicher, *Motion Path Editing*, I3D 2001, doi 10.1145/364338.364400.
+.. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
 """
 
 from __future__ import annotations
