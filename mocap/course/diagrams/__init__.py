@@ -32,7 +32,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "windows": ["diagonal_sums", "radius_gaps", "window_cloud"],
         "ground": ["alignment", "two_distances"],
         "seams": ["added_by_blend", "blended_seam", "knee_triangle", "turning_paths"],
-        "branching": ["edge_lengths", "from_above", "laid_in_turn", "search_events", "search_steps"],
+        "branching": ["edge_lengths", "from_above", "search_events", "search_steps"],
         "layers": ["layer_steps"],
     },
 )

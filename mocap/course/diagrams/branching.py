@@ -1,9 +1,9 @@
 """Branch and bound, step by step on eight nodes, and its walks on the ground [KGP02, 4.2]."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from itertools import pairwise
 from math import dist, inf
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import matplotlib.pyplot as plt
 import networkx as nx
@@ -11,14 +11,12 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
-from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.text import Text
 
 from mocap._shared.arrays import Points
 from mocap.course.diagrams.pens import disc, say
 from mocap.course.diagrams.small_graphs import BOX, EIGHT_PLACES, eight_node_graph
-from mocap.plain import Edge
 from mocap.plotting import ASKED, COLOURS, CURVES, PATH, QUIET
 from mocap.plotting.ground_charts import seen_from_above
 
@@ -219,35 +217,3 @@ def from_above(
         ax.plot(goal.imag, goal.real, "*", color=ASKED, markersize=16, label="goal")
     ax.autoscale_view()
     return seen_from_above(ax)
-
-
-def laid_in_turn(
-    graph: nx.MultiDiGraph,
-    walk: Sequence[Edge],
-    tracks: Mapping[Edge, Points],
-    product_of: Callable[..., Any],
-) -> Figure:
-    """Draw the pieces of a walk: as captured, moved by the last transform alone, and by their product.
-
-    Parameters
-    ----------
-    graph, walk : as in `mocap.plain`; `lay` of an edge is its (turn, move).
-    tracks : the root's ground points along each edge.
-    product_of : composes rows (angle, x, z), shape (n, 3), into one.
-
-    Notebook: 07-walks-and-search
-    """
-    lays = [graph.edges[edge]["lay"] for edge in walk]
-    rows = np.array([(0, 0, 0), *[(np.angle(turn), np.imag(move), np.real(move)) for turn, move in lays]])
-    last = np.maximum.accumulate(np.arange(len(rows)) * rows.any(axis=1))[:-1]  # the last one that moves
-    states: dict[str, Any] = {
-        "as captured": np.zeros((len(walk), 3)),
-        "by the last transform": rows[last],
-        "by the product": [product_of(rows[: n + 1]) for n in range(len(walk))],
-    }
-    figure, axes = plt.subplots(1, 3, figsize=(11, 3.6), layout="constrained")
-    for ax, (name, places) in zip(axes, states.items(), strict=True):
-        laid = zip(walk, places, strict=True)
-        from_above([np.exp(1j * a) * tracks[edge] + z + 1j * x for edge, (a, x, z) in laid], ax=ax)
-        ax.set_title(name)
-    return figure

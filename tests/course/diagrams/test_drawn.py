@@ -3,7 +3,6 @@
 Of small_graphs, branching, layers, poses, windows, laying_clouds, ground, seams and pens.
 """
 
-import networkx as nx
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
@@ -37,22 +36,6 @@ def threads():
     return ax
 
 
-def laid_in_turn():
-    """Draw a clip of three frames, left after two by a transition that turns left, and entered anew."""
-    graph, a, b = nx.MultiDiGraph(), ((0, 0), (0, 2), 0), ((0, 2), (0, 0), 0)
-    graph.add_edge(*a, lay=(1, 0))
-    graph.add_edge(*b, lay=(1j, 2 + 0j))
-
-    def product(rows):
-        turn, move = 1, 0
-        for angle, x, z in rows:
-            turn, move = turn * np.exp(1j * angle), move + turn * (z + 1j * x)
-        return np.angle(turn), move.imag, move.real
-
-    tracks = {a: np.array([0, 1, 2]), b: np.array([2, 2 + 0.01j])}
-    return diagrams.laid_in_turn(graph, [a, b, a, b, a], tracks, product)
-
-
 def fitted(points, angle):
     """Lay points on those of the pair's first, turned by so much."""
     turn, mean = PlanarTransform(angle, 0.0, 0.0), point_cloud(PAIR[0]).reshape(-1, 3).mean(0)
@@ -79,7 +62,6 @@ PICTURES = {
     ],
     "search": lambda: drawn(diagrams.search_steps(EIGHT, 6, 2), 0, 1, 4, 9, 99),
     "from above": lambda: [diagrams.from_above([1j * EVEN + EVEN**2], tried=[EVEN, 1j * EVEN], goal=3j)],
-    "laid in turn": lambda: [laid_in_turn()],
     "nodes and edges": lambda: map(diagrams.nodes_and_edges, range(6)),
     "layers": lambda: drawn(diagrams.layer_steps(LINE, 5), (0, 4, True), (18, 4, True), (99, 2, False)),
     "window": lambda: (diagrams.window_cloud(WINDOW, step=step) for step in (1, 2, 3, 4)),
