@@ -250,12 +250,12 @@ def retarget(
 def _body(path: Path, scale: float | None) -> "Stance | body.Skeleton":
     """Read whose body it is, and, of a clip in which somebody stands, how it stands."""
     from mocap.editing.stances import stance_of_zero
-    from mocap.files.load_save import load_skeleton
+    from mocap.files.asf import read_skeleton
 
     if path.suffix.lower() == ".asf":
         if scale:
             raise MocapError(f"--to-scale is for clips; {path} says its unit of length itself.")
-        return load_skeleton(path)
+        return read_skeleton(path).skeleton
     clip = Reading(scale=scale).load(path)
     try:
         return editing.stance_of(clip)

@@ -6,7 +6,6 @@ from pathlib import Path
 
 from mocap._shared.arrays import Array
 from mocap.body.motion import Motion
-from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError
 from mocap.files import acclaim, amass, bvh, gltf
 from mocap.files.asf import read_skeleton
@@ -78,38 +77,12 @@ def read(
                 raise MocapError(f"All .npz files are in metres: leave out scale={scale:g}.")
             return amass.read(path, fps=fps)
         case ".asf":
-            raise MocapError(f"{path} is a skeleton without a motion: load_skeleton reads it.")
+            raise MocapError(f"{path} is a skeleton without a motion: files.asf.read_skeleton reads it.")
         case ".glb":
             raise MocapError(f"Cannot read {path}: mocap writes .glb, and reads {READ}.")
         case "":
             read_text(path, most=1)  # raises for a file that is not there, and for a folder
     raise MocapError(f"Cannot read {path}: mocap reads {READ}.")
-
-
-def load_skeleton(path: str | Path) -> Skeleton:
-    """Read a skeleton from an `.asf` file.
-
-    Parameters
-    ----------
-    path : the file.
-
-    Returns
-    -------
-    The joints, in metres.
-
-    Raises
-    ------
-    MocapError, FormatError : as for `load`.
-
-    Examples
-    --------
-    >>> load_skeleton("walk.amc")
-    Traceback (most recent call last):
-    mocap.errors.MocapError: Cannot read a skeleton from walk.amc: give an .asf file.
-    """
-    if Path(path).suffix.lower() != ".asf":
-        raise MocapError(f"Cannot read a skeleton from {path}: give an .asf file.")
-    return read_skeleton(path).skeleton
 
 
 def read_angles(path: str | Path, *, skeleton: str | Path | None = None) -> dict[str, Array]:
@@ -125,6 +98,7 @@ def read_angles(path: str | Path, *, skeleton: str | Path | None = None) -> dict
     Examples
     --------
     >>> from tempfile import TemporaryDirectory
+    >>> from mocap.body import Skeleton
     >>> bone = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 1, 0]])
     >>> turned = Motion(bone, [[0, 0, 0]], [[[0, 0, 1, 0], [1, 0, 0, 0]]], 30.0)
     >>> with TemporaryDirectory() as folder:
@@ -157,6 +131,7 @@ def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
     Examples
     --------
     >>> from tempfile import TemporaryDirectory
+    >>> from mocap.body import Skeleton
     >>> bone = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 1, 0]])
     >>> still = Motion(bone, [[0, 0, 0]], [[[1, 0, 0, 0], [1, 0, 0, 0]]], 30.0)
     >>> with TemporaryDirectory() as folder:

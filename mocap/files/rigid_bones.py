@@ -63,7 +63,9 @@ def fit(parents: NDArray[np.intp], places: Array, local: Array) -> Rigid:
     (True, array([0.71, 0.71, 0.  ]))
     """
     lengths = np.linalg.norm(places, axis=-1)
-    offsets = _towards(places.mean(axis=0), lengths.mean(axis=0))
+    middle = places.mean(axis=0)
+    short = np.linalg.norm(middle, axis=-1)
+    offsets = middle * np.where(short > 1e-9, lengths.mean(axis=0) / np.maximum(short, 1e-9), 1.0)[:, None]
     offsets[0] = 0.0
     there, turned = _in_world(parents, places, local)
     here, fitted = there.copy(), turned.copy()
@@ -81,13 +83,6 @@ def fit(parents: NDArray[np.intp], places: Array, local: Array) -> Rigid:
     stretch[0] = 0.0
     apart = np.linalg.norm(here - there, axis=-1).max(axis=0)
     return Rigid(offsets, rotations.from_matrix(own), stretch, apart)
-
-
-def _towards(vectors: Array, lengths: Array) -> Array:
-    """Give vectors (J, 3) these lengths (J,); those without a direction stay."""
-    now = np.linalg.norm(vectors, axis=-1)
-    scale = np.where(now > 1e-9, lengths / np.maximum(now, 1e-9), 1.0)
-    return np.asarray(vectors * scale[:, None])
 
 
 def _in_world(parents: NDArray[np.intp], places: Array, local: Array) -> tuple[Array, Array]:

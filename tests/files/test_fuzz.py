@@ -10,6 +10,7 @@ import pytest
 from mocap.datasets import samples
 from mocap.errors import FormatError, MocapError
 from mocap.files import load_save, path_files
+from mocap.files.asf import read_skeleton
 from tests.files.acclaim_clips import write_acclaim
 from tests.strategies import wave
 
@@ -149,7 +150,7 @@ def test_long_words_and_names_make_no_long_messages(tmp_path, suffix, long):
     for path in tmp_path.iterdir() if long == "names" else ():
         path.write_text(re.sub(r"elbow|hand|side", lambda name: name[0] * 5_000, path.read_text()))
     path = tmp_path / f"a{suffix}"
-    read = load_save.load_skeleton if suffix == ".asf" else load_save.load
+    read = read_skeleton if suffix == ".asf" else load_save.load
     texts = (broken if long == "names" else long_ones)(path.read_text())
     assert complaints(read, path, texts) > 20
 

@@ -11,6 +11,7 @@ import pytest
 
 from mocap.errors import FormatError
 from mocap.files import load_save
+from mocap.files.asf import read_skeleton
 from tests.conftest import SWEEP
 from tests.files.acclaim_clips import SPINE
 from tests.refusals import refusals, refused
@@ -66,9 +67,8 @@ def test_options(folder):
     motion = load_save.load(path, skeleton=path.with_name("b.ASF"), fps=60, scale=0.5)
     assert motion.fps == 60.0
     assert np.allclose(motion.skeleton.offsets[-1], [0, 1, 0])
-    load_save.load_skeleton(path.with_name("b.ASF")).require_same(
-        load_save.load(path, skeleton=path.with_name("b.ASF")).skeleton
-    )
+    alone = read_skeleton(path.with_name("b.ASF")).skeleton
+    alone.require_same(load_save.load(path, skeleton=path.with_name("b.ASF")).skeleton)
 
 
 @pytest.mark.parametrize("name", ["gone.amc", "gone.bvh", "folder.bvh", "folder.amc"])
@@ -89,9 +89,8 @@ def test_the_suffix_decides(tmp_path):
 
 test_other_formats_and_options_that_make_no_sense_are_refused = refusals(
     (r"mocap reads .amc .with .asf., .bvh and AMASS .npz", load_save.load, "walk.c3d"),
-    ("load_skeleton reads it", load_save.load, "walk.asf"),
+    ("files.asf.read_skeleton reads it", load_save.load, "walk.asf"),
     (r"mocap writes .bvh and .glb", load_save.save, wave(3), "b.fbx"),
-    (r"give an .asf file", load_save.load_skeleton, "walk.bvh"),
     (r"Cannot read walk.GLB: mocap writes .glb, and reads .amc", load_save.load, "walk.GLB"),
     ("All .npz files are in metres: leave out scale=2", partial(load_save.load, "walk.npz", scale=2.0)),
     *(
