@@ -55,7 +55,7 @@ def steer_group(
 
     Notebook: 19-group-graphs
     """
-    scene.check(start.places)
+    scene.check(complex(start.places.mean()))
     rules = rules or Flock()
     wishes, frames = whims(start.places.shape, rules, np.random.default_rng(seed)), [start]
     goal = 0

@@ -43,24 +43,17 @@ class Scene(NamedTuple):
     body: float = 0.3
     others: tuple[Points, ...] = ()
 
-    def check(self, places: Points | complex) -> None:
-        """Raise MocapError for what makes no sense, NoWalk for `places` too near to a disc."""
-        start = complex(np.mean(places))
+    def check(self, start: complex) -> None:
+        """Raise MocapError for what makes no sense, and for a start nowhere or inside a disc."""
         if not self.points or np.ndim(self.points) != 1 or not np.isfinite([start, *self.points]).all():
             says = f"A scene has finite points z + ix to pass, one or more, from a start; got {self.points}"
             raise MocapError(f"{says[:160]} from {start}.")
         for centre, radius in self.discs:
             if not (np.isfinite(centre) and 0 < radius < np.inf):
                 raise MocapError(f"An obstacle has a centre and a radius above 0, got {centre}, {radius}.")
-            at, gap = (
-                f"the obstacle at x={centre.imag:g}, z={centre.real:g}",
-                np.abs(places - centre) - radius,
-            )
             if abs(start - centre) < radius:
-                raise MocapError(f"The group starts inside {at}.")
-            if gap.min() < self.body:
-                far = f"Member {gap.argmin() + 1} starts {gap.min():.2f} m from the rim of {at}"
-                raise NoWalk(f"{far}: {self.body:g} m is the least.")
+                at = f"x={centre.imag:g}, z={centre.real:g}"
+                raise MocapError(f"The group starts inside the obstacle at {at}.")
 
 
 class Exits(NamedTuple):
@@ -184,7 +177,7 @@ def plan_group(
     Notebook: 19-group-graphs
     """
     begin = start or Placed(0)
-    scene.check(begin.turn * graph.nodes[begin.node].places + begin.move)
+    _check_start(graph, begin, scene)
     obstacles, points = Obstacles(scene), len(scene.points)
     exits = {node: Exits.of(graph, node) for node in {clip.start for clip in graph.clips}}
     waiting, count, farthest = [(0.0, 0, _State(begin, 0, 0, 0.0, ()))], 0, 0
@@ -218,6 +211,18 @@ def _why(graph: GroupGraph, scene: Scene, most: int) -> str:
     why = f"the limit of {most} states ended the search" if most else "obstacles closed every way"
     helps = "Set a point on the way, allow more states" if most else "Start farther off or turned"
     return f"{why}. {helps}, take fewer members, or leave gaps of {wide:.1f} m."
+
+
+def _check_start(graph: GroupGraph, start: Placed, scene: Scene) -> None:
+    """Raise MocapError for a start or a scene that makes no sense, NoWalk for a member too near to a disc."""
+    scene.check(start.move)
+    places = start.turn * graph.nodes[start.node].places + start.move
+    for centre, radius in scene.discs:
+        gap = np.abs(places - centre) - radius
+        if gap.min() < scene.body:
+            rim = f"the rim of the obstacle at x={centre.imag:g}, z={centre.real:g}"
+            far = f"Member {gap.argmin() + 1} starts {gap.min():.2f} m from {rim}"
+            raise NoWalk(f"{far}: {scene.body:g} m is the least.")
 
 
 def _go_on(exits: Exits, rows: Indices, state: _State, scene: Scene) -> Iterator[tuple[float, _State]]:
