@@ -518,7 +518,8 @@ def draw_registration() -> Figure:
     both = blending.register([generate_walk(path, speed=1.1, seed=1) for path in turns])
     blends = [blending.mix(both, [1 - share, share]) for share in np.linspace(0, 1, 5)]
     placed = [planar.place(blend, 0.0, [0, 0]) for blend in blends]
-    plotting.ground_tracks(placed, colours=[SOURCES[0], *[plotting.PATH] * 3, SOURCES[1]], ax=ground)
+    for way, colour in zip(placed, [SOURCES[0], *[plotting.PATH] * 3, SOURCES[1]], strict=True):
+        plotting.path_from_above(way, colour=colour, ax=ground)
     ground.set(title="left, right, and three blends of them")
     return figure
 

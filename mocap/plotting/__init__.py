@@ -31,7 +31,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "stick_figures": ["StickFigure", "ground_axes", "to_picture"],
         "bodies_on_path": ["bodies_along"],
         "grids": ["distance_image", "walk_rows"],
-        "ground_charts": ["draw_group_plan", "ground_tracks", "path_from_above"],
+        "ground_charts": ["draw_group_plan", "path_from_above"],
         "charts": ["joint_curve", "quartile_band"],
         "graph_drawing": ["node_link", "timeline"],
         "picture": ["show"],

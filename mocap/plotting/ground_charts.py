@@ -5,13 +5,12 @@ from collections.abc import Sequence
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
 
 from mocap._shared.arrays import Points
-from mocap.body import Motion, heading
+from mocap.body import Motion
 from mocap.plotting.picture import figure_of
 from mocap.plotting.style import ASKED, COLOURS, FLOOR, PATH, QUIET, SOURCES
 
@@ -50,40 +49,6 @@ def path_from_above(motion: Motion, *, colour: str = PATH, ax: Axes | None = Non
     x, z = motion.root_positions[:, [0, 2]].T
     way = ax.plot(x, z, color=colour, linewidth=2, label=motion.name)
     return way + ax.plot(x[:1], z[:1], "o", color=COLOURS["middle"], markersize=6)
-
-
-def ground_tracks(
-    motions: Sequence[Motion], *, colours: Sequence[str] = SOURCES, ax: Axes | None = None
-) -> list[Line2D]:
-    """Draw the ways of several motions from above, with a stroke each half second for where the body faces.
-
-    Parameters
-    ----------
-    motions : as they stand; `body.place` lets them start at one place.
-    colours : one for each motion.
-    ax : axes; new ones by default.
-
-    Returns
-    -------
-    The way of each motion.
-
-    Examples
-    --------
-    >>> from mocap import datasets
-    >>> lines = ground_tracks([datasets.sample("walk_straight")])
-    >>> lines[0].get_label()
-    'walk_straight'
-
-    Notebook: 15-registration
-    """
-    ax, ways = seen_from_above(ax), []
-    for motion, colour in zip(motions, colours, strict=False):
-        ways += path_from_above(motion, colour=colour, ax=ax)[:1]
-        step = max(round(motion.fps / 2), 1)
-        places, facing = motion.root_positions[::step][:, [0, 2]], heading(motion.rotations[::step, 0])
-        ends = places + 0.25 * np.stack([np.sin(facing), np.cos(facing)], axis=-1)
-        ax.add_collection(LineCollection(list(np.stack([places, ends], axis=1)), colors=colour, linewidths=1))
-    return ways
 
 
 def draw_group_plan(

@@ -97,7 +97,6 @@ PICTURES = {
     ],
     "rows": lambda: [plotting.walk_rows(np.array([[0.0, 150.0, np.nan], [300.0, 0.0, 0.0]]), highest=400.0)],
     "path": lambda: [plotting.path_from_above(wave(30))[0]],
-    "tracks": lambda: [plotting.ground_tracks([wave(90), datasets.sample("walk_straight")[:240]])],
     "plan": lambda: [plan()],
     "timeline": lambda: (plotting.timeline(graph(), **how) for how in ({}, {"most": 3}, {"each": 2})),
     "small graph": lambda: [small_graph()],
