@@ -15,13 +15,14 @@ Reading order
 6. `notebooks`: read a notebook, find its cells by their tags and the names that they use, run it
 7. `handout`: copies without solutions
 8. `formulas`: formulas as MathML
-9. `site`: the course as HTML pages, beside the reference pages of the package
-10. `conf`: how Sphinx makes these pages
-11. `opening`: the course in JupyterLab, and in JupyterLite
-12. `diagrams`: ideas drawn step by step
-13. `lab`: what students wrote is used, and what they thought is kept
-14. `marking`: marks for notebooks handed in, whose code runs sealed
-15. `teaching`: slides and films that are made from the notebooks
+9. `recording`: positions of an experiment, as pictures for pages without Python
+10. `site`: the course as HTML pages, beside the reference pages of the package
+11. `conf`: how Sphinx makes these pages
+12. `opening`: the course in JupyterLab, and in JupyterLite
+13. `diagrams`: ideas drawn step by step
+14. `lab`: what students wrote is used, and what they thought is kept
+15. `marking`: marks for notebooks handed in, whose code runs sealed
+16. `teaching`: slides and films that are made from the notebooks
 
 References
 ----------

@@ -135,7 +135,7 @@ def recorded_of(file: Path, notebook: Any) -> dict[str, Any]:  # noqa: ANN401
     """Run a copy of a notebook, and give the recording of each experiment by the source of its cell."""
     with tempfile.TemporaryDirectory() as folder:
         again = copy.deepcopy(notebook)
-        watching = f"from mocap.widgets import recording\nrecording.watch({folder!r})"
+        watching = f"from mocap.course import recording\nrecording.watch({folder!r})"
         again.cells[0] = library().v4.new_code_cell(watching)  # in place of the heading
         execute(again, file, 600)
         recorded = [json.loads(kept.read_text("utf-8")) for kept in sorted(Path(folder).iterdir())]

@@ -13,8 +13,7 @@ Reading order (notebooks 00 to 19)
 6. `ground_charts`: paths and ways from above
 7. `charts`: curves and bands
 8. `graph_drawing`: motion graphs as timelines and as nodes with arrows
-10. `storyboards`: a transition in panels
-11. `picture`: a figure as a picture in a notebook
+10. `picture`: a figure as a picture in a notebook
 
 References
 ----------

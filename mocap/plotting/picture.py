@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import html
 import io
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -52,29 +51,6 @@ def show(drawn: Any, alt: str) -> Picture:  # noqa: ANN401 (whatever a plotting 
     figure = figure_of(drawn)
     plt.close(figure)
     return Picture(small_png(legible(figure)), alt)
-
-
-def stack(figures: Sequence[Figure], alt: str) -> Picture:
-    """Show figures as one picture, one below the other.
-
-    Parameters
-    ----------
-    figures : from `bodies_along`, say, which draws figures that nobody has to close.
-    alt : a sentence that says what they show.
-
-    Examples
-    --------
-    >>> one, two = (Figure(figsize=(2, height)) for height in (1, 2))
-    >>> picture = stack([one, two], alt="Two empty figures, one below the other.")
-    >>> Image.open(io.BytesIO(picture.picture)).size
-    (220, 330)
-    """
-    parts = [Image.open(io.BytesIO(small_png(figure))) for figure in figures]
-    tops = np.cumsum([0, *(part.height for part in parts)]).tolist()
-    whole = Image.new("RGB", (max(part.width for part in parts), tops[-1]), "white")
-    for part, top in zip(parts, tops, strict=False):
-        whole.paste(part, (0, top))
-    return Picture(few_colours(whole, min(float(part.info["letters"]) for part in parts)), alt)
 
 
 @dataclass(frozen=True)

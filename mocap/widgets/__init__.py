@@ -13,14 +13,13 @@ Reading order (notebooks 00 to 19)
 6. `live_player`: players whose scene Python changes: a canvas for paths, sliders that mix
 7. `pointing`: handles to drag
 8. `experiments`: a picture with controls
-9. `recording`: positions of an experiment, as pictures for pages without Python
-10. `walk_figure`: the capsules of a body
-11. `shaded_picture`: bodies and their shadows, drawn without a browser
-12. `filmed_scene`: what a player shows at a moment
-13. `film`: a motion as a film, a strip of poses or a page
-14. `company`: characters that take their steps together, and how long each takes to obey
-15. `steered_widget`: characters side by side that obey one command of the reader
-16. `walking_page`: a page on which a figure walks along drawn lines
+9. `walk_figure`: the capsules of a body
+10. `shaded_picture`: bodies and their shadows, drawn without a browser
+11. `filmed_scene`: what a player shows at a moment
+12. `film`: a motion as a film, a strip of poses or a page
+13. `company`: characters that take their steps together, and how long each takes to obey
+14. `steered_widget`: characters side by side that obey one command of the reader
+15. `walking_page`: a page on which a figure walks along drawn lines
 
 References
 ----------

@@ -10,14 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mpl_toolkits.mplot3d import proj3d
 
-from mocap import resample
 from mocap.body.kinematics import joint_positions
-from mocap.datasets.samples import sample
-from mocap.matching import distance_grid
 from mocap.plotting import node_link, stick_figures
 from mocap.plotting.bodies_on_path import HIGH, LOW, WIDTH, bodies_along
 from mocap.plotting.stick_figures import to_picture
-from mocap.plotting.storyboards import Shot
 from tests.refusals import refusals
 from tests.strategies import random_motion, seeds, wave
 
@@ -64,12 +60,6 @@ def test_the_picture_fits_what_it_shows(frames):
     figure.canvas.draw()
     inside = figure.axes[0].get_window_extent().bounds
     assert inside[3] > 0.6 * high * figure.dpi or inside[2] > 0.9 * wide * figure.dpi
-
-
-def test_the_distance_that_a_storyboard_tells_is_that_of_the_grid():
-    walks = [resample(sample(f"walk_curve_{n}"), 30)[:120] for n in (1, 2)]
-    shot = Shot(walks[0], 56, walks[1], 20, 10, 20, 20, lambda ax: None)
-    assert shot.distance == pytest.approx(np.sqrt(distance_grid(*walks, window=10)[56, 20]))
 
 
 test_large_graphs_are_drawn_elsewhere = refusals(

@@ -1,6 +1,6 @@
 """The pictures show what they showed when they were last looked at; tests/drawn.py says how to draw anew.
 
-Of bodies, stick_figures, bodies_on_path, grids, ground_charts, charts, graph_drawing and storyboards.
+Of bodies, stick_figures, bodies_on_path, grids, ground_charts, charts and graph_drawing.
 """
 
 from dataclasses import replace
@@ -10,11 +10,10 @@ import networkx as nx
 import numpy as np
 import pytest
 
-from mocap import Motion, datasets, graphs, plotting, resample
+from mocap import datasets, graphs, plotting, resample
 from mocap.body import Skeleton, joint_positions
 from mocap.matching import distance_grid
 from mocap.plotting.bodies import film_strip
-from mocap.plotting.storyboards import Shot, storyboard
 from tests.drawn import hold
 from tests.strategies import wave
 
@@ -61,16 +60,6 @@ def plan():
     return plotting.draw_group_plan(np.ones((5, 1), complex), ax=figure.axes[0])
 
 
-def boards():
-    """Show a seam in panels, and one of a body without legs."""
-    shot = Shot(WALKS[0], 56, WALKS[1], 20, 10, 20, 20, lambda ax: ax.plot(0, 0))
-    for depth in (1, 2, 3, 4):
-        yield storyboard(shot, ["windows", "turn", "weights", "seam"][:depth])
-    pair = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 1, 0]])
-    pole = Motion(pair, np.linspace(0, [0, 1, 2], 30), np.tile([1.0, 0, 0, 0], (30, 2, 1)), 30.0, "pole")
-    yield storyboard(Shot(pole, 0, pole, 5, 2, 0, 0, lambda ax: None), ["windows", "turn", "weights"])
-
-
 PICTURES = {
     "flat bodies": lambda: map(flat, ("side", "front")),
     "strip": lambda: [
@@ -100,7 +89,6 @@ PICTURES = {
     "plan": lambda: [plan()],
     "timeline": lambda: (plotting.timeline(graph(), **how) for how in ({}, {"most": 3}, {"each": 2})),
     "small graph": lambda: [small_graph()],
-    "storyboard": boards,
 }
 
 

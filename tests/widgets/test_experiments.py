@@ -1,23 +1,21 @@
-"""Experiments, driven as a reader would drive them, by handles too, and recorded for pages without Python."""
+"""Experiments, driven as a reader would drive them, by handles too."""
 
 import base64
 import gc
 import io
-import json
 import sys
 import tracemalloc
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from IPython.core.interactiveshell import InteractiveShell
 from matplotlib.figure import Figure
 from PIL import Image
 
 from mocap.body.kinematics import joint_positions
 from mocap.errors import MocapError
 from mocap.plotting.stick_figures import StickFigure, ground_axes
-from mocap.widgets import experiments, recording
+from mocap.widgets import experiments
 from mocap.widgets.experiments import explore
 from mocap.widgets.pointing import handles
 from tests.refusals import refused
@@ -193,8 +191,6 @@ def test_other_controls_stand_beside_the_handles():
     before = pixels(experiment.png)
     assert np.any(pixels(experiment.set(scale=0.5).png) != before)
     assert experiment.controls["scale"] in experiment.box.children
-    assert recording.record(experiment)["name"] == "scale"
-    assert recording.record(bent()) is None
 
 
 @pytest.mark.parametrize(
@@ -218,87 +214,3 @@ def test_other_nonsense_is_refused():
         experiments.explore(
             lambda a, b: None, alt="", a=handles(ground(), POINTS), b=handles(ground(), POINTS)
         )
-
-
-ALT = "Points at random, as many as the slider says."
-
-
-def noise(**control):
-    """Show an experiment whose pictures are hard to compress."""
-    (name,) = control
-
-    def draw(value):
-        figure = plt.figure(figsize=(2, 1.5))
-        figure.add_axes([0, 0, 1, 1]).imshow(np.random.default_rng(int(500 + 4 * value)).random((75, 100)))
-        return figure
-
-    def named(first=0):
-        return draw(first)
-
-    def titled(grow_by=False):
-        return draw(grow_by)
-
-    return explore(named if name == "first" else titled, alt=ALT, **control)
-
-
-def opened(recorded):
-    return [Image.open(io.BytesIO(base64.b64decode(png))) for png in recorded["pictures"]]
-
-
-@pytest.mark.parametrize(
-    ("control", "labels"),
-    [
-        ((0, 3), ["0", "1", "2", "3"]),
-        ((0.0, 1.0, 0.25), ["0", "0.25", "0.5", "0.75", "1"]),
-        ({"none": 0, "some": 5}, ["none", "some"]),
-        ([4, 0], ["4", "0"]),
-        (False, ["off", "on"]),
-    ],
-)
-def test_each_kind_of_control_has_its_positions(control, labels):
-    experiment = noise(first=control)
-    recorded = recording.record(experiment, room=10**7)
-    assert (recorded["name"], recorded["labels"], recorded["alt"]) == ("first", labels, ALT)
-    assert recorded["at"] == (1 if control == [4, 0] else 0)
-    assert len({picture.tobytes() for picture in opened(recorded)}) == len(labels)
-    assert experiment.values() == {"first": 0}  # it is back in its place
-
-
-@pytest.mark.parametrize(("count", "at"), [(1001, 0), (404, 3), (502, 500), (18, 0), (16, 7), (15, 14)])
-def test_long_ranges_keep_their_ends_and_the_place_at_rest(count, at):
-    places = recording._spread(count, at, 15)
-    assert places == sorted(set(places))
-    assert len(places) == 15
-    assert {0, at, count - 1} <= set(places)
-
-
-def test_the_pictures_fit_the_room():
-    recorded = recording.record(noise(first=(0, 20)), room=20_000)
-    assert sum(len(base64.b64decode(png)) for png in recorded["pictures"]) <= 20_000
-    assert 5 <= len(recorded["pictures"]) <= 15
-    assert len({picture.size for picture in opened(recorded)}) == 1
-
-
-def kept_of(folder, names, *cells):
-    """Run cells that show experiments, and give what is kept of the one that is recorded."""
-    shell = InteractiveShell()
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("IPython.get_ipython", lambda: shell)
-        recording.watch(str(folder))
-    shell.user_ns.update(names)
-    for cell in cells:
-        shell.run_cell(cell)
-    (kept,) = folder.iterdir()
-    return json.loads(kept.read_text("utf-8"))
-
-
-def test_the_experiments_that_cells_show_are_recorded(tmp_path):
-    cells = ("1 + 1", "noise(grow_by=(0, 2))", "shown = noise(first=(0, 2))")
-    recorded = kept_of(tmp_path, {"noise": noise}, *cells)
-    assert (recorded["source"], recorded["name"]) == ("noise(grow_by=(0, 2))", "grow by")
-    assert recorded["labels"] == ["0", "1", "2"]
-
-
-def test_a_position_that_cannot_be_drawn_is_said(tmp_path):
-    shown = explore(lambda first=0: plt.figure(figsize=(1 / (2 - first), 1)), alt=ALT, first=(0, 2))
-    assert kept_of(tmp_path, {"shown": shown}, "shown")["error"].startswith("ZeroDivisionError")

@@ -14,7 +14,8 @@ Reading order (notebooks 00 to 09)
  6. `seams`: frames of a transition, ways between two rotations, a leg as a triangle, and added jolts
  7. `branching`: the walks that branch and bound takes up, and walks from above
  8. `layers`: the layered search along a line, with the line of its code that runs
- 9. `pens`: arrows, words and discs that several of them share
+ 9. `storyboards`: a transition in panels, for the laboratory
+10. `pens`: arrows, words and discs that several of them share
 
 References
 ----------

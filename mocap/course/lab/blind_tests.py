@@ -7,6 +7,7 @@ films show the same motion up to the seam, or else after it.
 
 from __future__ import annotations
 
+import io
 import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,6 +16,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from PIL import Image
 
 from mocap.blending.joining import join, lay_window_on
 from mocap.body.motion import Motion
@@ -23,7 +25,7 @@ from mocap.course.lab.sensitivity import sentence
 from mocap.errors import MocapError
 from mocap.matching.transitions import Transition, Transitions
 from mocap.plotting.bodies import film_strip
-from mocap.plotting.picture import stack
+from mocap.plotting.picture import few_colours, small_png
 from mocap.plotting.style import COLOURS
 from mocap.widgets.embedding import PAGE, PICTURE, SCENE, Embedded
 from mocap.widgets.packing import SIDES, packed_character
@@ -102,7 +104,9 @@ class BlindTest(Embedded):
         """The first pair, the left film above, as a PNG."""
         seam, control, on_left, *_ = self.pairs[0]
         films = [seam, control] if on_left else [control, seam]
-        return stack([film_strip([film]) for film in films], ALT).picture
+        rows = [Image.open(io.BytesIO(small_png(film_strip([film])))) for film in films]
+        both = Image.fromarray(np.concatenate([np.asarray(row.convert("RGB")) for row in rows]))
+        return few_colours(both, min(float(row.info["letters"]) for row in rows))
 
     @cached_property
     def scene(self) -> dict[str, Any]:

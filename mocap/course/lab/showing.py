@@ -21,13 +21,13 @@ from mocap.body import rotations
 from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
+from mocap.course.diagrams.storyboards import Shot, storyboard
 from mocap.course.lab.choices import CELLS, EACH, MOST, Choices, around, of_clips, of_graph, of_walk
 from mocap.errors import MocapError
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.matching.point_clouds import distinct_joints
 from mocap.plotting import ASKED, COLOURS, CURVES, MARK, PATH, QUIET, SOURCES, distance_image, timeline
 from mocap.plotting.picture import small_png
-from mocap.plotting.storyboards import Shot, storyboard
 from mocap.steering.followed import Followed
 from mocap.widgets.embedding import SHARED, TOUCH, Embedded
 from mocap.widgets.packing import SIDES, drawn, packed, with_contacts

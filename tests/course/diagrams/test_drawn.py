@@ -1,20 +1,20 @@
 """The diagrams draw what they drew when they were last looked at; tests/drawn.py says how to draw anew.
 
-Of small_graphs, branching, layers, poses, windows, laying_clouds, ground, seams and pens.
+Of small_graphs, branching, layers, poses, windows, laying_clouds, ground, seams, pens and storyboards.
 """
 
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from mocap import datasets, graphs, resample
+from mocap import Motion, datasets, graphs, resample
 from mocap.blending import cubic_weights, join, lay_window_on
-from mocap.body import GroundPath, PlanarTransform, arcs, rotations
+from mocap.body import GroundPath, PlanarTransform, Skeleton, arcs, rotations
 from mocap.course import diagrams
 from mocap.course.diagrams.layers import STRIDE
+from mocap.course.diagrams.storyboards import Shot, draw_matched, storyboard
 from mocap.course.seam_trials import Passage
 from mocap.matching import point_cloud
-from mocap.plotting.storyboards import draw_matched
 from tests.drawn import hold
 
 EIGHT = graphs.notes_example()
@@ -55,7 +55,21 @@ PRODUCTS = np.random.default_rng(0).integers(0, 10, (7, 9))
 NAMES = ["lfoot", "head"]
 MOVED = PlanarTransform(2.0, 1.5, -0.7)
 CIRCLE = datasets.sample("walk_circle")
+
+
+def boards():
+    """Show a seam in panels, and one of a body without legs."""
+    walks = [resample(datasets.sample(f"walk_curve_{n}"), 30)[:120] for n in (1, 2)]
+    shot = Shot(walks[0], 56, walks[1], 20, 10, 20, 20, lambda ax: ax.plot(0, 0))
+    for depth in (1, 2, 3, 4):
+        yield storyboard(shot, ["windows", "turn", "weights", "seam"][:depth])
+    pair = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 1, 0]])
+    pole = Motion(pair, np.linspace(0, [0, 1, 2], 30), np.tile([1.0, 0, 0, 0], (30, 2, 1)), 30.0, "pole")
+    yield storyboard(Shot(pole, 0, pole, 5, 2, 0, 0, lambda ax: None), ["windows", "turn", "weights"])
+
+
 PICTURES = {
+    "storyboard": boards,
     "tarjan": lambda: drawn(diagrams.tarjan_steps(EIGHT), *range(22), 99),
     "eight nodes": lambda: [
         diagrams.eight_node_graph(EIGHT, beside={1: "one"}, thick=[(3, 1)], parts=[{4}, {5}])

@@ -17,6 +17,7 @@ from mocap.body.motion import Motion, resample
 from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.course import lab
+from mocap.course.diagrams.storyboards import Shot
 from mocap.course.lab.choices import EACH, LONGEST, around, of_clips, of_graph, of_walk
 from mocap.course.lab.showing import STEP, TABS, Inspector, inspector, packed_clip, packed_skeleton, scene
 from mocap.datasets.samples import sample
@@ -209,3 +210,9 @@ def test_the_scripts_shades_are_those_of_the_pictures():
     for stop, exact in zip(stops, wanted, strict=True):
         apart = [int(stop[k : k + 2], 16) - int(exact[k : k + 2], 16) for k in (1, 3, 5)]
         assert np.abs(apart).max() <= 12, (stop, exact)
+
+
+def test_the_distance_that_a_storyboard_tells_is_that_of_the_grid():
+    walks = [resample(sample(f"walk_curve_{n}"), 30)[:120] for n in (1, 2)]
+    shot = Shot(walks[0], 56, walks[1], 20, 10, 20, 20, lambda ax: None)
+    assert shot.distance == pytest.approx(np.sqrt(distance_grid(*walks, window=10)[56, 20]))
