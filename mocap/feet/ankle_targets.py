@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 from scipy.linalg import solveh_banded
-from scipy.ndimage import binary_closing, binary_propagation
+from scipy.ndimage import binary_propagation
 
 from mocap._shared.arrays import Array, Mask, runs
 from mocap.body import rotations
@@ -27,10 +27,6 @@ FALL = 0.0167
 
 # At most: pulls of a plant to where its leg reaches. With 8 as many frames are held.
 PULLS = 4
-
-# Seconds. An ankle that leaves the ground for less, while its ball stands, comes back to its place: no knee
-# could lead it to another one in that time. Without it eight slow clips lose plants.
-CLOSE = 0.1
 
 # Metres: a leg that must become shorter by more, to stand in its place, is bent by `BENT`; and no triangle of
 # hip, ankle and ball is flatter, so that it shows on which side of the line from hip to ball the ankle is.
@@ -106,8 +102,7 @@ def foot_target(
     ankle, ball, fps = track.ankle, track.ball, track.motion.fps
     flat, down = marks
     length = float(track.leg.lengths(track.motion.skeleton)[2])
-    closed = flat | down & binary_closing(flat, np.ones(1 + round(CLOSE * fps)))
-    places = _pull_in(place_plants((ankle, ball), (closed, down), length) + moved, marks, track)
+    places = _pull_in(place_plants((ankle, ball), (flat, down), length) + moved, marks, track)
     for place, own, joint in zip(places, marks, track.leg[2:], strict=True):
         for start, stop in runs(own) if joint in held else ():
             known = np.flatnonzero(np.isfinite(held[joint][start:stop, 0])) + start

@@ -128,7 +128,7 @@ def let_go(marks: Mask, excesses: Sequence[tuple[slice, Array]], span: int) -> M
     Parameters
     ----------
     marks : shape (L, 2, F): when each leg's ankle and ball stand; settled for `span`.
-    excesses : of legs with a plant each, above 0 somewhere; of several within 0.2 s the later one counts.
+    excesses : of legs with a plant each, above 0 somewhere.
     span : how many frames to unmark before and after, and how many a plant or a gap lasts at least.
 
     Returns
@@ -149,11 +149,7 @@ def _nearest(
 ) -> Iterator[tuple[int, int, int]]:
     """Give the plants nearest to the worst frames, as for `let_go`: leg, joint, and the plant's frame."""
     frames = np.arange(marks.shape[-1])
-    later = np.zeros(len(frames), bool)
-    for legs, amount in reversed(excesses):
-        # Near what comes later only that counts: a root may have gone far just to spare a knee a jolt.
-        amount = np.where(later, 0.0, amount)
-        later |= maximum_filter1d(amount > 0, 8 * span + 1)
+    for legs, amount in excesses:
         # The worst frames: no other frame within `span` is worse.
         for worst in np.flatnonzero((amount > 0) & (amount == maximum_filter1d(amount, 2 * span + 1))):
             away = np.where(marks[legs], np.abs(frames - worst), len(frames))  # (legs, 2, F)

@@ -22,7 +22,7 @@ from scipy.ndimage import binary_propagation, maximum_filter1d
 
 from mocap._shared.arrays import Array, Mask
 from mocap.feet.ankle_targets import FLAT, FootTarget, band_product, bending_bands
-from mocap.feet.leg_track import BENT, ROUNDING, UP, dot
+from mocap.feet.leg_track import ROUNDING, UP, dot
 
 # Of the leg's length: 2 cm for a leg of 0.85 m. The root rises or falls by no more.
 MOST = 0.0235
@@ -59,8 +59,8 @@ def hold_plants(
 
     In the paper: [KSG02, step 3]. There the root moves in all directions, and step 4 may stretch the legs.
 
-    A knee that still jumps too far is pushed back by as much, again and again (an augmented Lagrangian), is
-    no longer straight there, and no longer bent backwards.
+    A knee that still jumps too far is pushed back by as much, again and again (an augmented Lagrangian), and
+    is no longer bent backwards there.
 
     Parameters
     ----------
@@ -101,10 +101,9 @@ def hold_plants(
 
 
 def _eased(target: FootTarget, jolts: Mask) -> FootTarget:
-    """Let a knee that jolts no longer be straight, nor bent backwards in the run in which it was."""
+    """Let a knee that jolts no longer be bent backwards in the run of frames in which it was."""
     back = target.side < 0
-    side = np.where(binary_propagation(back & jolts, mask=back), 1.0, target.side)
-    return target._replace(side=side, reach=np.where(jolts, target.track.long(BENT), target.reach))
+    return target._replace(side=np.where(binary_propagation(back & jolts, mask=back), 1.0, target.side))
 
 
 def _pose(target: FootTarget, rise: Array, extra: Array) -> tuple[Array, Array]:
