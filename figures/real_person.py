@@ -24,8 +24,7 @@ SETTLED = 10  # frames at the start of each take, before the joint angles have s
 
 def draw_person() -> Figure:
     """Draw bodies along the path, in the colours of their takes."""
-    walks = [datasets.cmu(trial.name) for trial in datasets.trials(16, "walk")]
-    clips = [resample(clip[SETTLED:], 30) for clip in walks]
+    clips = [resample(clip[SETTLED:], 30) for clip in datasets.cmu(subject=16, kind="walk")]
     graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
     with warnings.catch_warnings(action="ignore"):
         walk = follow_path(graph, s_curve(16.0))

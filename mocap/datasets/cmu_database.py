@@ -10,7 +10,7 @@ import csv
 import re
 from functools import cache
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, overload
 
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
@@ -65,8 +65,6 @@ def trials(subject: int | None = None, kind: str | None = None) -> list[Trial]:
     --------
     >>> [trial.name for trial in trials(subject=127, kind="walk")]
     ['127_04']
-
-    Notebook: 10-real-data
     """
     found = []
     for name, row in _registry().items():
@@ -82,17 +80,35 @@ def trials(subject: int | None = None, kind: str | None = None) -> list[Trial]:
     return found
 
 
-def cmu(clip: str, *, skeleton: Skeleton | Stance | None = None) -> Motion:
-    """Give a trial of the CMU database, at 120 Hz; `trials` lists those of a person or a kind.
+@overload
+def cmu(clip: str, *, skeleton: Skeleton | Stance | None = None) -> Motion: ...
+@overload
+def cmu(
+    *, subject: int | None = None, kind: str | None = None, skeleton: Skeleton | Stance | None = None
+) -> list[Motion]: ...
+def cmu(
+    clip: str | None = None,
+    *,
+    subject: int | None = None,
+    kind: str | None = None,
+    skeleton: Skeleton | Stance | None = None,
+) -> Motion | list[Motion]:
+    """Give a trial of the CMU database, or all trials of a person or a kind, at 120 Hz.
 
     Each person has a skeleton of their own, and a motion graph needs one for all clips: `skeleton` lets one
     body wear them.
 
     Parameters
     ----------
-    clip : a trial's name, such as "16_15"; `mocap data list` shows all of them.
-    skeleton : the body that wears the motion, as for `editing.retarget`; by default each person's own. A
+    clip : a trial's name, such as "16_15".
+    subject : without `clip`, the person's number.
+    kind : without `clip`, a word of the description, such as "walk"; `mocap data list` shows all of them.
+    skeleton : the body that wears the motions, as for `editing.retarget`; by default each person's own. A
         stance, such as `editing.stance_of(cmu("16_15"))`, also says how high the feet stand.
+
+    Returns
+    -------
+    The motion that `clip` names, else a list of motions.
 
     Raises
     ------
@@ -107,12 +123,16 @@ def cmu(clip: str, *, skeleton: Skeleton | Stance | None = None) -> Motion:
 
     Notebook: 10-real-data
     """
-    person = clip.split("_")[0]
-    if f"{person}/{clip}.amc" not in _registry():
-        raise MocapError(f"No trial '{clip}' is listed; `mocap data list` shows those that are.")
-    asf = fetch_listed(f"{person}/{person}.asf")
-    motion = load(fetch_listed(f"{person}/{clip}.amc"), skeleton=asf, fps=120.0)
-    return motion if skeleton is None else retarget(motion, skeleton)
+    if clip is not None:
+        subject_folder = clip.split("_")[0]
+        if f"{subject_folder}/{clip}.amc" not in _registry():
+            raise MocapError(f"No trial '{clip}' is listed; `mocap data list` shows those that are.")
+        asf = fetch_listed(f"{subject_folder}/{subject_folder}.asf")
+        motion = load(fetch_listed(f"{subject_folder}/{clip}.amc"), skeleton=asf, fps=120.0)
+        return motion if skeleton is None else retarget(motion, skeleton)
+    if subject is None and kind is None:
+        raise MocapError('Which trials? Name one, as in cmu("16_15"), or give subject= or kind=.')
+    return [cmu(trial.name, skeleton=skeleton) for trial in trials(subject, kind)]
 
 
 def fetch_listed(name: str) -> Path:

@@ -52,13 +52,14 @@ def test_a_trial_is_fetched_once(server, tmp_path, capsys):
 
 
 def test_a_subject_and_a_kind(server):
-    assert [trial.name for trial in cmu_database.trials(7)] == ["07_01", "07_02"]
-    assert [trial.name for trial in cmu_database.trials(kind="run")] == ["07_01", "08_01"]
+    assert [motion.name for motion in cmu_database.cmu(subject=7)] == ["07_01", "07_02"]
+    assert [motion.name for motion in cmu_database.cmu(kind="run")] == ["07_01", "08_01"]
     where = "in its description is listed; the subjects are 07, 08"
     with pytest.raises(MocapError, match=f"No trial of subject 8 with 'swim' {where}"):
-        cmu_database.trials(8, "swim")
+        cmu_database.cmu(subject=8, kind="swim")
     with pytest.raises(MocapError, match=f"No trial with 'zzz' {where}"):
-        cmu_database.trials(kind="zzz")
+        cmu_database.cmu(kind="zzz")
+    refused("Which trials", cmu_database.cmu)
     refused(r"No trial '../../x_1' is listed; `mocap data list`", cmu_database.cmu, "../../x_1")
 
 
@@ -129,7 +130,7 @@ def test_every_listed_file_is_found_without_a_network(real_data, monkeypatch):
     assert listed == sorted(str(p.relative_to(real_data / "cmu")) for p in (real_data / "cmu").rglob("*.a*"))
     for name in listed:
         assert cmu_database.fetch_listed(name) == real_data / "cmu" / name
-    walks = [cmu_database.cmu(trial.name) for trial in cmu_database.trials(16, "walk")]
+    walks = cmu_database.cmu(subject=16, kind="walk")
     assert len(walks) == 26
     lengths = {trial.name: trial.frames for trial in cmu_database.trials(16)}
     assert all(len(walk) == lengths[walk.name] for walk in walks)
@@ -153,5 +154,5 @@ def test_one_body_wears_the_clips_of_another_person(real_data, monkeypatch):
     assert graph.count("transition") > 0
     with pytest.raises(SkeletonMismatch):
         build([everyone[0], cmu_database.cmu("02_01")], window=10, threshold=0.08)
-    runs = [cmu_database.cmu(t.name, skeleton=own.skeleton) for t in cmu_database.trials(2, "walk")]
+    runs = cmu_database.cmu(subject=2, kind="walk", skeleton=own.skeleton)
     assert {clip.skeleton for clip in runs} == {own.skeleton}
