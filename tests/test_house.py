@@ -28,12 +28,12 @@ LISTED = dict(re.findall(r"^([a-z_]+)  +\w.*?(?:\(([\d, to]+)\))?$", mocap.__doc
 FACES = [room for room in ROOMS if room not in ("_shared", "cli", "methods")]
 BEHIND = (*STOREYS, "cli", "_shared")
 MOST = {
-    "lines of code": 18_821,  # the goal: 17 000
-    "lines of code in the course's rooms": 10_584,  # 9 500
-    "functions": 1_652,  # 1 400
-    "classes": 203,  # 170
-    "public names": 329,  # 250
-    "lines of tests": 22_031,  # 20 000
+    "lines of code": 17_983,  # the goal: 17 000
+    "lines of code in the course's rooms": 9_765,  # 9 500
+    "functions": 1_588,  # 1 400
+    "classes": 189,  # 170
+    "public names": 288,  # 250
+    "lines of tests": 21_309,  # 20 000
 }
 
 
