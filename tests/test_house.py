@@ -33,7 +33,7 @@ MOST = {
     "functions": 1_588,  # 1 400
     "classes": 189,  # 170
     "public names": 288,  # 250
-    "lines of tests": 21_309,  # 20 000
+    "lines of tests": 21_311,  # 20 000
 }
 
 

@@ -65,7 +65,8 @@ def ground_axes(
     along, across = (np.arange(np.ceil((c - reach) * 2), np.floor((c + reach) * 2) + 1) / 2 for c in centre)
     lines = [[(x0, 0, z - reach), (x0, 0, z + reach)] for x0 in along]
     lines += [[(x - reach, 0, z0), (x + reach, 0, z0)] for z0 in across]
-    ax.add_collection3d(Line3DCollection(to_picture(lines), colors=FLOOR, linewidths=0.8, zorder=0))
+    # The limits stay, and where there is no line matplotlib 3.9 finds none.
+    ax.add_collection3d(Line3DCollection(to_picture(lines), colors=FLOOR, lw=0.8, zorder=0), autolim=False)
     return ax
 
 

@@ -31,6 +31,10 @@ def test_world_axes_are_not_mirrored():
     assert y.tolist() == [0, 0, 1]  # up is up
 
 
+def test_a_ground_may_be_too_small_for_its_lines():
+    assert not len(stick_figures.ground_axes((0.2, 0.2), 0.1).collections[0]._segments3d)
+
+
 @given(seeds, st.floats(0.2, 30), st.floats(-1000, 1000))
 @settings(max_examples=15)
 def test_poses_are_never_cut_off(seed, size, away):
