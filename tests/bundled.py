@@ -6,9 +6,8 @@ from pathlib import Path
 from mocap.body.motion import Motion, resample
 from mocap.datasets import samples
 from mocap.files.load_save import load
+from mocap.graphs import MotionGraph, build, prune
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
-from mocap.graphs.motion_graph import MotionGraph, build
-from mocap.graphs.pruning import prune
 
 
 @cache

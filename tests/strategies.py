@@ -3,10 +3,7 @@
 import numpy as np
 from hypothesis import strategies as st
 
-from mocap.body import rotations
-from mocap.body.motion import Motion
-from mocap.body.planar import PlanarTransform
-from mocap.body.skeleton import Skeleton
+from mocap.body import Motion, PlanarTransform, Skeleton, rotations
 
 seeds = st.integers(0, 2**32 - 1)
 

@@ -8,8 +8,7 @@ import pytest
 
 import mocap
 from mocap import blending, body, datasets, graphs, matching, plain, steering, synthesis
-from mocap.body import rotations
-from mocap.body.kinematics import joint_positions
+from mocap.body import joint_positions, rotations
 from tests.bundled import walks_of_16
 
 K = plain.K

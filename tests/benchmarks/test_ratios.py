@@ -16,40 +16,40 @@ from asked_lines import heart, sine, spiral
 from walking import generate_walk
 
 from mocap import datasets, load, save
-from mocap.blending.joining import blend, inertialize, join
-from mocap.blending.mixing import mix
-from mocap.blending.registering import register
-from mocap.body.ground_path import SHAPES, GroundPath, circle, s_curve
+from mocap.blending import blend, inertialize, join, mix, register
+from mocap.body import SHAPES, GroundPath, Motion, PlanarTransform, circle, resample, s_curve
 from mocap.body.kinematics import forward_kinematics
-from mocap.body.motion import Motion, resample
-from mocap.body.planar import PlanarTransform
 from mocap.body.rotations import to_matrix
 from mocap.datasets import sample
-from mocap.editing.bending import LIMIT, bend
-from mocap.editing.displacements import displaced
-from mocap.editing.edits import edit, hierarchy, posed
-from mocap.editing.keys import Key, keys_around, offsets
-from mocap.editing.path_editing import on_path, ride_of
-from mocap.editing.pins import Pins, plant_pins
-from mocap.editing.retargeting import copied, retarget
-from mocap.editing.retiming import retime
-from mocap.editing.solver import solve
-from mocap.editing.stances import stance_of
-from mocap.editing.steps import Basis
-from mocap.feet.footplants import mark_plants
-from mocap.feet.footskate import clean_up
+from mocap.editing import (
+    LIMIT,
+    Basis,
+    Key,
+    Pins,
+    bend,
+    copied,
+    displaced,
+    edit,
+    hierarchy,
+    keys_around,
+    offsets,
+    on_path,
+    plant_pins,
+    posed,
+    retarget,
+    retime,
+    ride_of,
+    solve,
+    stance_of,
+)
+from mocap.feet import clean_up, mark_plants
 from mocap.files import load_path
-from mocap.graphs.motion_graph import build, from_transitions
-from mocap.graphs.pruning import prune, prune_graph
-from mocap.graphs.thresholds import threshold_curve
-from mocap.matching import distance_grid, point_cloud
-from mocap.matching.time_paths import time_path
+from mocap.graphs import build, from_transitions, prune, prune_graph, threshold_curve
+from mocap.matching import distance_grid, point_cloud, time_path
 from mocap.matching.transitions import Transitions, find_transitions
 from mocap.methods.match_webs import blend_of, build_web, search, weights_for
-from mocap.steering import Controller, FootTurner, measure_delay
-from mocap.steering.path_following import follow_path
-from mocap.synthesis.random_walks import random_walk
-from mocap.synthesis.walk_to_motion import to_motion
+from mocap.steering import Controller, FootTurner, follow_path, measure_delay
+from mocap.synthesis import random_walk, to_motion
 from tests.benchmarks.timing import fastest, least
 from tests.blending.registered import walks
 from tests.bundled import walking, walks_of_16

@@ -17,14 +17,12 @@ import psutil
 import pytest
 from walking import generate_walk
 
-from mocap.body.kinematics import joint_positions
-from mocap.body.planar import PlanarTransform
+from mocap.body import PlanarTransform, joint_positions
 from mocap.datasets.samples import sample
 from mocap.graphs.motion_graph import from_transitions
 from mocap.matching.transitions import Transition
 from mocap.plotting import graph_drawing, grids, stick_figures
-from mocap.widgets.experiments import explore
-from mocap.widgets.player import play
+from mocap.widgets import explore, play
 from tests.benchmarks.timing import least
 from tests.browser.conftest import browser, lab, page, run_notebook, wait_until  # noqa: F401
 from tests.browser.test_page import PLAYER, twelve

@@ -7,11 +7,7 @@ from functools import cache
 import numpy as np
 
 from mocap._shared.arrays import runs
-from mocap.body import rotations
-from mocap.body.kinematics import joint_positions
-from mocap.body.limbs import find_legs
-from mocap.body.motion import Motion
-from mocap.body.planar import heading, on_ground
+from mocap.body import Motion, find_legs, heading, joint_positions, on_ground, rotations
 from mocap.datasets.samples import sample
 from mocap.feet import mark_plants
 from mocap.files.load_save import load

@@ -8,8 +8,7 @@ import pytest
 from mocap.blending.clocks import clock_speed, frame_times, match_contacts
 from mocap.blending.registering import register
 from mocap.blending.timewarps import Curve
-from mocap.body.motion import Motion
-from mocap.body.skeleton import Skeleton
+from mocap.body import Motion, Skeleton
 from tests.blending.registered import walks
 from tests.refusals import refusals
 

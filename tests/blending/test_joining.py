@@ -9,13 +9,10 @@ from hypothesis import strategies as st
 
 from mocap.blending.joining import blend, inertialize, join, lay_window_on
 from mocap.blending.weights import cubic_weights, linear_weights, sine_weights
-from mocap.body import rotations
-from mocap.body.motion import Motion
-from mocap.body.skeleton import Skeleton
+from mocap.body import Motion, Skeleton, rotations
 from mocap.datasets import sample
 from mocap.errors import MocapError, SkeletonMismatch
-from mocap.matching.distance_grids import distance_grid
-from mocap.matching.point_clouds import point_cloud
+from mocap.matching import distance_grid, point_cloud
 from tests.refusals import refusals
 from tests.strategies import planar, random_motion, wave
 

@@ -10,8 +10,7 @@ from mocap._shared.arrays import runs
 from mocap.blending.clocks import frame_times
 from mocap.blending.mixing import crossfade, ground_course, mix
 from mocap.blending.registering import register
-from mocap.body.motion import resample
-from mocap.body.planar import PlanarTransform
+from mocap.body import PlanarTransform, resample
 from mocap.feet import clean_up
 from mocap.matching.point_clouds import align, point_cloud
 from tests.blending.registered import (

@@ -7,9 +7,7 @@ import numpy as np
 import pytest
 
 from mocap.blending.registering import register
-from mocap.body.motion import Motion
-from mocap.body.planar import PlanarTransform
-from mocap.body.skeleton import Skeleton
+from mocap.body import Motion, PlanarTransform, Skeleton
 from mocap.datasets import sample
 from mocap.errors import MocapWarning, SkeletonMismatch
 from tests.blending.registered import at_times, captured, strike_errors, walks

@@ -43,12 +43,7 @@ test_a_bad_motion_is_refused = refusals(
     ("above 0, got -3", resample, GIVEN, -3),
     ("one clip or more, got none", concatenate, []),
     ("30 Hz, 'wave' at 60 Hz", concatenate, [wave(3), replace(wave(3), fps=60)]),
-    (
-        SkeletonMismatch,
-        "'random1' and 'wave': The skel",
-        concatenate,
-        [random_motion(1), wave(3)],
-    ),
+    (SkeletonMismatch, "'random1' and 'wave': The skel", concatenate, [random_motion(1), wave(3)]),
 )
 
 

@@ -5,9 +5,7 @@ import hashlib
 import numpy as np
 import pytest
 
-from mocap.body.kinematics import joint_positions
-from mocap.body.limbs import find_legs
-from mocap.body.motion import resample
+from mocap.body import find_legs, joint_positions, resample
 from mocap.datasets import cmu_database, downloads
 from mocap.editing.stances import stance_of
 from mocap.errors import MocapError, SkeletonMismatch

@@ -13,13 +13,11 @@ from walking.walking_body import FOOT, SKELETON
 
 import mocap
 from mocap._shared.arrays import runs
-from mocap.body import rotations
+from mocap.body import Motion, rotations
 from mocap.body.kinematics import forward_kinematics, joint_positions
-from mocap.body.motion import Motion
 from mocap.datasets import SAMPLES, sample, samples
 from mocap.graphs import motion_graph, pruning
-from mocap.quality.clip_flaws import inspect
-from mocap.quality.falling import centre_of_mass, gravity
+from mocap.quality import centre_of_mass, gravity, inspect
 from tests.refusals import refusals
 
 

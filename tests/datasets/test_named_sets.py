@@ -7,9 +7,7 @@ import zipfile
 import numpy as np
 import pytest
 
-from mocap.body.limbs import find_legs
-from mocap.body.motion import Motion
-from mocap.body.skeleton import Skeleton
+from mocap.body import Motion, Skeleton, find_legs
 from mocap.cli.main import main
 from mocap.datasets import downloads, fetch_set, from_set, list_set, named_sets
 from mocap.datasets.named_sets import HASHES, SETS

@@ -5,10 +5,8 @@ from functools import cache
 
 import numpy as np
 
-from mocap.body import rotations
+from mocap.body import Motion, Skeleton, rotations
 from mocap.body.kinematics import forward_kinematics
-from mocap.body.motion import Motion
-from mocap.body.skeleton import Skeleton
 from mocap.datasets.samples import sample
 from mocap.editing.stances import Stance, proportioned, stance_of
 

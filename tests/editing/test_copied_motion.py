@@ -4,10 +4,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocap.body import rotations
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion
-from mocap.body.planar import PlanarTransform
+from mocap.body import Motion, PlanarTransform, joint_positions, rotations
 from mocap.editing.retargeting import copied
 from mocap.editing.stances import proportioned, stance_of
 from mocap.errors import SkeletonMismatch

@@ -5,8 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import concatenate, resample
+from mocap.body import concatenate, joint_positions, resample
 from mocap.body.planar import heading, lay_on
 from mocap.datasets import samples
 from mocap.editing.cycles import Loop, find_loop, loop, repeated

@@ -5,8 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocap.body.ground_path import GroundPath, arcs, circle
-from mocap.body.planar import on_ground
+from mocap.body import GroundPath, arcs, circle, on_ground
 from mocap.editing.line_rounding import _smoothed, round_line
 from mocap.editing.path_editing import Ride, moving_frames
 from mocap.editing.turning import places_on

@@ -7,10 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from mocap.body import rotations
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion, resample
-from mocap.body.skeleton import Skeleton
+from mocap.body import Motion, Skeleton, joint_positions, resample, rotations
 from mocap.datasets import samples
 from mocap.editing.mirroring import mirror, symmetry
 from mocap.errors import MocapWarning

@@ -10,15 +10,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
-from mocap.body.ground_path import GroundPath, arcs, circle
-from mocap.body.kinematics import joint_positions
-from mocap.body.planar import PlanarTransform
+from mocap.body import GroundPath, PlanarTransform, arcs, circle, joint_positions
 from mocap.datasets.samples import sample
 from mocap.editing.displacements import spline_basis
 from mocap.editing.path_editing import moving_frames, on_path, plants_kept, ride_of, start_at
 from mocap.errors import MocapWarning
-from mocap.feet.footplants import runs
-from mocap.feet.footskate import clean_up
+from mocap.feet import clean_up, runs
 from mocap.files.load_save import load
 from tests.editing.wishes import smoothness
 from tests.refusals import refusals

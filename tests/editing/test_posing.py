@@ -5,8 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mocap.body import rotations
-from mocap.body.kinematics import joint_positions
+from mocap.body import joint_positions, rotations
 from mocap.datasets.samples import sample
 from mocap.editing.displacements import displaced
 from mocap.editing.edits import posed

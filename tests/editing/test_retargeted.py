@@ -10,15 +10,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mocap import load
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion
+from mocap.body import Motion, joint_positions
 from mocap.editing.body_roles import FEET
 from mocap.editing.pins import pin_errors
 from mocap.editing.retargeting import copied, dips_of, floor_pins, retarget, standing_like
 from mocap.editing.stances import Stance, proportioned, stance_of
 from mocap.errors import MocapWarning, SkeletonMismatch
-from mocap.feet.footplants import mark_plants
-from mocap.feet.footskate import clean_up
+from mocap.feet import clean_up, mark_plants
 from tests.editing.bodies import LONG, adult, along_x, bends, child, renamed, rested, walk, without
 from tests.editing.test_path_editing import slide
 from tests.editing.wishes import bones

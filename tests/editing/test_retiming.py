@@ -8,8 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.interpolate import PchipInterpolator
 
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import resample
+from mocap.body import joint_positions, resample
 from mocap.datasets.samples import sample
 from mocap.editing.retiming import at_frames, retime
 from tests.editing.wishes import accelerations, body

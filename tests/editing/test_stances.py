@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocap.body import rotations
-from mocap.body.planar import PlanarTransform
+from mocap.body import PlanarTransform, rotations
 from mocap.editing.body_roles import FEET
 from mocap.editing.stances import Stance, proportioned, stance_of, stance_of_zero, standing_heights
 from mocap.feet.footplants import mark_plants

@@ -5,10 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from mocap.body.ground_path import GroundPath, circle
-from mocap.body.kinematics import joint_positions
-from mocap.body.limbs import find_legs
-from mocap.body.motion import resample
+from mocap.body import GroundPath, circle, find_legs, joint_positions, resample
 from mocap.datasets.samples import sample
 from mocap.editing.bending import bend
 from mocap.editing.path_editing import Ride, moving_frames, ride_of

@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocap.body import rotations
-from mocap.body.kinematics import joint_positions
+from mocap.body import joint_positions, rotations
 from mocap.datasets.samples import sample
 from mocap.editing.displacements import displaced
 from mocap.editing.keys import Key, cardinal, keys_around, offsets, scaled

@@ -6,13 +6,10 @@ from pathlib import Path
 import numpy as np
 
 from mocap._shared.arrays import runs
-from mocap.body import rotations
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion, resample
+from mocap.body import Motion, joint_positions, resample, rotations
 from mocap.datasets.samples import sample
 from mocap.editing.pins import Pins, join_pins, pin, pin_errors, plant_pins
-from mocap.feet.footplants import mark_plants
-from mocap.feet.footskate import clean_up
+from mocap.feet import clean_up, mark_plants
 from mocap.files.load_save import load
 
 FEET = ("lfoot", "ltoes", "rfoot", "rtoes")

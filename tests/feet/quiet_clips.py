@@ -5,10 +5,8 @@ from dataclasses import replace
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
-from mocap.body import rotations
+from mocap.body import Motion, find_legs, resample, rotations
 from mocap.body.kinematics import forward_kinematics, joint_positions
-from mocap.body.limbs import find_legs
-from mocap.body.motion import Motion, resample
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
 from mocap.feet.leg_track import UP, pose_leg, track_leg

@@ -9,8 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap._shared.arrays import runs
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import resample
+from mocap.body import joint_positions, resample
 from mocap.datasets.samples import SAMPLES, sample
 from mocap.feet.footplants import find_footprints, hysteresis, mark_plants, settle, standing_tracks
 from tests.refusals import refused

@@ -11,11 +11,7 @@ from walking import generate
 
 from mocap._shared.arrays import runs
 from mocap.blending.joining import inertialize, join
-from mocap.body import rotations
-from mocap.body.ground_path import SHAPES, s_curve
-from mocap.body.kinematics import joint_positions
-from mocap.body.limbs import find_legs
-from mocap.body.motion import Motion, resample
+from mocap.body import SHAPES, Motion, find_legs, joint_positions, resample, rotations, s_curve
 from mocap.datasets.samples import SAMPLES, sample
 from mocap.errors import MocapError, MocapWarning
 from mocap.feet import footskate
@@ -23,8 +19,7 @@ from mocap.feet.footplants import mark_plants, settle
 from mocap.feet.footskate import clean_up, let_go
 from mocap.files.load_save import load
 from mocap.steering.path_following import follow_path
-from mocap.synthesis.random_walks import random_walk
-from mocap.synthesis.walk_to_motion import to_motion
+from mocap.synthesis import random_walk, to_motion
 from tests.bundled import bundled
 from tests.feet.quiet_clips import check_clean_up, jumps
 from tests.strategies import planar, random_motion, seeds

@@ -7,9 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap.body import rotations
+from mocap.body import find_legs, rotations
 from mocap.body.kinematics import forward_kinematics
-from mocap.body.limbs import find_legs
 from mocap.datasets.samples import sample
 from mocap.feet.leg_track import BENT, UP, pose_leg, track_leg
 from tests.refusals import refused

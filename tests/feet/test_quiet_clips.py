@@ -5,9 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from mocap.body import find_legs, resample
 from mocap.body.kinematics import forward_kinematics
-from mocap.body.limbs import find_legs
-from mocap.body.motion import resample
 from mocap.datasets.samples import sample
 from mocap.feet.footskate import clean_up
 from mocap.feet.leg_track import track_leg

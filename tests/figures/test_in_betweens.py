@@ -10,13 +10,11 @@ from hypothesis import strategies as st
 from in_betweens import end_bending, in_between, two_sided_search
 from in_betweens.end_bending import bend_to
 
-from mocap.body import rotations
-from mocap.body.motion import resample
+from mocap.body import resample, rotations
 from mocap.body.planar import PlanarTransform, lay_on, on_ground, place
 from mocap.datasets import samples
 from mocap.errors import NoWalk
-from mocap.graphs.compiled_graph import compile_graph
-from mocap.graphs.motion_graph import from_transitions
+from mocap.graphs import compile_graph, from_transitions
 from mocap.matching.transitions import Transition
 from mocap.synthesis.walk_to_motion import require_walk
 from tests.bundled import walking

@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given
 from scipy.spatial.transform import Rotation
 
-from mocap.body import limbs
-from mocap.body.kinematics import joint_positions
+from mocap.body import joint_positions, limbs
 from mocap.errors import FormatError, MocapWarning
 from mocap.files import amass, load_save
 from tests.refusals import refused

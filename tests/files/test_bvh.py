@@ -10,10 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from mocap.body import euler, rotations
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion
-from mocap.body.skeleton import Skeleton
+from mocap.body import Motion, Skeleton, euler, joint_positions, rotations
 from mocap.errors import FormatError
 from mocap.files import bvh, load_save
 from tests.refusals import refused

@@ -15,9 +15,7 @@ from numpy.lib.format import write_array, write_array_header_1_0
 from mocap._shared.archives import pack
 from mocap.errors import MocapError
 from mocap.files import load_save
-from mocap.graphs import storage
-from mocap.graphs.graph_summary import summary
-from mocap.graphs.motion_graph import build
+from mocap.graphs import build, storage, summary
 from tests.conftest import SWEEP
 from tests.files.test_fuzz import complaints
 from tests.strategies import wave

@@ -7,9 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion, resample
-from mocap.body.skeleton import Skeleton
+from mocap.body import Motion, Skeleton, joint_positions, resample
 from mocap.datasets import samples
 from mocap.errors import MocapError
 from mocap.files import gltf, gltf_capsules

@@ -6,10 +6,7 @@ import numpy as np
 import pytest
 from scipy.ndimage import gaussian_filter1d
 
-from mocap.body import rotations
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion, resample
-from mocap.body.skeleton import Skeleton
+from mocap.body import Motion, Skeleton, joint_positions, resample, rotations
 from mocap.datasets import samples
 from mocap.errors import FormatError, MocapWarning
 from mocap.files import load_save, rigid_bones

@@ -9,8 +9,7 @@ from mocap.body.planar import PlanarTransform, on_ground
 from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import AHEAD, compile_graph, walk_track
 from mocap.graphs.motion_graph import from_transitions
-from mocap.synthesis.random_walks import random_walk
-from mocap.synthesis.walk_to_motion import to_motion
+from mocap.synthesis import random_walk, to_motion
 from tests.bundled import sneaking, walking
 from tests.refusals import refused
 from tests.strategies import wave

@@ -15,8 +15,7 @@ from mocap.graphs.components import reached
 from mocap.graphs.motion_graph import build, from_transitions, merge_choice_points
 from mocap.graphs.pruning import prune
 from mocap.graphs.thresholds import smallest_threshold
-from mocap.matching.point_clouds import align, point_cloud
-from mocap.matching.transitions import Transition, find_transitions
+from mocap.matching import Transition, align, find_transitions, point_cloud
 from tests.refusals import refusals
 from tests.strategies import random_motion, wave
 

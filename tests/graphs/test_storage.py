@@ -8,10 +8,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from mocap.body.motion import resample
-from mocap.body.skeleton import Skeleton
-from mocap.datasets.clip_origins import Origin
-from mocap.datasets.samples import sample
+from mocap.body import Skeleton, resample
+from mocap.datasets import Origin, sample
 from mocap.errors import FormatError, MocapError
 from mocap.files import load_save
 from mocap.graphs import storage

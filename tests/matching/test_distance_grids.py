@@ -112,10 +112,7 @@ test_what_has_no_distance_is_refused = refusals(
     (r"holds nan at \[0, 0, 0\]", against, np.full((5, 2, 3), np.nan)),
     ("holds 1e[+]30", against, np.full((5, 2, 3), 1e30)),
     *(
-        (
-            "must be 2 numbers, not negative and not all 0",
-            lambda w=w: against(POINTS, joint_weights=w),
-        )
+        ("must be 2 numbers, not negative and not all 0", lambda w=w: against(POINTS, joint_weights=w))
         for w in ([1, 1, 1], [1, -1], [0, 0], [1, np.nan])
     ),
     (r"two dimensions, got shape \(3,\)", local_minima, np.ones(3)),

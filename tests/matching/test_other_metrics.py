@@ -6,9 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-from mocap.body import euler, rotations
-from mocap.body.motion import Motion
-from mocap.body.skeleton import Skeleton
+from mocap.body import Motion, Skeleton, euler, rotations
 from mocap.errors import SkeletonMismatch
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.other_metrics import HOMEWORK_WEIGHTS, euler_grid, file_angles, root_grid

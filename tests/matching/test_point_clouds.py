@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given, settings
 from scipy.optimize import minimize
 
-from mocap.body.planar import PlanarTransform
-from mocap.body.skeleton import Skeleton
+from mocap.body import PlanarTransform, Skeleton
 from mocap.matching import align
 from mocap.matching.point_clouds import distinct_joints, rms_distance, unit_weights
 from tests.oracles import squared_distance

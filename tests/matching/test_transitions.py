@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from mocap._shared import tasks
-from mocap.body.motion import Motion
-from mocap.body.skeleton import Skeleton
+from mocap.body import Motion, Skeleton
 from mocap.errors import SkeletonMismatch
 from mocap.matching import minima, transitions
 from mocap.matching.distance_grids import distance_grid

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from mocap.body.motion import Motion
-from mocap.body.skeleton import Skeleton
+from mocap.body import Motion, Skeleton
 from mocap.files import load_save
 from mocap.quality.falling import SEGMENTS, centre_of_mass, gravity
 from tests.refusals import refusals

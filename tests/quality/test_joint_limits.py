@@ -5,9 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mocap.body import rotations
-from mocap.body.limbs import find_legs
-from mocap.body.motion import resample
+from mocap.body import find_legs, resample, rotations
 from mocap.datasets.samples import sample
 from mocap.quality.joint_limits import joint_bends
 

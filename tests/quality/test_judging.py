@@ -7,9 +7,7 @@ import pytest
 from hypothesis import given, settings
 
 from mocap.blending.joining import join
-from mocap.body import rotations
-from mocap.body.ground_path import GroundPath
-from mocap.body.motion import Motion, concatenate, resample
+from mocap.body import GroundPath, Motion, concatenate, resample, rotations
 from mocap.datasets import samples
 from mocap.files import load_save
 from mocap.quality.judging import Judgement, Measure, judge, judgement_table

@@ -7,8 +7,7 @@ import pytest
 from walking import generate
 
 from mocap.blending import join
-from mocap.body.motion import Motion, concatenate
-from mocap.body.skeleton import Skeleton
+from mocap.body import Motion, Skeleton, concatenate
 from mocap.datasets.samples import sample
 from mocap.errors import SkeletonMismatch
 from mocap.quality.seam_measures import jumps, knee_turns, seam_quality, spread

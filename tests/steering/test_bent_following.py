@@ -12,13 +12,11 @@ from asked_lines import LINES, random_line
 from mocap.body.ground_path import GroundPath, circle, letter_s
 from mocap.body.motion import resample
 from mocap.datasets import samples
-from mocap.editing.bending import LIMIT
-from mocap.editing.path_editing import plants_kept
+from mocap.editing import LIMIT, plants_kept
 from mocap.errors import MocapWarning, NoWalk
 from mocap.files.load_save import load
+from mocap.graphs import build, prune
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
-from mocap.graphs.motion_graph import build
-from mocap.graphs.pruning import prune
 from mocap.steering.bent_following import BentWalk
 from mocap.steering.path_following import follow_path
 from mocap.steering.path_objective import Settings, Wishes

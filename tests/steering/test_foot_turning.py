@@ -8,9 +8,7 @@ from hypothesis import strategies as st
 import mocap
 from mocap import graphs
 from mocap._shared.arrays import runs
-from mocap.body.kinematics import joint_positions
-from mocap.body.limbs import find_legs
-from mocap.body.planar import PlanarTransform, on_ground
+from mocap.body import PlanarTransform, find_legs, joint_positions, on_ground
 from mocap.feet.footplants import mark_plants
 from mocap.steering import Controller, FootTurner, measure_delay, steer
 from tests.bundled import bundled

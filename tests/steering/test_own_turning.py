@@ -3,13 +3,11 @@
 import numpy as np
 import pytest
 
-from mocap.body.ground_path import circle
-from mocap.body.planar import on_ground
+from mocap.body import circle, on_ground
 from mocap.editing.path_editing import moving_frames, ride_of
 from mocap.steering.bent_following import own_ride, plan_bending, turning_of
 from mocap.steering.path_objective import Wishes
-from mocap.synthesis.random_walks import random_walk
-from mocap.synthesis.walk_to_motion import to_motion
+from mocap.synthesis import random_walk, to_motion
 from tests.bundled import walking
 
 GRAPH = walking()

@@ -6,14 +6,10 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from mocap.body import ground_path
-from mocap.body.ground_path import GroundPath, s_curve
-from mocap.body.motion import resample
-from mocap.body.planar import on_ground
+from mocap.body import GroundPath, ground_path, on_ground, resample, s_curve
 from mocap.datasets.samples import sample
 from mocap.errors import MocapWarning, NoWalk
-from mocap.graphs.motion_graph import build
-from mocap.graphs.pruning import prune
+from mocap.graphs import build, prune
 from mocap.steering import followed as following
 from mocap.steering import path_following
 from mocap.steering.followed import account

@@ -10,16 +10,14 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import concatenate
+from mocap.body import concatenate, joint_positions
 from mocap.body.planar import IDENTITY
 from mocap.datasets.samples import sample
 from mocap.errors import NoWalk
 from mocap.feet.footplants import mark_plants
 from mocap.files import load_save
+from mocap.graphs import build, from_transitions, prune
 from mocap.graphs.edge_tables import edge_table
-from mocap.graphs.motion_graph import build, from_transitions
-from mocap.graphs.pruning import prune
 from mocap.matching.transitions import Transition
 from mocap.synthesis import random_walks
 from mocap.synthesis.random_walks import dump, random_walk, stream, wander

@@ -3,8 +3,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from mocap import datasets
-from mocap.body import Skeleton
-from mocap.body.motion import Motion
+from mocap.body import Motion, Skeleton
 from mocap.errors import MocapWarning
 from mocap.methods.match_webs import build_web, cut_out, match_search, search, turn
 from mocap.methods.match_webs.match_search import crossings

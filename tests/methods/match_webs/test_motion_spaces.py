@@ -9,10 +9,8 @@ from hypothesis import strategies as st
 from scipy.stats import kstest
 from walking import generate_walk
 
-from mocap.blending.mixing import mix
-from mocap.blending.registering import register
-from mocap.body import PlanarTransform, Skeleton, arcs, rotations
-from mocap.body.motion import Motion
+from mocap.blending import mix, register
+from mocap.body import Motion, PlanarTransform, Skeleton, arcs, rotations
 from mocap.methods.match_webs import blend_of, hand_target, mean_speed, random_weights, sample_space, turn
 from tests.methods.match_webs.spaces_of_walks import gait, space
 from tests.refusals import refusals, refused

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from mocap import datasets, resample
-from mocap.body import PlanarTransform, Skeleton
-from mocap.body.motion import Motion
+from mocap.body import Motion, PlanarTransform, Skeleton
 from mocap.errors import MocapWarning, SkeletonMismatch
 from mocap.matching import distance_grid
 from mocap.methods.match_webs import build_web, search

@@ -5,9 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from mocap.graphs.compiled_graph import compile_graph
-from mocap.graphs.motion_graph import build
-from mocap.graphs.pruning import prune
+from mocap.graphs import build, compile_graph, prune
 from mocap.methods.motion_matching.matching_control import MotionMatcher
 from mocap.methods.motion_matching.nearest_frames import Wants
 from mocap.methods.motion_matching.pose_database import tabulate

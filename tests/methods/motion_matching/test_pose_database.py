@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap.body.motion import concatenate
-from mocap.body.planar import heading, place
+from mocap.body import concatenate, heading, place
 from mocap.datasets.samples import sample
 from mocap.errors import SkeletonMismatch
 from mocap.methods.motion_matching import GROUPS, WEIGHTS, features

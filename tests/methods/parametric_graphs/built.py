@@ -7,8 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mocap.body import joint_positions, rotations
-from mocap.body.motion import Motion, resample
+from mocap.body import Motion, joint_positions, resample, rotations
 from mocap.datasets import samples
 from mocap.methods.match_webs import hand_target, mean_speed, random_weights, sample_space, turn, weights_for
 from mocap.methods.parametric_graphs import build_parametric, cut_actions, cut_strides, make_space

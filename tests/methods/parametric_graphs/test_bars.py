@@ -5,10 +5,7 @@ import pytest
 
 from mocap.methods.parametric_graphs.made_motions import optimal_transitions
 from mocap.methods.parametric_graphs.parametric_control import ParametricController
-from mocap.methods.parametric_graphs.parametric_edges import (
-    BAD,
-    build_edge,
-)
+from mocap.methods.parametric_graphs.parametric_edges import BAD, build_edge
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters
 from mocap.quality import plant_slides
 from mocap.steering import Controller, command_headings, steer

@@ -18,13 +18,7 @@ from mocap.methods.parametric_graphs.parametric_edges import (
     smallest_good,
 )
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters
-from tests.methods.parametric_graphs.built import (
-    SMALL,
-    bad_ones,
-    space,
-    walk_and_jog,
-    walking,
-)
+from tests.methods.parametric_graphs.built import SMALL, bad_ones, space, walk_and_jog, walking
 from tests.refusals import refusals
 
 PLACES = st.floats(-10, 10).map(lambda v: round(v, 2))

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from walking import generate_walk
 
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import resample
+from mocap.body import joint_positions, resample
 from mocap.errors import MocapError
 from mocap.matching.distance_grids import distance_grid
 from mocap.methods.match_webs import weights_for
@@ -18,10 +17,7 @@ from mocap.methods.parametric_graphs.made_motions import (
     near_end,
     optimal_transitions,
 )
-from mocap.methods.parametric_graphs.stride_spaces import (
-    draw_parameters,
-    place_evenly,
-)
+from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, place_evenly
 from tests.methods.parametric_graphs.built import by_turn_and_speed, clips, missed, space, strides
 from tests.refusals import refusals
 

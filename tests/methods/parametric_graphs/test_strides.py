@@ -5,9 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion, resample
-from mocap.body.planar import place
+from mocap.body import Motion, joint_positions, place, resample
 from mocap.body.rotations import multiply
 from mocap.datasets.samples import sample
 from mocap.errors import SkeletonMismatch
