@@ -14,8 +14,10 @@ from scipy.sparse.csgraph import min_weight_full_bipartite_matching
 from scipy.spatial import KDTree
 from scipy.spatial.distance import cdist
 
+from mocap.body import PlanarTransform
 from mocap.errors import MocapError, MocapWarning
 from mocap.methods import groups
+from mocap.methods.groups.planning import GroupWalk
 
 FOLDER = Path(__file__).parent
 SECONDS = 120.0  # simulated
@@ -142,9 +144,9 @@ def thousand() -> str:
 def passing(graph: groups.GroupGraph) -> tuple[object, ...]:
     """Plan a group around another that comes towards it, and without minding it."""
     first = groups.play_group(graph, groups.plan_group(graph, groups.Scene((24 + 0j,))).clips).places
-    back = groups.Placed(0, -1 + 0j, 24 + 0j)
+    back = PlanarTransform(np.pi, 0.0, 24.0)
 
-    def gap(found: groups.GroupWalk) -> float:
+    def gap(found: GroupWalk) -> float:
         places = groups.play_group(graph, found.clips, back).places[: round(found.seconds * groups.RATE) + 1]
         others = first[np.minimum(np.arange(len(places)), len(first) - 1)]
         return float(np.abs(places[:, :, None] - others[:, None]).min())

@@ -9,7 +9,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from mocap import datasets, editing, files, graphs, plotting, steering, synthesis, widgets
+from mocap import body, datasets, editing, files, graphs, plotting, steering, synthesis, widgets
 from mocap._shared.atomic import make_folder, replacing, require_folder
 from mocap.cli import options
 from mocap.cli.options import TURN, Building, Clean, Seed, Skeleton, Sources, Unit, bar, number, tell
@@ -227,11 +227,11 @@ def _walks(path: Path | None, skeleton: Path | None) -> "graphs.MotionGraph":
 
 def _plan(
     group: "groups.GroupGraph", scene: "groups.Scene"
-) -> "tuple[groups.Trajectories, groups.GroupWalk | None]":
+) -> "tuple[groups.Configuration, groups.planning.GroupWalk | None]":
     """Take a way that sets out towards the first point or, where that is closed, to one side of it."""
     refused: list[NoWalk] = []
     for turn in TURNS:
-        start = groups.Placed(0, cmath.rect(1.0, cmath.phase(scene.points[0]) + turn))
+        start = body.PlanarTransform(cmath.phase(scene.points[0]) + turn, 0.0, 0.0)
         try:
             return groups.lead_group(group, scene, start=start, **({"most": SOON} if turn else {}))
         except NoWalk as error:

@@ -13,7 +13,7 @@ from scipy.optimize import linear_sum_assignment
 
 from mocap._shared.arrays import Array, Indices, Mask, Points
 from mocap.errors import MocapError, warn
-from mocap.methods.groups.flocking import RATE, Configuration, Trajectories
+from mocap.methods.groups.flocking import RATE, Configuration
 
 SECONDS = 0.7  # a difference of 1 m/s counts as much as 0.7 m
 STARTS = (0.0, 0.5, -0.5)  # radians about where the velocities point
@@ -155,7 +155,7 @@ class Clusters(NamedTuple):
     distances: Array
 
 
-def cluster(flock: Trajectories, *, nodes: int = 8, reach: float = 0.5) -> Clusters:
+def cluster(flock: Configuration, *, nodes: int = 8, reach: float = 0.5) -> Clusters:
     """Choose configurations that come again [LCF05, nodes]; how is ours.
 
     Each time the one with the most others within `reach` that no node has yet. Comparing is O(S² N³) for S

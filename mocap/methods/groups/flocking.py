@@ -57,7 +57,7 @@ class Flock(NamedTuple):
 class Configuration(NamedTuple):
     """Where N members are and how they move: `places` and `velocities`, (..., N) complex each.
 
-    Leading axes hold other configurations: frames, or runs side by side.
+    Leading axes hold other configurations: frames, ten per second, or runs side by side.
 
     Examples
     --------
@@ -67,10 +67,6 @@ class Configuration(NamedTuple):
 
     places: Points
     velocities: Points
-
-
-Trajectories = Configuration
-"""Configurations frame by frame, (F, N), ten per second."""
 
 
 def whims(shape: tuple[int, ...], rules: Flock, random: np.random.Generator) -> Iterator[Points]:
@@ -94,7 +90,7 @@ def whims(shape: tuple[int, ...], rules: Flock, random: np.random.Generator) -> 
         yield np.asarray(np.exp(1j * direction) * np.clip(1 + mood, 0.6, 1.4))
 
 
-def steering_force(now: Trajectories, wish: Points, rules: Flock, besides: Points | float = 0.0) -> Points:
+def steering_force(now: Configuration, wish: Points, rules: Flock, besides: Points | float = 0.0) -> Points:
     """Work out each member's acceleration by the rules [Rey87], m/s².
 
     separate · Σ ê (space - d) / space over those nearer than `space`, gather · (mean place - p) and
@@ -125,8 +121,8 @@ def steering_force(now: Trajectories, wish: Points, rules: Flock, besides: Point
 
 
 def advance(
-    now: Trajectories, wish: Points, rules: Flock, besides: Points | float = 0.0, room: float = np.inf
-) -> Trajectories:
+    now: Configuration, wish: Points, rules: Flock, besides: Points | float = 0.0, room: float = np.inf
+) -> Configuration:
     """Go on by one frame; those who come too near are put apart, half each, in three passes [ours].
 
     Who is further than `room` from the line x = 0 is put back to it by up to 2 cm a pass: harder, and the
@@ -134,7 +130,7 @@ def advance(
 
     Examples
     --------
-    >>> still = Trajectories(np.array([0j, 5j]), np.array([1 + 0j, 1 + 0j]))
+    >>> still = Configuration(np.array([0j, 5j]), np.array([1 + 0j, 1 + 0j]))
     >>> advance(still, np.ones(2, complex), Flock(whim=0)).places.real.round(2)
     array([0.1, 0.1])
     """
@@ -146,7 +142,7 @@ def advance(
         places = places + push_apart(places, APART + MARGIN)
         beyond = places.imag - np.clip(places.imag, -room, room)
         places = places - 1j * np.clip(beyond, -HELD, HELD)
-    return Trajectories(places, (places - now.places) * RATE)
+    return Configuration(places, (places - now.places) * RATE)
 
 
 def push_apart(places: Points, apart: float) -> Points:
@@ -164,7 +160,7 @@ def push_apart(places: Points, apart: float) -> Points:
 
 def simulate(
     count: int, seconds: float, *, corridor: float = np.inf, rules: Flock | None = None, seed: int = 0
-) -> Trajectories:
+) -> Configuration:
     """Let a flock wander over open ground, or walk along a corridor [LCF05, simulation].
 
     Parameters
@@ -196,7 +192,7 @@ def simulate(
         raise MocapError(f"A corridor is wider than {2 * BODY + APART:g} m, got {corridor} m.")
     count, rules, random = int(count), rules or Flock(), np.random.default_rng(seed)
     start = random.normal(0, 1.5, (2, count))
-    now = Trajectories(start[0] + 1j * start[1], np.ones(count, complex))
+    now = Configuration(start[0] + 1j * start[1], np.ones(count, complex))
     wishes, heading, bend, frames = whims((count,), rules, random), 0.0, 0.0, []
     room, wall = corridor / 2 - BODY, np.zeros(count, complex)
     for _ in range(round((seconds + SETTLE) * RATE)):
@@ -211,9 +207,9 @@ def simulate(
     return stacked(frames[round(SETTLE * RATE) :])
 
 
-def stacked(frames: Sequence[Configuration]) -> Trajectories:
+def stacked(frames: Sequence[Configuration]) -> Configuration:
     """Put configurations one after the other."""
-    return Trajectories(*(np.array(part) for part in zip(*frames, strict=True)))
+    return Configuration(*(np.array(part) for part in zip(*frames, strict=True)))
 
 
 def nearest_two(places: Points) -> Array:

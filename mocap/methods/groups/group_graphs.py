@@ -2,14 +2,13 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Points
+from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import MocapError, warn
 from mocap.methods.groups.configurations import cluster, seen_from_itself
-from mocap.methods.groups.flocking import APART, Configuration, Trajectories, simulate
+from mocap.methods.groups.flocking import APART, Configuration, simulate
 from mocap.methods.groups.group_clips import HARDEST, GroupClip, clips_from
 
 CORRIDORS = (2.5, 2.0, 1.7)  # metres from wall to wall
@@ -41,28 +40,6 @@ class GroupGraph:
     def leaving(self, node: int) -> list[int]:
         """List the numbers of the clips that leave a node."""
         return [number for number, clip in enumerate(self.clips) if clip.start == node]
-
-
-class Placed(NamedTuple):
-    """Where a group stands before its next clip: its node, and how the node lies on the ground.
-
-    Examples
-    --------
-    >>> Placed(0).turn
-    (1+0j)
-    """
-
-    node: int
-    turn: complex = 1 + 0j
-    move: complex = 0j
-
-    def sees(self, spots: Points) -> Points:
-        """Say where spots of the ground lie as the group sees them."""
-        return (spots - self.move) / self.turn
-
-    def after(self, clip: GroupClip) -> "Placed":
-        """Say where the group stands after a clip."""
-        return Placed(clip.end, self.turn * clip.turn, self.turn * clip.move + self.move)
 
 
 def make_clips(nodes: Sequence[Configuration], *, seed: int = 0) -> GroupGraph:
@@ -166,7 +143,7 @@ def random_group_walk(graph: GroupGraph, clips: int, *, start: int = 0, seed: in
     return walk
 
 
-def play_group(graph: GroupGraph, walk: Sequence[int], start: Placed | None = None) -> Trajectories:
+def play_group(graph: GroupGraph, walk: Sequence[int], start: PlanarTransform = IDENTITY) -> Configuration:
     """Put clips in a row: where every member goes, one column for each from start to end [LCF05, playing].
 
     Places, turns *and the members' numbers* multiply up: the member in slot s of a clip's start goes on in
@@ -176,7 +153,7 @@ def play_group(graph: GroupGraph, walk: Sequence[int], start: Placed | None = No
     ----------
     graph : whose clips.
     walk : numbers of clips, each leaving the node where the one before ends.
-    start : where the first configuration lies; as it is seen by itself by default.
+    start : how the first configuration lies on the ground; as it is seen by itself by default.
 
     Raises
     ------
@@ -193,13 +170,14 @@ def play_group(graph: GroupGraph, walk: Sequence[int], start: Placed | None = No
     if not len(walk):
         raise MocapError("A walk of a group has one clip or more, got none.")
     clips = [graph.clips[number] for number in walk]
-    at = start or Placed(clips[0].start)
+    node, turn, move = clips[0].start, start.turn, start.move
     order, places, velocities = np.arange(graph.members), [], []
     for clip in clips:
-        if at.node != clip.start:
-            raise MocapError(f"A group at node {at.node} cannot go on by a clip that leaves {clip.start}.")
-        places.append((at.turn * clip.places + at.move)[:, order])
-        velocities.append((at.turn * clip.velocities)[:, order])
-        order, at = clip.order[order], at.after(clip)
+        if node != clip.start:
+            raise MocapError(f"A group at node {node} cannot go on by a clip that leaves {clip.start}.")
+        places.append((turn * clip.places + move)[:, order])
+        velocities.append((turn * clip.velocities)[:, order])
+        node, order = clip.end, clip.order[order]
+        turn, move = turn * clip.turn, turn * clip.move + move
     rows = ([*(frames[:-1] for frames in part), part[-1][-1:]] for part in (places, velocities))
-    return Trajectories(*map(np.concatenate, rows))
+    return Configuration(*map(np.concatenate, rows))

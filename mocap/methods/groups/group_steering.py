@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mocap._shared.arrays import Array, Points
+from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import NoWalk
 from mocap.methods.groups.flocking import (
     APART,
@@ -15,14 +16,13 @@ from mocap.methods.groups.flocking import (
     Configuration,
     Disc,
     Flock,
-    Trajectories,
     advance,
     nearest_two,
     stacked,
     unit,
     whims,
 )
-from mocap.methods.groups.group_graphs import GroupGraph, Placed, play_group
+from mocap.methods.groups.group_graphs import GroupGraph, play_group
 from mocap.methods.groups.planning import MOST, GroupWalk, Scene, plan_group
 
 DISC_FROM = 2.0  # metres from a disc at which a member begins to steer away
@@ -32,7 +32,7 @@ LIMIT = 120.0  # seconds
 
 def steer_group(
     start: Configuration, scene: Scene, *, rules: Flock | None = None, seed: int = 0, limit: float = LIMIT
-) -> tuple[Trajectories, int]:
+) -> tuple[Configuration, int]:
     """Simulate a flock that steers to each point in turn and away from discs [Rey87].
 
     Parameters
@@ -69,8 +69,8 @@ def steer_group(
 
 
 def lead_group(
-    graph: GroupGraph, scene: Scene, *, start: Placed | None = None, most: int = MOST
-) -> tuple[Trajectories, GroupWalk | None]:
+    graph: GroupGraph, scene: Scene, *, start: PlanarTransform = IDENTITY, most: int = MOST
+) -> tuple[Configuration, GroupWalk | None]:
     """Take the quicker of two ways that keep clear: the planned one, or that of a flock that steers [ours].
 
     Clips turn by 1.2 rad in four seconds, so to a goal aside or behind a flock without whims comes sooner.
@@ -97,23 +97,22 @@ def lead_group(
     >>> plan is None, len(flock.places) / RATE < 0.7 * plan_group(graph, goal_behind).seconds
     (True, True)
     """
-    at = start or Placed(0)
     try:
-        plan = plan_group(graph, scene, start=at, most=most)
+        plan = plan_group(graph, scene, start=start, most=most)
     except NoWalk:
-        if steered := _steered(graph, scene, at, LIMIT):
+        if steered := _steered(graph, scene, start, LIMIT):
             return steered, None
         raise
-    if steered := _steered(graph, scene, at, plan.seconds):
+    if steered := _steered(graph, scene, start, plan.seconds):
         return steered, None
-    played = play_group(graph, plan.clips, at)
-    return Trajectories(*(part[: round(plan.seconds * RATE) + 1] for part in played)), plan
+    played = play_group(graph, plan.clips, start)
+    return Configuration(*(part[: round(plan.seconds * RATE) + 1] for part in played)), plan
 
 
-def _steered(graph: GroupGraph, scene: Scene, at: Placed, limit: float) -> Trajectories | None:
+def _steered(graph: GroupGraph, scene: Scene, start: PlanarTransform, limit: float) -> Configuration | None:
     """Steer without whims; None where the flock is not there in time, or not as clear of all as a plan."""
-    first = Configuration(*(at.turn * part for part in graph.nodes[at.node]))
-    first = first._replace(places=first.places + at.move)
+    places, velocities = (start.turn * part for part in graph.nodes[0])
+    first = Configuration(places + start.move, velocities)
     flock, passed = steer_group(first, scene, rules=Flock(whim=0.0), limit=limit)
     frames, gaps = np.arange(len(flock.places)), [nearest_two(flock.places).min()]
     for other in scene.others:

@@ -15,7 +15,7 @@ from mocap.errors import MocapError, MocapWarning, warn
 from mocap.feet.footskate import clean_up
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph
-from mocap.methods.groups.flocking import RATE, Trajectories, nearest_two
+from mocap.methods.groups.flocking import RATE, Configuration, nearest_two
 from mocap.steering.path_following import follow_path
 from mocap.steering.path_objective import Settings, Wishes
 from mocap.synthesis.walk_to_motion import with_plants
@@ -69,7 +69,7 @@ class GroupWalkers:
 
 
 def walk_group(
-    graph: MotionGraph | CompiledGraph, flock: Trajectories, *, bend: bool = True, progress: Progress = iter
+    graph: MotionGraph | CompiledGraph, flock: Configuration, *, bend: bool = True, progress: Progress = iter
 ) -> GroupWalkers:
     """Walk each member's way by a character of a motion graph, in place and in time [ours].
 
@@ -103,7 +103,7 @@ def walk_group(
     >>> clips = [body.resample(datasets.sample(name), 30) for name in ("walk_circle", "walk_curve_1")]
     >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
     >>> steps = 0.09 * np.arange(41)[:, None]
-    >>> plan = Trajectories(steps + [0j, 1.5j], np.full((41, 2), 0.9 + 0j))
+    >>> plan = Configuration(steps + [0j, 1.5j], np.full((41, 2), 0.9 + 0j))
     >>> walkers = walk_group(graph, plan)
     >>> len(walkers.motions), bool(walkers.nearest > 1.2)
     (2, True)

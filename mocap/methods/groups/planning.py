@@ -8,15 +8,16 @@ ours.
 from cmath import phase
 from collections.abc import Iterator
 from heapq import heappop, heappush
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Indices, Points
+from mocap._shared.arrays import Indices, Points
+from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import MocapError, NoWalk
 from mocap.methods.groups.flocking import APART, RATE, Disc
-from mocap.methods.groups.group_clips import SHIFTS, GroupClip
-from mocap.methods.groups.group_graphs import GroupGraph, Placed
+from mocap.methods.groups.group_clips import SHIFTS
+from mocap.methods.groups.group_graphs import GroupGraph
 
 PACE = 1.05  # m/s, at which a group is expected to go on
 TURNING = 1.3  # seconds per radian still to turn
@@ -56,64 +57,73 @@ class Scene(NamedTuple):
                 raise MocapError(f"The group starts inside the obstacle at {at}.")
 
 
-class Exits(NamedTuple):
-    """The C clips that leave a node, side by side, which all last as long.
-
-    `places` (C, F, N), complex, and their `middles` (C, F); `centres`, `radii` and `turns` (C,).
-    """
-
-    numbers: list[int]
-    clips: list[GroupClip]
-    places: Points
-    middles: Points
-    centres: Points
-    radii: Array
-    turns: Points
-
-    @classmethod
-    def of(cls, graph: GroupGraph, node: int) -> "Exits":
-        """Take the clips that leave a node, which all last as long."""
-        numbers = graph.leaving(node)
-        clips = [graph.clips[number] for number in numbers]
-        bounds: Any = zip(*((*clip.disc, clip.turn) for clip in clips), strict=True)
-        places = np.array([clip.places for clip in clips])
-        return cls(numbers, clips, places, places.mean(axis=2), *map(np.array, bounds))
-
-
-class Obstacles:
-    """What a clip may run into, and how often bounds alone were enough.
+class Search:
+    """All clips of a graph side by side, what they may run into, and how often bounds alone were enough.
 
     Parameters
     ----------
+    graph : whose clips, which all last as long.
     scene : whose discs and other groups.
     """
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, graph: GroupGraph, scene: Scene) -> None:
+        clips = graph.clips
+        self.graph, self.scene, self.places = graph, scene, np.array([clip.places for clip in clips])
+        self.middles, self.turns = self.places.mean(axis=2), np.array([clip.turn for clip in clips])
+        self.centres, self.radii = (
+            np.array(part) for part in zip(*(clip.disc for clip in clips), strict=True)
+        )
+        self.leaving = [np.array(graph.leaving(node), int) for node in range(len(graph.nodes))]
         self.spots = np.array([spot for spot, _ in scene.discs], dtype=np.complex128)
         self.sizes = np.array([radius + scene.body for _, radius in scene.discs])
-        self.others = scene.others
         self.tested = self.spared = 0
 
-    def free(self, exits: Exits, at: Placed, frame: int) -> Indices:
-        """List which of the clips that leave a node keep clear of all, laid at a place, from a frame on."""
-        spots = at.sees(self.spots)
-        near = np.abs(exits.centres[:, None] - spots) <= exits.radii[:, None] + self.sizes
+    def free(self, node: int, turn: complex, move: complex, frame: int) -> Indices:
+        """List the clips that leave a node, turned and moved, and keep clear of all, from a frame on."""
+        clips, spots = self.leaving[node], (self.spots - move) / turn  # as the group sees them
+        near = np.abs(self.centres[clips, None] - spots) <= self.radii[clips, None] + self.sizes
         self.spared += near.size - int(near.sum())
-        free = np.ones(len(exits.clips), bool)
+        free = np.ones(len(clips), bool)
         for disc in np.flatnonzero(near.any(axis=0)):
             rows = np.flatnonzero(near[:, disc] & free)  # a clip that hits one disc is not tested again
             self.tested += len(rows)
-            free[rows] = np.abs(exits.places[rows] - spots[disc]).min(axis=(1, 2)) >= self.sizes[disc]
-        frames = frame + np.arange(exits.places.shape[1])
-        for other in self.others:
-            members = at.sees(other[np.minimum(frames, len(other) - 1)])
+            apart = np.abs(self.places[clips[rows]] - spots[disc]).min(axis=(1, 2))
+            free[rows] = apart >= self.sizes[disc]
+        frames = frame + np.arange(self.places.shape[1])
+        for other in self.scene.others:
+            members = (other[np.minimum(frames, len(other) - 1)] - move) / turn
             for row in np.flatnonzero(free):
-                if np.abs(members - exits.centres[row]).min() > exits.radii[row] + APART:
+                clip = clips[row]
+                if np.abs(members - self.centres[clip]).min() > self.radii[clip] + APART:
                     self.spared += 1
                     continue
                 self.tested += 1
-                free[row] = np.abs(exits.places[row][:, :, None] - members[:, None]).min() >= APART
-        return np.flatnonzero(free)
+                free[row] = np.abs(self.places[clip][:, :, None] - members[:, None]).min() >= APART
+        return clips[free]
+
+    def go_on(self, state: "State") -> Iterator[tuple[float, "State"]]:
+        """Walk the clips that are free: the seconds expected from each one's end on, and the state there."""
+        node, turn, move, passed, start, _, walked = state
+        clips, near = self.free(node, turn, move, start), self.scene.near
+        points, ways = (np.array(self.scene.points) - move) / turn, self.middles[clips]
+        goals, frames = np.full(len(clips), passed), np.zeros(len(clips), int)
+        for row in np.flatnonzero((np.abs(ways - points[passed]) < near).any(axis=1)):
+            for point in points[passed:]:
+                if not (close := np.abs(ways[row, frames[row] :] - point) < near).any():
+                    break
+                goals[row], frames[row] = goals[row] + 1, frames[row] + close.argmax()
+        legs = np.abs(np.diff(self.scene.points))
+        goal = np.minimum(goals, len(legs))
+        ahead = points[goal] - ways[:, -1]
+        metres = np.maximum(np.abs(ahead) - near, 0.0) + np.append(np.cumsum(legs[::-1])[::-1], 0.0)[goal]
+        left = metres / PACE + TURNING * np.abs(np.angle(ahead / self.turns[clips]))
+        last = start + ways.shape[1] - 1
+        seconds = np.where(goals == len(points), start + frames, last) / RATE
+        rows = (part.tolist() for part in (clips, goals, seconds, left))
+        for number, goal, until, more in zip(*rows, strict=True):
+            clip = self.graph.clips[number]
+            at = turn * clip.turn, turn * clip.move + move
+            yield more, State(clip.end, *at, goal, last, until, (*walked, number))
 
 
 class GroupWalk(NamedTuple):
@@ -134,18 +144,29 @@ class GroupWalk(NamedTuple):
     spared: int
 
 
-class _State(NamedTuple):
-    """A group that has come to the end of a clip: `goal` counts the points passed, `frames` those walked."""
+class State(NamedTuple):
+    """A group at the end of a clip: at a `node`, which lies on the ground by p ↦ turn · p + move.
 
-    at: Placed
-    goal: int
-    frames: int
-    seconds: float  # until the last point, where all are passed
-    clips: tuple[int, ...]  # that led here
+    `goal` counts the points passed, `frames` those walked; `seconds` are those until the last point, where
+    all are passed; `clips` led here.
+    """
+
+    node: int
+    turn: complex
+    move: complex
+    goal: int = 0
+    frames: int = 0
+    seconds: float = 0.0
+    clips: tuple[int, ...] = ()
 
 
 def plan_group(
-    graph: GroupGraph, scene: Scene, *, start: Placed | None = None, weight: float = 1.5, most: int = MOST
+    graph: GroupGraph,
+    scene: Scene,
+    *,
+    start: PlanarTransform = IDENTITY,
+    weight: float = 1.5,
+    most: int = MOST,
 ) -> GroupWalk:
     """Find clips that lead a group past all points and clear of all obstacles [LCF05, search].
 
@@ -157,7 +178,7 @@ def plan_group(
     ----------
     graph : of the group.
     scene : where to go.
-    start : where the group stands; at node 0 in the origin, going along +z, by default.
+    start : how node 0, where it stands first, lies on the ground; in the origin, going along +z, by default.
     weight : more finds a way sooner, and a longer one.
     most : states to expand at most.
 
@@ -176,28 +197,23 @@ def plan_group(
 
     Notebook: 19-group-graphs
     """
-    begin = start or Placed(0)
-    _check_start(graph, begin, scene)
-    obstacles, points = Obstacles(scene), len(scene.points)
-    exits = {node: Exits.of(graph, node) for node in {clip.start for clip in graph.clips}}
-    waiting, count, farthest = [(0.0, 0, _State(begin, 0, 0, 0.0, ()))], 0, 0
+    _check_start(graph, start, scene)
+    search, points = Search(graph, scene), len(scene.points)
+    begin = State(0, complex(start.turn), complex(start.move))
+    waiting, count, farthest = [(0.0, 0, begin)], 0, 0
     seen: set[tuple[float, ...]] = set()
     while waiting and len(seen) < most:
         state = heappop(waiting)[2]
         farthest = max(farthest, state.goal)
         if state.goal == points:
-            return GroupWalk(list(state.clips), state.seconds, len(seen), obstacles.tested, obstacles.spared)
+            return GroupWalk(list(state.clips), state.seconds, len(seen), search.tested, search.spared)
         # States that stand alike are one, with other groups about only at the same time.
-        node, turn, move = state.at
-        cell = (move.real / CELL, move.imag / CELL, phase(turn) / SECTOR)
-        key = (node, state.goal, *map(round, cell), state.frames if scene.others else 0)
+        cell = (state.move.real / CELL, state.move.imag / CELL, phase(state.turn) / SECTOR)
+        key = (state.node, state.goal, *map(round, cell), state.frames if scene.others else 0)
         if key in seen:
             continue
         seen.add(key)
-        if (leaving := exits.get(state.at.node)) is None:
-            continue
-        rows = obstacles.free(leaving, state.at, state.frames)
-        for left, after in _go_on(leaving, rows, state, scene):
+        for left, after in search.go_on(state):
             count += 1
             promise = after.seconds + (0.0 if after.goal == points else weight * left)
             heappush(waiting, (promise, count, after))
@@ -213,34 +229,13 @@ def _why(graph: GroupGraph, scene: Scene, most: int) -> str:
     return f"{why}. {helps}, take fewer members, or leave gaps of {wide:.1f} m."
 
 
-def _check_start(graph: GroupGraph, start: Placed, scene: Scene) -> None:
+def _check_start(graph: GroupGraph, start: PlanarTransform, scene: Scene) -> None:
     """Raise MocapError for a start or a scene that makes no sense, NoWalk for a member too near to a disc."""
-    scene.check(start.move)
-    places = start.turn * graph.nodes[start.node].places + start.move
+    scene.check(complex(start.move))
+    places = start.turn * graph.nodes[0].places + start.move
     for centre, radius in scene.discs:
         gap = np.abs(places - centre) - radius
         if gap.min() < scene.body:
             rim = f"the rim of the obstacle at x={centre.imag:g}, z={centre.real:g}"
             far = f"Member {gap.argmin() + 1} starts {gap.min():.2f} m from {rim}"
             raise NoWalk(f"{far}: {scene.body:g} m is the least.")
-
-
-def _go_on(exits: Exits, rows: Indices, state: _State, scene: Scene) -> Iterator[tuple[float, _State]]:
-    """Walk some of the clips that leave a node: the seconds expected from its end on, and the state there."""
-    points, ways = state.at.sees(np.array(scene.points)), exits.middles[rows]
-    goals, frames = np.full(len(rows), state.goal), np.zeros(len(rows), int)
-    for row in np.flatnonzero((np.abs(ways - points[state.goal]) < scene.near).any(axis=1)):
-        for point in points[state.goal :]:
-            if not (close := np.abs(ways[row, frames[row] :] - point) < scene.near).any():
-                break
-            goals[row], frames[row] = goals[row] + 1, frames[row] + close.argmax()
-    legs = np.abs(np.diff(scene.points))
-    goal = np.minimum(goals, len(legs))
-    ahead = points[goal] - ways[:, -1]
-    metres = np.maximum(np.abs(ahead) - scene.near, 0.0) + np.append(np.cumsum(legs[::-1])[::-1], 0.0)[goal]
-    left = metres / PACE + TURNING * np.abs(np.angle(ahead / exits.turns[rows]))
-    last = state.frames + ways.shape[1] - 1
-    passed = np.where(goals == len(points), state.frames + frames, last) / RATE
-    for row, at, seconds, more in zip(rows, goals.tolist(), passed.tolist(), left.tolist(), strict=True):
-        clip = exits.clips[row]
-        yield more, _State(state.at.after(clip), at, last, seconds, (*state.clips, exits.numbers[row]))

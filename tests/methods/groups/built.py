@@ -4,13 +4,13 @@ from functools import cache
 
 import numpy as np
 
-from mocap.methods.groups.flocking import Trajectories, simulate
+from mocap.methods.groups.flocking import Configuration, simulate
 from mocap.methods.groups.group_graphs import GroupGraph, build_group
 from mocap.methods.groups.planning import Scene
 
 
 @cache
-def flock(count: int = 12, seconds: float = 120.0) -> Trajectories:
+def flock(count: int = 12, seconds: float = 120.0) -> Configuration:
     return simulate(count, seconds)
 
 

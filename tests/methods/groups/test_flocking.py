@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap.methods.groups import RATE, Trajectories, nearest_two
+from mocap.methods.groups import RATE, Configuration, nearest_two
 from mocap.methods.groups.flocking import APART, BODY, Flock, advance, push_apart, simulate, steering_force
 from mocap.methods.groups.group_steering import away_from
 from tests.methods.groups.built import flock
@@ -31,7 +31,7 @@ def test_velocities_are_those_of_the_places():
 def test_each_rule_pulls_where_it_should():
     """As in [LCF05, simulation]."""
     quiet = dict.fromkeys(("separate", "gather", "align", "steer", "keep"), 0.0)
-    two = Trajectories(np.array([0j, 1 + 0j]), np.array([1 + 0j, 1j]))
+    two = Configuration(np.array([0j, 1 + 0j]), np.array([1 + 0j, 1j]))
     wish = np.array([1 + 0j, 1 + 0j])
 
     def force(**weights):
@@ -46,7 +46,7 @@ def test_each_rule_pulls_where_it_should():
 
 
 def test_who_sees_nobody_is_pulled_by_nobody():
-    far = Trajectories(np.array([0j, 100 + 0j]), np.ones(2, complex))
+    far = Configuration(np.array([0j, 100 + 0j]), np.ones(2, complex))
     alone = steering_force(far, np.ones(2, complex), Flock(keep=0))
     np.testing.assert_allclose(alone, 0, atol=1e-12)
 
@@ -68,9 +68,9 @@ def test_runs_side_by_side_are_the_runs_one_by_one():
     places = random.normal(size=(4, 5)) + 1j * random.normal(size=(4, 5))
     velocities = np.exp(1j * random.normal(size=(4, 5)))
     wish = np.exp(1j * random.normal(size=(4, 5)))
-    together = advance(Trajectories(places, velocities), wish, Flock())
+    together = advance(Configuration(places, velocities), wish, Flock())
     for row in range(4):
-        alone = advance(Trajectories(places[row], velocities[row]), wish[row], Flock())
+        alone = advance(Configuration(places[row], velocities[row]), wish[row], Flock())
         np.testing.assert_allclose(together.places[row], alone.places, atol=1e-12)
         np.testing.assert_allclose(together.velocities[row], alone.velocities, atol=1e-12)
 

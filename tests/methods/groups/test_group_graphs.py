@@ -5,12 +5,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapWarning
 from mocap.methods.groups import GroupGraph
 from mocap.methods.groups.configurations import compare
-from mocap.methods.groups.flocking import APART, RATE, Configuration, Trajectories, nearest_two
+from mocap.methods.groups.flocking import APART, RATE, Configuration, nearest_two
 from mocap.methods.groups.group_clips import HARDEST, accelerations, bend_to, part, run_from
-from mocap.methods.groups.group_graphs import Placed, build_group, make_clips, play_group, random_group_walk
+from mocap.methods.groups.group_graphs import build_group, make_clips, play_group, random_group_walk
 from tests.methods.groups.built import flock, graph
 from tests.refusals import refusals
 
@@ -34,7 +35,7 @@ def test_400_seconds_at_random_never_collide_and_seams_are_as_smooth_as_all_else
 def test_a_walk_starts_where_it_is_placed():
     group = graph(6, 6)
     walk = random_group_walk(group, 3)
-    here, there = play_group(group, walk), play_group(group, walk, Placed(0, 1j, 5 + 2j))
+    here, there = play_group(group, walk), play_group(group, walk, PlanarTransform(np.pi / 2, 2.0, 5.0))
     np.testing.assert_allclose(there.places, 1j * here.places + 5 + 2j, atol=1e-9)
     np.testing.assert_allclose(there.velocities, 1j * here.velocities, atol=1e-9)
 
@@ -59,7 +60,10 @@ def much_too_near():
 test_clips_and_walks_that_cannot_be_are_refused = refusals(
     ("No clip leaves node 1", from_0_to_1_and_no_further),
     ("one clip or more", lambda: play_group(graph(6, 6), [])),
-    ("A group at node 1 cannot go on by .* leaves 0", lambda: play_group(graph(6, 6), [0], Placed(1))),
+    (
+        "A group at node 1 cannot go on by .* leaves 0",
+        lambda: play_group(graph(6, 6), [numbered(end=1), numbered(start=0)]),
+    ),
     ("at node 1 .* leaves 2", lambda: play_group(graph(6, 6), [numbered(end=1), numbered(start=2)])),
     ("None of 15 clips can be kept: members come nearer than 0.6 m", much_too_near),
 )
@@ -124,7 +128,7 @@ def test_drawn_to_its_place_each_member_comes_much_nearer_than_freely():
 
 @given(st.complex_numbers(max_magnitude=2.0), st.complex_numbers(max_magnitude=1.0))
 def test_bending_meets_place_and_velocity_and_keeps_the_start(missing, change):
-    walked = Trajectories(flock(6).places[:41], flock(6).velocities[:41])
+    walked = Configuration(flock(6).places[:41], flock(6).velocities[:41])
     goal = Configuration(walked.places[-1] + missing, walked.velocities[-1] + change)
     bent = bend_to(walked, goal)
     np.testing.assert_allclose(bent[-1], goal.places, atol=1e-9)

@@ -7,7 +7,7 @@ import pytest
 
 from mocap.body.planar import heading
 from mocap.errors import MocapError
-from mocap.methods.groups.flocking import RATE, Trajectories
+from mocap.methods.groups.flocking import RATE, Configuration
 from mocap.methods.groups.group_graphs import play_group, random_group_walk
 from mocap.methods.groups.group_walkers import walk_group
 from mocap.methods.groups.planning import Scene, plan_group
@@ -23,7 +23,7 @@ def plan():
     group = graph(6, 6)
     found = plan_group(group, SCENE)
     frames = round(found.seconds * RATE) + 1
-    return Trajectories(*(part[:frames] for part in play_group(group, found.clips)))
+    return Configuration(*(part[:frames] for part in play_group(group, found.clips)))
 
 
 @cache
@@ -58,7 +58,7 @@ def test_they_face_where_they_go():
 
 def test_the_bare_lines_bring_them_together_and_out_of_time():
     """Without bending, characters of these slow walks come late."""
-    two = Trajectories(plan().places[:81, :2], plan().velocities[:81, :2])
+    two = Configuration(plan().places[:81, :2], plan().velocities[:81, :2])
     loose = walk_group(bundled("walk_circle", "walk_curve_1"), two, bend=False)
     assert loose.off.mean() > 3 * walkers().off.mean()
 
@@ -66,13 +66,13 @@ def test_the_bare_lines_bring_them_together_and_out_of_time():
 @pytest.mark.parametrize(("some", "got"), [(np.s_[:5, :], "6 and 0.4 s"), (np.s_[:, :0], "0 and 13.7 s")])
 def test_a_plan_for_nobody_or_of_less_than_a_second_is_refused(some, got):
     with pytest.raises(MocapError, match=f"a member or more and lasts 1 s or more, got {got}: does it lead"):
-        walk_group(bundled("walk_curve_1"), Trajectories(*(part[some] for part in plan())))
+        walk_group(bundled("walk_curve_1"), Configuration(*(part[some] for part in plan())))
 
 
 def test_who_stands_at_the_end_is_carried_on_all_the_same():
     places = plan().places.copy()
     places[-15:] = places[-15]
-    walked = walk_group(bundled("walk_circle", "walk_curve_1"), Trajectories(places[:, :2], places[:, :2]))
+    walked = walk_group(bundled("walk_circle", "walk_curve_1"), Configuration(places[:, :2], places[:, :2]))
     assert len(walked.motions[0]) == len(walked.wanted)
 
 
@@ -81,5 +81,5 @@ def test_a_way_of_any_length_can_be_walked():
     group = graph(6, 6)
     for seed in range(4):
         played = play_group(group, random_group_walk(group, 1, seed=seed))
-        one = Trajectories(played.places[:, :1], played.velocities[:, :1])
+        one = Configuration(played.places[:, :1], played.velocities[:, :1])
         assert walk_group(bundled("walk_circle", "walk_curve_1"), one).off.mean() < 0.1

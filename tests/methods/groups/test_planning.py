@@ -3,19 +3,20 @@
 import numpy as np
 import pytest
 
+from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import NoWalk
-from mocap.methods.groups.flocking import APART, RATE, Trajectories, nearest_two
-from mocap.methods.groups.group_graphs import Placed, play_group
+from mocap.methods.groups.flocking import APART, RATE, Configuration, nearest_two
+from mocap.methods.groups.group_graphs import play_group
 from mocap.methods.groups.group_steering import clearances, lead_group, steer_group
-from mocap.methods.groups.planning import Exits, Obstacles, Scene, plan_group
+from mocap.methods.groups.planning import Scene, Search, plan_group
 from tests.methods.groups.built import around, course, gap, graph, pocket
 from tests.refusals import refusals
 
 
-def walked(found, start=None):
+def walked(found, start=IDENTITY):
     """What the group does until it passes the last point."""
     played = play_group(graph(), found.clips, start)
-    return Trajectories(*(part[: round(found.seconds * RATE) + 1] for part in played))
+    return Configuration(*(part[: round(found.seconds * RATE) + 1] for part in played))
 
 
 def passed(flock, scene):
@@ -115,7 +116,7 @@ def test_more_weight_finds_a_way_with_fewer_states():
 def test_two_groups_pass_each_other():
     """The second plans around the first, frame by frame, and needs more than the bounds to know."""
     first = walked(plan_group(graph(), Scene((24 + 0j,))))
-    back = Placed(0, -1 + 0j, 24 + 0j)
+    back = PlanarTransform(np.pi, 0.0, 24.0)
     alone = plan_group(graph(), Scene((0j,)), start=back)
     careful = plan_group(graph(), Scene((0j,), others=tuple(first.places.T[:, :, None])), start=back)
 
@@ -138,7 +139,7 @@ def test_what_a_refusal_advises_helps():
     rock = Scene((20 + 0j,), ((4.2 + 0j, 1.5),))
     with pytest.raises(NoWalk, match=r"closed every way\. Start farther off or turned, take fewer members"):
         plan_group(graph(), rock)
-    assert plan_group(graph(), rock, start=Placed(0, np.exp(-0.5j))) and plan_group(graph(3), rock)
+    assert plan_group(graph(), rock, start=PlanarTransform(-0.5, 0.0, 0.0)) and plan_group(graph(3), rock)
     with pytest.raises(NoWalk, match="Set a point on the way, allow more states"):
         plan_group(graph(), pocket(4.5), most=100)
     scene = pocket(4.5)
@@ -177,17 +178,17 @@ test_scenes_that_make_no_sense_or_have_no_way_are_refused = refusals(
 )
 
 
-def free_one_by_one(group, at, frame, scene):
-    """Lay each clip on the ground, and look at all members in all frames; `Obstacles` looks at once."""
+def free_one_by_one(group, node, turn, move, frame, scene):
+    """Lay each clip on the ground, and look at all members in all frames; `Search` looks at once."""
     kept = []
-    for row, number in enumerate(group.leaving(at.node)):
-        places = at.turn * group.clips[number].places + at.move
+    for number in group.leaving(node):
+        places = turn * group.clips[number].places + move
         clear = all((np.abs(places - spot) >= size + scene.body).all() for spot, size in scene.discs)
         for other in scene.others:
             there = other[np.minimum(frame + np.arange(len(places)), len(other) - 1)]
             clear = clear and (np.abs(places[:, :, None] - there[:, None]) >= APART).all()
         if clear:
-            kept.append(row)
+            kept.append(number)
     return kept
 
 
@@ -195,12 +196,12 @@ def test_all_clips_at_once_are_as_free_as_one_by_one():
     random, group, found = np.random.default_rng(0), graph(), []
     others = (np.linspace(20, 0, 150)[:, None] + np.array([1j, -1j]),)
     scene = Scene((9 + 0j,), course(5).discs, others=others)
-    exits = [Exits.of(group, node) for node in range(len(group.nodes))]
+    search = Search(group, scene)
     for _ in range(40):
         node, frame = int(random.integers(len(group.nodes))), int(random.integers(200))
         spot = random.choice(scene.discs)[0] + random.normal(0, 5)
-        at = Placed(node, np.exp(1j * random.uniform(-3, 3)), spot)
-        rows = Obstacles(scene).free(exits[node], at, frame).tolist()
-        assert rows == free_one_by_one(group, at, frame, scene)
-        found.append(len(rows))
+        turn = np.exp(1j * random.uniform(-3, 3))
+        free = search.free(node, turn, spot, frame).tolist()
+        assert free == free_one_by_one(group, node, turn, spot, frame, scene)
+        found.append(len(free))
     assert min(found) < 10 and max(found) > 150
