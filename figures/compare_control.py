@@ -11,6 +11,7 @@ import warnings
 from collections.abc import Callable
 from pathlib import Path
 
+import networkx as nx
 import numpy as np
 
 import mocap
@@ -20,7 +21,6 @@ from mocap.body import SHAPES, GroundPath, heading, on_ground
 from mocap.errors import MocapError, MocapWarning
 from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.methods import motion_matching, parametric_graphs
-from mocap.methods.parametric_graphs.parametric_edges import ParametricGraph
 from mocap.quality.seam_measures import Spread
 from mocap.steering.characters import Character
 
@@ -56,7 +56,7 @@ def _marked(clip: mocap.Motion) -> mocap.Motion:
     return clip if clip.contacts else feet.mark_plants(clip)
 
 
-def strides(clips: list[mocap.Motion], kinds: tuple[str, ...], limit: float) -> tuple[ParametricGraph, str]:
+def strides(clips: list[mocap.Motion], kinds: tuple[str, ...], limit: float) -> tuple[nx.DiGraph, str]:
     """Build a parametric graph of strides, or of steps, with T_GOOD from 4 cm on, as large as it must be."""
     spaces = {}
     for kind in kinds:

@@ -571,7 +571,7 @@ def draw_parametric_graph() -> Figure:
     space = parametric_graphs.make_space(strides, np.radians(14), -np.radians(75), np.radians(75))
     edge = parametric_graphs.build_edge(space, space, good=0.03)
     turns = np.radians(np.linspace(-75, 75, 61))[:, None]
-    costs = 100 * parametric_graphs.optimal_transitions(space, space, turns, turns).cost
+    costs = 100 * parametric_graphs.optimal_transitions(space, space, turns, turns)[0]
     ways = [edge.look_up(turn) for turn in turns]
     boxes = np.degrees([(way.low[0], way.high[0]) for way in ways])
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.4, 3.9), layout="constrained")

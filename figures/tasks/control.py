@@ -10,12 +10,12 @@ from collections.abc import Callable, Iterator
 from functools import cache
 
 import compare_control
+import networkx as nx
 import numpy as np
 
 from mocap.body import Motion, on_ground, rotations
 from mocap.errors import MocapError
 from mocap.methods import motion_matching, parametric_graphs
-from mocap.methods.parametric_graphs.parametric_edges import ParametricGraph
 from mocap.steering import Controller, command_headings, steer
 from mocap.steering.characters import Character
 from tasks import BANDAI, CMU_16, HOMEWORK, WALKS, Case, graph
@@ -55,7 +55,7 @@ def steered(make: Callable[[Case], Character]) -> Callable[[Case], Motion]:
 
 
 @cache
-def steps(clips: tuple[Motion, ...], limit: float) -> ParametricGraph:
+def steps(clips: tuple[Motion, ...], limit: float) -> nx.DiGraph:
     """Build a parametric graph of steps."""
     return compare_control.strides(list(clips), ("lr", "rl"), limit)[0]
 

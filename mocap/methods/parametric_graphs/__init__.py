@@ -33,7 +33,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "strides": ["cut_strides"],
         "stride_spaces": ["bell_weights", "make_space", "measure_mixes"],
         "made_motions": ["optimal_transitions"],
-        "parametric_edges": ["build_edge", "build_parametric", "smallest_good"],
+        "parametric_edges": ["build_edge", "build_parametric"],
         "parametric_control": ["ParametricController"],
     },
 )

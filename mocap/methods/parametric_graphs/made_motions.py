@@ -5,7 +5,6 @@ whole window is there one frame of many points.
 """
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
@@ -72,14 +71,6 @@ def make_motion(space: Space, asked: Array) -> MadeMotion:
     return MadeMotion(motion, np.interp(times, seconds, examples.grid), facing, values)
 
 
-class OptimalTransitions(NamedTuple):
-    """For M sources and N targets, (M, N) each: the RMS distance in metres, when to leave and to enter."""
-
-    cost: Array
-    leave: Array
-    enter: Array
-
-
 def near_end(space: Space, asked: Array, phase: float) -> tuple[Array, Array]:
     """Generate clips only in the F frames around where their action begins or ends.
 
@@ -114,7 +105,7 @@ def near_end(space: Space, asked: Array, phase: float) -> tuple[Array, Array]:
     return points, np.interp(places, every, examples.grid)
 
 
-def optimal_transitions(source: Space, target: Space, at: Array, to: Array) -> OptimalTransitions:
+def optimal_transitions(source: Space, target: Space, at: Array, to: Array) -> tuple[Array, Array, Array]:
     """Find for each pair of clips the windows that are nearest [HG07, 3.1].
 
     Windows of 11 frames, centred up to 3 frames from the source's end (the last strike of a stride) and the
@@ -125,6 +116,10 @@ def optimal_transitions(source: Space, target: Space, at: Array, to: Array) -> O
     source, target : spaces of one skeleton and rate.
     at, to : parameters (M, d) of sources and (N, d') of targets.
 
+    Returns
+    -------
+    The RMS distance in metres, and the phases to leave and to enter, (M, N) each.
+
     Examples
     --------
     >>> from mocap import body, datasets
@@ -132,8 +127,8 @@ def optimal_transitions(source: Space, target: Space, at: Array, to: Array) -> O
     >>> from mocap.methods.parametric_graphs.strides import cut_strides
     >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
     >>> space = make_space(strides, 0.4, -0.8, 0.8)
-    >>> found = optimal_transitions(space, space, np.array([[0.6]]), np.array([[0.6], [-0.6]]))
-    >>> bool(found.cost[0, 0] < found.cost[0, 1])
+    >>> cost, _, _ = optimal_transitions(space, space, np.array([[0.6]]), np.array([[0.6], [-0.6]]))
+    >>> bool(cost[0, 0] < cost[0, 1])
     True
 
     Notebook: 17-parametric-graphs
@@ -152,4 +147,4 @@ def optimal_transitions(source: Space, target: Space, at: Array, to: Array) -> O
         best[part], cost[part] = flat.argmin(axis=-1), np.sqrt(flat.min(axis=-1))
     i, j = np.divmod(best, count)
     leave = np.take_along_axis(leaving[:, HALF : HALF + count], i, 1)
-    return OptimalTransitions(cost, leave, entering[np.arange(len(to)), HALF + j])
+    return cost, leave, entering[np.arange(len(to)), HALF + j]

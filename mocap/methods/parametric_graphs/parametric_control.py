@@ -15,7 +15,7 @@ from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError, NoWalk
 from mocap.matching.point_clouds import align
 from mocap.methods.parametric_graphs.made_motions import HALF, WINDOW, make_motion
-from mocap.methods.parametric_graphs.parametric_edges import ParametricGraph, Way
+from mocap.methods.parametric_graphs.parametric_edges import Way
 from mocap.methods.parametric_graphs.stride_spaces import Space
 from mocap.steering.characters import Pose, require_command
 
@@ -75,12 +75,13 @@ class ParametricController:
     Notebook: 17-parametric-graphs
     """
 
-    def __init__(self, graph: ParametricGraph, *, start: str | None = None) -> None:
+    def __init__(self, graph: nx.DiGraph, *, start: str | None = None) -> None:
         self.graph = graph
-        self.node = next(iter(graph.graph)) if start is None else start
-        if self.node not in graph.graph:
-            raise MocapError(f"There is no node '{self.node}'; there are: {', '.join(graph.graph)}.")
-        space, self.target = graph.space(self.node), np.full(3, np.nan)
+        self.node = next(iter(graph)) if start is None else start
+        if self.node not in graph:
+            raise MocapError(f"There is no node '{self.node}'; there are: {', '.join(graph)}.")
+        space: Space = graph.nodes[self.node]["space"]
+        self.target = np.full(3, np.nan)
         self.skeleton, self.fps = space.examples.skeleton, space.examples.fps
         usual = {"turn": 0.0, "speed": float(np.median(space.examples.values[:, 1]))}
         middle = np.median(space.reached, axis=0)
@@ -138,10 +139,8 @@ class ParametricController:
 
     def _play(self, before: list[Motion], blended: int, first: int) -> None:
         """Put the frames of the motion from `first` to its decision behind others, whose last are blended."""
-        edges = (
-            (after, self.graph.edge(self.node, after)) for after in self.graph.graph.successors(self.node)
-        )
-        self.way: dict[str, Way] = {after: edge.look_up(self.parameters) for after, edge in edges}
+        edges = self.graph.edges(self.node, data="edge")
+        self.way: dict[str, Way] = {after: edge.look_up(self.parameters) for _, after, edge in edges}
         soonest = min(self.made.frame(way.leave) for way in self.way.values()) - HALF
         self._next, self._at = 0, max(soonest, first)
         start = sum(map(len, before)) - blended
@@ -155,7 +154,7 @@ class ParametricController:
     def _choose(self, heading: float, speed: float, label: str) -> None:
         """Choose the next motion, make it, and blend into it."""
         node = self._towards(label, heading, speed)
-        space, way, place = self.graph.space(node), self.way[node], self.end
+        space, way, place = self.graph.nodes[node]["space"], self.way[node], self.end
         taken = np.full(len(way.low), np.inf)
         for number in range(1 if set(space.parameters) <= set(COMMANDED) else ROUNDS):
             wished = self._wish(space, place, heading, speed)
@@ -187,10 +186,12 @@ class ParametricController:
 
     def _towards(self, label: str, heading: float, speed: float) -> str:
         """Choose the node: one on the way to the label, or the one whose box comes nearest to the wish."""
-        graph = self.graph.graph
+        graph, spaces = self.graph, self.graph.nodes(data="space")
         if label and label not in graph:
             raise NoWalk(f"There is no node '{label}'; there are: {', '.join(graph)}.")
-        goals = [label] if label else [node for node in graph if self._walks(node)]
+        # All that obey commands, if one that does may follow.
+        obey = {node for node, space in spaces if not set(space.parameters).isdisjoint(COMMANDED)}
+        goals = [label] if label else [node for node in obey if obey & set(graph.successors(node))]
         if not label and (ways := [node for node in self.way if node in goals or not goals]):
             return min(ways, key=lambda node: self._missed(node, heading, speed))
         far = nx.multi_source_dijkstra_path_length(graph.reverse(copy=False), goals)
@@ -198,15 +199,9 @@ class ParametricController:
             raise NoWalk(f"No motions lead from '{self.node}' to '{label or 'one that walks'}'.")
         return min(ways, key=lambda node: far[node])
 
-    def _walks(self, node: str) -> bool:
-        """Say whether a node obeys commands, and one that does may follow it."""
-        nodes = [node, *self.graph.graph.successors(node)]
-        walks = [not set(self.graph.space(one).parameters).isdisjoint(COMMANDED) for one in nodes]
-        return walks[0] and any(walks[1:])
-
     def _missed(self, node: str, heading: float, speed: float) -> float:
         """Measure how far the best of a box is from the wish, in radians and m/s together."""
-        space, way = self.graph.space(node), self.way[node]
+        space, way = self.graph.nodes[node]["space"], self.way[node]
         wished = self._wish(space, self.end, heading, speed)
         off = dict(zip(space.parameters, np.abs(wished - np.clip(wished, way.low, way.high)), strict=True))
         usual = np.abs(np.median(space.examples.values[:, 1]) - speed)

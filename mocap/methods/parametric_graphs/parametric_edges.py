@@ -10,7 +10,7 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.errors import MocapError, NoWalk
 from mocap.methods.match_webs.wishes import nearest_samples, neighbour_weights
-from mocap.methods.parametric_graphs.made_motions import OptimalTransitions, optimal_transitions
+from mocap.methods.parametric_graphs.made_motions import optimal_transitions
 from mocap.methods.parametric_graphs.stride_spaces import Space, draw_parameters, place_evenly, said
 
 NEIGHBOURS = 4  # more than the parameters: with one more, as in [HG07, 4], boxes jump
@@ -98,37 +98,6 @@ def shrink_box(good: Array, bad: Array, scale: Array, eps: float = EPSILON) -> t
     return low, high
 
 
-def _sample(
-    source: Space, target: Space, sampling: tuple[int, int]
-) -> tuple[Array, Array, OptimalTransitions]:
-    """Place sources, draw targets, and compare all pairs."""
-    source.examples.require_joinable(target.examples)
-    at = place_evenly(source, sampling[0])
-    to = draw_parameters(target, sampling[1], np.random.default_rng(0))
-    return at, to, optimal_transitions(source, target, at, to)
-
-
-def smallest_good(source: Space, target: Space, sampling: tuple[int, int] = SAMPLING) -> float:
-    """Find the smallest T_GOOD, in metres, at which every source has a target.
-
-    As `graphs.smallest_threshold` does for motion graphs: the largest, over sources, of the least cost.
-
-    Examples
-    --------
-    >>> from mocap import body, datasets
-    >>> from mocap.methods.parametric_graphs.stride_spaces import make_space
-    >>> from mocap.methods.parametric_graphs.strides import cut_strides
-    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
-    >>> space = make_space(strides, 0.4, -0.8, 0.8)
-    >>> 0.005 < smallest_good(space, space, (50, 100)) < 0.05
-    True
-
-    Notebook: 17-parametric-graphs
-    """
-    _, _, found = _sample(source, target, sampling)
-    return float(found.cost.min(axis=1).max())
-
-
 def build_edge(
     source: Space,
     target: Space,
@@ -142,7 +111,7 @@ def build_edge(
     Parameters
     ----------
     source, target : spaces; one may follow itself.
-    good : T_GOOD, metres: targets at most this far bound the box.
+    good : T_GOOD, metres: targets at most this far bound the box; with ∞ all do.
     bad : T_BAD, metres: targets farther than this are kept out of it; 1.35 T_GOOD by default. Those between
         may be in it.
     sampling : how many sources to place, and targets to draw; 50 and 1000 as in the paper.
@@ -169,45 +138,28 @@ def build_edge(
     bad = BAD * good if bad is None else bad
     if not good <= bad:
         raise MocapError(f"Thresholds are T_GOOD <= T_BAD, got {good} and {bad} m.")
-    at, to, found = _sample(source, target, sampling)
-    cost, least = found.cost, found.cost.min(axis=1)
-    if (least > good).any():
-        asked, worst = at[int(least.argmax())], float(least.max())
-        named = zip(source.parameters, asked, strict=True)
+    source.examples.require_joinable(target.examples)
+    at = place_evenly(source, sampling[0])
+    to = draw_parameters(target, sampling[1], np.random.default_rng(0))
+    costs, leave, enter = optimal_transitions(source, target, at, to)
+    least = costs.min(axis=1)
+    if (worst := float(least.max())) > good:
+        named = zip(source.parameters, at[least.argmax()], strict=True)
         what = ", ".join(f"{name} {said(name, value)}" for name, value in named)
-        below, most = f"{100 * good:.1f} cm (the best costs {100 * worst:.1f} cm)", np.ceil(1000 * worst) / 10
-        raise NoWalk(f"Nothing follows {what} below {below}: raise T_GOOD to {most:.1f} cm, or ask for less.")
+        below = f"{100 * good:.1f} cm (the best costs {100 * worst:.1f} cm)"
+        more = f"raise T_GOOD to {np.ceil(1000 * worst) / 10:.1f} cm, or ask for less"
+        raise NoWalk(f"Nothing follows {what} below {below}: {more}.")
     rows = []
-    for row in range(len(at)):
-        fine = cost[row] <= good
-        low, high = shrink_box(to[fine], to[cost[row] > bad], target.scale)
+    for row, cost in enumerate(costs):
+        fine = cost <= good
+        low, high = shrink_box(to[fine], to[cost > bad], target.scale)
         inside = fine & ((to >= low) & (to <= high)).all(axis=1)
         if not inside.any():  # bad ones all around: only the best
-            best = int(cost[row].argmin())
+            best = int(cost.argmin())
             low, high, inside = to[best], to[best], np.arange(len(to)) == best
-        rows.append((low, high, found.leave[row, inside].mean(), found.enter[row, inside].mean()))
+        rows.append((low, high, leave[row, inside].mean(), enter[row, inside].mean()))
     low, high, leave, enter = (np.array(part) for part in zip(*rows, strict=True))
-    return ParametricEdge(at, low, high, leave, enter, source.scale, float(least.max()))
-
-
-@dataclass(frozen=True, eq=False)
-class ParametricGraph:
-    """Spaces of motions as nodes, under names; `build_parametric` shows an example.
-
-    `graph` is a `networkx.DiGraph`, with `space` on its nodes and `edge` on its edges.
-    """
-
-    graph: nx.DiGraph
-
-    def space(self, node: str) -> Space:
-        """Give the space of a node."""
-        found: Space = self.graph.nodes[node]["space"]
-        return found
-
-    def edge(self, node: str, other: str) -> ParametricEdge:
-        """Give the edge from a node to another one, or to itself."""
-        found: ParametricEdge = self.graph.edges[node, other]["edge"]
-        return found
+    return ParametricEdge(at, low, high, leave, enter, source.scale, worst)
 
 
 def build_parametric(
@@ -216,7 +168,7 @@ def build_parametric(
     *,
     good: float,
     sampling: tuple[int, int] = SAMPLING,
-) -> ParametricGraph:
+) -> nx.DiGraph:
     """Build a parametric motion graph [HG07, graph]: an author names the spaces, and which may follow which.
 
     Parameters
@@ -228,7 +180,7 @@ def build_parametric(
 
     Returns
     -------
-    The graph.
+    A `networkx.DiGraph` of the names: each node has its `space`, each edge its `ParametricEdge` as `edge`.
 
     Raises
     ------
@@ -245,7 +197,7 @@ def build_parametric(
     >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
     >>> space = make_space(strides, 0.4, -0.8, 0.8)
     >>> graph = build_parametric({"walk": space}, good=0.05)
-    >>> list(graph.graph.edges)
+    >>> list(graph.edges)
     [('walk', 'walk')]
 
     Notebook: 17-parametric-graphs
@@ -266,4 +218,4 @@ def build_parametric(
                 raise NoWalk(f"{name} → {other}: {error}") from error
     if stuck := [name for name in spaces if not graph.out_degree(name)]:
         raise NoWalk(f"Nothing follows '{stuck[0]}' below {100 * good:.1f} cm: raise T_GOOD, or add spaces.")
-    return ParametricGraph(graph)
+    return graph

@@ -13,7 +13,7 @@ from mocap.methods.match_webs import hand_target, mean_speed, random_weights, sa
 from mocap.methods.parametric_graphs import build_parametric, cut_actions, cut_strides, make_space
 from mocap.methods.parametric_graphs.made_motions import optimal_transitions
 from mocap.methods.parametric_graphs.parametric_control import TARGET, ParametricController
-from mocap.methods.parametric_graphs.parametric_edges import smallest_good
+from mocap.methods.parametric_graphs.parametric_edges import build_edge
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, measure_mixes
 from mocap.methods.parametric_graphs.strides import changing_strides
 
@@ -47,7 +47,7 @@ def walk_and_jog():
         edges += [(one, name), (name, other)]
     ends = {name: np.percentile(some.values[:, 0], [4, 96]) for name, some in kinds.items()}
     spaces = {name: make_space(some, np.radians(14), *ends[name]) for name, some in kinds.items()}
-    least = max(smallest_good(spaces[a], spaces[b], SMALL) for a, b in edges)
+    least = max(build_edge(spaces[a], spaces[b], good=np.inf, sampling=SMALL).least for a, b in edges)
     return build_parametric(spaces, edges, good=max(0.04, 1.05 * least), sampling=SMALL)
 
 
@@ -87,7 +87,7 @@ def bad_ones(source, target, edge, bad, seed=99):
     random = np.random.default_rng(seed)
     at, to = draw_parameters(source, 100, random), draw_parameters(target, 300, random)
     ways = [edge.look_up(asked) for asked in at]
-    cost = optimal_transitions(source, target, at, to).cost
+    cost, _, _ = optimal_transitions(source, target, at, to)
     inside = np.array([((to >= way.low) & (to <= way.high)).all(axis=1) for way in ways])
     worst = (cost > bad) & inside
     return worst.any(axis=1).mean(), worst.sum() / inside.sum()
@@ -198,7 +198,7 @@ def act(graph, node, count, seed=1):
 
     Places lie in the box, seen from where the body stands when what plays is over.
     """
-    random, space = np.random.default_rng(seed), graph.space(node)
+    random, space = np.random.default_rng(seed), graph.nodes[node]["space"]
     character = ParametricController(graph, start="walk")
     rows = random_weights(space.values[: len(space.examples)], 200, spread=0, seed=seed)
     reached = np.array([HAND(space.examples.blend(row)) for row in rows])

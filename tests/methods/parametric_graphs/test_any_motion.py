@@ -8,7 +8,7 @@ import pytest
 
 from mocap.feet import clean_up
 from mocap.methods.match_webs import random_weights, weights_for
-from mocap.methods.parametric_graphs import cut_actions, smallest_good
+from mocap.methods.parametric_graphs import build_edge, cut_actions
 from mocap.methods.parametric_graphs.parametric_control import ParametricController
 from mocap.quality import plant_slides
 from tests.methods.parametric_graphs.built import HAND, SMALL, act, acting, clips, of_hands
@@ -56,9 +56,12 @@ def test_what_blends_do_is_got_when_it_is_asked(node):
 
 
 def test_walks_do_not_turn_into_punches_by_themselves():
-    spaces = {name: acting().space(name) for name in ("walk", "punch", "to_guard")}
-    direct = smallest_good(spaces["walk"], spaces["punch"], SMALL)
-    assert direct > 0.14 > 0.05 > smallest_good(spaces["walk"], spaces["to_guard"], SMALL)
+    spaces = {name: acting().nodes[name]["space"] for name in ("walk", "punch", "to_guard")}
+    direct, guarded = (
+        build_edge(spaces["walk"], spaces[other], good=np.inf, sampling=SMALL).least
+        for other in ("punch", "to_guard")
+    )
+    assert direct > 0.14 > 0.05 > guarded
 
 
 def test_without_a_label_one_who_punched_walks_on():

@@ -20,11 +20,11 @@ GOOD = 0.03  # T_GOOD, metres
 
 def test_boxes_hold_next_to_no_bad_target_among_fresh_ones_and_among_those_drawn_inside():
     """As in [HG07, 4]. A box of no width holds none of the fresh targets: so draw inside each one, too."""
-    source, edge = space(), walking().edge("walk", "walk")
+    source, edge = space(), walking().edges["walk", "walk"]["edge"]
     boxes, share = bad_ones(source, source, edge, BAD * GOOD, seed=0)
     assert boxes <= 0.1 and share <= 0.01
     at = draw_parameters(source, 100, np.random.default_rng(0))
-    within = [optimal_transitions(source, source, a[None], _inside(edge.look_up(a))).cost for a in at]
+    within = [optimal_transitions(source, source, a[None], _inside(edge.look_up(a)))[0] for a in at]
     assert (np.array(within) > BAD * GOOD).mean() <= 0.02
 
 
@@ -39,10 +39,11 @@ def test_seams_of_300_random_targets_cost_what_the_edges_promise():
     cost = np.array([chosen.cost for chosen in character.chosen])
     bad = BAD * GOOD
     assert cost.max() <= bad + 0.01 and (cost > bad).mean() <= 0.02
+    spaces = walking().nodes
     best = [
         optimal_transitions(
-            walking().space(node), walking().space(chosen.node), at[None], chosen.taken[None]
-        ).cost[0, 0]
+            spaces[node]["space"], spaces[chosen.node]["space"], at[None], chosen.taken[None]
+        )[0]
         for (node, at), chosen in zip(pairs[:60], character.chosen, strict=False)
     ]
     assert cost[:60].mean() <= 1.15 * np.mean(best)
@@ -51,7 +52,7 @@ def test_seams_of_300_random_targets_cost_what_the_edges_promise():
 def test_what_was_got_is_said_and_one_turn_over_and_over_is_no_circle():
     """Seams are aligned by the whole body, and turn it: up to some degrees a stride."""
     character = ParametricController(walking())
-    tested = walking().space(character.node)
+    tested = walking().nodes[character.node]["space"]
     character._wish = lambda *_: np.full(1, np.radians(20))
     facing = []
     while len(character.chosen) < 12:

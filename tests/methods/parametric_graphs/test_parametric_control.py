@@ -9,7 +9,7 @@ import pytest
 from mocap.body.planar import heading
 from mocap.errors import NoWalk
 from mocap.methods.parametric_graphs.parametric_control import ParametricController
-from mocap.methods.parametric_graphs.parametric_edges import ParametricGraph, build_parametric
+from mocap.methods.parametric_graphs.parametric_edges import build_parametric
 from mocap.quality.seam_measures import jumps, spread
 from mocap.steering import Controller, command_headings, measure_delay, steer
 from tests.bundled import bundled
@@ -89,15 +89,15 @@ def test_it_goes_from_kind_to_kind_by_the_changes_between_and_without_a_label_as
             character.step(0.4, speed, label)
         assert character.chosen[-1].node == kind
     seen = [chosen.node for chosen in character.chosen]
-    assert all(character.graph.graph.has_edge(*pair) for pair in pairwise(seen))
+    assert all(character.graph.has_edge(*pair) for pair in pairwise(seen))
     assert {"walk to jog", "jog to walk"} <= set(seen)
 
 
 def walked(label):
     """Walk for two seconds in a graph with a node to which nothing leads."""
-    apart = nx.DiGraph(walking().graph)
-    apart.add_node("far", space=walking().space("walk"))
-    character = ParametricController(ParametricGraph(apart))
+    apart = nx.DiGraph(walking())
+    apart.add_node("far", space=walking().nodes["walk"]["space"])
+    character = ParametricController(apart)
     for _ in range(60):
         character.step(0.0, 1.0, label)
 

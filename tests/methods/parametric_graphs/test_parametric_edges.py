@@ -15,7 +15,6 @@ from mocap.methods.parametric_graphs.parametric_edges import (
     build_edge,
     build_parametric,
     shrink_box,
-    smallest_good,
 )
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters
 from tests.methods.parametric_graphs.built import SMALL, bad_ones, space, walk_and_jog, walking
@@ -35,7 +34,7 @@ def test_few_sources_leave_bad_targets_in_the_boxes_between_them_and_few_targets
 
 def test_with_d_plus_1_neighbours_boxes_jump():
     """The paper's k gives the nearest source alone; d + 4 of sources placed evenly move [HG07, Eqs. 1-2]."""
-    edge = walking().edge("walk", "walk")
+    edge = walking().edges["walk", "walk"]["edge"]
     fine = np.radians(np.arange(-70, 70, 0.1))[:, None]
     sides = {k: np.array([edge.look_up(asked, k).low[0] for asked in fine]) for k in (2, 3, None)}
     jumps = {k: np.degrees(np.abs(np.diff(side)).max()) for k, side in sides.items()}
@@ -44,7 +43,7 @@ def test_with_d_plus_1_neighbours_boxes_jump():
 
 
 def test_a_box_reaches_further_to_the_side_one_turns_to():
-    edge = walking().edge("walk", "walk")
+    edge = walking().edges["walk", "walk"]["edge"]
     left, right = (edge.look_up(np.array([side])) for side in (0.7, -0.7))
     assert left.low + left.high > right.low + right.high
 
@@ -52,10 +51,10 @@ def test_a_box_reaches_further_to_the_side_one_turns_to():
 def test_costs_at_the_looked_up_phases_are_nearly_the_best():
     """As in [HG07, Eq. 3]."""
     source = space()
-    edge, random = walking().edge("walk", "walk"), np.random.default_rng(3)
+    edge, random = walking().edges["walk", "walk"]["edge"], np.random.default_rng(3)
     at = draw_parameters(source, 30, random)
     leave = np.array([edge.look_up(asked).leave for asked in at])
-    best = optimal_transitions(source, source, at, np.zeros((1, 1))).leave[:, 0]
+    best = optimal_transitions(source, source, at, np.zeros((1, 1)))[1][:, 0]
     assert np.abs(leave - best).mean() < 0.06  # phases: two frames
 
 
@@ -81,7 +80,7 @@ def test_the_side_that_loses_least_moves_and_shares_count_not_metres():
 def test_the_smallest_threshold_is_the_smallest():
     """As in [HG07, no edge]."""
     source = space()
-    least = smallest_good(source, source, SMALL)
+    least = build_edge(source, source, good=np.inf, sampling=SMALL).least
     build_edge(source, source, good=1.001 * least, sampling=SMALL)
     with pytest.raises(NoWalk, match=r"Nothing follows turn -?\d+° below 1.0 cm \(the best costs"):
         build_edge(source, source, good=0.01, sampling=SMALL)
@@ -90,7 +89,7 @@ def test_the_smallest_threshold_is_the_smallest():
 
 def test_good_targets_with_bad_ones_all_around_leave_a_box_of_one():
     source = space()
-    least = smallest_good(source, source, SMALL)
+    least = build_edge(source, source, good=np.inf, sampling=SMALL).least
     tight = build_edge(source, source, good=1.0001 * least, bad=1.0001 * least, sampling=SMALL)
     assert (tight.low <= tight.high + 1e-9).all()
 
@@ -124,6 +123,6 @@ test_what_cannot_be_built_is_refused = refusals(
 
 def test_by_default_all_edges_that_can_be_had_are_there():
     """As in [HG07, graph]."""
-    some = {name: walk_and_jog().space(name) for name in ("walk", "jog")}
+    some = {name: walk_and_jog().nodes[name]["space"] for name in ("walk", "jog")}
     graph = build_parametric(some, good=0.05, sampling=SMALL)
-    assert set(graph.graph.edges) == {("walk", "walk"), ("jog", "jog")}
+    assert set(graph.edges) == {("walk", "walk"), ("jog", "jog")}
