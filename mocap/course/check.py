@@ -81,12 +81,12 @@ class Check:
     name : the function's name in the notebook.
     table : from a file such as `checks/06-pruning.toml`: `asks`, what the function must return, as the end of
         a sentence; `start`, the hint for a student who has not begun; `takes`, the names of the
-        arguments; `draw`, an expression of `rng` that gives the arguments of one call; `right`, an expression
-        of them; and `wrong`, the hint for each of several: if several fit, the first one counts. There
-        `right` stands for the right answer, and `A → B; C → D` for the answer that has B instead of A, and D
-        instead of C, in its expression and in the lines of the function that this calls. Some tables have
-        `same`, a function that compares two answers, a number of `trials`, and the `minutes` that it takes,
-        8 if not said.
+        arguments; `draw`, lines of Python that draw the arguments of one call by `rng`, and list them in the
+        last line; `right`, an expression of them; and `wrong`, the hint for each of several: if several fit,
+        the first one counts. There `right` stands for the right answer, and `A → B; C → D` for the answer
+        that has B instead of A, and D instead of C, in its expression and in the lines of the function that
+        this calls. Some tables have `same`, a function that compares two answers, a number of `trials`, and
+        the `minutes` that it takes, 8 if not said.
     known : what the expressions may use.
     notebook : the number of the notebook that asks for it, such as 04b.
 
@@ -132,19 +132,21 @@ class Check:
         ]
 
     def _function(self, expression: str, takes: str) -> Answer:
-        """Make a function of an expression of a table."""
+        """Make a function of an expression of a table, or of lines of which the last is one."""
         names, right = dict(self._known), self._table["right"]
         if "→" in expression:
-            called, lines = names.get(right.partition("(")[0]), ""
+            called, source = names.get(right.partition("(")[0]), ""
             if inspect.isfunction(called):
-                names, lines = called.__globals__ | names, inspect.getsource(called)
+                names, source = called.__globals__ | names, inspect.getsource(called)
             for change in expression.split("; "):
                 old, new = change.split(" → ")
-                lines, right = lines.replace(old, new), right.replace(old, new)
-            exec(lines, names)
+                source, right = source.replace(old, new), right.replace(old, new)
+            exec(source, names)
             expression = "right"
-        expression = re.sub(r"\bright\b", lambda _: f"({right})", expression)
-        made: Answer = eval(f"lambda {takes}: ({expression})", names)
+        *lines, last = re.sub(r"\bright\b", lambda _: f"({right})", expression).splitlines()
+        body = "".join(f" {line}\n" for line in lines)
+        exec(f"def made({takes}):\n{body} return ({last})", names)
+        made: Answer = names["made"]
         return made
 
     def __call__(self, answer: Answer) -> None:

@@ -1,7 +1,8 @@
 """The checks of the course's exercises, by the names of the functions that they ask for.
 
-A notebook has a table here, such as `06-pruning.toml`: what each of its exercises asks for, and the mistakes
-that students make, each with its hint. Beside them, five files have what takes more than an expression.
+A notebook has a table here, such as `06-pruning.toml`: what each of its exercises asks for, with which input
+it is tried, and the mistakes that students make, each with its hint. Beside them, five files have the
+answers, right and wrong, that take more than an expression.
 
 >>> from mocap.course import checks
 >>> checks.speed(lambda positions, fps: ...)

@@ -1,4 +1,4 @@
-"""Random input and answers, right and wrong, of exercises about graphs."""
+"""Answers, right and wrong, of exercises about graphs."""
 
 import itertools
 import sys
@@ -32,13 +32,6 @@ def draw_chance_to_last(rng: np.random.Generator) -> tuple[Array, int]:
 Point = tuple[float, float]
 
 
-def draw_choice_points(rng: np.random.Generator) -> tuple[int, list[int], list[int], int]:
-    """Draw a clip's length, where transitions leave and enter it, and their window."""
-    frames, window = int(rng.integers(60, 300)), int(rng.integers(5, 15))
-    leaves, enters = (rng.integers(0, frames - window, rng.integers(1, 9)) for _ in range(2))
-    return frames, [*leaves.tolist(), int(leaves[0])], enters.tolist(), window
-
-
 def fixed_point(angle: float, x: float, z: float) -> Point | None:
     """Solve T c = c, with the point (x, z) as the complex number z + ix."""
     if angle == 0:
@@ -60,20 +53,6 @@ def same_point(given: Any, wanted: Point | None) -> bool:  # noqa: ANN401
 Places = list[tuple[int, int]]
 Following = dict[tuple[int, int], Places]
 Links = list[tuple[int, int, int, int]]
-
-
-def draw_successors_of(rng: np.random.Generator) -> tuple[list[list[int]], Links, int]:
-    """Draw the choice points of two or three clips, the transitions between them, and their window."""
-    window, lengths = int(rng.integers(3, 9)), rng.integers(60, 120, rng.integers(2, 4))
-    points = [{0, int(length)} for length in lengths]
-    links = []
-    for _ in range(rng.integers(3, 8)):
-        source, target = rng.integers(len(lengths), size=2).tolist()
-        leave, enter = (int(rng.integers(1, lengths[clip] - window)) for clip in (source, target))
-        points[source].add(leave)
-        points[target].add(enter + window)
-        links.append((source, leave, target, enter))
-    return [sorted(frames) for frames in points], links, window
 
 
 def follow(points: list[list[int]], links: Links, window: int) -> Following:
@@ -108,41 +87,6 @@ def after(successors: Successors, start: int) -> set[int]:
 # ---- Notebook 06b
 
 
-Weighed = list[tuple[int, int, int]]  # start, end, frames
-
-
-def draw_component_to_keep(rng: np.random.Generator) -> tuple[list[set[int]], Weighed]:
-    """Draw the components of a graph, and its edges with the frames that they play."""
-    while True:
-        graph = nx.DiGraph(draw_graph(rng))
-        parts = [set(part) for part in nx.strongly_connected_components(graph)]
-        edges = [(a, b, int(rng.integers(5, 400))) for a, b in graph.edges]
-        if any({a, b} <= part for a, b, _ in edges for part in parts):
-            return parts, edges
-
-
-def draw_missing_ways(rng: np.random.Generator) -> tuple[nx.DiGraph, dict[str, set[int]]]:
-    """Draw a graph of rings, some joined by an edge, some by a node that is in no ring."""
-    graph, kinds = nx.DiGraph(), {}
-    for first, kind in zip((0, 10, 20, 30), ("walk", "jog", "sneak", "stand"), strict=True):
-        ring = list(range(first, first + int(rng.integers(2, 5))))
-        nx.add_cycle(graph, ring)
-        kinds[kind] = set(ring)
-    graph.add_edge(*rng.choice([0, 10, 20, 30], 2, replace=False).tolist())
-    here, there = rng.choice([0, 10, 20, 30], 2, replace=False).tolist()
-    nx.add_path(graph, [here, 99, there])
-    return graph, kinds
-
-
-def draw_why_removed(rng: np.random.Generator) -> tuple[Successors, set[int]]:
-    """Draw a graph and its strongly connected component of most nodes."""
-    while True:
-        graph = draw_graph(rng)
-        kept = max(nx.strongly_connected_components(nx.DiGraph(graph)), key=len)
-        if 1 < len(kept) < len(graph):
-            return graph, {int(node) for node in kept}
-
-
 def reasons(successors: Successors, kept: set[int]) -> dict[int, str]:
     """Say of each node outside the component why it goes."""
     found = {}
@@ -158,13 +102,6 @@ def reasons(successors: Successors, kept: set[int]) -> dict[int, str]:
 
 
 Graph = dict[int, list[int]]
-
-
-def draw_count_walks(rng: np.random.Generator) -> tuple[Graph, int, int]:
-    """Draw a graph of two to six nodes, with up to three edges each, two of which may lead to one node."""
-    count = int(rng.integers(2, 7))
-    graph = {node: rng.integers(0, count, rng.integers(1, 4)).tolist() for node in range(count)}
-    return graph, int(rng.integers(count)), int(rng.integers(1, 8))
 
 
 def counted(graph: Graph, node: int, edges: int) -> int:

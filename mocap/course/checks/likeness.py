@@ -1,6 +1,7 @@
-"""Random input and answers, right and wrong, of exercises about windows that are alike."""
+"""Answers, right and wrong, of exercises about windows that are alike."""
 
 from collections.abc import Callable
+from functools import partial
 from itertools import pairwise
 from typing import Any
 
@@ -74,15 +75,6 @@ def joined_numbers(points: Array) -> Array:
 Stood = tuple[float, complex]
 
 
-def draw_next_row(rng: np.random.Generator) -> tuple[Array, Array, Array]:
-    """Draw what is known of the row above, with cells that no path has reached, and a row of costs."""
-    diagonal = rng.uniform(1, 5, 8)
-    diagonal[rng.integers(0, 8, 2)] = np.inf
-    best = np.minimum(diagonal, rng.uniform(1, 5, 8))
-    best[0] = diagonal[0]
-    return diagonal, best, rng.uniform(0, 2, 8)
-
-
 def shifted(row: Array) -> Array:
     """Move a row by one place, with infinity before it."""
     return np.append(np.inf, row[:-1])
@@ -92,14 +84,6 @@ def row_after(diagonal: Array, best: Array, costs: Array) -> Array:
     """Give what is known of the next row of a path's costs: its last step not diagonal, and any."""
     now = 2 * costs + shifted(best)
     return np.array([now, np.minimum(np.minimum(now, costs + diagonal), costs + shifted(now))])
-
-
-def draw_ground_step(rng: np.random.Generator) -> tuple[float, complex, Array, Points, Array]:
-    """Draw a heading and a place, the turns and moves of three clips over a step, and weights."""
-    turns = rng.uniform(-3, 3, 3) + np.array([np.zeros(3), rng.normal(0, 0.4, 3)])
-    moves = np.asarray(rng.normal(size=(3, 2)) @ [0.1, 0.1j], complex)
-    place = complex(*rng.normal(size=2))
-    return float(rng.uniform(-3, 3)), place, turns, moves, rng.dirichlet(np.ones(3))
 
 
 def step(heading: float, place: complex, turns: Array, moves: Points, weights: Array) -> Stood:
@@ -118,39 +102,20 @@ Pairs = list[tuple[float, int]]
 MOST = 400  # calls of `matches_of`, far more than a right answer needs
 
 
-class Matches:
-    """What is like what: motions in clusters ten frames apart, some linked; found a little off each time."""
-
-    def __init__(self, links: dict[int, list[tuple[float, int, int]]]) -> None:
-        self.links, self.calls = links, 0
-
-    def __call__(self, match: int) -> Pairs:
-        """Give what is like a match, as pairs (cost, match)."""
-        self.calls += 1
-        if self.calls > MOST:
-            raise RecursionError(
-                f"it has asked {MOST} times and does not end: what is found again, at nearly the same "
-                "frames, is not new"
-            )
-        return [(cost, 10 * other + off) for cost, other, off in self.links[(match + 5) // 10]]
+def found_near(links: dict[int, list[tuple[float, int, int]]], asked: list[int], match: int) -> Pairs:
+    """Give what is like a match, as pairs (cost, match): motions ten frames apart, a little off each time."""
+    asked.append(match)
+    if len(asked) > MOST:
+        raise RecursionError(
+            f"it has asked {MOST} times and does not end: what is found again, at nearly the same "
+            "frames, is not new"
+        )
+    return [(cost, 10 * other + off) for cost, other, off in links[(match + 5) // 10]]
 
 
 def same_frame(first: int, second: int) -> bool:
     """Say whether two frames are at most four apart."""
     return abs(first - second) <= 4
-
-
-def draw_spread(rng: np.random.Generator) -> tuple[int, Matches, Callable[[int, int], bool]]:
-    """Link eight motions in a chain, and some of them across, both ways."""
-    links: dict[int, list[tuple[float, int, int]]] = {number: [] for number in range(10)}
-    order = rng.permutation(8).tolist()
-    chain = list(pairwise(order))
-    for one, other in [*chain, *((chain[n][0], chain[n + 2][1]) for n in range(0, 5, 2))]:
-        for here, there in ((one, other), (other, one)):
-            for _ in range(2):
-                cost = round(float(rng.uniform(1, 5)), 3)
-                links[here].append((cost, there, int(rng.integers(-2, 3))))
-    return 10 * order[0], Matches(links), same_frame
 
 
 def spread(query: int, matches_of: Callable[[int], Pairs], same: Callable[[int, int], bool]) -> list[int]:
@@ -173,11 +138,3 @@ def shares(distances: Array) -> Array:
     with np.errstate(all="ignore"):
         weights = 1 / distances - 1 / distances[-1]
         return np.asarray(weights / weights.sum())
-
-
-def draw_neighbour_weights(rng: np.random.Generator) -> tuple[Array]:
-    """Draw sorted distances; now and then the first one is 0."""
-    distances = np.sort(rng.uniform(0.1, 5, rng.integers(3, 7)))
-    if rng.random() < 0.3:
-        distances[0] = 0
-    return (distances,)

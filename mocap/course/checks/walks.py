@@ -1,4 +1,4 @@
-"""Random input and answers, right and wrong, of exercises about walks."""
+"""Answers, right and wrong, of exercises about walks."""
 
 from collections.abc import Callable
 from functools import partial
@@ -30,15 +30,6 @@ def same_place(given: Any, wanted: Any) -> bool:  # noqa: ANN401
     return len(shift) == 2 and close_angles(angle, wanted[0]) and close(shift, wanted[1:])
 
 
-def draw_product_of(rng: np.random.Generator) -> tuple[Array]:
-    """Draw transforms; some turn by nothing, by nearly nothing, by half a turn, or do nothing at all."""
-    rows = rng.normal(size=(rng.integers(2, 8), 3)) * [1.0, 2.0, 2.0]
-    rows[rng.integers(len(rows)), 0] = rng.choice([0.0, 1e-12, np.pi, -np.pi, 3.0])
-    if rng.uniform() < 0.3:
-        rows[rng.integers(len(rows))] = 0.0
-    return (rows,)
-
-
 Lengths = dict[int, dict[int, float]]
 At = tuple[int, int]  # a node, and the edges walked before it
 Ways = Callable[[At], list[tuple[float, At]]]
@@ -53,17 +44,6 @@ def ways_from(lengths: Lengths, longest: int, state: At) -> list[tuple[float, At
 def is_at(goal: int, state: At) -> bool:
     """Say whether a walk is at its goal."""
     return state[0] == goal
-
-
-def draw_cheapest_walk(rng: np.random.Generator) -> tuple[Ways, At, Callable[[At], bool]]:
-    """Draw eight nodes with three edges each, some of them loops, a start, a goal, and a limit of edges."""
-    lengths = {
-        node: {int(end): float(rng.uniform(0.1, 2)) for end in rng.choice(8, size=3, replace=False) + 1}
-        for node in range(1, 9)
-    }
-    start, goal = rng.choice(8, size=2, replace=False) + 1
-    ways = partial(ways_from, lengths, int(rng.integers(3, 7)))
-    return ways, (int(start), 0), partial(is_at, int(goal))
 
 
 def cheapest(ways: Ways, start: At, done: Callable[[At], bool]) -> tuple[float, list[At], int]:
@@ -110,18 +90,6 @@ def survivors(stand: Indices, costs: Array, width: int) -> Indices:
     return np.asarray(order[np.sort(first)[:width]])
 
 
-def draw_look_ahead(rng: np.random.Generator) -> tuple[Walk, Points, Line, float]:
-    """Draw a walk, its root in the coming frames, and a line."""
-    corners = draw_polyline(rng) @ [1, 1j]
-    reached = np.append(0, np.cumsum(abs(np.diff(corners))))
-    along = float(rng.uniform(0, reached[-1]))
-    ahead = (rng.normal(scale=0.05, size=(rng.integers(4, 12), 2)) @ [1, 1j]).cumsum()
-    turn, here = draw_turn(rng), complex(np.interp(along, reached, corners))
-    walk = turn, complex(here + 0.1 - turn * ahead[0]), along, 0.7
-    line: Line = partial(np.interp, xp=reached, fp=corners)  # a function that can be sent to another process
-    return walk, ahead, line, 0.4
-
-
 def look_ahead(walk: Walk, ahead: Points, line: Line, most: float) -> float:
     """Ask Eq. 9 about the coming frames; it gives no more than `most`."""
     turn, move, along, _ = walk
@@ -129,19 +97,6 @@ def look_ahead(walk: Walk, ahead: Points, line: Line, most: float) -> float:
     off = abs(turn * ahead[1:] + move - line(s))
     cost = float((off**2).sum())
     return min(cost, most)
-
-
-def draw_lengthen(rng: np.random.Generator) -> tuple[Walk, list[Edge], Line, float]:
-    """Draw where a walk is, the edges that leave its node, a path, and the least progress per frame."""
-    line = GroundPath(draw_polyline(rng))
-    (x, z), along = line.at(0.4 * line.length), 0.4 * line.length
-    walk = (complex(draw_turn(rng)), complex(z, x), along, float(rng.uniform(0.1, 2)))
-    edges = []
-    for end in rng.permutation(9)[: rng.integers(2, 5)].tolist():
-        track = (rng.normal(scale=0.05, size=(rng.integers(3, 9), 2)) @ [1, 1j]).cumsum()
-        move = complex(*rng.normal(size=2))
-        edges.append((end, track, complex(draw_turn(rng)), move, float(rng.choice([0.0, 0.3]))))
-    return walk, edges, line.at, 0.01
 
 
 def draw_turn(rng: np.random.Generator) -> complex:
@@ -173,18 +128,6 @@ def seconds_until(track: Array, heading: float, frame: int, back: int) -> float:
     return int(obeys.argmax()) if obeys.any() else -1
 
 
-def draw_obeys_after(rng: np.random.Generator) -> tuple[Array, float, int, int]:
-    """Draw a walk that turns to another heading, often across ±180°; some need not turn, some turn back."""
-    frame, back = int(rng.integers(20, 40)), int(rng.integers(5, 12))
-    first = rng.uniform(-np.pi, np.pi)
-    turn = rng.choice([-1, 1]) * rng.choice([rng.uniform(0.7, np.pi), rng.uniform(0.7, np.pi), np.pi, 0.0])
-    wait, takes = rng.integers(0, 20), rng.integers(15, 60)
-    share = np.clip((np.arange(frame + rng.integers(20, 120)) - frame - wait) / takes, 0, 1)
-    ways = first + turn * share
-    steps = rng.uniform(0.02, 0.05) * np.stack([np.sin(ways), np.cos(ways)], axis=1)
-    return np.cumsum(steps, axis=0), float(first + turn), frame, back
-
-
 def crowding(track: Array, other: Array, apart: float) -> float:
     """Add up the squares of how much nearer than `apart` two walkers come."""
     there = other[np.minimum(np.arange(len(track)), len(other) - 1)]
@@ -192,33 +135,11 @@ def crowding(track: Array, other: Array, apart: float) -> float:
     return float(np.sum(near**2))
 
 
-def draw_crowding_cost(rng: np.random.Generator) -> tuple[Array, Array, float]:
-    """Draw two lines that come near each other; the other one may be shorter or longer."""
-    count, others = int(rng.integers(30, 50)), int(rng.integers(15, 60))
-    track = np.stack([np.zeros(count), np.linspace(0, 2, count)], axis=1)
-    other = np.stack([np.linspace(-1, 1, others), np.full(others, 1.0)], axis=1)
-    shake = rng.normal(scale=0.03, size=(count, 2))
-    return track + shake, other + rng.normal(scale=0.1, size=2), float(rng.uniform(0.6, 1.2))
-
-
 def nearest_edge(turn: complex, tracks: list[Points], heading: float, speed: float, fps: float) -> int:
     """Choose the track of n + 1 points whose mean velocity, turned, is nearest to the one asked for."""
     wanted = speed * np.exp(1j * heading)
     velocities = [complex(track[-1] - track[0]) / (len(track) - 1) * fps for track in tracks]
     return int(np.argmin([abs(turn * v - wanted) for v in velocities]))
-
-
-def draw_next_edge(rng: np.random.Generator) -> tuple[complex, list[Points], float, float, float]:
-    """Draw tracks whose velocities are near the one asked for, and near those that mistakes ask for."""
-    turn, heading, speed = np.exp(1j * rng.uniform(-3, 3)), rng.uniform(-3, 3), rng.uniform(0.4, 2.0)
-    wanted, fps = speed * np.exp(1j * heading), float(rng.choice([30, 60]))
-    tracks = []
-    for aim in (wanted / turn, wanted, 1j * np.conj(wanted) / turn, 3 * wanted / turn, wanted / turn):
-        count = int(rng.integers(3, 20))
-        velocity = aim * np.exp(rng.normal(scale=0.3) + 1j * rng.normal(scale=0.3))
-        sway = 0.02 * rng.normal(size=(count, 2)) @ [1, 1j]
-        tracks.append(velocity * np.arange(count) / fps + sway)
-    return complex(turn), tracks, float(heading), float(speed), fps
 
 
 # ---- Notebook 19
@@ -239,13 +160,3 @@ def laid(pa: Points, va: Points, pb: Points, vb: Points) -> tuple[complex, compl
     cross = ((pa - pa.mean()) * (pb - pb.mean()).conj()).sum() + 0.49 * (va * vb.conj()).sum()
     turn = complex(cross / abs(cross))
     return turn, complex(pa.mean() - turn * pb.mean())
-
-
-def draw_lay_group(rng: np.random.Generator) -> tuple[Points, Points, Points, Points]:
-    """Draw a group, and the same one turned, moved and shaken."""
-    count, turn = int(rng.integers(5, 10)), np.exp(1j * rng.uniform(-3, 3))
-    pa = np.asarray(rng.normal(0, 1.5, (count, 2)) @ [1, 1j] + complex(*rng.normal(0, 5, 2)), complex)
-    va = np.asarray(1.1 + rng.normal(0, 0.3, (count, 2)) @ [1, 1j], complex)
-    shaken = rng.normal(0, 0.5, (2, count, 2)) @ [1, 1j]
-    move = complex(*rng.normal(0, 6, 2))
-    return pa, va, (pa + shaken[0]) * turn + move, (va + shaken[1]) * turn
