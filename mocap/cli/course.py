@@ -8,11 +8,13 @@ from functools import partial
 from pathlib import Path
 from typing import Annotated
 
-from mocap import course
 from mocap._shared.atomic import require_writable, write_text
 from mocap.cli.options import bar, number
 from mocap.cli.typed_commands import Group
-from mocap.course import marking, teaching
+from mocap.course import marking
+from mocap.course.handout import hand_out
+from mocap.course.notebooks import run as run_notebook
+from mocap.course.opening import build_lite, open_course, stored
 from mocap.errors import printable
 
 Points = Annotated[Path | None, "a .toml file of lines EXERCISE = POINTS (default: 1 each)"]
@@ -39,7 +41,7 @@ def handout(
     For example: mocap course handout notebooks/02-matching.ipynb --nbgrader -o my-course
     """
     worth = marking.grades.read_points(points)
-    print(f"wrote {len(course.hand_out(notebooks, out, worth, nbgrader=nbgrader))} notebooks to {out}")
+    print(f"wrote {len(hand_out(notebooks, out, worth, nbgrader=nbgrader))} notebooks to {out}")
 
 
 def site(*, out: Path = Path("mocap-site"), moving: Moving = False) -> None:
@@ -49,7 +51,9 @@ def site(*, out: Path = Path("mocap-site"), moving: Moving = False) -> None:
     ----------
     out : where to write.
     """
-    print(f"wrote {course.build_site(course.stored(), out, bar('converting'), moving=moving)}")
+    from mocap.course.site import build_site  # the help needs no NumPy
+
+    print(f"wrote {build_site(stored(), out, bar('converting'), moving=moving)}")
 
 
 def slides(*, out: Path = Path("mocap-slides"), moving: Moving = False) -> None:
@@ -63,7 +67,9 @@ def slides(*, out: Path = Path("mocap-slides"), moving: Moving = False) -> None:
     -----
     For example: mocap course slides -o slides, then open slides/index.html.
     """
-    print(f"wrote {teaching.build_slides(course.stored(), out, bar('converting'), moving=moving)}")
+    from mocap.course.teaching.slides import build_slides
+
+    print(f"wrote {build_slides(stored(), out, bar('converting'), moving=moving)}")
 
 
 def lite(*, out: Path = Path("mocap-lite")) -> None:
@@ -73,7 +79,7 @@ def lite(*, out: Path = Path("mocap-lite")) -> None:
     ----------
     out : where to write.
     """
-    print(f"wrote {course.build_lite(course.stored(), out)}")
+    print(f"wrote {build_lite(stored(), out)}")
 
 
 def film(notebook: Path, *, out: Path | None = None, still: bool = False) -> None:
@@ -89,9 +95,11 @@ def film(notebook: Path, *, out: Path | None = None, still: bool = False) -> Non
     -----
     For example: mocap course film notebooks/06-pruning.ipynb -o pruning.mp4
     """
+    from mocap.course.teaching.films import render_film
+
     out = out or Path(notebook.with_suffix(".mp4").name)
     require_writable(out)
-    teaching.render_film(notebook, out, moving=not still, progress=bar("drawing"))
+    render_film(notebook, out, moving=not still, progress=bar("drawing"))
     print(f"wrote {out}")
 
 
@@ -106,7 +114,9 @@ def board(*, out: Path = Path("mocap-board")) -> None:
     -----
     For example: mocap course board -o board, then open board/board.png.
     """
-    files = teaching.write_board(out, bar("drawing"))
+    from mocap.course.teaching.board import write_board
+
+    files = write_board(out, bar("drawing"))
     print(f"wrote {len(files)} pictures to {out}; {files[-1]} shows all")
 
 
@@ -161,9 +171,9 @@ def run(notebooks: Sequence[Path] = ()) -> None:
     ----------
     notebooks : files to run (default: the whole course).
     """
-    folder = course.stored()
+    folder = stored()
     for notebook in bar("running")(notebooks or sorted(folder.glob("*.ipynb"))):
-        course.run(notebook, folder.parent / "figures")
+        run_notebook(notebook, folder.parent / "figures")
 
 
 def lab(
@@ -180,7 +190,7 @@ def lab(
     ----------
     folder : folder for a copy of the notebooks; those that it holds already stay as they are.
     """
-    return int(course.open_course(folder, after))
+    return int(open_course(folder, after))
 
 
 COURSE = Group(

@@ -36,9 +36,5 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submodules=["checks", "diagrams", "lab"],
     submod_attrs={
         "real_clips": ["collections", "people"],
-        "notebooks": ["run"],
-        "handout": ["hand_out"],
-        "site": ["build_site"],
-        "opening": ["build_lite", "open_course", "stored"],
     },
 )

@@ -10,7 +10,7 @@ from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_outp
 from PIL import Image
 
 from mocap.course.opening import stored
-from mocap.course.teaching import build_slides
+from mocap.course.teaching.slides import build_slides
 from mocap.widgets.player import play
 from tests.browser.conftest import wait_until
 from tests.conftest import SWEEP

@@ -12,6 +12,5 @@ Reading order
 
 import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__, submod_attrs={"slides": ["build_slides"], "films": ["render_film"], "board": ["write_board"]}
-)
+# The command is the face of this room.
+__getattr__, __dir__, __all__ = lazy_loader.attach(__name__)

@@ -7,7 +7,6 @@ from contextlib import redirect_stdout
 
 import pytest
 
-from mocap import course
 from mocap.cli.main import main
 from mocap.course.opening import stored
 from mocap.course.site import MOVING
@@ -23,7 +22,7 @@ def decks(tmp_path_factory):
     shutil.copy(stored() / f"{NAME}.ipynb", folder)
     shutil.copytree(stored() / "slides", folder / "slides")
     with pytest.MonkeyPatch.context() as patch, redirect_stdout(io.StringIO()) as said:
-        patch.setattr(course, "stored", lambda: folder)
+        patch.setattr("mocap.cli.course.stored", lambda: folder)
         assert main(["course", "slides", "-o", str(out)]) == 0
     assert said.getvalue() == f"wrote {out / 'index.html'}\n"
     return out
