@@ -88,8 +88,8 @@ def choices(graph: CompiledGraph, motion: Motion, *, way: int, limit: float) -> 
     clips[0].skeleton.require_same(motion.skeleton)
     own, step = (max(1, round(AHEAD * fps)) for fps in (motion.fps, graph.fps))
     poses = [pose_at(motion, way, frames) for frames in (0, own) if frames < len(motion)]
-    rows = np.flatnonzero(~graph.blended[graph.plays.edge])
-    here, clouds = graph.plays.here[rows], np.concatenate([point_cloud(clip) for clip in clips])
+    rows = np.flatnonzero(~graph.blended[graph.of])
+    here, clouds = graph.here[rows], np.concatenate([point_cloud(clip) for clip in clips])
     then = [clip_rows(clips, here + np.array([0, n * way * step])) for n in range(len(poses))]
     points = np.concatenate([clouds[frames] for frames in then], axis=1)
     asked = np.broadcast_to(np.concatenate([point_cloud(pose)[0] for pose in poses]), points.shape)
@@ -108,7 +108,7 @@ def choices(graph: CompiledGraph, motion: Motion, *, way: int, limit: float) -> 
         pose = f"The {'first' if way > 0 else 'last'} pose of '{motion.name:.60}'"
         raise NoWalk(f"{pose} {far}: take a pose more like theirs.")
     good = good[off[good] <= limit]
-    edge = graph.plays.edge[rows[good]]
+    edge = graph.of[rows[good]]
     return Choices(edge, rows[good] - graph.first[edge], laid.turn[good], laid.move[good], off[good])
 
 

@@ -6,6 +6,7 @@ Ground points are complex numbers z + ix, and planar transforms are p â†¦ turn Â
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -13,39 +14,27 @@ from mocap._shared.arrays import Array, Indices, Mask, Points, ranges
 from mocap.body.motion import gather_marks
 from mocap.body.planar import heading, on_ground
 from mocap.errors import NoWalk
-from mocap.graphs.edge_tables import (
-    Edge,
-    EdgeTable,
-    FrameTable,
-    Hops,
-    clip_rows,
-    edge_table,
-    find_hops,
-    frame_table,
-    require_node,
-)
+from mocap.graphs.edge_tables import Edge, EdgeTable, Hops, clip_rows, edge_table, find_hops, require_node
 from mocap.graphs.motion_graph import MotionGraph, Node
 
 AHEAD = (1 / 4, 1 / 2, 3 / 4)  # seconds
 
 
 @dataclass(frozen=True, eq=False)
-class CompiledGraph:
-    """A motion graph as arrays, with N nodes, E edges of T frames together, and H hops.
+class CompiledGraph(EdgeTable):
+    """A motion graph as arrays: the `EdgeTable` of all E edges, of T frames together, N nodes and H hops.
 
     Parameters
     ----------
     source : the graph.
     nodes : sorted by clip and frame.
     edges : the stretches of clip, in the order of the nodes they leave, then the transitions.
-    target, frames, cost, blended : shape (E,), as in the graph; `blended` are the transitions.
-    turn, move : shape (E,), the transform of a transition, else 1 and 0.
+    target : shape (E,), the number of the node that an edge enters.
     at : shape (N,), where the root is at a node, in the coordinates of its clip.
     ahead : shape (N, 3), where it is after `AHEAD` seconds of clip; past the clip's end its velocity stays.
     going : shape (N,), the direction of its movement, or where it stands still, its heading (radians).
-    first : shape (E,), where the frames of an edge start among those of all edges, which follow one another.
-    plays, ground, step : shape (T,), these frames; where the root is in them, in the coordinates of the clip
-        that the edge leaves; and metres from the frame before.
+    ground, step : shape (T,), where the root is in each frame, in the coordinates of the clip that the edge
+        leaves; and metres from the frame before.
     label_names, bears : the L labels, and shape (L, T), whether a frame bears them.
     hops : the hops from each node.
     """
@@ -54,16 +43,9 @@ class CompiledGraph:
     nodes: list[Node]
     edges: list[Edge]
     target: Indices
-    frames: Indices
-    cost: Array
-    blended: Mask
-    turn: Points
-    move: Points
     at: Points
     ahead: Points
     going: Array
-    first: Indices
-    plays: FrameTable
     ground: Points
     step: Array
     label_names: list[str]
@@ -116,18 +98,15 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
     index = {node: n for n, node in enumerate(nodes)}
     leaves, target = (np.array([index[edge[end]] for edge in edges]) for end in (0, 1))
     table = edge_table(graph, edges)
-    frames = frame_table(table, graph.window)
     roots = on_ground(np.concatenate([clip.root_positions for clip in graph.clips]))
     # The labels of a frame in a transition are those of the clip with the larger weight.
-    marks = gather_marks([clip.labels for clip in graph.clips], frames.owner)
-    bears = np.array([marks[name] for name in sorted(marks)], bool).reshape(-1, len(frames.edge))
-    way = table.transform
-    of_all = (target, table.frames, table.cost, table.blended, way.turn, way.move)
-    first = np.asarray(np.cumsum(table.frames) - table.frames, np.intp)
-    ground, step = _tracks(graph, table, frames, roots)
-    hops, names = find_hops(table, leaves, len(nodes), graph.fps), sorted(marks)
-    parts = (*of_all, *_standing(graph, np.array(nodes), roots))
-    return CompiledGraph(graph, nodes, edges, *parts, first, frames, ground, step, names, bears, hops)
+    marks = gather_marks([clip.labels for clip in graph.clips], table.owner)
+    names = sorted(marks)
+    bears = np.array([marks[name] for name in names], bool).reshape(-1, len(table.of))
+    parts = (target, *_standing(graph, np.array(nodes), roots), *_tracks(graph, table, roots))
+    hops = find_hops(table, leaves, len(nodes), graph.fps)
+    whole: list[Any] = [*vars(table).values(), graph, nodes, edges, *parts, names, bears, hops]
+    return CompiledGraph(*whole)
 
 
 def _standing(graph: MotionGraph, nodes: Indices, roots: Points) -> tuple[Points, Points, Array]:
@@ -148,14 +127,14 @@ def _standing(graph: MotionGraph, nodes: Indices, roots: Points) -> tuple[Points
     return root(frame), ahead, np.where(np.abs(way) > 0.1, np.angle(way), faces)
 
 
-def _tracks(graph: MotionGraph, edges: EdgeTable, frames: FrameTable, roots: Points) -> tuple[Points, Array]:
+def _tracks(graph: MotionGraph, edges: EdgeTable, roots: Points) -> tuple[Points, Array]:
     """Follow the root along every edge, blended as the poses are [KGP02, Eq. 5]: places, and steps."""
-    turn, move = edges.transform.turn[frames.edge], edges.transform.move[frames.edge]
-    here, there = (roots[clip_rows(graph.clips, some)] for some in (frames.here, frames.there))
-    first = np.cumsum(edges.frames) - edges.frames
-    ground = frames.alpha * here + (1 - frames.alpha) * (turn * there + move)
+    turn, move = edges.turn[edges.of], edges.move[edges.of]
+    here, there = (roots[clip_rows(graph.clips, some)] for some in (edges.here, edges.there))
+    ground = edges.alpha * here + (1 - edges.alpha) * (turn * there + move)
     step = np.abs(np.diff(ground, prepend=0))
-    step[first] = np.abs(ground[first] - roots[clip_rows(graph.clips, edges.leaves - np.array([0, 1]))])
+    before = clip_rows(graph.clips, edges.here[edges.first] - np.array([0, 1]))
+    step[edges.first] = np.abs(ground[edges.first] - roots[before])
     return ground, step
 
 

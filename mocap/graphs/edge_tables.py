@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Indices, Mask, ranges
+from mocap._shared.arrays import Array, Indices, Mask, Points, ranges
 from mocap.blending.weights import cubic_weights
 from mocap.body.motion import Motion
 from mocap.body.planar import IDENTITY, PlanarTransform
@@ -21,24 +19,34 @@ Edge = tuple[Node, Node, int]
 HOP = 1 / 6  # seconds of clip, after which a hop ends
 
 
-class EdgeTable(NamedTuple):
-    """E edges as arrays; a stretch of clip has cost 0 and the identity as its `transform`."""
+@dataclass(frozen=True, eq=False)
+class EdgeTable:
+    """E edges of a graph as arrays, and the F frames that they play, those of an edge after those before it.
 
-    leaves: Indices  # (E, 2): clip and frame
-    enters: Indices  # (E, 2)
+    A frame is a blend: `alpha` times frame `here` plus `1 - alpha` times frame `there`, laid on it.
+
+    Parameters
+    ----------
+    first, frames : shape (E,), where the frames of an edge start among those of all, and how many they are.
+    cost, blended : shape (E,), as in the graph; `blended` are the transitions, a stretch of clip costs 0.
+    angle, turn, move : shape (E,), lay the clip that an edge enters on the one that it leaves: the turn in
+        radians, and p ↦ turn · p + move; 0, 1 and 0 on a stretch of clip.
+    of : shape (F,), the edge that a frame belongs to.
+    here, there : shape (F, 2), clips and frames; the same on a stretch of clip.
+    alpha : shape (F,), the weight of `here`.
+    """
+
+    first: Indices
     frames: Indices
-    blended: Mask  # whether it is a transition
     cost: Array
-    transform: PlanarTransform  # of arrays: lays the clip it enters on the one it leaves
-
-
-class FrameTable(NamedTuple):
-    """The frames of some edges as blends: `alpha` times frame `here` plus `1 - alpha` times frame `there`."""
-
-    edge: Indices  # (F,): which of the edges a frame belongs to
-    here: Indices  # (F, 2): clip and frame
-    there: Indices  # (F, 2): the same as here on a stretch of clip
-    alpha: Array  # (F,)
+    blended: Mask
+    angle: Array
+    turn: Points
+    move: Points
+    of: Indices
+    here: Indices
+    there: Indices
+    alpha: Array
 
     @property
     def owner(self) -> Indices:
@@ -56,7 +64,11 @@ def require_node(motion_graph: MotionGraph, node: Node) -> None:
 
 
 def edge_table(motion_graph: MotionGraph, edges: Sequence[Edge]) -> EdgeTable:
-    """Gather the data of some edges of a graph in arrays.
+    """List the data of some edges, and of what each of their frames is made [KGP02, Eqs. 5-7].
+
+    No frame is part of two blends: a transition enters its clip at the frame after its window, and the next
+    transition leaves at this frame or later. A transition of 10 frames from frame 60 into frame 20 blends
+    frames 60 to 69 with frames 10 to 19.
 
     Examples
     --------
@@ -65,37 +77,25 @@ def edge_table(motion_graph: MotionGraph, edges: Sequence[Edge]) -> EdgeTable:
     >>> back = matching.Transition(0, 60, 0, 10, 0.02, body.PlanarTransform(0, 0, 0))
     >>> graph = graphs.from_transitions([clip], [back], window=10)
     >>> edges = edge_table(graph, [((0, 20), (0, 60), 0), ((0, 60), (0, 20), 0)])
-    >>> edges.frames.tolist(), edges.blended.tolist(), edges.cost.tolist()
-    ([40, 10], [False, True], [0.0, 0.02])
+    >>> edges.frames.tolist(), edges.blended.tolist(), edges.cost.tolist(), edges.there[-1].tolist()
+    ([40, 10], [False, True], [0.0, 0.02], [0, 19])
     """
     data = [motion_graph.graph.edges[edge] for edge in edges]
-    transforms = np.array([edge.get("transform", IDENTITY) for edge in data], float).reshape(-1, 3)
-    return EdgeTable(
-        np.array([start for start, _, _ in edges], np.intp).reshape(-1, 2),
-        np.array([end for _, end, _ in edges], np.intp).reshape(-1, 2),
-        np.array([edge["frames"] for edge in data], np.intp),
-        np.array([edge["kind"] == "transition" for edge in data], bool),
-        np.array([edge.get("cost", 0.0) for edge in data], float),
-        PlanarTransform(*transforms.T),
-    )
-
-
-def frame_table(edges: EdgeTable, window: int) -> FrameTable:
-    """List the clip frames and the weight of which each frame of some edges is made [KGP02, Eqs. 5-7].
-
-    No frame is part of two blends: a transition enters its clip at the frame after its window, and the next
-    transition leaves at this frame or later. A transition of 10 frames from frame 60 into frame 20 blends
-    frames 60 to 69 with frames 10 to 19.
-    """
-    edge = np.repeat(np.arange(len(edges.frames)), edges.frames)
-    step = ranges(np.zeros_like(edges.frames), edges.frames)  # frames since the edge's first
-    here, there = edges.leaves[edge], edges.enters[edge]
-    here[:, 1] += step
-    there[:, 1] += step - edges.frames[edge]
-    blended = edges.blended[edge]
-    alpha = np.ones(len(edge))
-    alpha[blended] = cubic_weights(window)[step[blended]]
-    return FrameTable(edge, here, there, alpha)
+    frames = np.array([edge["frames"] for edge in data], np.intp)
+    blended = np.array([edge["kind"] == "transition" for edge in data], bool)
+    cost = np.array([edge.get("cost", 0.0) for edge in data], float)
+    transforms = np.array([edge.get("transform", IDENTITY) for edge in data], float)
+    lays = PlanarTransform(*transforms.reshape(-1, 3).T)
+    first, of = np.asarray(np.cumsum(frames) - frames, np.intp), np.repeat(np.arange(len(edges)), frames)
+    since = np.arange(len(of)) - first[of]  # frames since the edge's first
+    ends = np.array([edge[:2] for edge in edges], np.intp).reshape(-1, 2, 2)
+    here, there = ends[of, 0], ends[of, 1]
+    here[:, 1] += since
+    there[:, 1] += since - frames[of]
+    alpha, mixed = np.ones(len(of)), blended[of]
+    alpha[mixed] = cubic_weights(motion_graph.window)[since[mixed]]
+    of_all = (np.asarray(lays.angle), lays.turn, lays.move)
+    return EdgeTable(first, frames, cost, blended, *of_all, of, here, there, alpha)
 
 
 def clip_rows(clips: Sequence[Motion], frames: Indices) -> Indices:
@@ -119,6 +119,7 @@ class Hops:
     last : shape (H,), the last edge of a hop: a transition or a stretch of clip.
     starts, counts : shape (H, 2), the rows of frames that a hop plays, among the frames of all edges:
         first those of the stretches before the last edge, then those of the last edge.
+    frames : shape (H,), the number of frames that each hop plays.
     """
 
     first: Indices
@@ -127,11 +128,7 @@ class Hops:
     last: Indices
     starts: Indices
     counts: Indices
-
-    @cached_property
-    def frames(self) -> Indices:
-        """The number of frames that each hop plays, shape (H,)."""
-        return np.asarray(self.counts.sum(axis=1))
+    frames: Indices
 
     def leaving(self, nodes: Indices) -> tuple[Indices, Indices]:
         """List all hops that leave some nodes: the index of each one's node in `nodes`, and its number."""
@@ -186,4 +183,4 @@ def find_hops(edges: EdgeTable, leaves: Indices, nodes: int, fps: float) -> Hops
     end[rides == 0, 0] = begin[rides == 0, 0]
     counts = before[end] - before[begin]
     first = np.searchsorted(start, np.arange(nodes + 1))
-    return Hops(first, onward[start], rides, last, before[begin], counts)
+    return Hops(first, onward[start], rides, last, before[begin], counts, counts.sum(axis=1))

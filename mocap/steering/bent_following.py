@@ -53,16 +53,16 @@ def turning_of(graph: CompiledGraph) -> OwnTurning:
     points = on_ground(np.stack(place, axis=1))
     steps = np.diff(along, prepend=along[0])
     steps[np.cumsum([0, *map(len, clips[:-1])])] = 0.0
-    plays, starts = graph.plays, graph.first
-    here, there, weight = clip_rows(clips, plays.here), clip_rows(clips, plays.there), 1 - plays.alpha
-    other = heads[there] + np.angle(graph.turn)[plays.edge]
+    starts, weight = graph.first, 1 - graph.alpha
+    here, there = clip_rows(clips, graph.here), clip_rows(clips, graph.there)
+    other = heads[there] + np.angle(graph.turn)[graph.of]
     apart = (other - heads[here] + np.pi) % (2 * np.pi) - np.pi
     head = heads[here] + np.where(weight > 0, weight * apart, 0.0)
     turn = np.diff(head, prepend=0.0)
-    turn[starts] = head[starts] - heads[clip_rows(clips, plays.here[starts] - np.array([0, 1]))]
-    step = plays.alpha * steps[here] + weight * steps[there]
-    laid = graph.turn[plays.edge] * points[there] + graph.move[plays.edge]
-    ground = plays.alpha * points[here] + weight * laid
+    turn[starts] = head[starts] - heads[clip_rows(clips, graph.here[starts] - np.array([0, 1]))]
+    step = graph.alpha * steps[here] + weight * steps[there]
+    laid = graph.turn[graph.of] * points[there] + graph.move[graph.of]
+    ground = graph.alpha * points[here] + weight * laid
     return OwnTurning(turn, step, ground, heads[clip_rows(clips, np.array(graph.nodes))])
 
 

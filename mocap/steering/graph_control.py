@@ -149,9 +149,9 @@ class Controller:
 
     def _played(self) -> tuple[Node, Node, float]:
         """Give the two clip frames, and the weight of the first one, that the last frame is made of."""
-        plays, row = self.graph.plays, self.graph.first[self.edges[0]] + self.frame - 1
-        here, there = plays.here[row].tolist(), plays.there[row].tolist()
-        return here, there, float(plays.alpha[row])
+        row = self.graph.first[self.edges[0]] + self.frame - 1
+        here, there = self.graph.here[row].tolist(), self.graph.there[row].tolist()
+        return here, there, float(self.graph.alpha[row])
 
     def _after(self) -> tuple[complex, complex]:
         """Place the clip that the edge under way leads to."""

@@ -12,14 +12,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Indices, Mask
+from mocap._shared.arrays import Array, Indices
 from mocap.body import rotations
 from mocap.body.motion import Motion, gather_marks
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import NoWalk
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
-from mocap.graphs.edge_tables import Edge, EdgeTable, edge_table, frame_table
+from mocap.graphs.edge_tables import Edge, EdgeTable, edge_table
 from mocap.graphs.motion_graph import MotionGraph
 
 
@@ -47,8 +47,7 @@ def seams(motion_graph: MotionGraph, walk: Sequence[Edge]) -> list[Seam]:
     Notebook: 09-discussion
     """
     edges = edge_table(motion_graph, walk)
-    first = np.cumsum(edges.frames) - edges.frames
-    return [Seam(int(first[i]), float(edges.cost[i])) for i in np.flatnonzero(edges.blended)]
+    return [Seam(int(edges.first[i]), float(edges.cost[i])) for i in np.flatnonzero(edges.blended)]
 
 
 def sources(motion_graph: MotionGraph, walk: Sequence[Edge]) -> list[tuple[int, str]]:
@@ -149,16 +148,18 @@ def to_motion(
     if clean:
         motion_graph = with_plants(motion_graph)
     edges = edge_table(motion_graph, walk)
-    table = frame_table(edges, motion_graph.window)
     before = places(edges, place)
-    roots, turns = _placed(motion_graph, table.here, before, table.edge)
-    mixed = edges.blended[table.edge]
+    roots, turns = _placed(motion_graph, edges.here, before, edges.of)
+    mixed = edges.blended[edges.of]
     # The target clip is placed by the transition's transform, in the blend and after it.
-    there, turned = _placed(motion_graph, table.there[mixed], before, table.edge[mixed] + 1)
-    alpha = table.alpha[mixed, None]
+    there, turned = _placed(motion_graph, edges.there[mixed], before, edges.of[mixed] + 1)
+    alpha = edges.alpha[mixed, None]
     roots[mixed] = alpha * roots[mixed] + (1 - alpha) * there
     turns[mixed] = rotations.slerp(turned, turns[mixed], alpha)
-    labels, contacts = (_marks(motion_graph, table.owner, kind) for kind in ("labels", "contacts"))
+    visited, number = np.unique(edges.owner[:, 0], return_inverse=True)
+    owner = np.stack([number, edges.owner[:, 1]], axis=1)
+    labels = gather_marks([motion_graph.clips[clip].labels for clip in visited], owner)
+    contacts = gather_marks([motion_graph.clips[clip].contacts for clip in visited], owner)
     clip = motion_graph.clips[0]
     motion = Motion(clip.skeleton, roots, turns, clip.fps, name, labels, contacts)
     return clean_up(motion) if clean else motion
@@ -195,14 +196,15 @@ def places(edges: EdgeTable, place: PlanarTransform = IDENTITY) -> PlanarTransfo
     --------
     Two transitions, each of which turns left by 90° and moves 1 m forward:
 
-    >>> from mocap.graphs.edge_tables import EdgeTable
-    >>> one, turn = np.ones(2), PlanarTransform(np.full(2, np.pi / 2), np.zeros(2), np.ones(2))
-    >>> x, z = places(EdgeTable(one, one, one, one > 0, one, turn))[1:]
+    >>> from mocap import datasets, graphs, matching
+    >>> back = matching.Transition(0, 60, 0, 10, 0.02, PlanarTransform(np.pi / 2, 0.0, 1.0))
+    >>> graph = graphs.from_transitions([datasets.sample("walk_circle")], [back], window=10)
+    >>> x, z = places(edge_table(graph, 2 * [((0, 60), (0, 20), 0)]))[1:]
     >>> x.round(6).tolist(), z.round(6).tolist()
     ([0.0, 0.0, 1.0], [0.0, 1.0, 1.0])
     """
-    angle = np.cumsum(np.concatenate([[place.angle], np.asarray(edges.transform.angle)]))
-    steps = edges.transform.move * np.exp(1j * angle[:-1])
+    angle = np.cumsum(np.concatenate([[place.angle], edges.angle]))
+    steps = edges.move * np.exp(1j * angle[:-1])
     moved = np.cumsum([place.move, *steps])
     return PlanarTransform(angle, moved.imag, moved.real)
 
@@ -219,10 +221,3 @@ def _placed(
         turns[of_clip] = motion_graph.clips[clip].rotations[frames[of_clip, 1]]
     place = PlanarTransform(*(np.asarray(numbers)[chosen] for numbers in places))
     return place.apply_frames(roots, turns)
-
-
-def _marks(motion_graph: MotionGraph, owner: Indices, kind: str) -> dict[str, Mask]:
-    """Gather the labels or the contacts of the clip frames (F, 2)."""
-    visited, number = np.unique(owner[:, 0], return_inverse=True)
-    sources = [getattr(motion_graph.clips[clip], kind) for clip in visited]
-    return gather_marks(sources, np.stack([number, owner[:, 1]], axis=1))
