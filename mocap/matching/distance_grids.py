@@ -19,7 +19,6 @@ No step adds up numbers larger than a body and its path within a window. So the 
 a clip is or how far it goes, and 32 bits are enough.
 """
 
-from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -194,7 +193,7 @@ def distance_grid(
 
 
 def tiled_distances(a: Cloud, b: Cloud, *, upper: bool = False) -> Floats:
-    """Measure D between all windows of two clouds, tile by tile; with `upper`, not below the diagonal: inf.
+    """Measure D between all windows of two clouds, by tiles; with `upper`, those below the diagonal are inf.
 
     Examples
     --------
@@ -204,22 +203,12 @@ def tiled_distances(a: Cloud, b: Cloud, *, upper: bool = False) -> Floats:
     True
     """
     grid = np.full((len(a.sizes), len(b.sizes)), np.inf, a.heights.dtype)
-    for tile in tiles(*grid.shape, upper=upper):
-        grid[tile] = cloud_distances(a.part(tile[0]), b.part(tile[1]))
+    for top in range(0, len(grid), TILE[0]):
+        rows = slice(top, min(top + TILE[0], grid.shape[0]))
+        for left in range(top if upper else 0, grid.shape[1], TILE[1]):
+            columns = slice(left, min(left + TILE[1], grid.shape[1]))
+            grid[rows, columns] = cloud_distances(a.part(rows), b.part(columns))
     return grid
-
-
-def tiles(rows: int, columns: int, *, upper: bool = False) -> Iterator[tuple[slice, slice]]:
-    """Cut a grid into tiles; with `upper`, only those with entries on or above the diagonal.
-
-    Examples
-    --------
-    >>> [(rows.start, columns.stop) for rows, columns in tiles(300, 700)]
-    [(0, 640), (0, 700), (256, 640), (256, 700)]
-    """
-    for row in range(0, rows, TILE[0]):
-        for column in range(row if upper else 0, columns, TILE[1]):
-            yield slice(row, min(row + TILE[0], rows)), slice(column, min(column + TILE[1], columns))
 
 
 def _matching_points(a: Motion | ArrayLike, b: Motion | ArrayLike, window: int) -> list[Floats]:

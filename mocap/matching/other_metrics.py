@@ -10,12 +10,13 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.distance import cdist
 
 from mocap._shared.arrays import Array
 from mocap.body import euler, rotations
 from mocap.body.motion import Motion, require_alike
 from mocap.errors import MocapError, shortened
-from mocap.matching.distance_grids import check_window, diagonal_sum, tiles
+from mocap.matching.distance_grids import check_window, diagonal_sum
 
 _SIDED = {"femur": 50, "tibia": 30, "foot": 15, "toes": 5, "clavicle": 30, "humerus": 15, "radius": 5}
 _MIDDLE = {"lowerback": 50, "upperback": 40, "thorax": 30, "lowerneck": 20, "upperneck": 15, "head": 5}
@@ -58,14 +59,9 @@ def root_grid(a: Motion, b: Motion, *, window: int) -> Array:
     array([[3.]])
     """
     a, b = _alike(a, b, window)
-
-    def apart(p: Array, q: Array) -> Array:
-        cosines = np.abs(p[:, 3:] @ q[:, 3:].T)  # of half the angle; q and -q are the same turn
-        moved = np.linalg.norm(p[:, None, :3] - q[:, :3], axis=-1)
-        return np.asarray(moved + 2 * np.arccos(np.minimum(cosines, 1.0)))
-
-    roots = [np.hstack([clip.root_positions, clip.rotations[:, 0]]) for clip in (a, b)]
-    return diagonal_sum(_all_pairs(apart, *roots), window) / window
+    cosines = np.abs(a.rotations[:, 0] @ b.rotations[:, 0].T)  # of half the angle; q and -q are the same turn
+    turned = 2 * np.arccos(np.minimum(cosines, 1.0))
+    return diagonal_sum(cdist(a.root_positions, b.root_positions) + turned, window) / window
 
 
 def euler_grid(a: Motion, b: Motion, *, window: int) -> Array:
@@ -109,16 +105,13 @@ def euler_grid(a: Motion, b: Motion, *, window: int) -> Array:
     bones = [j for j, name in enumerate(skeleton.names) if j and name in weights and skeleton.dofs[j]]
     if not bones:
         raise MocapError(f"This skeleton has no bone with a weight: {shortened(', '.join(weights))}.")
-    columns = np.cumsum([0, *(len(skeleton.dofs[bone]) for bone in bones)])[:-1]
-
-    def apart(p: Array, q: Array) -> Array:
-        gaps = p.T[:, :, None] - q.T[:, None]  # (dofs, rows, columns), turns
-        square = np.add.reduceat((gaps - np.rint(gaps)) ** 2, columns)  # (bones, rows, columns)
-        return np.asarray(np.tensordot(prices, np.sqrt(square), 1))
-
-    prices = [360 * weights[skeleton.names[bone]] for bone in bones]
-    angles = [np.hstack([file_angles(clip, bone) for bone in bones]) / 360 for clip in (a, b)]
-    return diagonal_sum(_all_pairs(apart, *angles), window)
+    grid = np.zeros((len(a), len(b)))
+    for bone in bones:
+        turns = (file_angles(clip, bone).T / 360 for clip in (a, b))  # (dofs, F)
+        gaps = (np.subtract.outer(*pair) for pair in zip(*turns, strict=True))
+        square = sum((gap - np.rint(gap)) ** 2 for gap in gaps)
+        grid += 360 * weights[skeleton.names[bone]] * np.sqrt(square)
+    return diagonal_sum(grid, window)
 
 
 def file_angles(motion: Motion, joint: int) -> Array:
@@ -148,11 +141,3 @@ def _alike(a: Motion, b: Motion, window: int) -> tuple[Motion, ...]:
     for clip in (a, b):
         check_window(window, len(clip), f"'{clip.name}'")
     return alike
-
-
-def _all_pairs(apart: Callable[[Array, Array], Array], a: Array, b: Array) -> Array:
-    """Measure all pairs of rows of two arrays, tile by tile so that the work stays in the cache."""
-    grid = np.empty((len(a), len(b)))
-    for rows, columns in tiles(*grid.shape):
-        grid[rows, columns] = apart(a[rows], b[columns])
-    return grid

@@ -84,21 +84,14 @@ class Transitions(Sequence[Transition]):
     def __getitem__(self, index: slice | NDArray[Any]) -> Transitions: ...
     def __getitem__(self, index: int | slice | NDArray[Any]) -> Transition | Transitions:
         if isinstance(index, int | np.integer):
-            return _record(*(column[index].item() for column in self.columns))
-        return from_columns(*(column[index] for column in self.columns))
+            return next(iter(self[np.array([index])]))
+        source, leave, target, enter, cost, *laid = (column[index] for column in self.columns)
+        return Transitions(source, leave, target, enter, cost, PlanarTransform(*laid))
 
     def __iter__(self) -> Iterator[Transition]:
-        return map(_record, *(column.tolist() for column in self.columns))
-
-
-def _record(source: int, leave: int, target: int, enter: int, cost: float, *way: float) -> Transition:
-    return Transition(source, leave, target, enter, cost, PlanarTransform(*way))
-
-
-def from_columns(*columns: NDArray[Any]) -> Transitions:
-    """Make transitions of their eight `columns`."""
-    source, leave, target, enter, cost, *way = columns
-    return Transitions(source, leave, target, enter, cost, PlanarTransform(*way))
+        rows = zip(*(column.tolist() for column in self.columns), strict=True)
+        for source, leave, target, enter, cost, *laid in rows:
+            yield Transition(source, leave, target, enter, cost, PlanarTransform(*laid))
 
 
 def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to work)
@@ -211,10 +204,11 @@ def _both_ways(found: Array, clips: Sequence[Motion], gap: int) -> Transitions:
     order = np.lexsort((j, i))  # by i, then by j
     i, j = i[order], j[order]
     starts = np.cumsum([0, *(len(clip) + gap for clip in clips)])
-    source, target = (np.searchsorted(starts, frame, side="right") - 1 for frame in (i, j))
-    records = (source, i - starts[source], target, j - starts[target])
+    first, second = (np.searchsorted(starts, frame, side="right") - 1 for frame in (i, j))  # clips
+    numbers = (first, i - starts[first], second, j - starts[second])
+    source, leave, target, enter = (column.astype(np.int32) for column in numbers)
     ways = (np.concatenate(both)[order] for both in zip(there, there.inverse(), strict=True))
-    return from_columns(*(column.astype(np.int32) for column in records), np.tile(found[2], 2)[order], *ways)
+    return Transitions(source, leave, target, enter, np.tile(found[2], 2)[order], PlanarTransform(*ways))
 
 
 def _limits(below: Mapping[Any, float], clips: Sequence[Motion], window: int, found: Transitions) -> Array:

@@ -2,7 +2,7 @@
 
 A seam is compared with the clips' own windows of the same length: a jump that the clips have themselves is
 nothing special. A new measure of clips goes into `clip_flaws`, one of seams into `seam_measures`, and one of
-whole motions is a row of the table in `motion_measures`.
+whole motions into `motion_measures`, with its limit.
 
 Reading order (notebooks 01, 04, 09 to 11)
 ----------------------------------------
@@ -11,7 +11,7 @@ Reading order (notebooks 01, 04, 09 to 11)
 3. `seam_measures`: how a seam jolts, turning knees
 4. `falling`: the centre of mass, and the gravity that a flight shows
 5. `joint_limits`: joints that bend beyond what people's do
-6. `motion_measures`: a table of what can be wrong with a motion
+6. `motion_measures`: what can be wrong with a motion, each with its limit
 7. `judging`: any motion in a few numbers, each over its limit
 
 References

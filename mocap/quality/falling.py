@@ -17,19 +17,18 @@ Part = tuple[str, str, float, float]
 """Two joints, one above the other, a share of the body's mass, and at which share of the way down it sits."""
 
 
-def _both(above: str, below: str, mass: float, at: float) -> list[Part]:
-    return [(side + above, side + below, mass, at) for side in "lr"]
-
-
+_SIDED: tuple[Part, ...] = (
+    ("femur", "humerus", 0.497 / 2, 0.5),  # the trunk, from the hips to the shoulders
+    ("femur", "tibia", 0.100, 0.433),
+    ("tibia", "foot", 0.0465, 0.433),
+    ("foot", "toes", 0.0145, 0.5),
+    ("humerus", "radius", 0.028, 0.436),
+    ("radius", "wrist", 0.016, 0.430),
+    ("wrist", "fingers", 0.006, 0.506),
+)
 SEGMENTS: tuple[Part, ...] = (
-    *_both("femur", "humerus", 0.497 / 2, 0.5),  # the trunk, from the hips to the shoulders
+    *((side + above, side + below, mass, at) for above, below, mass, at in _SIDED for side in "lr"),
     ("head", "head_end", 0.081, 0.5),  # with the neck
-    *_both("femur", "tibia", 0.100, 0.433),
-    *_both("tibia", "foot", 0.0465, 0.433),
-    *_both("foot", "toes", 0.0145, 0.5),
-    *_both("humerus", "radius", 0.028, 0.436),
-    *_both("radius", "wrist", 0.016, 0.430),
-    *_both("wrist", "fingers", 0.006, 0.506),
 )
 """The body's masses by [Winter09], Table 4.1, after Dempster; the joints are those of CMU's skeletons."""
 

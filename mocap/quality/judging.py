@@ -23,28 +23,13 @@ from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, shortened
 from mocap.quality.clip_flaws import height_of
-from mocap.quality.motion_measures import MEASURES, Judged
-
-
-class Measure(NamedTuple):
-    """Something measured, its limit in the same unit, and where it is worst.
-
-    Examples
-    --------
-    >>> Measure("slide", 5.0, 2.5, "cm", "'lfoot', frame 30").ratio
-    2.0
-    """
-
-    name: str
-    value: float
-    limit: float
-    unit: str
-    where: str = ""
-
-    @property
-    def ratio(self) -> float:
-        """How many times its limit it is."""
-        return self.value / self.limit
+from mocap.quality.motion_measures import (
+    Measure,
+    measure_body,
+    measure_joints,
+    measure_limbs,
+    measure_smoothness,
+)
 
 
 class Judgement(NamedTuple):
@@ -139,16 +124,16 @@ def judge(
         legs = find_legs(motion.skeleton)
     except MocapError as error:
         legs, left_out = (), (f"feet and knees: {error}",)
-    body = Judged(motion, joint_positions(motion), legs, against, path, stretch)
-    other = {"jolt": (1.5, "times the clips'")} if against else {}
-    measures = [
-        Measure(name, found[0], *other.get(name, (limit, unit)), found[1])
-        for name, measure, unit, limit in MEASURES
-        if (found := measure(body))
-    ]
+    places = joint_positions(motion)
+    measures = (
+        *measure_smoothness(motion, places, against),
+        *measure_joints(motion, places),
+        *measure_limbs(motion, places, legs),
+        *measure_body(motion, places, path, stretch),
+    )
     lengths = np.linalg.norm(motion.skeleton.offsets[1:], axis=-1).tolist()
-    bones, height = dict(zip(motion.skeleton.names[1:], lengths, strict=True)), height_of(body.places)
-    return Judgement(motion.name, len(motion), motion.fps, tuple(measures), left_out, height, bones)
+    bones, height = dict(zip(motion.skeleton.names[1:], lengths, strict=True)), height_of(places)
+    return Judgement(motion.name, len(motion), motion.fps, measures, left_out, height, bones)
 
 
 def judgement_table(judgements: Sequence[Judgement]) -> str:

@@ -1,8 +1,8 @@
-"""What `judge` measures: a function for each thing that can be wrong with a motion, and a table of them."""
+"""What `judge` measures: each thing that can be wrong with a motion, its limit, and where it is worst."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -29,135 +29,105 @@ ALOFT = 25.0  # centimetres; in 153 clips the lowest joint comes down to 12.5 cm
 SHORTEST, TALLEST = 0.75, 2.5  # metres, of one who walks; a grown body in inches, read as cm, is 0.7 at most
 
 
-Found = tuple[float, str] | None
-"""A value in the unit of its row in `MEASURES`, and where it is worst; None where there is none."""
+class Measure(NamedTuple):
+    """Something measured, its limit in the same unit, and where it is worst.
+
+    Examples
+    --------
+    >>> Measure("slide", 5.0, 2.5, "cm", "'lfoot', frame 30").ratio
+    2.0
+    """
+
+    name: str
+    value: float
+    limit: float
+    unit: str
+    where: str = ""
+
+    @property
+    def ratio(self) -> float:
+        """How many times its limit it is."""
+        return self.value / self.limit
 
 
-class Judged(NamedTuple):
-    """What is judged, as for `judge`; `places` are the joints' positions, (F, J, 3)."""
-
-    motion: Motion
-    places: Array
-    legs: Sequence[Leg]
-    against: Sequence[Motion]
-    path: GroundPath | None
-    stretch: Mapping[str, float] | None
-
-    def at(self, values: Array, later: int = 0) -> str:
-        """Say at which joint and in which frame values (F, J) are largest."""
-        frame, joint = np.unravel_index(int(values.argmax()), values.shape)
-        return f"'{self.motion.skeleton.names[int(joint)]}', frame {frame + later}"
-
-
-def _jolt(body: Judged) -> Found:
-    own, fps = jumps(body.motion), body.motion.fps
-    usual = float(np.percentile(own, MOSTLY))
-    if body.against:
-        clips = Spread(tuple(jumps(resample(clip, fps)) for clip in body.against))
+def measure_smoothness(motion: Motion, places: Array, against: Sequence[Motion]) -> Iterator[Measure]:
+    """Measure jolts and trembling; `places` are the joints' positions, (F, J, 3)."""
+    own, fps = jumps(motion), motion.fps
+    usual, limit, unit = float(np.percentile(own, MOSTLY)), LEAP, "times usual"
+    if against:
+        clips = Spread(tuple(jumps(resample(clip, fps)) for clip in against))
         usual = float(np.percentile(clips.within(max(2, round(WINDOW * fps))), USUAL))
+        limit, unit = 1.5, "times the clips'"
     frame = 1 + int(own[1:-1].argmax())
-    apart = np.linalg.norm(np.diff(body.places[frame - 1 : frame + 2], 2, axis=0), axis=-1)
-    most = body.motion.skeleton.names[int(apart.max(axis=0).argmax())]
-    return float(own.max()) / max(usual, STILL), f"frame {frame}, most '{most}'"
-
-
-def _tremble(body: Judged) -> Found:
-    points = point_cloud(body.motion)
-    window = max(5, 2 * round(FLAT * body.motion.fps / 2) + 1)
+    apart = np.linalg.norm(np.diff(places[frame - 1 : frame + 2], 2, axis=0), axis=-1)
+    most = motion.skeleton.names[int(apart.max(axis=0).argmax())]
+    yield Measure("jolt", float(own.max()) / max(usual, STILL), limit, unit, f"frame {frame}, most '{most}'")
+    points = point_cloud(motion)
+    window = max(5, 2 * round(FLAT * fps / 2) + 1)
     window = min(window, len(points) - 1 + len(points) % 2)
     off = np.sqrt(((points - savgol_filter(points, window, 3, axis=0)) ** 2).sum(-1).mean(-1))
-    return 1000 * float(np.median(off)), ""
+    yield Measure("tremble", 1000 * float(np.median(off)), 3.0, "mm")
 
 
-def _sunk(body: Judged) -> Found:
-    depth = -body.places[..., 1]
-    return 100 * max(0.0, float(depth.max())), body.at(depth)
+def measure_joints(motion: Motion, places: Array) -> Iterator[Measure]:
+    """Measure where joints go, how fast they turn, and whether left and right are alike."""
+    skeleton, local = motion.skeleton, motion.rotations
 
+    def most(values: Array, first: int = 0) -> str:
+        """Say at which joint and in which frame values (F, J) are largest, if they start at a frame."""
+        frame, joint = np.unravel_index(int(values.argmax()), values.shape)
+        return f"'{skeleton.names[int(joint)]}', frame {frame + first}"
 
-def _turn(body: Judged) -> Found:
-    local = body.motion.rotations
-    turns = np.degrees(rotations.angle_between(local[1:], local[:-1])) * body.motion.fps
-    return float(turns.max()), body.at(turns, later=1)
-
-
-def _lopsided(body: Judged) -> Found:
-    skeleton = body.motion.skeleton
+    depths = -places[..., 1]
+    yield Measure("sunk", 100 * max(0.0, float(depths.max())), 100 * UNDER, "cm", most(depths))
+    turns = np.degrees(rotations.angle_between(local[1:], local[:-1])) * motion.fps
+    yield Measure("turn", float(turns.max()), float(np.degrees(FAST)), "°/s", most(turns, first=1))
     partners = [skeleton.partner(joint) for joint in range(len(skeleton))]
-    lengths = np.linalg.norm(skeleton.offsets, axis=-1)
-    gaps = 1000 * np.abs(lengths - lengths[partners])
-    sided = partners != list(range(len(skeleton)))
-    return (float(gaps.max()), f"'{skeleton.names[gaps.argmax()]}'") if sided else None
+    if partners != list(range(len(skeleton))):
+        lengths = np.linalg.norm(skeleton.offsets, axis=-1)
+        gaps = 1000 * np.abs(lengths - lengths[partners])
+        yield Measure("lopsided", float(gaps.max()), 20.0, "mm", f"'{skeleton.names[gaps.argmax()]}'")
+    lowest = 100 * places[..., 1].min(axis=1)
+    if lowest.min() > ALOFT:
+        yield Measure("aloft", float(lowest.min()), ALOFT, "cm", f"lowest in frame {lowest.argmin()}")
 
 
-def _aloft(body: Judged) -> Found:
-    lowest = body.places[..., 1].min(axis=1)
-    high = 100 * float(lowest.min())
-    return (high, f"lowest in frame {lowest.argmin()}") if high > ALOFT else None
+def measure_limbs(motion: Motion, places: Array, legs: Sequence[Leg]) -> Iterator[Measure]:
+    """Measure feet that slide or skate, where there are `legs`, and joints that bend too far."""
+    if legs:
+        slides = plant_slides(mark_plants(motion, legs), feet_of(legs), positions=places)
+        far = max(slides, key=lambda slide: slide.far, default=None)
+        where = f"'{far.joint}', frames {far.start} to {far.stop - 1}" if far else "no foot stands"
+        yield Measure("slide", mean_slide(slides), 2.5, "cm", where)
+        feet, roots = places[:, feet_of(legs)][..., [0, 2]], motion.root_positions[:, [0, 2]]
+        slowest = (np.linalg.norm(np.diff(feet, axis=0), axis=-1) * motion.fps).min(axis=1)
+        speed = max(SLOW, float(np.linalg.norm(np.diff(roots, axis=0), axis=-1).mean()) * motion.fps)
+        yield Measure("skate", 100 * float(np.percentile(slowest, SLOWEST)) / speed, 8.0, "% of speed")
+    if bends := joint_bends(motion, legs):
+        worst = max(bends, key=lambda bend: float(bend.share.max()))
+        frame = int(worst.share.argmax())
+        how = f"'{worst.joint}' {worst.way} by {worst.angles[frame]:.0f}°, frame {frame}"
+        yield Measure("bent", float(worst.share[frame]), 1.0, "of its limit", how)
 
 
-def _slide(body: Judged) -> Found:
-    if not body.legs:
-        return None
-    slides = plant_slides(mark_plants(body.motion, body.legs), feet_of(body.legs), positions=body.places)
-    if not slides:
-        return 0.0, "no foot stands"
-    worst = max(slides, key=lambda slide: slide.far)
-    return mean_slide(slides), f"'{worst.joint}', frames {worst.start} to {worst.stop - 1}"
+def measure_body(
+    motion: Motion, places: Array, path: GroundPath | None, stretch: Mapping[str, float] | None
+) -> Iterator[Measure]:
+    """Measure bones that stretch and a root off its path, where these are known, and the body's size.
 
-
-def _skate(body: Judged) -> Found:
-    if not body.legs:
-        return None
-    fps, feet = body.motion.fps, body.places[:, feet_of(body.legs)][..., [0, 2]]
-    slowest = (np.linalg.norm(np.diff(feet, axis=0), axis=-1) * fps).min(axis=1)
-    steps = np.linalg.norm(np.diff(body.motion.root_positions[:, [0, 2]], axis=0), axis=-1)
-    return 100 * float(np.percentile(slowest, SLOWEST)) / max(SLOW, float(steps.mean()) * fps), ""
-
-
-def _bent(body: Judged) -> Found:
-    bends = joint_bends(body.motion, body.legs)
-    if not bends:
-        return None
-    worst = max(bends, key=lambda bend: float(bend.share.max()))
-    frame = int(worst.share.argmax())
-    how = f"'{worst.joint}' {worst.way} by {worst.angles[frame]:.0f}°, frame {frame}"
-    return float(worst.share[frame]), how
-
-
-def _bones(body: Judged) -> Found:
-    stretched = sorted((far, f"'{joint}'") for joint, far in (body.stretch or {"": 0.0}).items())
-    return None if body.stretch is None else (1000 * stretched[-1][0], stretched[-1][1])
-
-
-def _path(body: Judged) -> Found:
-    if body.path is None:
-        return None
-    off, _ = cKDTree(body.path.resampled(0.01).points).query(body.motion.root_positions[:, [0, 2]])
-    return 100 * float(off.mean()), f"{100 * off.max():.0f} cm in frame {off.argmax()}"
-
-
-def _size(body: Judged) -> Found:
-    """Compare a body with the smallest and the tallest people; one who lies down is as long as tall."""
-    height = height_of(body.places)
+    A body is compared with the smallest and the tallest people; one who lies down is as long as tall.
+    """
+    if stretch is not None:
+        far, joint = max(((far, joint) for joint, far in stretch.items()), default=(0.0, ""))
+        yield Measure("bones", 1000 * far, 5.0, "mm", f"'{joint}'")
+    if path is not None:
+        off, _ = cKDTree(path.resampled(0.01).points).query(motion.root_positions[:, [0, 2]])
+        where = f"{100 * off.max():.0f} cm in frame {off.argmax()}"
+        yield Measure("path", 100 * float(off.mean()), 15.0, "cm", where)  # as `steering.follow_path` warns
+    height = height_of(places)
     if not SHORTEST <= height <= TALLEST:
-        height = float(np.median(np.ptp(body.places, axis=1).max(axis=-1)))
+        height = float(np.median(np.ptp(places, axis=1).max(axis=-1)))
     times = max(SHORTEST / max(height, 1e-9), height / TALLEST)
     inches = f"; {2.54 * height:.3g} m if it is in inches" if SHORTEST / 2 < height < SHORTEST else ""
-    return (times, f"{height:.3g} m tall{inches}") if times > 1 else (0.0, "")
-
-
-MEASURES: tuple[tuple[str, Callable[[Judged], Found], str, float], ...] = (
-    ("jolt", _jolt, "times usual", LEAP),
-    ("tremble", _tremble, "mm", 3.0),
-    ("sunk", _sunk, "cm", 100 * UNDER),
-    ("turn", _turn, "°/s", float(np.degrees(FAST))),
-    ("lopsided", _lopsided, "mm", 20.0),
-    ("aloft", _aloft, "cm", ALOFT),
-    ("slide", _slide, "cm", 2.5),
-    ("skate", _skate, "% of speed", 8.0),
-    ("bent", _bent, "of its limit", 1.0),
-    ("bones", _bones, "mm", 5.0),
-    ("path", _path, "cm", 15.0),  # as `steering.follow_path` warns
-    ("size", _size, "of its limit", 1.0),
-)
-"""A row for each measure: its name, its function, its unit and its limit."""
+    value, where = (times, f"{height:.3g} m tall{inches}") if times > 1 else (0.0, "")
+    yield Measure("size", value, 1.0, "of its limit", where)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from mocap.errors import SkeletonMismatch
 from mocap.matching import distance_grids
-from mocap.matching.distance_grids import distance_grid, tiles
+from mocap.matching.distance_grids import cloud, cloud_distances, distance_grid, tiled_distances
 from mocap.matching.minima import local_minima
 from tests.oracles import distance_oracle
 from tests.refusals import refusals
@@ -83,14 +83,24 @@ def test_the_grid_of_a_clip_and_itself_is_exactly_symmetric(dtype, frames):
 
 @given(st.integers(1, 40), st.integers(1, 40), st.booleans())
 def test_tiles_cover_a_grid_once(rows, columns, upper):
-    seen = np.zeros((rows, columns), int)
+    a, b = (
+        cloud(random_points(n, n), np.zeros(6), np.full(6, 1 / 6), 1, np.float64) for n in (rows, columns)
+    )
+    worked = []
+
+    def kept(*parts):
+        worked.append(cloud_distances(*parts))
+        return worked[-1]
+
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(distance_grids, "TILE", (7, 11))
-        for tile in tiles(rows, columns, upper=upper):
-            seen[tile] += 1
-    assert seen.max() <= 1
-    assert np.all(seen[np.triu_indices(rows, 0, columns)] == 1)
-    assert upper or seen.min() == 1
+        patch.setattr(distance_grids, "cloud_distances", kept)
+        grid = tiled_distances(a, b, upper=upper)
+    seen = np.isfinite(grid)
+    assert sum(tile.size for tile in worked) == seen.sum()
+    assert grid[seen] == pytest.approx(cloud_distances(a, b)[seen], abs=1e-12)
+    assert np.all(seen[np.triu_indices(rows, 0, columns)])
+    assert upper or seen.all()
 
 
 POINTS = np.ones((5, 2, 3))
