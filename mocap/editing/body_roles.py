@@ -59,19 +59,6 @@ def roles(skeleton: Skeleton) -> dict[str, int]:
     return {role: found[role] for role in ROLES if role in found}
 
 
-def legs_among(who: Mapping[str, int]) -> tuple[Leg, Leg]:
-    """Give the left and the right leg among roles.
-
-    Examples
-    --------
-    >>> from mocap.datasets.samples import SKELETON
-    >>> legs_among(roles(SKELETON))[0]
-    Leg(hip=2, knee=3, ankle=4, ball=5)
-    """
-    left, right = (Leg(*(who[f"{side} {part}"] for part in LEG)) for side in SIDES)
-    return left, right
-
-
 def _trunk(skeleton: Skeleton, limbs: Mapping[str, int]) -> dict[str, int]:
     """Find the trunk by the tree: what the limbs and the head hang on."""
     up = {role: skeleton.path_to_root(joint)[1:] for role, joint in limbs.items()}

@@ -224,23 +224,25 @@ def retarget(
     Notebook: 13-retargeting
     """
     source = stance_of(motion) if source is None else source
-    target = body if isinstance(body, Stance) else standing_like(body, source)
+    if isinstance(body, Skeleton):  # its balls are as high as the source's, times the ratio of the legs
+        ratio = stance_of_zero(body, 0.0).leg / source.leg
+        body = stance_of_zero(body, ratio * source.height("ball"))
     planted = with_plants(motion, source.legs)
     if pin_errors(planted, plant_pins(planted, source.legs)).max() > STILL:
         planted = clean_up(planted, source.legs)
-    base = copied(planted, source, target, scale=scale)
-    dips = {role: dip * target.leg / source.leg for role, dip in dips_of(motion, source).items()}
-    wishes = floor_pins(base, target, dips)
-    who, trunk = target.roles, target.skeleton.path_to_root(target.roles.get("chest", 0))
-    stiff = [*(leg.knee for leg in target.legs), *(joint for joint in trunk if joint > who["pelvis"])]
-    prices = dict.fromkeys((target.skeleton.names[joint] for joint in stiff), STIFF)
+    base = copied(planted, source, body, scale=scale)
+    dips = {role: dip * body.leg / source.leg for role, dip in dips_of(motion, source).items()}
+    wishes = floor_pins(base, body, dips)
+    who, trunk = body.roles, body.skeleton.path_to_root(body.roles.get("chest", 0))
+    stiff = [*(leg.knee for leg in body.legs), *(joint for joint in trunk if joint > who["pelvis"])]
+    prices = dict.fromkeys((body.skeleton.names[joint] for joint in stiff), STIFF)
     priced = body_of(base, wishes.joints, prices=prices)
     worn = solve(base, wishes, RETARGET, priced, quiet=True).motion
-    if (moved := np.abs(worn.root_positions - base.root_positions).max()) > MOST * target.leg:
+    if (moved := np.abs(worn.root_positions - base.root_positions).max()) > MOST * body.leg:
         hips = f"the hips move by {100 * moved:.0f} cm to take these steps"
-        legs = f"with legs of {100 * target.leg:.0f} cm: no leg takes them at ease"
+        legs = f"with legs of {100 * body.leg:.0f} cm: no leg takes them at ease"
         warn(f"'{shortened(motion.name)}': {hips}, {legs}.")
-    return let_go(worn, wishes, floor_pins(base, target))
+    return let_go(worn, wishes, floor_pins(base, body))
 
 
 def floor_pins(motion: Motion, stance: Stance, dips: Mapping[str, float] | None = None) -> Pins:
@@ -284,17 +286,3 @@ def dips_of(motion: Motion, stance: Stance) -> dict[str, float]:
     """Measure how far each ankle and ball ever is below where it stands, metres by role, 0 or more."""
     lowest = joint_positions(motion)[..., 1].min(axis=0)
     return {role: max(0.0, stance.heights[role] - float(lowest[stance.roles[role]])) for role in FEET}
-
-
-def standing_like(skeleton: Skeleton, source: Stance) -> Stance:
-    """Take a skeleton's rest pose as its stance, with balls as high as another body's, by the legs' ratio.
-
-    Examples
-    --------
-    >>> from mocap.datasets import sample
-    >>> adult = stance_of(sample("walk_straight"))
-    >>> round(standing_like(adult.skeleton, adult).height("ball"), 3)
-    0.026
-    """
-    ratio = stance_of_zero(skeleton, 0.0).leg / source.leg
-    return stance_of_zero(skeleton, ratio * source.height("ball"))

@@ -21,7 +21,7 @@ from mocap.body.motion import Motion
 from mocap.editing.bodies import Body, body_of, require_reachable
 from mocap.editing.displacements import displaced
 from mocap.editing.pins import Pins, pin_errors, require_pins_of
-from mocap.editing.steps import Basis, Curve, Linear, led, linear
+from mocap.editing.steps import Basis, Curve, led, linear
 from mocap.errors import MocapError, warn
 
 TOLERANCE = 0.005  # metres: what the solver may leave without a warning
@@ -136,19 +136,19 @@ def _descend(base: Motion, pins: Pins, body: Body, way: Basis) -> tuple[Array, l
     worst: list[float] = []
     c = np.zeros((curve.basis.shape[1], len(body.price)))
     damping = np.full((len(base) if way.alone else 1, 1), way.damping)
-    now = linear(base, body, curve.basis @ c, pins)
+    gap, slopes = linear(base, body, curve.basis @ c, pins)
     while len(worst) < way.passes:
-        new = curve.step(c, now, damping)
-        then = linear(base, body, curve.basis @ new, pins)
-        before = curve.cost(c, now.gap)
-        gain = before - curve.cost(new, then.gap)  # of each frame by itself, or of all together
+        new = curve.step(c, gap, slopes, damping)
+        left, then = linear(base, body, curve.basis @ new, pins)
+        before = curve.cost(c, gap)
+        gain = before - curve.cost(new, left)  # of each frame by itself, or of all together
         helps = gain > 0
         c = np.where(helps, new, c)
-        now = Linear(np.where(helps, then.gap, now.gap), np.where(helps[..., None], then.slopes, now.slopes))
+        gap, slopes = np.where(helps, left, gap), np.where(helps[..., None], then, slopes)
         more = (np.abs(gain) > np.where(helps, GAIN, GAIN / 100) * before) | (helps & (damping > 1))
         damping = np.where(helps, damping / FALL, damping * RISE)
-        worst.append(now.worst)
-        if not more.any() or now.worst < MET:
+        worst.append(float(np.linalg.norm(gap.reshape(-1, 3), axis=-1).max()))
+        if not more.any() or worst[-1] < MET:
             break
     return curve.basis @ c, worst
 

@@ -14,10 +14,10 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.kinematics import forward_kinematics, joint_positions
-from mocap.body.limbs import Leg
+from mocap.body.limbs import Leg, find_legs
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from mocap.editing.body_roles import FEET, SIDES, legs_among, roles
+from mocap.editing.body_roles import FEET, SIDES, roles
 from mocap.editing.pins import with_plants
 from mocap.errors import MocapError
 
@@ -73,9 +73,9 @@ class Stance:
         return points
 
     @property
-    def legs(self) -> tuple[Leg, Leg]:
+    def legs(self) -> tuple[Leg, ...]:
         """The left and the right leg."""
-        return legs_among(self.roles)
+        return find_legs(self.skeleton)
 
     @property
     def leg(self) -> float:
@@ -121,7 +121,7 @@ def stance_of(motion: Motion, *, mean: bool = False) -> Stance:
     Notebook: 13-retargeting
     """
     who = roles(motion.skeleton)
-    legs = legs_among(who)
+    legs = find_legs(motion.skeleton)
     motion = with_plants(motion, legs)
     heights = standing_heights(motion, who)
     if not mean:

@@ -56,21 +56,6 @@ class Basis(NamedTuple):
         return self.knots == self.calm == 0
 
 
-class Linear(NamedTuple):
-    """What is left to do in each frame, `gap` (F, m), metres, and how it closes with x, `slopes` (F, m, n).
-
-    Rows of axes for which nothing is to do are 0: free ones, and boxes that the joint is in.
-    """
-
-    gap: Array
-    slopes: Array
-
-    @property
-    def worst(self) -> float:
-        """The largest distance of a joint from its pin, metres."""
-        return float(np.linalg.norm(self.gap.reshape(len(self.gap), -1, 3), axis=-1).max())
-
-
 def led(base: Motion, pins: Pins, seconds: float) -> Pins:
     """Pin joints between their pins, too: to their own way, moved by the curve that bends least [ours].
 
@@ -86,8 +71,11 @@ def led(base: Motion, pins: Pins, seconds: float) -> Pins:
     return Pins(pins.joints, low, high, pins.turns)
 
 
-def linear(base: Motion, body: Body, x: Array, pins: Pins) -> Linear:
-    """Measure the P pinned joints' gaps at m₀ ⊕ x, and how they close with x (F, n), in all frames at once.
+def linear(base: Motion, body: Body, x: Array, pins: Pins) -> tuple[Array, Array]:
+    """Measure what is left to do at m₀ ⊕ x, and how it closes with x (F, n), in all frames at once.
+
+    Gives the gaps (F, m), metres, and the slopes (F, m, n), three rows for each box. Rows of axes for which
+    nothing is to do are 0: free ones, and boxes that the joint is in.
 
     A joint at p_j, turned in the world by R_j and by d_j already, turns about its own axis a: a joint e below
     moves by ∂p_e = (R_j J(d_j) a) × (p_e - p_j), with J the right Jacobian. The root's place moves all by 1.
@@ -113,7 +101,7 @@ def linear(base: Motion, body: Body, x: Array, pins: Pins) -> Linear:
             ways = ARM * np.linalg.solve(right_jacobian(places[:, number] / ARM), inside)
         slopes[:, number][..., 3 + above] = ways
     slopes *= (places != np.clip(places, pins.low + NEAR, pins.high - NEAR))[..., None]
-    return Linear(pins.gap(places).reshape(len(base), -1), slopes.reshape(len(base), -1, x.shape[1]))
+    return pins.gap(places).reshape(len(base), -1), slopes.reshape(len(base), -1, x.shape[1])
 
 
 class Curve:
@@ -137,21 +125,21 @@ class Curve:
         self.pairs, bent = ([(b[:, : knots - d] * b[:, d:]).T.tocsr() for d in apart] for b in both)
         self.bent = [pair.sum(axis=1) for pair in bent]
 
-    def step(self, c: Array, now: Linear, damping: Array) -> Array:
+    def step(self, c: Array, gap: Array, slopes: Array, damping: Array) -> Array:
         """Take one step of Levenberg and Marquardt: the next control points c (K, n).
 
-        With the slopes J by c, and the price P of c, ‖c'‖²_P + w² ‖gap - J (c' - c)‖² + λ ‖c' - c‖²_P is
-        least where
+        With the gap and the slopes J that `linear` gives, and the price P of c,
+        ‖c'‖²_P + w² ‖gap - J (c' - c)‖² + λ ‖c' - c‖²_P is least where
 
             (w² JᵀJ + (1 + λ) P) c' = w² Jᵀ (gap + J c) + λ P c;
 
         λ is (1, 1), or (F, 1) by frame. These large matrices are banded.
         """
         (knots, n), diagonal = c.shape, np.arange(c.shape[1])
-        x, upward = self.basis @ c, self.weight**2 * np.swapaxes(now.slopes, 1, 2)
-        matrix = upward @ now.slopes
+        x, upward = self.basis @ c, self.weight**2 * np.swapaxes(slopes, 1, 2)
+        matrix = upward @ slopes
         matrix[:, diagonal, diagonal] += (1 + damping) * self.price
-        wanted = now.gap + np.einsum("fmn,fn->fm", now.slopes, x)
+        wanted = gap + np.einsum("fmn,fn->fm", slopes, x)
         pull = np.einsum("fnm,fm->fn", upward, wanted) + damping * self.price * x
         right = self.basis.T @ pull + damping * self.price * (self.bends.T @ (self.bends @ c))
         band = np.zeros((len(self.pairs) * n, knots * n))  # lower form: entry (i, j) stands at (i - j, j)

@@ -11,7 +11,6 @@ At a corner, where v k is still more than a walk may turn, it goes more slowly y
 """
 
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
@@ -39,16 +38,6 @@ RATIOS = (0.3, 1.25)  # of speeds, after and before: a turn that is made straigh
 PELVIS, TRUNK = 0.5, 0.25  # of the lean; the legs take the whole of it, and the feet none
 
 
-class Places(NamedTuple):
-    """Where a walk is on a line in each of its F frames, metres, and its speed there over its own, `ratio`.
-
-    Its steps are √ratio times as long, and each frame lasts 1/√ratio as long.
-    """
-
-    along: Array
-    ratio: Array
-
-
 def bends_of(path: GroundPath) -> tuple[Array, Array, Array, Array]:
     """Measure how a line bends, and how much slower than straight on people walk there.
 
@@ -69,12 +58,14 @@ def bends_of(path: GroundPath) -> tuple[Array, Array, Array, Array]:
     return along, curvature, (1 + (RADIUS * curvature) ** 2) ** -0.25, sharpest
 
 
-def places_on(path: GroundPath, ride: Ride, fps: float, limit: float = np.inf) -> Places:
+def places_on(path: GroundPath, ride: Ride, fps: float, limit: float = np.inf) -> tuple[Array, Array]:
     """Say where on a line a walk is, slowed by as much as the line bends more than the walk's own path.
 
-    The speeds' ratio is r = q(k) / q(k₀), with k₀ of its own path: 1 for a captured turn on its own path.
-    Where a body stands, its path curls, and that says nothing: r = 1. Where it would turn faster than the
-    limit, radians per second, and than by itself to the same side, r is smaller, down to `SLOWER` or `LEAST`.
+    Gives for each of its F frames the metres along the line, and its speed there over its own: steps are
+    √ratio times as long, and a frame lasts 1/√ratio as long. The ratio is r = q(k) / q(k₀), with k₀ of its
+    own path: 1 for a captured turn on its own path. Where a body stands, its path curls, and that says
+    nothing: r = 1. Where it would turn faster than the limit, radians per second, and than by itself to the
+    same side, r is smaller, down to `SLOWER` or `LEAST`.
     """
     (_, curvature, slower, sharpest), (_, _, own, _) = bends_of(path), bends_of(ride.path)
     heads = moving_frames(ride.path, ride.along).angle
@@ -92,7 +83,8 @@ def places_on(path: GroundPath, ride: Ride, fps: float, limit: float = np.inf) -
         if more * ratio > WITHIN * limit:
             ratio = max(WITHIN * limit / more, SLOWER * ratio, min(LEAST / speed, ratio))
         places.append((here, ratio))
-    return Places(*np.array(places).T)
+    along, ratios = np.array(places).T
+    return along, ratios
 
 
 def slow_down(
@@ -121,11 +113,11 @@ def slow_down(
     >>> round(slow.duration / walk.duration, 2), np.degrees(leaning[200]).round()
     (1.11, np.float64(4.0))
     """
-    places, numbers = places_on(path, ride, motion.fps, limit), np.arange(len(motion))
-    clock = places.ratio**-0.5  # new frames per old frame
+    (places, ratio), numbers = places_on(path, ride, motion.fps, limit), np.arange(len(motion))
+    clock = ratio**-0.5  # new frames per old frame
     times = np.concatenate([[0.0], np.cumsum((clock[1:] + clock[:-1]) / 2)])
     frames = np.interp(np.arange(int(times[-1] + 1e-6) + 1), times, numbers)
-    own, along = (np.interp(frames, numbers, some) for some in (ride.along, places.along))
+    own, along = (np.interp(frames, numbers, some) for some in (ride.along, places))
     speeds = np.interp(frames, numbers, _speed(ride.along, motion.fps)), _speed(along, motion.fps)
     before, after = (
         np.arctan(np.interp(where, *bends_of(line)[:2]) * speed**2 / GRAVITY)

@@ -18,7 +18,7 @@ from mocap.body.planar import IDENTITY, from_ground, heading, on_ground
 from mocap.editing.bending import Bent, bend
 from mocap.editing.line_rounding import round_line
 from mocap.editing.path_editing import Ride, moving_frames, ride_of
-from mocap.editing.turning import Places, places_on
+from mocap.editing.turning import places_on
 from mocap.errors import MocapError
 from mocap.graphs.compiled_graph import CompiledGraph, walk_track
 from mocap.graphs.edge_tables import clip_rows
@@ -161,16 +161,16 @@ def plan_bending(
     # A slower walk, or one that turns by itself, needs less rounding, so that its line is longer.
     further = FURTHER[0] + (1 + FURTHER[1]) * max(path.length, line.path.length) - line.path.length
     longer = GroundPath(np.vstack([points, points[-1] + further * way / np.hypot(*way)]))
-    places = places_on(longer, pace, graph.fps, limit)
-    route = _in_own_metres(make_route(graph, longer, wishes), longer, places, steady)
+    along, ratio = places_on(longer, pace, graph.fps, limit)
+    route = _in_own_metres(make_route(graph, longer, wishes), longer, along, ratio, steady)
     return replace(route, own=own), partial(_lay, graph, path, wishes, limit)
 
 
-def _in_own_metres(route: Route, path: GroundPath, places: Places, steady: Array) -> Route:
+def _in_own_metres(route: Route, path: GroundPath, there: Array, ratio: Array, steady: Array) -> Route:
     """Space a route by the metres and the seconds that a walk takes before it is slowed for the bends."""
-    most = float(np.interp(path.length, places.along, steady))
+    most = float(np.interp(path.length, there, steady))
     own = np.linspace(0.0, most, len(route.points))
-    along, slower = (np.interp(own, steady, some) for some in (places.along, np.sqrt(places.ratio)))
+    along, slower = (np.interp(own, steady, some) for some in (there, np.sqrt(ratio)))
     point = route.point(along)
     clock = route.clock[point]
     late = np.nancumsum(np.diff(clock, prepend=clock[:1]) * slower)

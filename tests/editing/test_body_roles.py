@@ -6,7 +6,7 @@ import pytest
 from mocap import load
 from mocap.body.skeleton import Skeleton
 from mocap.datasets.samples import SKELETON
-from mocap.editing.body_roles import ROLES, legs_among, roles
+from mocap.editing.body_roles import ROLES, roles
 from tests.editing.bodies import DAZ, LONG, SMPL, UNDERSCORED, UP_AND_LOW, renamed, walk, without
 from tests.refusals import refusals
 
@@ -25,7 +25,7 @@ FILES = {
 def test_the_bundled_body_has_all_roles():
     found = roles(SKELETON)
     assert list(found) == list(ROLES)
-    assert [SKELETON.names[leg.ball] for leg in legs_among(found)] == ["ltoes", "rtoes"]
+    assert [SKELETON.names[found[f"{side} ball"]] for side in ("left", "right")] == ["ltoes", "rtoes"]
 
 
 @pytest.mark.parametrize("names", [LONG, UNDERSCORED, UP_AND_LOW, DAZ, SMPL])

@@ -13,8 +13,8 @@ from mocap import load
 from mocap.body import Motion, joint_positions
 from mocap.editing.body_roles import FEET
 from mocap.editing.pins import pin_errors
-from mocap.editing.retargeting import copied, dips_of, floor_pins, retarget, standing_like
-from mocap.editing.stances import Stance, proportioned, stance_of
+from mocap.editing.retargeting import copied, dips_of, floor_pins, retarget
+from mocap.editing.stances import Stance, proportioned, stance_of, stance_of_zero
 from mocap.errors import MocapWarning, SkeletonMismatch
 from mocap.feet import clean_up, mark_plants
 from tests.editing.bodies import LONG, adult, along_x, bends, child, renamed, rested, walk, without
@@ -126,8 +126,7 @@ def test_steps_that_no_leg_takes_are_said():
 
 def test_a_skeleton_alone_stands_as_high_as_the_source():
     body = child().skeleton
-    stance = standing_like(body, adult())
-    assert stance.height("ball") == pytest.approx(0.55 * adult().height("ball"))
+    stance = stance_of_zero(body, 0.55 * adult().height("ball"))
     worn = retarget(walk(2.0), body)
     assert MM * slide(worn) <= 1e-3
     assert np.allclose(joint_positions(worn), joint_positions(retarget(walk(2.0), stance, adult())))
