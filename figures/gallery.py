@@ -61,6 +61,7 @@ from mocap.methods.match_webs.local_alignment import apart
 from mocap.methods.motion_matching.nearest_frames import foresee
 from mocap.methods.motion_matching.pose_database import PoseDatabase
 from mocap.plotting import ASKED, COLOURS, CURVES, MARK, SOURCES
+from mocap.plotting.bodies_on_path import bodies_along
 from mocap.plotting.picture import legible, small_png
 
 Array = NDArray[np.float64]
@@ -84,7 +85,7 @@ def draw_walk() -> Figure:
     edges = synthesis.random_walk(graph, seconds=9, seed=3515)
     walk = synthesis.to_motion(graph, edges)
     seams = [seam.frame for seam in synthesis.seams(graph, edges)]
-    return plotting.bodies_along(walk, sources=synthesis.sources(graph, edges), seams=seams)
+    return bodies_along(walk, sources=synthesis.sources(graph, edges), seams=seams)
 
 
 def draw_skeleton() -> Figure:
@@ -473,7 +474,7 @@ def draw_bent() -> Figure:
     """Draw a walk that was straight, laid on a line that winds."""
     walk = resample(datasets.sample("walk_straight"), 30)[:210]
     line = editing.start_at(spline([[0, 0], [0, 1], [1.6, 3], [-0.4, 5], [0.6, 7]]), editing.ride_of(walk))
-    return plotting.bodies_along(editing.bend(walk, line).motion, path=line.points)
+    return bodies_along(editing.bend(walk, line).motion, path=line.points)
 
 
 def draw_levels() -> Figure:

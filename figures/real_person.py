@@ -14,8 +14,9 @@ matplotlib.use("agg")
 from gallery import TITLE
 from matplotlib.figure import Figure
 
-from mocap import datasets, graphs, plotting, resample, synthesis
+from mocap import datasets, graphs, resample, synthesis
 from mocap.body import s_curve
+from mocap.plotting.bodies_on_path import bodies_along
 from mocap.plotting.picture import legible, small_png
 from mocap.steering import follow_path
 
@@ -28,7 +29,7 @@ def draw_person() -> Figure:
     graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
     with warnings.catch_warnings(action="ignore"):
         walk = follow_path(graph, s_curve(16.0))
-    return plotting.bodies_along(
+    return bodies_along(
         walk.motion(),
         sources=synthesis.sources(graph, walk.walk),
         seams=[seam.frame for seam in synthesis.seams(graph, walk.walk)],

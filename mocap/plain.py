@@ -419,9 +419,10 @@ def points_along(corners: Array) -> Ground:
 
 def main(given: Sequence[str] | None = None) -> int:
     """Read clips and a line, and write a walk along it."""
-    from mocap import MocapError, Motion, files, resample, save  # files and their checks are the package's
+    from mocap import MocapError, Motion, load, resample, save  # files and their checks are the package's
     from mocap.body.motion import require_alike
     from mocap.files.conversion import find_files
+    from mocap.files.path_files import load_path
 
     parser = argparse.ArgumentParser(prog="python -m mocap.plain", description=main.__doc__)
     parser.add_argument("clips", nargs="+", type=Path, help="motion files, or folders of them")
@@ -429,8 +430,8 @@ def main(given: Sequence[str] | None = None) -> int:
     parser.add_argument("-o", "--out", type=Path, default=Path("walk.bvh"), help="the file to write")
     asked = parser.parse_args(given)
     try:
-        line = points_along(files.load_path(asked.path).points)
-        loaded = [files.load(path) for path in find_files(asked.clips)]
+        line = points_along(load_path(asked.path).points)
+        loaded = [load(path) for path in find_files(asked.clips)]
         long = [clip for clip in (resample(clip, FPS) for clip in loaded) if len(clip) > K]
         if not long:
             raise MocapError(f"A window takes {K} frames, and no clip is longer.")

@@ -90,9 +90,10 @@ def judge(
     Example: mocap judge made.bvh --against clips/ --path line.csv
     """
     from mocap.files.load_save import read  # the help needs no NumPy
+    from mocap.files.path_files import load_path
 
     clips = [files.load(clip, **asdict(reading)) for clip in find_files(against)]
-    line = files.load_path(path, scale=unit) if path else None
+    line = load_path(path, scale=unit) if path else None
     judged, problems = [], []
     for file in bar("judging")(find_files(made, deep=True)):
         try:

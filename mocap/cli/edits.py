@@ -102,7 +102,9 @@ def bend(
     Example: mocap bend walk.bvh --along line.csv -o bent.bvh
     """
     check_out("bent walk", out, [source])
-    line = files.load_path(along, scale=unit)
+    from mocap.files.path_files import load_path  # the help needs no NumPy
+
+    line = load_path(along, scale=unit)
     bent = editing.bend(reading.load(source), line, limit=math.radians(limit))
     tell(bent=bent.report())
     write_out(bent.motion, out)

@@ -8,9 +8,11 @@ A dataclass among the annotations stands for an option for each of its fields.
 import argparse
 import inspect
 import re
+import shutil
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import is_dataclass
 from pathlib import Path
+from textwrap import fill
 from typing import Annotated, Any, Literal, NamedTuple, get_args, get_origin
 
 Run = Callable[..., int | None]
@@ -25,15 +27,6 @@ class Group(NamedTuple):
     usage: str | None = None
 
 
-class _Text(argparse.HelpFormatter):
-    """Fill each paragraph by itself, but leave those with indented lines as they stand."""
-
-    def _fill_text(self, text: str, width: int, indent: str) -> str:
-        fill = super()._fill_text
-        paragraphs = text.split("\n\n")
-        return "\n\n".join(part if "\n " in part else fill(part, width, indent) for part in paragraphs)
-
-
 def add_commands(above: argparse.ArgumentParser, commands: Mapping[str, Run | Group]) -> None:
     """Make a parser for each command, and name it in its options: an error shows its usage."""
     parsers: Any = above.add_subparsers(title="commands", required=True, metavar="COMMAND", prog=above.prog)
@@ -42,8 +35,10 @@ def add_commands(above: argparse.ArgumentParser, commands: Mapping[str, Run | Gr
         text, _, notes = whole.partition("\n\nNotes\n-----\n")
         about, _, parameters = text.partition("\n\nParameters\n----------\n")
         first, _, more = about.partition("\n\n")
-        texts = {"help": first[0].lower() + first[1:].rstrip("."), "description": more or first}
-        parser = parsers.add_parser(name, epilog=notes, formatter_class=_Text, **texts)
+        texts = {"help": first[0].lower() + first[1:].rstrip("."), "description": _filled(more or first)}
+        parser = parsers.add_parser(
+            name, epilog=_filled(notes), formatter_class=argparse.RawDescriptionHelpFormatter, **texts
+        )
         parser.set_defaults(parser=parser, run=run)
         if callable(run):
             helps = {name: more for name, *more in _PARAMETER.findall(parameters)}
@@ -52,6 +47,12 @@ def add_commands(above: argparse.ArgumentParser, commands: Mapping[str, Run | Gr
         else:
             parser.usage = run.usage
             add_commands(parser, run.commands)
+
+
+def _filled(text: str) -> str:
+    """Fill each paragraph by itself, but leave those with indented lines as they stand."""
+    width = shutil.get_terminal_size().columns - 2
+    return "\n\n".join(part if "\n " in part else fill(part, width) for part in text.split("\n\n"))
 
 
 def _parameters(made: Any) -> Iterator[inspect.Parameter]:  # noqa: ANN401 (or a dataclass)

@@ -73,7 +73,9 @@ def walk(
     if sources.scale and not clips:
         raise MocapError("--scale belongs to --clips: the graph remembers the unit of its own clips.")
     options.check_out("walk", out)
-    seconds, line = _seconds(random or "1s"), files.load_path(path, scale=unit) if path else None
+    from mocap.files.path_files import load_path  # the help needs no NumPy
+
+    seconds, line = _seconds(random or "1s"), load_path(path, scale=unit) if path else None
     wishes = steering.Wishes(labels=[_label(text) for text in label])
     found = _graph(graph, clips, sources, out)
     if line is None:
@@ -104,7 +106,9 @@ def page(graph: Path, *, out: Path = Path("walk.html"), skeleton: Skeleton = Non
     Example: mocap page graph.npz -o walk.html
     """
     options.check_out("page", out, formats=[".html"])
-    made = widgets.walk_page(options.load_graph(graph, skeleton))
+    from mocap.widgets.walking_page import walk_page  # the help needs no NumPy
+
+    made = walk_page(options.load_graph(graph, skeleton))
     with replacing(out) as beside:
         beside.write_text(made, "utf-8")
     tell(wrote=f"{out}, {len(made) / 1e6:.2f} MB")

@@ -29,5 +29,5 @@ References
 import lazy_loader
 
 __getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__, submod_attrs={"load_save": ["load", "read_angles", "save"], "path_files": ["load_path"]}
+    __name__, submod_attrs={"load_save": ["load", "read_angles", "save"]}
 )

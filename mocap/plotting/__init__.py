@@ -27,8 +27,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "style": ["ASKED", "COLOURS", "CURVES", "FLOOR", "MARK", "PATH", "QUIET", "SOURCES"],
         "bodies": ["bones", "flat_bodies"],
-        "stick_figures": ["StickFigure", "ground_axes", "to_picture"],
-        "bodies_on_path": ["bodies_along"],
+        "stick_figures": ["StickFigure", "ground_axes"],
         "grids": ["distance_image", "walk_rows"],
         "ground_charts": ["draw_group_plan", "path_from_above"],
         "charts": ["joint_curve", "quartile_band"],

@@ -26,8 +26,6 @@ def to_picture(points: ArrayLike) -> Array:
     --------
     >>> to_picture([1, 2, 3])  # x to the left, y up, z ahead
     array([3., 1., 2.])
-
-    Notebook: 03b-angles
     """
     return np.roll(np.asarray(points, float), 1, axis=-1)
 

@@ -38,6 +38,5 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "pointing": ["handles"],
         "film": ["save_animation"],
         "steered_widget": ["steered"],
-        "walking_page": ["walk_page"],
     },
 )

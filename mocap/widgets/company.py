@@ -18,7 +18,7 @@ from mocap.body.kinematics import joint_positions
 from mocap.errors import MocapError, MocapWarning, shortened
 from mocap.steering.characters import Character, Pose, as_motion, require_command
 from mocap.steering.delays import CommandClock
-from mocap.widgets.packing import drawn
+from mocap.widgets.packing import packed_body
 
 MOST = 4  # characters side by side
 
@@ -57,7 +57,7 @@ class Member:
 
     def __init__(self, name: str, character: Character) -> None:
         self.name, self.character = name, character
-        self.clock, self.drawn = CommandClock(character.fps), drawn(character.skeleton)
+        self.clock, (self.joints, self.body) = CommandClock(character.fps), packed_body(character.skeleton)
         self.steps, self.fault = 0, ""
         self.order: Command | None = None  # the last one that it took
         self.stands: tuple[Pose, Array] | None = None  # the last pose, and where its joints are
@@ -68,9 +68,12 @@ class Member:
             self.order, self.fault = order, ""
         told: dict[str, Any] = {"first": self.steps, "waited": [], "obeyed": [], "blending": []}
         self.steps += count
-        poses, places = [], np.empty((count, len(self.drawn.joints), 3))
+        poses, places = [], np.empty((count, len(self.joints), 3))
         for frame in range(count):
-            pose, places[frame] = self._step(order)
+            if not self.fault:
+                self._step(order)
+            assert self.stands is not None
+            pose, places[frame] = self.stands
             self.clock.command(order[0])
             self.clock.step(complex(pose.root_position[2], pose.root_position[0]))
             poses.append(pose)
@@ -79,19 +82,15 @@ class Member:
             told["blending"].append(bool(pose.blending))
         return Walked(poses, places, told | {"fault": self.fault, "delays": self.clock.delays[-20:]})
 
-    def _step(self, order: Command) -> tuple[Pose, Array]:
-        """Take a step, or stand still."""
-        if not self.fault:
-            try:
-                pose = self.character.step(*order)
-                motion = as_motion(self.character, [pose])
-                self.stands = pose, joint_positions(motion)[0, self.drawn.joints]
-            except Exception as error:  # of any kind: it may come from a student's character
-                if self.stands is None:
-                    raise
-                self.fault = shortened(f"{type(error).__name__}: {error}", 200)
-        assert self.stands is not None
-        return self.stands
+    def _step(self, order: Command) -> None:
+        """Take a step, or say why there is none."""
+        try:
+            pose = self.character.step(*order)
+            self.stands = pose, joint_positions(as_motion(self.character, [pose]))[0, self.joints]
+        except Exception as error:  # of any kind: it may come from a student's character
+            if self.stands is None:
+                raise
+            self.fault = shortened(f"{type(error).__name__}: {error}", 200)
 
 
 class Company:

@@ -131,7 +131,7 @@ class Experiment:
 
         self.draw, self.alt, self.controls = draw, alt, controls
         self.error: Exception | None = None
-        self._canvas = BlittedFigure()
+        self._figure: Figure | None = None
         self._dragged = next((one for one in controls.values() if hasattr(one, "with_handles")), None)
         self.picture: Any = self._dragged or ipywidgets.Image(format="png")
         self.picture.add_class("mocap-picture")
@@ -170,7 +170,7 @@ class Experiment:
     def refresh(self) -> None:
         """Draw anew; an error is shown in the picture's place until a drawing works again."""
         try:
-            self.png = self._canvas.png(self.draw(**self.values()))
+            self.png = self._png(self.draw(**self.values()))
             self.error = None
             if self._dragged:
                 self._dragged.show(self.png)
@@ -186,60 +186,51 @@ class Experiment:
         self.picture.layout.display = "none" if self.error else None
         self.message.layout.display = None if self.error else "none"
 
-    def still(self) -> tuple[dict[str, str], dict[str, Any]]:
-        """Return what stands where no Python runs: the picture, with its handles, as a PNG."""
-        drawn = self._dragged.with_handles() if self._dragged else Image.open(io.BytesIO(self.png))
-        figure = self._canvas.canvas.figure
-        small = few_colours(drawn, letters_of(figure) * figure.dpi)
-        return Picture(small, self.alt)._repr_mimebundle_()
+    def _png(self, drawn: Drawn) -> bytes:
+        """Draw a whole figure; or, for a list of artists, these over the stored picture of all others.
 
-    def _ipython_display_(self) -> None:
-        display_live(self.still(), self.box, "slider")
-
-
-def lay_out_like(figure: Figure, before: Figure) -> None:
-    """Give the axes of a figure the places of those drawn before: a layout takes as long as the drawing."""
-    if len(figure.axes) == len(before.axes) and (figure.get_size_inches() == before.get_size_inches()).all():
-        figure.set_layout_engine("none")
-        for axes, placed in zip(figure.axes, before.axes, strict=True):
-            axes.set_position(placed.get_position(original=True))
-
-
-class BlittedFigure:
-    """Turns what a `draw` function returned into a PNG, and draws again only what moved.
-
-    Matplotlib leaves `animated` artists out of a full drawing, and their changes do not make a figure stale.
-    So while the figure is not stale, the stored background is valid, and the moved artists go on top.
-    """
-
-    def __init__(self) -> None:
-        self.figure: Figure | None = None
-
-    def png(self, drawn: Drawn) -> bytes:
-        """Draw a whole figure; or, for a list of artists, these over the stored picture of all others."""
+        Matplotlib leaves `animated` artists out of a full drawing, and their changes do not make a figure
+        stale. So while the figure is not stale, the stored background is valid, and what moved goes on top.
+        """
         figure = figure_of(drawn)
         moved = isinstance(drawn, Sequence) and all(isinstance(part, Artist) for part in drawn)
         artists = sorted(drawn, key=Artist.get_zorder) if moved else []
-        if figure is not self.figure:
-            plt.close(figure)  # or the notebook shows it a second time, and pyplot keeps it for ever
-            if self.figure is not None:
-                lay_out_like(figure, self.figure)
-            self.figure, self.canvas = figure, FigureCanvasAgg(figure)
-            figure.stale = True
+        if figure is not self._figure:
+            self._take(figure)
         for artist in artists:
             if not artist.get_animated():
                 artist.set_animated(True)
                 figure.stale = True
         if figure.stale:
             legible(figure)
-            self.canvas.draw()
-            self.background = self.canvas.copy_from_bbox(figure.bbox)
+            self._canvas.draw()
+            self._background = self._canvas.copy_from_bbox(figure.bbox)
         else:
-            self.canvas.restore_region(self.background)
+            self._canvas.restore_region(self._background)
         for artist in artists:
             if hasattr(artist, "do_3d_projection"):
                 artist.do_3d_projection()
-            artist.draw(self.canvas.get_renderer())
-        picture, stream = Image.fromarray(np.asarray(self.canvas.buffer_rgba())), io.BytesIO()
+            artist.draw(self._canvas.get_renderer())
+        picture, stream = Image.fromarray(np.asarray(self._canvas.buffer_rgba())), io.BytesIO()
         picture.convert("RGB").save(stream, "png", compress_level=1)  # fast rather than small
         return stream.getvalue()
+
+    def _take(self, figure: Figure) -> None:
+        """Take a new figure; its axes get the old ones' places: a layout takes as long as a drawing."""
+        plt.close(figure)  # or the notebook shows it a second time, and pyplot keeps it for ever
+        before, self._figure, self._canvas = self._figure, figure, FigureCanvasAgg(figure)
+        size = figure.get_size_inches()
+        if before and len(figure.axes) == len(before.axes) and (size == before.get_size_inches()).all():
+            figure.set_layout_engine("none")
+            for axes, placed in zip(figure.axes, before.axes, strict=True):
+                axes.set_position(placed.get_position(original=True))
+        figure.stale = True
+
+    def still(self) -> tuple[dict[str, str], dict[str, Any]]:
+        """Return what stands where no Python runs: the picture, with its handles, as a PNG."""
+        drawn = self._dragged.with_handles() if self._dragged else Image.open(io.BytesIO(self.png))
+        small = few_colours(drawn, letters_of(self._canvas.figure) * self._canvas.figure.dpi)
+        return Picture(small, self.alt)._repr_mimebundle_()
+
+    def _ipython_display_(self) -> None:
+        display_live(self.still(), self.box, "slider")

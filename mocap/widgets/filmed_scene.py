@@ -48,7 +48,12 @@ class FilmedScene:
     def __init__(self, scene: dict[str, Any]) -> None:
         self.scene, self.seconds = scene, (scene["frames"] - 1) / scene["fps"]
         data = zlib.decompress(scene["data"])
-        self.clouds = [_unpacked(character, data) for character in scene["characters"]]  # each (F, J, 3)
+        self.clouds: list[Array] = []  # each (F, J, 3), metres
+        for character in scene["characters"]:
+            shape = (character["joints"], 3, character["frames"])
+            changes = np.frombuffer(data, "<u2", int(np.prod(shape)), character["offset"]).reshape(shape)
+            numbers = changes.cumsum(-1, dtype="u2").cumsum(-1, dtype="u2")
+            self.clouds.append(np.moveaxis(numbers, -1, 0) * character["step"] + character["low"])
         self.times = np.append(np.arange(0.0, self.seconds, STEP), self.seconds)
         self.ways = [np.array([self.pose(n, t)[0] for t in self.times]) for n in range(len(self.clouds))]
         ways = np.array(self.ways) * [1, 0, 1]
@@ -128,12 +133,3 @@ def stored_scene(page: str) -> FilmedScene | None:
     found = SCENE.search(page)
     scene = json.loads(found[1]) if found else None
     return FilmedScene(scene | {"data": base64.b64decode(scene["data"])}) if scene else None
-
-
-def _unpacked(character: dict[str, Any], data: bytes) -> Array:
-    """Add the second differences up, and return the joints, shape (F, J, 3), metres."""
-    shape = (character["joints"], 3, character["frames"])
-    changes = np.frombuffer(data, "<u2", int(np.prod(shape)), character["offset"]).reshape(shape)
-    numbers = np.cumsum(np.cumsum(changes, -1, dtype="u2"), -1, dtype="u2")
-    points: Array = np.moveaxis(numbers, -1, 0) * np.array(character["step"]) + np.array(character["low"])
-    return points

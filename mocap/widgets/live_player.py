@@ -38,6 +38,7 @@ class LivePlayer(AnyWidget):
     path, message = shared([]), shared("")
     best = shared([])  # the line of the best walk so far, while a search is under way
     player: Player
+    error: Exception | None = None
     told = 0.0  # when the best walk so far was told, by the clock
 
     def show(self, player: Player, frame: int = 0, **extra: bool) -> None:
@@ -98,27 +99,25 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
     """
     canvas = LivePlayer()
 
-    def walk(path: Array, **extra: bool) -> None:
-        with warnings.catch_warnings(record=True, action="always", category=MocapWarning) as caught:
-            made = follow(path)
-        player = made if isinstance(made, Player) else play(made)
-        player = player if len(player.path) else replace(player, path=path)
-        canvas.show(player, drawable=True, follow=False, reports=False, **extra)
-        canvas.error, canvas.message = None, "\n".join([player.alt, *(str(w.message) for w in caught)])
-
     def redraw(change: dict[str, Any]) -> None:
-        canvas.best, before = [], watching.set(canvas.watch)
+        asked, known = np.array(change["new"], float), bool(change["old"])
+        canvas.best, canvas.error, before = [], None, watching.set(canvas.watch)
         try:
-            walk(np.array(change["new"], float), autoplay=True)
+            with warnings.catch_warnings(record=True, action="always", category=MocapWarning) as caught:
+                made = follow(asked)
+            player = made if isinstance(made, Player) else play(made)
+            player = player if len(player.path) else replace(player, path=asked)
+            canvas.show(player, drawable=True, follow=False, reports=False, autoplay=known)
+            canvas.message = "\n".join([player.alt, *(str(w.message) for w in caught)])
         except Exception as error:  # of any kind: it comes from a student's function
             canvas.error, canvas.message = error, f"{type(error).__name__}: {error}"
         finally:
             watching.reset(before)
 
-    points = np.reshape(np.asarray(path, float), (-1, 2))
-    walk(points)
-    canvas.path = points.tolist()
     canvas.observe(redraw, "path")
+    canvas.path = np.reshape(np.asarray(path, float), (-1, 2)).tolist()
+    if canvas.error:
+        raise canvas.error
     return canvas
 
 

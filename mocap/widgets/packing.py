@@ -4,7 +4,7 @@ A motion's numbers are whole multiples of a step. They are sent channel by chann
 time, which are small and compress well; `numbersOf` in `player_scene.js` sums them up again.
 """
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -21,35 +21,28 @@ LOOK = {"sides": [COLOURS[side] for side in SIDES], "marks": {"seam": MARK, "ast
 SCREEN = 60.0  # frames per second that a screen shows; of a faster clip, frames are left out
 
 
-class Drawn(NamedTuple):
-    """What is drawn of a body.
+def packed_body(skeleton: Skeleton) -> tuple[Indices, dict[str, Any]]:
+    """Choose the joints of a body that are drawn, and pack what is drawn around them.
 
-    joints : those at which bones end, and the root, in order.
-    bones : rows (from, to, number of the side), which count these joints.
-    head : which of them is the head, or None.
-    """
-
-    joints: Indices
-    bones: list[list[int]]
-    head: int | None
-
-
-def drawn(skeleton: Skeleton) -> Drawn:
-    """Choose the joints of a body that are drawn, and number the ends of its bones among them.
+    Returns
+    -------
+    The joints at which bones end, and the root, in order; and what counts these joints: `bones` in rows
+    (from, to, number of the side), the `head` or None, and the `parts` and `pieces` of `posed`.
 
     Examples
     --------
     >>> from mocap.datasets.samples import SKELETON
-    >>> body = drawn(SKELETON)
-    >>> body.bones[0], len(body.joints)
-    ([1, 2, 1], 38)
+    >>> joints, body = packed_body(SKELETON)
+    >>> len(joints), body["joints"], body["bones"][0]
+    (38, 38, [1, 2, 1])
     """
     starts, ends, sides = bones(skeleton)
     joints = np.unique([0, *starts, *ends])
     pairs = np.searchsorted(joints, [starts, ends]).T.tolist()
     heads = np.searchsorted(joints, [joint for joint in head_joints(skeleton) if joint in joints]).tolist()
     lines = [[*pair, SIDES.index(side)] for pair, side in zip(pairs, sides, strict=True)]
-    return Drawn(joints, lines, heads[-1] if heads else None)
+    body = {"joints": len(joints), "bones": lines, "head": heads[-1] if heads else None}
+    return joints, body | posed(skeleton, joints)
 
 
 def packed(values: Array, low: Array | float, step: Array | float, kind: str) -> bytes:
@@ -94,15 +87,14 @@ def packed_character(
     >>> character["fps"], character["frames"], len(data) == 2 * 3 * character["joints"] * character["frames"]
     (60.0, 601, True)
     """
-    joints, lines, head = drawn(motion.skeleton)
+    joints, body = packed_body(motion.skeleton)
     stride = max(1, int(motion.fps / SCREEN))
     points = (joint_positions(motion) if places is None else places)[::stride, joints]  # (F, J, 3)
     low, high = points.min(axis=(0, 1)), points.max(axis=(0, 1))
     steps = np.full(3, step) if step else np.maximum(high - low, 1e-6) / 65535
     about = {
-        **{"name": motion.name, "fps": motion.fps / stride, "frames": len(points), "joints": len(joints)},
-        **posed(motion.skeleton, joints),
-        **{"low": low.tolist(), "step": steps.tolist(), "bones": lines, "head": head},
+        **{"name": motion.name, "fps": motion.fps / stride, "frames": len(points), **body},
+        **{"low": low.tolist(), "step": steps.tolist()},
         **{"colour": colour, "path_colour": colour, "sources": [], "seams": [], "astray": [], "prints": []},
     }
     return about, packed(points, low, steps, "<u2")

@@ -75,11 +75,8 @@ class Handles(AnyWidget, ValueWidget):  # type: ignore[misc]
 
     @validate("value")
     def _check(self, proposal: dict[str, Any]) -> tuple[tuple[float, float], ...]:
-        return self.check_value(proposal["value"])
-
-    def check_value(self, value: ArrayLike) -> tuple[tuple[float, float], ...]:
         """Check that there are so many points, and that all lie within the axes."""
-        where = np.asarray(value, float)
+        where = np.asarray(proposal["value"], float)
         if where.shape != (self.count, 2):
             raise MocapError(f"There are {self.count} handles, got an array of shape {where.shape}.")
         low, high = np.sort(self.limits, axis=1).T

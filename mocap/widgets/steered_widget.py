@@ -22,7 +22,6 @@ from mocap.widgets.live import display_live
 from mocap.widgets.packing import LOOK
 from mocap.widgets.player import play
 from mocap.widgets.shared_traits import AnyWidget, shared, validate
-from mocap.widgets.walk_figure import posed
 
 OWN = ("steered_walker.js", "steering_page.js", "steering.js")
 RECORDED = ((0.0, 2.0), (math.pi / 2, 4.0), (-math.pi / 4, 4.0))  # headings, and seconds of each
@@ -128,9 +127,7 @@ def steered(
     data["text/html"] = f"<p>{said}</p>{data['text/html']}"
     members = [
         {
-            **{"name": member.name, "fps": member.character.fps, "joints": len(member.drawn.joints)},
-            **{"bones": member.drawn.bones, "head": member.drawn.head},
-            **posed(member.character.skeleton, member.drawn.joints),
+            **{"name": member.name, "fps": member.character.fps, **member.body},
             "colour": own_colour(number, len(company.members)) or COLOURS["middle"],
         }
         for number, member in enumerate(company.members)

@@ -43,7 +43,7 @@ from mocap.editing import (
     stance_of,
 )
 from mocap.feet import clean_up, mark_plants
-from mocap.files import load_path
+from mocap.files.path_files import load_path
 from mocap.graphs import build, from_transitions, prune, prune_graph, threshold_curve
 from mocap.matching import distance_grid, point_cloud, time_path
 from mocap.matching.transitions import Transitions, find_transitions

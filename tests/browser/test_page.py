@@ -12,7 +12,7 @@ from mocap.body import joint_positions, resample, rotations
 from mocap.body.planar import place
 from mocap.datasets import sample
 from mocap.widgets.embedding import PICTURE, SCENE, SHADED, joined
-from mocap.widgets.packing import drawn, packed_character
+from mocap.widgets.packing import packed_body, packed_character
 from mocap.widgets.player import play
 from mocap.widgets.walk_figure import figure
 from tests.browser.conftest import on_a_phone, wait_until, without_scripts
@@ -425,7 +425,7 @@ def test_capsules_lie_around_the_body_as_it_turns(page):
         capsulesAt(about, pose, out, 0);
         return Array.from(out);
     }"""
-    got = page.evaluate(capsules, [about, places[drawn(walk.skeleton).joints].ravel().tolist()])
+    got = page.evaluate(capsules, [about, places[packed_body(walk.skeleton)[0]].ravel().tolist()])
     ends = np.reshape(got, (-1, 13))[:, [0, 1, 2, 4, 5, 6]].reshape(-1, 2, 3)
     wanted = [
         [places[joint] + rotations.rotate(turns[joint], end) for end in (a, b)]

@@ -71,7 +71,7 @@ def settings(experiment):
         elif hasattr(control, "limits"):  # handles: as they are, one in the middle, another at a corner
             points = np.tile(np.array(control.value), (3, 1, 1))
             points[1, 0], points[2, -1] = np.mean(control.limits, axis=1), np.array(control.limits)[:, 1]
-            ends[name] = [control.check_value(some) for some in points]
+            ends[name] = [tuple(map(tuple, some)) for some in points.tolist()]
         else:
             ends[name] = [False, True]
     yield {name: values[0] for name, values in ends.items()}

@@ -14,6 +14,7 @@ from mocap import datasets, graphs, plotting, resample
 from mocap.body import Skeleton, joint_positions
 from mocap.matching import distance_grid
 from mocap.plotting.bodies import film_strip
+from mocap.plotting.bodies_on_path import bodies_along
 from tests.drawn import hold
 from tests.strategies import wave
 
@@ -44,7 +45,7 @@ def lost_marker():
     """One frame beyond the horizon, as a lost marker gives it: it gets a coarser floor."""
     roots = wave(50).root_positions.copy()
     roots[20] = [0, 1, 1e7]
-    return plotting.bodies_along(replace(wave(50), root_positions=roots))
+    return bodies_along(replace(wave(50), root_positions=roots))
 
 
 def small_graph():
@@ -67,16 +68,14 @@ PICTURES = {
         film_strip([wave(1)]),
     ],
     "stick figure": lambda: [stick_figure()],
-    "bodies along": lambda: map(plotting.bodies_along, (wave(1), wave(100), wave(2000))),
+    "bodies along": lambda: map(bodies_along, (wave(1), wave(100), wave(2000))),
     "lost marker": lambda: [lost_marker()],
-    "sources": lambda: [
-        plotting.bodies_along(wave(200), sources=[(0, "a"), (100, "b"), (150, "a")], seams=[95, 145])
-    ],
+    "sources": lambda: [bodies_along(wave(200), sources=[(0, "a"), (100, "b"), (150, "a")], seams=[95, 145])],
     "two and a path": lambda: [
-        plotting.bodies_along(wave(100, name="a"), wave(100, phase=1, name="b"), path=[(0, 0), (1, 2)])
+        bodies_along(wave(100, name="a"), wave(100, phase=1, name="b"), path=[(0, 0), (1, 2)])
     ],
-    "six": lambda: [plotting.bodies_along(*(wave(400, phase=phase, name="walk") for phase in range(6)))],
-    "obstacle": lambda: [plotting.bodies_along(wave(30), discs=[[0, 1, 0.5]])],
+    "six": lambda: [bodies_along(*(wave(400, phase=phase, name="walk") for phase in range(6)))],
+    "obstacle": lambda: [bodies_along(wave(30), discs=[[0, 1, 0.5]])],
     "joint curve": lambda: [plotting.joint_curve(ROWS, fps=10, labels=["x (m)", "y (m)"])[0]],
     "bands": lambda: [plotting.quartile_band(range(5), SAMPLES, label="slide", colour="#112233")],
     "distances": lambda: [

@@ -54,8 +54,8 @@ def test_a_pose_drawn_over_the_kept_ground_is_the_pose_drawn_whole():
     experiment.set(frame=17)
     ax = ground_axes((0, 0.3), 1.0)
     StickFigure(motion.skeleton, ax).pose(points[17])
-    whole = experiments.BlittedFigure().png(ax.figure)
-    assert np.abs(pixels(experiment.picture.value) - pixels(whole)).mean() < 0.1  # of 255
+    whole = explore(lambda frame: ax.figure, alt="A pose.", frame=(0, 29))
+    assert np.abs(pixels(experiment.png) - pixels(whole.png)).mean() < 0.1  # of 255
 
 
 def test_what_changes_beside_the_moved_artists_is_drawn_too():

@@ -39,9 +39,9 @@ def test_places_are_the_joints_at_which_bones_end():
     company = Company({"dot": Dot()})
     (walked,) = company.walk((1.0, 1.1, ""), 0.3)
     motion = as_motion(company.members[0].character, walked.poses)
-    drawn = company.members[0].drawn
-    np.testing.assert_allclose(walked.places, joint_positions(motion)[:, drawn.joints], atol=1e-12)
-    assert drawn.joints[0] == 0 and max(max(line[:2]) for line in drawn.bones) < len(drawn.joints)
+    joints, body = company.members[0].joints, company.members[0].body
+    np.testing.assert_allclose(walked.places, joint_positions(motion)[:, joints], atol=1e-12)
+    assert joints[0] == 0 and max(max(line[:2]) for line in body["bones"]) < len(joints)
 
 
 class Odd(Dot):

@@ -15,7 +15,8 @@ from mocap._shared.arrays import Array
 from mocap.body import Motion, Skeleton, joint_positions, rotations
 from mocap.course.diagrams.pens import arrow, say, show_program, strokes, trace
 from mocap.course.notebooks import shown_source
-from mocap.plotting import COLOURS, CURVES, MARK, QUIET, StickFigure, bones, ground_axes, to_picture
+from mocap.plotting import COLOURS, CURVES, MARK, QUIET, StickFigure, bones, ground_axes
+from mocap.plotting.stick_figures import to_picture
 
 ALONG, ACROSS = 0.8, 0.8  # the two parts of the vector that `half_turns` turns
 CORNER = np.array([-1.0, 0, -0.5])  # where `turns_in_order` draws the axes of the world

@@ -17,7 +17,8 @@ from mocap.blending.weights import cubic_weights
 from mocap.body import rotations
 from mocap.course.diagrams.pens import trace
 from mocap.course.seam_trials import Passage
-from mocap.plotting import COLOURS, CURVES, MARK, QUIET, SOURCES, to_picture
+from mocap.plotting import COLOURS, CURVES, MARK, QUIET, SOURCES
+from mocap.plotting.stick_figures import to_picture
 
 AROUND = 4  # frames of each clip before the window and after it
 FIRST, SECOND, RESULT = 2.6, 1.3, 0.0  # the heights of the rows

@@ -30,7 +30,7 @@ from mocap.plotting import ASKED, COLOURS, CURVES, MARK, PATH, QUIET, SOURCES, d
 from mocap.plotting.picture import small_png
 from mocap.steering.followed import Followed
 from mocap.widgets.embedding import SHARED, TOUCH, Embedded
-from mocap.widgets.packing import SIDES, drawn, packed, with_contacts
+from mocap.widgets.packing import SIDES, packed, packed_body, with_contacts
 
 TABS = ("windows", "turn", "weights", "seam")  # in the order in which the course meets them
 PARTS = ("", "_maths", "_maps", "_stage", "_views", "_page")
@@ -277,7 +277,7 @@ def packed_skeleton(skeleton: Skeleton) -> dict[str, Any]:
     >>> [(SKELETON.names[joint], SIDES[side]) for joint, side in body["feet"]]
     [('ltoes', 'left'), ('rtoes', 'right')]
     """
-    joints, lines, head = drawn(skeleton)
+    joints, body = packed_body(skeleton)
     try:
         balls = [leg.ball for leg in find_legs(skeleton)]
     except MocapError:
@@ -286,7 +286,7 @@ def packed_skeleton(skeleton: Skeleton) -> dict[str, Any]:
         "parents": skeleton.parents.tolist(),
         "offsets": skeleton.offsets.tolist(),
         "points": list(map(int, distinct_joints(skeleton))),
-        "bones": [[int(joints[a]), int(joints[b]), side] for a, b, side in lines],
-        "head": None if head is None else int(joints[head]),
+        "bones": [[int(joints[a]), int(joints[b]), side] for a, b, side in body["bones"]],
+        "head": None if body["head"] is None else int(joints[body["head"]]),
         "feet": [[int(ball), SIDES.index(skeleton.side(ball))] for ball in balls],
     }
