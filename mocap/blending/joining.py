@@ -185,8 +185,7 @@ def inertialize(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
     after = 1 if window > 1 else 0
     around = np.arange(-before, after + 1)
     shifts = a.root_positions[i + around] - b.root_positions[j + around]
-    back = rotations.inverse(b.rotations[j + around])
-    turns = rotations.to_rotvec(rotations.multiply(back, a.rotations[i + around]))
+    turns = rotations.difference(b.rotations[j + around], a.rotations[i + around])
     shift, turn = (_decay(offsets, before, window) for offsets in (shifts, _steady(turns, before)))
     onward = b[j : j + window]
     turned = rotations.multiply(onward.rotations, rotations.from_rotvec(turn))

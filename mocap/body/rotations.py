@@ -170,10 +170,29 @@ def between(start: ArrayLike, end: ArrayLike) -> Array:
     return np.asarray(turn / np.linalg.norm(turn, axis=-1, keepdims=True))
 
 
+def difference(start: ArrayLike, end: ArrayLike) -> Array:
+    """Give the turn from one rotation to another as a rotation vector in the first one's frame: log(a⁻¹ b).
+
+    Parameters
+    ----------
+    start, end : a and b, shape (..., 4).
+
+    Returns
+    -------
+    Shape (..., 3), of at most π radians.
+
+    Examples
+    --------
+    >>> difference(about_y(0.2), about_y(0.5)).round(6)
+    array([0. , 0.3, 0. ])
+    """
+    return to_rotvec(multiply(inverse(start), end))
+
+
 def slerp(start: ArrayLike, end: ArrayLike, amount: ArrayLike) -> Array:
     """Interpolate the short way round: start · exp(amount · log(start⁻¹ · end)).
 
-    exp is `from_rotvec`, log is `to_rotvec`; as log gives turns of at most π, the way is the short one.
+    exp is `from_rotvec`, and log(start⁻¹ · end) is `difference`; as log gives turns of at most π, the way is the short one.
 
     Parameters
     ----------
@@ -191,8 +210,7 @@ def slerp(start: ArrayLike, end: ArrayLike, amount: ArrayLike) -> Array:
 
     Notebook: 04-blending
     """
-    difference = to_rotvec(multiply(inverse(start), end))
-    return multiply(start, from_rotvec(np.asarray(amount, float)[..., None] * difference))
+    return multiply(start, from_rotvec(np.asarray(amount, float)[..., None] * difference(start, end)))
 
 
 def continuous(quaternions: ArrayLike) -> Array:
@@ -256,7 +274,7 @@ def mean(quaternions: ArrayLike, weights: ArrayLike | None = None, *, rounds: in
     average = (w * q).sum(-2)
     average /= np.linalg.norm(average, axis=-1, keepdims=True)
     for _ in range(rounds):
-        away = to_rotvec(multiply(inverse(average)[..., None, :], q))
+        away = difference(average[..., None, :], q)
         average = multiply(average, from_rotvec((w * away).sum(-2)))
     return np.asarray(average)
 
@@ -264,7 +282,7 @@ def mean(quaternions: ArrayLike, weights: ArrayLike | None = None, *, rounds: in
 def angle_between(first: ArrayLike, second: ArrayLike) -> Array:
     """Measure the angle, in [0, π] radians and shape (...), of the turn from one rotation to another.
 
-    θ = 4 atan2(|a - b|, |a + b|), where b is the nearer one of b and -b; exact for small angles, too.
+    It is the length of their `difference`, exact for small angles, too.
 
     Examples
     --------
@@ -273,7 +291,4 @@ def angle_between(first: ArrayLike, second: ArrayLike) -> Array:
 
     Notebook: 04-blending
     """
-    a, b = (np.asarray(q, float) for q in (first, second))
-    a, b = (q / np.sqrt(np.einsum("...i,...i", q, q))[..., None] for q in (a, b))
-    gap, sum_ = (np.sqrt(np.einsum("...i,...i", q, q)) for q in (a - b, a + b))
-    return np.asarray(4 * np.arctan2(np.minimum(gap, sum_), np.maximum(gap, sum_)))
+    return np.asarray(np.linalg.norm(difference(first, second), axis=-1))

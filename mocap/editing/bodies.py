@@ -132,8 +132,7 @@ def hinge_of(motion: Motion, joint: int) -> Array | None:
     array([1., 0., 0.])
     """
     turns = motion.rotations[:, joint]
-    mean = rotations.mean(turns)
-    away = rotations.to_rotvec(rotations.multiply(rotations.inverse(mean), turns))
+    away = rotations.difference(rotations.mean(turns), turns)
     spread, axes = np.linalg.svd(away - away.mean(axis=0), full_matrices=False)[1:]
     if len(away) > 3 and spread[0] > STILL * np.sqrt(len(away)):
         return np.asarray(axes[0]) if spread[1] < HINGE * spread[0] else None

@@ -62,7 +62,7 @@ def difference(motion: Motion, base: Motion) -> Displacement:
     motion.skeleton.require_same(base.skeleton)
     if len(motion) != len(base):
         raise MocapError(f"'{motion.name}' has {len(motion)} frames, '{base.name}' has {len(base)}.")
-    turns = rotations.to_rotvec(rotations.multiply(rotations.inverse(base.rotations), motion.rotations))
+    turns = rotations.difference(base.rotations, motion.rotations)
     return Displacement(motion.root_positions - base.root_positions, turns)
 
 

@@ -214,7 +214,7 @@ def scaled(motion: Motion, joint: str | int, gain: ArrayLike) -> Motion:
     turns, amount = motion.rotations[:, number], np.asarray(gain, float)
     if amount.shape not in ((), (len(motion),)) or not np.isfinite(amount).all():
         raise MocapError(f"A gain is one finite number, or {len(motion)}, got shape {amount.shape}.")
-    away = rotations.to_rotvec(rotations.multiply(rotations.inverse(rotations.mean(turns)), turns))
+    away = rotations.difference(rotations.mean(turns), turns)
     angles = np.abs(amount) * np.linalg.norm(away, axis=-1)
     if angles.max() > np.pi:
         name, far = motion.skeleton.names[number], f"{np.degrees(angles.max()):.0f}° from its reference"

@@ -92,11 +92,10 @@ def at_frames(motion: Motion, frames: ArrayLike) -> Motion:
     first, second = (np.maximum(b - a, 1) for a, b in ((before, there), (here, after)))  # one or two frames
     rise, fall, end = (u**3 - 2 * u**2 + u) / first, (u**3 - u**2) / second, 3 * u**2 - 2 * u**3
     weights = (-rise, 1 - end - fall, end + rise, fall)  # of the four frames, for a cubic Hermite curve
-    root, turn, back = np.zeros((len(u), 3)), np.zeros((*base.shape[:2], 3)), rotations.inverse(base)
+    root, turn = np.zeros((len(u), 3)), np.zeros((*base.shape[:2], 3))
     for weight, frame in zip(weights, around, strict=True):
         root += weight[:, None] * motion.root_positions[frame]
         if frame is not here:  # from a frame to itself nothing turns
-            away = rotations.to_rotvec(rotations.multiply(back, motion.rotations[frame]))
-            turn += weight[:, None, None] * away
+            turn += weight[:, None, None] * rotations.difference(base, motion.rotations[frame])
     turned, nearest = rotations.multiply(base, rotations.from_rotvec(turn)), np.round(moments).astype(int)
     return replace(motion[nearest], root_positions=root, rotations=turned)

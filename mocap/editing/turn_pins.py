@@ -33,8 +33,7 @@ class Turn(NamedTuple):
         """Give ARM log(r⁻¹ q), (F, 3), metres; `matrices` (F, J, 3, 3) are the joints' turns in the world."""
         world = self.world
         turned = rotations.from_matrix(matrices[:, self.joint]) if world else motion.rotations[:, self.joint]
-        away = rotations.to_rotvec(rotations.multiply(rotations.inverse(self.reference), turned))
-        return np.asarray(ARM * away)
+        return np.asarray(ARM * rotations.difference(self.reference, turned))
 
 
 def limit_turns(motion: Motion, joints: Sequence[str], *, more: float = 10.0) -> Pins:

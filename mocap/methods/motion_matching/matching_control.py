@@ -117,8 +117,7 @@ class MotionMatcher:
         place = PlanarTransform.from_complex(turn, move)
         root, shown = self._placed(self.place, old)
         new_root, new_turns = place.apply_frames(table.roots[new], table.turns[new])
-        differ = rotations.to_rotvec(rotations.multiply(rotations.inverse(new_turns), shown))
-        self.offset = np.concatenate([[root - new_root], differ])
+        self.offset = np.concatenate([[root - new_root], rotations.difference(new_turns, shown)])
         self.offset_speed = self.offset_speed + self._speeds(self.place, old) - self._speeds(place, new)
         self.frame, self.place = new, place
         self.cuts.append(self._steps)

@@ -241,6 +241,5 @@ def turn_speeds(motion: Motion) -> Array:
     >>> turn_speeds(sample("walk_straight")).shape
     (1201, 38, 3)
     """
-    relative = rotations.multiply(rotations.inverse(motion.rotations[:-1]), motion.rotations[1:])
-    steps = rotations.to_rotvec(relative) * motion.fps
+    steps = rotations.difference(motion.rotations[:-1], motion.rotations[1:]) * motion.fps
     return np.concatenate([steps[:1], (steps[1:] + steps[:-1]) / 2, steps[-1:]])
