@@ -26,7 +26,7 @@ from in_betweens.end_bending import MOST_TURN, Arrived, bend_to
 from in_betweens.two_sided_search import TwoSided, choices, pose_at
 from mocap._shared.arrays import Array, Mask, runs
 from mocap.body.kinematics import joint_positions
-from mocap.body.limbs import legs_of
+from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.editing.displacements import Displacement, difference, displaced
 from mocap.editing.retiming import at_frames
@@ -107,7 +107,7 @@ def stand(motion: Motion) -> Motion:
     -------
     The motion; plants that were let go are no longer marked.
     """
-    legs = legs_of(motion.skeleton, None)
+    legs = find_legs(motion.skeleton)
     marks, places = settled_marks(motion, legs), joint_positions(motion)
     columns = [joint for leg in legs for joint in (leg.ankle, leg.ball)]
     known = np.full((len(motion), len(columns), 3), np.nan)  # nan where nothing is held

@@ -11,7 +11,8 @@ from itertools import combinations
 import numpy as np
 
 from mocap._shared.arrays import Array, runs
-from mocap.blending import fit_curve, register
+from mocap.blending import register
+from mocap.blending.timewarps import fit_curve
 from mocap.body import Motion
 from mocap.body.limbs import find_legs
 from mocap.matching import distance_grid, point_cloud, time_path

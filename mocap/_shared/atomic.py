@@ -93,12 +93,6 @@ def _tidy(place: Path) -> None:
                 shutil.rmtree(left)
 
 
-def require_npz(path: str | Path) -> None:
-    """Raise unless a file to write is called .npz, in small or capital letters."""
-    if Path(path).suffix.lower() != ".npz":
-        raise MocapError(f"This is written as .npz, got '{path}'.")
-
-
 def require_writable(path: str | Path) -> None:
     """Raise, before any work is done for it, where a file could not be written.
 

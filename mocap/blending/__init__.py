@@ -29,7 +29,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "weights": ["cubic_weights", "linear_weights", "sine_weights"],
         "joining": ["blend", "inertialize", "join", "lay_window_on"],
-        "timewarps": ["fit_curve"],
         "clocks": ["frame_times"],
         "mixing": ["crossfade", "ground_course", "mix"],
         "registering": ["register"],

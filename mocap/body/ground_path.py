@@ -41,7 +41,18 @@ class GroundPath:
     points: Array
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "points", _checked(self.points))
+        points = np.asarray(self.points, float)
+        if points.ndim != 2 or points.shape[1] != 2 or len(points) < 2:
+            raise MocapError(f"A path needs two points (x, z) or more, got an array {points.shape}.")
+        if not np.isfinite(points).all():
+            point = int(np.isfinite(points).all(axis=1).argmin())
+            raise MocapError(f"Point {point} of the path is not finite: {points[point].tolist()}.")
+        if np.abs(points).max() > 1e6:
+            raise MocapError(f"The path lies {np.abs(points).max():.3g} m away: is it in metres?")
+        moved = np.concatenate([[True], (np.abs(np.diff(points, axis=0)) > CLOSEST).any(axis=1)])
+        if moved.sum() < 2:
+            raise MocapError("The path has zero length: all its points are one.")
+        object.__setattr__(self, "points", frozen(points[moved], np.float64))
 
     def __repr__(self) -> str:
         return f"GroundPath({len(self.points)} points, {self.length:.1f} m)"
@@ -67,22 +78,6 @@ class GroundPath:
             raise MocapError(f"Points must be more than 0 m apart, got {spacing} m.")
         pieces = int(np.ceil(self.length / spacing * (1 - ROUNDING)))
         return GroundPath(self.at(np.linspace(0, self.length, max(pieces, 1) + 1)))
-
-
-def _checked(points: ArrayLike) -> Array:
-    """Check the points of a path, and drop those that repeat the one before."""
-    points = np.asarray(points, float)
-    if points.ndim != 2 or points.shape[1] != 2 or len(points) < 2:
-        raise MocapError(f"A path needs two points (x, z) or more, got an array {points.shape}.")
-    if not np.isfinite(points).all():
-        point = int(np.isfinite(points).all(axis=1).argmin())
-        raise MocapError(f"Point {point} of the path is not finite: {points[point].tolist()}.")
-    if np.abs(points).max() > 1e6:
-        raise MocapError(f"The path lies {np.abs(points).max():.3g} m away: is it in metres?")
-    moved = np.concatenate([[True], (np.abs(np.diff(points, axis=0)) > CLOSEST).any(axis=1)])
-    if moved.sum() < 2:
-        raise MocapError("The path has zero length: all its points are one.")
-    return frozen(points[moved], np.float64)
 
 
 def spline(points: ArrayLike) -> GroundPath:
@@ -167,24 +162,14 @@ def s_curve(length: float = 20.0) -> GroundPath:
     return arcs((0, 0), bend / 2, [(length / 2, -bend), (length / 2, bend)])
 
 
-def letter_s(radius: float = 1.5) -> GroundPath:
-    """Draw a letter S, from its upper end to its lower end.
-
-    Examples
-    --------
-    >>> letter_s(1.0)
-    GroundPath(395 points, 7.9 m)
-    """
-    return arcs((0, 0), 0.0, [(1.25 * np.pi * radius, 1.25 * np.pi), (1.25 * np.pi * radius, -1.25 * np.pi)])
-
-
 _SQUARE = [(1.5, 0.0), *[(0.75 * np.pi, np.pi / 2), (3.0, 0.0)] * 3, (0.75 * np.pi, np.pi / 2), (1.5, 0.0)]
 _LEFT, _RIGHT = (3.75 * np.pi, 1.5 * np.pi), (3.75 * np.pi, -1.5 * np.pi)  # the loops of the eight
-SHAPES: dict[str, Callable[[], GroundPath]] = {
+_BEND = 1.25 * np.pi  # of the letter S
+SHAPES: dict[str, Callable[..., GroundPath]] = {
     "S-curve": s_curve,
     "circle": circle,
     "square": lambda: arcs((0, 0), 0.0, _SQUARE),
     "figure of eight": lambda: arcs((0, 0), -np.pi / 4, [(2.5, 0.0), _LEFT, (5.0, 0.0), _RIGHT, (2.5, 0.0)]),
-    "letter S": letter_s,
+    "letter S": lambda radius=1.5: arcs((0, 0), 0.0, [(radius * _BEND, _BEND), (radius * _BEND, -_BEND)]),
 }
 """The shapes by name; each can be called without arguments."""

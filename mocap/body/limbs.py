@@ -1,6 +1,5 @@
 """Which joints are the legs? Found by the names that common skeletons use, or named by hand."""
 
-from collections.abc import Sequence
 from itertools import pairwise
 from textwrap import shorten
 from typing import Literal, NamedTuple
@@ -116,8 +115,3 @@ def name_leg(skeleton: Skeleton, hip: str, knee: str, ankle: str, ball: str) -> 
         if not np.linalg.norm(skeleton.offsets[below]) > 1e-6:
             raise MocapError(f"'{names[below]}' sits on '{names[above]}': a bone needs a length.")
     return leg
-
-
-def legs_of(skeleton: Skeleton, legs: Sequence[Leg] | None) -> Sequence[Leg]:
-    """Return the given legs, or find them where none are given."""
-    return find_legs(skeleton) if legs is None else legs

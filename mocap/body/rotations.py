@@ -192,7 +192,8 @@ def difference(start: ArrayLike, end: ArrayLike) -> Array:
 def slerp(start: ArrayLike, end: ArrayLike, amount: ArrayLike) -> Array:
     """Interpolate the short way round: start · exp(amount · log(start⁻¹ · end)).
 
-    exp is `from_rotvec`, and log(start⁻¹ · end) is `difference`; as log gives turns of at most π, the way is the short one.
+    exp is `from_rotvec`, and the logarithm is `difference`: as that turns by at most π, the way is the short
+    one.
 
     Parameters
     ----------

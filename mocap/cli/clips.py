@@ -15,6 +15,7 @@ from mocap import datasets, files, quality, widgets
 from mocap._shared.atomic import make_folder, require_folder, require_writable
 from mocap.cli.options import CM, Reading, Sources, Unit, as_options, bar, number, tell, tell_of_failures
 from mocap.cli.typed_commands import Group
+from mocap.datasets.named_sets import SETS, fetch_set, list_set
 from mocap.errors import MocapError, printable
 from mocap.files import conversion
 from mocap.files.conversion import find_files
@@ -91,6 +92,7 @@ def judge(
     """
     from mocap.files.load_save import read  # the help needs no NumPy
     from mocap.files.path_files import load_path
+    from mocap.quality.judging import judgement_table
 
     clips = [files.load(clip, **asdict(reading)) for clip in find_files(against)]
     line = load_path(path, scale=unit) if path else None
@@ -104,7 +106,7 @@ def judge(
     if json:
         print(dumps([one.as_dict() for one in judged], indent=1))
     elif judged:
-        print(quality.judgement_table(judged))
+        print(judgement_table(judged))
     for problem in dict.fromkeys([*(text for one in judged for text in one.left_out), *problems]):
         print(f"mocap: {printable(as_options(problem))}", file=sys.stderr)
     return 2 if problems else 0
@@ -209,23 +211,25 @@ def list_trials(
     subject : only this person's trials.
     kind : only trials with this word in their description.
     """
+    from mocap.datasets.cmu_database import TERMS  # the help needs no NumPy
+
     print(f"{'trial':<8} {'frames':>6}  description")
     for trial in datasets.trials(subject, kind):
         print(f"{trial.name:<8} {trial.frames:>6}  {trial.description}")
-    print(f"\n{datasets.TERMS}")
+    print(f"\n{TERMS}")
 
 
 def list_sets() -> None:
     """List the named sets that datasets.from_set reads, with their licences and joints."""
-    for name, known in datasets.SETS.items():
+    for name, known in SETS.items():
         print(f"{name:<12} {known.title}")
         rows = {"licence": known.licence, "allows": known.allows, "address": known.address}
         rows |= {"download": known.size(), "rate": f"{known.fps:g} Hz", "hips": known.hips}
-        rows |= {"left leg": ", ".join(known.legs), "at hand": f"{len(datasets.list_set(name))} clips"}
+        rows |= {"left leg": ", ".join(known.legs), "at hand": f"{len(list_set(name))} clips"}
         print("\n".join(f"{'':<12} {key:<8} {value}" for key, value in rows.items()))
 
 
-def fetch(set: Annotated[str, {"choices": list(datasets.SETS)}], *, accept: bool = False) -> None:
+def fetch(set: Annotated[str, {"choices": list(SETS)}], *, accept: bool = False) -> None:
     """Download all clips of a named set, once.
 
     Parameters
@@ -233,11 +237,11 @@ def fetch(set: Annotated[str, {"choices": list(datasets.SETS)}], *, accept: bool
     set : its name.
     accept : accept the licence that the set is under.
     """
-    known = datasets.SETS[set]
+    known = SETS[set]
     if not accept:
         print(known.terms())
         raise MocapError(f"If you accept this licence, add --accept: {known.size()} to download.")
-    print(f"{len(datasets.fetch_set(set, bar('fetching')))} clips are at hand")
+    print(f"{len(fetch_set(set, bar('fetching')))} clips are at hand")
 
 
 DATA = Group(

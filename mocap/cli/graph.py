@@ -10,6 +10,7 @@ from mocap import body, datasets, editing, graphs, quality, synthesis, widgets
 from mocap._shared.atomic import make_folder, require_folder
 from mocap.cli.options import Building, Seed, bar, check_out, number, require_other, tell, write_out
 from mocap.cli.typed_commands import Group
+from mocap.datasets.clip_origins import Origin
 from mocap.errors import MocapError, MocapWarning, NoWalk, warn
 from mocap.files.conversion import find_files
 
@@ -101,7 +102,7 @@ def build(
     if graphml:
         check_out("graph for other tools", graphml, found, [".graphml"])
     motions = building.load(found)
-    origins = [datasets.Origin(file, building.skeleton, building.scale) for file in found]
+    origins = [Origin(file, building.skeleton, building.scale) for file in found]
     if mirror:
         motions += _mirrored(motions)
         origins += [origin._replace(mirrored=True) for origin in origins]

@@ -15,8 +15,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "samples": ["SAMPLES", "sample"],
-        "named_sets": ["SETS", "fetch_set", "from_set", "list_set"],
-        "clip_origins": ["Origin"],
-        "cmu_database": ["TERMS", "cmu", "trials"],
+        "named_sets": ["from_set"],
+        "cmu_database": ["cmu", "trials"],
     },
 )

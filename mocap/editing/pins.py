@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array, Mask, frozen
 from mocap.body.kinematics import GlobalPoses, forward_kinematics, joint_positions
-from mocap.body.limbs import Leg, legs_of
+from mocap.body.limbs import Leg, find_legs
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
@@ -237,7 +237,7 @@ def plant_pins(motion: Motion, legs: Sequence[Leg] | None = None, heights: Array
 
     Notebook: 12-path-editing
     """
-    legs = legs_of(motion.skeleton, legs)
+    legs = find_legs(motion.skeleton) if legs is None else legs
     positions, several = joint_positions(motion), []
     for number, (leg, marks) in enumerate(zip(legs, settled_marks(motion, legs), strict=True)):
         tracks = np.swapaxes(positions[:, [leg.ankle, leg.ball]], 0, 1)  # (2, F, 3)
@@ -288,6 +288,6 @@ def require_pins_of(motion: Motion, pins: Pins) -> None:
 
 def with_plants(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
     """Mark when ankles and balls stand, unless the motion says it of all of them."""
-    legs = legs_of(motion.skeleton, legs)
+    legs = find_legs(motion.skeleton) if legs is None else legs
     names = {motion.skeleton.names[joint] for leg in legs for joint in (leg.ankle, leg.ball)}
     return motion if names <= set(motion.contacts) else mark_plants(motion, legs)

@@ -19,7 +19,7 @@ from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.ground_path import GroundPath
 from mocap.body.kinematics import forward_kinematics
-from mocap.body.limbs import legs_of
+from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.editing.path_editing import Ride, moving_frames
 from mocap.editing.pins import plant_pins
@@ -145,7 +145,7 @@ def lean(motion: Motion, way: Array, angle: Array) -> tuple[Motion, dict[int, Ar
     height, ahead = motion.root_positions[:, 1], np.stack([np.sin(way), 0 * way, np.cos(way)], axis=-1)
     left = np.stack([np.cos(way), 0 * way, -np.sin(way)], axis=-1)
     outer = replace(motion, root_positions=motion.root_positions - (height * np.tan(angle))[:, None] * left)
-    skeleton, legs = motion.skeleton, legs_of(motion.skeleton, None)
+    skeleton, legs = motion.skeleton, find_legs(motion.skeleton)
     shares = {0: PELVIS, **dict.fromkeys(skeleton.children(0), TRUNK)}
     shares |= {skeleton.path_to_root(leg.hip)[-2]: PELVIS for leg in legs}
     shares |= {leg.hip: 1.0 for leg in legs} | {leg.ankle: 0.0 for leg in legs}

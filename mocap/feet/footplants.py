@@ -14,7 +14,7 @@ from scipy.ndimage import binary_propagation
 
 from mocap._shared.arrays import Array, Mask, runs
 from mocap.body.kinematics import joint_positions
-from mocap.body.limbs import Leg, legs_of
+from mocap.body.limbs import Leg, find_legs
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
 
@@ -93,7 +93,7 @@ def mark_plants(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
 
     Notebook: 04b-feet
     """
-    legs = legs_of(motion.skeleton, legs)
+    legs = find_legs(motion.skeleton) if legs is None else legs
     span = max(1, int(SPAN * motion.fps))
     if len(motion) <= 2 * span:
         few = f"'{motion.name}' has {len(motion)}"

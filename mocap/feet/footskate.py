@@ -20,7 +20,7 @@ from scipy.ndimage import binary_propagation, maximum_filter1d
 
 from mocap._shared.arrays import Array, Mask, runs
 from mocap.body.kinematics import forward_kinematics
-from mocap.body.limbs import Leg, legs_of
+from mocap.body.limbs import Leg, find_legs
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, shortened, warn
 from mocap.feet.ankle_targets import FootTarget, foot_target
@@ -75,7 +75,7 @@ def clean_up(
 
     Notebook: 04b-feet
     """
-    legs = legs_of(motion.skeleton, legs)
+    legs = find_legs(motion.skeleton) if legs is None else legs
     marks = asked = settled_marks(motion, legs)
     own, span = forward_kinematics(motion), least_frames(motion.fps)
     tracks = [track_leg(motion, leg, own) for leg in legs]

@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mocap._shared.archives import Arrays, open_archive, pack
-from mocap._shared.atomic import require_npz
 from mocap._shared.progress import Progress
 from mocap.body.fingerprints import fingerprint
 from mocap.body.motion import Motion, require_alike
@@ -84,7 +83,8 @@ def save(motion_graph: MotionGraph, path: str | Path, origins: Sequence[Origin] 
 
     Notebook: 05b-choice-points
     """
-    require_npz(path)
+    if Path(path).suffix.lower() != ".npz":
+        raise MocapError(f"This is written as .npz, got '{path}'.")
     clips, graph = motion_graph.clips, motion_graph.graph
     number = {node: row for row, node in enumerate(graph)}
     edges = list(graph.edges(keys=True, data=True))

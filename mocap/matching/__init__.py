@@ -33,6 +33,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "distance_grids": ["distance_grid"],
         "minima": ["local_minima"],
         "transitions": ["Transition", "find_transitions"],
-        "time_paths": ["path_mean", "time_path"],
+        "time_paths": ["time_path"],
     },
 )

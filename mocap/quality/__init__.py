@@ -27,7 +27,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "clip_flaws": ["inspect"],
         "falling": ["centre_of_mass", "gravity"],
-        "judging": ["judge", "judgement_table"],
+        "judging": ["judge"],
         "standing_feet": ["plant_slides"],
         "seam_measures": ["jumps", "knee_turns", "seam_quality", "spread"],
     },

@@ -9,8 +9,8 @@ import pytest
 
 from mocap.body import Motion, Skeleton, find_legs
 from mocap.cli.main import main
-from mocap.datasets import downloads, fetch_set, from_set, list_set, named_sets
-from mocap.datasets.named_sets import HASHES, SETS
+from mocap.datasets import downloads, named_sets
+from mocap.datasets.named_sets import HASHES, SETS, fetch_set, from_set, list_set
 from mocap.files import load_save
 from tests.refusals import refused
 

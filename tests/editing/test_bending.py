@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from mocap.body.ground_path import GroundPath, arcs, circle, letter_s, s_curve
+from mocap.body.ground_path import SHAPES, GroundPath, arcs, circle, s_curve
 from mocap.body.motion import resample
 from mocap.datasets.samples import sample
 from mocap.editing.bending import bend
@@ -32,7 +32,9 @@ def straight_parts(bent):
 
 
 @pytest.mark.parametrize("name", CLIPS)
-@pytest.mark.parametrize("path", [s_curve(12), circle(2.5), letter_s(1.6)], ids=["S", "circle", "letter"])
+@pytest.mark.parametrize(
+    "path", [s_curve(12), circle(2.5), SHAPES["letter S"](1.6)], ids=["S", "circle", "letter"]
+)
 def test_a_walk_keeps_to_any_line(name, path):
     """As in [Gle01, 5]."""
     bent = bend(clip(name), path)

@@ -9,7 +9,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from mocap.body import Skeleton, resample
-from mocap.datasets import Origin, sample
+from mocap.datasets.clip_origins import Origin
+from mocap.datasets.samples import sample
 from mocap.errors import FormatError, MocapError
 from mocap.files import load_save
 from mocap.graphs import storage

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from asked_lines import LINES, random_line
 
-from mocap.body.ground_path import GroundPath, circle, letter_s
+from mocap.body.ground_path import SHAPES, GroundPath, circle
 from mocap.body.motion import resample
 from mocap.datasets import samples
 from mocap.editing import LIMIT, plants_kept
@@ -28,7 +28,7 @@ from tests.refusals import quietly, refusals
 
 SOME = {
     "sine": LINES["sine"](),
-    "letter S": letter_s(1.2),
+    "letter S": SHAPES["letter S"](1.2),
     "circle": circle(1.2),
     "heart": LINES["heart"](),
     "random": random_line(501),
@@ -78,7 +78,7 @@ def test_any_line_with_any_walk(graph, line):
 
 def test_without_bending_a_straight_walk_stays_straight():
     """The naive way: 6 m off an S on average, and nothing that the search could do about it."""
-    path = letter_s(1.6)
+    path = SHAPES["letter S"](1.6)
     with pytest.warns(
         MocapWarning, match="no clips turn as it does there; `bend` turns them, and `follow_as_2002`"
     ):
