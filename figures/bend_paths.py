@@ -29,7 +29,6 @@ from mocap.editing.path_editing import plants_kept
 from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.plotting import ASKED, CURVES, PATH
 from mocap.steering import follow_path
-from mocap.steering.bent_following import BentWalk
 from mocap.steering.followed import Followed
 from mocap.synthesis import to_motion
 
@@ -87,7 +86,7 @@ def _graph(clips: Sequence[mocap.Motion], threshold: float) -> CompiledGraph:
     return graphs.compile_graph(graphs.prune(graphs.build(clips, window=10, threshold=threshold)))
 
 
-def measure(graph: CompiledGraph, path: GroundPath) -> tuple[Row, Followed, BentWalk]:
+def measure(graph: CompiledGraph, path: GroundPath) -> tuple[Row, Followed, Followed]:
     """Follow a line in both ways, and measure both walks."""
     plain = follow_path(graph, path)
     took = []
@@ -95,7 +94,7 @@ def measure(graph: CompiledGraph, path: GroundPath) -> tuple[Row, Followed, Bent
         begun = time.process_time()
         bent = follow_path(graph, path, bend=LIMIT)
         took.append(time.process_time() - begun)
-    assert isinstance(bent, BentWalk)
+    assert bent.bent
     as_asked = ~bent.bent.rounded if not bent.bent.rounded.all() else bent.bent.rounded
     before = to_motion(bent.graph, bent.walk)
     row = Row(

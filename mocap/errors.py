@@ -104,13 +104,10 @@ def missing(what: str, extra: str) -> MocapError:
 class MocapWarning(UserWarning):
     """Something that was asked for is possible only in part; the message says how much of it."""
 
-    def __str__(self) -> str:
-        return printable(super().__str__())
-
 
 def warn(sentence: str) -> None:
     """Warn by a `MocapWarning`, which shows the line that called this package."""
     frame, level = sys._getframe(), 1
     while frame.f_back and frame.f_globals.get("__name__", "").startswith("mocap."):
         frame, level = frame.f_back, level + 1
-    warnings.warn(sentence, MocapWarning, stacklevel=level)
+    warnings.warn(printable(sentence), MocapWarning, stacklevel=level)

@@ -15,7 +15,7 @@ from mocap._shared.arrays import Array
 from mocap.body import GroundPath, Motion, on_ground
 from mocap.editing import LIMIT
 from mocap.steering import follow_path
-from mocap.steering.bent_following import BentWalk
+from mocap.steering.followed import Followed
 from tasks import WALKS, Case, graph
 from tasks._measures import jolting, skate
 from tasks.following import ALONG
@@ -41,15 +41,13 @@ def cases(collection: str, clips: list[Motion]) -> Iterator[Case]:
 
 
 @cache
-def bent(clips: tuple[Motion, ...], line: bytes) -> BentWalk:
+def bent(clips: tuple[Motion, ...], line: bytes) -> Followed:
     """Lay a walk on a line."""
     points = np.frombuffer(line).reshape(-1, 2)
-    found = follow_path(graph(clips), GroundPath(points), bend=LIMIT)
-    assert isinstance(found, BentWalk)
-    return found
+    return follow_path(graph(clips), GroundPath(points), bend=LIMIT)
 
 
-def of(case: Case) -> BentWalk:
+def of(case: Case) -> Followed:
     """Lay a walk on the line of a case."""
     return bent(case.given["clips"], np.ascontiguousarray(case.given["line"]).tobytes())
 
@@ -58,7 +56,7 @@ METHODS = {
     "layered search": lambda case: follow_path(
         graph(case.given["clips"]), GroundPath(case.given["line"])
     ).motion(),
-    "laid on the line": lambda case: of(case).bent.laid,
+    "laid on the line": lambda case: of(case).motion(clean=False),
     "bent": lambda case: of(case).motion(),
 }
 

@@ -5,9 +5,8 @@ how much a walk must be turned beyond what it turns by itself, and not how far i
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache, partial
-from typing import ClassVar
 
 import numpy as np
 
@@ -15,7 +14,7 @@ from mocap._shared.arrays import Array, Indices
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
 from mocap.body.planar import IDENTITY, from_ground, heading, on_ground
-from mocap.editing.bending import Bent, bend
+from mocap.editing.bending import bend
 from mocap.editing.line_rounding import round_line
 from mocap.editing.path_editing import Ride, moving_frames, ride_of
 from mocap.editing.turning import places_on
@@ -23,29 +22,33 @@ from mocap.errors import MocapError
 from mocap.graphs.compiled_graph import CompiledGraph, walk_track
 from mocap.graphs.edge_tables import clip_rows
 from mocap.steering.followed import Followed
-from mocap.steering.path_objective import OwnTurning, Route, Wishes, make_route
+from mocap.steering.path_objective import Route, Wishes, make_route
 from mocap.steering.path_search import SLOWEST, Found, too_slow
 from mocap.synthesis.walk_to_motion import to_motion
 
 # Metres, and a share of the line: how far the search goes on beyond its end; the rest is cut.
 FURTHER = (0.5, 0.02)
-SEAMS = 0.7  # transitions per second, at most, for a walk that is laid on its path
 
 
 @lru_cache(maxsize=2)  # to find it again makes following a line of 17 m a fifth slower
-def turning_of(graph: CompiledGraph) -> OwnTurning:
-    """Follow the path of every edge: how far it goes, and by how much it turns, frame by frame.
+def own_paths(graph: CompiledGraph) -> tuple[CompiledGraph, Array]:
+    """Put the path of every edge in the place of the way of the root, which sways about it.
 
     The path is that of `editing.ride_of`, so that the sway of the body is no turning. In a transition both
     clips' headings are blended as their poses are; the difference of the two is turned through as well.
+
+    Returns
+    -------
+    The graph, whose `ground`, `step` and `going` are those of the paths; and by how many radians each of its
+    frames turns along them, (T,).
 
     Examples
     --------
     >>> from mocap import body, datasets, graphs
     >>> clips = [body.resample(datasets.sample("walk_circle"), 30)]
     >>> graph = graphs.compile_graph(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
-    >>> own = turning_of(graph)
-    >>> len(own.turn) == len(own.step) == len(graph.step)
+    >>> own, turns = own_paths(graph)
+    >>> len(turns) == len(own.step) == len(graph.step)
     True
     """
     clips = graph.source.clips
@@ -58,22 +61,24 @@ def turning_of(graph: CompiledGraph) -> OwnTurning:
     other = heads[there] + np.angle(graph.turn)[graph.of]
     apart = (other - heads[here] + np.pi) % (2 * np.pi) - np.pi
     head = heads[here] + np.where(weight > 0, weight * apart, 0.0)
-    turn = np.diff(head, prepend=0.0)
-    turn[starts] = head[starts] - heads[clip_rows(clips, graph.here[starts] - np.array([0, 1]))]
+    turns = np.diff(head, prepend=0.0)
+    turns[starts] = head[starts] - heads[clip_rows(clips, graph.here[starts] - np.array([0, 1]))]
     step = graph.alpha * steps[here] + weight * steps[there]
     laid = graph.turn[graph.of] * points[there] + graph.move[graph.of]
     ground = graph.alpha * points[here] + weight * laid
-    return OwnTurning(turn, step, ground, heads[clip_rows(clips, np.array(graph.nodes))])
+    going = heads[clip_rows(clips, np.array(graph.nodes))]
+    return replace(graph, ground=ground, step=step, going=going), turns
 
 
-def own_ride(graph: CompiledGraph, own: OwnTurning, edges: Indices) -> Ride:
+def own_ride(own: CompiledGraph, edges: Indices) -> Ride:
     """Join the paths of the clips that a walk plays to one path, and say where on it each frame is.
+
+    The graph is that of `own_paths`.
 
     A spline through the whole walk would be too slow where a seam leads from a bend to the left into one to
     the right: the walk strays from its own path there, and from a line on which it is laid, by up to 10 cm.
     """
-    paths = replace(graph, ground=own.ground)
-    points, _ = walk_track(paths, edges, 1.0, 0.0)
+    points, _ = walk_track(own, edges, 1.0, 0.0)
     along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(points)))])
     return Ride(GroundPath(from_ground(points)), along)
 
@@ -92,35 +97,9 @@ def _ride(clip: Motion) -> Array:
     return np.stack([np.asarray(frames.angle), ride.along, *ride.path.at(ride.along).T])
 
 
-@dataclass(frozen=True, eq=False)
-class BentWalk(Followed):
-    """A walk laid on a path: what `Followed` says of it, and `bent`, how it was laid there.
-
-    `walk` and `found` are of the search; `off`, `track` and `along` are of the motion on the path. No single
-    `place` lays the walk there, so it is the identity.
-    """
-
-    bent: Bent
-    most_seams: ClassVar[float] = SEAMS
-    astray: ClassVar[float] = np.inf  # the line is rounded then, and no other walk would help
-
-    def motion(self, *, name: str = "walk", clean: bool = True) -> Motion:
-        """Give the motion on the path, with clean feet or, if `clean` is false, as it was laid there."""
-        return replace(self.bent.motion if clean else self.bent.laid, name=name)
-
-    @property
-    def excess(self) -> float:
-        """Seams per second / 0.7: the distance from the path is no matter of the search."""
-        return self.seams_per_second / self.most_seams
-
-    def report(self) -> str:
-        """Say how well the walk keeps to the path, and where the path was rounded and by how much."""
-        return self._told(f"{self.bent.report()}; ")
-
-
 def plan_bending(
     graph: CompiledGraph, path: GroundPath, wishes: Wishes, limit: float
-) -> tuple[Route, Callable[[Found], BentWalk]]:
+) -> tuple[Route, Callable[[Found], Followed]]:
     """Round a path for the usual pace of some clips, and lay out the wishes along it.
 
     Parameters
@@ -141,7 +120,7 @@ def plan_bending(
     if not limit > 0:
         raise MocapError(f"A walk is bent by more than 0 radians per second, got bend={limit}.")
     make_route(graph, path, wishes)  # which refuses what is too long, and what is asked for off the path
-    own = turning_of(graph)
+    own, turns = own_paths(graph)
     walks = own.step[own.step * graph.fps > SLOWEST]
     if not len(walks):
         raise too_slow(graph)
@@ -163,7 +142,7 @@ def plan_bending(
     longer = GroundPath(np.vstack([points, points[-1] + further * way / np.hypot(*way)]))
     along, ratio = places_on(longer, pace, graph.fps, limit)
     route = _in_own_metres(make_route(graph, longer, wishes), longer, along, ratio, steady)
-    return replace(route, own=own), partial(_lay, graph, path, wishes, limit)
+    return replace(route, own=own, turns=turns), partial(_lay, graph, path, wishes, limit)
 
 
 def _in_own_metres(route: Route, path: GroundPath, there: Array, ratio: Array, steady: Array) -> Route:
@@ -180,10 +159,10 @@ def _in_own_metres(route: Route, path: GroundPath, there: Array, ratio: Array, s
     return replace(route, points=points, spacing=own[1], label=label, clock=clock, curvature=bends)
 
 
-def _lay(graph: CompiledGraph, path: GroundPath, wishes: Wishes, limit: float, found: Found) -> BentWalk:
+def _lay(graph: CompiledGraph, path: GroundPath, wishes: Wishes, limit: float, found: Found) -> Followed:
     """Lay a walk that was found on the path, and measure how well it follows."""
     walk = [graph.edges[edge] for edge in found.edges]
-    ride = own_ride(graph, turning_of(graph), found.edges)
+    ride = own_ride(own_paths(graph)[0], found.edges)
     bent = bend(to_motion(graph.source, walk), path, limit=limit, ride=ride)
     played = np.searchsorted(ride.along, bent.ride.along[-1])
     walk = walk[: int(np.searchsorted(np.cumsum(graph.frames[found.edges]), played)) + 1]
@@ -195,4 +174,4 @@ def _lay(graph: CompiledGraph, path: GroundPath, wishes: Wishes, limit: float, f
         bears = bent.motion.labels.get(label, np.zeros(len(track), bool))
         unlabelled[there] = bool(label) & ~bears[there]
     place = (graph.source, path, walk, IDENTITY)
-    return BentWalk(*place, track, bent.along, bent.off, at_length, unlabelled, found, bent)
+    return Followed(*place, track, bent.along, bent.off, at_length, unlabelled, found, bent)

@@ -1,7 +1,6 @@
 """What was found along a path, and how well it follows the path."""
 
-from dataclasses import dataclass
-from typing import ClassVar
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -9,6 +8,7 @@ from mocap._shared.arrays import Array, Mask, runs
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform, from_ground
+from mocap.editing.bending import Bent
 from mocap.graphs.compiled_graph import CompiledGraph, walk_track
 from mocap.graphs.edge_tables import Edge
 from mocap.graphs.motion_graph import MotionGraph
@@ -18,7 +18,7 @@ from mocap.synthesis.walk_to_motion import to_motion
 
 ASTRAY = 0.15  # metres from the path at which a walk has left it
 NEAR = 0.04  # metres from the path on average, at most, for a path that is followed well
-SEAMS = 1.0  # transitions per second, at most, for a path that is followed well
+SEAMS, BENT_SEAMS = 1.0, 0.7  # transitions per second, at most, of such a walk, and of one that is bent
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +36,8 @@ class Followed:
     off_at_length : shape (F,), metres from the point of the path at equal arc length, as in [KGP02, Eq. 9].
     unlabelled : shape (F,), the frames without the label asked for.
     found : the result of the search.
+    bent : how the walk was laid on the path, or None. If it was, `walk` and `found` are of the search, and
+        `track`, `along` and `off` of the motion on the path; `place` is the identity, as none lays it there.
     """
 
     graph: MotionGraph
@@ -48,12 +50,13 @@ class Followed:
     off_at_length: Array
     unlabelled: Mask
     found: Found
-    most_seams: ClassVar[float] = SEAMS  # per second, of a path that is followed well
-    astray: ClassVar[float] = ASTRAY
+    bent: Bent | None = None
 
-    def motion(self, *, name: str = "walk", clean: bool = False) -> Motion:
-        """Turn the walk into a motion along the path; `clean` as for `synthesis.to_motion`."""
-        return to_motion(self.graph, self.walk, name=name, place=self.place, clean=clean)
+    def motion(self, *, name: str = "walk", clean: bool | None = None) -> Motion:
+        """Give the motion along the path, its feet cleaned if `clean` says so; by default if it is bent."""
+        if self.bent:
+            return replace(self.bent.laid if clean is False else self.bent.motion, name=name)
+        return to_motion(self.graph, self.walk, name=name, place=self.place, clean=bool(clean))
 
     @property
     def seconds(self) -> float:
@@ -67,14 +70,19 @@ class Followed:
         return kinds.count("transition") / self.seconds
 
     @property
+    def restless(self) -> float:
+        """Seams per second / 1, or / 0.7 if it is bent."""
+        return self.seams_per_second / (BENT_SEAMS if self.bent else SEAMS)
+
+    @property
     def far(self) -> float:
-        """The larger of mean distance / 4 cm and worst distance / 15 cm."""
-        return float(max(self.off.mean() / NEAR, self.off.max() / ASTRAY))
+        """The larger of mean distance / 4 cm and worst distance / 15 cm; 0 if it is bent."""
+        return 0.0 if self.bent else float(max(self.off.mean() / NEAR, self.off.max() / ASTRAY))
 
     @property
     def excess(self) -> float:
-        """The larger of how `far` it is, and seams per second / 1."""
-        return max(self.far, self.seams_per_second / self.most_seams)
+        """The larger of how `far` and how `restless` it is."""
+        return max(self.far, self.restless)
 
     @property
     def progress(self) -> float:
@@ -88,15 +96,13 @@ class Followed:
         return [(self.along[a], self.along[b - 1], self.off[a:b].max()) for a, b in stretches]
 
     def report(self) -> str:
-        """Say in one line how well the walk follows the path."""
-        return self._told(
+        """Say in one line how well the walk follows the path; if it is bent, also where that was rounded."""
+        line = (
             f"{self.seconds:.1f} s along {self.progress:.0%} of {self.path.length:.1f} m, "
             f"{100 * self.off.mean():.1f} cm off on average, {100 * self.off.max():.1f} cm at worst "
             f"({100 * self.off_at_length.mean():.1f} cm at equal arc length), "
         )
-
-    def _told(self, line: str) -> str:
-        """Add to a line what is said of every walk."""
+        line = f"{self.bent.report()}; " if self.bent else line
         line += f"{self.seams_per_second:.2f} seams per second"
         if self.unlabelled.any():
             line += f", {self.unlabelled.sum() / self.graph.fps:.1f} s without the label asked for"

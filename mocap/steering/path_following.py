@@ -10,11 +10,11 @@ from mocap._shared.arrays import Indices
 from mocap.body.ground_path import GroundPath
 from mocap.body.planar import on_ground
 from mocap.errors import MocapError, NoWalk, warn
-from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
+from mocap.graphs.compiled_graph import CompiledGraph, compile_graph, walk_track
 from mocap.graphs.components import reached
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.steering.bent_following import plan_bending
-from mocap.steering.followed import Followed, account
+from mocap.steering.followed import ASTRAY, Followed, account
 from mocap.steering.layered_search import States, start_states
 from mocap.steering.path_objective import Route, Settings, Wishes, least_progress, make_route
 from mocap.steering.path_search import SLOWEST, Found, find_walk, too_slow
@@ -64,7 +64,7 @@ def follow_path(
 
     Returns
     -------
-    The walk, and how well it follows the path; with `bend` a `BentWalk`.
+    The walk, and how well it follows the path; with `bend` also how it was laid on the path, `bent`.
 
     Raises
     ------
@@ -142,12 +142,12 @@ def _best_of(search: Callable[[Settings], Followed], settings: Settings) -> Foll
     for again in range(1, settings.tries):
         if best.excess <= 1 or last.found.stopped:
             return best
-        seam = settings.seam * (AGAIN if best.seams_per_second > best.most_seams else 1 / AGAIN)
+        seam = settings.seam * (AGAIN if best.restless > 1 else 1 / AGAIN)
         wider = round((1 + again / 2) * (settings.width or 0))
         last = search(replace(settings, seam=seam, width=wider))
         best = min(best, last, key=lambda walk: (walk.progress < 1, walk.excess))
     for share in (1 / 3, 0.0):  # of the price of seams
-        if settings.tries > 1 and best.off.max() > best.astray and not last.found.stopped:
+        if settings.tries > 1 and best.far and best.off.max() > ASTRAY and not last.found.stopped:
             cheap = replace(settings, seam=share * settings.seam, match=share * settings.match, width=WIDE)
             last = search(cheap)
             best = min(best, last, key=lambda walk: (walk.progress < 1, walk.far))
@@ -173,26 +173,20 @@ def _require_labels(graph: CompiledGraph, labels: Sequence[str], starts: Indices
             raise NoWalk(f"No walk comes to the label '{label}' from there; it can reach: {can}.")
 
 
-class PathCost(GroundWalks):
-    """g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖² [KGP02, Eq. 9]; a walk ends when P' is as long as P.
+def path_problem(walks: GroundWalks, route: Route) -> Problem:
+    """Make the paper's search problem: walks start at the path's start, and end when they are as long as it.
 
-    `cost` and `done` are the `step` and the `done` of a `synthesis.Problem`.
+    An edge costs g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖² [KGP02, Eq. 9].
     """
+    progress = least_progress(walks.graph)
 
-    def __init__(self, graph: CompiledGraph, route: Route) -> None:
-        super().__init__(graph)
-        self.route, self.progress = route, least_progress(graph)
-
-    def cost(self, stand: Stand, edge: SearchEdge) -> tuple[float, Stand]:
-        """Give the cost of an edge after a walk that stands so, and where it leads."""
-        points, after = self.step(stand, edge)
-        along = stand.along + np.cumsum(self.progress[self.rows(edge)])
-        off = np.abs(points - self.route.at(along))
+    def step(stand: Stand, edge: SearchEdge) -> tuple[float, Stand]:
+        points, after = walks.step(stand, edge)
+        along = stand.along + np.cumsum(progress[walks.rows(edge)])
+        off = np.abs(points - route.at(along))
         return float((off**2).sum()), after._replace(along=float(along[-1]))
 
-    def done(self, stand: Stand) -> bool:
-        """Say whether the walk has reached the end of the path."""
-        return stand.along >= self.route.length
+    return Problem(walks.graph.source.graph, step, lambda stand: stand.along >= route.length)
 
 
 def follow_as_2002(
@@ -236,13 +230,13 @@ def follow_as_2002(
     route = make_route(compiled, path, wishes)
     start = start_of(compiled, route, wishes)
     stand = Stand(complex(start.turn[0]), complex(start.move[0]))
-    walks = PathCost(compiled, route)
-    problem = Problem(compiled.source.graph, walks.cost, walks.done)
-    result = search_ahead(problem, compiled.nodes[int(start.node[0])], stand, look=look, budget=budget)
+    walks = GroundWalks(compiled)
+    node, problem = compiled.nodes[int(start.node[0])], path_problem(walks, route)
+    result = search_ahead(problem, node, stand, look=look, budget=budget)
     if not result.walk:
         raise NoWalk(f"The search was {result.stopped} before its first step.")
     edges = np.array([walks.number[edge] for edge in result.walk])
-    along = np.cumsum(np.concatenate([walks.progress[walks.rows(edge)] for edge in result.walk]))
+    along = np.cumsum(least_progress(compiled)[walk_track(compiled, edges, stand.turn, stand.move)[1]])
     counts = result.expanded, result.cut, result.stopped
     found = Found(edges, stand.turn, stand.move, along, result.cost, *counts)
     return account(compiled, path, route, found)

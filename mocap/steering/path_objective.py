@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
@@ -107,20 +106,6 @@ class Settings:
         return self.width or (50 if route.bare else 100)
 
 
-class OwnTurning(NamedTuple):
-    """How the T frames of all edges of a graph turn and move on along their own path, without its sway.
-
-    `turn` (T,): radians in each frame; `step` (T,): metres in each frame; `ground` (T,): where the path is in
-    the coordinates of the clip that the edge leaves; `going` (N,): the heading of the path at each node,
-    radians, in the coordinates of its clip.
-    """
-
-    turn: Array
-    step: Array
-    ground: Points
-    going: Array
-
-
 @dataclass(frozen=True, eq=False)
 class Route:
     """A path and the wishes along it, at n evenly spaced points.
@@ -133,7 +118,7 @@ class Route:
     clock : shape (n,), the time to be there, seconds; nan for any time.
     wishes : the wishes.
     others : shape (K, T), where K others are in each frame.
-    own : where walks are laid on the path, how they turn by themselves.
+    own, turns : where walks are laid on the path, how they go and turn by themselves, from `own_paths`.
     curvature : shape (n,), there, how the path bends at each point, radians per metre.
 
     Examples
@@ -149,7 +134,8 @@ class Route:
     clock: Array
     wishes: Wishes = field(default_factory=Wishes)
     others: Points = field(default_factory=lambda: np.empty((0, 1), complex))
-    own: OwnTurning | None = None
+    own: CompiledGraph | None = None
+    turns: Array = field(default_factory=lambda: np.zeros(0))
     curvature: Array = field(default_factory=lambda: np.zeros(0))
 
     @property

@@ -143,7 +143,7 @@ class PathSearch(LayeredSearch):
         first = np.cumsum(graph.hops.frames[hop]) - graph.hops.frames[hop]
         body = states.move[of] + states.turn[of] * graph.ground[row]
         if own := route.own:  # radians that a frame is turned beyond what it turns itself
-            turned = route.curvature[route.point(along)] * own.step[row] - own.turn[row]
+            turned = route.curvature[route.point(along)] * own.step[row] - route.turns[row]
             off = prices.bend * (turned * graph.fps) ** 2
             off += IDLE * (own.step[row] < LEAST / graph.fps)
         else:

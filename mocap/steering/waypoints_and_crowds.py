@@ -49,26 +49,23 @@ class Arrival(NamedTuple):
     late: float
 
 
-class WaypointWalk(NamedTuple):
-    """A walk through waypoints, and how each of them was met."""
-
-    followed: Followed
-    arrivals: list[Arrival]
-
-
 def through_waypoints(
     graph: MotionGraph | CompiledGraph, waypoints: Sequence[Waypoint], *, bend: float = 0.0
-) -> WaypointWalk:
+) -> tuple[Followed, list[Arrival]]:
     """Find a walk through waypoints, with their labels and at their times [KGP02, 5.3].
 
     The path between them is a spline. Where the clips are too slow or too fast for a time, the walk comes as
-    near to it as it can, and `arrivals` gives the delay.
+    near to it as it can.
 
     Parameters
     ----------
     graph : pruned.
     waypoints : two or more; times count from the start of the motion.
     bend : as for `steering.follow_path`.
+
+    Returns
+    -------
+    The walk, and how each waypoint was met.
 
     Raises
     ------
@@ -79,8 +76,8 @@ def through_waypoints(
     >>> from mocap import body, datasets, graphs
     >>> clips = [body.resample(datasets.sample(name), 30) for name in ("walk_circle", "walk_curve_1")]
     >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
-    >>> found = through_waypoints(graph, [Waypoint(0, 0), Waypoint(0.5, 4, seconds=5.0)])
-    >>> [bool(arrival.off < 0.3) for arrival in found.arrivals]
+    >>> _, arrivals = through_waypoints(graph, [Waypoint(0, 0), Waypoint(0.5, 4, seconds=5.0)])
+    >>> [bool(arrival.off < 0.3) for arrival in arrivals]
     [True, True]
 
     Notebook: 08b-steering
@@ -103,7 +100,7 @@ def through_waypoints(
         frame = min(int(np.searchsorted(followed.along, along)), len(followed.along) - 1)
         off, seconds = float(np.hypot(*(followed.track[frame] - point[:2]))), frame / followed.graph.fps
         arrivals.append(Arrival(off, seconds, np.nan if point.seconds is None else seconds - point.seconds))
-    return WaypointWalk(followed, arrivals)
+    return followed, arrivals
 
 
 class Crowd(NamedTuple):

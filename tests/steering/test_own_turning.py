@@ -5,13 +5,13 @@ import pytest
 
 from mocap.body import circle, on_ground
 from mocap.editing.path_editing import moving_frames, ride_of
-from mocap.steering.bent_following import own_ride, plan_bending, turning_of
+from mocap.steering.bent_following import own_paths, own_ride, plan_bending
 from mocap.steering.path_objective import Wishes
 from mocap.synthesis import random_walk, to_motion
 from tests.bundled import walking
 
 GRAPH = walking()
-OWN = turning_of(GRAPH)
+OWN, TURNS = own_paths(GRAPH)
 
 
 def ride_edges(clip):
@@ -33,8 +33,8 @@ def test_along_a_clip_it_is_the_clips_own_path():
     assert len(rows) == last - first
     far = ride.along[last - 1] - ride.along[max(first - 1, 0)]
     assert OWN.step[rows].sum() == pytest.approx(far, abs=1e-9)
-    assert OWN.turn[rows].sum() == pytest.approx(heads[last - 1] - heads[max(first - 1, 0)], abs=1e-9)
-    joined = own_ride(GRAPH, OWN, edges)
+    assert TURNS[rows].sum() == pytest.approx(heads[last - 1] - heads[max(first - 1, 0)], abs=1e-9)
+    joined = own_ride(OWN, edges)
     assert joined.path.points == pytest.approx(ride.path.points[first:last], abs=1e-9)
 
 
@@ -42,18 +42,18 @@ def test_a_seam_leads_smoothly_from_path_to_path():
     walk = random_walk(GRAPH.source, seconds=30, seed=2)
     edges = np.array([GRAPH.edges.index(edge) for edge in walk])
     assert GRAPH.blended[edges].sum() > 3
-    ride, ground = own_ride(GRAPH, OWN, edges), on_ground(to_motion(GRAPH.source, walk).root_positions)
+    ride, ground = own_ride(OWN, edges), on_ground(to_motion(GRAPH.source, walk).root_positions)
     away = np.abs(ground - on_ground(ride.path.at(ride.along)))
     assert away.max() < 0.08  # the sway
     assert OWN.step[rows_of(edges)].sum() == pytest.approx(ride.along[-1], rel=0.02)
     turned = np.ptp(np.asarray(moving_frames(ride.path, ride.along).angle)[[0, -1]])
-    assert abs(OWN.turn[rows_of(edges)].sum()) == pytest.approx(turned, abs=0.5)  # ends go straight on
+    assert abs(TURNS[rows_of(edges)].sum()) == pytest.approx(turned, abs=0.5)  # ends go straight on
     assert np.abs(np.diff(np.abs(np.diff(on_ground(ride.path.points))))).max() < 0.01  # no jump at a seam
 
 
 def test_a_route_of_a_circle_asks_for_its_curvature():
     route, _ = plan_bending(GRAPH, circle(2.0), Wishes(), 1.0)
-    assert np.array_equal(route.own.turn, OWN.turn) and len(route.curvature) == len(route.points)
+    assert np.array_equal(route.turns, TURNS) and len(route.curvature) == len(route.points)
     steps = np.sqrt(
         (1 + (1.2 * 0.5) ** 2) ** -0.25
     )  # a slowed walk takes shorter steps: more of its own metres

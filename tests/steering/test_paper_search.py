@@ -7,9 +7,9 @@ from asked_lines import random_line
 from mocap.body.ground_path import GroundPath, s_curve
 from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import compile_graph
-from mocap.steering.path_following import PathCost, follow_as_2002, follow_path
+from mocap.steering.path_following import follow_as_2002, follow_path, path_problem
 from mocap.steering.path_objective import Settings, Wishes, make_route
-from mocap.synthesis.ground_walks import Stand
+from mocap.synthesis.ground_walks import GroundWalks, Stand
 from tests.bundled import bundled, captured, walking
 
 GRAPH = walking()
@@ -47,11 +47,12 @@ def test_what_the_papers_search_gains_at_its_best_it_pays_in_seams(real_data):
 def test_who_stands_gets_on_by_a_little():
     """As in [KGP02, least progress]: else a walk that stands would never end."""
     graph, path = compile_graph(bundled("stop_and_go")), GroundPath([[0, 0], [0, 3]])
-    walks = PathCost(graph, make_route(graph, path, Wishes()))
+    walks = GroundWalks(graph)
+    problem = path_problem(walks, make_route(graph, path, Wishes()))
     own, counted = [], []
     for edge in walks.number:
         own.append(graph.step[walks.rows(edge)])
-        counted.append(walks.cost(Stand(1 + 0j, 0j), edge)[1].along)
+        counted.append(problem.step(Stand(1 + 0j, 0j), edge)[1].along)
     least = [np.maximum(steps, 0.3 / graph.fps).sum() for steps in own]
     assert counted == pytest.approx(least)
     assert min(steps.sum() / len(steps) for steps in own) * graph.fps < 0.1

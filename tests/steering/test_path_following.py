@@ -20,7 +20,7 @@ from tests.bundled import captured, sneaking, walking
 from tests.refusals import quietly, refusals
 
 GRAPH = walking()
-BOUNDS = {"NEAR": following, "ASTRAY": following, "most_seams": following.Followed}
+BOUNDS = {"NEAR": following, "ASTRAY": following, "SEAMS": following}
 
 
 def shapes(first, without=()):

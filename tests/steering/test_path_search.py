@@ -9,11 +9,11 @@ from mocap.graphs.compiled_graph import AHEAD, compile_graph
 from mocap.graphs.motion_graph import from_transitions
 from mocap.steering import path_search
 from mocap.steering.layered_search import States, start_states
-from mocap.steering.path_following import PathCost, follow_path, start_of
+from mocap.steering.path_following import follow_path, path_problem, start_of
 from mocap.steering.path_objective import Settings, Wishes, make_route
 from mocap.steering.path_search import PathSearch
-from mocap.synthesis.bounded_search import Problem, branch_and_bound
-from mocap.synthesis.ground_walks import Stand
+from mocap.synthesis.bounded_search import branch_and_bound
+from mocap.synthesis.ground_walks import GroundWalks, Stand
 from tests.bundled import sneaking, walking
 from tests.strategies import wave
 
@@ -44,15 +44,16 @@ def test_without_cuts_and_prices_it_finds_what_branch_and_bound_finds():
     for node in (3, 200, 500):
         start = at_nodes(GRAPH, [node], 0.2)
         found = path_search.find_walk(GRAPH, route, start, exact)
-        cost, stand = PathCost(GRAPH, route), Stand(complex(start.turn[0]), complex(start.move[0]))
-        best = branch_and_bound(Problem(GRAPH.source.graph, cost.cost, cost.done), GRAPH.nodes[node], stand)
+        stand = Stand(complex(start.turn[0]), complex(start.move[0]))
+        problem = path_problem(GroundWalks(GRAPH), route)
+        best = branch_and_bound(problem, GRAPH.nodes[node], stand)
         # A hop may ride on past the end of the path, to which the paper's walk stops: never for less.
         assert found.cost >= best.cost - 1e-12
         walked = 0.0
         for edge in found.edges:
-            if cost.done(stand):
+            if problem.done(stand):
                 break
-            more, stand = cost.cost(stand, GRAPH.edges[edge])
+            more, stand = problem.step(stand, GRAPH.edges[edge])
             walked += more
         assert walked <= 1.2 * best.cost + 1e-3
 

@@ -15,20 +15,20 @@ from tests.steering.test_bent_following import straight_walker
 def test_places_and_times_are_kept():
     """As in [KGP02, 5.3]."""
     points = [Waypoint(0, 0), Waypoint(0.5, 4, seconds=5.0), Waypoint(-0.5, 8, seconds=10.0)]
-    found = through_waypoints(walking(), points)
-    for point, arrival in zip(points, found.arrivals, strict=True):
+    _, arrivals = through_waypoints(walking(), points)
+    for point, arrival in zip(points, arrivals, strict=True):
         assert arrival.off < 0.3
         if point.seconds is not None:
             assert arrival.late == pytest.approx(arrival.seconds - point.seconds)
             assert abs(arrival.late) < 1.0
-    assert math.isnan(found.arrivals[0].late)
+    assert math.isnan(arrivals[0].late)
 
 
 def test_each_waypoint_sets_the_kind_of_motion():
     """As in [KGP02, 5.3]."""
     points = [Waypoint(0, 0, "walk"), Waypoint(0, 4, "sneak"), Waypoint(0, 8)]
-    found = through_waypoints(sneaking(), points)
-    motion, along = found.followed.motion(), found.followed.along
+    followed, _ = through_waypoints(sneaking(), points)
+    motion, along = followed.motion(), followed.along
     assert motion.labels["walk"][along < 3.5].mean() > 0.9
     assert motion.labels["sneak"][(along > 4.5) & (along < 7.5)].mean() > 0.9
 
@@ -48,9 +48,9 @@ def test_bent_walks_meet_waypoints_that_no_clip_turns_to():
         Waypoint(-0.5, 5.5),
         Waypoint(0, 9, seconds=10.0),
     ]
-    plain = through_waypoints(straight_walker(), points)
-    bent = through_waypoints(straight_walker(), points, bend=LIMIT)
-    assert max(arrival.off for arrival in plain.arrivals) > 0.5
-    assert max(arrival.off for arrival in bent.arrivals) < 0.08
-    late = [abs(arrival.late) for arrival in bent.arrivals if not math.isnan(arrival.late)]
+    _, plain = through_waypoints(straight_walker(), points)
+    _, bent = through_waypoints(straight_walker(), points, bend=LIMIT)
+    assert max(arrival.off for arrival in plain) > 0.5
+    assert max(arrival.off for arrival in bent) < 0.08
+    late = [abs(arrival.late) for arrival in bent if not math.isnan(arrival.late)]
     assert max(late) < 1.5
