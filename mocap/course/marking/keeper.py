@@ -110,11 +110,13 @@ def _descendants(pid: int) -> Iterator[int]:
 
 
 def _sizes(home: Path) -> Iterator[int]:
-    """Yield the bytes on disk of each file in a folder and in those in it."""
-    for place, _, names in os.walk(home):
-        for name in names:
-            with suppress(OSError):  # it is gone
-                yield 512 * os.lstat(f"{place}/{name}").st_blocks
+    """Yield the bytes of all that a folder holds, however deep: `os.walk` calls itself at each level."""
+    folders = [f"{home}"]
+    while folders:
+        with suppress(OSError), os.scandir(folders.pop()) as found:  # it is gone
+            for one in found:
+                folders += [one.path] * one.is_dir(follow_symlinks=False)
+                yield 512 * one.stat(follow_symlinks=False).st_blocks
 
 
 def _kill_all(student: int) -> None:

@@ -68,11 +68,11 @@ class Sealed:
             raise MocapError("Marking needs Linux or macOS: on Windows, use WSL or a container.")
         self.hidden = [str(place.resolve()) for place in hidden]
         self.folder, self.running = Path(tempfile.mkdtemp(prefix="marking-")).resolve(), False
-        (self.folder / "home").mkdir()
         self._start()
 
     def _start(self) -> None:
         """Start the keeper, in a folder and with few variables in its environment."""
+        (self.folder / "home").mkdir(parents=True, exist_ok=True)  # a keeper that ends removes them
         more = filter(None, os.environ.get("PYTHONPATH", "").split(os.pathsep))
         path = [Path(mocap.__file__).parents[1], *(Path(place).resolve() for place in more)]
         kept = {name: os.environ[name] for name in KEPT if name in os.environ}
