@@ -82,11 +82,11 @@ class Check:
     table : from a file such as `checks/06-pruning.toml`: `asks`, what the function must return, as the end of
         a sentence; `start`, the hint for a student who has not begun; `takes`, the names of the
         arguments; `draw`, lines of Python that draw the arguments of one call by `rng`, and list them in the
-        last line; `right`, an expression of them; and `wrong`, the hint for each of several: if several fit,
-        the first one counts. There `right` stands for the right answer, and `A → B; C → D` for the answer
-        that has B instead of A, and D instead of C, in its expression and in the lines of the function that
-        this calls. Some tables have `same`, a function that compares two answers, a number of `trials`, and
-        the `minutes` that it takes, 8 if not said.
+        last line; `right`, lines that end in the right answer; and `wrong`, the hint for each of several: if
+        several fit, the first one counts. There `right` stands for the right answer, `right(...)` for that to
+        other arguments, and `A → B; C → D` for the answer that has B instead of A, and D instead of C, in its
+        lines and in those of the function that it calls first. Some tables have `same`, a function that
+        compares two answers, a number of `trials`, and the `minutes` that it takes, 8 if not said.
     known : what the expressions may use.
     notebook : the number of the notebook that asks for it, such as 04b.
 
@@ -121,18 +121,19 @@ class Check:
         self.minutes = table.get("minutes", 8)
         self._table, self._known = table, {**globals(), **known}
         self.same = eval(table.get("same", "close"), self._known)
-        called = re.findall(r"(?<![\w.)])[A-Za-z_][\w.]*(?=\()", table["right"])
+        called = re.findall(r"(?<![\w.)])[A-Za-z_][\w.]*(?=\()", table["right"].splitlines()[-1])
         called = [word for word in called if word.partition(".")[0] in self._known]
         named = {word.split(".")[-1]: getattr(eval(word, self._known), "__module__", "") for word in called}
         self.oracles = [name for name, room in named.items() if re.match(r"mocap\.(?!course\.)", room or "")]
-        self.draw, self.truth = self._function(table["draw"], "rng"), self._function("right", table["takes"])
+        self.draw = _function_of(table["draw"], "rng", dict(self._known))
+        self.truth = self._function("right", table["takes"])
         wrong = table["wrong"].items()
         self.mistakes: list[tuple[Answer, str]] = [
             (self._function(one, table["takes"]), hint) for one, hint in wrong
         ]
 
     def _function(self, expression: str, takes: str) -> Answer:
-        """Make a function of an expression of a table, or of lines of which the last is one."""
+        """Make a function of the right answer, or of a wrong one."""
         names, right = dict(self._known), self._table["right"]
         if "→" in expression:
             called, source = names.get(right.partition("(")[0]), ""
@@ -143,11 +144,8 @@ class Check:
                 source, right = source.replace(old, new), right.replace(old, new)
             exec(source, names)
             expression = "right"
-        *lines, last = re.sub(r"\bright\b", lambda _: f"({right})", expression).splitlines()
-        body = "".join(f" {line}\n" for line in lines)
-        exec(f"def made({takes}):\n{body} return ({last})", names)
-        made: Answer = names["made"]
-        return made
+        names["right"] = _function_of(right, takes, names)
+        return _function_of(re.sub(r"\bright\b(?!\()", f"right({takes})", expression), takes, names)
 
     def __call__(self, answer: Answer) -> None:
         """Print the verdict on a student's function."""
@@ -217,6 +215,14 @@ class Check:
             numbers = f"you return {_short(given)} where it should be {_short(wanted)}"
             return f"{numbers}. It must return {self.asks}."
         return f"the shape is right, the values are wrong. It must return {self.asks}. Hint: {self.start}"
+
+
+def _function_of(lines: str, takes: str, names: dict[str, Any]) -> Answer:
+    """Make a function of lines of Python, the last of which is what it returns."""
+    *before, last = lines.splitlines()
+    exec("\n ".join([f"def made({takes}):", *before, f"return ({last})"]), names)
+    made: Answer = names["made"]
+    return made
 
 
 def written(place: Any) -> Answer:  # noqa: ANN401

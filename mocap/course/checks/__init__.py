@@ -2,7 +2,7 @@
 
 A notebook has a table here, such as `06-pruning.toml`: what each of its exercises asks for, with which input
 it is tried, and the mistakes that students make, each with its hint. Beside them, five files have the
-answers, right and wrong, that take more than an expression.
+answers, right and wrong, that take more than a few lines.
 
 >>> from mocap.course import checks
 >>> checks.speed(lambda positions, fps: ...)

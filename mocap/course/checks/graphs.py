@@ -1,15 +1,12 @@
 """Answers, right and wrong, of exercises about graphs."""
 
 import itertools
-import sys
 from collections import Counter
-from collections.abc import Mapping
 from itertools import combinations, permutations
 from typing import Any
 
 import networkx as nx
 import numpy as np
-from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array
 from mocap.course.check import close
@@ -96,24 +93,3 @@ def reasons(successors: Successors, kept: set[int]) -> dict[int, str]:
         else:
             found[node] = "unreached" if after(successors, node) & kept else "sink"
     return found
-
-
-# ---- Notebook 07b
-
-
-Graph = dict[int, list[int]]
-
-
-def counted(graph: Graph, node: int, edges: int) -> int:
-    """Count walks from the end: those of n edges start with one edge, and n - 1 are left."""
-    walks = dict.fromkeys(graph, 1)  # the empty walk
-    for _ in range(edges):
-        walks = {n: sum(walks[end] for end in ends) for n, ends in graph.items()}
-    return walks[node]
-
-
-def off(points: Array, before: int, goal: complex, frames: int) -> float:
-    """Add up the squared distances from a point that walks straight to the goal in so many frames."""
-    made = before + np.arange(1, len(points) + 1)
-    wanted = goal * np.minimum(1, made / frames)
-    return float((np.abs(points - wanted) ** 2).sum())

@@ -3,13 +3,12 @@
 from collections.abc import Callable
 from functools import partial
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.distance import pdist, squareform
 
-from mocap._shared.arrays import Array, Mask, Points
+from mocap._shared.arrays import Array
 from mocap.body.planar import PlanarTransform
 from mocap.matching.minima import local_minima
 from mocap.matching.point_clouds import align
@@ -47,50 +46,18 @@ def centred(points: Array, others: Array) -> tuple[float, float]:
 # ---- Notebook 02b
 
 
-def diagonal_sums(products: Array, window: int) -> Array:
-    """Add up products[i + f, j + f] over a window's frames, as far as a window fits."""
-    rows, columns = (count - window + 1 for count in products.shape)
-    return np.asarray(np.sum([products[f : f + rows, f : f + columns] for f in range(window)], axis=0))
-
-
 def inside(grid: Array, found: NDArray[np.intp]) -> set[tuple[int, int]]:
     """Keep the places that are not on the border of a grid."""
     last = np.array(grid.shape) - 1
     return {(int(r), int(c)) for r, c in found[((found > 0) & (found < last)).all(axis=1)]}
 
 
-# ---- Notebook 02c
-
-
-def joined_numbers(points: Array) -> Array:
-    """Join heights and distances from the window's middle, over the root of the number of points."""
-    heights, ground = points[..., 1], points[..., [0, 2]]
-    radii = np.linalg.norm(ground - ground.mean(axis=(0, 1)), axis=-1)
-    return np.asarray(np.concatenate([heights.ravel(), radii.ravel()]) / np.sqrt(heights.size))
-
-
 # ---- Notebook 15
-
-
-Stood = tuple[float, complex]
 
 
 def shifted(row: Array) -> Array:
     """Move a row by one place, with infinity before it."""
     return np.append(np.inf, row[:-1])
-
-
-def row_after(diagonal: Array, best: Array, costs: Array) -> Array:
-    """Give what is known of the next row of a path's costs: its last step not diagonal, and any."""
-    now = 2 * costs + shifted(best)
-    return np.array([now, np.minimum(np.minimum(now, costs + diagonal), costs + shifted(now))])
-
-
-def step(heading: float, place: complex, turns: Array, moves: Points, weights: Array) -> Stood:
-    """Go one step by the weighted turns; each move is turned by the mean of before and after."""
-    after = heading - float(weights @ (turns[1] - turns[0]))
-    angles = 0.5 * (turns[0] + heading) + 0.5 * (turns[1] + after)
-    return after, complex(place + weights @ (np.exp(1j * angles) * moves))
 
 
 # ---- Notebook 16

@@ -1,11 +1,9 @@
 """Answers, right and wrong, of exercises about bodies, places and turns."""
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mocap._shared.arrays import Array, Indices, Mask
+from mocap._shared.arrays import Array
 from mocap._shared.easing import quintic_step
 from mocap.blending.joining import blend
 from mocap.blending.weights import cubic_weights
@@ -71,9 +69,3 @@ def mixed_on_lines(a: Motion, b: Motion, alpha: Array, *, nearer: bool = False) 
     signs = np.sign((a.rotations * b.rotations).sum(-1, keepdims=True)) if nearer else 1.0
     share = alpha[:, None, None]
     return np.asarray(share * a.rotations + (1 - share) * signs * b.rotations)
-
-
-def blended(a: Motion, b: Motion, alpha: Array) -> tuple[Array, Array]:
-    """Mix two motions as the package does."""
-    result = blend(a, b, alpha)
-    return result.root_positions, result.rotations

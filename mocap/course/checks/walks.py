@@ -83,22 +83,6 @@ def path_cost(track: Array, path: Line, along: float, steps: Array) -> tuple[flo
     return float(np.sum((track[1:] - path(reached)) ** 2)), float(reached[-1])
 
 
-def survivors(stand: Indices, costs: Array, width: int) -> Indices:
-    """Keep the best of the walks that stand alike, and of these the cheapest."""
-    order = np.argsort(costs)
-    _, first = np.unique(stand[order], axis=0, return_index=True)
-    return np.asarray(order[np.sort(first)[:width]])
-
-
-def look_ahead(walk: Walk, ahead: Points, line: Line, most: float) -> float:
-    """Ask Eq. 9 about the coming frames; it gives no more than `most`."""
-    turn, move, along, _ = walk
-    s = np.asarray(along + np.cumsum(abs(np.diff(ahead))))
-    off = abs(turn * ahead[1:] + move - line(s))
-    cost = float((off**2).sum())
-    return min(cost, most)
-
-
 def draw_turn(rng: np.random.Generator) -> complex:
     """Draw a turn over the ground."""
     return complex(np.exp(1j * rng.uniform(-3, 3)))
@@ -128,20 +112,6 @@ def seconds_until(track: Array, heading: float, frame: int, back: int) -> float:
     return int(obeys.argmax()) if obeys.any() else -1
 
 
-def crowding(track: Array, other: Array, apart: float) -> float:
-    """Add up the squares of how much nearer than `apart` two walkers come."""
-    there = other[np.minimum(np.arange(len(track)), len(other) - 1)]
-    near = np.maximum(apart - np.hypot(*(track - there).T), 0.0)
-    return float(np.sum(near**2))
-
-
-def nearest_edge(turn: complex, tracks: list[Points], heading: float, speed: float, fps: float) -> int:
-    """Choose the track of n + 1 points whose mean velocity, turned, is nearest to the one asked for."""
-    wanted = speed * np.exp(1j * heading)
-    velocities = [complex(track[-1] - track[0]) / (len(track) - 1) * fps for track in tracks]
-    return int(np.argmin([abs(turn * v - wanted) for v in velocities]))
-
-
 # ---- Notebook 19
 
 
@@ -153,10 +123,3 @@ def greedy(a: Points, b: Points) -> Indices:
         order[i] = j
         squares[i], squares[:, j] = np.inf, np.inf
     return order
-
-
-def laid(pa: Points, va: Points, pb: Points, vb: Points) -> tuple[complex, complex]:
-    """Lay one group on another, by places and velocities."""
-    cross = ((pa - pa.mean()) * (pb - pb.mean()).conj()).sum() + 0.49 * (va * vb.conj()).sum()
-    turn = complex(cross / abs(cross))
-    return turn, complex(pa.mean() - turn * pb.mean())
