@@ -2,8 +2,6 @@
 
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -12,87 +10,47 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
 from mocap._shared.arrays import Array
-from mocap.blending.joining import join
 from mocap.body import Motion, PlanarTransform, find_legs, heading, joint_positions
 from mocap.errors import MocapError
-from mocap.matching.point_clouds import align, distinct_joints, point_cloud, rms_distance
+from mocap.matching.point_clouds import distinct_joints, rms_distance
 from mocap.plotting.bodies import draw_body
 from mocap.plotting.style import COLOURS, MARK, PATH, QUIET
 
 INK = COLOURS["middle"]
+Pair = tuple[Motion, Motion]
 LINES: tuple[Any, ...] = ("-", (0, (3, 2)))  # of the first body, and of the second
 
 
-@dataclass(frozen=True, eq=False)
-class Shot:
-    """Two windows, and the stretches of clip around them.
-
-    Parameters
-    ----------
-    first, i, second, j : the window of the second clip from frame j on follows the first one's from frame i.
-    window, before, after : frames of the window, and of clip to show before and after it.
-    where : draws on given axes where the windows are, such as a distance grid.
-
-    Examples
-    --------
-    >>> from mocap import datasets
-    >>> walk = datasets.sample("walk_straight")[:240]
-    >>> shot = Shot(walk, 80, walk, 80, 40, 20, 20, lambda ax: None)
-    >>> float(round(shot.fit.angle, 6)), round(shot.distance, 6)
-    (0.0, 0.0)
-    """
-
-    first: Motion
-    i: int
-    second: Motion
-    j: int
-    window: int
-    before: int
-    after: int
-    where: Callable[[Axes], object]
-
-    @cached_property
-    def windows(self) -> tuple[Motion, Motion]:
-        """Both windows where they are in their clips."""
-        return self.first[self.i : self.i + self.window], self.second[self.j : self.j + self.window]
-
-    @cached_property
-    def fit(self) -> PlanarTransform:
-        """Lays the second window on the first [KGP02, Eqs. 2-4]."""
-        return align(*(point_cloud(motion).reshape(-1, 3) for motion in self.windows))
-
-    @cached_property
-    def distance(self) -> float:
-        """The RMS distance of the windows, aligned, metres."""
-        return rms_distance(self.windows[0], self.fit.apply_motion(self.windows[1]))
-
-
-def storyboard(shot: Shot, show: Sequence[str]) -> Figure:
+def storyboard(
+    draw_where: Callable[[Axes], object], pair: Pair, seam: tuple[Motion, int], show: Sequence[str]
+) -> Figure:
     """Draw a transition in panels with labels, as far as a course has come.
 
     Parameters
     ----------
-    shot : the two windows.
+    draw_where : draws on given axes where the windows are, such as a distance grid.
+    pair : the two windows, the second laid on the first.
+    seam : their blend with some clip around it, and in which of its frames the window begins.
     show : what has been explained; with "weights", the seam is drawn as well.
 
     Examples
     --------
     >>> from mocap import datasets
     >>> walk = datasets.sample("walk_straight")[:240]
-    >>> shot = Shot(walk, 80, walk, 80, 40, 20, 20, lambda ax: None)
-    >>> [ax.get_title(loc="left") for ax in storyboard(shot, ["windows"]).axes]
+    >>> figure = storyboard(lambda ax: None, (walk[:40], walk[:40]), (walk, 20), ["windows"])
+    >>> [ax.get_title(loc="left") for ax in figure.axes]
     ['1  which two windows', '2  aligned, RMS distance 0.0 cm']
     """
     count = 3 if "weights" in show else 2
     figure = Figure(figsize=(4.6 * count, 3.3), layout="constrained")
-    where, windows, *seam = figure.subplots(1, count)
-    shot.where(where)
+    where, windows, *last = figure.subplots(1, count)
+    draw_where(where)
     where.set_title("1  which two windows", loc="left", fontsize=11)
-    draw_matched(windows, shot.windows[0], shot.fit.apply_motion(shot.windows[1]))
-    apart = f"2  aligned, RMS distance {100 * shot.distance:.1f} cm"
+    draw_matched(windows, *pair)
+    apart = f"2  aligned, RMS distance {100 * rms_distance(*pair):.1f} cm"
     windows.set_title(apart, loc="left", fontsize=11)
-    for ax in seam:
-        _draw_seam(ax, shot)
+    for ax in last:
+        _draw_seam(ax, pair[0], *seam)
         ax.set_title("3  the seam; its window is shaded", loc="left", fontsize=11)
     return figure
 
@@ -116,12 +74,10 @@ def draw_matched(ax: Axes, *pair: Motion) -> None:
     _bare(ax)
 
 
-def _draw_seam(ax: Axes, shot: Shot) -> None:
+def _draw_seam(ax: Axes, window: Motion, seam: Motion, begin: int) -> None:
     """Draw the blend by the paper's weights from the side, with the tracks of the balls of the feet."""
-    joined = join(shot.first, shot.i, shot.second, shot.j, shot.window)
-    begin, end = min(shot.before, shot.i), min(shot.before, shot.i) + shot.window - 1
-    seam = joined[shot.i - begin : shot.i + shot.window + shot.after]
-    points = joint_positions(_facing(shot.windows[0]).apply_motion(seam))[..., [2, 1]]
+    end = begin + len(window) - 1
+    points = joint_positions(_facing(window).apply_motion(seam))[..., [2, 1]]
     for frame in dict.fromkeys([0, begin // 2, begin, end, (end + len(seam)) // 2, len(seam) - 1]):
         _draw_pose(ax, points[frame], seam, alpha=1.0 if begin <= frame <= end else 0.4)
     ax.plot(points[:, 0, 0], 0 * points[:, 0, 0], color=PATH, linewidth=2)

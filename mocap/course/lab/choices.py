@@ -10,7 +10,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mocap._shared.arrays import Array, Mask
+from mocap.blending.joining import join
 from mocap.body.motion import Motion, require_alike
+from mocap.body.planar import PlanarTransform
 from mocap.course.lab.adopting import slots, whose
 from mocap.course.lab.own import pages_of, squared_distances
 from mocap.errors import MocapError
@@ -18,6 +20,7 @@ from mocap.graphs.edge_tables import Edge, edge_table
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.minima import local_minima
+from mocap.matching.point_clouds import align, point_cloud
 from mocap.plotting.graph_drawing import cheapest
 from mocap.synthesis.walk_to_motion import seams
 
@@ -60,6 +63,31 @@ class Choices(NamedTuple):
     costs: tuple[float, ...] = ()  # metres
     seams: tuple[Pick, ...] = ()
     by: str = ""  # whose functions made the grid, where some are the reader's
+
+    @property
+    def windows(self) -> tuple[Motion, Motion]:
+        """The two windows that are looked at, where they are in their clips."""
+        pick, window = self.pick, self.window
+        first, second = self.clips[pick.first], self.clips[pick.second]
+        return first[pick.i : pick.i + window], second[pick.j : pick.j + window]
+
+    @property
+    def fit(self) -> PlanarTransform:
+        """Lays the second window on the first [KGP02, Eqs. 2-4]."""
+        return align(*(point_cloud(motion).reshape(-1, 3) for motion in self.windows))
+
+    @property
+    def pair(self) -> tuple[Motion, Motion]:
+        """The two windows, the second laid on the first."""
+        first, second = self.windows
+        return first, self.fit.apply_motion(second)
+
+    @property
+    def seam(self) -> tuple[Motion, int]:
+        """Their blend by the paper's weights, with clip around it, and where in it the window begins."""
+        (first, i, second, j, before, after, *_), window = self.pick, self.window
+        joined, begin = join(self.clips[first], i, self.clips[second], j, window), min(before, i)
+        return joined[i - begin : i + window + after], begin
 
     def needed(self, clip: int) -> Mask:
         """Mark the frames of a clip that a page may show: of a graph, those near its transitions."""

@@ -21,11 +21,11 @@ from mocap.body import rotations
 from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from mocap.course.diagrams.storyboards import Shot, storyboard
+from mocap.course.diagrams.storyboards import storyboard
 from mocap.course.lab.choices import CELLS, EACH, MOST, Choices, around, of_clips, of_graph, of_walk
 from mocap.errors import MocapError
 from mocap.graphs.motion_graph import MotionGraph
-from mocap.matching.point_clouds import distinct_joints
+from mocap.matching.point_clouds import distinct_joints, rms_distance
 from mocap.plotting import ASKED, COLOURS, CURVES, MARK, PATH, QUIET, SOURCES, distance_image, timeline
 from mocap.plotting.picture import small_png
 from mocap.steering.followed import Followed
@@ -121,19 +121,13 @@ class Inspector(Embedded):
     @cached_property
     def alt(self) -> str:
         """Which windows are looked at, how far apart they are, and at which turn."""
-        shot, (first, second) = self.shot, self.shot.windows
-        frames, others = (f"{start} to {start + shot.window - 1}" for start in (shot.i, shot.j))
-        turn = f" at θ = {np.degrees(shot.fit.angle):.0f}°".replace("-", "−")
-        apart = f"RMS distance {100 * shot.distance:.1f} cm{turn if 'turn' in self.show else ', aligned'}"
+        looked, (first, second) = self.choices, self.choices.windows
+        starts = looked.pick.i, looked.pick.j
+        frames, others = (f"{start} to {start + looked.window - 1}" for start in starts)
+        turn = f" at θ = {np.degrees(looked.fit.angle):.0f}°".replace("-", "−")
+        laid = turn if "turn" in self.show else ", aligned"
+        apart = f"RMS distance {100 * rms_distance(*looked.pair):.1f} cm{laid}"
         return f"Frames {frames} of {first.name} and {others} of {second.name}: {apart}."
-
-    @cached_property
-    def shot(self) -> Shot:
-        """The two windows that the picture shows."""
-        clips, window, pick, *_ = self.choices
-        first, second = clips[pick.first], clips[pick.second]
-        after = min(pick.after, len(second) - pick.j - window)
-        return Shot(first, pick.i, second, pick.j, window, pick.before, after, partial(draw_where, self))
 
     @cached_property
     def scene(self) -> dict[str, Any]:
@@ -143,7 +137,9 @@ class Inspector(Embedded):
     @cached_property
     def picture(self) -> bytes:
         """Panels as a PNG, for places where no script runs."""
-        return small_png(storyboard(self.shot, self.show))
+        return small_png(
+            storyboard(partial(draw_where, self), self.choices.pair, self.choices.seam, self.show)
+        )
 
 
 def draw_where(shown: Inspector, ax: Any) -> None:  # noqa: ANN401 (axes)

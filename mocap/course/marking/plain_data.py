@@ -15,29 +15,13 @@ import numpy as np
 PLAIN = re.compile(r"[|<>=][biufc]\d{1,2}")  # the types of arrays that are numbers
 
 
-class Other:
-    """Something that is no plain data; all that is known of it is its type.
-
-    Examples
-    --------
-    >>> Other("Motion")
-    <Motion>
-    """
-
-    def __init__(self, kind: str) -> None:
-        self.kind = kind
-
-    def __repr__(self) -> str:
-        return f"<{self.kind}>"
-
-
 def pack(value: Any) -> Any:  # noqa: ANN401
-    """Turn a value into what JSON can hold.
+    """Turn a value into what JSON can hold; of what is no plain data only the type is told.
 
     Examples
     --------
-    >>> pack((1, {2.5}, None))
-    ['tuple', [1, ['set', [2.5]], None]]
+    >>> pack((1, {2.5}, None, len))
+    ['tuple', [1, ['set', [2.5]], None, '<builtin_function_or_method>']]
     """
     if value is None or isinstance(value, (bool, int, float, str)):
         return value
@@ -60,7 +44,7 @@ def _pack_group(value: Any) -> Any:  # noqa: ANN401
     for kind, group in (("tuple", tuple), ("set", Set), ("list", Sequence)):
         if isinstance(value, group):
             return [kind, [pack(item) for item in value]]
-    return ["..."] if value is ... else ["other", type(value).__name__]
+    return ["..."] if value is ... else f"<{type(value).__name__}>"
 
 
 def unpack(packed: Any) -> Any:  # noqa: ANN401
@@ -90,7 +74,6 @@ def _array(kind: str, shape: list[int], text: str) -> Any:  # noqa: ANN401
 READERS: dict[str, Callable[..., Any]] = {
     "...": lambda: ...,
     "complex": complex,
-    "other": Other,
     "array": _array,
     "dict": lambda items: {unpack(key): unpack(item) for key, item in items},
     "list": lambda items: list(map(unpack, items)),

@@ -12,7 +12,8 @@ from mocap.blending import cubic_weights, join, lay_window_on
 from mocap.body import GroundPath, PlanarTransform, Skeleton, arcs, rotations
 from mocap.course import diagrams
 from mocap.course.diagrams.layers import STRIDE
-from mocap.course.diagrams.storyboards import Shot, draw_matched, storyboard
+from mocap.course.diagrams.storyboards import draw_matched, storyboard
+from mocap.course.lab.choices import Choices, Pick
 from mocap.course.seam_trials import Passage
 from mocap.matching import point_cloud
 from tests.drawn import hold
@@ -60,12 +61,14 @@ CIRCLE = datasets.sample("walk_circle")
 def boards():
     """Show a seam in panels, and one of a body without legs."""
     walks = [resample(datasets.sample(f"walk_curve_{n}"), 30)[:120] for n in (1, 2)]
-    shot = Shot(walks[0], 56, walks[1], 20, 10, 20, 20, lambda ax: ax.plot(0, 0))
+    choices = Choices(tuple(walks), 10, Pick(0, 56, 1, 20, 20, 20))
     for depth in (1, 2, 3, 4):
-        yield storyboard(shot, ["windows", "turn", "weights", "seam"][:depth])
+        show = ["windows", "turn", "weights", "seam"][:depth]
+        yield storyboard(lambda ax: ax.plot(0, 0), choices.pair, choices.seam, show)
     pair = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 1, 0]])
     pole = Motion(pair, np.linspace(0, [0, 1, 2], 30), np.tile([1.0, 0, 0, 0], (30, 2, 1)), 30.0, "pole")
-    yield storyboard(Shot(pole, 0, pole, 5, 2, 0, 0, lambda ax: None), ["windows", "turn", "weights"])
+    choices = Choices((pole, pole), 2, Pick(0, 0, 1, 5, 0, 0))
+    yield storyboard(lambda ax: None, choices.pair, choices.seam, ["windows", "turn", "weights"])
 
 
 PICTURES = {

@@ -17,13 +17,13 @@ from mocap.body.motion import Motion, resample
 from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.course import lab
-from mocap.course.diagrams.storyboards import Shot
 from mocap.course.lab.choices import EACH, LONGEST, around, of_clips, of_graph, of_walk
 from mocap.course.lab.showing import STEP, TABS, Inspector, inspector, packed_clip, packed_skeleton, scene
 from mocap.datasets.samples import sample
 from mocap.graphs.compiled_graph import compile_graph
 from mocap.graphs.motion_graph import from_transitions
 from mocap.matching.distance_grids import distance_grid
+from mocap.matching.point_clouds import rms_distance
 from mocap.steering.path_following import follow_path
 from mocap.synthesis.random_walks import random_walk
 from mocap.synthesis.walk_to_motion import seams
@@ -213,6 +213,5 @@ def test_the_scripts_shades_are_those_of_the_pictures():
 
 
 def test_the_distance_that_a_storyboard_tells_is_that_of_the_grid():
-    walks = [resample(sample(f"walk_curve_{n}"), 30)[:120] for n in (1, 2)]
-    shot = Shot(walks[0], 56, walks[1], 20, 10, 20, 20, lambda ax: None)
-    assert shot.distance == pytest.approx(np.sqrt(distance_grid(*walks, window=10)[56, 20]))
+    distance = rms_distance(*of_clips(WALKS, 10, (56, 20)).pair)
+    assert distance == pytest.approx(np.sqrt(distance_grid(*WALKS, window=10)[56, 20]))

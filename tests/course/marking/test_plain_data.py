@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.body import PlanarTransform
-from mocap.course.marking.plain_data import Other, pack, unpack
+from mocap.course.marking.plain_data import pack, unpack
 
 NUMBERS = st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) | st.text()
 KEYS = NUMBERS | st.complex_numbers(allow_nan=False)
@@ -50,8 +50,7 @@ def test_what_is_nearly_plain_becomes_plain():
 
 
 def test_of_anything_else_only_the_type_arrives():
-    assert isinstance(sent(object()), Other)
-    assert repr(sent([lambda: 1])) == "[<function>]"
+    assert sent([object(), lambda: 1]) == ["<object>", "<function>"]
 
 
 @pytest.mark.parametrize(
