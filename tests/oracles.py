@@ -5,8 +5,20 @@ from functools import cache
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from mocap.body.planar import PlanarTransform
+from mocap._shared.arrays import runs
+from mocap.body import PlanarTransform, joint_positions
 from mocap.matching.point_clouds import unit_weights
+
+
+def slides(motion):
+    """Return how far a joint is from its mean place at most, for each plant, metres."""
+    positions = joint_positions(motion)
+    plants = [
+        positions[start:stop, motion.skeleton.index(name)]
+        for name, marks in motion.contacts.items()
+        for start, stop in runs(marks)
+    ]
+    return np.array([np.linalg.norm(plant - plant.mean(axis=0), axis=-1).max() for plant in plants])
 
 
 def squared_distance(transform, points, others, weights):

@@ -39,3 +39,18 @@ def quietly(call: Callable, *given: object, **options: object) -> object:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MocapWarning)
         return call(*given, **options)
+
+
+def told(sentence: str, call: Callable, *given: object, most: float = 200, **options: object) -> object:
+    """Check that a call warns with this sentence, and with none of more than `most` characters."""
+    with pytest.warns(MocapWarning, match=sentence) as caught:
+        result = call(*given, **options)
+    assert all(len(str(warning.message)) <= most for warning in caught)
+    return result
+
+
+def unwarned(call: Callable, *given: object, **options: object) -> object:
+    """Call where nothing may be warned of."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        return call(*given, **options)

@@ -55,7 +55,7 @@ from tests.blending.registered import walks
 from tests.bundled import walking, walks_of_16
 from tests.editing.bodies import adult, child, without
 from tests.editing.bodies import walk as person
-from tests.editing.test_posing import post
+from tests.editing.test_edits import post
 from tests.editing.wishes import hand_at, stone, walk
 from tests.methods.match_webs.spaces_of_walks import gait, space
 from tests.refusals import quietly

@@ -1,7 +1,6 @@
 """Which frames belong together: known warps come back, strikes fall on strikes, and naive ways fail."""
 
 import itertools
-import warnings
 
 import numpy as np
 import pytest
@@ -9,10 +8,10 @@ import pytest
 from mocap.blending.registering import register
 from mocap.body import Motion, PlanarTransform, Skeleton
 from mocap.datasets import sample
-from mocap.errors import MocapWarning, SkeletonMismatch
+from mocap.errors import SkeletonMismatch
 from tests.blending.registered import at_times, captured, strike_errors, walks
 from tests.conftest import SWEEP
-from tests.refusals import quietly, refusals
+from tests.refusals import quietly, refusals, told, unwarned
 
 
 def played_unevenly(clip, amount, angle=2.5):
@@ -94,19 +93,15 @@ def test_angles_run_on_over_whole_turns():
 
 def test_clips_that_do_not_belong_together_are_told():
     apart = r"'walk' and 'walk' may not belong together: .* 4.\d cm/s.* 0.\d\.$"
-    with pytest.warns(MocapWarning, match=apart):
-        register([walks()[1.4, -120], walks()[1.4, 120]])
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        register([walks()[0.8, 0], walks()[1.1, 0]])
+    told(apart, register, [walks()[1.4, -120], walks()[1.4, 120]])
+    unwarned(register, [walks()[0.8, 0], walks()[1.1, 0]])
 
 
 def test_the_mean_distance_says_what_may_be_blended():
     walk, brisk, jog = walks()[0.8, 0], walks()[1.4, 0], sample("jog")[1200:1800]
     assert register([walk, brisk]).costs[1] < 0.08
     unlike = r"'walk' and 'jog' may not be the same kind of motion: \d\d cm along"
-    with pytest.warns(MocapWarning, match=unlike):
-        costs = register([walk, jog]).costs
+    costs = told(unlike, register, [walk, jog]).costs
     assert costs[1] > 0.12
 
 

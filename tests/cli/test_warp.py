@@ -11,7 +11,7 @@ from mocap.datasets.samples import sample
 from mocap.editing.warp_plans import load_plan, warp
 from mocap.errors import FormatError, MocapError
 from mocap.files import load_save
-from tests.editing.test_posing import slide
+from tests.editing.test_path_editing import slide
 from tests.refusals import refused
 from tests.strategies import wave
 

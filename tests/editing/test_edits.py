@@ -1,19 +1,23 @@
-"""One call: stones, bars, hands and rails; feet stand to the last digit, and what cannot be is said."""
+"""One call: stones, bars, hands, rails, poses; feet stand to the last digit, and what cannot be is said."""
 
-import warnings
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
 
-from mocap.body.kinematics import joint_positions
-from mocap.editing.displacements import difference, spline_basis
-from mocap.editing.edits import edit, hierarchy, scattered_fit
+from mocap.body import joint_positions, rotations
+from mocap.datasets.samples import sample
+from mocap.editing.displacements import difference, displaced, spline_basis
+from mocap.editing.edits import edit, hierarchy, posed, scattered_fit
+from mocap.editing.keys import Key, keys_around, offsets
 from mocap.editing.pins import join_pins, pin, pin_errors, plant_pins
-from mocap.errors import MocapWarning
+from mocap.feet.footskate import clean_up
+from tests.editing.test_path_editing import slide
 from tests.editing.wishes import (
     bar,
     between,
+    body,
     bones,
     captured,
     far_hand,
@@ -26,14 +30,9 @@ from tests.editing.wishes import (
     stone,
     walk,
 )
-from tests.refusals import refusals
+from tests.refusals import refusals, told
 
-
-@pytest.fixture(autouse=True)
-def warnings_are_errors():
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", MocapWarning)
-        yield
+pytestmark = pytest.mark.filterwarnings("error::mocap.errors.MocapWarning")
 
 
 def check(motion, base, pins, most):
@@ -43,18 +42,14 @@ def check(motion, base, pins, most):
     assert bones(motion) < 1e-12
 
 
-@pytest.mark.parametrize(("fps", "height"), [(120.0, 0.15), (120.0, 0.5), (30.0, 0.15), (30.0, 0.5)])
-def test_a_stone_under_a_step(fps, height):
-    clip = walk(fps)
-    pins = stone(clip, height)
-    check(edited := edit(clip, pins), clip, pins, 1.15)
-    assert shakes(edited, clip, pins) <= 1.15
+GENERATED = product((120.0, 30.0), (0.15, 0.5))
+CAPTURED = product(("cmu/16/16_15.amc", "hw3/walk_fwd_curve1.AMC"), (0.2, 0.5))  # the second one's knee jumps
 
 
-@pytest.mark.parametrize("height", [0.2, 0.5])
-@pytest.mark.parametrize("file", ["cmu/16/16_15.amc", "hw3/walk_fwd_curve1.AMC"])
-def test_stones_under_a_captured_step(real_data, file, height):
-    clip = captured(real_data, file)  # the second one's knee jumps where its leg is straight
+@pytest.mark.parametrize(("clip", "height"), [*GENERATED, *CAPTURED])
+def test_a_stone_under_a_step(request, clip, height):
+    real = isinstance(clip, str)
+    clip = captured(request.getfixturevalue("real_data"), clip) if real else walk(clip)
     pins = stone(clip, height)
     check(edited := edit(clip, pins), clip, pins, 1.15)
     assert shakes(edited, clip, pins) <= 1.15
@@ -114,9 +109,7 @@ def test_what_cannot_be_is_said():
     wrist, elbow = (clip.skeleton.index(name) for name in ("rwrist", "rradius"))
     at = joint_positions(clip)
     apart = [pin(clip, j, [240], at[240, j] + np.array([0, y, 0])) for j, y in ((wrist, 0.1), (elbow, -0.1))]
-    with pytest.warns(MocapWarning, match=r"frame 240: 'r\w+' is \d+\S* mm off its pin") as told:
-        both = edit(clip, join_pins(*apart))
-    assert all(len(str(warning.message)) <= 200 for warning in told)
+    both = told(r"frame 240: 'r\w+' is \d+\S* mm off its pin", edit, clip, join_pins(*apart))
     errors = [pin_errors(both, one)[240, 0] for one in apart]
     assert min(errors) > 0.03 and max(errors) < 1.3 * min(errors)  # each gives way by as much
 
@@ -173,4 +166,64 @@ test_what_cannot_be_edited_is_refused = refusals(
     ("knots come nearer", levels),
     (r"got \(0.25, 0.5\)", levels, 0.25, 0.5),
     ("above 0 s", levels, 0.25, 0.0),
+)
+
+
+UP = np.array([0.0, 1.0, 0.0])
+
+
+def post(motion, frame):
+    """Return a place for the right hand, 32 cm from where it is: to the right, up, and ahead."""
+    side, ahead = (rotations.rotate(motion.rotations[frame, 0], v) for v in ([-1.0, 0, 0], [0, 0, 1.0]))
+    hand = joint_positions(motion[frame : frame + 1])[0, motion.skeleton.index("rhand")]
+    return hand + 0.15 * side + 0.25 * UP + 0.10 * ahead
+
+
+def check_hand(motion, frame, columns):
+    """Warp a hand to a post; `columns` are the joints whose accelerations within the window are compared."""
+    hand, target = motion.skeleton.index("rhand"), post(motion, frame)
+    pose = posed(motion, frame, {"rhand": target})
+    ratios = []
+    for seconds in (0.15, 0.5):
+        keys = keys_around(motion, [Key(frame, pose)], seconds)
+        change = offsets(motion, keys)
+        warped = displaced(motion, change)
+        assert np.linalg.norm(joint_positions(warped)[frame, hand] - target) < 1e-5  # 0.01 mm
+        outside = np.r_[0 : keys[0].frame + 1, keys[2].frame : len(motion)]
+        assert np.abs(change.root[outside]).max() == np.abs(change.turns[outside]).max() == 0
+        inside = slice(keys[0].frame, keys[2].frame)
+        pushes = (np.diff(joint_positions(m), 2, axis=0)[inside, columns] for m in (motion, warped))
+        before, after = (np.percentile(np.linalg.norm(push, axis=-1), 99) for push in pushes)
+        ratios.append(after / before)
+    assert ratios[0] > 1.5  # too short a window jolts
+    assert ratios[1] < 1.1
+    left = rotations.multiply(rotations.from_rotvec(change.turns), motion.rotations)
+    miss = joint_positions(replace(motion, rotations=left))[frame, hand] - target
+    assert np.linalg.norm(miss) > 0.01  # on the other side
+    return warped
+
+
+@pytest.mark.parametrize("frame", [150, 238])
+def test_a_hand_to_a_post(frame):
+    walk = sample("walk_straight")[:480]
+    warped = check_hand(walk, frame, body(walk))
+    cleaned = clean_up(warped)
+    assert slide(cleaned) < 1e-6
+    assert plants_kept(cleaned, walk) >= 0.99
+
+
+def test_a_height_alone_may_be_asked_for_without_feet():
+    bare = replace(sample("walk_straight")[:120], contacts={})
+    assert len(posed(bare, 60, {"lhand": [np.nan, 1.2, np.nan]}, feet=False)) == 1
+
+
+SHORT = sample("walk_straight")[:120]
+
+test_poses_that_cannot_be = refusals(
+    ("'walk_straight' has 120 frames", posed, SHORT, 999, {"lhand": [0, 1, 0]}),
+    ("No joint 'left hand'", posed, SHORT, 5, {"left hand": [0, 1, 0]}),
+    (r"'lhand': a place is \(3,\)", posed, SHORT, 5, {"lhand": [0, 1]}),
+    (r"Frame 5: '\w+' would be [\d.]+ m from '\w+', the bones", posed, SHORT, 5, {"lhand": [0, 6, 0]}),
+    ("needs low ≤ high", posed, SHORT, 5, {"lhand": [0, np.inf, 0]}),
+    ("mark_plants finds out", posed, replace(SHORT, contacts={}), 60, {"lhand": [0, 1.2, 0]}),
 )

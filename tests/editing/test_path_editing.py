@@ -1,6 +1,5 @@
 """A walk on another path walks as before, stands as before, and is as near to its path as it was."""
 
-import warnings
 from dataclasses import replace
 from functools import cache
 
@@ -14,11 +13,11 @@ from mocap.body import GroundPath, PlanarTransform, arcs, circle, joint_position
 from mocap.datasets.samples import sample
 from mocap.editing.displacements import spline_basis
 from mocap.editing.path_editing import moving_frames, on_path, plants_kept, ride_of, start_at
-from mocap.errors import MocapWarning
-from mocap.feet import clean_up, runs
+from mocap.feet import clean_up
 from mocap.files.load_save import load
 from tests.editing.wishes import smoothness
-from tests.refusals import refusals
+from tests.oracles import slides
+from tests.refusals import refusals, told, unwarned
 
 CLIPS = {"walk_straight": slice(0, 600), "jog": slice(600, 1100)}
 
@@ -35,24 +34,11 @@ def straight():
 
 def slide(motion):
     """Metres that a planted joint strays from its mean place, at most."""
-    positions = joint_positions(motion)
-    plants = [
-        positions[start:stop, motion.skeleton.index(name)]
-        for name, mark in motion.contacts.items()
-        for start, stop in runs(mark)
-    ]
-    return max(np.linalg.norm(plant - plant.mean(axis=0), axis=-1).max() for plant in plants)
+    return slides(motion).max()
 
 
 def off(motion, path):
     return cKDTree(path.resampled(0.005).points).query(motion.root_positions[:, [0, 2]])[0]
-
-
-def sway(motion, stride=1.2):
-    """Metres that the root sways from side to side of its path."""
-    ride = ride_of(motion, stride=stride)
-    local = moving_frames(ride.path, ride.along, chord=0.02).inverse().apply_points(motion.root_positions)
-    return np.ptp(np.percentile(local[:, 0], [1, 99]))
 
 
 def test_the_path_is_the_least_squares_spline():
@@ -144,15 +130,12 @@ def test_steps_twice_as_long_are_warned_of():
     """As in [Gle01, arc length]: unless asked for, they are as long as before."""
     motion, ride = straight()
     far = start_at(GroundPath([[0, 0], [0, 2.5 * ride.path.length]]), ride)
-    with pytest.warns(MocapWarning, match=r"takes steps 2\.50 times as long on this path"):
-        longer = on_path(motion, far, ride, keep="ends")
+    longer = told(r"takes steps 2\.50 times as long on this path", on_path, motion, far, ride, keep="ends")
     end = np.hypot(*(longer.root_positions[-1, [0, 2]] - far.points[-1]))
     assert end == pytest.approx(off(motion[-1:], GroundPath(ride.path.points[-3:]))[0], abs=0.03)
     assert plants_kept(replace(motion, contacts={}), replace(motion, contacts={})) == 1.0
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        ends = on_path(motion, far, ride).root_positions[[0, -1], 2]
-        assert np.ptp(ends) == pytest.approx(ride.path.length, abs=0.05)
+    ends = unwarned(on_path, motion, far, ride).root_positions[[0, -1], 2]
+    assert np.ptp(ends) == pytest.approx(ride.path.length, abs=0.05)
 
 
 test_what_has_no_path_is_refused = refusals(

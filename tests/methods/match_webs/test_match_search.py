@@ -9,7 +9,7 @@ from mocap.methods.match_webs import build_web, cut_out, match_search, search, t
 from mocap.methods.match_webs.match_search import crossings
 from tests.methods.match_webs.conftest import common, cycles, judge
 from tests.methods.match_webs.spaces_of_walks import PUNCHES
-from tests.refusals import refused
+from tests.refusals import refused, told
 
 
 def test_a_path_serves_a_query_in_either_of_its_clips(bundled):
@@ -146,8 +146,7 @@ def test_a_search_that_explodes_says_so(bundled, monkeypatch, recwarn):
     assert ask() == [1, 5, 14] and not recwarn
     monkeypatch.setattr(match_search, "LEAK", 2)
     monkeypatch.setattr(match_search, "FEW", 13)
-    with pytest.warns(MocapWarning, match="One step found 14 matches, more than 2 times the step before"):
-        ask()
+    told("One step found 14 matches, more than 2 times the step before", ask)
 
 
 @pytest.mark.parametrize(

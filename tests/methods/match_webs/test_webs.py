@@ -7,11 +7,11 @@ import pytest
 
 from mocap import datasets, resample
 from mocap.body import Motion, PlanarTransform, Skeleton
-from mocap.errors import MocapWarning, SkeletonMismatch
+from mocap.errors import SkeletonMismatch
 from mocap.matching import distance_grid
 from mocap.methods.match_webs import build_web, search
 from mocap.methods.match_webs.webs import WINDOW
-from tests.refusals import refusals
+from tests.refusals import refusals, told
 
 SLOPE, NEAR = 2, 3
 
@@ -108,8 +108,7 @@ def test_clips_too_short_for_a_path_are_left_out_with_a_warning(bundled):
     walk = bundled.clips[0]
     short = replace(walk[:40], name="blink")
     left_out = r"^Too short to hold a path of 0.47 s, and left out: 'blink', 'blink'\.$"
-    with pytest.warns(MocapWarning, match=left_out):
-        web = build_web([short, walk, short], below=0.05)
+    web = told(left_out, build_web, [short, walk, short], below=0.05)
     alone = build_web([walk], below=0.05)
     assert np.array_equal(web.cells, alone.cells)
     assert {web.clip_at(frame) for frame in web.cells.ravel()} == {1}

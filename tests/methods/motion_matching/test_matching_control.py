@@ -1,18 +1,16 @@
 """A character by motion matching: it obeys sooner than a graph, and its cuts do not jolt."""
 
-import warnings
-
 import numpy as np
 import pytest
 
 from mocap.body.kinematics import joint_positions
-from mocap.errors import MocapWarning, NoWalk
+from mocap.errors import NoWalk
 from mocap.methods.motion_matching.matching_control import MotionMatcher
 from mocap.methods.motion_matching.nearest_frames import Wants
 from mocap.methods.motion_matching.pose_database import tabulate
 from mocap.steering import command_headings, steer
 from tests.methods.motion_matching.matched import clips, walks
-from tests.refusals import refused
+from tests.refusals import refused, told, unwarned
 
 SPEED = 0.8
 HEADINGS = command_headings(20, 30, seed=1)
@@ -79,8 +77,5 @@ def test_what_makes_no_sense_is_refused():
 
 def test_a_speed_that_no_clip_has_is_warned_of_once():
     matcher = MotionMatcher(walks())
-    with pytest.warns(MocapWarning, match=r"3 m/s is outside the clips' 0.\d to \d.\d m/s: the nearest"):
-        matcher.step(0.0, 3.0)
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        matcher.step(0.5, 3.0)
+    told(r"3 m/s is outside the clips' 0.\d to \d.\d m/s: the nearest", matcher.step, 0.0, 3.0)
+    unwarned(matcher.step, 0.5, 3.0)
