@@ -9,11 +9,19 @@ from mocap.files.load_save import load
 from mocap.graphs import MotionGraph, build, prune
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 
+WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
+
+
+@cache
+def clips(*names: str) -> tuple[Motion, ...]:
+    """Return some bundled clips, or four walks, at 30 Hz."""
+    return tuple(resample(samples.sample(name), 30) for name in names or WALKS)
+
 
 @cache
 def bundled(*names: str) -> MotionGraph:
     """Return the graph of some bundled clips, at 30 Hz."""
-    return prune(build([resample(samples.sample(n), 30) for n in names], window=10, threshold=0.04))
+    return prune(build(clips(*names), window=10, threshold=0.04))
 
 
 @cache

@@ -9,6 +9,9 @@ seeds = st.integers(0, 2**32 - 1)
 
 planar = st.builds(PlanarTransform, st.floats(-3.1, 3.1), st.floats(-50, 50), st.floats(-50, 50))
 
+# Where transitions leave and enter two clips of 70 frames or more, with windows of 8.
+ends = st.lists(st.tuples(*[st.integers(0, 1), st.integers(0, 62)] * 2), max_size=9)
+
 
 def random_skeleton(random: np.random.Generator, joints: int) -> Skeleton:
     parents = [-1, *(random.integers(0, j) for j in range(1, joints))]

@@ -15,9 +15,9 @@ from mocap.methods.motion_matching import MotionMatcher, tabulate
 from mocap.methods.parametric_graphs import ParametricController
 from mocap.steering import Controller, FootTurner, measure_delay
 from tests.benchmarks.timing import fastest
-from tests.bundled import bundled
+from tests.bundled import WALKS, bundled, clips
 from tests.methods.groups.built import course, graph
-from tests.methods.parametric_graphs.built import WALKS, clips, stepping, walking
+from tests.methods.parametric_graphs.built import stepping, walking
 
 pytestmark = pytest.mark.benchmark
 STEPS = 1200

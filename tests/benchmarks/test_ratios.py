@@ -15,33 +15,12 @@ import pytest
 from asked_lines import heart, sine, spiral
 from walking import generate_walk
 
-from mocap import datasets, load, save
+from mocap import datasets, editing, load, save
 from mocap.blending import blend, inertialize, join, mix, register
 from mocap.body import SHAPES, GroundPath, Motion, PlanarTransform, circle, resample, s_curve
 from mocap.body.kinematics import forward_kinematics
 from mocap.body.rotations import to_matrix
 from mocap.datasets import sample
-from mocap.editing import (
-    LIMIT,
-    Basis,
-    Key,
-    Pins,
-    bend,
-    copied,
-    displaced,
-    edit,
-    hierarchy,
-    keys_around,
-    offsets,
-    on_path,
-    plant_pins,
-    posed,
-    retarget,
-    retime,
-    ride_of,
-    solve,
-    stance_of,
-)
 from mocap.feet import clean_up, mark_plants
 from mocap.files.path_files import load_path
 from mocap.graphs import build, from_transitions, prune, prune_graph, threshold_curve
@@ -80,33 +59,34 @@ def kinematics(*motions):
 
 
 def handle_of_a_path():
-    ride = ride_of(walk())
+    ride = editing.ride_of(walk())
     path = s_curve(3 * ride.path.length)  # as sharp as a person turns
-    return lambda: clean_up(on_path(walk(), path, ride)), walk()
+    return lambda: clean_up(editing.on_path(walk(), path, ride)), walk()
 
 
 def bent(name, path):
     clip = sample(name) if name == "walk_straight" else resample(sample(name), 30)
-    frames = len(bend(clip, path).motion)
-    return partial(bend, clip, path), clip[:frames]
+    frames = len(editing.bend(clip, path).motion)
+    return partial(editing.bend, clip, path), clip[:frames]
 
 
 def put_on_a_circle():
     clip = sample("walk_straight")
-    return partial(on_path, clip, circle(3.0), ride_of(clip)), clip
+    return partial(editing.on_path, clip, circle(3.0), editing.ride_of(clip)), clip
 
 
 def dragged_key():
     clip = sample("walk_straight")[:480]
     place = {"rhand": post(clip, 238)}
-    return lambda: displaced(
-        clip, offsets(clip, keys_around(clip, [Key(238, posed(clip, 238, place))]))
+    return lambda: editing.displaced(
+        clip,
+        editing.offsets(clip, editing.keys_around(clip, [editing.Key(238, editing.posed(clip, 238, place))])),
     ), clip
 
 
 BODIES = {
     "a child": child,
-    "fewer joints": lambda: stance_of(
+    "fewer joints": lambda: editing.stance_of(
         without(person(), "lowerback", "upperback", "lclavicle", "rclavicle", "lowerneck")
     ),
 }
@@ -115,7 +95,7 @@ BODIES = {
 def worn(name, steps):
     body = BODIES[name]()
     scale = steps * body.leg / adult().leg
-    return lambda: retarget(person(), body, adult(), scale=scale), person()
+    return lambda: editing.retarget(person(), body, adult(), scale=scale), person()
 
 
 def three():
@@ -123,15 +103,15 @@ def three():
 
 
 def pulled_hand():
-    return partial(hierarchy, walk(), hand_at(walk(), (180, 240, 300)), knots=(0.5,)), walk()
+    return partial(editing.hierarchy, walk(), hand_at(walk(), (180, 240, 300)), knots=(0.5,)), walk()
 
 
 BESIDE_KINEMATICS = [
-    ("edit", 80, lambda: (partial(edit, walk(), stone(walk(), 0.15)), walk())),
+    ("edit", 80, lambda: (partial(editing.edit, walk(), stone(walk(), 0.15)), walk())),
     ("a handle of a path", ANSWER, handle_of_a_path),
     ("a hand", ANSWER, pulled_hand),
     ("a key", 10, dragged_key),
-    ("retime", 15, lambda: (partial(retime, person(), [(0, 0), (2, 1), (4.9, 3.9)]), person())),
+    ("retime", 15, lambda: (partial(editing.retime, person(), [(0, 0), (2, 1), (4.9, 3.9)]), person())),
     *(
         (f"bend {name}", 50 if path is CORNER else 36, partial(bent, name, path))  # to round takes 10 ms
         for name in ("walk_straight", "walk_circle")
@@ -139,7 +119,7 @@ BESIDE_KINEMATICS = [
     ),
     ("on_path", 2, put_on_a_circle),
     *((f"retarget, {body}", 90, partial(worn, body, steps)) for body in BODIES for steps in (1.0, 1.4)),
-    ("a copy alone", 20, lambda: (partial(copied, person(), adult(), child()), person())),
+    ("a copy alone", 20, lambda: (partial(editing.copied, person(), adult(), child()), person())),
     ("register three", 10, lambda: (partial(register, three()), *three())),
     ("mix three", 10, lambda: (partial(mix, register(three()), np.full(3, 1 / 3)), *three())),
 ]
@@ -189,7 +169,7 @@ BESIDE_DURATION = [
     ("to_motion", 1 / 100, played),
     *((f"follow a {name}", 1 / 50, partial(followed, walking, line)) for name, line in SHAPES.items()),
     *(
-        (f"bend to a {line.__name__}", 1 / 60, partial(followed, graph, line, bend=LIMIT))
+        (f"bend to a {line.__name__}", 1 / 60, partial(followed, graph, line, bend=editing.LIMIT))
         for line in (sine, spiral, heart)
         for graph in (walking, straight_walker)
     ),
@@ -237,11 +217,11 @@ def edges(count):
 
 
 def raised(name):
-    pins, up = plant_pins(sample(name)), np.array([0, 0.03, 0])
-    return sample(name), Pins(pins.joints, pins.low + up, pins.high + up)
+    pins, up = editing.plant_pins(sample(name)), np.array([0, 0.03, 0])
+    return sample(name), editing.Pins(pins.joints, pins.low + up, pins.high + up)
 
 
-SPLINES = [Basis(knots=0.125)]
+SPLINES = [editing.Basis(knots=0.125)]
 GROWTH = [
     ("the square, in pairs of frames", 16, lambda data: (made, at_speeds(data, 1), at_speeds(data, 4))),
     ("pruning 4 times the edges", 8, lambda data: (prune_graph, edges(10_000), edges(40_000))),
@@ -253,12 +233,16 @@ GROWTH = [
     (
         "spacetime of 4 times the frames",
         1.5 * len(sample("walk_circle")) / len(sample("walk_straight")),
-        lambda data: (lambda both: solve(*both, SPLINES), raised("walk_straight"), raised("walk_circle")),
+        lambda data: (
+            lambda both: editing.solve(*both, SPLINES),
+            raised("walk_straight"),
+            raised("walk_circle"),
+        ),
     ),
     (
         "retargeting 4 times the frames",
         6,
-        lambda data: (lambda clip: retarget(clip, child(), adult()), person(2.5), person(10.0)),
+        lambda data: (lambda clip: editing.retarget(clip, child(), adult()), person(2.5), person(10.0)),
     ),
     (
         "playing 8 times the seconds",

@@ -151,8 +151,8 @@ STEERED = """
 from mocap.methods import motion_matching, parametric_graphs
 from mocap.steering import Controller
 from mocap.widgets import steered
-from tests.bundled import walking
-from tests.methods.parametric_graphs.built import clips, stepping
+from tests.bundled import clips, walking
+from tests.methods.parametric_graphs.built import stepping
 page = steered({
     "motion graph": Controller(walking()),
     "steps": parametric_graphs.ParametricController(stepping()),

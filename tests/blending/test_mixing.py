@@ -13,18 +13,8 @@ from mocap.blending.registering import register
 from mocap.body import PlanarTransform, resample
 from mocap.feet import clean_up
 from mocap.matching.point_clouds import align, point_cloud
-from tests.blending.registered import (
-    HALF,
-    at_times,
-    captured,
-    frame_by_frame,
-    knees,
-    skate,
-    slides,
-    turned,
-    walks,
-    way,
-)
+from tests.blending import registered
+from tests.blending.registered import HALF, captured, skate, slides, turned, walks
 from tests.refusals import quietly, refusals
 
 LEFT_AND_RIGHT = (1.1, -120), (1.1, 120)
@@ -65,7 +55,7 @@ def test_a_clip_with_all_the_weight_comes_back(which):
     registration = generated(*LEFT_AND_RIGHT)
     blend = mix(registration, np.eye(2)[which])
     seconds = float(registration.times[which](registration.span[0])) + np.arange(len(blend)) / 120
-    assert largest_gap(blend, at_times(registration.clips[which], seconds)) <= 1e-9
+    assert largest_gap(blend, registered.at_times(registration.clips[which], seconds)) <= 1e-9
 
 
 def test_a_blend_does_not_depend_on_where_its_clips_were_captured():
@@ -79,8 +69,8 @@ def test_a_blend_does_not_depend_on_where_its_clips_were_captured():
 def test_generated_walks_to_the_left_and_the_right_make_one_straight_on():
     registration = generated(*LEFT_AND_RIGHT)
     blend = mix(registration, HALF)
-    length = of_parts(registration, way).mean()
-    assert 0.98 <= way(blend) / length <= 1.02
+    length = of_parts(registration, registered.way).mean()
+    assert 0.98 <= registered.way(blend) / length <= 1.02
     assert turned(blend) == pytest.approx(of_parts(registration, turned).mean(), abs=1)
     assert skate(blend) <= 4 * of_parts(registration, skate).mean()
     assert slides(blend).mean() <= 0.7
@@ -95,9 +85,13 @@ def test_captured_walks_of_two_speeds_stay_in_step(real_data):
     for names in PAIRS:
         a, b = (captured(real_data, name) for name in names)
         registration = register([a, b])
-        own, knee = of_parts(registration, skate).mean(), of_parts(registration, knees).mean()
-        ways = mix(registration, HALF), frame_by_frame(a, b), frame_by_frame(a, b, stretch=True)
-        ratios.append([*(skate(m) / own for m in ways), *(knees(m) / knee for m in ways)])
+        own, knee = of_parts(registration, skate).mean(), of_parts(registration, registered.knees).mean()
+        ways = (
+            mix(registration, HALF),
+            registered.frame_by_frame(a, b),
+            registered.frame_by_frame(a, b, stretch=True),
+        )
+        ratios.append([*(skate(m) / own for m in ways), *(registered.knees(m) / knee for m in ways)])
     ours, frames, stretched, knee, knee_of_frames, knee_stretched = np.array(ratios).T
     assert ours.max() <= 1.0 and np.all(ours <= frames / 2)
     assert np.median(ours) <= np.median(frames) / 3 and np.median(ours) <= np.median(stretched) / 3
@@ -180,7 +174,9 @@ def test_it_starts_as_the_one_and_ends_as_the_other(registration):
     late = float(registration.times[1].inverse(second.duration))
     assert late > registration.span[1]
     ends = [
-        largest_gap(made[-60:], at_times(second, second.duration - shift - np.arange(60)[::-1] / 120))
+        largest_gap(
+            made[-60:], registered.at_times(second, second.duration - shift - np.arange(60)[::-1] / 120)
+        )
         for shift in np.linspace(0, 1 / 120, 40)
     ]
     assert min(ends) < 1e-3
@@ -196,7 +192,7 @@ def test_the_longer_the_fade_the_less_its_plants_slide(registration):
 def test_the_reference_is_left_and_the_other_entered():
     slow, brisk = walks()[0.8, 0], walks()[1.4, 0]
     slowing = crossfade(register([slow, brisk], reference=1))
-    speeds = [way(part) / part.duration for part in (slowing[:60], slowing[-60:])]
+    speeds = [registered.way(part) / part.duration for part in (slowing[:60], slowing[-60:])]
     assert speeds[0] > 1.2 and speeds[1] < 0.95
 
 

@@ -1,4 +1,4 @@
-"""Forward kinematics against a recursion written down once more, one joint at a time."""
+"""Forward kinematics against the recursion written down once more, one joint at a time."""
 
 import numpy as np
 import pytest
@@ -10,24 +10,16 @@ from tests.refusals import refused
 from tests.strategies import random_motion, seeds
 
 
-def global_pose(motion, frame, joint):
-    """Walk up the tree: the position and the rotation matrix of one joint in one frame."""
-    own = rotations.to_matrix(motion.rotations[frame, joint])
-    if joint == 0:
-        return motion.root_positions[frame], own
-    position, matrix = global_pose(motion, frame, motion.skeleton.parents[joint])
-    return position + matrix @ motion.skeleton.offsets[joint], matrix @ own
-
-
 @given(seeds)
 def test_every_joint_is_where_the_recursion_puts_it(seed):
     motion = random_motion(seed, frames=2)
-    poses = forward_kinematics(motion)
-    for frame in range(2):
-        for joint in range(len(motion.skeleton)):
-            position, matrix = global_pose(motion, frame, joint)
-            assert poses.positions[frame, joint] == pytest.approx(position, abs=1e-12)
-            assert poses.matrices[frame, joint] == pytest.approx(matrix, abs=1e-12)
+    poses, own = forward_kinematics(motion), rotations.to_matrix(motion.rotations)
+    positions, matrices = [motion.root_positions], [own[:, 0]]
+    for joint, parent in enumerate(motion.skeleton.parents[1:], 1):
+        positions.append(positions[parent] + matrices[parent] @ motion.skeleton.offsets[joint])
+        matrices.append(matrices[parent] @ own[:, joint])
+    assert poses.positions == pytest.approx(np.stack(positions, axis=1), abs=1e-12)
+    assert poses.matrices == pytest.approx(np.stack(matrices, axis=1), abs=1e-12)
 
 
 def test_velocities_of_a_parabola_are_exact_inside():

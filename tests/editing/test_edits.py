@@ -13,23 +13,9 @@ from mocap.editing.edits import edit, hierarchy, posed, scattered_fit
 from mocap.editing.keys import Key, keys_around, offsets
 from mocap.editing.pins import join_pins, pin, pin_errors, plant_pins
 from mocap.feet.footskate import clean_up
+from tests.editing import wishes
 from tests.editing.test_path_editing import slide
-from tests.editing.wishes import (
-    bar,
-    between,
-    body,
-    bones,
-    captured,
-    far_hand,
-    hand,
-    neck,
-    plants_kept,
-    rms,
-    shakes,
-    smoothness,
-    stone,
-    walk,
-)
+from tests.editing.wishes import bar, captured, hand, shakes, smoothness, stone, walk
 from tests.refusals import refusals, told
 
 pytestmark = pytest.mark.filterwarnings("error::mocap.errors.MocapWarning")
@@ -37,9 +23,9 @@ pytestmark = pytest.mark.filterwarnings("error::mocap.errors.MocapWarning")
 
 def check(motion, base, pins, most):
     assert pin_errors(motion, pins).max() < 1e-9
-    assert plants_kept(motion, base) == 1
+    assert wishes.plants_kept(motion, base) == 1
     assert smoothness(motion, base) <= most
-    assert bones(motion) < 1e-12
+    assert wishes.bones(motion) < 1e-12
 
 
 GENERATED = product((120.0, 30.0), (0.15, 0.5))
@@ -61,10 +47,10 @@ def test_a_bar_to_duck_under(real_data):
         edited = edit(clip, pins)
         errors = pin_errors(edited, pins)
         assert errors[:, :4].max() < 1e-9 and errors.max() < 1e-5
-        assert plants_kept(edited, clip) == 1
+        assert wishes.plants_kept(edited, clip) == 1
         assert smoothness(edited, clip) < (1.05 if clip.name == "16_15" else 1.2)
         assert shakes(edited, clip, pins) <= 1.15
-        assert (between(*neck(edited)) - between(*neck(clip))).max() < 45
+        assert (wishes.between(*wishes.neck(edited)) - wishes.between(*wishes.neck(clip))).max() < 45
         head = joint_positions(edited)[:, clip.skeleton.index("head")]
         low = pins.high[:, pins.joints.index(clip.skeleton.index("head")), 1]
         assert (head[:, 1] - low).max() < 1e-5
@@ -76,7 +62,7 @@ def test_a_hand_held_while_the_body_walks_on(real_data):
         pins = join_pins(plant_pins(clip), still)
         check(edited := edit(clip, still), clip, pins, 1.25)
         assert shakes(edited, clip, pins) <= 1.15
-        assert between(neck(edited)[0], neck(clip)[0]).max() < 15
+        assert wishes.between(wishes.neck(edited)[0], wishes.neck(clip)[0]).max() < 15
 
 
 def test_a_hand_on_a_rail_slides_along_it(real_data):
@@ -132,7 +118,7 @@ def test_each_level_more_than_halves_what_a_stone_leaves(fps):
     motion, told = hierarchy(clip, pins)
     left = np.array([level.rms for level in told])
     assert (left[1:-1] * 2 <= left[:-2]).all()
-    assert left[-1] < 0.001 and rms(pin_errors(motion, pins), pins) == pytest.approx(left[-1], rel=0.3)
+    assert left[-1] < 0.001 and wishes.rms(pin_errors(motion, pins), pins) == pytest.approx(left[-1], rel=0.3)
     assert smoothness(motion, clip) < 1.2
     assert told[-1].worst == pytest.approx(pin_errors(motion, pins).max())
     assert [level.knots for level in told] == [0.5, 0.25, 0.125, 0.06, 0.03][: len(told)]
@@ -161,7 +147,7 @@ def levels(*knots):
 
 
 test_what_cannot_be_edited_is_refused = refusals(
-    (r"Frame 24\d: 'rwrist' would be 5.\d+ m from '\w+', the bones", edit, walk(), far_hand(walk())),
+    (r"Frame 24\d: 'rwrist' would be 5.\d+ m from '\w+', the bones", edit, walk(), wishes.far_hand(walk())),
     ("mark_plants finds out", edit, replace(walk(), contacts={}), hand(walk(), [240], 240)),
     ("knots come nearer", levels),
     (r"got \(0.25, 0.5\)", levels, 0.25, 0.5),
@@ -206,10 +192,10 @@ def check_hand(motion, frame, columns):
 @pytest.mark.parametrize("frame", [150, 238])
 def test_a_hand_to_a_post(frame):
     walk = sample("walk_straight")[:480]
-    warped = check_hand(walk, frame, body(walk))
+    warped = check_hand(walk, frame, wishes.body(walk))
     cleaned = clean_up(warped)
     assert slide(cleaned) < 1e-6
-    assert plants_kept(cleaned, walk) >= 0.99
+    assert wishes.plants_kept(cleaned, walk) >= 0.99
 
 
 def test_a_height_alone_may_be_asked_for_without_feet():

@@ -7,7 +7,6 @@ import networkx as nx
 import numpy as np
 import pytest
 from hypothesis import given
-from hypothesis import strategies as st
 
 from mocap.body.planar import IDENTITY
 from mocap.graphs.graph_summary import summary, write_graphml
@@ -15,7 +14,7 @@ from mocap.graphs.motion_graph import build, from_transitions
 from mocap.graphs.pruning import prune
 from mocap.matching.transitions import Transition
 from tests.refusals import refused
-from tests.strategies import wave
+from tests.strategies import ends, wave
 
 CLIPS = [wave(90, name="a"), wave(70, phase=1.0, name="b", seed=1)]
 WINDOW = 8
@@ -23,11 +22,7 @@ MARK = {"walk": np.arange(90) < 60, "stroll": np.arange(90) > 40}
 LABELLED = prune(build([replace(CLIPS[0], labels=MARK), CLIPS[1]], window=WINDOW, threshold=0.05))
 
 
-@given(
-    st.lists(
-        st.tuples(st.integers(0, 1), st.integers(0, 62), st.integers(0, 1), st.integers(0, 62)), max_size=9
-    )
-)
+@given(ends)
 def test_waits_are_those_of_a_walk_along_the_clip(rows):
     found = [Transition(*row, 0.01, IDENTITY) for row in rows]
     graph = from_transitions(CLIPS, found, window=WINDOW)

@@ -17,7 +17,7 @@ from mocap.graphs.pruning import prune
 from mocap.graphs.thresholds import smallest_threshold
 from mocap.matching import Transition, align, find_transitions, point_cloud
 from tests.refusals import refusals
-from tests.strategies import random_motion, wave
+from tests.strategies import ends, random_motion, wave
 
 CLIPS = [wave(90, name="a"), wave(70, phase=1.0, name="b", seed=1)]
 WINDOW = 8
@@ -151,13 +151,7 @@ def test_within_no_frames_nothing_changes(graphs):
     assert nx.utils.graphs_equal(whole.graph, same.graph)
 
 
-@given(
-    st.lists(
-        st.tuples(st.integers(0, 1), st.integers(0, 62), st.integers(0, 1), st.integers(0, 62)), max_size=9
-    ),
-    st.integers(0, 12),
-    st.sampled_from([0.05, 0.2, 1.0]),
-)
+@given(ends, st.integers(0, 12), st.sampled_from([0.05, 0.2, 1.0]))
 def test_what_was_reached_still_is(rows, within, threshold):
     found = [Transition(*row, 0.01, IDENTITY) for row in rows]
     whole = from_transitions(CLIPS, found, window=WINDOW)

@@ -11,14 +11,15 @@ from mocap.methods.motion_matching.nearest_frames import Wants
 from mocap.methods.motion_matching.pose_database import tabulate
 from mocap.quality.seam_measures import spread
 from mocap.steering import Controller, judge_control, measure_delay, steer
-from tests.methods.motion_matching.matched import WALKS, clips, walks
+from tests.bundled import WALKS, clips
+from tests.methods.motion_matching.matched import walks
 
 SPEED = 0.8  # m/s, of the generated clips
 
 
 @cache
 def usual():
-    return spread(clips(*WALKS))
+    return spread(clips())
 
 
 @cache
@@ -29,7 +30,7 @@ def matching(future=1.0, fade=0.1):
 
 @cache
 def graph(threshold=0.04):
-    compiled = compile_graph(prune(build(clips(*WALKS), window=10, threshold=threshold)))
+    compiled = compile_graph(prune(build(clips(), window=10, threshold=threshold)))
     return judge_control(lambda: Controller(compiled), usual(), speed=SPEED)
 
 
@@ -49,12 +50,7 @@ def test_at_the_slide_of_a_graph_it_still_obeys_sooner():
 def test_its_feet_slide_further_than_the_graph_s_and_can_be_cleaned():
     assert graph().slide < matching().slide <= 3 * graph().slide
     assert matching().cleaned < 0.01
-    assert matching().kept >= 0.95
-
-
-@pytest.mark.parametrize(("future", "least"), [(1.0, 0.94), (0.5, 0.97)])
-def test_to_clean_its_feet_keeps_nearly_all_plants(future, least):
-    assert matching(future).kept >= least
+    assert matching().kept >= 0.95 and matching(0.5).kept >= 0.97
 
 
 def test_its_cuts_do_not_jolt_and_hard_ones_would():

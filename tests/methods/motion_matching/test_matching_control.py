@@ -9,7 +9,8 @@ from mocap.methods.motion_matching.matching_control import MotionMatcher
 from mocap.methods.motion_matching.nearest_frames import Wants
 from mocap.methods.motion_matching.pose_database import tabulate
 from mocap.steering import command_headings, steer
-from tests.methods.motion_matching.matched import clips, walks
+from tests.bundled import clips
+from tests.methods.motion_matching.matched import walks
 from tests.refusals import refused, told, unwarned
 
 SPEED = 0.8

@@ -12,7 +12,8 @@ from mocap.datasets.samples import sample
 from mocap.errors import SkeletonMismatch
 from mocap.methods.motion_matching import GROUPS, WEIGHTS, features
 from mocap.methods.motion_matching.pose_database import AHEAD, body_track, standardise, tabulate, turn_speeds
-from tests.methods.motion_matching.matched import clips, walks
+from tests.bundled import clips
+from tests.methods.motion_matching.matched import walks
 from tests.refusals import refusals
 from tests.strategies import wave
 

@@ -16,15 +16,10 @@ from mocap.methods.parametric_graphs.parametric_control import TARGET, Parametri
 from mocap.methods.parametric_graphs.parametric_edges import build_edge
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, measure_mixes
 from mocap.methods.parametric_graphs.strides import changing_strides
+from tests.bundled import clips
 
-WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
 SMALL = (12, 120)  # sources, targets
 SHARE = {"lrl": 1.0, "lr": 0.55, "rl": 0.55}  # a step turns by half of what a stride does, or little more
-
-
-@cache
-def clips():
-    return tuple(resample(samples.sample(name), 30) for name in WALKS)
 
 
 @cache
@@ -34,7 +29,7 @@ def strides(feet="lrl", by="strikes"):
 
 @cache
 def jogs():
-    return cut_strides([resample(samples.sample("jog"), 30)], label="jog")
+    return cut_strides(clips("jog"), label="jog")
 
 
 @cache

@@ -11,7 +11,8 @@ from mocap.methods.match_webs import random_weights, weights_for
 from mocap.methods.parametric_graphs import build_edge, cut_actions
 from mocap.methods.parametric_graphs.parametric_control import ParametricController
 from mocap.quality import plant_slides
-from tests.methods.parametric_graphs.built import HAND, SMALL, act, acting, clips, of_hands
+from tests.bundled import clips
+from tests.methods.parametric_graphs.built import HAND, SMALL, act, acting, of_hands
 from tests.refusals import refusals
 
 

@@ -9,8 +9,8 @@ from mocap.methods.parametric_graphs.parametric_edges import BAD, build_edge
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters
 from mocap.quality import plant_slides
 from mocap.steering import Controller, command_headings, steer
-from tests.bundled import bundled
-from tests.methods.parametric_graphs.built import WALKS, bad_ones, space, stepping, walk_anywhere, walking
+from tests.bundled import WALKS, bundled
+from tests.methods.parametric_graphs.built import bad_ones, space, stepping, walk_anywhere, walking
 
 SPEED = 0.8
 

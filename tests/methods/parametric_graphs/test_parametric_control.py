@@ -12,16 +12,8 @@ from mocap.methods.parametric_graphs.parametric_control import ParametricControl
 from mocap.methods.parametric_graphs.parametric_edges import build_parametric
 from mocap.quality.seam_measures import jumps, spread
 from mocap.steering import Controller, command_headings, measure_delay, steer
-from tests.bundled import bundled
-from tests.methods.parametric_graphs.built import (
-    SMALL,
-    WALKS,
-    by_turn_and_speed,
-    clips,
-    stepping,
-    walk_and_jog,
-    walking,
-)
+from tests.bundled import WALKS, bundled, clips
+from tests.methods.parametric_graphs.built import SMALL, by_turn_and_speed, stepping, walk_and_jog, walking
 from tests.refusals import refusals
 
 SPEED = 0.8

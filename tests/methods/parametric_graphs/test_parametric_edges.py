@@ -9,13 +9,9 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from mocap.errors import NoWalk, SkeletonMismatch
+from mocap.methods.parametric_graphs import build_parametric
 from mocap.methods.parametric_graphs.made_motions import optimal_transitions
-from mocap.methods.parametric_graphs.parametric_edges import (
-    BAD,
-    build_edge,
-    build_parametric,
-    shrink_box,
-)
+from mocap.methods.parametric_graphs.parametric_edges import BAD, build_edge, shrink_box
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters
 from tests.methods.parametric_graphs.built import SMALL, bad_ones, space, walk_and_jog, walking
 from tests.refusals import refusals

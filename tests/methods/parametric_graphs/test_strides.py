@@ -12,7 +12,8 @@ from mocap.errors import SkeletonMismatch
 from mocap.methods.parametric_graphs import cut_strides, mixed_way
 from mocap.methods.parametric_graphs.examples import MARGIN
 from mocap.methods.parametric_graphs.strides import changing_strides
-from tests.methods.parametric_graphs.built import clips, jogs, strides
+from tests.bundled import clips
+from tests.methods.parametric_graphs.built import jogs, strides
 from tests.refusals import refusals
 
 
