@@ -15,9 +15,9 @@ from mocap.quality.seam_measures import spread
 from mocap.steering import Controller, FootTurner, command_headings, judge_control
 from mocap.steering.characters import Pose
 from mocap.steering.judged_control import _pivots
-from tests.bundled import bundled
+from tests.bundled import WALKS, bundled, clips
 from tests.methods.motion_matching.matched import walks
-from tests.methods.parametric_graphs.built import WALKS, clips, walking
+from tests.methods.parametric_graphs.built import walking
 from tests.refusals import refused
 
 SPEED = 0.8

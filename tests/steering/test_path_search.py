@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from mocap.body.ground_path import GroundPath, s_curve
 from mocap.errors import NoWalk
@@ -10,12 +12,35 @@ from mocap.graphs.motion_graph import from_transitions
 from mocap.steering import path_search
 from mocap.steering.layered_search import States, start_states
 from mocap.steering.path_following import follow_path, path_problem, start_of
-from mocap.steering.path_objective import Settings, Wishes, make_route
+from mocap.steering.path_objective import Route, Settings, Wishes, make_route
 from mocap.steering.path_search import PathSearch
 from mocap.synthesis.bounded_search import branch_and_bound
 from mocap.synthesis.ground_walks import GroundWalks, Stand
 from tests.bundled import sneaking, walking
-from tests.strategies import wave
+from tests.refusals import refused
+from tests.strategies import seeds, wave
+
+
+@given(seeds, st.integers(2, 20))
+def test_points_are_met_and_lines_join_them(seed, count):
+    random = np.random.default_rng(seed)
+    points = random.normal(size=(count, 2)) @ [1, 1j]
+    route = Route(points, 0.1, np.full(count, -1), np.full(count, np.nan))
+    along = np.linspace(-1, route.length + 1, 50)
+    places = np.arange(count) * 0.1
+    expected = np.interp(along, places, points.real) + 1j * np.interp(along, places, points.imag)
+    assert route.at(along) == pytest.approx(expected)
+    assert points[route.point(places + 0.05)] == pytest.approx(points)
+    assert np.abs(route.ways) == pytest.approx(np.ones(count))
+    assert route.bare
+
+
+def test_a_path_may_be_as_long_as_the_clips_walk_in_an_hour():
+    graph = walking()
+    speeds = graph.step[graph.first[~graph.blended]] * graph.fps
+    make_route(graph, GroundPath([[0, 0], [0, 3600 * speeds.mean()]]), Wishes())
+    refused("more than an hour", make_route, graph, GroundPath([[0, 0], [0, 3600 * speeds.max()]]), Wishes())
+
 
 GRAPH = walking()
 FREE = {"seam": 0.0, "match": 0.0, "stray": 0.0}
