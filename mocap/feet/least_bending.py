@@ -173,8 +173,7 @@ def _least_bent(targets: Sequence[FootTarget], change: Array, push: Array, most:
     own = _jumps(np.array([target.track.knee.T for target in targets]), span) + push
     weighed = partial(_weighed, targets, bands, (own, most, span))
     bottom, top = _bounds(targets)
-    rise = np.clip(change[0], bottom, top)
-    change = np.array([rise, *(_start(*those, rise) for those in zip(targets, change[1:], strict=True))])
+    change = np.array([np.clip(change[0], bottom, top), *change[1:]])
     (here, pull, over, cost), damping = weighed(change), 1e-3
     for _ in range(STEPS):
         lower = change - STEP * np.eye(1 + legs)[..., None]  # (1 + L, 1 + L, F): each unknown by itself
@@ -212,13 +211,6 @@ def _weighed(
 def _hard(span: int) -> float:
     """Say how much a jump too far counts: a curve that bends freely jumps so much less for a push of 1."""
     return HARD / (span * (2 * span**2 + 1) / 3)
-
-
-def _start(target: FootTarget, extra: Array, rise: Array) -> Array:
-    """Give the knee's extra angle (F,) at which a foot that rolls is where it is."""
-    track = target.track
-    held = track.bend(np.linalg.norm(target.ankle - track.hip - rise[:, None] * UP, axis=-1))
-    return np.where(target.rolls, np.copysign(held, track.own + extra) - track.own, extra)
 
 
 def _gauss_newton(

@@ -72,8 +72,7 @@ def test_feet_that_stand_change_nothing():
 
 def test_no_other_change_bends_less():
     targets, random = shifted([0, 0.006, 0.01], [0, 0.002, 0]), np.random.default_rng(0)
-    ones, zeros = np.ones(len(WALK)), np.zeros(len(WALK))
-    start = np.array([zeros, *(least_bending._start(target, zeros, zeros) for target in targets)])
+    ones, start = np.ones(len(WALK)), np.zeros((3, len(WALK)))
     least_bending.STEPS, before = 40, least_bending.STEPS
     try:
         found = least_bending._least_bent(targets, start, np.zeros((2, 3, 300)), np.full((2, 300), 1.0), 4)

@@ -148,10 +148,17 @@ def find_paths(cloud: Cloud, starts: Indices, below: float, progress: Progress) 
     last = len(cloud.sizes) - cloud.window + 1
     found = []
     for pair in progress(pairs):
-        a, b = (cloud.part(slice(part.start, min(part.stop, last))) for part in pair)
-        cells = paths_between(a, b, (pair[0].start, pair[1].start), below)
-        ends = np.flatnonzero(np.diff(cells[:, 0])) + 1
-        found += [path for path in np.split(cells[:, 1:], ends) if len(path)]
+        grid: Floats = np.sqrt(
+            tiled_distances(*(cloud.part(slice(s.start, min(s.stop, last))) for s in pair))
+        )
+        corner = [part.start for part in pair]
+        first = corner[0] - corner[1] + LEAST  # the second window is at least so much later
+        if first + len(grid) > 0:
+            grid[np.tri(len(grid), grid.shape[1], first - 1, dtype=bool)] = np.inf
+        costs = grid - np.float32(below)
+        costs += np.where(minima_1d(grid), np.float32(0), np.float32(OFF_MINIMUM * below))
+        paths = apart(local_paths(costs, slope=SLOPE, least=LEAST), near=NEAR)
+        found += [np.column_stack([path + corner, grid[tuple(path.T)]]) for path in paths]
     if np.diff(starts).max() > ROWS:  # then parts of a clip may have found the same
         found.sort(key=lambda path: float((path[:, 2] - below).sum()))
         found = apart(found, near=NEAR)
@@ -182,29 +189,3 @@ def pieces(starts: Sequence[int], most: int, overlap: int) -> list[slice]:
             found.append(slice(begin, begin + most))
             begin += most - overlap
     return [*found, slice(begin, starts[-1])]
-
-
-def paths_between(a: Cloud, b: Cloud, corner: tuple[int, int], below: float) -> Array:
-    """Find the paths in the grid of two pieces.
-
-    Parameters
-    ----------
-    a, b : the same piece twice, or a later one second.
-    corner : their first windows, in the numbering of all.
-    below : as for `find_paths`.
-
-    Returns
-    -------
-    Shape (N, 4), path after path, best first: the path's number, the two windows, and their RMS distance in
-    metres.
-    """
-    grid: Floats = np.sqrt(tiled_distances(a, b))
-    first = corner[0] - corner[1] + LEAST  # the second window is at least so much later
-    if first + len(grid) > 0:
-        grid[np.tri(len(grid), grid.shape[1], first - 1, dtype=bool)] = np.inf
-    costs = grid - np.float32(below)
-    costs += np.where(minima_1d(grid), np.float32(0), np.float32(OFF_MINIMUM * below))
-    paths = apart(local_paths(costs, slope=SLOPE, least=LEAST), near=NEAR)
-    numbers = np.repeat(np.arange(len(paths)), [len(path) for path in paths])
-    cells = np.concatenate([np.empty((0, 2), np.intp), *paths])
-    return np.column_stack([numbers, cells + np.array(corner), grid[tuple(cells.T)]])

@@ -110,20 +110,19 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
         moving = [number for number in asking if _spread(web, found[number]) >= still]
         left_out += len(asking) - len(moving)
         new = [
-            (other, number)
+            other
             for number in moving
-            for other in crossings(web, found[number].start, found[number].stop, limit)
+            for other in crossings(web, found[number], number, limit)
             if shortest <= other.stop - other.start <= longest
         ]
         before = len(found)
-        for other, number in sorted(new, key=lambda pair: pair[0].cost):
-            common = np.minimum(places[:, 1], other.stop) - np.maximum(places[:, 0], other.start)
-            union = np.maximum(places[:, 1], other.stop) - np.minimum(places[:, 0], other.start)
-            if (common <= SAME * union).all():  # it is none of those that were found
-                match = _composed(found[number], other, number)
-                if not keep or keep(cut_out(web, _in_own_frames(web, clip, match))):
-                    found.append(match)
-                    places = np.append(places, [other[1:3]], axis=0)
+        for match in sorted(new, key=lambda other: other.cost):
+            common = np.minimum(places[:, 1], match.stop) - np.maximum(places[:, 0], match.start)
+            union = np.maximum(places[:, 1], match.stop) - np.minimum(places[:, 0], match.start)
+            fresh = (common <= SAME * union).all()  # it is none of those that were found
+            if fresh and (not keep or keep(cut_out(web, _in_own_frames(web, clip, match)))):
+                found.append(match)
+                places = np.append(places, [match[1:3]], axis=0)
         asking = list(range(before, len(found)))
     _warn(found, left_out)
     own = [_in_own_frames(web, clip, one) for one in found]
@@ -154,13 +153,6 @@ def _spread(web: MatchWeb, found: Match) -> float:
     return float(np.sqrt(((points - points.mean(axis=0)) ** 2).sum(-1).mean()))
 
 
-def _composed(match: Match, other: Match, via: int) -> Match:
-    """Lay a new match on the query: through the match that found it."""
-    inside = (match.frames >= other.rows[0]) & (match.frames <= other.rows[-1])
-    laid = np.interp(match.frames[inside], other.rows, other.frames)
-    return other._replace(via=via, generation=match.generation + 1, rows=match.rows[inside], frames=laid)
-
-
 def _in_own_frames(web: MatchWeb, query: int, match: Match) -> Match:
     """Count a match in the own frames of its clip and of the query's clip."""
     start, stop = np.round(web.own_frame(match.clip, match[1:3])).astype(int).tolist()
@@ -184,43 +176,45 @@ def _warn(found: Sequence[Match], left_out: int) -> None:
         warn(message)
 
 
-def crossings(web: MatchWeb, start: int, stop: int, below: float) -> Iterator[Match]:
-    """List what the paths of a web lay on the frames [start, stop), in the numbering of all.
+def crossings(web: MatchWeb, found: Match, number: int, below: float) -> Iterator[Match]:
+    """List what the paths of a web lay on a match, and through it on the query, in the numbering of all.
 
-    A web is symmetric: a path serves a stretch in either of its clips. The `rows` of what it lays there are
-    frames of the stretch, each once.
+    A web is symmetric: a path serves a stretch in either of its clips.
 
     Parameters
     ----------
     web : as from `build_web`.
-    start, stop : frames at the web's rate.
-    below : the mean RMS distance of a path inside the stretch, metres.
+    found, number : the match, and which of those found it is.
+    below : the mean RMS distance of a path inside the match, metres.
 
     Examples
     --------
     >>> from mocap.datasets.samples import sample
     >>> from mocap.methods.match_webs.webs import build_web
-    >>> web = build_web([sample("walk_straight")], below=0.05)
-    >>> found = min(crossings(web, 60, 92, 0.05), key=lambda crossing: crossing.cost)
-    >>> found.start, found.stop
+    >>> web, rows = build_web([sample("walk_straight")], below=0.05), np.arange(60.0, 92)
+    >>> found = crossings(web, Match(0, 60, 92, 0.0, -1, 0, rows, rows), 0, 0.05)
+    >>> min((crossing.cost, crossing.start, crossing.stop) for crossing in found)[1:]
     (25, 58)
     """
+    start, stop = found.start, found.stop
     first, last = web.cells[web.offsets[:-1]], web.cells[web.offsets[1:] - 1]
     needed = COVER * (stop - start)
     for side in (0, 1):
         covered = np.minimum(last[:, side], stop - 1) - np.maximum(first[:, side], start) + 1
-        for number in np.flatnonzero(covered >= needed).tolist():
-            cells, costs = web.path(number)
-            inside = slice(*np.searchsorted(cells[:, side], [start, stop]))
-            cost = float(costs[inside].mean())
+        for path in np.flatnonzero(covered >= needed).tolist():
+            cells, costs = web.path(path)
+            part = slice(*np.searchsorted(cells[:, side], [start, stop]))
+            cost = float(costs[part].mean())
             if cost <= below:
-                own, other = cells[inside, side].astype(float), cells[inside, 1 - side].astype(float)
+                own, other = cells[part, side].astype(float), cells[part, 1 - side].astype(float)
                 clip = web.clip_at(int(other[0]))  # straight on to the stretch's ends, but not beyond it
                 begin = max(int(other[0] - (own[0] - start)), int(web.starts[clip]))
                 end = min(int(other[-1] + (stop - own[-1])), int(web.starts[clip + 1]))
                 frames, at, count = np.unique(own, return_index=True, return_counts=True)
-                laid = np.add.reduceat(other, at) / count
-                yield Match(web.clip_at(begin), begin, end, cost, -1, 0, frames, laid)
+                inside = (found.frames >= frames[0]) & (found.frames <= frames[-1])
+                laid = np.interp(found.frames[inside], frames, np.add.reduceat(other, at) / count)
+                rows, steps = found.rows[inside], found.generation + 1
+                yield Match(web.clip_at(begin), begin, end, cost, number, steps, rows, laid)
 
 
 def cut_out(web: MatchWeb, match: Match) -> Motion:

@@ -22,7 +22,7 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "pose_database": ["GROUPS", "WEIGHTS", "features", "tabulate"],
+        "pose_database": ["GROUPS", "features", "tabulate"],
         "nearest_frames": ["Wants"],
         "matching_control": ["MotionMatcher"],
     },

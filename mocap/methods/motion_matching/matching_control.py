@@ -104,21 +104,18 @@ class MotionMatcher:
         query[FUTURE] = foresee(table, now, goal, self.wants.halflife)
         stay = now < table.last[now] and (not label or bool(table.labels[label][now]))
         staying = search.cost(query, now) - self.wants.bonus if stay else np.inf
-        found, cost = search.nearest(query, now, round(self.wants.near * self.fps))
-        if cost < staying:
-            self._cut(found)
-
-    def _cut(self, new: int) -> None:
-        """Cut to another frame: put its track on the old one's; what differs becomes the offset."""
-        table, old = self.database, self.frame
-        turn = complex(self.place.turn * np.exp(1j * (table.heading[old] - table.heading[new])))
+        new, cost = search.nearest(query, now, round(self.wants.near * self.fps))
+        if cost >= staying:
+            return
+        # The new frame's track is put on the old one's; what differs becomes the offset.
+        turn = complex(self.place.turn * np.exp(1j * (table.heading[now] - table.heading[new])))
         turn /= abs(turn)
-        move = complex(self.place.turn * table.ground[old] + self.place.move - turn * table.ground[new])
+        move = complex(self.place.turn * table.ground[now] + self.place.move - turn * table.ground[new])
         place = PlanarTransform.from_complex(turn, move)
-        root, shown = self._placed(self.place, old)
+        root, shown = self._placed(self.place, now)
         new_root, new_turns = place.apply_frames(table.roots[new], table.turns[new])
         self.offset = np.concatenate([[root - new_root], rotations.difference(new_turns, shown)])
-        self.offset_speed = self.offset_speed + self._speeds(self.place, old) - self._speeds(place, new)
+        self.offset_speed = self.offset_speed + self._speeds(self.place, now) - self._speeds(place, new)
         self.frame, self.place = new, place
         self.cuts.append(self._steps)
 

@@ -6,10 +6,15 @@ from mocap import datasets
 from mocap.body import Motion, Skeleton
 from mocap.errors import MocapWarning
 from mocap.methods.match_webs import build_web, cut_out, match_search, search, turn
-from mocap.methods.match_webs.match_search import crossings
+from mocap.methods.match_webs.match_search import Match, crossings
 from tests.methods.match_webs.conftest import common, cycles, judge
 from tests.methods.match_webs.spaces_of_walks import PUNCHES
 from tests.refusals import refused, told
+
+
+def stretch(start, stop):
+    rows = np.arange(start, stop, dtype=float)
+    return Match(0, start, stop, 0.0, -1, 0, rows, rows)
 
 
 def test_a_path_serves_a_query_in_either_of_its_clips(bundled):
@@ -22,7 +27,7 @@ def test_a_path_serves_a_query_in_either_of_its_clips(bundled):
             start, stop = firsts[number, side], lasts[number, side] + 1
             there = [
                 crossing
-                for crossing in crossings(web, start, stop, web.below)
+                for crossing in crossings(web, stretch(start, stop), 0, web.below)
                 if crossing.start == cells[0, 1 - side] and crossing.stop == cells[-1, 1 - side] + 1
             ]
             assert any(crossing.cost == pytest.approx(float(costs.mean()), abs=1e-5) for crossing in there)
@@ -31,7 +36,7 @@ def test_a_path_serves_a_query_in_either_of_its_clips(bundled):
 def test_what_a_path_does_not_cover_is_carried_on_straight_but_not_beyond_the_clip(bundled):
     web = bundled.web
     for start in range(20, 250, 23):
-        for crossing in crossings(web, start, start + 30, web.below):
+        for crossing in crossings(web, stretch(start, start + 30), 0, web.below):
             clip = web.clip_at(crossing.start)
             assert web.starts[clip] <= crossing.start < crossing.stop <= web.starts[clip + 1]
             assert crossing.rows[-1] - crossing.rows[0] + 1 >= 0.9 * 30

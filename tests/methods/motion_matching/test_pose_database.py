@@ -10,8 +10,15 @@ from hypothesis import strategies as st
 from mocap.body import concatenate, heading, place
 from mocap.datasets.samples import sample
 from mocap.errors import SkeletonMismatch
-from mocap.methods.motion_matching import GROUPS, WEIGHTS, features
-from mocap.methods.motion_matching.pose_database import AHEAD, body_track, standardise, tabulate, turn_speeds
+from mocap.methods.motion_matching import GROUPS, features
+from mocap.methods.motion_matching.pose_database import (
+    AHEAD,
+    WEIGHTS,
+    body_track,
+    standardise,
+    tabulate,
+    turn_speeds,
+)
 from tests.bundled import clips
 from tests.methods.motion_matching.matched import walks
 from tests.refusals import refusals
