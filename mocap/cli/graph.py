@@ -43,7 +43,9 @@ def demo(
     try:
         pruned = graphs.prune(whole)
     except NoWalk as error:
-        least = math.ceil(1e4 * graphs.smallest_threshold(whole.clips, window=whole.window)) / 100
+        from mocap.graphs.thresholds import smallest_threshold  # the help needs no NumPy
+
+        least = math.ceil(1e4 * smallest_threshold(whole.clips, window=whole.window)) / 100
         asked = f"a threshold of {building.threshold:g} cm"
         raise NoWalk(f"No walk is left at {asked}; these clips need at least {least:g} cm.") from error
     edges = synthesis.random_walk(pruned, seconds=seconds, seed=seed)
@@ -137,7 +139,9 @@ def info(file: Path) -> None:
     ----------
     file : an .npz file from `mocap graph`.
     """
-    found = graphs.read(file)
+    from mocap.graphs.storage import read  # the help needs no NumPy
+
+    found = read(file)
     for name, frames in zip(found.names, found.frames, strict=True):
         tell(clip=f"{name}: {frames} frames at {found.fps:g} Hz, {frames / found.fps:.1f} s")
     tell(window=f"{found.window} frames, {found.window / found.fps:.2f} s")

@@ -115,8 +115,10 @@ class Building(Sources):
 
 def load_graph(path: Path, skeleton: Path | None, clips: "Sequence[Motion] | None" = None) -> "MotionGraph":
     """Load a saved graph with some clips, or with those that it remembers."""
-    clips = graphs.find_clips(path, skeleton=skeleton, progress=bar("reading")) if clips is None else clips
-    return graphs.load(path, [body.resample(clip, graphs.read(path).fps) for clip in clips])
+    from mocap.graphs.storage import find_clips, load, read  # the help needs no NumPy
+
+    clips = find_clips(path, skeleton=skeleton, progress=bar("reading")) if clips is None else clips
+    return load(path, [body.resample(clip, read(path).fps) for clip in clips])
 
 
 def bar(what: str) -> Progress:

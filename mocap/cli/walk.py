@@ -9,7 +9,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from mocap import body, datasets, editing, files, graphs, plotting, steering, synthesis, widgets
+from mocap import body, datasets, editing, files, graphs, plotting, steering, widgets
 from mocap._shared.atomic import make_folder, replacing, require_folder
 from mocap.cli import options
 from mocap.cli.options import TURN, Building, Clean, Seed, Skeleton, Sources, Unit, bar, number, tell
@@ -74,14 +74,13 @@ def walk(
         raise MocapError("--scale belongs to --clips: the graph remembers the unit of its own clips.")
     options.check_out("walk", out)
     from mocap.files.path_files import load_path  # the help needs no NumPy
+    from mocap.synthesis.random_walks import dump
 
     seconds, line = _seconds(random or "1s"), load_path(path, scale=unit) if path else None
     wishes = steering.Wishes(labels=[_label(text) for text in label])
     found = _graph(graph, clips, sources, out)
     if line is None:
-        frames = synthesis.dump(
-            found, out, seconds=seconds, seed=seed or 0, clean=clean, progress=bar("writing")
-        )
+        frames = dump(found, out, seconds=seconds, seed=seed or 0, clean=clean, progress=bar("writing"))
         tell(walked=f"{frames / found.fps:.1f} s at random", wrote=out)
         return 0
     settings = steering.Settings(width=width or 100, progress=bar("searching"))
@@ -141,9 +140,9 @@ def _label(text: str) -> tuple[float, str]:
 def _graph(path: Path, clips: Sequence[Path], sources: Sources, out: Path) -> "graphs.MotionGraph":
     """Read the graph, and the clips that it was built of: those given, or those that it remembers."""
     from mocap.editing.mirroring import mirrored_name  # the help needs no NumPy
-    from mocap.graphs.storage import find_origins
+    from mocap.graphs.storage import find_origins, read
 
-    found = graphs.read(path)
+    found = read(path)
     files_read = find_files(clips) if clips else [origin.path for origin in find_origins(path)]
     options.require_other(out, files_read)
     with warnings.catch_warnings():

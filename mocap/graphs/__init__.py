@@ -27,11 +27,10 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submodules=["homework_graph"],
     submod_attrs={
         "motion_graph": ["MotionGraph", "build", "from_transitions"],
-        "components": ["largest_component"],
         "pruning": ["prune", "prune_graph", "notes_example"],
-        "thresholds": ["smallest_threshold", "threshold_curve"],
+        "thresholds": ["threshold_curve"],
         "graph_summary": ["summary", "write_graphml"],
-        "storage": ["find_clips", "load", "read", "save"],
+        "storage": ["load", "save"],
         "compiled_graph": ["compile_graph"],
     },
 )

@@ -6,6 +6,7 @@ Ground points are complex numbers z + ix, and planar transforms are p ↦ turn �
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from mocap.graphs.edge_tables import Edge, EdgeTable, Hops, clip_rows, edge_tabl
 from mocap.graphs.motion_graph import MotionGraph, Node
 
 AHEAD = (1 / 4, 1 / 2, 3 / 4)  # seconds
+LEAST = 0.3  # metres per second: standing counts as this, so that no walk stands for ever; γ in [KGP02, 5.1]
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +58,11 @@ class CompiledGraph(EdgeTable):
     def fps(self) -> float:
         """Frames per second."""
         return self.source.fps
+
+    @cached_property
+    def progress(self) -> Array:
+        """Each frame's progress, metres, (T,): its step, or γ if it is less [KGP02, least progress]."""
+        return np.maximum(self.step, LEAST / self.fps)
 
     def index(self, node: Node) -> int:
         """Find a node's number, or raise `NoWalk`."""

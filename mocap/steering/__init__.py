@@ -18,11 +18,10 @@ Reading order (notebooks 08, 12, 17, 18)
  5. `path_following`: find a walk along a path, in layers and by the paper's branch and bound
  6. `bent_following`: any line with any walk: a walk that turns little beyond its clips, laid on its path
  7. `waypoints_and_crowds`: places, labels and times to pass; many characters that keep apart
- 8. `characters`: the protocol, the pose that a step gives, and a walk by given commands
- 9. `delays`: how soon a character obeys
-10. `graph_control`: a character on a motion graph, and how it looks ahead
-11. `foot_turning`: a character that turns about the foot that stands, beyond what its clips turn
-12. `judged_control`: one protocol for all characters
+ 8. `characters`: the protocol, the pose that a step gives, a walk by given commands, how soon they are obeyed
+ 9. `graph_control`: a character on a motion graph, and how it looks ahead
+10. `foot_turning`: a character that turns about the foot that stands, beyond what its clips turn
+11. `judged_control`: one protocol for all characters
 
 References
 ----------
@@ -36,11 +35,9 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "path_objective": ["Settings", "Wishes"],
-        "layered_search": ["States", "select"],
         "path_following": ["follow_as_2002", "follow_path"],
         "waypoints_and_crowds": ["Waypoint", "through_waypoints", "walk_crowd"],
-        "characters": ["Character", "steer"],
-        "delays": ["measure_delay"],
+        "characters": ["Character", "measure_delay", "steer"],
         "graph_control": ["Controller"],
         "foot_turning": ["FootTurner"],
         "judged_control": ["command_headings", "judge_control"],

@@ -1,12 +1,15 @@
-"""A character that can be commanded: what all controllers have in common.
+"""A character that can be commanded: what all controllers have in common, and how soon they obey.
 
 A command is a heading and a speed, which `require_command` checks.
 
-`steer` (and `measure_delay` of `delays`) work with anything that fits `Character`, so each new way of control
-can be steered, seen and measured as those before it.
+`steer` and `measure_delay` work with anything that fits `Character`, so each new way of control can be
+steered, seen and measured as those before it.
 """
 
+import cmath
 import math
+import time
+from collections import deque
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import NamedTuple, Protocol
@@ -20,6 +23,8 @@ from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
 
 OBEYS = math.radians(20)  # between the way of the last third of a second and the heading, at most
+LONGEST = 8.0  # seconds; a turn that takes longer counts as that long
+AGAIN = math.radians(5)  # between one heading and the next, for the clock to start again
 
 
 class Pose(NamedTuple):
@@ -56,13 +61,8 @@ class Character(Protocol):
     False
     """
 
-    @property
-    def skeleton(self) -> Skeleton:
-        """The joints that the poses move."""
-
-    @property
-    def fps(self) -> float:
-        """Steps per second."""
+    skeleton: Skeleton  # the joints that the poses move
+    fps: float  # steps per second
 
     @property
     def frames_left(self) -> int:
@@ -163,3 +163,136 @@ def as_motion(character: Character, poses: Sequence[Pose], name: str = "steered"
         name,
         contacts={mark: np.array([pose.contacts[mark] for pose in poses]) for mark in marks},
     )
+
+
+def between(heading: float, other: float) -> float:
+    """Give the angle between two headings, radians from 0 to π.
+
+    Examples
+    --------
+    >>> round(between(3.0, -3.0), 3)
+    0.283
+    """
+    return abs(cmath.phase(cmath.exp(1j * (heading - other))))
+
+
+class CommandClock:
+    """A clock for one character; it starts again with each command that differs by more than 5 degrees.
+
+    A character obeys when its way over the last third of a second is within 20 degrees of the command.
+    A delay counts where the command was not obeyed when it came, and was before the next one came.
+
+    Parameters
+    ----------
+    fps : steps per second.
+
+    Examples
+    --------
+    A dot goes ahead for a second, and then to the left at once. When half of the last third of a second lies
+    on the new way, that is 45 degrees off; within 20 degrees it is after 9 steps.
+
+    >>> clock, place = CommandClock(30.0), 0j
+    >>> for step in range(60):
+    ...     clock.command(0.0 if step < 30 else math.pi / 2)
+    ...     place += 0.04 if step < 30 else 0.04j
+    ...     clock.step(place)
+    >>> clock.obeyed, [round(delay, 2) for delay in clock.delays]
+    (True, [0.37])
+    """
+
+    def __init__(self, fps: float) -> None:
+        self.fps, self.back = fps, round(fps / 3)
+        self.track: deque[complex] = deque(maxlen=self.back + 1)
+        self.heading = self.started = 0.0  # the command's, now and when the clock started; radians
+        self.frames = 0
+        self.obeyed = self.counts = False
+        self.delays: list[float] = []  # seconds
+
+    @property
+    def waited(self) -> float:
+        """The seconds since the command; once it is obeyed, the seconds that this took."""
+        return self.frames / self.fps
+
+    def command(self, heading: float) -> None:
+        """Take the heading of the next step."""
+        self.heading = heading
+        if between(heading, self.started) > AGAIN:
+            self.started, self.frames, self.obeyed = heading, 0, False
+            self.counts = len(self.track) > self.back and self._off() >= OBEYS
+
+    def step(self, place: complex) -> None:
+        """Take where the root is on the ground after a step, z + ix."""
+        self.track.append(place)
+        if self.obeyed:
+            return
+        self.frames += 1
+        self.obeyed = self.frames > self.back and len(self.track) > self.back and self._off() < OBEYS
+        if self.obeyed and self.counts:
+            self.delays.append(self.waited)
+
+    def _off(self) -> float:
+        return between(cmath.phase(self.track[-1] - self.track[0]), self.heading)
+
+
+class Delay(NamedTuple):
+    """The delay until a character obeys, and the CPU time per step.
+
+    `mean` and `slowest` (95 %) are delays in seconds; `step` (mean) and `worst` are CPU times in ms. Two mean
+    parts of the delay are `waiting`, until the character can make its next choice, and `blending`, in
+    transitions after it. The rest is spent in clips that turn. `never` is the number of
+    turns that took longer than 8 s.
+    """
+
+    mean: float
+    slowest: float
+    step: float
+    worst: float
+    waiting: float
+    blending: float
+    never: int
+
+
+def measure_delay(character: Character, *, turns: int = 60, speed: float = 1.1, seed: int = 0) -> Delay:
+    """Command a character to turn by 30 to 120 degrees many times, and measure how soon it obeys.
+
+    It obeys as `CommandClock` says; a turn that takes longer than 8 s counts as 8 s. The next command comes
+    as soon as this one is obeyed.
+
+    Parameters
+    ----------
+    character : any controller, just made; it has walked on when this returns.
+    turns : the number of turns.
+    speed : metres per second.
+    seed : of the random turns.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs
+    >>> from mocap.steering import Controller
+    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
+    >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
+    >>> 0 < measure_delay(Controller(graph), turns=1).mean <= 8
+    True
+
+    Notebook: 08b-steering
+    """
+    random, fps, clock = np.random.default_rng(seed), character.fps, CommandClock(character.fps)
+    heading, costs, delays, never = 0.0, [], [], 0
+    for _ in range(turns):
+        heading += random.choice([-1, 1]) * random.uniform(np.pi / 6, 2 * np.pi / 3)
+        wait, blends = character.frames_left, 0
+        clock.command(heading)
+        while not clock.obeyed and clock.frames < round(LONGEST * fps):
+            start = time.thread_time()
+            pose = character.step(heading, speed)
+            costs.append(time.thread_time() - start)
+            blends += pose.blending and clock.frames >= wait
+            clock.step(complex(on_ground(pose.root_position)))
+        delays.append((clock.frames, min(wait, clock.frames), blends))
+        never += not clock.obeyed
+    took, waited, blended = np.transpose(delays) / fps
+    # The first step looks ahead from the start without any frame to do so before; games do it while loading.
+    cost = 1e3 * np.array(costs[1:])
+    mean, step, waiting, blending = (float(some.mean()) for some in (took, cost, waited, blended))
+    slowest, worst = float(np.percentile(took, 95)), float(cost.max())
+    return Delay(mean, slowest, step, worst, waiting, blending, never)

@@ -12,7 +12,7 @@ from mocap.editing.bending import Bent
 from mocap.graphs.compiled_graph import CompiledGraph, walk_track
 from mocap.graphs.edge_tables import Edge
 from mocap.graphs.motion_graph import MotionGraph
-from mocap.steering.path_objective import Route, least_progress
+from mocap.steering.path_objective import Route
 from mocap.steering.path_search import Found
 from mocap.synthesis.walk_to_motion import to_motion
 
@@ -121,7 +121,7 @@ def account(graph: CompiledGraph, path: GroundPath, route: Route, found: Found) 
     away, piece = body[:, None] - route.points[near], np.diff(route.points)[near]
     share = np.clip((away * piece.conj()).real / np.abs(piece) ** 2, 0, 1)
     off = np.abs(away - share * piece).min(axis=1)
-    at_length = np.abs(body - route.at(np.cumsum(least_progress(graph)[rows])))
+    at_length = np.abs(body - route.at(np.cumsum(graph.progress[rows])))
     walk, place = [graph.edges[edge] for edge in found.edges], (found.turn, found.move)
     laid = (walk, PlanarTransform.from_complex(*place), from_ground(body), found.along)
     return Followed(graph.source, path, *laid, off, at_length, (label >= 0) & ~bears, found)

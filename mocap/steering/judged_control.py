@@ -15,8 +15,7 @@ from mocap.errors import MocapError, MocapWarning
 from mocap.feet.footskate import clean_up
 from mocap.quality.seam_measures import USUAL, Spread, jumps
 from mocap.quality.standing_feet import mean_slide, plant_slides
-from mocap.steering.characters import Character, steer
-from mocap.steering.delays import Delay, measure_delay
+from mocap.steering.characters import Character, Delay, measure_delay, steer
 
 TURNS = np.radians([30, 120])  # of a command
 EVERY = 2.0  # seconds

@@ -16,7 +16,7 @@ from mocap.graphs.motion_graph import MotionGraph
 from mocap.steering.bent_following import plan_bending
 from mocap.steering.followed import ASTRAY, Followed, account
 from mocap.steering.layered_search import States, start_states
-from mocap.steering.path_objective import Route, Settings, Wishes, least_progress, make_route
+from mocap.steering.path_objective import Route, Settings, Wishes, make_route
 from mocap.steering.path_search import SLOWEST, Found, find_walk, too_slow
 from mocap.synthesis.bounded_search import Problem, SearchEdge, search_ahead
 from mocap.synthesis.ground_walks import GroundWalks, Stand
@@ -173,19 +173,17 @@ def _require_labels(graph: CompiledGraph, labels: Sequence[str], starts: Indices
             raise NoWalk(f"No walk comes to the label '{label}' from there; it can reach: {can}.")
 
 
+def cost_along(walks: GroundWalks, route: Route, stand: Stand, edge: SearchEdge) -> tuple[float, Stand]:
+    """Give g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖² [KGP02, Eq. 9] after a walk, and where it leads."""
+    rows, points, after = walks.step(stand, edge)
+    along = stand.along + np.cumsum(walks.graph.progress[rows])
+    off = np.abs(points - route.at(along))
+    return float((off**2).sum()), after._replace(along=float(along[-1]))
+
+
 def path_problem(walks: GroundWalks, route: Route) -> Problem:
-    """Make the paper's search problem: walks start at the path's start, and end when they are as long as it.
-
-    An edge costs g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖² [KGP02, Eq. 9].
-    """
-    progress = least_progress(walks.graph)
-
-    def step(stand: Stand, edge: SearchEdge) -> tuple[float, Stand]:
-        points, after = walks.step(stand, edge)
-        along = stand.along + np.cumsum(progress[walks.rows(edge)])
-        off = np.abs(points - route.at(along))
-        return float((off**2).sum()), after._replace(along=float(along[-1]))
-
+    """Make the paper's search problem: edges cost `cost_along`; a walk ends with the path."""
+    step = partial(cost_along, walks, route)
     return Problem(walks.graph.source.graph, step, lambda stand: stand.along >= route.length)
 
 
@@ -236,7 +234,7 @@ def follow_as_2002(
     if not result.walk:
         raise NoWalk(f"The search was {result.stopped} before its first step.")
     edges = np.array([walks.number[edge] for edge in result.walk])
-    along = np.cumsum(least_progress(compiled)[walk_track(compiled, edges, stand.turn, stand.move)[1]])
+    along = np.cumsum(compiled.progress[walk_track(compiled, edges, stand.turn, stand.move)[1]])
     counts = result.expanded, result.cut, result.stopped
     found = Found(edges, stand.turn, stand.move, along, result.cost, *counts)
     return account(compiled, path, route, found)

@@ -17,7 +17,6 @@ from mocap.graphs.compiled_graph import AHEAD, CompiledGraph
 from mocap.graphs.motion_graph import Node
 
 SPACING = 0.02  # metres between the points of a route, at most
-LEAST = 0.3  # metres per second: standing counts as this, so that no walk stands for ever; γ in [KGP02, 5.1]
 
 
 @dataclass(frozen=True)
@@ -201,11 +200,6 @@ def make_route(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Route:
     others = [on_ground(track[np.minimum(frames, len(track) - 1)]) for track in wishes.others]
     together = np.array(others, complex).reshape(-1, len(frames))
     return Route(on_ground(points), float(along[1]), label, _clock(along, wishes), wishes, together)
-
-
-def least_progress(graph: CompiledGraph) -> Array:
-    """Give each frame's progress, all edges, (T,): its step, or γ if it is less [KGP02, least progress]."""
-    return np.maximum(graph.step, LEAST / graph.fps)
 
 
 def _clock(along: Array, wishes: Wishes) -> Array:

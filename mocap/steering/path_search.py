@@ -16,9 +16,9 @@ import numpy as np
 from mocap._shared.arrays import Array, Indices, Mask, Points
 from mocap.body.planar import on_ground
 from mocap.errors import NoWalk
-from mocap.graphs.compiled_graph import AHEAD, CompiledGraph
+from mocap.graphs.compiled_graph import AHEAD, LEAST, CompiledGraph
 from mocap.steering.layered_search import LayeredSearch, States, hop_states, standing
-from mocap.steering.path_objective import LEAST, Route, Settings, least_progress
+from mocap.steering.path_objective import Route, Settings
 
 LAYER = 0.15  # metres of path
 IDLE = 0.1  # m²: the price of a frame of a bent walk that moves on by less than the least progress
@@ -86,7 +86,7 @@ class PathSearch(LayeredSearch):
         if own:
             self.first = len(starts.node)  # all cost the same before they turn
         # Metres by which each frame of all edges moves on (T,), and each hop (H,).
-        self.progress = np.maximum(own.step, CREEP / graph.fps) if own else least_progress(graph)
+        self.progress = np.maximum(own.step, CREEP / graph.fps) if own else graph.progress
         before = np.concatenate([[0.0], np.cumsum(self.progress)])
         length = (before[hops.starts + hops.counts] - before[hops.starts]).sum(axis=1)
         price = np.where(graph.blended, settings.seam + settings.match * graph.cost**2, 0.0)

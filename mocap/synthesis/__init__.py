@@ -21,8 +21,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "walk_to_motion": ["seams", "sources", "to_motion"],
-        "random_walks": ["dump", "random_walk"],
-        "bounded_search": ["Problem", "SearchResult", "branch_and_bound", "search_ahead"],
+        "random_walks": ["random_walk"],
+        "bounded_search": ["Problem", "branch_and_bound", "search_ahead"],
         "ground_walks": ["GroundWalks"],
     },
 )

@@ -63,17 +63,13 @@ class GroundWalks:
         turn = np.exp(-1j * self.graph.going[number])
         return self.graph.nodes[number], Stand(turn, -turn * self.graph.at[number])
 
-    def rows(self, edge: SearchEdge) -> slice:
-        """Give the rows of an edge's frames among those of all edges."""
-        first = self.graph.first[self.number[edge]]
-        return slice(first, first + self.graph.frames[self.number[edge]])
-
-    def step(self, stand: Stand, edge: SearchEdge) -> tuple[Points, Stand]:
-        """Walk along an edge: give the root in each of its frames, and where it leads."""
+    def step(self, stand: Stand, edge: SearchEdge) -> tuple[slice, Points, Stand]:
+        """Walk along an edge: the rows of its frames among those of all, the root there, where it leads."""
         graph, e = self.graph, self.number[edge]
-        points = stand.turn * graph.ground[self.rows(edge)] + stand.move
+        rows = slice(graph.first[e], graph.first[e] + graph.frames[e])
         turn, move = stand.turn * graph.turn[e], stand.move + stand.turn * graph.move[e]
-        return points, Stand(turn, move, stand.frames + int(graph.frames[e]), stand.along)
+        after = Stand(turn, move, stand.frames + int(graph.frames[e]), stand.along)
+        return rows, stand.turn * graph.ground[rows] + stand.move, after
 
     def points(self, walk: Sequence[SearchEdge], stand: Stand) -> Points:
         """Give the root in each frame of a walk."""
@@ -84,7 +80,7 @@ class GroundWalks:
         """Make a search problem: each edge costs what `price` says; a walk of so many frames is complete."""
 
         def step(stand: Stand, edge: SearchEdge) -> tuple[float, Stand]:
-            points, after = self.step(stand, edge)
+            _, points, after = self.step(stand, edge)
             return float(price(points, stand.frames, edge)), after
 
         return Problem(self.graph.source.graph, step, lambda stand: stand.frames >= frames)

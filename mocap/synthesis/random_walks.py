@@ -124,9 +124,7 @@ def wander(
         since = since + data["frames"] if data["kind"] == "clip" else 0
 
 
-def stream(
-    motion_graph: MotionGraph, *, seconds: float, seed: int = 0, clean: bool = False
-) -> Iterator[Motion]:
+def stream(motion_graph: MotionGraph, *, seconds: float, seed: int = 0) -> Iterator[Motion]:
     """Play a random walk piece by piece, so that only one piece is in memory.
 
     Parameters
@@ -134,7 +132,6 @@ def stream(
     motion_graph : pruned, so that the walk never ends.
     seconds : the least duration of all pieces together.
     seed : the walk is that of `synthesis.random_walk` with this seed.
-    clean : whether to remove footskate, as in `synthesis.to_motion`.
 
     Yields
     ------
@@ -148,25 +145,18 @@ def stream(
     >>> sum(len(part) for part in stream(graph, seconds=90)) >= 90 * 30
     True
     """
-    if clean:
-        motion_graph = with_plants(motion_graph)
-    pieces = _motions(motion_graph, cut_walk(motion_graph, wander(motion_graph, seed=seed), seconds, PIECE))
-    yield from _cleaned(pieces) if clean else pieces
-
-
-def _motions(motion_graph: MotionGraph, walks: Iterator[list[Edge]]) -> Iterator[Motion]:
-    """Play walks one after the other."""
     place = IDENTITY
-    for walk in walks:
+    for walk in cut_walk(motion_graph, wander(motion_graph, seed=seed), seconds, PIECE):
         yield to_motion(motion_graph, walk, place=place)
         ends = places(edge_table(motion_graph, walk), place)
         place = PlanarTransform(*(float(np.asarray(numbers)[-1]) for numbers in ends))
 
 
-def _cleaned(pieces: Iterator[Motion]) -> Iterator[Motion]:
-    """Clean each piece together with 2 · `MARGIN` of the motion before it; give its last `MARGIN` out later.
+def cleaned(pieces: Iterator[Motion]) -> Iterator[Motion]:
+    """Remove footskate from pieces of a motion, as `synthesis.to_motion` does from the whole.
 
-    So every frame is cleaned together with all frames that it depends on, and the cuts do not show.
+    Each piece is cleaned together with 2 · `MARGIN` of the motion before it, and its last `MARGIN` is given
+    out later. So every frame is cleaned with all frames that it depends on, and the cuts do not show.
     """
     waiting, done = next(pieces), 0
     margin = round(MARGIN * waiting.fps)
@@ -195,8 +185,9 @@ def dump(  # noqa: PLR0913 (which walk, where to, how long, and how)
 
     Parameters
     ----------
-    motion_graph, seconds, seed, clean : as for `stream`.
+    motion_graph, seconds, seed : as for `stream`.
     path : the file; it appears when it is complete.
+    clean : whether to remove footskate, as in `synthesis.to_motion`.
     progress : wraps the pieces, to show a bar.
 
     Returns
@@ -225,7 +216,8 @@ def dump(  # noqa: PLR0913 (which walk, where to, how long, and how)
     # A .bvh file starts with its number of frames. The same seed gives the same walk, so count them first.
     walks = cut_walk(motion_graph, wander(motion_graph, seed=seed), seconds, PIECE)
     counts = [sum(motion_graph.graph.edges[edge]["frames"] for edge in walk) for walk in walks]
-    pieces = stream(motion_graph, seconds=seconds, seed=seed, clean=clean)
+    pieces = stream(with_plants(motion_graph) if clean else motion_graph, seconds=seconds, seed=seed)
+    pieces = cleaned(pieces) if clean else pieces
     shown = (next(pieces) for _ in progress(counts))
     if suffix == ".glb":
         gltf.write(concatenate(list(shown)), path)

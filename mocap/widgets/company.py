@@ -16,8 +16,7 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.body.kinematics import joint_positions
 from mocap.errors import MocapError, MocapWarning, shortened
-from mocap.steering.characters import Character, Pose, as_motion, require_command
-from mocap.steering.delays import CommandClock
+from mocap.steering.characters import Character, CommandClock, Pose, as_motion, require_command
 from mocap.widgets.packing import packed_body
 
 MOST = 4  # characters side by side

@@ -11,12 +11,12 @@ from mocap.body import GroundPath, ground_path, on_ground, resample, s_curve
 from mocap.datasets.samples import sample
 from mocap.errors import MocapWarning, NoWalk
 from mocap.graphs import build, prune
-from mocap.graphs.compiled_graph import compile_graph
+from mocap.graphs.compiled_graph import LEAST, compile_graph
 from mocap.steering import followed as following
 from mocap.steering import path_following
 from mocap.steering.followed import account
 from mocap.steering.path_following import follow_as_2002, follow_path, path_problem
-from mocap.steering.path_objective import LEAST, Settings, Wishes, make_route
+from mocap.steering.path_objective import Settings, Wishes, make_route
 from mocap.steering.path_search import find_walk
 from mocap.synthesis.ground_walks import GroundWalks, Stand
 from tests.bundled import bundled, captured, sneaking, walking
@@ -237,7 +237,7 @@ def test_who_stands_gets_on_by_a_little():
     problem = path_problem(walks, make_route(graph, path, Wishes()))
     own, counted = [], []
     for edge in walks.number:
-        own.append(graph.step[walks.rows(edge)])
+        own.append(graph.step[walks.step(Stand(1 + 0j, 0j), edge)[0]])
         counted.append(problem.step(Stand(1 + 0j, 0j), edge)[1].along)
     least = [np.maximum(steps, 0.3 / graph.fps).sum() for steps in own]
     assert counted == pytest.approx(least)

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from mocap.datasets.samples import SKELETON
-from mocap.steering.characters import Pose, steer
-from mocap.steering.delays import measure_delay
+from mocap.steering.characters import Pose, measure_delay, steer
 from mocap.steering.graph_control import Controller
 from tests.bundled import walking
 

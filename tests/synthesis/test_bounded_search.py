@@ -178,7 +178,7 @@ def test_it_starts_at_the_origin_and_straight_ahead(graph):
     for number in (0, 40, 300):
         node, start = walks.start(number)
         edge = min(walks.graph.source.graph.out_edges(node, keys=True))
-        points, after = walks.step(start, edge)
+        _, points, after = walks.step(start, edge)
         assert abs(points[0]) < 0.1
         assert after.frames == len(points)
         assert start.turn * walks.graph.at[number] + start.move == pytest.approx(0)

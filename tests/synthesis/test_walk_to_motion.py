@@ -20,7 +20,7 @@ from mocap.graphs import build, from_transitions, prune
 from mocap.graphs.edge_tables import edge_table
 from mocap.matching.transitions import Transition
 from mocap.synthesis import random_walks
-from mocap.synthesis.random_walks import dump, random_walk, stream, wander
+from mocap.synthesis.random_walks import cleaned, dump, random_walk, stream, wander
 from mocap.synthesis.walk_to_motion import places, seams, sources, to_motion, with_plants
 from tests.bundled import bundled
 from tests.refusals import refusals
@@ -178,7 +178,7 @@ def test_pieces_are_cleaned_as_the_whole_would_be(monkeypatch, piece):
     graph = bundled("walk_circle", "walk_curve_1")
     whole = to_motion(graph, random_walk(graph, seconds=30, seed=2), clean=True)
     monkeypatch.setattr(random_walks, "PIECE", piece)
-    joined = concatenate(list(stream(graph, seconds=30, seed=2, clean=True)))
+    joined = concatenate(list(cleaned(stream(graph, seconds=30, seed=2))))
     assert len(joined) == len(whole)
     off = np.abs(joint_positions(joined) - joint_positions(whole)).max(axis=(1, 2))
     assert off.max() < 0.006

@@ -12,8 +12,7 @@ from hypothesis import strategies as st
 
 from mocap.body.kinematics import joint_positions
 from mocap.errors import MocapError, MocapWarning
-from mocap.steering.characters import as_motion
-from mocap.steering.delays import CommandClock, between
+from mocap.steering.characters import CommandClock, as_motion, between
 from mocap.widgets import steered_widget
 from mocap.widgets.company import START, Company
 from mocap.widgets.steered_widget import steered
