@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,23 +19,11 @@ from mocap.errors import MocapError
 SHORTEST = 0.02  # seconds on the common clock: what is left of a plant beside a cut or the span's end
 
 
-class SharedPlant(NamedTuple):
-    """A plant that all clips have: when it starts and stops in each of them, on the common clock.
+SharedPlant = tuple[str, Array]
+"""A plant that all C clips have: the joint, and when it starts and stops in each of them, (2, C), seconds.
 
-    joint : the one that stands.
-    starts, stops : shape (C,), seconds.
-
-    Examples
-    --------
-    >>> match = SharedPlant("lfoot", np.array([0.2, 0.3]), np.array([0.8, 0.9]))
-    >>> weights = np.array([0.25, 0.75])
-    >>> float(weights @ match.starts), float(weights @ match.stops)
-    (0.275, 0.875)
-    """
-
-    joint: str
-    starts: Array
-    stops: Array
+They are seconds of the common clock.
+"""
 
 
 def match_contacts(
@@ -65,8 +52,8 @@ def match_contacts(
     --------
     >>> from mocap.datasets.samples import sample
     >>> walk, same_clock = sample("walk_straight"), Curve(0.0, 1.0, np.array([-0.5, 0.5, 1.5]))
-    >>> match = match_contacts([walk, walk[12:]], [same_clock, same_clock], (1.0, 3.0))[1]
-    >>> match.joint, match.starts.round(1)
+    >>> joint, (starts, stops) = match_contacts([walk, walk[12:]], [same_clock, same_clock], (1.0, 3.0))[1]
+    >>> joint, starts.round(1)
     ('lfoot', array([2.5, 2.4]))
     """
     joints = [joint for joint in clips[0].contacts if all(joint in clip.contacts for clip in clips)]
@@ -84,8 +71,8 @@ def match_contacts(
             for low, high in pairwise([-np.inf, *pauses, np.inf]):
                 parts = [_within(own, low, high) for own in of_clips]
                 if all(parts):
-                    starts, stops = [own[0][0] for own in parts], [own[-1][1] for own in parts]
-                    matches.append(SharedPlant(joint, frozen(starts, np.float64), frozen(stops, np.float64)))
+                    ends = [[own[0][0] for own in parts], [own[-1][1] for own in parts]]
+                    matches.append((joint, frozen(ends, np.float64)))
     return tuple(matches)
 
 

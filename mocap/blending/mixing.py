@@ -86,9 +86,9 @@ def mix(
     clips = registration.clips
     nearest = [np.rint(c(times) * clip.fps) for c, clip in zip(registration.times, clips, strict=True)]
     heaviest = shares.argmax(axis=1)
-    contacts = {match.joint: np.zeros(len(times), bool) for match in registration.contacts}
-    for match in registration.contacts:  # its start and its stop are blended, too
-        contacts[match.joint] |= (times >= shares @ match.starts - 1e-9) & (times < shares @ match.stops)
+    contacts = {joint: np.zeros(len(times), bool) for joint, _ in registration.contacts}
+    for joint, (starts, stops) in registration.contacts:  # the start and the stop are blended, too
+        contacts[joint] |= (times >= shares @ starts - 1e-9) & (times < shares @ stops)
     frames = np.array(nearest)[heaviest, np.arange(len(times))].astype(np.intp)
     return Motion(
         clips[0].skeleton,

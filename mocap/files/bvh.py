@@ -20,12 +20,12 @@ from numpy.typing import NDArray
 from mocap._shared.arrays import Array
 from mocap._shared.atomic import replacing
 from mocap.body import euler, rotations
-from mocap.body.motion import Motion, turning
+from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError, shortened, warn
 from mocap.files.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
 from mocap.files.recordings import Recording
-from mocap.files.rigid_bones import STRETCH, fit
+from mocap.files.rigid_bones import APART, STRETCH, fit
 from mocap.files.text import LARGEST, check_room, quick_numbers, read_text, to_numbers
 
 SCALE = 0.01  # metres in one unit of the files that are written, and by default of those that are read
@@ -154,24 +154,26 @@ def _rigid(
     moving = [j for j in range(1, len(joints)) if _moves(places[:, j], 1.0)]
     if not moving:
         return np.vstack([np.zeros((1, 3)), places[0, 1:]]), local
-    rigid = fit(np.array([joint.parent for joint in joints]), places, local)
-    worst = int(rigid.stretch.argmax())
-    if not rigid.close(most):
+    offsets, fitted, stretch, apart = fit(np.array([joint.parent for joint in joints]), places, local)
+    worst = int(stretch.argmax())
+    if stretch.max() > most or apart.max() > APART * most:
         far, mover = max((float(np.ptp(places[:, j], axis=0).max()), j) for j in moving)
         expected = f"'{joints[mover].name}' in one place below its parent, but for {most:g} m"
         raise FormatError(path, joints[mover].line, expected, f"one that moves by {far:.2g} m")
-    change = f"{1000 * rigid.stretch[worst]:.2g} mm ({shortened(joints[worst].name, 40)})"
-    off = f"fitted to rigid bones, joints lie up to {1000 * rigid.apart.max():.2g} mm from their places"
+    change = f"{1000 * stretch[worst]:.2g} mm ({shortened(joints[worst].name, 40)})"
+    off = f"fitted to rigid bones, joints lie up to {1000 * apart.max():.2g} mm from their places"
     warn(f"{path}: bones change length by up to {change}; {off} in the file.")
-    return rigid.offsets, rigid.rotations
+    return offsets, fitted
 
 
 def _moves(place: Array, scale: float) -> bool:
     return bool(np.ptp(place, axis=0).max() * scale > STILL)
 
 
-def write(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
-    """Write a BVH file, in centimetres.
+def write(
+    pieces: Iterable[Motion], path: str | Path, *, frames: int, turns: NDArray[np.bool_], precision: int = 6
+) -> None:
+    """Write a BVH file of motions that follow one another, in centimetres, one of them in memory at a time.
 
     Joints are written depth first. A leaf that never turns, and has the name that reading would give it,
     becomes an End Site; any other leaf is a joint with an End Site of zero length. Of all equal angles the
@@ -179,29 +181,15 @@ def write(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
 
     Parameters
     ----------
-    motion : F frames.
+    pieces : motions of one skeleton and rate, with `frames` frames together.
     path : the file; one that exists is replaced when the new one is whole.
+    frames : the count in the file's header.
+    turns : shape (J,), which joints ever turn, as by `body.motion.turning`.
     precision : digits after the point; 6 keep joints to 1e-7 m.
 
     Raises
     ------
     MocapError : for a name or frame rate that a BVH file cannot hold, or a folder that cannot be written to.
-    """
-    write_pieces([motion], path, frames=len(motion), turns=turning(motion), precision=precision)
-
-
-def write_pieces(
-    pieces: Iterable[Motion], path: str | Path, *, frames: int, turns: NDArray[np.bool_], precision: int = 6
-) -> None:
-    """Write a BVH file of motions that follow one another, with only one of them in memory at a time.
-
-    Parameters
-    ----------
-    pieces : motions of one skeleton and rate, with `frames` frames together.
-    path : the file; it appears once it is whole.
-    frames : the count in the file's header.
-    turns : shape (J,), which joints ever turn, as by `body.motion.turning`.
-    precision : as for `write`.
     """
     first = next(pieces := iter(pieces))
     seconds, name = 1 / first.fps, shortened(first.name)

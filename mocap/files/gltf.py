@@ -9,13 +9,11 @@ from __future__ import annotations
 
 import json
 import struct
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mocap._shared.atomic import replacing
 from mocap.body import rotations
 from mocap.body.motion import Motion, turning
 from mocap.body.skeleton import Skeleton
@@ -32,26 +30,16 @@ VERTICES, CORNERS = 34962, 34963  # what an array is for
 CLAY = {"baseColorFactor": [0.45, 0.55, 0.65, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.8}
 
 
-def write(motion: Motion, path: str | Path) -> None:
-    """Write a `.glb` file; one that exists is replaced when the new one is whole.
+def glb(motion: Motion) -> bytes:
+    """Build the bytes of the file.
 
     Parameters
     ----------
     motion : F frames. Joints keep their names; labels and contacts are left out.
-    path : the file.
 
     Raises
     ------
-    MocapError : for more bytes than the format can count, frames too short for its clock, or a folder that
-        cannot be written to.
-    """
-    data = glb(motion)
-    with replacing(path) as beside:
-        beside.write_bytes(data)
-
-
-def glb(motion: Motion) -> bytes:
-    """Build the bytes of the file.
+    MocapError : for more bytes than the format can count, and frames too short for its clock.
 
     Examples
     --------

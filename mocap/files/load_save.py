@@ -5,7 +5,8 @@ from contextlib import suppress
 from pathlib import Path
 
 from mocap._shared.arrays import Array
-from mocap.body.motion import Motion
+from mocap._shared.atomic import replacing
+from mocap.body.motion import Motion, turning
 from mocap.errors import FormatError, MocapError
 from mocap.files import acclaim, amass, bvh, gltf
 from mocap.files.asf import read_skeleton
@@ -146,9 +147,11 @@ def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
         raise MocapError(f"precision must be 0 to 15 digits, got {precision}.")
     match path.suffix.lower():
         case ".bvh":
-            bvh.write(motion, path, precision=precision)
+            bvh.write([motion], path, frames=len(motion), turns=turning(motion), precision=precision)
         case ".glb":
-            gltf.write(motion, path)
+            data = gltf.glb(motion)
+            with replacing(path) as beside:
+                beside.write_bytes(data)
         case _:
             raise MocapError(f"Cannot write {path}: mocap writes {WRITTEN}.")
 

@@ -6,8 +6,6 @@ its mean length, and each joint turns so that its children come as close as they
 them. The method is ours, from the polar decomposition of a sum of outer products.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -19,27 +17,7 @@ APART = 2.5  # times as far a joint may come to lie from its place in the file
 KEPT = 1e-3  # of the bones' square lengths: how much a joint's own turn counts, so that it keeps its twist
 
 
-class Rigid(NamedTuple):
-    """Bones that were fitted: `offsets` (J, 3), metres, `rotations` (F, J, 4), and what that changes.
-
-    `stretch` (J,) says by how much each bone's length changes in the file, `apart` (J,) how far each joint
-    lies from its place there at most, metres.
-    """
-
-    offsets: Array
-    rotations: Array
-    stretch: Array
-    apart: Array
-
-    def close(self, stretch: float = STRETCH) -> bool:
-        """Check whether no bone changes by more than `stretch`, and no joint lies further off than allowed.
-
-        A joint may come to lie 2.5 times as far from its place as a bone may change its length.
-        """
-        return bool(self.stretch.max() <= stretch and self.apart.max() <= APART * stretch)
-
-
-def fit(parents: NDArray[np.intp], places: Array, local: Array) -> Rigid:
+def fit(parents: NDArray[np.intp], places: Array, local: Array) -> tuple[Array, Array, Array, Array]:
     r"""Fit rigid bones, from the root down.
 
     A bone gets its mean direction and mean length in its parent's frame. The global turn R of a joint with
@@ -53,14 +31,19 @@ def fit(parents: NDArray[np.intp], places: Array, local: Array) -> Rigid:
     places : shape (F, J, 3), metres: where each joint is in its parent's frame; the root in the world.
     local : shape (F, J, 4), quaternions against the parent's frame.
 
+    Returns
+    -------
+    The bones' offsets (J, 3), metres; rotations (F, J, 4); by how much each bone changes its length in the
+    file, (J,), metres; and how far each joint lies from its place there at most, (J,), metres.
+
     Examples
     --------
     A bone that points up, then sideways: the joint below it turns, and the bone is as long as before.
 
     >>> moving = np.array([[[0, 0, 0], [0, 1, 0]], [[0, 0, 0], [1, 0, 0]]], float)
-    >>> rigid = fit(np.array([-1, 0]), moving, np.tile(rotations.IDENTITY, (2, 2, 1)))
-    >>> rigid.close(), rigid.offsets[1].round(2)
-    (True, array([0.71, 0.71, 0.  ]))
+    >>> offsets, _, stretch, _ = fit(np.array([-1, 0]), moving, np.tile(rotations.IDENTITY, (2, 2, 1)))
+    >>> offsets[1].round(2), float(stretch.max())
+    (array([0.71, 0.71, 0.  ]), 0.0)
     """
     lengths = np.linalg.norm(places, axis=-1)
     middle = places.mean(axis=0)
@@ -82,7 +65,7 @@ def fit(parents: NDArray[np.intp], places: Array, local: Array) -> Rigid:
     stretch = np.ptp(lengths, axis=0)
     stretch[0] = 0.0
     apart = np.linalg.norm(here - there, axis=-1).max(axis=0)
-    return Rigid(offsets, rotations.from_matrix(own), stretch, apart)
+    return offsets, rotations.from_matrix(own), stretch, apart
 
 
 def _in_world(parents: NDArray[np.intp], places: Array, local: Array) -> tuple[Array, Array]:

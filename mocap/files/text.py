@@ -5,6 +5,7 @@ import re
 from collections.abc import Iterator
 from contextlib import suppress
 from io import StringIO
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -170,12 +171,11 @@ def load_rows(path: str | Path, names: tuple[str, ...] = ("x", "z")) -> Array:
     rows: list[Array] = []
     example = ", ".join(("1.5", "2", "0.5")[: len(names)])
     expected = f"{', '.join(names[:-1])} and {names[-1]} in each line, such as '{example}'"
-    for number, line in enumerate(read_text(path).split("\n"), 1):
-        text = line.partition("#")[0]
-        parts = [part.split() or [""] for part in text.replace(";", ",").split(",")]
-        if not text.strip() or (not rows and not re.search(r"\d", line)):
-            continue
-        rows.append(to_numbers(path, number, [word for part in parts for word in part], expected, len(names)))
+    for number, words in lines(read_text(path)):
+        line = " ".join(words)
+        if rows or re.search(r"\d", line):
+            cells = [cell.split() or [""] for cell in line.replace(";", ",").split(",")]
+            rows.append(to_numbers(path, number, [*chain.from_iterable(cells)], expected, len(names)))
     if not rows:
         raise FormatError(path, None, expected, "no numbers")
     return np.array(rows)

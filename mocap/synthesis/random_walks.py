@@ -13,7 +13,8 @@ from mocap.body.motion import Motion, concatenate, turning
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import MocapError, NoWalk
 from mocap.feet.footskate import clean_up
-from mocap.files import bvh, gltf
+from mocap.files import bvh
+from mocap.files.load_save import save
 from mocap.graphs.edge_tables import Edge, edge_table, require_node
 from mocap.graphs.motion_graph import MotionGraph, Node
 from mocap.synthesis.walk_to_motion import places, to_motion, with_plants
@@ -220,8 +221,8 @@ def dump(  # noqa: PLR0913 (which walk, where to, how long, and how)
     pieces = cleaned(pieces) if clean else pieces
     shown = (next(pieces) for _ in progress(counts))
     if suffix == ".glb":
-        gltf.write(concatenate(list(shown)), path)
+        save(concatenate(list(shown)), path)
         return sum(counts)
     turns = np.any([turning(clip) for clip in motion_graph.clips], axis=0)
-    bvh.write_pieces(shown, path, frames=sum(counts), turns=turns)
+    bvh.write(shown, path, frames=sum(counts), turns=turns)
     return sum(counts)

@@ -143,8 +143,9 @@ def test_marks_are_the_matched_plants_and_the_labels_of_the_heaviest():
     for weights, label in (([0.6, 0.4], "walk"), ([0.4, 0.6], "sneak")):
         blend = mix(registration, weights)
         assert blend.labels[label].all() and set(blend.contacts) <= set(walk.contacts)
-        plant, (times, _) = registration.contacts[1], frame_times(registration, weights, fps=blend.fps)
-        ends = np.stack([plant.starts, plant.stops]) @ weights - times[blend.contacts[plant.joint]][:, None]
+        times, _ = frame_times(registration, weights, fps=blend.fps)
+        joint, plant = registration.contacts[1]
+        ends = plant @ weights - times[blend.contacts[joint]][:, None]
         assert np.abs(ends).min(axis=0).max() < 1 / blend.fps
     bare = register([replace(clip, labels={}, contacts={}) for clip in (walk, sneak)])
     assert not mix(bare, HALF).labels and not mix(bare, HALF).contacts

@@ -12,7 +12,7 @@ from PIL import Image
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import resample
 from mocap.datasets import samples
-from mocap.files import gltf
+from mocap.files.load_save import save
 from tests.browser.conftest import wait_until
 
 ADDRESS = "http://127.0.0.1:9"  # nobody listens there: the test itself answers
@@ -32,7 +32,7 @@ def three():
 
 def test_three_js_puts_all_joints_where_ours_are(page, three, tmp_path):
     walk = resample(samples.sample("walk_straight"), 30)
-    gltf.write(walk, tmp_path / "walk.glb")
+    save(walk, tmp_path / "walk.glb")
 
     def answer(route):
         name = route.request.url.removeprefix(ADDRESS + "/")

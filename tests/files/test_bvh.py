@@ -12,7 +12,7 @@ from hypothesis.extra.numpy import arrays
 
 from mocap.body import Motion, Skeleton, euler, joint_positions, rotations
 from mocap.errors import FormatError
-from mocap.files import bvh, load_save
+from mocap.files import load_save
 from tests.refusals import refused
 from tests.strategies import random_motion, seeds, wave
 
@@ -244,7 +244,7 @@ def motions(draw):
 @given(motions())
 def test_what_is_written_reads_back(tmp_path_factory, motion):
     path = tmp_path_factory.getbasetemp() / "a.bvh"
-    bvh.write(motion, path, precision=11)
+    load_save.save(motion, path, precision=11)
     back = load_save.load(path)
     assert set(back.skeleton.names) == set(motion.skeleton.names)
     order = [back.skeleton.index(name) for name in motion.skeleton.names]
@@ -253,7 +253,7 @@ def test_what_is_written_reads_back(tmp_path_factory, motion):
     parents = [motion.skeleton.names[parent] for parent in motion.skeleton.parents[1:]]
     assert [back.skeleton.names[back.skeleton.parents[joint]] for joint in order[1:]] == parents
     assert back.fps == pytest.approx(motion.fps, rel=1e-12)
-    bvh.write(back, path)
+    load_save.save(back, path)
     assert load_save.load(path).skeleton.names == back.skeleton.names  # depth first by now
 
 
@@ -261,7 +261,7 @@ def test_curves_are_continuous(tmp_path):
     steps = np.arange(400)[:, None] * [3.0, 2.0, -1.0] + [0.3, 0.7, 0.2]  # x passes ±90° again and again
     turns = euler.from_euler("ZXY", np.radians(steps))[:, None]
     spinning = Motion(Skeleton(["a"], [-1], np.zeros((1, 3))), np.zeros((400, 3)), turns, 30.0)
-    bvh.write(spinning, tmp_path / "a.bvh")
+    load_save.save(spinning, tmp_path / "a.bvh")
     written = np.loadtxt((tmp_path / "a.bvh").read_text().split("Frame Time")[1].splitlines()[1:])[:, 3:]
     assert np.allclose(written - steps, (written - steps)[0], atol=1e-5)  # up to whole turns
 
@@ -275,7 +275,7 @@ NAMES_REFUSED = [(name, 30.0, "cannot hold a joint called") for name in ("a{b", 
 )
 def test_names_and_rates_that_would_not_read_back_are_refused(tmp_path, name, fps, message):
     motion = Motion(Skeleton([name], [-1], np.zeros((1, 3))), np.zeros((1, 3)), [[[1, 0, 0, 0]]], fps)
-    refused(message, bvh.write, motion, tmp_path / "a.bvh")
+    refused(message, load_save.save, motion, tmp_path / "a.bvh")
     assert not list(tmp_path.iterdir())
 
 

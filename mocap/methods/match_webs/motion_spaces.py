@@ -204,8 +204,7 @@ def blend_of(
     some = np.flatnonzero(np.abs(w) > 1e-9)
     of_clips = ("clips", "times", "angles", "centres")
     parts = {part: tuple(getattr(registration, part)[n] for n in some) for part in of_clips}
-    shared = registration.contacts
-    parts["contacts"] = tuple(m._replace(starts=m.starts[some], stops=m.stops[some]) for m in shared)
+    parts["contacts"] = tuple((joint, ends[:, some]) for joint, ends in registration.contacts)
     reference = int(np.abs(w[some]).argmax())
     few = replace(registration, reference=reference, costs=registration.costs[some], **parts)
     return mix(few, w[some] / w[some].sum(), fps=fps, rounds=rounds)
