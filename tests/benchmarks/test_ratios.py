@@ -29,7 +29,7 @@ from mocap.matching.transitions import Transitions, find_transitions
 from mocap.methods.match_webs import blend_of, build_web, search, weights_for
 from mocap.steering import Controller, FootTurner, follow_path, measure_delay
 from mocap.synthesis import random_walk, to_motion
-from tests.benchmarks.timing import fastest, least
+from tests.benchmarks.timing import fastest, held, least
 from tests.blending.registered import walks
 from tests.bundled import walking, walks_of_16
 from tests.editing.bodies import adult, child, without
@@ -123,11 +123,6 @@ BESIDE_KINEMATICS = [
     ("register three", 10, lambda: (partial(register, three()), *three())),
     ("mix three", 10, lambda: (partial(mix, register(three()), np.full(3, 1 / 3)), *three())),
 ]
-
-
-def held(what, ratio, most):
-    print(f"\n{what}: {ratio:.3g}, at most {most:.3g}")
-    assert ratio <= most
 
 
 @each(BESIDE_KINEMATICS)

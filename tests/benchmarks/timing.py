@@ -19,3 +19,9 @@ def fastest(*works, turns=5):
 def least(work, times=5):
     """Give the seconds of one work."""
     return float(fastest(work, turns=times)[0])
+
+
+def held(what, took, most):
+    """Say what something takes, and hold it to a bound."""
+    print(f"\n{what}: {took:.3g}, at most {most:.3g}")
+    assert took <= most

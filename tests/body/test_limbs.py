@@ -22,16 +22,16 @@ NAMED = body("h1", "k1", "a1", "b1", "h2", "k2", "a2", "b2")
 FOOTLESS = body("lfemur", "ltibia", "lfoot", "rfemur", "rtibia", "rfoot")
 
 
-@pytest.mark.parametrize(
-    "names",
-    [
-        "lfemur ltibia lfoot ltoes rfemur rtibia rfoot rtoes",
-        "LeftUpLeg LeftLeg LeftFoot LeftToeBase RightUpLeg RightLeg RightFoot RightToeBase",
-        "LeftHip LeftKnee LeftAnkle LeftAnkle_end RightHip RightKnee RightAnkle RightAnkle_end",
-        "UpperLeg_L LowerLeg_L Foot_L Toes_L UpperLeg_R LowerLeg_R Foot_R Toes_R",
-        "a:LeftUpLeg a:LeftLeg a:LeftFoot a:LeftToeBase a:RightUpLeg a:RightLeg a:RightFoot a:RightToeBase",
-    ],
-)
+LEGS = [
+    "lfemur ltibia lfoot ltoes rfemur rtibia rfoot rtoes",
+    "LeftUpLeg LeftLeg LeftFoot LeftToeBase RightUpLeg RightLeg RightFoot RightToeBase",
+    "LeftHip LeftKnee LeftAnkle LeftAnkle_end RightHip RightKnee RightAnkle RightAnkle_end",
+    "UpperLeg_L LowerLeg_L Foot_L Toes_L UpperLeg_R LowerLeg_R Foot_R Toes_R",
+    "a:LeftUpLeg a:LeftLeg a:LeftFoot a:LeftToeBase a:RightUpLeg a:RightLeg a:RightFoot a:RightToeBase",
+]
+
+
+@pytest.mark.parametrize("names", LEGS)
 def test_legs_are_found_by_their_names(names):
     skeleton = body(*names.split())
     left, right = find_legs(skeleton)

@@ -41,16 +41,16 @@ def test_joints_turn_about_unturned_axes_unless_told_otherwise():
     assert body.dofs == ("xyz", "")
 
 
-@pytest.mark.parametrize(
-    ("names", "sides"),
-    [
-        (["root", "lowerback", "lfemur", "rfemur"], ["middle", "middle", "left", "right"]),
-        (["Hips", "LeftUpLeg", "RightUpLeg"], ["middle", "left", "right"]),
-        (["spine", "Shoulder_R", "Shoulder_L"], ["middle", "right", "left"]),
-        (["pelvis", "foot_l", "foot_r"], ["middle", "left", "right"]),
-        (["lowerneck", "ltoes"], ["middle", "middle"]),
-    ],
-)
+SIDES = [
+    (["root", "lowerback", "lfemur", "rfemur"], ["middle", "middle", "left", "right"]),
+    (["Hips", "LeftUpLeg", "RightUpLeg"], ["middle", "left", "right"]),
+    (["spine", "Shoulder_R", "Shoulder_L"], ["middle", "right", "left"]),
+    (["pelvis", "foot_l", "foot_r"], ["middle", "left", "right"]),
+    (["lowerneck", "ltoes"], ["middle", "middle"]),
+]
+
+
+@pytest.mark.parametrize(("names", "sides"), SIDES)
 def test_sides_are_read_off_the_names(names, sides):
     body = Skeleton(names, [-1, *[0] * (len(names) - 1)], np.zeros((len(names), 3)))
     assert [body.side(j) for j in range(len(names))] == sides

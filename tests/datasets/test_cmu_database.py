@@ -59,14 +59,14 @@ def test_a_subject_and_a_kind(server):
     refused(r"No trial '../../x_1' is listed; `mocap data list`", cmu_database.cmu, "../../x_1")
 
 
-@pytest.mark.parametrize(
-    ("how", "message"),
-    [
-        ("missing", r"07_01.amc answers 404: try again later, or put a copy of .*MOCAP_DATA"),
-        ("half", r"07_01.amc breaks off or does not answer: try again later, or put a copy"),
-        ("wrong", r"07_01.amc is not the file listed: its checksum differs; put a copy"),
-    ],
-)
+WRONG = [
+    ("missing", r"07_01.amc answers 404: try again later, or put a copy of .*MOCAP_DATA"),
+    ("half", r"07_01.amc breaks off or does not answer: try again later, or put a copy"),
+    ("wrong", r"07_01.amc is not the file listed: its checksum differs; put a copy"),
+]
+
+
+@pytest.mark.parametrize(("how", "message"), WRONG)
 def test_what_goes_wrong_is_said_and_not_kept(server, tmp_path, how, message):
     server.how["07/07_01.amc"] = how
     refused(message, cmu_database.cmu, "07_01")

@@ -17,16 +17,16 @@ def box(low, high=None, joint=1):
     return Pins((joint,), low.reshape(1, 1, 3), np.asarray(low if high is None else high).reshape(1, 1, 3))
 
 
-@pytest.mark.parametrize(
-    ("low", "high", "gap"),
-    [
-        ([1, 2, 3], [1, 2, 3], [1, 2, 3]),  # a hold
-        ([1, 2, -INF], [1, 2, INF], [1, 2, 0]),  # a rail along z
-        ([-INF, 0.5, -INF], [INF] * 3, [0, 0.5, 0]),  # a floor above the joint
-        ([-INF] * 3, [INF, -0.5, INF], [0, -0.5, 0]),  # a bar below it
-        ([-1, -1, -1], [1, 1, 1], [0, 0, 0]),  # a box that it is in
-    ],
-)
+BOXES = [
+    ([1, 2, 3], [1, 2, 3], [1, 2, 3]),  # a hold
+    ([1, 2, -INF], [1, 2, INF], [1, 2, 0]),  # a rail along z
+    ([-INF, 0.5, -INF], [INF] * 3, [0, 0.5, 0]),  # a floor above the joint
+    ([-INF] * 3, [INF, -0.5, INF], [0, -0.5, 0]),  # a bar below it
+    ([-1, -1, -1], [1, 1, 1], [0, 0, 0]),  # a box that it is in
+]
+
+
+@pytest.mark.parametrize(("low", "high", "gap"), BOXES)
 def test_the_gap_is_the_way_into_the_box(low, high, gap):
     """As in [Gle98, constraints]."""
     pins = box(low, high)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
-from mocap.body import Motion, find_legs, resample, rotations
+from mocap.body import Motion, concatenate, find_legs, resample, rotations
 from mocap.body.kinematics import forward_kinematics, joint_positions
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
@@ -23,14 +23,8 @@ def standing(pose: Motion, fps: float, *, knee: float, bow: float, sway: float) 
     """Let a body stand for 5 s on knees bent by some degrees, breathe, bow, sway by metres, and tremble."""
     random, frames = np.random.default_rng(1), int(5 * fps)
     share = np.sin(np.linspace(0, np.pi, frames)) ** 2
-    still = replace(
-        pose,
-        root_positions=pose.root_positions - 0.04 * share[:, None] * UP * (bow > 0),
-        rotations=pose.rotations.repeat(frames, axis=0),
-        fps=fps,
-        contacts={},
-        labels={},
-    )
+    still = concatenate([replace(pose, fps=fps, contacts={}, labels={})] * frames)
+    still = replace(still, root_positions=still.root_positions - 0.04 * share[:, None] * UP * (bow > 0))
     local, legs, ankles = still.rotations.copy(), find_legs(pose.skeleton), forward_kinematics(pose).positions
     nod = rotations.from_rotvec(
         np.radians(bow * share + np.sin(np.linspace(0, 8, frames)))[:, None] * [1, 0, 0]

@@ -95,19 +95,19 @@ WALKS = (*range(11, 35), 47, 58)
 RUNS = (35, 38, 42, 45, 52, 56)
 
 
+CAPTURED = [
+    (30.0, WALKS[::3], 0.999),
+    (120.0, RUNS[:2], 0.98),
+    *(
+        pytest.param(fps, trials, least, marks=pytest.mark.sweep)
+        for fps in (120.0, 30.0)
+        for trials, least in ((WALKS, 0.995), (RUNS, 0.98))
+    ),
+]
+
+
 @pytest.mark.filterwarnings("ignore:.*let go")  # tested below
-@pytest.mark.parametrize(
-    ("fps", "trials", "least"),
-    [
-        (30.0, WALKS[::3], 0.999),
-        (120.0, RUNS[:2], 0.98),
-        *(
-            pytest.param(fps, trials, least, marks=pytest.mark.sweep)
-            for fps in (120.0, 30.0)
-            for trials, least in ((WALKS, 0.995), (RUNS, 0.98))
-        ),
-    ],
-)
+@pytest.mark.parametrize(("fps", "trials", "least"), CAPTURED)
 def test_captured_feet_drift_and_afterwards_stand(real_data, trials, least, fps):
     """As in [KSG02, all steps]."""
     folder = real_data / "cmu" / "16"

@@ -11,21 +11,13 @@ from mocap.datasets import samples
 from mocap.errors import FormatError, MocapError
 from mocap.files import load_save, path_files
 from mocap.files.asf import read_skeleton
-from tests.files.acclaim_clips import write_acclaim
+from tests.files.acclaim_clips import AMC, ASF
 from tests.strategies import wave
 
 CHARACTERS = " \n\t\r{}#:.-+eE019,()\x0b\x85_\0\ufeff"
 WORDS = ["nan", "inf", "1e999", "9" * 30, "-", "1_0", "end\n", "begin\n", "root ", "JOINT x\n{\n", "}\n", "٣"]
-WORDS += [
-    "CHANNELS 0\n",
-    "End Site\n",
-    "Frames: 9\n",
-    ":root\n",
-    "dof rx\n",
-    "\n7\n",
-    "\u2028",
-    "<<<<<<< a\n",
-]
+WORDS += ["CHANNELS 0\n", "End Site\n", "Frames: 9\n", ":root\n"]
+WORDS += ["dof rx\n", "\n7\n", "\u2028", "<<<<<<< a\n"]
 
 
 def mutated(text, chance):
@@ -60,11 +52,8 @@ def cut(path, lines):
 @pytest.fixture
 def bases(tmp_path, request):
     """Return pairs of a skeleton's and a clip's texts; real ones, too, where they are at hand."""
-    walk = samples.sample("walk_straight")[:3]
-    load_save.save(walk, tmp_path / "a.bvh")
-    write_acclaim(walk, tmp_path / "a.amc")
-    made = {name: (tmp_path / name).read_text() for name in ("a.amc", "a.asf", "a.bvh")}
-    pairs = [(made["a.asf"], made["a.amc"]), (None, made["a.bvh"])]
+    load_save.save(samples.sample("walk_straight")[:3], tmp_path / "a.bvh")
+    pairs = [(ASF, AMC), (None, (tmp_path / "a.bvh").read_text())]
     try:
         data = request.getfixturevalue("real_data")
     except pytest.skip.Exception:
@@ -143,12 +132,11 @@ def broken(text):
 @pytest.mark.parametrize("long", ["words", "names"])
 @pytest.mark.parametrize("suffix", [".amc", ".asf", ".bvh"])
 def test_long_words_and_names_make_no_long_messages(tmp_path, suffix, long):
-    if suffix == ".bvh":
-        load_save.save(wave(2), tmp_path / "a.bvh")
-    else:
-        write_acclaim(wave(2), tmp_path / "a.amc")
+    load_save.save(wave(2), tmp_path / "a.bvh")
+    (tmp_path / "a.asf").write_text(ASF)
+    (tmp_path / "a.amc").write_text(AMC)
     for path in tmp_path.iterdir() if long == "names" else ():
-        path.write_text(re.sub(r"elbow|hand|side", lambda name: name[0] * 5_000, path.read_text()))
+        path.write_text(re.sub(r"elbow|hand|side|thigh|arm", lambda name: name[0] * 5_000, path.read_text()))
     path = tmp_path / f"a{suffix}"
     read = read_skeleton if suffix == ".asf" else load_save.load
     texts = (broken if long == "names" else long_ones)(path.read_text())

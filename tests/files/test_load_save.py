@@ -34,30 +34,30 @@ def folder(tmp_path):
     return fill
 
 
-@pytest.mark.parametrize(
-    ("skeletons", "length"),
-    [
-        ({"other": ("spine", 1)}, 1),
-        ({"other": ("tail", 1), "another": ("spine", 2)}, 2),
-        ({"other": ("spine", 1), "_16": ("spine", 2)}, 2),
-        ({"other": ("spine", 1), "_16": ("spine", 2), "_16_15": ("spine", 3)}, 3),
-        ({"_16_15": ("tail", 1), "_16": ("spine", 2)}, 2),
-    ],
-)
+FITTING = [
+    ({"other": ("spine", 1)}, 1),
+    ({"other": ("tail", 1), "another": ("spine", 2)}, 2),
+    ({"other": ("spine", 1), "_16": ("spine", 2)}, 2),
+    ({"other": ("spine", 1), "_16": ("spine", 2), "_16_15": ("spine", 3)}, 3),
+    ({"_16_15": ("tail", 1), "_16": ("spine", 2)}, 2),
+]
+
+
+@pytest.mark.parametrize(("skeletons", "length"), FITTING)
 def test_the_skeleton_that_fits_is_found(folder, skeletons, length):
     motion = load_save.load(folder(**skeletons))
     assert np.allclose(motion.skeleton.offsets[-1], [0, length * 0.0254, 0])
     assert motion.name == "16_15"
 
 
-@pytest.mark.parametrize(
-    ("skeletons", "message"),
-    [
-        ({}, r"named by skeleton=, got none$"),
-        ({"a": ("tail", 1), "b": ("tail", 1)}, r"none that fits \(a.ASF, b.ASF\)"),
-        ({"a": ("spine", 1), "b": ("spine", 2)}, r"several that fit \(a.ASF, b.ASF\)"),
-    ],
-)
+CANDIDATES = [
+    ({}, r"named by skeleton=, got none$"),
+    ({"a": ("tail", 1), "b": ("tail", 1)}, r"none that fits \(a.ASF, b.ASF\)"),
+    ({"a": ("spine", 1), "b": ("spine", 2)}, r"several that fit \(a.ASF, b.ASF\)"),
+]
+
+
+@pytest.mark.parametrize(("skeletons", "message"), CANDIDATES)
 def test_the_candidates_are_named(folder, skeletons, message):
     refused(message, load_save.load, folder(**skeletons))
 

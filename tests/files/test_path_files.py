@@ -22,16 +22,16 @@ def test_tables_are_read(tmp_path, text):
     assert load_path(file, scale=0.5).points.tolist() == [[0, 0], [0.5, 1]]
 
 
-@pytest.mark.parametrize(
-    "body",
-    [
-        '<path d="M 0 0 L 100 0 L 100 -200"/>',
-        '<path d="m0,0 100,0 0-200"/>',
-        '<g><path d="M0 0H100V-200"/></g>',
-        '<path d="M0 0h1e2v-2e2M 5 5 L 9 9"/>',
-        '<polyline points="0,0 100,0 100,-200"/>',
-    ],
-)
+CORNERS = [
+    '<path d="M 0 0 L 100 0 L 100 -200"/>',
+    '<path d="m0,0 100,0 0-200"/>',
+    '<g><path d="M0 0H100V-200"/></g>',
+    '<path d="M0 0h1e2v-2e2M 5 5 L 9 9"/>',
+    '<polyline points="0,0 100,0 100,-200"/>',
+]
+
+
+@pytest.mark.parametrize("body", CORNERS)
 def test_the_same_corner_drawn_in_many_ways(tmp_path, body):
     assert load_path(svg(tmp_path, body)).points == pytest.approx(np.array([[0, 0], [-1, 0], [-1, 2]]))
 
@@ -90,19 +90,19 @@ def test_only_a_curve_of_the_same_kind_is_mirrored(tmp_path, before, smooth, pla
     assert np.allclose(one.points, other.points) != same
 
 
-@pytest.mark.parametrize(
-    ("transform", "end"),
-    [
-        ("matrix(1 2 3 4 5 6)", (5 + 1 * 10 + 3 * 20, 6 + 2 * 10 + 4 * 20)),
-        ("translate(5)", (15, 20)),
-        ("translate(5, 6)", (15, 26)),
-        ("scale(2)", (20, 40)),
-        ("scale(2 3)", (20, 60)),
-        ("rotate(90)", (-20, 10)),
-        ("rotate(90, 10, 0)", (-10, 0)),
-        ("translate(5) scale(2), rotate(90)", (-35, 20)),  # the last comes first
-    ],
-)
+TRANSFORMS = [
+    ("matrix(1 2 3 4 5 6)", (5 + 1 * 10 + 3 * 20, 6 + 2 * 10 + 4 * 20)),
+    ("translate(5)", (15, 20)),
+    ("translate(5, 6)", (15, 26)),
+    ("scale(2)", (20, 40)),
+    ("scale(2 3)", (20, 60)),
+    ("rotate(90)", (-20, 10)),
+    ("rotate(90, 10, 0)", (-10, 0)),
+    ("translate(5) scale(2), rotate(90)", (-35, 20)),  # the last comes first
+]
+
+
+@pytest.mark.parametrize(("transform", "end"), TRANSFORMS)
 def test_transforms_move_what_is_drawn(tmp_path, transform, end):
     body = f'<defs><line x2="1"/></defs><line transform="{transform}" x2="10" y2="20"/>'
     assert load_path(svg(tmp_path, body), scale=1).points[-1] == pytest.approx(np.negative(end))
@@ -116,46 +116,46 @@ def test_groups_carry_what_is_in_them(tmp_path):
     assert load_path(svg(tmp_path, body), scale=1).points.tolist() == [[-100, 0], [-102, -2]]
 
 
-@pytest.mark.parametrize(
-    ("body", "message"),
-    [
-        ("", "a path, polyline, polygon or line, got none"),
-        ('<path d=""/>', "starts with 'M'"),
-        ('<path d="M 0 0 L 5"/>', "2 numbers for 'L'"),
-        ('<path d="M 0 0 L 55"/>', "2 numbers for 'L', got 1"),
-        ('<path d="M 0 0 C 1 2 3 4 5 6 7"/>', "6 numbers for 'C', got 1"),
-        ('<path d="M 0 0 L"/>', "2 numbers for 'L', got 0"),
-        ('<path d="M 0 0 L 5 *"/>', "numbers for 'L', got '[*]' as number 2"),
-        ('<path d="M 0 0 B 5 5"/>', "the commands M L H V C S Q T A Z, got 'B'"),
-        ('<path d="M 0 0 L 5 5 z 9 9"/>', "the commands M L .* got '9'"),
-        ('<path d="M 0 0 A 5 5 0 2 1 9 9"/>', "flags 0 or 1 for 'A', got '5 5 0 2 1 9 9'"),
-        ('<path transform="scale(1, 2, 3)" d="M 0 0 L 5 5"/>', r"a transform, got 'scale\(1, 2, 3\)'"),
-        ('<path transform="perspective(9)" d="M 0 0 L 5 5"/>', "a transform, got 'perspective"),
-        ('<g transform="scale 2"><path d="M 0 0 L 5 5"/></g>', "a transform, got 'scale 2'"),
-        ('<defs><path d="M 0 0 L 5 5"/></defs>', "a path, polyline, polygon or line, got none"),
-        ('<path d="M 0 0 L 0 0"/>', "zero length"),
-        ('<polyline points="0 0"/>', "two points"),
-        ('<polyline points="0 0 9 9 5"/>', "2 numbers for each point of a polyline, got 1"),
-        ('<polyline points="0 0 9 x"/>', "2 numbers for each point of a polyline, got 1"),
-        ('<line x2="10em"/>', "2 numbers for each point of a line, got 1"),
-        ('<line x2=""/>', "2 numbers for each point of a line, got 1"),
-        ('<g display="none"><path d="M 0 0 L 5 5"/></g>', "got none"),
-        ("<path", "SVG picture"),
-    ],
-)
+PATHLESS = [
+    ("", "a path, polyline, polygon or line, got none"),
+    ('<path d=""/>', "starts with 'M'"),
+    ('<path d="M 0 0 L 5"/>', "2 numbers for 'L'"),
+    ('<path d="M 0 0 L 55"/>', "2 numbers for 'L', got 1"),
+    ('<path d="M 0 0 C 1 2 3 4 5 6 7"/>', "6 numbers for 'C', got 1"),
+    ('<path d="M 0 0 L"/>', "2 numbers for 'L', got 0"),
+    ('<path d="M 0 0 L 5 *"/>', "numbers for 'L', got '[*]' as number 2"),
+    ('<path d="M 0 0 B 5 5"/>', "the commands M L H V C S Q T A Z, got 'B'"),
+    ('<path d="M 0 0 L 5 5 z 9 9"/>', "the commands M L .* got '9'"),
+    ('<path d="M 0 0 A 5 5 0 2 1 9 9"/>', "flags 0 or 1 for 'A', got '5 5 0 2 1 9 9'"),
+    ('<path transform="scale(1, 2, 3)" d="M 0 0 L 5 5"/>', r"a transform, got 'scale\(1, 2, 3\)'"),
+    ('<path transform="perspective(9)" d="M 0 0 L 5 5"/>', "a transform, got 'perspective"),
+    ('<g transform="scale 2"><path d="M 0 0 L 5 5"/></g>', "a transform, got 'scale 2'"),
+    ('<defs><path d="M 0 0 L 5 5"/></defs>', "a path, polyline, polygon or line, got none"),
+    ('<path d="M 0 0 L 0 0"/>', "zero length"),
+    ('<polyline points="0 0"/>', "two points"),
+    ('<polyline points="0 0 9 9 5"/>', "2 numbers for each point of a polyline, got 1"),
+    ('<polyline points="0 0 9 x"/>', "2 numbers for each point of a polyline, got 1"),
+    ('<line x2="10em"/>', "2 numbers for each point of a line, got 1"),
+    ('<line x2=""/>', "2 numbers for each point of a line, got 1"),
+    ('<g display="none"><path d="M 0 0 L 5 5"/></g>', "got none"),
+    ("<path", "SVG picture"),
+]
+
+
+@pytest.mark.parametrize(("body", "message"), PATHLESS)
 def test_pictures_without_a_path_are_told(tmp_path, body, message):
     refused(message, load_path, svg(tmp_path, body))
 
 
-@pytest.mark.parametrize(
-    ("name", "text", "message"),
-    [
-        ("path.csv", "1,1", "two points"),
-        ("path.csv", f"0 0\n1{' ' * 500_000}x 2", "line 2: expected x and z .*, got 3"),
-        ("path.csv", "", "an empty file"),
-        ("path.png", "x", "give a .csv or .svg"),
-    ],
-)
+NO_TABLES = [
+    ("path.csv", "1,1", "two points"),
+    ("path.csv", f"0 0\n1{' ' * 500_000}x 2", "line 2: expected x and z .*, got 3"),
+    ("path.csv", "", "an empty file"),
+    ("path.png", "x", "give a .csv or .svg"),
+]
+
+
+@pytest.mark.parametrize(("name", "text", "message"), NO_TABLES)
 def test_tables_without_a_path_are_told(tmp_path, name, text, message):
     file = tmp_path / name
     file.write_text(text)
@@ -166,23 +166,23 @@ NESTED = 5000
 BOMB = "".join(f'<!ENTITY e{n + 1} "{f"&e{n};" * 10}">' for n in range(9))
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        (f'<!DOCTYPE svg [<!ENTITY e0 "L 9 9">{BOMB}]><svg><path d="M 0 0 &e9;"/></svg>', "SVG picture"),
-        ('<!DOCTYPE svg [<!ENTITY e SYSTEM "file:///etc/passwd">]><svg>&e;</svg>', "SVG picture, got undef"),
-        ('<!DOCTYPE svg SYSTEM "http://127.0.0.1:9/x.dtd"><svg/>', "a path, polyline, polygon or line"),
-        ("<g>" * NESTED + "</g>" * NESTED, "a path, polyline, polygon or line"),
-        ('<g transform="scale(1e8)">' * 99 + '<line x2="1"/>' + "</g>" * 99, "not finite"),
-        ('<path d="M 0 0 L 1e999 0"/>', "numbers for 'L', all below 1e[+]09"),
-        (f'<path d="M 0 0 L 1 {"1" * 200_000}"/>', "numbers for 'L', all below"),
-        (f'<path d="M 0 0 L {"1 " * 100_001}"/>', "2 numbers for 'L', got 1"),
-        (f'<path d="{"M 0 0 " * 30_000} x"/>', "the commands M L .* got 'x'"),
-        (f'<path d="M 0 0 A {"1 " * 100_001}"/>', "flags 0 or 1 for 'A'|7 numbers for 'A', got 6"),
-        (f'<path transform="{"translate(1)  " * 9999}!" d="M 0 0 L 1 1"/>', "a transform, got '!'"),
-        (f'<polyline points="{" " * 100_000}x"/>', "2 numbers for each point of a polyline, got 0"),
-    ],
-)
+HOSTILE = [
+    (f'<!DOCTYPE svg [<!ENTITY e0 "L 9 9">{BOMB}]><svg><path d="M 0 0 &e9;"/></svg>', "SVG picture"),
+    ('<!DOCTYPE svg [<!ENTITY e SYSTEM "file:///etc/passwd">]><svg>&e;</svg>', "SVG picture, got undef"),
+    ('<!DOCTYPE svg SYSTEM "http://127.0.0.1:9/x.dtd"><svg/>', "a path, polyline, polygon or line"),
+    ("<g>" * NESTED + "</g>" * NESTED, "a path, polyline, polygon or line"),
+    ('<g transform="scale(1e8)">' * 99 + '<line x2="1"/>' + "</g>" * 99, "not finite"),
+    ('<path d="M 0 0 L 1e999 0"/>', "numbers for 'L', all below 1e[+]09"),
+    (f'<path d="M 0 0 L 1 {"1" * 200_000}"/>', "numbers for 'L', all below"),
+    (f'<path d="M 0 0 L {"1 " * 100_001}"/>', "2 numbers for 'L', got 1"),
+    (f'<path d="{"M 0 0 " * 30_000} x"/>', "the commands M L .* got 'x'"),
+    (f'<path d="M 0 0 A {"1 " * 100_001}"/>', "flags 0 or 1 for 'A'|7 numbers for 'A', got 6"),
+    (f'<path transform="{"translate(1)  " * 9999}!" d="M 0 0 L 1 1"/>', "a transform, got '!'"),
+    (f'<polyline points="{" " * 100_000}x"/>', "2 numbers for each point of a polyline, got 0"),
+]
+
+
+@pytest.mark.parametrize(("text", "message"), HOSTILE)
 def test_hostile_pictures_are_refused(tmp_path, text, message):
     file = tmp_path / "path.svg"
     file.write_text(text)

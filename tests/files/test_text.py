@@ -11,30 +11,29 @@ from mocap.files.text import lines, load_rows, read_text, to_numbers
 from tests.refusals import refused
 from tests.strategies import wave
 
+TEXTS = [
+    (b"a\r\nb\r\n", "a\nb\n"),
+    (b"a\rb", "a\nb"),
+    (b"\xef\xbb\xbfa\n", "a\n"),
+    ("Hüfte".encode(), "Hüfte"),
+    ("Hüfte".encode("latin-1"), "Hüfte"),
+]
 
-@pytest.mark.parametrize(
-    ("data", "text"),
-    [
-        (b"a\r\nb\r\n", "a\nb\n"),
-        (b"a\rb", "a\nb"),
-        (b"\xef\xbb\xbfa\n", "a\n"),
-        ("Hüfte".encode(), "Hüfte"),
-        ("Hüfte".encode("latin-1"), "Hüfte"),
-    ],
-)
+
+@pytest.mark.parametrize(("data", "text"), TEXTS)
 def test_read_text(tmp_path, data, text):
     (tmp_path / "file").write_bytes(data)
     assert read_text(tmp_path / "file") == text
 
 
-@pytest.mark.parametrize(
-    ("data", "message"),
-    [
-        (b"a\nb\0c", "line 2: expected text, got a zero byte"),
-        (b" \r\n", "got an empty file"),
-        (b"a\n<<<<<<< HEAD\nb", "line 2: .*merge"),
-    ],
-)
+NO_TEXTS = [
+    (b"a\nb\0c", "line 2: expected text, got a zero byte"),
+    (b" \r\n", "got an empty file"),
+    (b"a\n<<<<<<< HEAD\nb", "line 2: .*merge"),
+]
+
+
+@pytest.mark.parametrize(("data", "message"), NO_TEXTS)
 def test_what_is_no_text_is_refused(tmp_path, data, message):
     (tmp_path / "file").write_bytes(data)
     refused(message, read_text, tmp_path / "file", kind=FormatError)
@@ -58,16 +57,16 @@ def test_rows_are_read(tmp_path, text):
     np.testing.assert_array_equal(load_rows(file, ("x", "z", "radius")), [[1, 2, 3], [4, 5, 6]])
 
 
-@pytest.mark.parametrize(
-    ("text", "sentence"),
-    [
-        ("1,2\n3\n", "line 2: expected x and z in each line, such as '1.5, 2', got"),
-        ("1,2,3\n", "line 1: expected x and z"),
-        ("1,2\nfive,6\n", "line 2"),
-        ("0,0\n1,nan", "line 2: expected x and z"),
-        ("x,z\n", "got no numbers"),
-    ],
-)
+WRONG_LINES = [
+    ("1,2\n3\n", "line 2: expected x and z in each line, such as '1.5, 2', got"),
+    ("1,2,3\n", "line 1: expected x and z"),
+    ("1,2\nfive,6\n", "line 2"),
+    ("0,0\n1,nan", "line 2: expected x and z"),
+    ("x,z\n", "got no numbers"),
+]
+
+
+@pytest.mark.parametrize(("text", "sentence"), WRONG_LINES)
 def test_a_wrong_line_is_named(tmp_path, text, sentence):
     (tmp_path / "t.csv").write_text(text)
     refused(sentence, load_rows, tmp_path / "t.csv", kind=FormatError)

@@ -93,24 +93,24 @@ def test_clips_that_changed_are_named(saved):
     assert storage.load(saved, [same, b]).clips[0] is same
 
 
-@pytest.mark.parametrize(
-    ("arrays", "words"),
-    [
-        ({"nodes": None}, "one without nodes"),
-        ({"nodes": np.zeros((3, 3), int)}, "'nodes' to fit"),
-        ({"nodes": np.zeros((3, 2))}, "'nodes' to fit"),
-        ({"costs": np.zeros(2)}, "'transforms' to fit"),
-        ({"window": 0}, "window and rate"),
-        ({"fps": np.inf}, "window and rate"),
-        ({"names": ["a", "a"]}, "names of their own"),
-        ({"names": ["a"]}, "'frames' to fit"),
-        ({"names": np.array([{}, []], object)}, "'names' to fit"),  # nothing is unpickled
-        ({"version": 2, "nodes": None}, "version 2, which a newer mocap wrote"),
-        ({"format": "mocap motion"}, "npz of another kind"),
-        ({"origins": ["not JSON"]}, "origins are"),
-        ({"origins": ["{}", "{}"]}, "origins are"),
-    ],
-)
+MISFITS = [
+    ({"nodes": None}, "one without nodes"),
+    ({"nodes": np.zeros((3, 3), int)}, "'nodes' to fit"),
+    ({"nodes": np.zeros((3, 2))}, "'nodes' to fit"),
+    ({"costs": np.zeros(2)}, "'transforms' to fit"),
+    ({"window": 0}, "window and rate"),
+    ({"fps": np.inf}, "window and rate"),
+    ({"names": ["a", "a"]}, "names of their own"),
+    ({"names": ["a"]}, "'frames' to fit"),
+    ({"names": np.array([{}, []], object)}, "'names' to fit"),  # nothing is unpickled
+    ({"version": 2, "nodes": None}, "version 2, which a newer mocap wrote"),
+    ({"format": "mocap motion"}, "npz of another kind"),
+    ({"origins": ["not JSON"]}, "origins are"),
+    ({"origins": ["{}", "{}"]}, "origins are"),
+]
+
+
+@pytest.mark.parametrize(("arrays", "words"), MISFITS)
 def test_arrays_that_do_not_fit_are_named(saved, arrays, words):
     with pytest.raises(FormatError, match=words):
         storage.read(changed(saved, **{k: v if v is None else np.array(v) for k, v in arrays.items()}))

@@ -61,17 +61,17 @@ def require_kept_to(followed):
     assert smoothness(bent.motion, to_motion(followed.graph, followed.walk)) <= 1.25
 
 
-@pytest.mark.parametrize(
-    ("graph", "line"),
-    [
-        (walking, "random"),
-        (straight_walker, "heart"),
-        *(
-            pytest.param(graph, line, marks=pytest.mark.sweep)
-            for graph, line in product([walking, straight_walker], SOME)
-        ),
-    ],
-)
+WALKERS_AND_LINES = [
+    (walking, "random"),
+    (straight_walker, "heart"),
+    *(
+        pytest.param(graph, line, marks=pytest.mark.sweep)
+        for graph, line in product([walking, straight_walker], SOME)
+    ),
+]
+
+
+@pytest.mark.parametrize(("graph", "line"), WALKERS_AND_LINES)
 def test_any_line_with_any_walk(graph, line):
     require_kept_to(bent_walk(graph(), SOME[line]))
 

@@ -154,16 +154,16 @@ def test_a_search_that_explodes_says_so(bundled, monkeypatch, recwarn):
     told("One step found 14 matches, more than 2 times the step before", ask)
 
 
-@pytest.mark.parametrize(
-    ("clip", "frames", "settings", "message"),
-    [
-        (0, slice(-5, 100), {}, "'walk_straight' has frames 0 to 1200, got -5:100."),
-        (0, slice(0, 5000), {}, "has frames 0 to 1200, got 0:5000"),
-        (0, slice(100, 100), {}, "got 100:100"),
-        (0, slice(100, 120), {}, "A query must last 0.3 s or more"),
-        (0, slice(0, 130), {"below": 0.16}, "This web goes up to 8 cm: build another for 16 cm."),
-    ],
-)
+HOSTILE = [
+    (0, slice(-5, 100), {}, "'walk_straight' has frames 0 to 1200, got -5:100."),
+    (0, slice(0, 5000), {}, "has frames 0 to 1200, got 0:5000"),
+    (0, slice(100, 100), {}, "got 100:100"),
+    (0, slice(100, 120), {}, "A query must last 0.3 s or more"),
+    (0, slice(0, 130), {"below": 0.16}, "This web goes up to 8 cm: build another for 16 cm."),
+]
+
+
+@pytest.mark.parametrize(("clip", "frames", "settings", "message"), HOSTILE)
 def test_hostile_queries_are_one_sentence(bundled, clip, frames, settings, message):
     refused(message, search, bundled.web, clip, frames, **settings)
 

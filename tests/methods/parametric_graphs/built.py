@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mocap.body import Motion, joint_positions, resample, rotations
+from mocap.body import Motion, concatenate, joint_positions, resample, rotations
 from mocap.datasets import samples
 from mocap.methods.match_webs import hand_target, mean_speed, random_weights, sample_space, turn, weights_for
 from mocap.methods.parametric_graphs import build_parametric, cut_actions, cut_strides, make_space
@@ -141,12 +141,8 @@ def punches():
     still = resample(clip, 30)
     speed = np.abs(np.diff(still.root_positions[:, [0, 2]] @ [1j, 1]))
     at = int(np.convolve(speed, np.ones(15), "valid").argmin()) + 7
-    still = replace(
-        still,
-        root_positions=np.repeat(still.root_positions[at : at + 1], 80, axis=0),
-        rotations=np.repeat(still.rotations[at : at + 1], 80, axis=0),
-        contacts={name: np.ones(80, bool) for name in still.contacts},
-        labels={},
+    still = concatenate(
+        [replace(still[at : at + 1], contacts=dict.fromkeys(still.contacts, True), labels={})] * 80
     )
     return cut_actions([arm_moved(still, 40, *arm) for arm in arms(14, seed=1)], [(22, 58)] * 14)
 
