@@ -7,7 +7,7 @@ a flock settles into a lattice that hardly ever changes, so that there is nothin
 Points on the ground are complex, z + ix, ten of them per second.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -113,9 +113,9 @@ def steering_force(now: Configuration, wish: Points, rules: Flock, besides: Poin
     # Not by @, whose threads spin: at 96 members they take longer than the sums.
     middle = np.einsum("...ij,...j->...i", seen, places) / count - places
     alike = np.einsum("...ij,...j->...i", seen, velocities) / count - velocities
-    ahead = unit(velocities)
+    ahead = np.sign(velocities)  # of length 1, and 0 for 0
     force = rules.separate * away + np.where(seen.any(-1), rules.gather * middle + rules.align * alike, 0)
-    force = force + rules.steer * (unit(wish) - ahead) + besides
+    force = force + rules.steer * (np.sign(wish) - ahead) + besides
     force = force + rules.keep * (np.abs(wish) * rules.pace - np.abs(velocities)) * ahead
     return np.asarray(force * np.minimum(1, rules.accelerate / np.maximum(np.abs(force), 1e-9)))
 
@@ -204,12 +204,7 @@ def simulate(
             wall = -1j * WALL_FORCE * (beside - np.clip(beside, -FREELY * room, FREELY * room))
         now = advance(now, np.exp(1j * heading) * next(wishes), rules, wall, room)
         frames.append(now)
-    return stacked(frames[round(SETTLE * RATE) :])
-
-
-def stacked(frames: Sequence[Configuration]) -> Configuration:
-    """Put configurations one after the other."""
-    return Configuration(*(np.array(part) for part in zip(*frames, strict=True)))
+    return Configuration(*np.swapaxes(frames[round(SETTLE * RATE) :], 0, 1))
 
 
 def nearest_two(places: Points) -> Array:
@@ -224,8 +219,3 @@ def nearest_two(places: Points) -> Array:
     """
     gap = np.abs(places[..., :, None] - places[..., None, :])
     return np.asarray(np.where(np.eye(places.shape[-1], dtype=bool), np.inf, gap).min(axis=(-2, -1)))
-
-
-def unit(vectors: Points) -> Points:
-    """Say where vectors point: complex numbers of length 1, and 0 for 0."""
-    return np.asarray(vectors / np.maximum(np.abs(vectors), 1e-9))

@@ -22,7 +22,6 @@ from mocap.methods.groups.flocking import (
     advance,
     nearest_two,
     push_apart,
-    stacked,
     whims,
 )
 
@@ -94,7 +93,7 @@ def run_from(
             pull = PULL * (spots - now.places) + 2 * np.sqrt(PULL) * (goals.velocities - now.velocities)
         wish = np.exp(1j * bends * min(1.0, 1.6 * done))[:, None] * next(wishes)
         frames.append(advance(now, wish, rules, min(1.0, 2 * done) * pull))
-    return stacked(frames)
+    return Configuration(*np.swapaxes(frames, 0, 1))
 
 
 def bend_to(run: Configuration, goal: Configuration) -> Points:
@@ -170,7 +169,7 @@ def clips_from(
     -------
     The clips in which nobody comes nearer than 0.60 m or needs more than 2.2 m/s², and how many were made.
     """
-    every = Configuration(*(np.array(part) for part in zip(*nodes, strict=True)))  # (K, N)
+    every = Configuration(*np.swapaxes(nodes, 0, 1))  # (K, N)
 
     def copies(count: int) -> Configuration:
         return Configuration(*(np.tile(part, (count, 1)) for part in nodes[start]))

@@ -18,8 +18,6 @@ from mocap.methods.groups.flocking import (
     Flock,
     advance,
     nearest_two,
-    stacked,
-    unit,
     whims,
 )
 from mocap.methods.groups.group_graphs import GroupGraph, play_group
@@ -65,7 +63,7 @@ def steer_group(
         now = advance(frames[-1], wish, rules, away_from(scene.discs, frames[-1].places))
         frames.append(now)
         goal += bool(abs(now.places.mean() - scene.points[goal]) < scene.near)
-    return stacked(frames), goal
+    return Configuration(*np.swapaxes(frames, 0, 1)), goal
 
 
 def lead_group(
@@ -132,7 +130,7 @@ def away_from(discs: Sequence[Disc], places: Points) -> Points:
     """
     off = places[:, None] - np.array([centre for centre, _ in discs], complex)
     rim = np.abs(off) - np.array([radius for _, radius in discs])
-    return np.asarray((DISC_FORCE * np.maximum(DISC_FROM - rim, 0) * unit(off)).sum(axis=1))
+    return np.asarray((DISC_FORCE * np.maximum(DISC_FROM - rim, 0) * np.sign(off)).sum(axis=1))
 
 
 def clearances(flock: Configuration, scene: Scene) -> Array:

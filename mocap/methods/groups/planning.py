@@ -217,16 +217,11 @@ def plan_group(
             count += 1
             promise = after.seconds + (0.0 if after.goal == points else weight * left)
             heappush(waiting, (promise, count, after))
-    why = _why(graph, scene, most if waiting else 0)
-    raise NoWalk(f"No way past point {farthest + 1} of {points} was found: {why}")
-
-
-def _why(graph: GroupGraph, scene: Scene, most: int) -> str:
-    """Say why no way was found, and what would help; the gap named lets the narrowest node through."""
+    why = f"the limit of {most} states ended the search" if waiting else "obstacles closed every way"
+    helps = "Set a point on the way, allow more states" if waiting else "Start farther off or turned"
     wide = min(np.ptp(node.places.imag) for node in graph.nodes) + 2 * scene.body + SHIFTS[-1]
-    why = f"the limit of {most} states ended the search" if most else "obstacles closed every way"
-    helps = "Set a point on the way, allow more states" if most else "Start farther off or turned"
-    return f"{why}. {helps}, take fewer members, or leave gaps of {wide:.1f} m."
+    helps += f", take fewer members, or leave gaps of {wide:.1f} m"  # which let the narrowest node through
+    raise NoWalk(f"No way past point {farthest + 1} of {points} was found: {why}. {helps}.")
 
 
 def _check_start(graph: GroupGraph, start: PlanarTransform, scene: Scene) -> None:

@@ -42,7 +42,7 @@ class MotionMatcher:
 
     def __init__(self, database: PoseDatabase, wants: Wants = USUAL, *, start: int | None = None) -> None:
         self.database, self.wants = database, wants
-        self.skeleton, self.fps = database.clips[0].skeleton, database.fps
+        self.skeleton, self.fps = database.motion.skeleton, database.motion.fps
         self.frame = int(np.argmax(database.usable)) if start is None else start
         self._searches: dict[str, FrameSearch] = {}  # by label
         turn = complex(np.exp(-1j * database.heading[self.frame]))
@@ -87,7 +87,7 @@ class MotionMatcher:
             self._look(heading, speed, label)
         root, turns = self._placed(self.place, self.frame)
         blending = bool(self.cuts) and self._steps - self.cuts[-1] < 2 * self.wants.fade * self.fps
-        contacts = {name: bool(mark[self.frame]) for name, mark in table.contacts.items()}
+        contacts = {name: bool(mark[self.frame]) for name, mark in table.motion.contacts.items()}
         self.frame = min(self.frame + 1, int(table.last[self.frame]))
         self._steps, self._wait = self._steps + 1, self._wait - 1
         self.offset, self.offset_speed = fade(self.offset, self.offset_speed, self.wants.fade, 1 / self.fps)
@@ -102,7 +102,7 @@ class MotionMatcher:
         goal = speed * complex(np.exp(1j * (heading - self.place.angle - table.heading[now])))
         query = table.values[now].copy()
         query[FUTURE] = foresee(table, now, goal, self.wants.halflife)
-        stay = now < table.last[now] and (not label or bool(table.labels[label][now]))
+        stay = now < table.last[now] and (not label or bool(table.motion.labels[label][now]))
         staying = search.cost(query, now) - self.wants.bonus if stay else np.inf
         new, cost = search.nearest(query, now, round(self.wants.near * self.fps))
         if cost >= staying:
@@ -113,7 +113,8 @@ class MotionMatcher:
         move = complex(self.place.turn * table.ground[now] + self.place.move - turn * table.ground[new])
         place = PlanarTransform.from_complex(turn, move)
         root, shown = self._placed(self.place, now)
-        new_root, new_turns = place.apply_frames(table.roots[new], table.turns[new])
+        motion = table.motion
+        new_root, new_turns = place.apply_frames(motion.root_positions[new], motion.rotations[new])
         self.offset = np.concatenate([[root - new_root], rotations.difference(new_turns, shown)])
         self.offset_speed = self.offset_speed + self._speeds(self.place, now) - self._speeds(place, new)
         self.frame, self.place = new, place
@@ -121,7 +122,8 @@ class MotionMatcher:
 
     def _placed(self, place: PlanarTransform, frame: int) -> tuple[Array, Array]:
         """Place a frame, with the offset: root (3,) and turns (J, 4)."""
-        root, turns = place.apply_frames(self.database.roots[frame], self.database.turns[frame])
+        motion = self.database.motion
+        root, turns = place.apply_frames(motion.root_positions[frame], motion.rotations[frame])
         return root + self.offset[0], rotations.multiply(turns, rotations.from_rotvec(self.offset[1:]))
 
     def _speeds(self, place: PlanarTransform, frame: int) -> Array:

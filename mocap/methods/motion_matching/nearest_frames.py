@@ -133,10 +133,11 @@ class FrameSearch:
     """
 
     def __init__(self, database: PoseDatabase, *, future: float = 1.0, label: str = "") -> None:
-        if label and label not in database.labels:
-            known = ", ".join(database.labels) or "none"
+        labels = database.motion.labels
+        if label and label not in labels:
+            known = ", ".join(labels) or "none"
             raise NoWalk(f"No clip has the label '{label}'; there are: {known}.")
-        self.frames = np.flatnonzero(database.usable & database.labels[label] if label else database.usable)
+        self.frames = np.flatnonzero(database.usable & labels[label] if label else database.usable)
         if not len(self.frames):
             raise MocapError(f"No frame '{label}' can be found: all are too near the end of their clip.")
         self.scale = np.ones(database.values.shape[1])

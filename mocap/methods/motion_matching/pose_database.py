@@ -4,7 +4,7 @@ The body's frame is the root's ground track and heading, smoothed so that the sw
 turning. All numbers are seen from there: x to the body's left, y up, z ahead.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -109,9 +109,7 @@ class PoseDatabase:
 
     Parameters
     ----------
-    clips : of one skeleton and one rate.
-    labels, contacts : as those of the clips, (T,) each.
-    roots, turns : shape (T, 3) and (T, J, 4), the poses.
+    clips : of one skeleton and one rate; `motion` is all of them, one behind the other.
     values : shape (T, 27), standardised features; `mean` and `scale` (27,) made them so.
     usable : shape (T,), frames that a search may find.
     last : shape (T,), the number of the last frame of each frame's clip.
@@ -120,10 +118,7 @@ class PoseDatabase:
     """
 
     clips: tuple[Motion, ...]
-    labels: Mapping[str, Mask]
-    contacts: Mapping[str, Mask]
-    roots: Array
-    turns: Array
+    motion: Motion
     values: Array
     mean: Array
     scale: Array
@@ -137,11 +132,6 @@ class PoseDatabase:
 
     def __len__(self) -> int:
         return len(self.values)
-
-    @property
-    def fps(self) -> float:
-        """Frames per second, the same for all clips."""
-        return self.clips[0].fps
 
 
 def standardise(values: Array) -> tuple[Array, Array, Array]:
@@ -205,15 +195,12 @@ def tabulate(clips: Sequence[Motion]) -> PoseDatabase:
     if len(longest) <= END * rate + 1:
         lasts = f"the longest, '{longest.name}', lasts {longest.duration:.2f} s"
         raise MocapError(f"A search leaves out the last {END:g} s of each clip; {lasts}.")
-    joined, frames = concatenate(clips), [len(clip) for clip in clips]
+    frames = [len(clip) for clip in clips]
     values, mean, scale = standardise(np.concatenate([features(clip) for clip in clips]))
     tracks: Any = (np.concatenate(part) for part in zip(*map(_tracks, clips), strict=True))
     return PoseDatabase(
         clips,
-        joined.labels,
-        joined.contacts,
-        joined.root_positions,
-        joined.rotations,
+        concatenate(clips),
         frozen(values, np.float64),
         mean,
         scale,

@@ -23,7 +23,7 @@ def test_offsets_die_away_so_that_it_plays_the_clips_own_poses():
     matcher = MotionMatcher(table, Wants(bonus=1e9), start=40)
     walked = steer(matcher, [0.0] * 60, 1.0).motion
     assert matcher.cuts == []
-    np.testing.assert_allclose(walked.rotations[:, 1:], table.turns[40:100, 1:], atol=1e-12)
+    np.testing.assert_allclose(walked.rotations[:, 1:], table.motion.rotations[40:100, 1:], atol=1e-12)
 
 
 def test_a_cut_keeps_place_and_velocity():
@@ -54,11 +54,11 @@ def test_it_goes_where_it_is_asked_to_go():
 
 def test_a_label_keeps_it_among_its_frames():
     table = tabulate(clips("walk_curve_1", "sneak"))
-    assert {"walk", "sneak"} <= set(table.labels)
+    assert {"walk", "sneak"} <= set(table.motion.labels)
     matcher = MotionMatcher(table)
     for _ in range(90):
         matcher.step(0.0, 0.7, "sneak")
-    assert table.labels["sneak"][matcher.frame]
+    assert table.motion.labels["sneak"][matcher.frame]
     refused("No clip has the label 'fly'; there are: walk", matcher.step, 0.0, 0.7, "fly", kind=NoWalk)
 
 

@@ -40,7 +40,7 @@ def test_rows_are_the_frames_of_the_clips_and_the_last_second_of_each_is_left_ou
     lengths = [len(clip) for clip in table.clips]
     assert len(table) == sum(lengths)
     start = lengths[0] + 7
-    np.testing.assert_array_equal(table.turns[start], table.clips[1].rotations[7])
+    np.testing.assert_array_equal(table.motion.rotations[start], table.clips[1].rotations[7])
     assert table.last[start] == lengths[0] + lengths[1] - 1
     assert (np.flatnonzero(~table.usable)[:30] == np.arange(lengths[0] - 30, lengths[0])).all()
     own = (features(table.clips[1])[7] - table.mean) / table.scale
@@ -51,7 +51,9 @@ def test_marks_that_a_clip_lacks_are_off_there():
     bare, marked = (replace(clip, contacts={}, labels={}) for clip in clips("walk_circle", "walk_curve_1"))
     marked = replace(marked, labels={"odd": np.ones(len(marked), bool)})
     table = tabulate([bare, marked])
-    assert table.labels["odd"].sum() == len(marked) and not table.labels["odd"][: len(bare)].any()
+    assert (
+        table.motion.labels["odd"].sum() == len(marked) and not table.motion.labels["odd"][: len(bare)].any()
+    )
 
 
 def test_turn_speeds_are_those_of_a_steady_turn():
