@@ -8,23 +8,22 @@ Reading order (notebooks 10 to 14)
 ---------------------------------
  1. `displacements`: what an edit adds to a motion, and the splines that keep it smooth
  2. `pins`: where joints shall be, and for how long
- 3. `turn_pins`: how joints are turned: limits, and orientations that are kept
- 4. `bodies`: which joints may turn, about which axes, at what price
- 5. `steps`: how a change may run over time, and one step of the solver
- 6. `solver`: the smallest smooth change, for each frame by itself or for all at once
- 7. `edits`: a calm change, to the last digit; one pose, made by dragging joints; levels, from coarse to fine
- 8. `path_editing`: the path taken off a motion, changed, and the motion put back on it
- 9. `turning`: slower in bends, and leaning in, as people take them
-10. `line_rounding`: a line rounded where a walk would turn too fast on it
-11. `bending`: a walk laid on any line, with feet that stand
-12. `keys`: keys, the curve through them, and warps by offsets and by scale
-13. `retiming`: time keys, and motions at moments between their frames
-14. `warp_plans`: a whole warp out of a small text file
-15. `body_roles`: which joint does what
-16. `stances`: how a body stands, as a value; find it, whatever the rest pose is; change its proportions
-17. `retargeting`: every joint looks where that of the other body looks; where the new feet may be
-18. `mirroring`: left and right swapped, by names and geometry
-19. `cycles`: the stretch of a clip that makes the best cycle, closed by a blend or by a warp
+ 3. `bodies`: which joints may turn, about which axes, at what price; limits, and orientations that are kept
+ 4. `steps`: how a change may run over time, and one step of the solver
+ 5. `solver`: the smallest smooth change, for each frame by itself or for all at once
+ 6. `edits`: a calm change, to the last digit; one pose, made by dragging joints; levels, from coarse to fine
+ 7. `path_editing`: the path taken off a motion, changed, and the motion put back on it
+ 8. `turning`: slower in bends, and leaning in, as people take them
+ 9. `line_rounding`: a line rounded where a walk would turn too fast on it
+10. `bending`: a walk laid on any line, with feet that stand
+11. `keys`: keys, the curve through them, and warps by offsets and by scale
+12. `retiming`: time keys, and motions at moments between their frames
+13. `warp_plans`: a whole warp out of a small text file
+14. `body_roles`: which joint does what
+15. `stances`: how a body stands, as a value; find it, whatever the rest pose is; change its proportions
+16. `retargeting`: every joint looks where that of the other body looks; where the new feet may be
+17. `mirroring`: left and right swapped, by names and geometry
+18. `cycles`: the stretch of a clip that makes the best cycle, closed by a blend or by a warp
 
 References
 ----------
@@ -44,8 +43,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "displacements": ["Displacement", "difference", "displaced", "spline_basis"],
         "pins": ["Pins", "join_pins", "pin", "pin_errors", "plant_pins"],
-        "turn_pins": ["keep_turned", "limit_turns"],
-        "bodies": ["body_of"],
+        "bodies": ["body_of", "keep_turned", "limit_turns"],
         "steps": ["Basis"],
         "solver": ["REACH", "solve"],
         "edits": ["edit", "hierarchy", "posed", "scattered_fit"],

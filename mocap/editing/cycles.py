@@ -17,8 +17,8 @@ from mocap.blending.joining import join
 from mocap.body import rotations
 from mocap.body.motion import Motion, concatenate, resample
 from mocap.body.planar import PlanarTransform, heading, lay_on
-from mocap.editing.path_editing import plants_kept, warn_of_plants
-from mocap.errors import MocapError, MocapWarning, shortened
+from mocap.editing.path_editing import plants_kept
+from mocap.errors import MocapError, MocapWarning, shortened, warn
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
 from mocap.matching.distance_grids import Floats, distance_grid
@@ -192,7 +192,9 @@ def _cleaned(cycle: Motion) -> Motion:
     middle = slice(start, start + len(cycle))
     with warnings.catch_warnings(action="ignore", category=MocapWarning):  # of frames in all rounds
         cleaned = clean_up(rounds)[middle]
-    warn_of_plants(cycle.name, plants_kept(cleaned, rounds[middle]))
+    if (kept := plants_kept(cleaned, rounds[middle])) < 1:
+        why = "to hold them would move the root by more than 2 cm, stretch a leg or jolt a knee"
+        warn(f"'{shortened(cycle.name)}': {1 - kept:.0%} of the planted frames are let go: {why}.")
     return lay_on(cleaned, cycle).apply_motion(cleaned)
 
 

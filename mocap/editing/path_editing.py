@@ -18,7 +18,7 @@ from mocap.body.ground_path import CLOSEST, GroundPath
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform, from_ground, on_ground
 from mocap.editing.displacements import spline_basis
-from mocap.errors import MocapError, shortened, warn
+from mocap.errors import MocapError, warn
 
 # Seconds between knots: too slow for the sway, of which 4.9 to 5.1 cm stay in the motion. With 0.4 the path
 # takes half of the sway, and its heading wags by 13°; 0.9, near a stride, aliases.
@@ -243,10 +243,3 @@ def plants_kept(cleaned: Motion, bent: Motion) -> float:
     """
     after, before = (sum(int(mark.sum()) for mark in m.contacts.values()) for m in (cleaned, bent))
     return after / before if before else 1.0
-
-
-def warn_of_plants(name: str, kept: float) -> None:
-    """Warn where a clean-up kept less than all planted frames."""
-    if kept < 1:
-        why = "to hold them would move the root by more than 2 cm, stretch a leg or jolt a knee"
-        warn(f"'{shortened(name)}': {1 - kept:.0%} of the planted frames are let go: {why}.")

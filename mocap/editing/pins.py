@@ -24,7 +24,7 @@ from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import settled_marks
 
 if TYPE_CHECKING:
-    from mocap.editing.turn_pins import Turn
+    from mocap.editing.bodies import Turn
 
 Rows = slice | Sequence[int] | NDArray[np.intp] | Mask
 

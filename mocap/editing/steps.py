@@ -9,10 +9,9 @@ from scipy.linalg import solveh_banded
 from mocap._shared.arrays import Array
 from mocap.body.kinematics import forward_kinematics, joint_positions
 from mocap.body.motion import Motion
-from mocap.editing.bodies import Body
+from mocap.editing.bodies import ARM, Body
 from mocap.editing.displacements import displaced, right_jacobian, spline_basis
 from mocap.editing.pins import Pins
-from mocap.editing.turn_pins import ARM
 from mocap.feet.ankle_targets import smooth_fill
 
 # Metres: a joint so near to the end of its box shall keep to it in the next step. With 0 a head under a bar

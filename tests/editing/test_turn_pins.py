@@ -5,10 +5,10 @@ import pytest
 
 from mocap.body import rotations
 from mocap.body.kinematics import forward_kinematics
+from mocap.editing.bodies import keep_turned, limit_turns
 from mocap.editing.displacements import difference
 from mocap.editing.edits import edit, hierarchy
 from mocap.editing.pins import join_pins, pin_errors, plant_pins
-from mocap.editing.turn_pins import keep_turned, limit_turns
 from tests.editing.wishes import bar, captured, hand, shakes, smoothness, walk
 from tests.refusals import refusals
 

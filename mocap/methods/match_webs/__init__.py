@@ -11,9 +11,8 @@ Reading order (notebooks 16)
 1. `local_alignment`: valleys of a grid, and paths through it that begin and end anywhere; piece by piece
 2. `webs`: `MatchWeb`, all paths of a set of clips, found once
 3. `match_search`: what is like the query, and what is like that
-4. `measures`: what a motion does, in a number or a few
-5. `motion_spaces`: blends of examples, drawn at random and measured
-6. `wishes`: from a wish back to weights
+4. `motion_spaces`: what a motion does, in a number or a few; blends of examples, drawn at random and measured
+5. `wishes`: from a wish back to weights
 
 References
 ----------
@@ -36,8 +35,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "local_alignment": ["local_paths", "minima_1d"],
         "webs": ["build_web"],
         "match_search": ["cut_out", "search"],
-        "measures": ["hand_target", "mean_speed", "turn"],
-        "motion_spaces": ["MotionSpace", "blend_of", "random_weights", "sample_space"],
+        "motion_spaces": ["MotionSpace", "blend_of", "hand_target", "mean_speed", "sample_space", "turn"],
         "wishes": ["weights_for"],
     },
 )

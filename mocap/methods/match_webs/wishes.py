@@ -46,8 +46,7 @@ def weights_for(
     --------
     >>> from mocap.blending.registering import register
     >>> from mocap.datasets.samples import sample
-    >>> from mocap.methods.match_webs.measures import mean_speed
-    >>> from mocap.methods.match_webs.motion_spaces import blend_of, sample_space
+    >>> from mocap.methods.match_webs.motion_spaces import blend_of, mean_speed, sample_space
     >>> walks = [sample(name) for name in ("walk_5m_0.8_0", "walk_5m_1.1_0")]
     >>> space = sample_space(register(walks), mean_speed, count=10)
     >>> weights = weights_for(space, 1.0)

@@ -39,10 +39,7 @@ def spring(start: Value, speed: Value, goal: Value, halflife: float, seconds: Ar
 
     Notebook: 18-motion-matching
     """
-    pull = PULL / halflife
-    gap, t = start - goal, np.asarray(seconds)
-    drift = speed + gap * pull
-    return np.asarray(goal + (gap + drift * t) * np.exp(-pull * t))
+    return np.asarray(goal + fade(start - goal, speed, halflife, seconds)[0])
 
 
 def spring_way(speed: Value, goal: Value, halflife: float, seconds: ArrayLike) -> NDArray[Any]:
@@ -67,7 +64,9 @@ def spring_way(speed: Value, goal: Value, halflife: float, seconds: ArrayLike) -
     return np.asarray(2 * gap / pull - np.exp(-pull * t) * (2 * gap / pull + gap * t) + goal * t)
 
 
-def fade(offset: Array, speed: Array, halflife: float, seconds: float) -> tuple[Array, Array]:
+def fade(
+    offset: Value, speed: Value, halflife: float, seconds: ArrayLike
+) -> tuple[NDArray[Any], NDArray[Any]]:
     """Let an offset and its velocity die away by a spring towards 0: both as they are after some seconds.
 
     Examples
@@ -76,10 +75,10 @@ def fade(offset: Array, speed: Array, halflife: float, seconds: float) -> tuple[
     >>> offset.round(3), speed.round(2)
     (array([0.597]), array([-4.8]))
     """
-    pull = PULL / halflife
+    pull, t = PULL / halflife, np.asarray(seconds)
     drift = speed + offset * pull
-    left = np.exp(-pull * seconds)
-    return left * (offset + drift * seconds), left * (speed - drift * pull * seconds)
+    left = np.exp(-pull * t)
+    return left * (offset + drift * t), left * (speed - drift * pull * t)
 
 
 class Wants(NamedTuple):

@@ -77,18 +77,15 @@ def cut_strides(
     return _calibrated(tabled(found, grid, dropped=dropped), steps=feet != STRIDE)
 
 
-def _strikes(clip: Motion) -> list[tuple[int, str]]:
-    """List the frames at which feet come down, with the foot; a plant at the start began earlier."""
+def _examples(clip: Motion, feet: str, label: str, grid: Array) -> Iterator[Array | None]:
+    """Yield the frames (G,) of each example at the phases of a grid; None for one that is no use."""
     left, right = (clip.skeleton.names[leg.ankle] for leg in find_legs(clip.skeleton))
     if missing := [name for name in (left, right) if name not in clip.contacts]:
         raise MocapError(f"'{clip.name}' does not say when {missing[0]} stands; mark_plants finds out.")
-    starts = {foot: runs(clip.contacts[name])[:, 0].tolist() for name, foot in ((left, "l"), (right, "r"))}
-    return sorted((frame, foot) for foot, frames in starts.items() for frame in frames if frame > 0)
-
-
-def _examples(clip: Motion, feet: str, label: str, grid: Array) -> Iterator[Array | None]:
-    """Yield the frames (G,) of each example at the phases of a grid; None for one that is no use."""
-    events, count = _strikes(clip), len(feet)
+    starts = ((foot, runs(clip.contacts[name])[:, 0].tolist()) for name, foot in ((left, "l"), (right, "r")))
+    # The frames at which feet come down, with the foot; a plant at the start began earlier.
+    events = sorted((frame, foot) for foot, frames in starts for frame in frames if frame > 0)
+    count = len(feet)
     low, high = (seconds * clip.fps for seconds in STEP_LASTS)
     named = clip.labels[label] if label in clip.labels else np.full(len(clip), not label)
     for first in range(len(events) - count + 1):

@@ -11,7 +11,8 @@ from walking import generate_walk
 
 from mocap.blending import mix, register
 from mocap.body import Motion, PlanarTransform, Skeleton, arcs, rotations
-from mocap.methods.match_webs import blend_of, hand_target, mean_speed, random_weights, sample_space, turn
+from mocap.methods.match_webs import blend_of, hand_target, mean_speed, sample_space, turn
+from mocap.methods.match_webs.motion_spaces import random_weights
 from tests.methods.match_webs.spaces_of_walks import gait, space
 from tests.refusals import refusals, refused
 

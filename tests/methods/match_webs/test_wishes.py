@@ -10,8 +10,8 @@ from mocap import load
 from mocap._shared.arrays import runs
 from mocap.blending.registering import register
 from mocap.body.planar import heading
-from mocap.methods.match_webs import random_weights, sample_space, turn, weights_for
-from mocap.methods.match_webs.motion_spaces import MotionSpace, blend_of
+from mocap.methods.match_webs import sample_space, turn, weights_for
+from mocap.methods.match_webs.motion_spaces import MotionSpace, blend_of, random_weights
 from mocap.methods.match_webs.wishes import nearest_samples, neighbour_weights
 from tests.methods.match_webs.spaces_of_walks import gait, space
 from tests.refusals import refusals, told

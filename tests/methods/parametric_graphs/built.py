@@ -9,7 +9,8 @@ import numpy as np
 
 from mocap.body import Motion, concatenate, joint_positions, resample, rotations
 from mocap.datasets import samples
-from mocap.methods.match_webs import hand_target, mean_speed, random_weights, sample_space, turn, weights_for
+from mocap.methods.match_webs import hand_target, mean_speed, sample_space, turn, weights_for
+from mocap.methods.match_webs.motion_spaces import random_weights
 from mocap.methods.parametric_graphs import build_parametric, cut_actions, cut_strides, make_space
 from mocap.methods.parametric_graphs.made_motions import optimal_transitions
 from mocap.methods.parametric_graphs.parametric_control import TARGET, ParametricController

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from mocap.feet import clean_up
-from mocap.methods.match_webs import random_weights, weights_for
+from mocap.methods.match_webs import weights_for
+from mocap.methods.match_webs.motion_spaces import random_weights
 from mocap.methods.parametric_graphs import build_edge, cut_actions
 from mocap.methods.parametric_graphs.parametric_control import ParametricController
 from mocap.quality import plant_slides
