@@ -4,19 +4,19 @@ import numpy as np
 import pytest
 
 from mocap import datasets
-from mocap.course.lab.blind_tests import BlindTest, Plan, make_pairs
+from mocap.course.lab.blind_tests import BlindTest, choose, make_pairs
 from mocap.course.lab.sensitivity import class_curve, d_prime, read_answers
 from mocap.matching import find_transitions
 from tests.browser.conftest import wait_until
 
-PLAN = Plan(window=2, below=0.06, pairs=4)
 TEST = "document.querySelector('.mocap-blindtest').blindtest"
 
 
 @pytest.fixture(scope="module")
 def blind():
     clips = [datasets.sample("walk_circle")[:2400:4]]
-    return BlindTest(make_pairs(clips, find_transitions(clips, window=10, below=0.06), PLAN), PLAN)
+    four = choose(clips, find_transitions(clips, window=10, below=0.06), 0.06, seed=0, count=4)
+    return BlindTest(make_pairs(clips, four, 2, seed=0), 2, 0.06, 0)
 
 
 @pytest.fixture

@@ -77,10 +77,10 @@ CELLS = {
         canvas""",
     "drawn": "drawn",
     "blind": """
-        from mocap.course.lab.blind_tests import BlindTest, Plan, make_pairs
+        from mocap.course.lab.blind_tests import BlindTest, choose, make_pairs
         whole = [datasets.sample("walk_circle")[:2400:4]]
-        plan = Plan(window=2, below=0.06, pairs=4)
-        BlindTest(make_pairs(whole, matching.find_transitions(whole, window=10, below=0.06), plan), plan)""",
+        four = choose(whole, matching.find_transitions(whole, window=10, below=0.06), 0.06, seed=0, count=4)
+        BlindTest(make_pairs(whole, four, 2, seed=0), 2, 0.06, 0)""",
     "mix": """
         both = blending.register([datasets.sample(f"walk_5m_1.1_{turn}") for turn in (-120, 120)])
         mixer = Mixer(both, [1, 0])

@@ -76,8 +76,7 @@ def blind_test(
 
     Notebook: 09b-blend-window
     """
-    plan = Plan(window, below, seed)
-    return BlindTest(make_pairs(clips, found, plan), plan)
+    return BlindTest(make_pairs(clips, choose(clips, found, below, seed), window, seed), window, below, seed)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -85,13 +84,15 @@ class BlindTest(Embedded):
     """What `blind_test` returns; a notebook shows it live, as a picture or a sentence."""
 
     pairs: Sequence[Pair]
-    plan: Plan
+    window: int
+    below: float
+    seed: int
     scripts = (SCENE, PICTURE, PAGE, Path(__file__).with_name("blind.js"))
 
     def __repr__(self) -> str:
         return (
-            f"Blind test: {len(self.pairs)} pairs of films, seams below {100 * self.plan.below:.1f} cm, "
-            f"blends of {self.plan.window} frames, seed {self.plan.seed}."
+            f"Blind test: {len(self.pairs)} pairs of films, seams below {100 * self.below:.1f} cm, "
+            f"blends of {self.window} frames, seed {self.seed}."
         )
 
     @property
@@ -111,11 +112,10 @@ class BlindTest(Embedded):
     @cached_property
     def scene(self) -> dict[str, Any]:
         """What the script shows: all films, of each pair the one with the seam first."""
-        window, below, seed, _ = self.plan
         body, films, data = packed([film for pair in self.pairs for film in (pair.seam, pair.control)])
         return {
             **{"about": repr(self), "body": body, "films": films, "data": data},
-            "plan": {"below_cm": round(100 * below, 3), "window": window, "seed": seed},
+            "plan": {"below_cm": round(100 * self.below, 3), "window": self.window, "seed": self.seed},
             "onLeft": [pair.on_left for pair in self.pairs],
             "sides": [COLOURS[side] for side in SIDES],
             "sentences": [sentence(right, len(self.pairs)) for right in range(len(self.pairs) + 1)],
@@ -147,67 +147,61 @@ class Pair(NamedTuple):
     match: Transition
 
 
-class Plan(NamedTuple):
-    """What a blind test is about: frames of a blend, the threshold in metres, a seed, and how many pairs."""
-
-    window: int = 10
-    below: float = 0.04
-    seed: int = 0
-    pairs: int = 20
-
-
-def choose(clips: Sequence[Motion], found: Transitions, plan: Plan) -> Transitions:
-    """Choose matches near the threshold at random, with enough of both clips around them.
+def choose(
+    clips: Sequence[Motion], found: Transitions, below: float, seed: int, count: int = 20
+) -> Transitions:
+    """Choose matches near a threshold at random, with enough of both clips around them.
 
     Raises
     ------
-    MocapError : where there are not enough.
+    MocapError : for clips of several rates, and where there are not enough matches.
     """
+    if len({clip.fps for clip in clips}) != 1:
+        raise MocapError("A blind test needs clips of one rate; resample them.")
     lengths, fps = np.array([len(clip) for clip in clips]), clips[0].fps
     after = lengths[found.source] - found.leave, lengths[found.target] - found.enter
     around = np.minimum.reduce([found.leave, found.enter, *after])  # frames of clip beside a match
     later = abs(found.leave - found.enter) > fps  # and no mere moment on
     elsewhere = (found.source != found.target) | later
-    near = (found.cost <= plan.below) & (found.cost > NEAR * plan.below)
+    near = (found.cost <= below) & (found.cost > NEAR * below)
     usable: Transitions = found[near & elsewhere & (around >= round((SECONDS / 2 + AROUND + MATCHED) * fps))]
-    if len(usable) < plan.pairs:
-        costs = f"{100 * NEAR * plan.below:.1f} to {100 * plan.below:.1f} cm"
-        needed = f"{plan.pairs} matches of {costs}, with {SECONDS / 2 + AROUND:.1f} s of both clips around"
+    if len(usable) < count:
+        costs = f"{100 * NEAR * below:.1f} to {100 * below:.1f} cm"
+        needed = f"{count} matches of {costs}, with {SECONDS / 2 + AROUND:.1f} s of both clips around"
         raise MocapError(f"A blind test needs {needed}; got {len(usable)}.")
-    chosen: Transitions = usable[np.random.default_rng(plan.seed).permutation(len(usable))[: plan.pairs]]
+    chosen: Transitions = usable[np.random.default_rng(seed).permutation(len(usable))[:count]]
     return chosen
 
 
-def make_pairs(clips: Sequence[Motion], found: Transitions, plan: Plan) -> list[Pair]:
-    """Make the pairs of a plan; the same plan gives the same pairs.
+def make_pairs(clips: Sequence[Motion], matches: Transitions, window: int, seed: int) -> list[Pair]:
+    """Make a pair of each match; the same seed gives the same pairs.
 
     Parameters
     ----------
     clips : all of the same skeleton and rate.
-    found : matches of these, as from `find_transitions`, over windows of a third of a second.
-    plan : window, threshold, seed and pairs.
+    matches : of these, as from `choose`, over windows of a third of a second.
+    window : frames of the blends.
+    seed : of what is drawn: the clip of the control, the side, and where the seam is.
 
     Raises
     ------
-    MocapError : for clips of several rates, a window that does not fit into a film, and too few matches.
+    MocapError : for a window that does not fit into a film.
     """
-    if len({clip.fps for clip in clips}) != 1:
-        raise MocapError("A blind test needs clips of one rate; resample them.")
     fps = clips[0].fps
     most = int((SECONDS - 2 * AROUND) * fps)
-    if not 1 <= plan.window <= most:
-        raise MocapError(f"A window has 1 to {most} frames here, got {plan.window}.")
-    rng = np.random.default_rng([plan.seed, 1])
+    if not 1 <= window <= most:
+        raise MocapError(f"A window has 1 to {most} frames here, got {window}.")
+    rng = np.random.default_rng([seed, 1])
     pairs = []
-    for match in choose(clips, found, plan):
+    for match in matches:
         seam_at = round((SECONDS / 2 + rng.uniform(-AROUND, AROUND)) * fps)
         first, second = (  # films in which the middle of the matched window is at the seam
             clips[clip][(begin := at + round(MATCHED * fps / 2) - seam_at) : begin + round(SECONDS * fps)]
             for clip, at in ((match.source, match.leave), (match.target, match.enter))
         )
-        start = seam_at - plan.window // 2
-        second = lay_window_on(first, start, second, start, plan.window)
-        joined = join(first, start, second, start, plan.window)
+        start = seam_at - window // 2
+        second = lay_window_on(first, start, second, start, window)
+        joined = join(first, start, second, start, window)
         control = first if rng.random() < 0.5 else second
         ahead = lay_on(first[seam_at:], place(first[seam_at:], 0.0, (0.0, 0.0)))
         films = ahead.apply_motion(joined), ahead.apply_motion(control)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -20,18 +20,15 @@ ORACLES = (
 STUB = re.compile(r"(^|\s)\.\.\.[ \t]*(#.*)?$", re.MULTILINE)  # a line that ends as stubs do
 
 
+Sheet = tuple[tuple[str, ...], frozenset[str]]
+"""A notebook of the course: its exercises, and by what a copy of it is recognised."""
+
+
 class Cell(NamedTuple):
     """A cell of code: the exercises that its tags name, and its source."""
 
     exercises: tuple[str, ...]
     source: str
-
-
-class Sheet(NamedTuple):
-    """A notebook of the course: its exercises, and by what a copy of it is recognised."""
-
-    exercises: tuple[str, ...]
-    traits: frozenset[str]
 
 
 def code_cells(notebook: Any) -> list[Cell]:  # noqa: ANN401
@@ -52,22 +49,23 @@ def code_cells(notebook: Any) -> list[Cell]:  # noqa: ANN401
 def course_sheets(folder: Path) -> list[Sheet]:
     """Read what each notebook of the course asks for."""
     course = [read(file) for file in sorted(folder.glob("*.ipynb"))]
-    return [Sheet(tuple(name for name, _ in tagged(one, "exercise")), _traits(one)) for one in course]
+    return [(tuple(name for name, _ in tagged(one, "exercise")), _traits(one)) for one in course]
 
 
-def sheet_of(notebook: Any, sheets: Iterable[Sheet]) -> Sheet | None:  # noqa: ANN401
+def sheet_of(notebook: Any, sheets: Iterable[Sheet]) -> Sheet:  # noqa: ANN401
     """Find the notebook of the course that a notebook is a copy of, whatever its file is called.
 
-    It is the one with which it has the most cells, tags and names of functions in common.
+    It is the one with which it has the most cells, tags and names of functions in common; an empty one where
+    there is nothing in common.
 
     Examples
     --------
     >>> from nbformat.v4 import new_notebook
-    >>> sheet_of(new_notebook(), [Sheet(("speed",), frozenset(["exercise:speed"]))])
+    >>> sheet_of(new_notebook(), [(("speed",), frozenset(["exercise:speed"]))])
+    ((), frozenset())
     """
-    traits = _traits(notebook)
-    best = max(sheets, key=lambda sheet: len(sheet.traits & traits), default=None)
-    return best if best and best.traits & traits else None
+    traits, nothing = _traits(notebook), ((), frozenset[str]())
+    return max([nothing, *sheets], key=lambda sheet: len(sheet[1] & traits))
 
 
 def _traits(notebook: Any) -> frozenset[str]:  # noqa: ANN401
@@ -116,11 +114,11 @@ def needed(cells: Sequence[Cell], exercise: str, plain: Callable[[str], str] = s
     return sorted(found)
 
 
-def named_oracle(cells: Sequence[Cell], check: Check, sheet: Sheet | None) -> str:
+def named_oracle(cells: Sequence[Cell], check: Check, course: Collection[str]) -> str:
     r"""Find what could have given a right answer away: part of a check, or a function that the check calls.
 
-    Only the notebook's own cells count: those of the exercise, and those of no exercise that the course's
-    notebook does not have.
+    Only the notebook's own cells count: those of the exercise, and those of no exercise that are not in
+    `course`, the traits of the course's notebook.
 
     Returns
     -------
@@ -130,10 +128,9 @@ def named_oracle(cells: Sequence[Cell], check: Check, sheet: Sheet | None) -> st
     --------
     >>> from mocap.course import checks
     >>> cells = [Cell(("hamilton",), "def hamilton(a, b): return rotations.multiply(a, b)")]
-    >>> named_oracle(cells, checks.hamilton, None)
+    >>> named_oracle(cells, checks.hamilton, ())
     'multiply'
     """
-    course = sheet.traits if sheet else frozenset()
     own = "\n".join(
         cell.source
         for cell in cells

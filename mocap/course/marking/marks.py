@@ -40,12 +40,12 @@ _own: list[Sealed] = []  # by which this process marks one notebook after anothe
 
 
 class _Handed(NamedTuple):
-    """A notebook that was handed in: its path, its cells, what the course asks for, what is wrong with it."""
+    """A notebook that was handed in: its path, its cells, the course's, and what is wrong with it."""
 
     path: str
     cells: list[Cell]
-    sheet: Sheet | None
-    wrong: str
+    sheet: Sheet = ((), frozenset())
+    wrong: str = ""
 
 
 def mark(
@@ -160,12 +160,12 @@ def _read(file: Path, path: str, sheets: Sequence[Sheet]) -> _Handed:
         cells = code_cells(notebook)
         if sum(len(cell.source) for cell in cells) > MOST_CODE:
             raise MocapError(f"holds more than {MOST_CODE >> 20} MB of code.")
-        return _Handed(path, cells, sheet_of(notebook, sheets), "")
+        return _Handed(path, cells, sheet_of(notebook, sheets))
     except MocapError as error:
         wrong = f"{path}: {error}"
     except Exception:  # nbformat raises errors of many kinds, and lets some things pass that are no notebooks
         wrong = f"{path}: is not a notebook."
-    return _Handed(path, [], None, wrong)
+    return _Handed(path, [], wrong=wrong)
 
 
 def _marks(one: _Handed, seed: int) -> list[Mark]:
@@ -178,7 +178,7 @@ def _marks(one: _Handed, seed: int) -> list[Mark]:
 
 def _marks_of(one: _Handed, seed: int, student: Sealed) -> Iterator[Mark]:
     """Mark the exercises of the course's notebook, and those of others of which it has cells."""
-    asked = one.sheet.exercises if one.sheet else ()
+    asked, course = one.sheet
     names = [*dict.fromkeys((*asked, *(name for cell in one.cells for name in cell.exercises)))]
     strange = [name for name in names if name not in all_checks()]
     also = f" The course does not know the tag `{strange[0]}`." if strange else ""
@@ -187,7 +187,7 @@ def _marks_of(one: _Handed, seed: int, student: Sealed) -> Iterator[Mark]:
         yield Mark(one.path, "", False, one.wrong or f"holds no exercise of the course.{also}")
     for name, verdict in _judge_all(one.cells, names, seed, student).items():
         said, right = str(verdict).replace(MISSING, MISSING + also), verdict.right
-        if right and (word := named_oracle(one.cells, all_checks()[name], one.sheet)):
+        if right and (word := named_oracle(one.cells, all_checks()[name], course)):
             right = word in all_checks()[name].oracles  # the package's own function may be called, perhaps
             said = f"{'✓' if right else '✗'}{said[1:]} Look at its cells: they name `{word}`, which knows it."
         yield Mark(one.path, name, right, said)

@@ -11,7 +11,7 @@ from scipy.stats import norm
 from mocap import datasets
 from mocap.body import joint_positions
 from mocap.course import lab
-from mocap.course.lab.blind_tests import STEP, BlindTest, Plan, choose, make_pairs, packed
+from mocap.course.lab.blind_tests import STEP, BlindTest, choose, make_pairs, packed
 from mocap.course.lab.sensitivity import COLUMNS, class_curve, d_prime, mean_d_prime, read_answers, sentence
 from mocap.matching import find_transitions
 from mocap.plotting import bones
@@ -24,8 +24,13 @@ def material():
     return clips, find_transitions(clips, window=10, below=0.06)
 
 
+def drawn(window=10, below=0.04, seed=0):
+    clips, found = material()
+    return make_pairs(clips, choose(clips, found, below, seed), window, seed)
+
+
 def test_the_same_seed_gives_the_same_pairs_and_another_one_others():
-    first, again, other = (make_pairs(*material(), Plan(seed=seed)) for seed in (1, 1, 2))
+    first, again, other = (drawn(seed=seed) for seed in (1, 1, 2))
     assert [pair.on_left for pair in first] == [pair.on_left for pair in again]
     assert all(
         np.array_equal(a.seam.root_positions, b.seam.root_positions)
@@ -35,15 +40,15 @@ def test_the_same_seed_gives_the_same_pairs_and_another_one_others():
 
 
 def test_sides_and_controls_are_drawn():
-    pairs = [pair for seed in range(5) for pair in make_pairs(*material(), Plan(seed=seed))]
+    pairs = [pair for seed in range(5) for pair in drawn(seed=seed)]
     assert 35 <= sum(pair.on_left for pair in pairs) <= 65
     clips = {clip.name for clip in material()[0]}
     assert {pair.control.name for pair in pairs} == clips
 
 
 def test_a_control_is_its_clip_and_shares_half_of_the_film_with_the_seam():
-    clips, found = material()
-    for pair in make_pairs(clips, found, Plan(window=2)):
+    clips, _ = material()
+    for pair in drawn(window=2):
         assert len(pair.seam) == len(pair.control) == 78
         apart = np.linalg.norm(joint_positions(pair.seam) - joint_positions(pair.control), axis=-1).max(
             axis=1
@@ -64,7 +69,7 @@ def _is_part(film, clip):
 
 def test_only_the_film_with_the_seam_has_the_blend_s_jolt():
     """Short blends of worse matches jolt; their controls do not: what a perfect eye can see is there."""
-    pairs = make_pairs(*material(), Plan(window=1, below=0.06))
+    pairs = drawn(window=1, below=0.06)
     jolts = [[_largest_jolt(pair.seam), _largest_jolt(pair.control)] for pair in pairs]
     assert np.median([seam / control for seam, control in jolts]) > 1.5
 
@@ -75,7 +80,7 @@ def _largest_jolt(film):
 
 
 def test_as_many_matches_are_chosen_as_are_asked_for():
-    assert len(choose(*material(), Plan(pairs=3))) == 3
+    assert len(choose(*material(), 0.04, 0, count=3)) == 3
 
 
 test_what_makes_no_blind_test_and_no_d_prime_is_said = refusals(
@@ -112,7 +117,7 @@ def test_the_page_has_films_and_sentences_and_says_without_a_script_what_it_is()
 
 
 def test_the_films_are_exact_to_half_a_step():
-    film = make_pairs(*material(), Plan())[3].seam
+    film = drawn()[3].seam
     body, (first, second), data = packed([film, film[5:]])
     assert second["offset"] == 2 * 3 * first["frames"] * body["joints"]
     numbers = np.frombuffer(zlib.decompress(data), "<u2")[: second["offset"] // 2]

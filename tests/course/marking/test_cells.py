@@ -17,7 +17,7 @@ def sheets():
 
 
 def test_the_sheets_ask_for_each_check_of_the_course_once(sheets):
-    names = [name for sheet in sheets for name in sheet.exercises]
+    names = [name for exercises, _ in sheets for name in exercises]
     assert sorted(names) == sorted(all_checks())
 
 
@@ -76,13 +76,13 @@ def test_a_cell_may_hold_two_exercises():
 
 
 def test_no_solution_of_the_course_names_an_oracle(sheets):
-    for sheet, file in zip(sheets, notebooks_in(stored()), strict=True):
+    for (exercises, traits), file in zip(sheets, notebooks_in(stored()), strict=True):
         notebook = read(file)
         solutions = {name: cell.source for name, cell in tagged(notebook, "solution")}
         for name, cell in tagged(notebook, "exercise"):
             cell.source = "\n".join(re.findall(r"```python\n(.*?)```", solutions[name], re.DOTALL))
-        for name in sheet.exercises:
-            assert named_oracle(code_cells(notebook), all_checks()[name], sheet) == ""
+        for name in exercises:
+            assert named_oracle(code_cells(notebook), all_checks()[name], traits) == ""
 
 
 @pytest.mark.parametrize(
@@ -100,6 +100,6 @@ def test_no_solution_of_the_course_names_an_oracle(sheets):
     ],
 )
 def test_what_knows_the_answer_is_named(source, word):
-    assert named_oracle([Cell(("hamilton",), source)], all_checks()["hamilton"], None) == word
-    assert named_oracle([Cell((), source)], all_checks()["hamilton"], None) == word
-    assert named_oracle([Cell(("other",), source)], all_checks()["hamilton"], None) == ""
+    assert named_oracle([Cell(("hamilton",), source)], all_checks()["hamilton"], ()) == word
+    assert named_oracle([Cell((), source)], all_checks()["hamilton"], ()) == word
+    assert named_oracle([Cell(("other",), source)], all_checks()["hamilton"], ()) == ""
