@@ -33,9 +33,8 @@ def test_a_function_that_passes_is_used_from_then_on_and_kept_in_a_readable_file
     assert hamilton(X, Y).tolist() == Z.tolist()
     text = fresh.read_text()
     assert "\n\n\n\n" not in text
-    assert (
-        f"# ---- hamilton (notebook 01) ----\n\nimport numpy as np\n\n\n{solutions()['hamilton'][1]}" in text
-    )
+    section = f"# ---- hamilton (notebook 01) ----\n\nimport numpy as np\n\n\n{solutions()['hamilton'][1]}"
+    assert section in text
     assert lab.whose("hamilton", "climb") == "hamilton: yours · climb: the package's"
 
 
@@ -122,59 +121,45 @@ def test_a_file_that_cannot_be_written_is_no_obstacle(monkeypatch, capsys, tmp_p
     assert "adopted until this kernel ends, but not kept." in capsys.readouterr().out
 
 
-def test_a_function_in_the_file_that_no_longer_passes_is_not_used(capsys, fresh):
-    lab.mine(written("hamilton"))
-    unknown = "# ---- hmilton ----\n\ndef hmilton(): ...\n"
-    fresh.write_text(fresh.read_text().replace("- a[1:]", "+ a[1:]") + unknown)
-    new_kernel()
-    assert not lab.mine("hamilton").yours
-    said = capsys.readouterr().out
-    assert "my_graph.py: hamilton does not pass its check any more, so the package's stands in.\n" in said
-    assert "✗ hamilton: " in said  # and why
-    assert "my_graph.py: the course has no exercise 'hmilton'; it is not used.\n" in said
-
-
-@pytest.mark.parametrize("change", [b"\xef\xbb\xbf", b"\r\n"])
-def test_a_file_that_was_saved_on_windows_is_read(change, capsys, fresh):
-    lab.mine(written("hamilton"))
-    text = fresh.read_bytes()
-    fresh.write_bytes(text.replace(b"\n", change) if change == b"\r\n" else change + text)
-    new_kernel()
-    assert lab.mine("hamilton").yours
-    lab.mine(written("quintic"))
-    new_kernel()
-    assert lab.whose("hamilton", "quintic") == "hamilton, quintic: yours"
+UNKNOWN = b"# ---- hmilton ----\n\ndef hmilton(): ...\n"
+EXITS = "SystemExit, None; this section is not used"
+FAILS = "my_graph.py: hamilton does not pass its check any more, so the package's stands in.\n✗ hamilton: "
 
 
 @pytest.mark.parametrize(
     ("old", "new", "said", "yours"),
     [
-        ('\n"""\n', '\n"""\nexit()\n', "SystemExit, None; this section is not used", True),
-        ("import numpy", "exit()\nimport numpy", "SystemExit, None; this section is not used", False),
-        ("return", "exit()\n    return", "does not pass its check any more", False),
+        (b"- a[1:]", b"+ a[1:]", FAILS, False),
+        (
+            b"main(__file__)\n",
+            b"main(__file__)\n" + UNKNOWN,
+            "the course has no exercise 'hmilton'; it is not used.\n",
+            True,
+        ),
+        (b'"""My', b'\xef\xbb\xbf"""My', "", True),  # as editors on Windows save it
+        (b"\n", b"\r\n", "", True),
+        (b'\n"""\n', b'\n"""\nexit()\n', EXITS, True),
+        (b"import numpy", b"exit()\nimport numpy", EXITS, False),
+        (b"return", b"exit()\n    return", FAILS, False),
+        (b"return", b"print('here')\n    return", "", True),
+        (None, None, "my_graph.py: cannot be read", False),  # a folder
     ],
 )
-def test_a_file_that_ends_python_does_not(old, new, said, yours, capsys, fresh):
+def test_a_changed_file_counts_where_it_passes_and_else_it_is_said(old, new, said, yours, capsys, fresh):
     lab.mine(written("hamilton"))
-    fresh.write_text(fresh.read_text().replace(old, new))
-    new_kernel()
-    assert lab.mine("hamilton").yours == yours
-    assert said in capsys.readouterr().out
-
-
-def test_what_a_kept_function_prints_is_not_shown_when_the_file_is_read(capsys, fresh):
-    lab.mine(written("hamilton"))
-    fresh.write_text(fresh.read_text().replace("return", "print('here')\n    return"))
+    text = fresh.read_bytes()
+    fresh.unlink()
+    fresh.write_bytes(text.replace(old, new)) if old else fresh.mkdir()
     new_kernel()
     capsys.readouterr()
-    assert lab.mine("hamilton").yours
-    assert "here" not in capsys.readouterr().out
-
-
-def test_a_folder_in_place_of_the_file_is_said(capsys, fresh):
-    fresh.mkdir()
-    assert not lab.mine("hamilton").yours
-    assert "my_graph.py: cannot be read" in capsys.readouterr().out
+    assert lab.mine("hamilton").yours == yours
+    out = capsys.readouterr().out
+    assert said in out and "here" not in out
+    assert said or out == "hamilton: yours, kept in my_graph.py.\n"
+    if old:
+        lab.mine(written("quintic"))
+        new_kernel()
+        assert lab.mine("quintic").yours and lab.mine("hamilton").yours == yours
 
 
 ONE = "from math import dist\n\n\ndef one(x):\n    return dist([0, 0], x)\n"
@@ -192,17 +177,14 @@ def test_functions_stand_in_the_order_of_their_notebooks_each_with_its_imports(t
     assert said == []
     assert (found["one"]([3, 4]), found["two"]([3, 4, 12])) == (5, 13)  # each by its own `dist`
     file.write_text(text.replace("# ---- one", "import math\n\n# ---- one"))
-    assert (
-        "import math\n" in keep(file, "one", "02", ONE).partition("# ----")[0]
-    )  # what is written above stays
+    above, *_ = keep(file, "one", "02", ONE).partition("# ----")
+    assert "import math\n" in above  # it stays
 
 
 def test_a_section_that_fails_is_left_out_with_its_line(tmp_path):
     file = tmp_path / "mine.py"
-    text = (
-        keep(file, "one", "02", ONE)
-        + "# ---- two ----\n\ndef two(x:\n    return\n\n# ---- three ----\n1 / 0\n"
-    )
+    failing = "# ---- two ----\n\ndef two(x:\n    return\n\n# ---- three ----\n1 / 0\n"
+    text = keep(file, "one", "02", ONE) + failing
     found, said = run_sections(file, text, {})
     assert list(found) == ["one"]
     line = text[: text.index("def two")].count("\n") + 1
@@ -256,13 +238,8 @@ def test_imports_helpers_and_constants_are_written_before_the_function():
         "import math",
         "import numpy as np",
     ]
-    for first, then in (
-        ("def inner", "def helper"),
-        ("EPSILON = 1e-06", "def helper"),
-        ("AXES = (", "def asked"),
-    ):
-        assert plain.index(first) < plain.index(then)
-    assert "def known" not in plain
+    assert max(plain.index("def inner"), plain.index("EPSILON = 1e-06")) < plain.index("def helper")
+    assert plain.index("AXES = (") < plain.index("def asked") and "def known" not in plain
 
 
 def doubled(function):

@@ -6,7 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from scipy.stats import norm
+from scipy.stats import binom, norm
 
 from mocap import datasets
 from mocap.body import joint_positions
@@ -32,10 +32,8 @@ def drawn(window=10, below=0.04, seed=0):
 def test_the_same_seed_gives_the_same_pairs_and_another_one_others():
     first, again, other = (drawn(seed=seed) for seed in (1, 1, 2))
     assert [pair.on_left for pair in first] == [pair.on_left for pair in again]
-    assert all(
-        np.array_equal(a.seam.root_positions, b.seam.root_positions)
-        for a, b in zip(first, again, strict=True)
-    )
+    for a, b in zip(first, again, strict=True):
+        assert np.array_equal(a.seam.root_positions, b.seam.root_positions)
     assert [pair.match.leave for pair in first] != [pair.match.leave for pair in other]
 
 
@@ -50,10 +48,8 @@ def test_a_control_is_its_clip_and_shares_half_of_the_film_with_the_seam():
     clips, _ = material()
     for pair in drawn(window=2):
         assert len(pair.seam) == len(pair.control) == 78
-        apart = np.linalg.norm(joint_positions(pair.seam) - joint_positions(pair.control), axis=-1).max(
-            axis=1
-        )
-        same = apart < 1e-6
+        apart = np.linalg.norm(joint_positions(pair.seam) - joint_positions(pair.control), axis=-1)
+        same = apart.max(axis=1) < 1e-6
         assert same[:25].all() or same[-25:].all()
         assert not same.all()
         assert any(_is_part(pair.control, clip) for clip in clips)
@@ -141,13 +137,9 @@ def test_it_holds_the_truth_by_the_binomial_too():
     """Without simulation: the probability of counts whose interval holds the truth, over a fine grid."""
     limits = np.array([d_prime(k, PAIRS) for k in range(PAIRS + 1)])
     counts = np.arange(PAIRS + 1)
-    ways = np.array(
-        [float(np.prod(np.arange(PAIRS - k + 1, PAIRS + 1) / np.arange(1, k + 1))) for k in counts]
-    )
     for truth in np.linspace(-1, 4, 101):
-        p = norm.cdf(truth / np.sqrt(2))
         held = (limits[:, 1] <= truth) & (truth <= limits[:, 2])
-        assert np.sum((ways * p**counts * (1 - p) ** (PAIRS - counts))[held]) >= 0.95
+        assert np.sum(binom.pmf(counts, PAIRS, norm.cdf(truth / np.sqrt(2)))[held]) >= 0.95
 
 
 def test_a_guesser_has_0_and_a_perfect_eye_the_most():
@@ -221,30 +213,24 @@ def test_the_other_setting_must_be_one(tmp_path):
     refused(r"one 'window', got \[2, 10\]", class_curve, answers, "below_cm")
 
 
+ADA = "ada,4.0,10,0,1"
+
+
 @pytest.mark.parametrize(
-    ("lines", "said"),
+    ("text", "said"),
     [
-        (["ada,4.0,10,0,1,2,left,2.5"], r"line 2: expected an answer in 8 columns"),
-        (["ada,4.0,10,0,1,1,left"], r"line 2: expected"),
-        (["ada,4.0,10,0,1,1,left,2.5", "ada,much,10,0,1,1,left,2.5"], r"line 3: expected"),
-        (
-            [f"ada,4.0,10,0,1,{right},left,2.5" for right in (1, 0)],
-            "'ada' answered pair 1 twice, differently",
-        ),
-        ([""], "line 2: expected"),
+        (f"{HEAD}\n{ADA},2,left,2.5\n", r"line 2: expected an answer in 8 columns"),
+        (f"{HEAD}\n{ADA},1,left\n", r"line 2: expected"),
+        (f"{HEAD}\n{ADA},1,left,2.5\nada,much,10,0,1,1,left,2.5\n", r"line 3: expected"),
+        (f"{HEAD}\n{ADA},1,left,2.5\n{ADA},0,left,2.5\n", "'ada' answered pair 1 twice, differently"),
+        (f"{HEAD}\n\n", "line 2: expected"),
+        ("x,y\n", "line 1: expected observer,below_cm"),
+        ("", "line 1: expected"),
+        (b"\xff\xfe\x00", r"a\.csv: is not a text"),
+        (None, r"a\.csv: No such file"),
     ],
 )
-def test_what_is_no_answer_is_said(lines, said, tmp_path):
-    refused(said, read_answers, [file(tmp_path, "a", lines)])
-
-
-def test_what_is_no_file_of_answers_is_said(tmp_path):
-    for name, text in (("a", b"x,y\n"), ("e", b""), ("b", b"\xff\xfe\x00")):
-        (tmp_path / f"{name}.csv").write_bytes(text)
-    for name, said in (
-        ("a", "line 1: expected observer,below_cm"),
-        ("e", "line 1: expected"),
-        ("b", r"b\.csv: is not a text"),
-        ("no", r"no\.csv: No such file"),
-    ):
-        refused(said, read_answers, [tmp_path / f"{name}.csv"])
+def test_what_is_no_file_of_answers_is_said(text, said, tmp_path):
+    if text is not None:
+        (tmp_path / "a.csv").write_bytes(text if isinstance(text, bytes) else text.encode())
+    refused(said, read_answers, [tmp_path / "a.csv"])

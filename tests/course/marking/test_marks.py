@@ -15,18 +15,7 @@ import pytest
 
 import mocap
 from mocap.course.marking import mark, marks, walls
-from tests.course.marking.students import (
-    DISHONEST,
-    HONEST,
-    KNOWS_ALL,
-    SLEEP,
-    SPEED,
-    START,
-    UNLUCKY,
-    hand_in,
-    replaced,
-    speed,
-)
+from tests.course.marking.students import HONEST, SLEEP, SPEED, START, STUDENTS, hand_in, handed, speed
 from tests.refusals import refused
 
 SECRET = "correct horse battery staple"
@@ -113,11 +102,11 @@ def marked(copy, tmp_path_factory):
     path = tmp_path_factory.mktemp("marked")
     folder = path / "handed-in"
     words = {"PLANTED": path / "planted", "LATER": folder / "zoe" / "x.ipynb", "FOLDER": folder}
-    words |= {"HOME": Path.home(), "PLANT-a": f"planted-{path.name}-{os.getpid()}"}
-    cells = DISHONEST | {name: made for name, (_, made) in UNLUCKY.items()} | {"zoe": HONEST}
+    words |= {"HOME": Path.home(), "PLANT": f"planted-{path.name}-{os.getpid()}"}
+    cells = {name: handed(name, words) for name in STUDENTS} | {"zoe": HONEST}
     cells["zz"] = speed("def speed(positions, fps): return 0")
     for name, made in cells.items():
-        hand_in(replaced(made, words), folder / name / "x.ipynb")
+        hand_in(made, folder / name / "x.ipynb")
     for name, (_, spoil) in SPOILED.items():
         hand_in(HONEST, folder / name / "x.ipynb", spoil)
     before = {file: file.read_bytes() for file in folder.rglob("*.ipynb")}
@@ -128,44 +117,25 @@ def marked(copy, tmp_path_factory):
     assert running.returncode == 0, err
     assert {file: file.read_bytes() for file in folder.rglob("*.ipynb")} == before
     for place in ("/tmp", "/dev/shm", "/var/tmp", Path.home(), folder, Path(sys.prefix)):
-        assert not (Path(place) / words["PLANT-a"]).exists()
+        assert not (Path(place) / words["PLANT"]).exists()
     assert not words["PLANTED"].exists()
     return path
 
 
 def test_students_get_marks_only_for_what_is_right(marked):
-    wanted = dict.fromkeys(DISHONEST, "01") | {"zoe": "11", "zz": "01"}
-    wanted |= {name: right for name, (right, _) in (UNLUCKY | SPOILED).items()}
+    wanted = {name: one.get("earns", "01") for name, one in STUDENTS.items()} | {"zoe": "11", "zz": "01"}
+    wanted |= {name: right for name, (right, _) in SPOILED.items()}
     said = {(r["handed in"].lstrip("'").split("/")[0], r["exercise"]): r for r in rows(marked / "marks.csv")}
     got = {name: "".join(said[name, exercise]["right"] for exercise in EXERCISES) for name in wanted}
     assert got == wanted
-
-
-SAID = {
-    "forges replies": "✗ speed: gives an answer that cannot be read",
-    "patches what prepares": "✗ speed: gives an answer that cannot be read",
-    "answers with what equals all": "speed: your answer has the shape",
-    "calls the oracle": "Look at its cells: they name `checks`, which knows it.",
-    "starts many processes": "✗ speed: starts more than 16 processes",
-    "writes many files": "✗ speed: writes 2000 files",
-    "kills what started it": "✗ speed: ",
-    "prints without end": "✗ speed: stopped after 4 s",
-    "fills the memory": "your function raises MemoryError",
-    "ends Python": "✗ speed: ends Python itself",
-    "asks": "your function raises",
-    "lost cells and tags": "The course does not know the tag `sped`",
-} | {
-    name: "speed: your function raises ValueError: [] (in"
-    for name, cells in DISHONEST.items()
-    if any("ValueError(done)" in source or "ValueError(found)" in source for _, source in cells)
-}
 
 
 def test_the_reason_is_said_and_no_secret(marked):
     lines = rows(marked / "marks.csv")
     said = {line["handed in"].split("/")[0]: line["said"] for line in lines if line["exercise"] == "speed"}
     said["lost cells and tags"] = next(line["said"] for line in lines if "sped" in line["said"])
-    assert {name: said[name] for name, words in SAID.items() if words not in said[name]} == {}
+    wanted = {name: one["said"] for name, one in STUDENTS.items() if "said" in one}
+    assert {name: said[name] for name, words in wanted.items() if words not in said[name]} == {}
     assert SECRET not in (marked / "marks.csv").read_text("utf-8")
 
 
@@ -185,10 +155,10 @@ def test_the_tables_are_whole_and_no_formulas_and_no_process_is_left(marked):
 def test_without_walls_the_keeper_is_replaced_and_a_changed_package_ends_the_marking(copy, tmp_path):
     students = {
         "ada": HONEST,
-        "bob": DISHONEST["kills what started it"],
-        "cid": DISHONEST["leaves a grandchild behind"],
-        "dan": DISHONEST["stops what started it"],
-        "eve": speed(KNOWS_ALL),
+        "bob": handed("kills what started it"),
+        "cid": handed("leaves a grandchild behind"),
+        "dan": handed("stops what started it"),
+        "eve": handed("rewrites the package"),
         "zz": speed("def speed(positions, fps): return 0"),
     }
     for name, cells in students.items():
