@@ -14,8 +14,8 @@ from mocap.body import rotations
 from mocap.body.kinematics import forward_kinematics, joint_positions
 from mocap.body.motion import Motion, turning
 from mocap.editing.displacements import Displacement
-from mocap.editing.pins import Pins, Rows
-from mocap.errors import MocapError
+from mocap.editing.pins import Pins, Rows, pin_errors
+from mocap.errors import MocapError, warn
 
 # Square metres per radian²: what a turn costs beyond what it moves. An ankle moves little: with 0.02 it turns
 # by 84° when a foot steps on a stone of 20 cm, with 0.3, 1 and 2 by 63, 45 and 34°, and the root moves by 9,
@@ -29,6 +29,7 @@ HINGE = 0.05
 # Radians (rms): a joint that turns less in a clip does not show its axis; then the file's axes count.
 STILL = 0.01
 
+TOLERANCE = 0.005  # metres: what pins may be missed by without a warning
 SLACK = 1e-6  # metres by which pins may be farther apart than the bones between them: rounding
 
 POSES = 20  # so many are enough for mean distances
@@ -170,6 +171,18 @@ def require_reachable(motion: Motion, pins: Pins) -> None:
             first, second = (names[pins.joints[number]] for number in (a, b))
             far = f"'{second}' would be {apart[worst]:.2f} m from '{first}'"
             raise MocapError(f"Frame {worst}: {far}, the bones between reach {bones:.2f} m.")
+
+
+def warn_of_gaps(motion: Motion, pins: Pins, tolerance: float = TOLERANCE) -> None:
+    """Warn of the pin that is missed by most beyond a tolerance, metres."""
+    errors = pin_errors(motion, pins)
+    if errors.max(initial=0.0) > tolerance:
+        frame, joint = np.unravel_index(errors.argmax(), errors.shape)
+        name, far = motion.skeleton.names[pins.ends[joint]], 1000 * errors[frame, joint]
+        off = f"'{name}' is {far:.3g} mm off its pin"
+        missed = f"pins of {int((errors > tolerance).any(1).sum())} frames are missed"
+        why = "are they within reach, and do they agree?"
+        warn(f"'{motion.name}', frame {frame}: {off}, and {missed}: {why}")
 
 
 class Turn(NamedTuple):

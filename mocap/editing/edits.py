@@ -10,11 +10,10 @@ from scipy import sparse
 
 from mocap._shared.arrays import Array, Indices
 from mocap.body.motion import Motion
-from mocap.editing.bodies import Body, body_of, require_reachable
+from mocap.editing.bodies import Body, body_of, require_reachable, warn_of_gaps
 from mocap.editing.displacements import displaced, spline_basis
 from mocap.editing.pins import Pins, join_pins, pin, pin_errors, plant_pins
-from mocap.editing.solver import CLOSE, REACH, solve, warn_of_gaps
-from mocap.editing.steps import Basis
+from mocap.editing.solver import CLOSE, REACH, Basis, solve
 from mocap.errors import MocapError
 
 # The splines make the change, and what they leave is closed frame by frame. Around stones of 10 to 50 cm on

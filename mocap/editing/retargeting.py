@@ -22,9 +22,8 @@ from mocap.editing.bodies import body_of
 from mocap.editing.body_roles import FEET, SIDES
 from mocap.editing.edits import let_go
 from mocap.editing.pins import Pins, join_pins, pin_errors, plant_pins, with_plants
-from mocap.editing.solver import CLOSE, solve
+from mocap.editing.solver import CLOSE, Basis, solve
 from mocap.editing.stances import Stance, heading_by_hips, stance_of, stance_of_zero
-from mocap.editing.steps import Basis
 from mocap.errors import MocapError, shortened, warn
 from mocap.feet.footskate import clean_up
 

@@ -13,8 +13,7 @@ from scipy.optimize import least_squares
 from mocap.editing.bodies import body_of, keep_turned, limit_turns
 from mocap.editing.displacements import displaced, spline_basis
 from mocap.editing.pins import join_pins, pin, pin_errors, plant_pins
-from mocap.editing.solver import CLOSE, REACH, solve
-from mocap.editing.steps import Basis, Curve, linear
+from mocap.editing.solver import CLOSE, REACH, Basis, Curve, linear, solve
 from mocap.errors import MocapWarning
 from tests.editing.wishes import bar, bones, captured, smoothness, stone, walk
 from tests.refusals import refusals
