@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 from mocap.blending.joining import blend, inertialize, join, lay_window_on
 from mocap.blending.weights import cubic_weights, linear_weights, sine_weights
 from mocap.body import Motion, Skeleton, rotations
-from mocap.datasets import sample
 from mocap.errors import MocapError, SkeletonMismatch
 from mocap.matching import distance_grid, point_cloud
 from tests.refusals import refusals
@@ -106,9 +105,6 @@ def test_the_turn_of_a_joint_fades_by_the_quintic_from_its_angle_and_speed(i, j,
     wanted = leg(np.concatenate([a[:i], b[j : j + window] + fading, b[j + window :]]))
     gaps = rotations.angle_between(cut.rotations[:, 1:], wanted.rotations[:, 1:])
     assert gaps == pytest.approx(0, abs=1e-6)
-
-
-CLIPS = [sample(name)[:480] for name in ("walk_curve_1", "walk_curve_2")]
 
 
 @given(st.sampled_from([cubic_weights, linear_weights]), st.integers(1, 60))

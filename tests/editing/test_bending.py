@@ -1,4 +1,4 @@
-"""A walk laid on a line keeps to it, and its feet stand."""
+"""A walk laid on a line keeps to it on feet that stand; in a bend it slows and leans as the law says."""
 
 from dataclasses import replace
 from functools import cache
@@ -6,11 +6,12 @@ from functools import cache
 import numpy as np
 import pytest
 
-from mocap.body.ground_path import SHAPES, GroundPath, arcs, circle, s_curve
-from mocap.body.motion import resample
+from mocap.body import SHAPES, GroundPath, arcs, circle, find_legs, joint_positions, resample, s_curve
 from mocap.datasets.samples import sample
 from mocap.editing.bending import bend
-from mocap.editing.path_editing import plants_kept
+from mocap.editing.path_editing import Ride, moving_frames, plants_kept, ride_of
+from mocap.editing.turning import places_on, slow_down
+from mocap.feet.footplants import mark_plants
 from mocap.files.load_save import load
 from tests.editing.test_path_editing import off, slide
 from tests.editing.wishes import smoothness
@@ -109,3 +110,56 @@ def test_captured_walks_keep_to_any_line(real_data, name):
         assert slide(bent.motion) <= 1e-6
         assert plants_kept(bent.motion, bent.laid) >= 0.93  # 16_17 lurches at its end
         assert smoothness(bent.motion, motion) <= 1.25
+
+
+@cache
+def walk():
+    return resample(sample("walk_straight")[:1200], 30)
+
+
+def law(curvature):
+    return (1 + (1.2 * curvature) ** 2) ** -0.25
+
+
+@pytest.mark.parametrize("radius", [0.5, 1.0, 2.0])
+def test_a_steady_walk_slows_by_the_law_half_by_steps_and_half_by_the_clock(radius):
+    along = np.arange(0, 9, 0.04)
+    straight = Ride(GroundPath([[0, 0], [0, 9]]), along)
+    ring = GroundPath(np.vstack([circle(radius).points] * 4))
+    places, ratio = places_on(ring, straight, 30.0)
+    inside = (places > 1) & (places < ring.length - 1)
+    assert ratio[inside] == pytest.approx(law(1 / radius), rel=0.01)
+    assert np.diff(places)[inside[1:]] == pytest.approx(0.04 * law(1 / radius) ** 0.5, rel=0.01)
+    _, _, along, leaning = slow_down(walk(), ride_of(walk()), ring)
+    inside = (along > 1) & (along < ring.length - 1)
+    speeds = np.gradient(along)[inside] / np.gradient(ride_of(walk()).along).mean()
+    assert speeds.mean() == pytest.approx(law(1 / radius), rel=0.05)
+    balance = np.arctan((speeds.mean() * 30 * np.gradient(ride_of(walk()).along).mean()) ** 2 / radius / 9.81)
+    assert leaning[inside].mean() == pytest.approx(balance, rel=0.1)
+
+
+def test_legs_lean_by_the_whole_angle_and_the_trunk_by_a_quarter():
+    """Measured on the motion: from behind, against the same frames of a walk that does not lean."""
+    bent = bend(walk(), circle(1.0))
+    leaning = slow_down(walk(), ride_of(walk()), bent.line.path)[3]
+    points, names = joint_positions(bent.motion), bent.motion.skeleton.names
+    way = np.asarray(moving_frames(bent.line.path, bent.walked).angle)
+
+    def leans(upper, lower):
+        away = points[:, upper] - points[:, lower]
+        left = away[:, 0] * np.cos(way) - away[:, 2] * np.sin(way)
+        return np.degrees(np.arctan2(left, away[:, 1]))[20:-20].mean()
+
+    legs = find_legs(bent.motion.skeleton)
+    asked = np.degrees(leaning[: len(way)][20:-20].mean())
+    assert np.mean([leans(leg.hip, leg.ankle) for leg in legs]) == pytest.approx(asked, rel=0.25)
+    assert 0 < leans(names.index("upperneck"), 0) < 0.6 * asked
+    assert slide(bent.motion) < 1e-6
+
+
+@pytest.mark.parametrize("name", ["16_17", "16_27", "16_33"])
+def test_a_captured_turn_on_its_own_way_comes_back_as_it_was(real_data, name):
+    motion = mark_plants(resample(load(real_data / "cmu" / "16" / f"{name}.amc")[12:], 30))
+    bent = bend(motion, ride_of(motion).path)
+    assert joint_positions(bent.laid) == pytest.approx(joint_positions(motion), abs=1e-9)
+    assert not bent.line.roundings

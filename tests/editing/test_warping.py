@@ -16,7 +16,6 @@ from tests.refusals import refusals
 from tests.strategies import random_motion, seeds
 
 WALK = sample("walk_straight")[240:481]
-HAND = WALK.skeleton.index("lhand")
 
 
 def moved(motion, frame, *, joint="lhumerus", turn=(0.0, 0.0, 1.0), up=0.0):
