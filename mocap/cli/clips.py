@@ -15,7 +15,7 @@ from mocap import datasets, files, quality, widgets
 from mocap._shared.atomic import make_folder, require_folder, require_writable
 from mocap.cli.options import CM, Reading, Sources, Unit, as_options, bar, number, tell, tell_of_failures
 from mocap.cli.typed_commands import Group
-from mocap.datasets.named_sets import SETS, fetch_set, list_set
+from mocap.datasets.named_sets import SETS, clips_of, fetch_set
 from mocap.errors import MocapError, printable
 from mocap.files import conversion
 from mocap.files.conversion import find_files
@@ -225,7 +225,7 @@ def list_sets() -> None:
         print(f"{name:<12} {known.title}")
         rows = {"licence": known.licence, "allows": known.allows, "address": known.address}
         rows |= {"download": known.size(), "rate": f"{known.fps:g} Hz", "hips": known.hips}
-        rows |= {"left leg": ", ".join(known.legs), "at hand": f"{len(list_set(name))} clips"}
+        rows |= {"left leg": ", ".join(known.legs), "at hand": f"{len(clips_of(name))} clips"}
         print("\n".join(f"{'':<12} {key:<8} {value}" for key, value in rows.items()))
 
 

@@ -68,19 +68,15 @@ def folder_of(name: str) -> Path:
     return kept_in() / name
 
 
-def list_set(name: str) -> list[str]:
-    """List the clips of a set that are at hand, by their files' names.
+def clips_of(name: str) -> dict[str, Path]:
+    """Find the clips of a set that are at hand: their files by their names; of one name, the first file.
 
     Raises
     ------
     MocapError : for an unknown set.
     """
-    return [path.stem for path in _clips(folder_of(name))]
-
-
-def _clips(folder: Path) -> list[Path]:
-    found = (path for path in folder.rglob("*.bvh") if UNFINISHED not in str(path))
-    return sorted(found, key=lambda path: (path.stem, path))
+    found = (path for path in folder_of(name).rglob("*.bvh") if UNFINISHED not in str(path))
+    return {path.stem: path for path in sorted(found, reverse=True)}
 
 
 def fetch_set(name: str, progress: Progress = iter) -> list[str]:
@@ -115,7 +111,7 @@ def fetch_set(name: str, progress: Progress = iter) -> list[str]:
         _unpack(packed, folder, progress)
         write_text(folder / WHOLE, f"{known.terms()}\n")
         packed.unlink()
-    return list_set(name)
+    return sorted(clips_of(name))
 
 
 def _unpack(archive: Path, folder: Path, progress: Progress) -> None:
@@ -156,8 +152,7 @@ def from_set(name: str, clip: str) -> Motion:
 
     folder, known = folder_of(name), SETS[name]
     show_once(known.terms())
-    path = next((path for path in _clips(folder) if path.stem == clip), None)
-    if path is None:
+    if (path := clips_of(name).get(clip)) is None:
         gets = f"`mocap data fetch {name}` gets the set ({known.size()}) from {known.address}"
         raise MocapError(f"No clip '{shortened(clip, 40)}' in {folder}: {gets}, or unpack it there.")
     if clip in HASHES and hashlib.sha256(path.read_bytes()).hexdigest() != HASHES[clip]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 import struct
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -71,6 +72,7 @@ def glb(motion: Motion) -> bytes:
     return heads[0] + text + struct.pack("<I4s", *heads[1]) + block.data
 
 
+@dataclass
 class Block:
     """The numbers of a file: each array that is added gets a view of the bytes, and an accessor.
 
@@ -83,10 +85,9 @@ class Block:
     {'bufferView': 1, 'componentType': 5123, 'count': 3, 'type': 'SCALAR'}
     """
 
-    def __init__(self) -> None:
-        self.accessors: list[Record] = []
-        self.views: list[Record] = []
-        self.data = bytearray()
+    accessors: list[Record] = field(default_factory=list)
+    views: list[Record] = field(default_factory=list)
+    data: bytearray = field(default_factory=bytearray)
 
     def add(self, values: NDArray[Any], *, bounds: bool = False, target: int | None = None) -> int:
         """Add an array, shape (N,) or (N, numbers), and give the index of its accessor.

@@ -82,7 +82,11 @@ def align(points: ArrayLike, others: ArrayLike, weights: ArrayLike | None = None
 
     Notebook: 02-matching
     """
-    a, b = matching_clouds(points, others)
+    a, b = np.asarray(points, float), np.asarray(others, float)
+    if a.shape[-2:] != b.shape[-2:] or a.shape[-1:] != (3,) or a.ndim < 2:
+        raise MocapError(f"Clouds of shapes {a.shape} and {b.shape} do not match: both need (..., P, 3).")
+    for cloud in (a, b):
+        require_near(cloud, "the cloud")
     w = unit_weights(weights, a.shape[-2])
     mean_a, mean_b = w @ a, w @ b
     # Clouds far from the origin lose no digits when they are measured from their means.
@@ -114,23 +118,9 @@ def rms_distance(first: Motion, second: Motion) -> float:
     Notebook: 09b-blend-window
     """
     first, second = require_alike([first, second])
-    points, others = matching_clouds(point_cloud(first).reshape(-1, 3), point_cloud(second).reshape(-1, 3))
-    return float(np.sqrt(((points - others) ** 2).sum(-1).mean()))
-
-
-def matching_clouds(points: ArrayLike, others: ArrayLike) -> tuple[Array, Array]:
-    """Take two clouds as arrays of shape (..., P, 3), metres.
-
-    Raises
-    ------
-    MocapError : for clouds of different sizes, and points that are not finite or too far away.
-    """
-    a, b = np.asarray(points, float), np.asarray(others, float)
-    if a.shape[-2:] != b.shape[-2:] or a.shape[-1:] != (3,) or a.ndim < 2:
-        raise MocapError(f"Clouds of shapes {a.shape} and {b.shape} do not match: both need (..., P, 3).")
-    for cloud in (a, b):
-        require_near(cloud, "the cloud")
-    return a, b
+    if len(first) != len(second):
+        raise MocapError(f"'{first.name}' has {len(first)} frames, '{second.name}' has {len(second)}.")
+    return float(np.sqrt(((point_cloud(first) - point_cloud(second)) ** 2).sum(-1).mean()))
 
 
 def unit_weights(weights: ArrayLike | None, count: int) -> Array:

@@ -10,7 +10,7 @@ import pytest
 from mocap.body import Motion, Skeleton, find_legs
 from mocap.cli.main import main
 from mocap.datasets import downloads, named_sets
-from mocap.datasets.named_sets import HASHES, SETS, fetch_set, from_set, list_set
+from mocap.datasets.named_sets import HASHES, SETS, clips_of, fetch_set, from_set
 from mocap.files import load_save
 from tests.refusals import refused
 
@@ -66,7 +66,7 @@ def test_a_clip_is_read_wherever_it_lies_in_the_set(data, capsys, name):
     known = SETS[name]
     (data / name / "deep").mkdir(parents=True)
     load_save.save(still(known), data / name / "deep" / "walk.bvh")
-    assert list_set(name) == ["walk"]
+    assert list(clips_of(name)) == ["walk"]
     clip = from_set(name, "walk")
     assert clip.fps == known.fps
     assert known.licence in capsys.readouterr().err
@@ -84,8 +84,8 @@ def test_a_clip_that_is_not_there_and_a_set_that_is_not_known_are_refused(data):
         most=400,
     )
     refused(r"No clip '\.\./x' in", from_set, "bandai_namco", "../x", most=400)
-    refused("No set 'x' is known; there are: bandai_namco, lafan1, 100style", list_set, "x")
-    assert list_set("lafan1") == []
+    refused("No set 'x' is known; there are: bandai_namco, lafan1, 100style", clips_of, "x")
+    assert clips_of("lafan1") == {}
 
 
 def test_a_file_that_is_not_the_one_listed_is_refused(data, monkeypatch):
@@ -105,7 +105,7 @@ def test_a_set_is_fetched_once_with_its_terms(server, data, capsys):
     assert "CC BY-NC-ND 4.0: free with the authors' names, but not for" in capsys.readouterr().err
     files = {path.name for path in (data / "lafan1").iterdir()}
     assert files == {"walk1.bvh", "walk2.bvh", "run1.bvh", "run2.bvh", "TERMS.txt"}
-    assert fetch_set("lafan1") == list_set("lafan1")
+    assert fetch_set("lafan1") == sorted(clips_of("lafan1"))
     assert sum(server.asked.values()) == 1
     assert from_set("lafan1", "run2").root_positions[0, 0] == pytest.approx(2)
 
@@ -118,7 +118,7 @@ def test_another_archive_a_damaged_one_and_an_empty_one_are_refused(server, data
     (data / "bandai_namco" / "bandai_namco.zip").unlink()
     server.files["set.zip"] = packed({})
     refused(r"bandai_namco\.zip holds no \.bvh file", fetch_set, "bandai_namco")
-    assert list_set("bandai_namco") == []
+    assert clips_of("bandai_namco") == {}
 
 
 def test_what_cannot_be_fetched_or_kept_is_one_sentence(server, data, monkeypatch, capsys):
@@ -151,7 +151,7 @@ def test_the_sets_are_listed_with_their_licences(data, capsys):
 
 def test_a_real_copy(real_data, monkeypatch):
     monkeypatch.setenv("MOCAP_DATA", str(real_data / "bvh"))
-    clips = list_set("bandai_namco")
+    clips = sorted(clips_of("bandai_namco"))
     assert set(clips) == set(HASHES)
     for name in clips:
         clip = from_set("bandai_namco", name)
