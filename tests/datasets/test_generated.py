@@ -18,6 +18,7 @@ from mocap.body.kinematics import forward_kinematics, joint_positions
 from mocap.datasets import SAMPLES, sample, samples
 from mocap.graphs import motion_graph, pruning
 from mocap.quality import centre_of_mass, gravity, inspect
+from tests.editing.wishes import between
 from tests.refusals import refusals
 
 
@@ -80,12 +81,6 @@ def parts(motion: Motion, label: str) -> list[Motion]:
     edges = np.flatnonzero(np.diff(motion.labels[label].astype(int))) + 1
     stretches = pairwise([0, *edges.tolist(), len(motion)])
     return [motion[i + 120 : j - 120] for i, j in stretches if motion.labels[label][i]]
-
-
-def between(start: np.ndarray, end: np.ndarray) -> np.ndarray:
-    """Return the angles between two bones, degrees."""
-    cosine = (start * end).sum(-1) / np.linalg.norm(start, axis=-1) / np.linalg.norm(end, axis=-1)
-    return np.degrees(np.arccos(np.clip(cosine, -1, 1)))
 
 
 def spread(values: np.ndarray) -> float:

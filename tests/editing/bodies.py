@@ -9,6 +9,7 @@ from mocap.body import Motion, Skeleton, rotations
 from mocap.body.kinematics import forward_kinematics
 from mocap.datasets.samples import sample
 from mocap.editing.stances import Stance, proportioned, stance_of
+from tests.editing.wishes import between
 
 # As cgspeed's conversions of the CMU clips name them, and as Bandai-Namco's files do.
 LONG = {"root": "Hips", "lowerback": "LowerBack", "upperback": "Spine", "thorax": "Spine1"}
@@ -45,15 +46,9 @@ def rested(motion: Motion, turns: np.ndarray) -> Motion:
     The joints are where they were, in every frame; only the numbers that say so are other ones.
     """
     old = motion.skeleton
-    offsets = old.offsets.copy()
-    for joint in range(1, len(old)):
-        offsets[joint] = rotations.rotate(rotations.inverse(turns[old.parents[joint]]), offsets[joint])
-    world = rotations.multiply(rotations.from_matrix(forward_kinematics(motion).matrices), turns)
-    local = world.copy()
-    for joint in range(1, len(old)):
-        above = rotations.inverse(world[:, old.parents[joint]])
-        local[:, joint] = rotations.multiply(above, world[:, joint])
-    body = Skeleton(old.names, old.parents, offsets)
+    above = rotations.inverse(np.concatenate([[rotations.IDENTITY], turns[old.parents[1:]]]))
+    body = Skeleton(old.names, old.parents, rotations.rotate(above, old.offsets))
+    local = rotations.multiply(above, rotations.multiply(motion.rotations, turns))
     return replace(motion, skeleton=body, rotations=local)
 
 
@@ -115,14 +110,9 @@ def bends(motion: Motion, who: dict[str, int]) -> np.ndarray:
             at[f"{side} {part}"] for part in ("hip", "knee", "ankle", "shoulder", "elbow", "wrist")
         )
         angles += [
-            _angle(knee - hip, ankle - knee),
-            _angle(elbow - shoulder, wrist - elbow),
-            _angle(-up, knee - hip),
-            _angle(-up, elbow - shoulder),
+            between(knee - hip, ankle - knee),
+            between(elbow - shoulder, wrist - elbow),
+            between(-up, knee - hip),
+            between(-up, elbow - shoulder),
         ]
     return np.stack(angles, axis=1)
-
-
-def _angle(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    across = np.linalg.norm(np.cross(a, b), axis=-1)
-    return np.degrees(np.arctan2(across, (a * b).sum(-1)))

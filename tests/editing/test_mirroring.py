@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from mocap.body import Motion, Skeleton, joint_positions, resample, rotations
+from mocap.body import Skeleton, joint_positions, resample, rotations
 from mocap.datasets import samples
 from mocap.editing.mirroring import mirror, symmetry
 from mocap.feet.footplants import mark_plants
 from mocap.files import load_save
+from tests.editing.bodies import rested
 from tests.refusals import refusals, told, unwarned
 from tests.strategies import random_quaternions, seeds
 
@@ -24,17 +25,7 @@ def reflected(motion):
 
 def with_other_axes(motion, seed):
     """Describe the same motion by a skeleton in which each joint's axes point anywhere."""
-    return with_axes(motion, random_quaternions(np.random.default_rng(seed), len(motion.skeleton)))
-
-
-def with_axes(motion, axes):
-    """Describe the same motion by a skeleton in which each joint's axes are turned."""
-    skeleton = motion.skeleton
-    above = np.concatenate([[rotations.IDENTITY], axes[skeleton.parents[1:]]])
-    offsets = rotations.rotate(rotations.inverse(above), skeleton.offsets)
-    local = rotations.multiply(rotations.inverse(above), rotations.multiply(motion.rotations, axes))
-    turned = Skeleton(skeleton.names, skeleton.parents, offsets)
-    return Motion(turned, motion.root_positions, local, motion.fps, motion.name)
+    return rested(motion, random_quaternions(np.random.default_rng(seed), len(motion.skeleton)))
 
 
 @given(seeds)
@@ -56,7 +47,7 @@ def test_where_all_axes_of_a_side_point_the_other_way_a_knee_bends_as_its_partne
     leg = ("rfemur", "rtibia", "rfoot", "rtoes", "rtoes_end")
     axes = np.tile(rotations.IDENTITY, (len(WALK.skeleton), 1))
     axes[[WALK.skeleton.index(name) for name in leg]] = [0.0, 1.0, 0.0, 0.0]
-    there, here = with_axes(mirror(WALK), axes), mirror(with_axes(WALK, axes))
+    there, here = rested(mirror(WALK), axes), mirror(rested(WALK, axes))
     assert rotations.angle_between(there.rotations, here.rotations).max() < 1e-6
 
 

@@ -19,8 +19,8 @@ from mocap.errors import SkeletonMismatch
 from mocap.feet import clean_up, mark_plants
 from tests.editing.bodies import LONG, adult, along_x, bends, child, renamed, rested, walk, without
 from tests.editing.test_path_editing import slide
-from tests.editing.wishes import bones
-from tests.refusals import quietly, refusals, told, unwarned
+from tests.editing.wishes import bones, captured
+from tests.refusals import refusals, told, unwarned
 
 
 def farthest(a: Motion, b: Motion) -> float:
@@ -225,12 +225,6 @@ test_bodies_that_cannot_wear_it_are_refused = refusals(
 )
 
 
-@cache
-def captured(real_data, name: str, first: int = 0, last: int | None = None) -> Motion:
-    """Give a real clip with its plants marked and its feet clean."""
-    return quietly(clean_up, mark_plants(load(real_data / name)[first:last]))
-
-
 REAL_BODIES = {
     "CMU 02": "cmu/02/02_01.amc",
     "CMU 49": "cmu/49/49_01.amc",
@@ -252,7 +246,7 @@ def stance_in(real_data, name: str) -> Stance:
 def test_a_captured_walk_on_captured_bodies(real_data, name):
     if not (real_data / REAL_BODIES[name]).exists():
         pytest.skip(f"no {REAL_BODIES[name]} among the real clips")
-    clip = captured(real_data, "cmu/16/16_15.amc", 12)
+    clip = captured(real_data, last=None)
     target = stance_in(real_data, name)
     source = stance_of(clip, mean=True) if name == "Bandai-Namco" else stance_of(clip)
     held_to_the_bars(clip, source, target)
