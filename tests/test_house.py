@@ -71,8 +71,7 @@ def test_faces_give_their_names_without_a_further_import():
     code = "import importlib, sys\nfor name in sys.argv[1:]:\n room = importlib.import_module(name)\n"
     code += " print(*(getattr(room, n).__name__ for n in dir(room) if n.islower()))"
     names = [f"mocap.{room.replace('/', '.')}" for room in FACES]
-    done = subprocess.run([sys.executable, "-c", code, *names], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
+    run("-c", code, *names)
 
 
 def test_a_face_solves_the_keys_of_papers_that_its_files_name():
@@ -151,8 +150,7 @@ def test_changes_are_made_in_modules_that_there_are():
 def test_importing_the_package_is_light():
     code = "import sys, mocap; print(sorted({m.split('.')[0] for m in sys.modules} & set(sys.argv[1:])))"
     heavy = ["matplotlib", "ipywidgets", "networkx", "scipy", "numpy", "argparse", "tqdm"]
-    done = subprocess.run([sys.executable, "-c", code, *heavy], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "[]"
+    assert run("-c", code, *heavy).strip() == "[]"
 
 
 def test_every_dependency_has_a_lower_bound():
@@ -162,28 +160,28 @@ def test_every_dependency_has_a_lower_bound():
         assert need.name == "motion-graphs" or any(s.operator == ">=" for s in need.specifier), need
 
 
-def run(*command: str) -> None:
-    done = subprocess.run(
-        [sys.executable, "-m", *command], cwd=ROOT, capture_output=True, text=True, check=False
-    )
+def run(*command: str) -> str:
+    """Run Python with some arguments, and give what it prints."""
+    done = subprocess.run([sys.executable, *command], cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
 
 
 @pytest.mark.tools
 def test_style():
-    run("ruff", "check", ".")
-    run("ruff", "format", "--check", ".")
+    run("-m", "ruff", "check", ".")
+    run("-m", "ruff", "format", "--check", ".")
 
 
 @pytest.mark.tools
 def test_types():
-    run("mypy")
+    run("-m", "mypy")
 
 
 @pytest.mark.tools
 def test_floors():
     """Who may import whom stands in pyproject.toml."""
-    run("importlinter.cli", "--no-cache")
+    run("-m", "importlinter.cli", "--no-cache")
 
 
 def test_what_takes_long_is_there():
