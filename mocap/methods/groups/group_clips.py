@@ -149,17 +149,6 @@ def part(paths: Points) -> tuple[Points, bool]:
     return paths + added, bool(nearest_two(paths + added).min() >= APART)
 
 
-def accelerations(paths: Points) -> Array:
-    """Measure accelerations along paths (F, N), (F - 2, N) m/s².
-
-    Examples
-    --------
-    >>> accelerations(np.array([[0j], [0.1 + 0j], [0.3 + 0j]])).round(6)
-    array([[10.]])
-    """
-    return np.asarray(np.abs(np.diff(paths, 2, axis=0)) * RATE**2)
-
-
 def clips_from(
     start: int, nodes: Sequence[Configuration], random: np.random.Generator
 ) -> tuple[list[GroupClip], int]:
@@ -186,7 +175,8 @@ def clips_from(
     for row, end in enumerate(ends.tolist()):
         goal, run = (Configuration(*(part[..., row, :] for part in some)) for some in (goals, runs))
         paths, apart = part(bend_to(run, goal))
-        if apart and accelerations(paths).max() <= HARDEST:
+        hardest = np.abs(np.diff(paths, 2, axis=0)).max() * RATE**2  # m/s²
+        if apart and hardest <= HARDEST:
             speeds = np.gradient(paths, 1 / RATE, axis=0)
             speeds[0], speeds[-1] = nodes[start].velocities, goal.velocities
             place = order[row], complex(turn[row]), complex(move[row])

@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 
-from mocap.methods.groups.flocking import Configuration, simulate
+from mocap.methods.groups.flocking import RATE, Configuration, simulate
 from mocap.methods.groups.group_graphs import GroupGraph, build_group
 from mocap.methods.groups.planning import Scene
 
@@ -19,6 +19,11 @@ def graph(count: int = 12, nodes: int = 8, **settings) -> GroupGraph:
 
 
 _graph = cache(lambda count, nodes, **settings: build_group(count, nodes=nodes, **settings))
+
+
+def accelerations(paths):
+    """Measure accelerations along paths (F, N), (F - 2, N) m/s²."""
+    return np.abs(np.diff(paths, 2, axis=0)) * RATE**2
 
 
 def gap(width: float, at: complex, length: float = 0.0) -> Scene:
