@@ -1,14 +1,18 @@
-"""What holds the plants bends least, and what cannot be held is told."""
+"""Plants get places that foot and leg can keep; what holds them bends least; what cannot be held is told."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given
+from hypothesis import strategies as st
 
-from mocap.body.kinematics import forward_kinematics
+from mocap._shared.arrays import runs
+from mocap.body.kinematics import GlobalPoses, forward_kinematics
 from mocap.body.limbs import find_legs
 from mocap.datasets.samples import sample
 from mocap.feet import least_bending
-from mocap.feet.ankle_targets import band_product, bending_bands, foot_target
+from mocap.feet.ankle_targets import FADE, band_product, bending_bands, foot_target, place_plants, smooth_fill
 from mocap.feet.least_bending import MOST, UNSEEN, hold_plants
 from mocap.feet.leg_track import UP, track_leg
 from tests.strategies import seeds
@@ -16,8 +20,9 @@ from tests.strategies import seeds
 WALK = sample("walk_straight")[200:500]
 POSES = forward_kinematics(WALK)
 TRACKS = [track_leg(WALK, leg, POSES) for leg in find_legs(WALK.skeleton)]
-MARKS = [[WALK.contacts[name] for name in pair] for pair in (("lfoot", "ltoes"), ("rfoot", "rtoes"))]
-TARGETS = [foot_target(track, np.array(marks), {}) for track, marks in zip(TRACKS, MARKS, strict=True)]
+LEFT = TRACKS[0].leg
+MARKS = np.array([WALK.contacts[name] for name in ("lfoot", "ltoes", "rfoot", "rtoes")]).reshape(2, 2, -1)
+TARGETS = [foot_target(track, marks, {}) for track, marks in zip(TRACKS, MARKS, strict=True)]
 
 
 def shifted(*shifts, **more):
@@ -119,3 +124,81 @@ def test_a_knee_that_jolts_is_no_longer_bent_backwards_for_the_whole_run():
     side[10:20] = side[40:50] = -1.0
     eased = least_bending._eased(TARGETS[0]._replace(side=side), jolts)
     assert np.array_equal(np.flatnonzero(eased.side < 0), np.arange(40, 50))
+
+
+@pytest.mark.parametrize("faster", [1.0, 1.2])
+def test_the_places_say_where_an_ankle_is(faster):
+    """As in [KSG02, step 2]: a foot that stands stays as it is; a ball that stands holds it by its length."""
+    motion = replace(WALK, root_positions=WALK.root_positions * [1, 1, faster])
+    track, (flat, down) = track_leg(motion, LEFT, forward_kinematics(motion)), MARKS[0]
+    places = place_plants((track.ankle, track.ball), (flat, down), length := LEFT.lengths(WALK.skeleton)[2])
+    target = foot_target(track, MARKS[0], {})
+    assert target.ankle[flat] == pytest.approx(places[0, flat], abs=1e-9)
+    assert np.linalg.norm(target.ankle - places[1], axis=-1)[down] == pytest.approx(length, abs=1e-9)
+    moved, turned = (np.abs(values).max() for values in (target.ankle - track.ankle, target.turn))
+    assert (moved < 1e-7 and turned < 1e-6) if faster == 1 else moved > 0.02
+    assert np.array_equal(target.planted, MARKS[0].any(axis=0))
+
+
+def test_plants_of_a_leg_that_lies_are_drawn_within_its_reach():
+    # On the back, the leg stretched out level; the hip moves away from the foot by a centimetre.
+    positions = POSES.positions[:1].repeat(len(WALK), axis=0).copy()
+    thigh, shank, foot = LEFT.lengths(WALK.skeleton)
+    moved = np.linspace(0, 0.01, len(WALK))[:, None] * [1.0, 0, 0]
+    matrices = np.broadcast_to(np.eye(3), POSES.matrices.shape)
+    positions[:, LEFT.hip] = moved + np.array([0, 0.1, 0])
+    positions[:, LEFT.knee] = positions[:, LEFT.hip] + thigh * np.array([-np.cos(0.05), np.sin(0.05), 0])
+    positions[:, LEFT.ankle] = positions[:, LEFT.knee] + shank * np.array([-np.cos(0.05), -np.sin(0.05), 0])
+    positions[:, LEFT.ball] = positions[:, LEFT.ankle] + [0, foot, 0]
+    lying = track_leg(WALK, LEFT, GlobalPoses(positions, matrices))
+    target = foot_target(lying, np.ones_like(MARKS[0]), {})
+    before = np.linalg.norm(positions[:, LEFT.ankle] - positions[:, LEFT.hip], axis=-1)
+    assert np.ptp(target.ankle, axis=0) == pytest.approx(0, abs=1e-12)
+    after = np.linalg.norm(target.ankle - positions[:, LEFT.hip], axis=-1)
+    assert after.max() <= before.max() + 1e-9
+    assert np.all(after <= lying.limit)
+    assert np.linalg.norm(positions[:, LEFT.ankle].mean(axis=0) - positions[-1, LEFT.hip]) > before.max()
+
+
+@given(seeds)
+def test_the_filled_curve_keeps_what_is_known_and_bends_least(seed):
+    """As in [KSG02, step 5]."""
+    random = np.random.default_rng(seed)
+    values, known = random.normal(size=(14, 2)), random.random(14) < 0.4
+    filled = smooth_fill(values, known, 30.0)
+    assert np.array_equal(filled[known], values[known])
+
+    def cost(c):
+        c = c.reshape(-1, 2)
+        return (np.diff(c, 2, axis=0) ** 2).sum() + (FADE * 30) ** -4 * (c**2).sum()
+
+    for _ in range(5):
+        other = filled + (~known)[:, None] * random.normal(size=filled.shape) * 1e-3
+        assert cost(other) >= cost(filled)
+
+
+@pytest.mark.parametrize("frames", [1, 2, 3])
+def test_few_frames_can_be_filled(frames):
+    known = np.arange(frames) == 0
+    filled = smooth_fill(np.ones((frames, 3)), known, 120.0)
+    assert np.all(filled[0] == 1) and np.isfinite(filled).all()
+    assert np.all(smooth_fill(np.ones((frames, 3)), ~known & False, 120.0) == 0)
+
+
+@given(seeds, st.floats(0.05, 0.3))
+def test_plants_that_overlap_are_a_foot_s_length_apart(seed, length):
+    """As in [KSG02, step 1]."""
+    random = np.random.default_rng(seed)
+    ankle = random.normal(size=(40, 3)) * 0.01
+    direction = random.normal(size=(40, 3)) * 0.1 + [0, 0, 1]
+    ball = ankle + length * direction / np.linalg.norm(direction, axis=-1, keepdims=True)
+    flat, down = np.zeros((2, 40), bool)
+    flat[5:20], flat[26:33] = True, True
+    down[10:30] = True
+    places = place_plants((ankle, ball), (flat, down), length)
+    both = flat & down
+    assert np.linalg.norm((places[1] - places[0])[both], axis=-1) == pytest.approx(length)
+    for kind, marks in enumerate((flat, down)):
+        for start, stop in runs(marks):
+            assert np.ptp(places[kind, start:stop], axis=0) == pytest.approx(0)
+    assert places[0, 5:20] == pytest.approx(np.tile(ankle[5:20].mean(axis=0), (15, 1)))
