@@ -47,7 +47,7 @@ def test_seams_between_kinds_cost_what_their_edges_promise():
         label, heading = ("walk", "jog")[random.integers(2)], random.uniform(-3, 3)
         for _ in range(60):
             character.step(heading, 1.0, label)
-    assert {chosen.node for chosen in character.chosen} == set(walk_and_jog().graph)
+    assert {chosen.node for chosen in character.chosen} == set(walk_and_jog())
     assert max(chosen.cost for chosen in character.chosen) <= 0.08
 
 
