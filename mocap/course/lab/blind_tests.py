@@ -139,12 +139,16 @@ def packed(films: Sequence[Motion]) -> tuple[dict[str, Any], list[dict[str, Any]
 
 
 class Pair(NamedTuple):
-    """Two films, the one with the seam and its control, and whether the seam is in the left one."""
+    """Two films, the one with the seam and its control, and whether the seam is in the left one.
+
+    `other` is the clip of the two that the control does not show: a film without a seam in the seam's place.
+    """
 
     seam: Motion
     control: Motion
     on_left: bool
     match: Transition
+    other: Motion
 
 
 def choose(
@@ -202,8 +206,8 @@ def make_pairs(clips: Sequence[Motion], matches: Transitions, window: int, seed:
         start = seam_at - window // 2
         second = lay_window_on(first, start, second, start, window)
         joined = join(first, start, second, start, window)
-        control = first if rng.random() < 0.5 else second
+        control, other = (first, second) if rng.random() < 0.5 else (second, first)
         ahead = lay_on(first[seam_at:], place(first[seam_at:], 0.0, (0.0, 0.0)))
         films = ahead.apply_motion(joined), ahead.apply_motion(control)
-        pairs.append(Pair(*films, bool(rng.random() < 0.5), match))
+        pairs.append(Pair(*films, bool(rng.random() < 0.5), match, ahead.apply_motion(other)))
     return pairs
