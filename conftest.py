@@ -29,6 +29,11 @@ if not MISSING:
     os.environ["MOCAP_DATA"] = str(REAL / "cmu")  # for the kernels of the notebooks, which inherit it
 
 
+def pytest_xdist_auto_num_workers() -> int:
+    """Start one worker more than there are cores: where browsers and kernels let one wait, one computes."""
+    return 1 + (os.cpu_count() or 1)
+
+
 @pytest.hookimpl(wrapper=True)
 def pytest_make_collect_report(collector: pytest.Collector) -> Iterator[None]:
     """Add a first cell to each notebook that nbval runs, and two last ones.
