@@ -1,8 +1,8 @@
 """The checks of the course's exercises, by the names of the functions that they ask for.
 
 A notebook has a table here, such as `06-pruning.toml`: what each of its exercises asks for, with which input
-it is tried, and the mistakes that students make, each with its hint. Beside them, five files have the
-answers, right and wrong, that take more than a few lines.
+it is tried, and the mistakes that students make, each with its hint. Beside them, `answers` has what several
+tables use, and answers that take many lines.
 
 >>> from mocap.course import checks
 >>> checks.speed(lambda positions, fps: ...)
@@ -12,24 +12,20 @@ answers, right and wrong, that take more than a few lines.
 import tomllib
 from difflib import get_close_matches
 from functools import cache
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from mocap.course.check import Check
-
-FILES = ("poses", "likeness", "graphs", "walks", "edits")
+from mocap.course.checks import answers
 
 
 @cache
 def all_checks() -> dict[str, Check]:
     """Return every check by its name, notebook by notebook."""
-    files = [vars(import_module(f"{__name__}.{file}")) for file in FILES]
-    known = {name: value for file in files for name, value in file.items()}
     found: dict[str, Check] = {}
     for file in sorted(Path(__file__).parent.glob("*.toml")):
         for name, table in tomllib.loads(file.read_text("utf-8")).items():
-            found[name] = Check(name, table, known, file.stem.partition("-")[0])
+            found[name] = Check(name, table, vars(answers), file.stem.partition("-")[0])
     return found
 
 
