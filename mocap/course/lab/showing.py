@@ -10,7 +10,7 @@ from __future__ import annotations
 import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import cached_property, partial
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -131,72 +131,57 @@ class Inspector(Embedded):
 
     @cached_property
     def scene(self) -> dict[str, Any]:
-        """What the scripts draw."""
-        return scene(self.choices, self.show, self.track, self.asked, self.alt)
+        """What the scripts draw; `data` holds the clips' numbers and the grid's shades, compressed."""
+        choices, clips, show = self.choices, self.choices.clips, self.show
+        fps, data, abouts = clips[0].fps, b"", []
+        for number, clip in enumerate(clips):
+            about, block = packed_clip(clip, len(data), choices.needed(number))
+            abouts.append(about)
+            data += block
+        grid, shades = _shades(choices, len(data))
+        seams = [
+            {"pick": list(map(int, s[:4])), "before": s.before, "after": s.after, "frame": s.frame}
+            for s in choices.seams
+        ]
+        walk = {"path": self.track.round(3).tolist(), "asked": self.asked.round(3).tolist(), "seams": seams}
+        return {
+            **{"alt": self.alt, "fps": fps, "window": choices.window, "around": around(fps)},
+            **{"cells": CELLS, "tabs": list(show), "tab": show[-1] if show[-1] != "seam" else show[0]},
+            **{"skeleton": packed_skeleton(clips[0].skeleton), "clips": abouts, "colours": LOOK},
+            "pick": {name: int(value) for name, value in choices.pick._asdict().items()},
+            **{"grid": grid, "graph": _graph(choices), "walk": walk if seams else None},
+            "key": KEY + f" The grid by {choices.by}." * bool(choices.by),
+            "data": zlib.compress(data + shades, 9),
+        }
 
     @cached_property
     def picture(self) -> bytes:
         """Panels as a PNG, for places where no script runs."""
-        return small_png(
-            storyboard(partial(draw_where, self), self.choices.pair, self.choices.seam, self.show)
-        )
+        return small_png(storyboard(self._draw_where, self.choices.pair, self.choices.seam, self.show))
 
-
-def draw_where(shown: Inspector, ax: Any) -> None:  # noqa: ANN401 (axes)
-    """Draw what can be pointed at: the walk from above, or the graph along time, or the distance grid."""
-    choices, pick = shown.choices, shown.choices.pick
-    fps = choices.clips[0].fps
-    if choices.seams:
-        ax.plot(*shown.asked.T, color=ASKED, linewidth=5, alpha=0.6)
-        ax.plot(*shown.track.T, color=PATH, linewidth=2)
-        for seam in choices.seams:
-            chosen = seam.seam == pick.seam  # which is larger
-            look = {"markersize": 11 if chosen else 6, "markeredgecolor": "black" if chosen else "white"}
-            ax.plot(*shown.track[seam.frame], "D", color=MARK, **look)
-        ax.set(xlabel="x (m)", ylabel="z (m)", aspect="equal")
-        ax.invert_xaxis()
-    elif choices.graph is not None:
-        timeline(choices.graph, each=EACH, most=MOST, ax=ax)
-        ends = [(pick.i / fps, -pick.first), ((pick.j + choices.window) / fps, -pick.second)]
-        ax.plot(*zip(*ends, strict=True), "o-", color=MARK, markeredgecolor="black", linewidth=2.5)
-    elif choices.grid is not None:
-        names = [clip.name for clip in choices.clips]
-        distance_image(choices.grid, fps=fps, minima=choices.minima, names=names, ax=ax)
-        at = (pick.j + 0.5) / fps, (pick.i + 0.5) / fps
-        ax.plot(*at, "o", color="none", markeredgecolor="black", markersize=13, markeredgewidth=3)
-        ax.plot(*at, "o", color="none", markeredgecolor="white", markersize=13, markeredgewidth=1.5)
-
-
-def scene(choices: Choices, show: Sequence[str], track: Array, asked: Array, alt: str) -> dict[str, Any]:
-    """Give what the scripts draw; `data` holds the clips' numbers and the grid's shades, compressed.
-
-    Parameters
-    ----------
-    choices : what can be looked at.
-    show : the tabs, in the order in which the course meets them.
-    track, asked : of a walk, the root's path and the path asked for, shape (N, 2), points (x, z) in metres.
-    alt : a sentence.
-    """
-    clips, data, abouts = choices.clips, b"", []
-    for number, clip in enumerate(clips):
-        about, block = packed_clip(clip, len(data), choices.needed(number))
-        abouts.append(about)
-        data += block
-    grid, shades = _shades(choices, len(data))
-    seams = [
-        {"pick": list(map(int, s[:4])), "before": s.before, "after": s.after, "frame": s.frame}
-        for s in choices.seams
-    ]
-    walk = {"path": track.round(3).tolist(), "asked": asked.round(3).tolist(), "seams": seams}
-    return {
-        **{"alt": alt, "fps": clips[0].fps, "window": choices.window, "around": around(clips[0].fps)},
-        **{"cells": CELLS, "tabs": list(show), "tab": show[-1] if show[-1] != "seam" else show[0]},
-        **{"skeleton": packed_skeleton(clips[0].skeleton), "clips": abouts, "colours": LOOK},
-        "pick": {name: int(value) for name, value in choices.pick._asdict().items()},
-        **{"grid": grid, "graph": _graph(choices), "walk": walk if seams else None},
-        "key": KEY + f" The grid by {choices.by}." * bool(choices.by),
-        "data": zlib.compress(data + shades, 9),
-    }
+    def _draw_where(self, ax: Any) -> None:  # noqa: ANN401 (axes)
+        """Draw what can be pointed at: the walk from above, or the graph along time, or the distance grid."""
+        choices, pick = self.choices, self.choices.pick
+        fps = choices.clips[0].fps
+        if choices.seams:
+            ax.plot(*self.asked.T, color=ASKED, linewidth=5, alpha=0.6)
+            ax.plot(*self.track.T, color=PATH, linewidth=2)
+            for seam in choices.seams:
+                chosen = seam.seam == pick.seam  # which is larger
+                look = {"markersize": 11 if chosen else 6, "markeredgecolor": "black" if chosen else "white"}
+                ax.plot(*self.track[seam.frame], "D", color=MARK, **look)
+            ax.set(xlabel="x (m)", ylabel="z (m)", aspect="equal")
+            ax.invert_xaxis()
+        elif choices.graph is not None:
+            timeline(choices.graph, each=EACH, most=MOST, ax=ax)
+            ends = [(pick.i / fps, -pick.first), ((pick.j + choices.window) / fps, -pick.second)]
+            ax.plot(*zip(*ends, strict=True), "o-", color=MARK, markeredgecolor="black", linewidth=2.5)
+        elif choices.grid is not None:
+            names = [clip.name for clip in choices.clips]
+            distance_image(choices.grid, fps=fps, minima=choices.minima, names=names, ax=ax)
+            at = (pick.j + 0.5) / fps, (pick.i + 0.5) / fps
+            ax.plot(*at, "o", color="none", markeredgecolor="black", markersize=13, markeredgewidth=3)
+            ax.plot(*at, "o", color="none", markeredgecolor="white", markersize=13, markeredgewidth=1.5)
 
 
 def _shades(choices: Choices, offset: int) -> tuple[dict[str, Any] | None, bytes]:

@@ -18,7 +18,7 @@ from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.course import lab
 from mocap.course.lab.choices import EACH, LONGEST, around, of_clips, of_graph, of_walk
-from mocap.course.lab.showing import STEP, TABS, Inspector, inspector, packed_clip, packed_skeleton, scene
+from mocap.course.lab.showing import STEP, TABS, Inspector, inspector, packed_clip, packed_skeleton
 from mocap.datasets.samples import sample
 from mocap.graphs.compiled_graph import compile_graph
 from mocap.graphs.motion_graph import from_transitions
@@ -32,7 +32,6 @@ from tests.bundled import bundled
 from tests.course.lab.students import written
 from tests.refusals import refusals, refused
 
-NOWHERE = np.zeros((0, 2))
 WALKS = [resample(sample(f"walk_curve_{n}"), 30)[:120] for n in (1, 2)]
 
 
@@ -50,13 +49,13 @@ def test_of_two_clips_the_lowest_minimum_comes_first():
 
 def test_the_readers_functions_make_the_grid_and_its_minima_and_it_is_said():
     theirs = of_clips(WALKS, 10, None)
-    assert theirs.by == "" and "The grid by" not in scene(theirs, ["windows"], NOWHERE, NOWHERE, "")["key"]
+    assert theirs.by == "" and "The grid by" not in Inspector(theirs, ("windows",)).scene["key"]
     sums, inner = lab.mine(written("window_sums")), lab.mine(written("inner_minima"))
     ours = of_clips(WALKS, 10, None)
     assert sums.yours and inner.yours
     assert np.allclose(ours.grid, theirs.grid, atol=1e-6)
     assert ours.pick == theirs.pick and {*ours.minima} - {*theirs.minima} == set()
-    said = scene(ours, ["windows"], NOWHERE, NOWHERE, "")["key"]
+    said = Inspector(ours, ("windows",)).scene["key"]
     assert said.endswith(" The grid by window_sums, inner_minima: yours.")
 
 
