@@ -98,30 +98,26 @@ class Scene:
 
 
 def script_of(slides: Iterable[Slide], recorded: Mapping[str, Any]) -> list[Scene]:
-    """Give the scenes of a film.
+    """Give the scenes of a film: of a slide, one for each thing that it shows, or one of its words alone.
 
     Parameters
     ----------
     slides : from `deck_of`; exercises are for the class.
     recorded : recordings of experiments by the source of their cell; without one, a still picture is shown.
     """
-    return [scene for slide in slides if slide.label != "Exercise" for scene in _scenes(slide, recorded)]
-
-
-def _scenes(slide: Slide, recorded: Mapping[str, Any]) -> Iterator[Scene]:
-    """Yield a scene for each thing that a slide shows, or one of its words alone."""
-    written = [cell.source for cell in slide.cells if cell.cell_type == "markdown"]
-    texts = [text for text in written if not text.startswith("![")]
-    lines = [line for text in texts for line in text.splitlines() if re.search("[^-|: ]", line)]
-    rows = (re.sub(r"^\s*(?:[-*]|\d+\.) ", "", line).strip("|").split(" | ") for line in lines)  # of tables
-    words, shown = list(filter(None, ("\t".join(map(spoken, row)) for row in rows))), False
-    heading = spoken(f"{slide.label}: {slide.heading}" if slide.label else slide.heading)
-    for cell in slide.cells:
-        for kind, *parts in _shown(cell, recorded):
-            shown = True
-            yield Scene(kind, heading, " ".join(words), *parts)
-    if not shown and words:
-        yield Scene("card", heading, "\n".join(words))
+    scenes = []
+    for slide in (slide for slide in slides if slide.label != "Exercise"):
+        written = [cell.source for cell in slide.cells if cell.cell_type == "markdown"]
+        texts = [text for text in written if not text.startswith("![")]
+        lines = [line for text in texts for line in text.splitlines() if re.search("[^-|: ]", line)]
+        rows = (re.sub(r"^\s*(?:[-*]|\d+\.) ", "", line).strip("|").split(" | ") for line in lines)
+        words = list(filter(None, ("\t".join(map(spoken, row)) for row in rows)))
+        heading = spoken(f"{slide.label}: {slide.heading}" if slide.label else slide.heading)
+        shown = [parts for cell in slide.cells for parts in _shown(cell, recorded)]
+        scenes += [Scene(kind, heading, " ".join(words), *parts) for kind, *parts in shown]
+        if words and not shown:
+            scenes.append(Scene("card", heading, "\n".join(words)))
+    return scenes
 
 
 def _shown(cell: Any, recorded: Mapping[str, Any]) -> Iterator[tuple[Any, ...]]:  # noqa: ANN401
