@@ -192,8 +192,5 @@ def keep(file: Path, name: str, notebook: str, source: str) -> str:
     kept.sort(key=lambda part: part[1].partition("(")[2])  # by notebook
     start = head.rstrip() + "\n" if head.strip() else HEAD
     text = "\n\n".join([start, *(heading + body.rstrip() + "\n" for _, heading, body in kept)]) + FOOT
-    try:
-        write_text(file, text)
-    except OSError as error:
-        raise MocapError(f"{file}: cannot be written ({error.strerror}).") from error
+    write_text(file, text)
     return text
