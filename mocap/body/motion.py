@@ -59,7 +59,12 @@ class Motion:
         object.__setattr__(self, "fps", float(self.fps))
         self._check_numbers()
         for key in ("labels", "contacts"):
-            marks = {str(name): self._mark(name, mark) for name, mark in getattr(self, key).items()}
+            marks = {}
+            for name, mark in getattr(self, key).items():
+                if np.shape(mark) not in ((), (len(self),)):
+                    needs = f"mark '{name}' needs {len(self)} booleans, got shape {np.shape(mark)}"
+                    raise MocapError(f"Motion '{self.name}': {needs}.")
+                marks[str(name)] = frozen(np.broadcast_to(mark, len(self)), np.bool_)
             object.__setattr__(self, key, marks)
         for joint in self.contacts:
             self.skeleton.index(joint)
@@ -82,12 +87,6 @@ class Motion:
             frame, joint = np.unravel_index(error.argmax(), error.shape)
             place = f"'{self.name}', frame {frame}, joint '{self.skeleton.names[joint]}'"
             raise MocapError(f"Motion {place}: the quaternion does not have length 1.")
-
-    def _mark(self, name: str, mark: ArrayLike) -> NDArray[np.generic]:
-        if np.shape(mark) not in ((), (len(self),)):
-            mark_of = f"Motion '{self.name}': mark '{name}'"
-            raise MocapError(f"{mark_of} needs {len(self)} booleans, got shape {np.shape(mark)}.")
-        return frozen(np.asarray(mark, bool) | np.zeros(len(self), bool), np.bool_)
 
     def __len__(self) -> int:
         return len(self.root_positions)

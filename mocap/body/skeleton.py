@@ -13,7 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 from mocap._shared.arrays import Array, Indices, frozen
 from mocap.errors import MocapError, SkeletonMismatch
 
-_SIDES = [("left", "right"), ("Left", "Right"), ("_l", "_r"), ("_L", "_R"), ("l", "r"), ("L", "R")]
+_LEFT, _RIGHT = ("left", "Left", "_l", "_L", "l", "L"), ("right", "Right", "_r", "_R", "r", "R")
+_SIDES = [pair for left, right in zip(_LEFT, _RIGHT, strict=True) for pair in ((left, right), (right, left))]
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,7 +153,8 @@ class Skeleton:
         >>> [body.side(joint) for joint in range(3)]
         ['middle', 'left', 'right']
         """
-        return self._image(joint)[1]
+        own, image = self.names[joint], self.names[self.partner(joint)]
+        return "middle" if own == image else "left" if own < image else "right"  # an l comes before an r
 
     def partner(self, joint: int) -> int:
         """Find a joint's mirror image by its name; a joint in the middle is its own.
@@ -163,15 +165,11 @@ class Skeleton:
         >>> [body.partner(joint) for joint in range(3)]
         [0, 2, 1]
         """
-        return self._image(joint)[0]
-
-    def _image(self, joint: int) -> tuple[int, str]:
         name = self.names[joint]
-        for left, right in _SIDES:
-            for side, own, other in (("left", left, right), ("right", right, left)):
-                if own in name and (image := name.replace(own, other, 1)) in self.names:
-                    return self.names.index(image), side
-        return joint, "middle"
+        for own, other in _SIDES:
+            if own in name and (image := name.replace(own, other, 1)) in self.names:
+                return self.names.index(image)
+        return joint
 
     def require_same(self, other: Skeleton) -> None:
         """Raise `SkeletonMismatch` unless `other` has the same joints, the same tree and the same offsets."""
