@@ -16,28 +16,12 @@ Nodes = frozenset[Hashable]
 NO_LABELS: Labels = frozenset()
 
 
-def numbered_edges(graph: nx.MultiDiGraph) -> Indices:
-    """List a graph's edges as rows (start, end) of node numbers, shape (E, 2), in the order of its nodes.
-
-    Examples
-    --------
-    >>> numbered_edges(nx.MultiDiGraph([("a", "b"), ("b", "c"), ("c", "a")])).tolist()
-    [[0, 1], [1, 2], [2, 0]]
-
-    Notebook: 06b-pruning-clips
-    """
-    number = {node: n for n, node in enumerate(graph)}
-    return np.array([(number[a], number[b]) for a, b in graph.edges()], int).reshape(-1, 2)
-
-
-def largest_components(
-    graph: nx.MultiDiGraph, ways: Indices, by_labels: bool
-) -> dict[Labels, tuple[Nodes, int]]:
+def largest_components(graph: nx.MultiDiGraph, by_labels: bool) -> dict[Labels, tuple[Nodes, int]]:
     """Find the strongly connected component that plays most frames of clip, of all edges or per label set.
 
     Parameters
     ----------
-    graph, ways : the graph, and its edges from `numbered_edges`.
+    graph : the graph.
     by_labels : whether to find one component for each label set, from the edges with exactly these labels.
 
     Returns
@@ -52,12 +36,14 @@ def largest_components(
     >>> walk, run = frozenset({"walk"}), frozenset({"run"})
     >>> _ = graph.add_edges_from([(1, 2), (2, 1)], kind="clip", frames=9, labels=walk)
     >>> _ = graph.add_edges_from([(3, 4), (4, 3)], kind="clip", frames=5, labels=run)
-    >>> found = largest_components(graph, numbered_edges(graph), by_labels=True)
+    >>> found = largest_components(graph, by_labels=True)
     >>> {min(labels): (sorted(nodes), frames) for labels, (nodes, frames) in found.items()}
     {'walk': ([1, 2], 18), 'run': ([3, 4], 10)}
 
     Notebook: 06b-pruning-clips
     """
+    number = {node: n for n, node in enumerate(graph)}
+    ways = np.array([(number[a], number[b]) for a, b in graph.edges()], int).reshape(-1, 2)
     edges = [edge for _, _, edge in graph.edges(data=True)]
     frames = np.array([edge["frames"] * (edge["kind"] == "clip") for edge in edges], int)
     labels = [edge.get("labels", NO_LABELS) if by_labels else NO_LABELS for edge in edges]
@@ -90,7 +76,8 @@ def largest_component(ways: Indices, frames: Indices, count: int) -> tuple[Mask,
 
     Notebook: 06b-pruning-clips
     """
-    part = component_numbers(ways, count)
+    matrix = coo_array((np.ones(len(ways), bool), tuple(ways.T)), shape=(count, count))
+    part = connected_components(matrix, directed=True, connection="strong")[1]  # the number of each node's
     start, end = part[ways].T
     inside = start == end
     if not inside.any():
@@ -99,25 +86,6 @@ def largest_component(ways: Indices, frames: Indices, count: int) -> tuple[Mask,
     played = np.bincount(start[inside], frames[inside])
     best = np.lexsort([edges, played])[-1]
     return part == best, int(played[best])
-
-
-def component_numbers(ways: Indices, count: int) -> Indices:
-    """Give each node the number of its strongly connected component, shape (count,).
-
-    Parameters
-    ----------
-    ways, count : the edges and the number of nodes, as for `largest_component`.
-
-    Examples
-    --------
-    Nodes 0 and 1 reach each other, node 2 only reaches itself:
-
-    >>> part = component_numbers(np.array([[0, 1], [1, 0], [1, 2]]), 3)
-    >>> bool(part[0] == part[1]), bool(part[1] == part[2])
-    (True, False)
-    """
-    matrix = coo_array((np.ones(len(ways), bool), tuple(ways.T)), shape=(count, count))
-    return np.asarray(connected_components(matrix, directed=True, connection="strong")[1])
 
 
 def reached(graph: nx.MultiDiGraph, start: Iterable[Hashable]) -> set[Hashable]:

@@ -76,7 +76,16 @@ def summary(graph: nx.MultiDiGraph, *, fps: float) -> Summary:
     frames, mean, worst = _waits(graph)
     nodes, degree = len(graph), len(kinds) / max(len(graph), 1)
     counts = (frames, frames / fps, nodes, len(kinds), kinds.count("transition"), degree)
-    return Summary(*counts, mean / fps, worst / fps, _reachable(graph))
+    starts: dict[Labels, set[Node]] = {}
+    for start, _, edge in graph.edges(data=True):
+        if edge["kind"] == "clip":
+            starts.setdefault(edge["labels"], set()).add(start)
+    ways = {labels: reached(graph, nodes) for labels, nodes in starts.items()}
+    reachable = {
+        here: frozenset(there for there in starts if there != here and starts[there] & ways[here])
+        for here in starts
+    }
+    return Summary(*counts, mean / fps, worst / fps, reachable)
 
 
 def _waits(graph: nx.MultiDiGraph) -> tuple[int, float, float]:
@@ -90,19 +99,6 @@ def _waits(graph: nx.MultiDiGraph) -> tuple[int, float, float]:
         ahead.setdefault(start, float(own[0]))
         waits += [ahead[start], *own[1:].tolist()]
     return len(waits), sum(waits) / max(len(waits), 1), max(waits, default=0.0)
-
-
-def _reachable(graph: nx.MultiDiGraph) -> dict[Labels, frozenset[Labels]]:
-    """Find for each label set of the clips the others that a walk can reach from it."""
-    starts: dict[Labels, set[Node]] = {}
-    for start, _, edge in graph.edges(data=True):
-        if edge["kind"] == "clip":
-            starts.setdefault(edge["labels"], set()).add(start)
-    ways = {here: reached(graph, nodes) for here, nodes in starts.items()}
-    return {
-        here: frozenset(there for there in starts if there != here and starts[there] & ways[here])
-        for here in starts
-    }
 
 
 def write_graphml(motion_graph: MotionGraph, path: str | Path) -> None:

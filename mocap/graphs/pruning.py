@@ -17,18 +17,14 @@ from enum import StrEnum
 from itertools import permutations
 
 import networkx as nx
-import numpy as np
 
-from mocap._shared.arrays import Indices
 from mocap._shared.collector import uncollected
 from mocap.errors import NoWalk, warn
 from mocap.graphs.components import (
     NO_LABELS,
     Labels,
     Nodes,
-    component_numbers,
     largest_components,
-    numbered_edges,
     reached,
 )
 from mocap.graphs.motion_graph import MotionGraph
@@ -188,8 +184,7 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
 
     Notebook: 06b-pruning-clips
     """
-    ways = numbered_edges(graph)
-    found = largest_components(graph, ways, by_labels)
+    found = largest_components(graph, by_labels)
     components = {labels: nodes for labels, (nodes, _) in found.items() if nodes}
     if not components:
         one = " of edges with the same labels" if len(found) > 1 else ""
@@ -200,23 +195,21 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
     frames = {labels: count for labels, (_, count) in found.items()}
     for message in _shortcomings(frames, least_frames, pruned, components):
         warn(message)
-    reasons = _reasons(graph, ways, kept)
+    reasons = _reasons(graph, kept)
     ends = ((edge, edge[0] if edge[1] in kept else edge[1]) for edge in graph.edges(keys=True))
     removed = {edge: reasons[end] for edge, end in ends if end in reasons}
     return Pruning(pruned, components, removed, tuple(reasons))
 
 
-def _reasons(graph: nx.MultiDiGraph, ways: Indices, kept: Nodes) -> dict[Hashable, Reason]:
+def _reasons(graph: nx.MultiDiGraph, kept: Nodes) -> dict[Hashable, Reason]:
     """Give the reason for every node that is removed."""
-    part = component_numbers(ways, len(graph))
-    on_cycle = np.bincount(part)[part] > 1
-    on_cycle[ways[ways[:, 0] == ways[:, 1], 0]] = True
-    after = reached(graph, kept)
-    before = reached(graph.reverse(copy=False), kept)
+    on_cycle = set(nx.nodes_with_selfloops(graph))
+    on_cycle.update(*(part for part in nx.strongly_connected_components(graph) if len(part) > 1))
+    after, before = reached(graph, kept), reached(graph.reverse(copy=False), kept)
     reasons = {}
-    for node, cycle in zip(graph, on_cycle.tolist(), strict=True):
+    for node in graph:
         if node not in kept:
-            aside = Reason.ASIDE if node in after else Reason.UNREACHED
+            cycle, aside = node in on_cycle, Reason.ASIDE if node in after else Reason.UNREACHED
             reasons[node] = Reason.DEAD_END if not cycle else Reason.SINK if node not in before else aside
     return reasons
 
