@@ -10,7 +10,7 @@ import csv
 import re
 from functools import cache
 from pathlib import Path
-from typing import NamedTuple, overload
+from typing import NamedTuple
 
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
@@ -80,12 +80,6 @@ def trials(subject: int | None = None, kind: str | None = None) -> list[Trial]:
     return found
 
 
-@overload
-def cmu(clip: str, *, skeleton: Skeleton | Stance | None = None) -> Motion: ...
-@overload
-def cmu(
-    *, subject: int | None = None, kind: str | None = None, skeleton: Skeleton | Stance | None = None
-) -> list[Motion]: ...
 def cmu(
     clip: str | None = None,
     *,
@@ -123,16 +117,17 @@ def cmu(
 
     Notebook: 10-real-data
     """
-    if clip is not None:
-        subject_folder = clip.split("_")[0]
-        if f"{subject_folder}/{clip}.amc" not in _registry():
-            raise MocapError(f"No trial '{clip}' is listed; `mocap data list` shows those that are.")
-        asf = fetch_listed(f"{subject_folder}/{subject_folder}.asf")
-        motion = load(fetch_listed(f"{subject_folder}/{clip}.amc"), skeleton=asf, fps=120.0)
-        return motion if skeleton is None else retarget(motion, skeleton)
-    if subject is None and kind is None:
+    if clip is None and subject is None and kind is None:
         raise MocapError('Which trials? Name one, as in cmu("16_15"), or give subject= or kind=.')
-    return [cmu(trial.name, skeleton=skeleton) for trial in trials(subject, kind)]
+    motions = []
+    for name in [trial.name for trial in trials(subject, kind)] if clip is None else [clip]:
+        folder = name.split("_")[0]
+        if f"{folder}/{name}.amc" not in _registry():
+            raise MocapError(f"No trial '{name}' is listed; `mocap data list` shows those that are.")
+        asf = fetch_listed(f"{folder}/{folder}.asf")
+        motion = load(fetch_listed(f"{folder}/{name}.amc"), skeleton=asf, fps=120.0)
+        motions.append(motion if skeleton is None else retarget(motion, skeleton))
+    return motions if clip is None else motions[0]
 
 
 def fetch_listed(name: str) -> Path:
