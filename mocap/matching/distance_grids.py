@@ -19,6 +19,7 @@ No step adds up numbers larger than a body and its path within a window. So the 
 a clip is or how far it goes, and 32 bits are enough.
 """
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -182,7 +183,20 @@ def distance_grid(
 
     Notebook: 02-matching
     """
-    points = _matching_points(a, b, window)
+    if isinstance(a, Motion) and isinstance(b, Motion):
+        a, b = require_alike([a, b])
+    points: list[Floats] = []
+    for clip in (a, b):
+        name = f"'{clip.name}'" if isinstance(clip, Motion) else "the clip"
+        array = point_cloud(clip) if isinstance(clip, Motion) else np.asarray(clip)
+        array = array if array.dtype in (np.float32, np.float64) else array.astype(float)
+        if array.ndim != 3 or array.shape[1] == 0 or array.shape[2] != 3:
+            raise MocapError(f"Points need the shape (F, P, 3), got {array.shape}.")
+        check_window(window, len(array), name)
+        require_near(array, name)
+        points.append(array)
+    if points[0].shape[1] != points[1].shape[1]:
+        raise MocapError(f"Clouds of {points[0].shape[1]} and {points[1].shape[1]} points do not match.")
     weights = unit_weights(joint_weights, points[0].shape[1])
     dtype = np.result_type(*points).type
     level = (points[0][..., 1].mean(0, float) + points[1][..., 1].mean(0, float)) / 2
@@ -211,27 +225,17 @@ def tiled_distances(a: Cloud, b: Cloud, *, upper: bool = False) -> Floats:
     return grid
 
 
-def _matching_points(a: Motion | ArrayLike, b: Motion | ArrayLike, window: int) -> list[Floats]:
-    if isinstance(a, Motion) and isinstance(b, Motion):
-        a, b = require_alike([a, b])
-    points: list[Floats] = []
-    for clip in (a, b):
-        name = f"'{clip.name}'" if isinstance(clip, Motion) else "the clip"
-        array = point_cloud(clip) if isinstance(clip, Motion) else np.asarray(clip)
-        array = array if array.dtype in (np.float32, np.float64) else array.astype(float)
-        if array.ndim != 3 or array.shape[1] == 0 or array.shape[2] != 3:
-            raise MocapError(f"Points need the shape (F, P, 3), got {array.shape}.")
-        check_window(window, len(array), name)
-        require_near(array, name)
-        points.append(array)
-    if points[0].shape[1] != points[1].shape[1]:
-        raise MocapError(f"Clouds of {points[0].shape[1]} and {points[1].shape[1]} points do not match.")
-    return points
-
-
 def check_window(window: int, frames: int, name: str) -> None:
     """Raise unless a clip of this many frames holds at least one window."""
     if not isinstance(window, int | np.integer) or window < 1:
         raise MocapError(f"A window needs a whole number of frames, at least one frame, got {window}.")
     if frames < window:
         raise MocapError(f"{name} has {frames} frames, too few for a window of {window}.")
+
+
+def require_windows(clips: Sequence[Motion], window: int) -> tuple[Motion, ...]:
+    """Raise unless clips go together, as by `require_alike`, and each holds at least one window."""
+    alike = require_alike(clips)
+    for clip in alike:
+        check_window(window, len(clip), f"'{clip.name}'")
+    return alike

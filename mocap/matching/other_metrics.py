@@ -14,9 +14,9 @@ from scipy.spatial.distance import cdist
 
 from mocap._shared.arrays import Array
 from mocap.body import euler, rotations
-from mocap.body.motion import Motion, require_alike
+from mocap.body.motion import Motion
 from mocap.errors import MocapError, shortened
-from mocap.matching.distance_grids import check_window, diagonal_sum
+from mocap.matching.distance_grids import diagonal_sum, require_windows
 
 _SIDED = {"femur": 50, "tibia": 30, "foot": 15, "toes": 5, "clavicle": 30, "humerus": 15, "radius": 5}
 _MIDDLE = {"lowerback": 50, "upperback": 40, "thorax": 30, "lowerneck": 20, "upperneck": 15, "head": 5}
@@ -58,7 +58,7 @@ def root_grid(a: Motion, b: Motion, *, window: int) -> Array:
     >>> root_grid(here, there, window=1)
     array([[3.]])
     """
-    a, b = _alike(a, b, window)
+    a, b = require_windows([a, b], window)
     cosines = np.abs(a.rotations[:, 0] @ b.rotations[:, 0].T)  # of half the angle; q and -q are the same turn
     turned = 2 * np.arccos(np.minimum(cosines, 1.0))
     return diagonal_sum(cdist(a.root_positions, b.root_positions) + turned, window) / window
@@ -100,7 +100,7 @@ def euler_grid(a: Motion, b: Motion, *, window: int) -> Array:
     >>> euler_grid(a, b, window=1) / HOMEWORK_WEIGHTS["ltibia"]
     array([[30.]])
     """
-    a, b = _alike(a, b, window)
+    a, b = require_windows([a, b], window)
     skeleton, weights = a.skeleton, HOMEWORK_WEIGHTS
     bones = [j for j, name in enumerate(skeleton.names) if j and name in weights and skeleton.dofs[j]]
     if not bones:
@@ -134,10 +134,3 @@ def file_angles(motion: Motion, joint: int) -> Array:
     own = rotations.multiply(rotations.multiply(rotations.inverse(axis), motion.rotations[:, joint]), axis)
     every = dofs + "".join(sorted(set("xyz") - set(dofs)))  # it does not turn about the axes that it lacks
     return np.degrees(euler.to_euler(every, own)[:, : len(dofs)])
-
-
-def _alike(a: Motion, b: Motion, window: int) -> tuple[Motion, ...]:
-    alike = require_alike([a, b])
-    for clip in (a, b):
-        check_window(window, len(clip), f"'{clip.name}'")
-    return alike

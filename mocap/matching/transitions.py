@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array
 from mocap._shared.progress import Progress
-from mocap.body.motion import Motion, require_alike
+from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError
-from mocap.matching.distance_grids import Cloud, check_window, cloud
+from mocap.matching.distance_grids import Cloud, cloud, require_windows
 from mocap.matching.minima import find_minima
 from mocap.matching.point_clouds import distinct_joints, point_cloud, require_near, unit_weights
 
@@ -153,9 +153,7 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
 
     Notebook: 05b-choice-points
     """
-    clips = require_alike(clips)
-    for clip in clips:
-        check_window(window, len(clip), f"'{clip.name}'")
+    clips = require_windows(clips, window)
     each: Mapping[Any, float] = below if isinstance(below, Mapping) else {None: below}
     _check_thresholds(each, clips)
     gap = int(window == 1)  # longer windows that run off a clip keep the clips apart by themselves
