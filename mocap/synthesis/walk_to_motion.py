@@ -66,13 +66,8 @@ def sources(motion_graph: MotionGraph, walk: Sequence[Edge]) -> list[tuple[int, 
 
     Notebook: 05-motion-graph
     """
-    found, frame = [(0, motion_graph.clips[walk[0][0][0]].name)], 0
-    for start, end, key in walk:
-        data = motion_graph.graph.edges[start, end, key]
-        if data["kind"] == "transition" and end[0] != start[0]:
-            found.append((frame + data["frames"] // 2, motion_graph.clips[end[0]].name))
-        frame += data["frames"]
-    return found
+    clips = edge_table(motion_graph, walk).owner[:, 0]  # of each frame
+    return [(int(f), motion_graph.clips[clips[f]].name) for f in np.flatnonzero(np.diff(clips, prepend=-1))]
 
 
 def require_walk(motion_graph: MotionGraph, walk: Sequence[Edge]) -> None:
