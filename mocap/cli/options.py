@@ -113,14 +113,6 @@ class Building(Sources):
         return graphs.build(clips, window=frames, threshold=self.threshold / 100, progress=progress)
 
 
-def load_graph(path: Path, skeleton: Path | None, clips: "Sequence[Motion] | None" = None) -> "MotionGraph":
-    """Load a saved graph with some clips, or with those that it remembers."""
-    from mocap.graphs.storage import find_clips, load, read  # the help needs no NumPy
-
-    clips = find_clips(path, skeleton=skeleton, progress=bar("reading")) if clips is None else clips
-    return load(path, [body.resample(clip, read(path).fps) for clip in clips])
-
-
 def bar(what: str) -> Progress:
     """Show a progress bar on a terminal, for work that takes longer than a second; erase it at the end.
 

@@ -107,7 +107,7 @@ def page(graph: Path, *, out: Path = Path("walk.html"), skeleton: Skeleton = Non
     options.check_out("page", out, formats=[".html"])
     from mocap.widgets.walking_page import walk_page  # the help needs no NumPy
 
-    made = walk_page(options.load_graph(graph, skeleton))
+    made = walk_page(graphs.load(graph, skeleton=skeleton, progress=bar("reading")))
     with replacing(out) as beside:
         beside.write_text(made, "utf-8")
     tell(wrote=f"{out}, {len(made) / 1e6:.2f} MB")
@@ -149,10 +149,10 @@ def _graph(path: Path, clips: Sequence[Path], sources: Sources, out: Path) -> "g
         lopsided = ".* so its mirror image does not"  # `mocap graph` has said so
         warnings.filterwarnings("ignore", lopsided, MocapWarning)
         if not clips:
-            return options.load_graph(path, sources.skeleton)
+            return graphs.load(path, skeleton=sources.skeleton, progress=bar("reading"))
         given = sources.load(clips)
         given += [editing.mirror(c) for c in given if mirrored_name(c.name) in found.names]
-    return options.load_graph(path, None, given)
+    return graphs.load(path, given)
 
 
 def crowd(
@@ -222,7 +222,7 @@ def _walks(path: Path | None, skeleton: Path | None) -> "graphs.MotionGraph":
         raise MocapError("--skeleton belongs to --graph: the generated walks have a skeleton of their own.")
     if path is None:
         return graphs.prune(Building().build([datasets.sample(name) for name in WALKS]))
-    graph = options.load_graph(path, skeleton)
+    graph = graphs.load(path, skeleton=skeleton, progress=bar("reading"))
     if not graph.count("transition"):
         raise NoWalk(f"{path} has no transition: no character can walk where it should.")
     return graph

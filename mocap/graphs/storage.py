@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from mocap._shared.archives import Arrays, open_archive, pack
 from mocap._shared.progress import Progress
 from mocap.body.fingerprints import fingerprint
-from mocap.body.motion import Motion, require_alike
+from mocap.body.motion import Motion, require_alike, resample
 from mocap.body.planar import PlanarTransform
 from mocap.datasets.clip_origins import Origin, find_again, is_origin
 from mocap.datasets.samples import SAMPLES, is_bundled, sample
@@ -64,7 +64,7 @@ def save(motion_graph: MotionGraph, path: str | Path, origins: Sequence[Origin] 
     ----------
     motion_graph : as from `graphs.build` or `prune`.
     path : the file.
-    origins : where the clips were read from, so that `find_clips` finds them again; one for each, or none.
+    origins : where the clips were read from, so that `load` finds them again; one for each, or none.
         Each place is kept twice: from the file's own folder, and from the root.
 
     Raises
@@ -111,13 +111,22 @@ def save(motion_graph: MotionGraph, path: str | Path, origins: Sequence[Origin] 
     pack(path, {"format": np.array(KIND), "version": np.array(1), **whole})
 
 
-def load(path: str | Path, clips: Sequence[Motion]) -> MotionGraph:
-    """Read a motion graph, and join it with its clips; `save` shows an example.
+def load(
+    path: str | Path,
+    clips: Sequence[Motion] | None = None,
+    *,
+    skeleton: Path | None = None,
+    progress: Progress = iter,
+) -> MotionGraph:
+    """Read a motion graph, and join it with its clips, at its frame rate; `save` shows an example.
 
     Parameters
     ----------
     path : a file from `save`.
-    clips : the motions that it was built of, in any order; other motions are ignored.
+    clips : the motions that it was built of, in any order; other motions are ignored. By default they are
+        bundled samples, or the files that the graph remembers, or files of their names beside it.
+    skeleton : the `.asf` file of `.amc` clips; by default the one that the graph remembers, or one that fits.
+    progress : wraps the files of the clips, to show a bar.
 
     Returns
     -------
@@ -126,12 +135,13 @@ def load(path: str | Path, clips: Sequence[Motion]) -> MotionGraph:
     Raises
     ------
     FormatError : for a file that is no motion graph, is damaged, or has a newer version.
-    MocapError : for a clip that is missing or has changed.
+    MocapError : for a clip that is missing, cannot be read, or has changed.
 
     Notebook: 05b-choice-points
     """
     found = read(path)
-    by_name = {clip.name: clip for clip in clips}
+    given_clips = _find_clips(path, skeleton, progress) if clips is None else clips
+    by_name = {clip.name: resample(clip, found.fps) for clip in given_clips}
     with suppress(KeyError, MocapError):  # one end sites for all; what does not go together is named below
         by_name.update(zip(found.names, require_alike([by_name[name] for name in found.names]), strict=True))
     for name, frames, known in zip(found.names, found.frames, found.fingerprints, strict=True):
@@ -194,25 +204,7 @@ def _unpack(path: str | Path) -> Arrays:
     return arrays
 
 
-def find_clips(path: str | Path, *, skeleton: Path | None = None, progress: Progress = iter) -> list[Motion]:
-    """Load the clips that a saved graph was built of.
-
-    They are bundled samples, or the files that the graph remembers, or files of their names beside it.
-
-    Parameters
-    ----------
-    path : a file from `save`.
-    skeleton : the `.asf` file of `.amc` clips; by default the one that the graph remembers, or one that fits.
-    progress : wraps the clips, to show a bar.
-
-    Returns
-    -------
-    The clips at their own rates: resample them to that of the graph before you give them to `load`.
-
-    Raises
-    ------
-    MocapError : where the file of a clip is in none of these places, or cannot be read.
-    """
+def _find_clips(path: str | Path, skeleton: Path | None, progress: Progress) -> list[Motion]:
     placed = find_origins(path)
     if not placed:
         return [sample(name) for name in read(path).names]
@@ -224,7 +216,7 @@ def find_clips(path: str | Path, *, skeleton: Path | None = None, progress: Prog
 
 
 def find_origins(path: str | Path) -> list[Origin]:
-    """Find the files of a saved graph's clips, as `find_clips` reads them; none for bundled samples."""
+    """Find the files of a saved graph's clips, as `load` reads them; none for bundled samples."""
     found, folder = read(path), Path(path).parent
     if set(found.names) <= set(SAMPLES) and not found.origins:
         return []

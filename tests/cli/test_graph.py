@@ -78,7 +78,7 @@ def test_a_graph_with_mirror_images_finds_its_clips_again(tmp_path, monkeypatch,
     load_save.save(resample(samples.sample("walk_circle"), 30)[:400], "a.bvh")
     run("graph a.bvh --mirror -o graph.npz")
     assert storage.read("graph.npz").names == ["a", "a_mirrored"]
-    clip, image = storage.find_clips("graph.npz")
+    clip, image = storage.load("graph.npz").clips
     assert np.allclose(joint_positions(image)[:, 0], joint_positions(clip)[:, 0] * [-1, 1, 1])
     for more in ("", "--clips a.bvh"):
         run(f"walk graph.npz --random 5s -o out.bvh {more}")
@@ -133,7 +133,7 @@ def test_it_wanders_and_writes_gltf_for_engines(folder, run):
 
 def test_clips_are_found_beside_the_graph(clips, run):
     run("graph a.bvh b.bvh -o graph.npz --threshold 5")
-    storage.save(storage.load("graph.npz", storage.find_clips("graph.npz")), "graph.npz")  # without origins
+    storage.save(storage.load("graph.npz"), "graph.npz")  # without origins
     run("walk graph.npz --random 5s -o out.bvh")
     run("walk graph.npz --random 5s -o out.bvh --clips a.bvh b.bvh")
     (clips / "b.bvh").unlink()

@@ -158,7 +158,7 @@ def test_clips_are_found_where_they_were_and_where_they_moved_together(tmp_path)
     storage.save(graph, file, [Origin(clips / "p.bvh", scale=0.0254)])
 
     def found(place):
-        return storage.load(place, storage.find_clips(place)).clips[0]
+        return storage.load(place).clips[0]
 
     assert found(file).root_positions == pytest.approx(graph.clips[0].root_positions)  # in its own unit
     moved = (tmp_path / "project").rename(tmp_path / "moved")
@@ -169,7 +169,7 @@ def test_clips_are_found_where_they_were_and_where_they_moved_together(tmp_path)
     moved.rename(tmp_path / "project")
     assert len(found(alone)) == 60  # seen from the root
     (clips / "p.bvh").unlink()
-    refused("The clip 'p' is no longer where", storage.find_clips, alone)
+    refused("The clip 'p' is no longer where", storage.load, alone)
 
 
 BARE = [replace(clip, labels={}) for clip in CLIPS]
