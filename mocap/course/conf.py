@@ -1,7 +1,7 @@
 """How Sphinx makes the pages of the course: `site` copies the notebooks, and calls it with this file."""
 
 import re
-from functools import cache, partial
+from functools import partial
 from typing import Any
 
 from docutils import nodes
@@ -31,21 +31,7 @@ pygments_dark_style = "native"
 def setup(app: Any) -> None:  # noqa: ANN401 (as Sphinx calls it)
     """Draw formulas as MathML, and keep the first names of authors from being letters of a list."""
     app.connect("autodoc-process-docstring", _keep_authors)
-    app.connect("builder-inited", _share_menus)
     app.add_html_math_renderer("mathml", (partial(_formula, False), None), (partial(_formula, True), None))
-
-
-def _share_menus(app: Any) -> None:  # noqa: ANN401
-    """Make the menu once for each folder, and mark in it the page that is read."""
-    menu = cache(app.builder._get_local_toctree)
-
-    def mark(_: Any, page: str, __: str, context: dict[str, Any], ___: Any) -> None:  # noqa: ANN401
-        folder, slash, name = page.rpartition("/")
-        entry = '<li class="toctree-l1{}"><a class="{}reference internal" href="{}"'
-        own, marked = entry.format("", "", f"{name}.html"), entry.format(" current", "current ", "#")
-        context["toctree"] = lambda **asked: menu(f"{folder}{slash}-", **asked).replace(own, marked)
-
-    app.connect("html-page-context", mark, priority=100)
 
 
 def _formula(block: bool, writer: Any, node: Any) -> None:  # noqa: ANN401
