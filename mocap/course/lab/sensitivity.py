@@ -12,6 +12,7 @@ import numpy as np
 from scipy import stats
 
 from mocap.errors import FormatError, MocapError
+from mocap.files.text import read_text
 
 COLUMNS = ["observer", "below_cm", "window", "seed", "pair", "right", "chosen", "seconds"]
 
@@ -138,14 +139,11 @@ def read_answers(files: str | Path | Iterable[str | Path]) -> list[Answer]:
     Notebook: 09b-blend-window
     """
     answers: dict[tuple[object, ...], Answer] = {}
-    paths = [Path(file) for file in ([files] if isinstance(files, str | Path) else files)]
+    paths = [files] if isinstance(files, str | Path) else [*files]
     if not paths:
         raise MocapError("There are no files of answers.")
     for path in paths:
-        try:
-            head, *rows = csv.reader(path.read_text("utf-8-sig").splitlines() or [""])
-        except (OSError, UnicodeDecodeError) as error:
-            raise MocapError(f"{path}: {getattr(error, 'strerror', None) or 'is not a text'}.") from error
+        head, *rows = csv.reader(read_text(path).splitlines())
         if head != COLUMNS:
             raise FormatError(path, 1, ",".join(COLUMNS), repr(",".join(head)))
         for number, row in enumerate(rows, 2):

@@ -225,9 +225,9 @@ ADA = "ada,4.0,10,0,1"
         (f"{HEAD}\n{ADA},1,left,2.5\n{ADA},0,left,2.5\n", "'ada' answered pair 1 twice, differently"),
         (f"{HEAD}\n\n", "line 2: expected"),
         ("x,y\n", "line 1: expected observer,below_cm"),
-        ("", "line 1: expected"),
-        (b"\xff\xfe\x00", r"a\.csv: is not a text"),
-        (None, r"a\.csv: No such file"),
+        ("", r"a\.csv: expected some text, got an empty file"),
+        (b"\xff\xfe\x00", r"a\.csv, line 1: expected text, got a zero byte"),
+        (None, r"Cannot read .*a\.csv: No such file"),
     ],
 )
 def test_what_is_no_file_of_answers_is_said(text, said, tmp_path):
