@@ -93,13 +93,16 @@ class FilmedScene:
         pieces: list[Array] = []
         colours: list[ArrayLike] = []
         for number, character in enumerate(self.scene["characters"]):
-            sides = self._sides(self._draw_path(page, number, time))
+            sides = self._draw_path(page, number, time)
             pieces.append(capsules_at(character, self.pose(number, time)))
             colours += [sides[side] for *_, side in character["pieces"]]
         return page.finished(np.concatenate(pieces), np.array(colours))
 
-    def _draw_path(self, page: ShadedPicture, number: int, time: float) -> str:
-        """Draw a character's path, seams and footprints, strong around now, and return its colour now."""
+    def _draw_path(self, page: ShadedPicture, number: int, time: float) -> list[ArrayLike]:
+        """Draw a character's path, seams and footprints, strong around now; give its body's colours now.
+
+        They are those of the middle, the left and the right of a body, whose pieces say 0, 1 and -1.
+        """
         character, way = self.scene["characters"][number], self.ways[number] * [1, 0, 1]
         sources = character["sources"] or [{"start": 0.0, "colour": character["path_colour"]}]
         middles = (self.times[1:] + self.times[:-1]) / 2
@@ -113,10 +116,7 @@ class FilmedScene:
             if start <= time < end + FADE:
                 pale = PALE * max(0.0, (time - end) / FADE)
                 page.area(rims([[x, z, 0.055]])[0], blend(self.scene["sides"][side], GROUND, pale))
-        return str(sources[which[-1]]["colour"] if character["sources"] else character["colour"])
-
-    def _sides(self, own: str) -> list[ArrayLike]:
-        """Give the colours of the middle, the left and the right of a body, whose pieces say 0, 1 and -1."""
+        own = sources[which[-1]]["colour"] if character["sources"] else character["colour"]
         if len(self.clouds) > 1:
             return [to_rgb(own), blend(own, "#FFFFFF", 0.2), blend(own, "#000000", 0.2)]
         middle, *sides = self.scene["sides"]
