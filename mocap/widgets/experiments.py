@@ -8,12 +8,10 @@ dragged, the browser sends its latest value as soon as the last picture is drawn
 from __future__ import annotations
 
 import html
-import importlib.util
 import inspect
 import io
 import traceback
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -23,9 +21,10 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
-from mocap.errors import MocapError, missing
+from mocap.errors import MocapError
 from mocap.plotting.picture import Picture, few_colours, figure_of, legible, letters_of
 from mocap.widgets.live import display_live
+from mocap.widgets.shared_traits import Naming, ipywidgets
 
 Drawn = Any  # a figure, what a function of `plotting` gives, or a list of moved artists
 
@@ -50,8 +49,7 @@ def explore(draw: Callable[..., Drawn], *, alt: str, **controls: Any) -> Experim
 
     Raises
     ------
-    MocapError : where ipywidgets is not installed, for a control that `draw` does not take, and for a value
-        that makes no control.
+    MocapError : for a control that `draw` does not take, and for a value that makes no control.
     Exception : whatever `draw` raises at first. Later, the notebook shows the error in the picture's place.
 
     Examples
@@ -65,17 +63,13 @@ def explore(draw: Callable[..., Drawn], *, alt: str, **controls: Any) -> Experim
 
     Notebook: 01-skeletons-and-clips
     """
-    if importlib.util.find_spec("ipywidgets") is None:
-        raise missing("Experiments need ipywidgets, which is not here", "notebooks")
-    from ipywidgets import interactive
-
     defaults = {name: parameter.default for name, parameter in inspect.signature(draw).parameters.items()}
     made = {}
     for name, control in controls.items():
         if name not in defaults:
             raise MocapError(f"'{draw.__name__}' takes no '{name}'; it takes: {', '.join(defaults)}.")
         try:
-            made[name] = interactive.widget_from_abbrev(control, defaults[name])
+            made[name] = ipywidgets.interactive.widget_from_abbrev(control, defaults[name])
         except (ValueError, TypeError):
             made[name] = None
         if made[name] is None:
@@ -127,8 +121,6 @@ class Experiment:
     """
 
     def __init__(self, draw: Callable[..., Drawn], alt: str, controls: dict[str, Any]) -> None:
-        import ipywidgets
-
         self.draw, self.alt, self.controls = draw, alt, controls
         self.error: Exception | None = None
         self._figure: Figure | None = None
@@ -140,11 +132,7 @@ class Experiment:
         below = ipywidgets.HBox([self.picture, self.message])
         below.layout = {"flex_flow": "row wrap", "align_items": "flex-start", "width": "100%"}
         parts = [control for control in controls.values() if control is not self.picture]
-        parts += [below, ipywidgets.HTML(f"<small>{html.escape(alt)}</small>")]
-        with suppress(MocapError):  # without anywidget, controls have no names
-            from mocap.widgets.shared_traits import Naming
-
-            parts.append(Naming(alt=alt))
+        parts += [below, ipywidgets.HTML(f"<small>{html.escape(alt)}</small>"), Naming(alt=alt)]
         self.box = ipywidgets.VBox(parts, layout={"align_items": "flex-start"})
         self.set()
         for control in controls.values():

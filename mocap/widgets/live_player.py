@@ -20,7 +20,7 @@ from mocap.steering.path_search import PathSearch, watching
 from mocap.widgets.embedding import joined
 from mocap.widgets.live import display_live
 from mocap.widgets.player import Player, play
-from mocap.widgets.shared_traits import AnyWidget, shared
+from mocap.widgets.shared_traits import AnyWidget, ipywidgets, shared
 
 Follow = Callable[[Array], Motion | Player]
 FPS = 30.0  # of a mix
@@ -151,8 +151,6 @@ class Mixer:
     """
 
     def __init__(self, registration: Registration, weights: ArrayLike = ()) -> None:
-        import ipywidgets
-
         count = len(registration.clips)
         given = np.asarray(weights, float)
         start = checked(given if given.size else np.full(count, 1 / count), count)

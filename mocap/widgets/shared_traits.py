@@ -1,4 +1,4 @@
-"""What browser and Python share of a live widget: its traits. This module needs anywidget."""
+"""What browser and Python share of a live widget: its traits. This module needs anywidget and ipywidgets."""
 
 from pathlib import Path
 from typing import Any
@@ -7,12 +7,13 @@ from mocap.errors import missing
 from mocap.widgets.embedding import joined
 
 try:
+    import ipywidgets as ipywidgets
     import traitlets
     from anywidget import AnyWidget as AnyWidget
     from ipywidgets import ValueWidget as ValueWidget
     from traitlets import validate as validate
 except ImportError as error:
-    raise missing("What is live in a notebook needs anywidget", "notebooks") from error
+    raise missing("What is live in a notebook needs anywidget and ipywidgets", "notebooks") from error
 
 
 def shared(value: Any) -> Any:  # noqa: ANN401

@@ -3,7 +3,6 @@
 import base64
 import gc
 import io
-import sys
 import tracemalloc
 
 import matplotlib.pyplot as plt
@@ -100,19 +99,6 @@ def test_senseless_controls_are_refused():
     refused("is no range", explore, fresh, alt="A line.", frame=object())
     with pytest.raises(ZeroDivisionError):
         explore(lambda n: 1 / n, alt="Nothing.", n=(0, 1))
-
-
-def test_without_ipywidgets_one_sentence_says_what_to_install(monkeypatch):
-    monkeypatch.setitem(sys.modules, "ipywidgets", None)
-    refused(r"pip install '\.\[notebooks\]'", explore, fresh, alt="A line.", frame=(0, 9))
-
-
-def test_without_anywidget_an_experiment_has_no_names_but_works(monkeypatch):
-    monkeypatch.setitem(sys.modules, "anywidget", None)
-    monkeypatch.delitem(sys.modules, "mocap.widgets.shared_traits")
-    experiment = explore(fresh, alt="A line.", frame=(0, 9))
-    assert len(experiment.box.children) == 3
-    assert experiment.set(frame=3).error is None
 
 
 def test_drawings_leave_no_figure_and_no_memory_behind():

@@ -46,12 +46,16 @@ def test_a_cell_shows_what_stays_with_its_sentence_and_then_the_live_widget(kind
     assert LIVE in getattr(made, "box", made)._dom_classes
 
 
-@pytest.mark.parametrize("kind", ["live_player", "pointing", "steered_widget"])
-def test_without_anywidget_one_sentence_says_what_to_install(kind, monkeypatch):
-    monkeypatch.setitem(sys.modules, "anywidget", None)
-    for name in ("shared_traits", "live_player", "pointing", "steered_widget"):
-        monkeypatch.delitem(sys.modules, f"mocap.widgets.{name}")
-    with pytest.raises(MocapError, match=r"needs anywidget: pip install '\.\[notebooks\]'"):
+LIVE_ONES = ("experiments", "live_player", "pointing", "steered_widget")
+
+
+@pytest.mark.parametrize("gone", ["anywidget", "ipywidgets"])
+@pytest.mark.parametrize("kind", LIVE_ONES)
+def test_without_the_libraries_one_sentence_says_what_to_install(kind, gone, monkeypatch):
+    monkeypatch.setitem(sys.modules, gone, None)
+    for name in ("shared_traits", *LIVE_ONES):
+        monkeypatch.delitem(sys.modules, f"mocap.widgets.{name}", raising=False)
+    with pytest.raises(MocapError, match=r"needs anywidget and ipywidgets: pip install '\.\[notebooks\]'"):
         importlib.import_module(f"mocap.widgets.{kind}")
 
 
