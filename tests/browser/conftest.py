@@ -60,6 +60,31 @@ def keep(page, name):
         page.screenshot(path=Path(folder) / f"{name}.png")
 
 
+def drag(page, *places, steps=8, button="left"):
+    """Drag the mouse from the first place over all others, and let go."""
+    page.mouse.move(*places[0])
+    page.mouse.down(button=button)
+    for place in places[1:]:
+        page.mouse.move(*place, steps=steps)
+    page.mouse.up(button=button)
+
+
+def fingers_on(page, part):
+    """Return a function that lets fingers touch a part, each along its way [(x, y), ...], and lift off."""
+    session = page.context.new_cdp_session(page)
+    session.send("Emulation.setTouchEmulationEnabled", {"enabled": True, "maxTouchPoints": 2})
+
+    def touch(*ways):
+        box = page.locator(part).bounding_box()
+        for number, places in enumerate(zip(*ways, strict=True)):
+            points = [{"id": k, "x": box["x"] + x, "y": box["y"] + y} for k, (x, y) in enumerate(places)]
+            kind = "touchMove" if number else "touchStart"
+            session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+        session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+
+    return touch
+
+
 @pytest.fixture(scope="package")  # not "session": other tests must not find Playwright's event loop running
 def browser():
     program = shutil.which("chromium") or shutil.which("chromium-browser")

@@ -19,8 +19,7 @@ from mocap.matching.point_clouds import align, point_cloud
 from mocap.quality.seam_measures import jumps
 from mocap.steering.path_following import follow_path
 from mocap.synthesis.walk_to_motion import to_motion
-from tests.browser.conftest import on_a_phone, wait_until
-from tests.browser.test_page import touch_of
+from tests.browser.conftest import fingers_on, on_a_phone, wait_until
 from tests.bundled import bundled
 
 IT = "document.querySelector('.mocap-inspector').inspector"
@@ -186,18 +185,12 @@ def test_a_finger_across_chooses_and_a_finger_up_scrolls(resting, part):
     page.evaluate("document.body.style.height = '3000px'")
     page.locator("[data-tab=turn]").click()
     chosen = f"[{IT}.pick.i, {IT}.pick.j, {IT}.angle]"
-    before, fingers = page.evaluate(chosen), touch_of(page, part)
-    fingers("touchStart", (120, 60))
-    for step in range(1, 12):
-        fingers("touchMove", (120 + 9 * step, 60 + step))
-    fingers("touchEnd")
+    before, fingers = page.evaluate(chosen), fingers_on(page, part)
+    fingers([(120 + 9 * step, 60 + step) for step in range(12)])
     wait_until(lambda: page.evaluate(chosen) != before)
     assert page.evaluate("scrollY") == 0
     before = page.evaluate(chosen)
-    fingers("touchStart", (120, 110))
-    for step in range(1, 12):
-        fingers("touchMove", (120, 110 - 9 * step))
-    fingers("touchEnd")
+    fingers([(120, 110 - 9 * step) for step in range(12)])
     wait_until(lambda: page.evaluate("scrollY") > 50)
     assert page.evaluate(chosen) == before
 

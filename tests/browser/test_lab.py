@@ -13,7 +13,7 @@ from mocap.blending import register
 from mocap.datasets import sample
 from mocap.widgets import Mixer
 from tests.browser import test_questions as questions
-from tests.browser.conftest import keep, run_notebook, wait_until, watched_page
+from tests.browser.conftest import drag, keep, run_notebook, wait_until, watched_page
 from tests.browser.test_blind import take
 from tests.course.stored_notebooks import FOLDER
 
@@ -225,10 +225,7 @@ def test_a_handle_is_dragged_by_the_mouse_and_moved_by_keys_and_the_line_follows
     drawn = place.locator(".mocap-dragging img")
     before, box = drawn.get_attribute("src"), handle.bounding_box()
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    page.mouse.move(x, y)
-    page.mouse.down()
-    page.mouse.move(x + 40, y - 30, steps=4)
-    page.mouse.up()
+    drag(page, (x, y), (x + 40, y - 30), steps=4)
     wait_until(lambda: drawn.get_attribute("src") != before)
     across, up = (float(part.split()[-1]) for part in status.inner_text().split(", "))
     assert -1.0 < across < -0.3  # the axis of x points to the left
@@ -285,22 +282,15 @@ def test_a_path_that_is_drawn_is_walked(notebook):
     wait_until(lambda: state(place) >= 0)
     box = place.locator("canvas:visible").bounding_box()
 
-    def draw(*pixels):
-        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] * 0.6
-        page.mouse.move(x, y)
-        page.mouse.down()
-        for dx, dy in pixels:
-            page.mouse.move(x + dx, y + dy, steps=8)
-        page.mouse.up()
-
-    draw((100, 10), (160, 60), (60, 90))
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] * 0.6
+    drag(page, (x, y), (x + 100, y + 10), (x + 160, y + 60), (x + 60, y + 90))
     wait_until(lambda: place.locator(PLAYER).get_attribute("data-playing") == "true")
     wait_until(lambda: cell("drawn").get_by_text("Python was asked for").is_visible())
     cell("draw")
     asked = place.locator(PLAYER).evaluate("root => root.player.scene.asked.length")
     assert asked > 5
     assert "The walk leaves the path once." in place.locator(".message:visible").inner_text()
-    draw((3, 0))
+    drag(page, (x, y), (x + 3, y))
     wait_until(lambda: place.get_by_text("Drag over the ground for at least 0.5 m.").is_visible())
     page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     wait_until(lambda: place.get_by_text("That is 0.0 m.").is_visible())
@@ -326,11 +316,7 @@ def test_each_new_drawing_sets_out_while_the_last_walk_plays(notebook):
     for redraw in range(3):
         number = player.evaluate(SETS_OUT)
         x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] * 0.6
-        page.mouse.move(x, y)
-        page.mouse.down()
-        for k in range(1, 8):
-            page.mouse.move(x + (15 + redraw) * k, y + 8 * k)
-        page.mouse.up()
+        drag(page, *((x + (15 + redraw) * k, y + 8 * k) for k in range(8)), steps=1)
         frame = player.evaluate("root => root.first")
         assert player.evaluate("root => root.player.scene.number") == number + 1
         assert frame < 40, redraw

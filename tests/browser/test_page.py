@@ -15,7 +15,7 @@ from mocap.widgets.embedding import PICTURE, SCENE, SHADED, joined
 from mocap.widgets.packing import packed_body, packed_character
 from mocap.widgets.player import play
 from mocap.widgets.walk_figure import figure
-from tests.browser.conftest import on_a_phone, wait_until, without_scripts
+from tests.browser.conftest import drag, fingers_on, on_a_phone, wait_until, without_scripts
 from tests.strategies import wave
 
 PLAYER = "document.querySelector('.mocap-player').player"
@@ -128,10 +128,7 @@ def test_the_mouse_turns_and_the_wheel_zooms(resting):
     box = page.locator("canvas").bounding_box()
     x, y = box["x"] + 200, box["y"] + 200
     yaw, before = page.evaluate(f"{PLAYER}.camera.yaw"), colours(page)
-    page.mouse.move(x, y)
-    page.mouse.down()
-    page.mouse.move(x + 90, y + 20, steps=5)
-    page.mouse.up()
+    drag(page, (x, y), (x + 90, y + 20))
     assert page.evaluate(f"{PLAYER}.camera.yaw") == pytest.approx(yaw - 90 / 150)
     wait_until(lambda: np.any(colours(page) != before))
     page.mouse.wheel(0, -200)
@@ -140,32 +137,15 @@ def test_the_mouse_turns_and_the_wheel_zooms(resting):
     assert page.evaluate(f"{PLAYER}.camera.zoom") == 1
 
 
-def touch_of(page, part):
-    """Return a function that puts fingers on places (x, y) of a part of the page."""
-    session = page.context.new_cdp_session(page)
-    session.send("Emulation.setTouchEmulationEnabled", {"enabled": True, "maxTouchPoints": 2})
-
-    def fingers(kind, *places):
-        box = page.locator(part).bounding_box()
-        points = [{"id": k, "x": box["x"] + x, "y": box["y"] + y} for k, (x, y) in enumerate(places)]
-        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
-
-    return fingers
-
-
 @pytest.fixture
 def touch(page):
-    """Return a function that puts fingers on places (x, y) of the canvas."""
-    return touch_of(page, "canvas")
+    return fingers_on(page, "canvas")
 
 
 def test_two_fingers_zoom(resting, touch):
     page = resting(play(wave(300)))
     yaw, before = page.evaluate(f"{PLAYER}.camera.yaw"), colours(page)
-    touch("touchStart", (300, 100), (350, 100))
-    for apart in (70, 90, 100):
-        touch("touchMove", (300, 100), (300 + apart, 100))
-    touch("touchEnd")
+    touch([(300, 100)] * 4, [(300 + apart, 100) for apart in (50, 70, 90, 100)])
     wait_until(lambda: page.evaluate(f"{PLAYER}.camera.zoom") == pytest.approx(2, rel=0.02))
     assert page.evaluate(f"{PLAYER}.camera.yaw") == yaw
     wait_until(lambda: np.any(colours(page) != before))
@@ -175,10 +155,7 @@ def test_one_finger_across_turns_and_does_not_scroll(resting, touch):
     page = resting(play(wave(300)))
     page.evaluate("document.body.style.height = '3000px'")
     yaw, pitch, before = *page.evaluate(f"[{PLAYER}.camera.yaw, {PLAYER}.camera.pitch]"), colours(page)
-    touch("touchStart", (300, 200))
-    for k in range(1, 10):
-        touch("touchMove", (300 - 10 * k, 200 + 2 * k))
-    touch("touchEnd")
+    touch([(300 - 10 * k, 200 + 2 * k) for k in range(10)])
     wait_until(lambda: page.evaluate(f"{PLAYER}.camera.yaw") == pytest.approx(yaw + 90 / 150, rel=0.05))
     assert page.evaluate(f"{PLAYER}.camera.pitch") == pytest.approx(pitch + 18 / 150, rel=0.05)
     assert page.evaluate("scrollY") == 0
@@ -190,10 +167,7 @@ def test_one_finger_down_scrolls_the_page(resting, touch):
     page = resting(play(wave(300)))
     page.evaluate("document.body.style.height = '3000px'")
     view = page.evaluate(f"[{PLAYER}.camera.yaw, {PLAYER}.camera.pitch]")
-    touch("touchStart", (300, 300))
-    for k in range(1, 15):
-        touch("touchMove", (300, 300 - 15 * k))
-    touch("touchEnd")
+    touch([(300, 300 - 15 * k) for k in range(15)])
     wait_until(lambda: page.evaluate("scrollY") > 50)
     assert page.evaluate(f"[{PLAYER}.camera.yaw, {PLAYER}.camera.pitch]") == view
 
@@ -486,10 +460,7 @@ def test_the_view_is_moved_by_shift_and_by_the_right_button(resting):
     page.get_by_role("button", name="reset view").click()
     assert page.evaluate(f"{PLAYER}.panned") == [0, 0]
     box = page.locator("canvas").bounding_box()
-    page.mouse.move(box["x"] + 300, box["y"] + 200)
-    page.mouse.down(button="right")
-    page.mouse.move(box["x"] + 360, box["y"] + 200)
-    page.mouse.up(button="right")
+    drag(page, *((box["x"] + x, box["y"] + 200) for x in (300, 360)), button="right")
     camera, target = f"{PLAYER}.camera", page.evaluate(f"{PLAYER}.panned")
     right = page.evaluate(f"{camera}.right")
     assert np.dot(target, [right[0], right[2]]) < -0.1  # what is seen goes with the hand
@@ -518,11 +489,7 @@ def test_a_stroke_is_searched_for_and_walked_near_by_with_the_line_as_inset(show
     empty = (colours(page)[corner].max(axis=-1) < 130).sum()
 
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    page.mouse.move(x, y)
-    page.mouse.down()
-    for dx, dy in ((80, 20), (120, -30), (40, -50)):
-        page.mouse.move(x + dx, y + dy, steps=8)
-    page.mouse.up()
+    drag(page, *((x + dx, y + dy) for dx, dy in ((0, 0), (80, 20), (120, -30), (40, -50))))
     asked = page.evaluate(f"{PLAYER}.model.get('path')")
     assert len(asked) > 10 and page.evaluate(f"{PLAYER}.looking > 0")
 

@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.browser.conftest import on_a_phone, wait_until
-from tests.browser.test_page import touch_of
+from tests.browser.conftest import fingers_on, on_a_phone, wait_until
 from tests.widgets.steerable import Dot
 
 IT, MODEL = "window.it", "window.model"
@@ -133,11 +132,7 @@ def test_the_slider_of_a_finger_is_large(steering):
 
 def test_a_finger_on_the_pad_commands_and_does_not_scroll(steering):
     steering.evaluate("document.body.style.height = '3000px'")
-    fingers = touch_of(steering, ".pad")
-    fingers("touchStart", (60, 60))
-    for down in range(1, 9):
-        fingers("touchMove", (60, 60 + 6 * down))
-    fingers("touchEnd")
+    fingers_on(steering, ".pad")([(60, 60 + 6 * down) for down in range(9)])
     wait_until(lambda: math.cos(command(steering)[0]) < -0.99)
     assert steering.evaluate("scrollY") == 0
 
@@ -146,15 +141,11 @@ def test_a_finger_on_the_ground_commands_when_it_taps_and_scrolls_when_it_moves_
     press(steering, "ArrowUp")
     wait_until(lambda: steering.evaluate(f"{IT}.panels[0].walker.frames.length > 0"))
     steering.evaluate("document.body.style.height = '3000px'")
-    before, fingers = command(steering), touch_of(steering, "figure >> nth=0 >> canvas")
-    fingers("touchStart", (20, 200))
-    fingers("touchEnd")
+    before, fingers = command(steering), fingers_on(steering, "figure >> nth=0 >> canvas")
+    fingers([(20, 200)])
     wait_until(lambda: command(steering) != before)
     before = command(steering)
-    fingers("touchStart", (200, 200))
-    for step in range(1, 12):
-        fingers("touchMove", (200, 200 - 9 * step))
-    fingers("touchEnd")
+    fingers([(200, 200 - 9 * step) for step in range(12)])
     wait_until(lambda: steering.evaluate("scrollY") > 50)
     assert command(steering) == before
 

@@ -13,7 +13,7 @@ import mocap
 from mocap import body, datasets, graphs, plain
 from mocap.body import rotations
 from mocap.widgets.walking_page import HERE, STEPS, pack_graph, walk_page
-from tests.browser.conftest import keep, watched_page
+from tests.browser.conftest import drag, keep, watched_page
 
 SEARCH = """([about, packed, z, x]) => {
   const bytes = Uint8Array.from(atob(packed), (c) => c.charCodeAt(0));
@@ -106,21 +106,13 @@ def walks(page):
     return page.evaluate("({ frames: page.walk.frames, metres: page.line.z.length / 100 })")
 
 
-def draw(page, points):
-    page.mouse.move(*points[0])
-    page.mouse.down()
-    for point in points[1:]:
-        page.mouse.move(*point, steps=8)
-    page.mouse.up()
-
-
 def test_a_hand_draws_and_it_walks(page, file, tmp_path):
     page.goto(f"file://{file}")
     page.wait_for_function("window.page?.walk.frames")
     page.evaluate("page.play(false); page.time = 0; page.view(true); page.aim(0, true)")
     # Figure and camera stand still, however slow the machine is.
     before = page.evaluate("page.line.z.length")
-    draw(page, [(300, 700), (500, 560), (700, 640), (900, 520), (980, 600)])
+    drag(page, (300, 700), (500, 560), (700, 640), (900, 520), (980, 600))
     page.wait_for_function("page.growing === null && page.walk.frames > 0")
     assert page.evaluate("page.line.z.length") != before
     page.evaluate("page.finish()")

@@ -3,6 +3,7 @@
 import importlib
 import sys
 import warnings
+from functools import cache
 
 import numpy as np
 import pytest
@@ -25,10 +26,16 @@ from tests.widgets.steerable import Dot
 pytest.importorskip("anywidget")
 
 
+@cache
+def turns():
+    """Two walks that turn, to the left and to the right."""
+    return register([walks()[1.1, 120], walks()[1.1, -120]])
+
+
 MADE = {
     "experiment": lambda: explore(lambda n: Figure(figsize=(2, 2)), alt="Nothing at all.", n=(0, 9)),
     "player": lambda: draw_path(lambda path: wave(30), [[0, 0], [0, 1]]),
-    "mixer": lambda: Mixer(register([walks()[1.1, 120], walks()[1.1, -120]])),
+    "mixer": lambda: Mixer(turns()),
     "steered": lambda: steered({"dot": Dot()}),
 }
 
@@ -59,13 +66,29 @@ def test_without_the_libraries_one_sentence_says_what_to_install(kind, gone, mon
         importlib.import_module(f"mocap.widgets.{kind}")
 
 
-def test_frames_of_an_older_scene_do_not_count():
-    canvas = draw_path(lambda path: wave(30 * len(path)), [[0, 0], [0, 1]])
-    assert repr(canvas) == "LivePlayer('A figure plays wave, 2.0 s.')"
+def follow(path):
+    """Walk for twenty frames a point, warn of three points, and fail at four."""
+    if len(path) > 3:
+        raise MocapError("No walk goes there.")
+    if len(path) > 2:
+        warnings.warn("The walk leaves the path.", MocapWarning, stacklevel=1)
+    return wave(20 * len(path))
+
+
+LINE = [[0.0, 0.0], [0.0, 2.0], [1.0, 2.0], [1.0, 3.0]]
+
+
+@pytest.fixture
+def canvas():
+    return draw_path(follow, LINE[:2])
+
+
+def test_frames_of_an_older_scene_do_not_count(canvas):
+    assert repr(canvas) == "LivePlayer('A figure plays wave, 1.3 s.')"
     number = canvas.scene["number"]
     canvas.at = [number, 12]  # as the browser sends it
     assert canvas.frame == 12
-    canvas.path = [[0, 0], [0, 1], [0, 2]]
+    canvas.path = LINE[:3]
     assert (canvas.scene["number"], canvas.frame) == (number + 1, 0)
     canvas.at = [number, 40]
     assert canvas.frame == 0
@@ -73,15 +96,18 @@ def test_frames_of_an_older_scene_do_not_count():
     assert canvas.frame == 40
 
 
-def test_warnings_stand_below_the_canvas():
-    def follow(path):
-        warnings.warn(f"The walk leaves the path {len(path)} times.", MocapWarning, stacklevel=1)
-        return wave(30)
-
-    canvas = draw_path(follow, [[0, 0], [0, 1]])
-    assert canvas.message.splitlines() == [canvas.player.alt, "The walk leaves the path 2 times."]
-    canvas.path = [[0, 0], [0, 1], [0, 2]]
-    assert canvas.message.splitlines()[1] == "The walk leaves the path 3 times."
+def test_a_drawn_path_becomes_a_walk_and_warnings_and_errors_stand_below_it(canvas):
+    for count, frames, below, error in [
+        (2, 40, ["A figure plays wave, 1.3 s."], type(None)),
+        (3, 60, ["A figure plays wave, 2.0 s.", "The walk leaves the path."], type(None)),
+        (4, 60, ["MocapError: No walk goes there."], MocapError),
+        (2, 40, ["A figure plays wave, 1.3 s."], type(None)),
+    ]:
+        canvas.path = LINE[:count]
+        assert (canvas.scene["frames"], canvas.scene["asked"]) == (frames, LINE[: frames // 20])
+        assert canvas.message.splitlines() == below and isinstance(canvas.error, error)
+        assert canvas.scene["drawable"] and canvas.frame == 0
+    refused("No walk", draw_path, follow, LINE)
 
 
 def test_the_best_walk_so_far_is_told_while_a_search_is_under_way(monkeypatch):
@@ -94,23 +120,6 @@ def test_the_best_walk_so_far_is_told_while_a_search_is_under_way(monkeypatch):
     assert np.linalg.norm(told[-1][-1] - [0.3, 4.0]) < 0.7 and np.linalg.norm(told[-1][0]) < 0.3
     follow_path(graph, spline([[0, 0], [1, 3]]))
     assert np.linalg.norm(np.array(canvas.best)[-1] - [0.3, 4.0]) < 0.7  # another search is not the canvas's
-
-
-def test_a_drawn_path_becomes_a_walk():
-    asked = []
-
-    def follow(path):
-        asked.append(path)
-        return wave(20 * len(path))
-
-    canvas = draw_path(follow, [[0, 0], [0, 1]])
-    assert canvas.scene["frames"] == 40
-    assert canvas.scene["drawable"]
-    canvas.path = [[0.0, 0.0], [0.0, 2.0], [1.0, 2.0]]
-    assert [path.shape for path in asked] == [(2, 2), (3, 2)]
-    assert canvas.scene["frames"] == 60
-    assert canvas.scene["asked"] == [[0, 0], [0, 2], [1, 2]]
-    assert (canvas.frame, canvas.error, canvas.message) == (0, None, canvas.player.alt)
 
 
 def test_the_path_that_was_followed_is_drawn_instead_of_the_readers_line():
@@ -126,24 +135,9 @@ def test_the_path_that_was_followed_is_drawn_instead_of_the_readers_line():
     assert canvas.path == [[0, 0], [0, 1], [0, 3]]
 
 
-def test_an_error_is_shown_until_the_next_path():
-    def follow(path):
-        if len(path) > 2:
-            raise MocapError("No walk goes there.")
-        return wave(30)
-
-    canvas = draw_path(follow, [[0, 0], [0, 1]])
-    canvas.path = [[0, 0], [0, 1], [0, 2]]
-    assert canvas.message == "MocapError: No walk goes there."
-    assert isinstance(canvas.error, MocapError)
-    canvas.path = [[0, 0], [0, 2]]
-    assert (canvas.error, canvas.message) == (None, "A figure plays wave, 1.0 s.")
-    refused("No walk", draw_path, follow, [[0, 0], [0, 1], [0, 2]])
-
-
 @pytest.fixture
 def mixer():
-    return Mixer(register([walks()[1.1, 120], walks()[1.1, -120]]), [1, 0])
+    return Mixer(turns(), [1, 0])
 
 
 def shown(mixer):
@@ -188,4 +182,4 @@ def test_all_sliders_at_0_change_nothing_and_clips_of_one_name_are_numbered(mixe
 
 
 def test_weights_that_do_not_add_up_are_refused():
-    refused("add up to 1", Mixer, register([walks()[1.1, 120], walks()[1.1, -120]]), [1, 1])
+    refused("add up to 1", Mixer, turns(), [1, 1])

@@ -5,7 +5,6 @@ import html
 import io
 import json
 import re
-import zlib
 from dataclasses import replace
 
 import numpy as np
@@ -19,6 +18,7 @@ from mocap.course.lab.showing import inspector
 from mocap.plotting.bodies import bones
 from mocap.plotting.picture import Picture
 from mocap.widgets.embedding import Embedded
+from mocap.widgets.filmed_scene import FilmedScene
 from mocap.widgets.player import play
 from tests.refusals import refused
 from tests.strategies import random_motion, seeds, wave
@@ -53,13 +53,7 @@ def test_a_page_holds_the_scene_the_picture_and_the_sentence():
 
 def unpacked(player, number=0):
     """Give a character of a scene, and where its joints are, shape (F, J, 3)."""
-    scene = player.scene
-    character = scene["characters"][number]
-    shape = (character["joints"], 3, character["frames"])
-    data = zlib.decompress(scene["data"])
-    changes = np.frombuffer(data, "<u2", int(np.prod(shape)), character["offset"]).reshape(shape)
-    numbers = np.moveaxis(changes.cumsum(-1).cumsum(-1) % 2**16, -1, 0)
-    return character, np.array(character["low"]) + np.array(character["step"]) * numbers
+    return player.scene["characters"][number], FilmedScene(player.scene).clouds[number]
 
 
 @given(seeds, st.floats(-1e4, 1e4))
