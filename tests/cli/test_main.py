@@ -61,13 +61,12 @@ def test_a_bar_is_drawn_on_a_terminal_only(monkeypatch, screen, settings, drawn)
     assert ("spelling" in screen.getvalue()) == drawn
 
 
-def test_a_cell_that_fails_is_named_in_one_sentence(tmp_path, capsys):
+def test_a_cell_that_fails_is_named_in_one_sentence(tmp_path, run):
     path = tmp_path / "n.ipynb"
     cells = [nbformat.v4.new_markdown_cell("# Title"), nbformat.v4.new_code_cell("x = 1\nx / 0")]
     nbformat.write(nbformat.v4.new_notebook(cells=cells), path)
     before = path.read_text("utf-8")
-    assert main(["course", "run", str(path)]) == 2
-    assert capsys.readouterr().err == f"mocap: {path}, cell 1: ZeroDivisionError: division by zero\n"
+    assert run(f"course run {path}", 2).err == f"mocap: {path}, cell 1: ZeroDivisionError: division by zero\n"
     assert path.read_text("utf-8") == before
 
 

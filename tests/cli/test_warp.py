@@ -1,12 +1,13 @@
 """`mocap warp`, as a person types it, and the files of keys that it reads."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.body.kinematics import joint_positions
-from mocap.cli.main import main
 from mocap.datasets.samples import sample
 from mocap.editing.warp_plans import load_plan, warp
 from mocap.errors import FormatError, MocapError
@@ -37,25 +38,21 @@ def by_plan(folder, text):
     return warp(WALK, plan(folder, text))
 
 
-def test_a_hand_is_raised_and_the_clip_lasts_longer(folder, capsys):
-    keys = folder / "post.txt"
-    keys.write_text("# to the post\n\nat 1.5s lhand 0.1 0.25 0.05\ntime 0 0\ntime 4 3\n")
-    out = folder / "new.bvh"
-    assert main(["warp", str(folder / "walk.bvh"), "--keys", str(keys), "-o", str(out)]) == 0
-    assert capsys.readouterr().out == (
-        f"keys         1 of poses, 2 of time\nwrote        {out}: 481 frames, 4.00 s\n"
-    )
-    made, walk = load_save.load(out), load_save.load(folder / "walk.bvh")
+def test_a_hand_is_raised_and_the_clip_lasts_longer(folder, run, monkeypatch):
+    monkeypatch.chdir(folder)
+    Path("post.txt").write_text("# to the post\n\nat 1.5s lhand 0.1 0.25 0.05\ntime 0 0\ntime 4 3\n")
+    said = run("warp walk.bvh --keys post.txt -o new.bvh").out
+    assert said == "keys         1 of poses, 2 of time\nwrote        new.bvh: 481 frames, 4.00 s\n"
+    made, walk = (load_save.load(f"{name}.bvh") for name in ("new", "walk"))
     hand = [joint_positions(m)[f, m.skeleton.index("lhand")] for m, f in ((made, 240), (walk, 180))]
     assert hand[0] - hand[1] == pytest.approx([0.1, 0.25, 0.05], abs=0.012)  # the walk faces +z, nearly
 
 
-def test_without_feet_another_body_can_be_warped(folder):
-    keys, out = folder / "arm.txt", folder / "arm2.bvh"
-    keys.write_text("at 30 hand 0 0.1 0")
-    words = ["warp", str(folder / "arm.bvh"), "--keys", str(keys), "-o", str(out)]
-    assert main([*words, "--loose-feet"]) == 0
-    assert len(load_save.load(out)) == 60
+def test_without_feet_another_body_can_be_warped(folder, run, monkeypatch):
+    monkeypatch.chdir(folder)
+    Path("arm.txt").write_text("at 30 hand 0 0.1 0")
+    run("warp arm.bvh --keys arm.txt -o arm2.bvh --loose-feet")
+    assert len(load_save.load("arm2.bvh")) == 60
 
 
 def test_the_move_is_by_the_bodys_own_directions(folder):
