@@ -1,6 +1,11 @@
-"""Bodies are inside their pictures, however large these are; test_drawn.py holds what is drawn."""
+"""Pictures show what they showed when somebody last looked; bodies are inside them, however large these are.
+
+`drawn.json` holds what is drawn; tests/drawn.py says how to draw it anew. `baseline` holds how a few pictures
+look: `pytest tests/plotting/test_bodies.py --mpl-generate-path=tests/plotting/baseline` draws them anew.
+"""
 
 from dataclasses import replace
+from functools import cache
 
 import matplotlib.pyplot as plt
 import networkx as nx
@@ -8,14 +13,139 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from matplotlib.text import Text
 from mpl_toolkits.mplot3d import proj3d
 
-from mocap.body.kinematics import joint_positions
-from mocap.plotting import node_link, stick_figures
+from mocap import datasets, graphs, plotting, resample
+from mocap.body import Skeleton, joint_positions
+from mocap.matching import distance_grid
+from mocap.plotting import stick_figures
+from mocap.plotting.bodies import film_strip
 from mocap.plotting.bodies_on_path import HIGH, LOW, WIDTH, bodies_along
 from mocap.plotting.stick_figures import to_picture
+from tests.drawn import hold
 from tests.refusals import refusals
 from tests.strategies import random_motion, seeds, wave
+
+RANDOM = np.random.default_rng(0)
+SAMPLES, ROWS = RANDOM.gamma(2.0, size=(5, 41)), RANDOM.random((10, 2))
+WALKS = [resample(datasets.sample(f"walk_curve_{n}"), 30)[:120] for n in (1, 2)]
+
+
+@cache
+def graph():
+    return graphs.build([wave(90, name="a"), wave(70, phase=1, name="b", seed=1)], window=8, threshold=0.05)
+
+
+def flat(view):
+    return plotting.flat_bodies(datasets.sample("walk_straight"), [0, 90], view=view)
+
+
+def stick_figure():
+    names = ["hips", "lleg", "rleg", "lfoot", "rfoot", "head"]
+    body = Skeleton(names, [-1, 0, 0, 1, 2, 0], [[0, 0, 0]] + [[x, -0.4, 0] for x in (0.1, -0.1, 0, 0.01, 0)])
+    motion = replace(wave(5), skeleton=body, rotations=np.tile([1.0, 0, 0, 0], (5, 6, 1)), contacts={})
+    figure = plotting.StickFigure(body, plotting.ground_axes((0.3, 7.1), 1.0))
+    figure.pose(joint_positions(motion)[2])
+    return figure.bones
+
+
+def lost_marker():
+    """One frame beyond the horizon, as a lost marker gives it: it gets a coarser floor."""
+    roots = wave(50).root_positions.copy()
+    roots[20] = [0, 1, 1e7]
+    return bodies_along(replace(wave(50), root_positions=roots))
+
+
+def small_graph():
+    small = nx.DiGraph([(1, 2), (2, 1), (2, 3), (3, 3)])
+    places = {1: (0, 0), 2: (1, 0), 3: (1, 1)}
+    discs, _ = plotting.node_link(small, places=places, kept=small.subgraph([1, 2]))
+    return discs
+
+
+def plan():
+    places = np.linspace(0, 6, 50)[:, None] + np.array([0j, 1.5j, -1.5j])
+    figure = plotting.draw_group_plan(places, [6 + 0j, 9 + 1j], [(3 + 4j, 0.5)], near=0.8)
+    return plotting.draw_group_plan(np.ones((5, 1), complex), ax=figure.axes[0])
+
+
+PICTURES = {
+    "flat bodies": lambda: map(flat, ("side", "front")),
+    "strip": lambda: [
+        film_strip([wave(50, name="a"), wave(20, name="b", phase=2)], count=4),
+        film_strip([wave(1)]),
+    ],
+    "stick figure": lambda: [stick_figure()],
+    "bodies along": lambda: map(bodies_along, (wave(1), wave(100), wave(2000))),
+    "lost marker": lambda: [lost_marker()],
+    "sources": lambda: [bodies_along(wave(200), sources=[(0, "a"), (100, "b"), (150, "a")], seams=[95, 145])],
+    "two and a path": lambda: [
+        bodies_along(wave(100, name="a"), wave(100, phase=1, name="b"), path=[(0, 0), (1, 2)])
+    ],
+    "six": lambda: [bodies_along(*(wave(400, phase=phase, name="walk") for phase in range(6)))],
+    "obstacle": lambda: [bodies_along(wave(30), discs=[[0, 1, 0.5]])],
+    "joint curve": lambda: [plotting.joint_curve(ROWS, fps=10, labels=["x (m)", "y (m)"])[0]],
+    "bands": lambda: [plotting.quartile_band(range(5), SAMPLES, label="slide", colour="#112233")],
+    "distances": lambda: [
+        plotting.distance_image(
+            distance_grid(wave(40), wave(60, phase=1.0), window=10), fps=30, minima=[[3, 5]], names=("a", "b")
+        )
+    ],
+    "rows": lambda: [plotting.walk_rows(np.array([[0.0, 150.0, np.nan], [300.0, 0.0, 0.0]]), highest=400.0)],
+    "path": lambda: [plotting.path_from_above(wave(30))[0]],
+    "plan": lambda: [plan()],
+    "timeline": lambda: (plotting.timeline(graph(), **how) for how in ({}, {"most": 3}, {"each": 2})),
+    "small graph": lambda: [small_graph()],
+}
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_a_picture_is_drawn_as_ever(name):
+    hold(__file__, name, PICTURES[name]())
+
+
+# Letters differ between versions of matplotlib, and so does the layout around them: no text is drawn.
+def alike(tolerance=1):
+    return pytest.mark.mpl_image_compare(
+        baseline_dir="baseline",
+        tolerance=tolerance,
+        remove_text=True,
+        style="default",
+        savefig_kwargs={"dpi": 40},
+    )
+
+
+def bare():
+    """Give axes whose place does not depend on any text."""
+    return plt.figure(figsize=(4, 4)).add_subplot()
+
+
+def without_text(figure):
+    for text in figure.findobj(Text):
+        text.set_visible(False)
+    return figure
+
+
+@alike()
+def test_ghosts_look_as_ever():
+    motion = wave(60)
+    points = joint_positions(motion)[[0, 25, 50]]
+    low, high, way = points.min(axis=(0, 1)), points.max(axis=(0, 1)), motion.root_positions * [1, 0, 1]
+    reach = max(1.2, *(high - low)[[0, 2]]) / 2 + 0.3
+    ax = stick_figures.ground_axes((low + high)[[0, 2]] / 2, reach, tall=max(1.9, high[1]))
+    stick_figures.keep_inside(ax, points)
+    ax.plot(*to_picture(way).T, color=plotting.PATH, linewidth=1.5, zorder=1)
+    for alpha, pose in zip((0.15, 0.15 + 0.35 / 3, 1.0), points, strict=True):
+        stick_figures.StickFigure(motion.skeleton, ax, alpha).pose(pose)
+    return ax.figure
+
+
+@alike()
+def test_a_small_graph_looks_as_ever():
+    graph = nx.DiGraph([(1, 2), (2, 3), (3, 1), (3, 4), (2, 1)])
+    plotting.node_link(graph, kept=graph.subgraph([1, 2, 3]), ax=bare())
+    return without_text(plt.gcf())
 
 
 def on_picture(ax, points):
@@ -70,7 +200,7 @@ test_large_graphs_are_drawn_elsewhere = refusals(
     *(
         (
             r"1 to 100 nodes, this one has \d+: `plotting.timeline`",
-            node_link,
+            plotting.node_link,
             nx.empty_graph(nodes, nx.DiGraph),
         )
         for nodes in (0, 101)
