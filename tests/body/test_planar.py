@@ -1,4 +1,4 @@
-"""Planar transforms form a group, and do to a motion what they do to its points."""
+"""Kinematics by the recursion written down; transforms do to a motion what they do to its points."""
 
 import numpy as np
 import pytest
@@ -6,9 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.body import euler, rotations
-from mocap.body.kinematics import joint_positions
+from mocap.body.kinematics import forward_kinematics, joint_positions, velocities
 from mocap.body.planar import IDENTITY, PlanarTransform, from_ground, heading, lay_on, on_ground, place
-from tests.refusals import refusals
+from tests.refusals import refusals, refused
 from tests.strategies import planar, random_motion, seeds
 
 POINTS = np.random.default_rng(0).normal(size=(4, 5, 3))
@@ -90,3 +90,22 @@ def test_a_motion_laid_on_another_has_its_heading_and_place(seed, other):
     assert laid.root_positions[0, [0, 2]] == pytest.approx(target.root_positions[2, [0, 2]], abs=1e-9)
     turned = np.exp(1j * heading(laid.rotations[0, 0]))
     assert turned == pytest.approx(np.exp(1j * heading(target.rotations[2, 0])), abs=1e-6)
+
+
+@given(seeds)
+def test_every_joint_is_where_the_recursion_puts_it(seed):
+    motion = random_motion(seed, frames=2)
+    poses, own = forward_kinematics(motion), rotations.to_matrix(motion.rotations)
+    positions, matrices = [motion.root_positions], [own[:, 0]]
+    for joint, parent in enumerate(motion.skeleton.parents[1:], 1):
+        positions.append(positions[parent] + matrices[parent] @ motion.skeleton.offsets[joint])
+        matrices.append(matrices[parent] @ own[:, joint])
+    assert poses.positions == pytest.approx(np.stack(positions, axis=1), abs=1e-12)
+    assert poses.matrices == pytest.approx(np.stack(matrices, axis=1), abs=1e-12)
+
+
+def test_velocities_of_a_parabola_are_exact_inside():
+    t = np.arange(10) / 50
+    assert velocities(t**2, 50.0)[1:-1] == pytest.approx(2 * t[1:-1])
+
+    refused("at least two frames, got 1", velocities, np.zeros((1, 4, 3)), 30.0)

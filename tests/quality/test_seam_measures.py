@@ -1,4 +1,4 @@
-"""Seams are measured right where they are made to order, and bad seams of real clips are found."""
+"""Seams and plants are measured right where they are made to order; bad seams of real clips are found."""
 
 from dataclasses import replace
 
@@ -6,12 +6,15 @@ import numpy as np
 import pytest
 from walking import generate
 
+from mocap._shared.arrays import runs
 from mocap.blending import join
 from mocap.body import Motion, Skeleton, concatenate
+from mocap.body.kinematics import joint_positions
 from mocap.datasets.samples import sample
 from mocap.errors import SkeletonMismatch
 from mocap.quality.seam_measures import jumps, knee_turns, seam_quality, spread
-from tests.refusals import refusals
+from mocap.quality.standing_feet import ground_slides, plant_slides
+from tests.refusals import refusals, refused
 from tests.strategies import random_motion
 
 WALK = sample("walk_straight")
@@ -84,3 +87,35 @@ def test_a_knee_that_is_turned_by_hand_turns_as_far():
     half = np.sqrt(0.5)
     rotations[699:701, knee] = [1, 0, 0, 0], [half, half, 0, 0]
     assert knee_turns(replace(WALK, rotations=rotations))[699, 0] == pytest.approx(90)
+
+
+def pushed(step):
+    """Push the walk over the ground by some metres per frame."""
+    return replace(WALK, root_positions=WALK.root_positions + np.arange(len(WALK))[:, None] * step)
+
+
+def test_a_clip_s_own_feet_stand_and_no_plants_are_no_slide():
+    assert max(slide.far for slide in plant_slides(WALK)) < 1e-6
+    assert plant_slides(replace(WALK, contacts={})) == []
+
+
+def test_a_body_that_is_pushed_slides_by_what_it_is_pushed():
+    body = pushed([1e-3, 0, 0])
+    places = joint_positions(body)[..., [0, 2]]
+    slides = plant_slides(body)
+    assert len(slides) == sum(len(runs(mark)) for mark in WALK.contacts.values())
+    for slide in slides:
+        stood = places[slide.start : slide.stop, WALK.skeleton.index(slide.joint)]
+        assert slide.far == pytest.approx(100 * np.linalg.norm(stood - stood.mean(0), axis=1).max())
+        assert slide.far == pytest.approx(0.1 * (slide.stop - slide.start - 1) / 2, abs=1e-6)
+    slid = ground_slides(pushed([0.003, 0.01, 0.004]))  # 5 mm per frame over the ground
+    planted = sum(int((on[1:] & on[:-1]).sum()) for on in WALK.contacts.values())
+    assert slid.sum() == pytest.approx(0.5 * planted)
+    assert slid[slid > 0.1] == pytest.approx(0.5)
+
+
+def test_only_the_joints_asked_for_count_and_they_need_marks():
+    foot = WALK.skeleton.index("lfoot")
+    assert {slide.joint for slide in plant_slides(WALK, [foot])} == {"lfoot"}
+    refused("does not say when 'head' stands; mark_plants", plant_slides, WALK, [WALK.skeleton.index("head")])
+    refused("mark_plants", lambda: ground_slides(replace(WALK, contacts={})))
