@@ -13,12 +13,12 @@ from mocap.methods.motion_matching import MotionMatcher, Wants
 from mocap.methods.parametric_graphs import ParametricController
 from mocap.quality.seam_measures import spread
 from mocap.steering import Controller, FootTurner, command_headings, judge_control
-from mocap.steering.characters import Pose
 from mocap.steering.judged_control import _pivots
 from tests.bundled import WALKS, bundled, clips
 from tests.methods.motion_matching.matched import walks
 from tests.methods.parametric_graphs.built import walking
 from tests.refusals import refused
+from tests.widgets.steerable import Dot
 
 SPEED = 0.8
 
@@ -71,14 +71,11 @@ def test_commands_turn_by_30_to_120_degrees_every_two_seconds():
     assert not np.diff(headings.reshape(-1, 60), axis=1).any()
 
 
-class Flier:
+class Flier(Dot):
     """Its feet are marked, and never stand."""
 
-    skeleton, fps, frames_left = SKELETON, 30.0, 0
-
-    def step(self, heading, speed, label=""):
-        turns = np.tile([1.0, 0, 0, 0], (len(SKELETON), 1))
-        return Pose(np.array([0.0, 1.0, 0.0]), turns, False, {"lfoot": False, "rfoot": False})
+    def step(self, *command):
+        return super().step(*command)._replace(contacts={"lfoot": False, "rfoot": False})
 
 
 def test_a_character_that_never_stands_is_refused():

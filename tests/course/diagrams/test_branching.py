@@ -1,4 +1,4 @@
-"""The searches of the diagrams find components and the best walks; test_drawn.py holds what they draw."""
+"""What diagrams compute, and what they refuse; test_drawn.py holds what they draw."""
 
 from itertools import pairwise, product
 
@@ -8,9 +8,12 @@ import pytest
 
 from mocap import graphs
 from mocap.body import GroundPath
+from mocap.course import diagrams
 from mocap.course.diagrams.branching import edge_lengths, search_events
+from mocap.course.diagrams.ground import nearest_points
 from mocap.course.diagrams.layers import STRIDE, TURNS, Steps, layer_states, lengthened
 from mocap.course.diagrams.small_graphs import tarjan_states
+from tests.refusals import refusals
 
 EIGHT = graphs.notes_example()
 LENGTHS = edge_lengths(EIGHT)
@@ -91,3 +94,18 @@ def test_of_walks_that_stand_alike_the_best_stays_and_no_more_than_the_beam_go_o
                 for walk in (state.crossed if state.line == 5 else ())
             )
         assert state.line != 6 or len(state.kept) <= 4
+
+
+test_windows_that_do_not_fit_are_refused = refusals(
+    (
+        r"Windows of 4 frames do not fit into an array of shape \(3, 3\)",
+        lambda: diagrams.diagonal_sums(np.ones((3, 3)), window=4, step=1),
+    )
+)
+
+
+def test_the_nearest_point_is_the_nearest():
+    corner, points = GroundPath([[0, 0], [0, 3], [3, 3]]), np.random.default_rng(0).uniform(-1, 4, (50, 2))
+    found = np.hypot(*(points - nearest_points(corner, points)).T)
+    truth = np.hypot(*(points[:, None] - corner.resampled(0.001).points).transpose(2, 0, 1)).min(axis=1)
+    assert found == pytest.approx(truth, abs=0.005)
