@@ -7,6 +7,7 @@ import tempfile
 import webbrowser
 from collections.abc import Sequence
 from dataclasses import asdict
+from functools import partial
 from json import dumps
 from pathlib import Path
 from typing import Annotated, Literal
@@ -130,8 +131,9 @@ def convert(source: Path, target: Path, *, reading: Reading, to: Literal["bvh", 
     Example: mocap convert clips/ out/ --to glb
     """
     pairs = conversion.plan(source, target, f".{to}")
-    done = conversion.convert(pairs, asdict(reading), progress=bar("converting"))
-    return tell_of_failures("converted", len(pairs), list(filter(None, done)))
+    load = partial(files.load, **asdict(reading))
+    failed = conversion.convert(pairs, load, progress=bar("converting"))
+    return tell_of_failures("converted", len(pairs), failed)
 
 
 def find(

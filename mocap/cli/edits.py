@@ -2,15 +2,16 @@
 
 import math
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from mocap import blending, body, editing, feet, files, quality
-from mocap._shared.atomic import make_folder, require_folder
+from mocap import blending, body, editing, feet, quality
+from mocap._shared.atomic import require_folder
 from mocap.cli import options
 from mocap.cli.options import TURN, Clean, Reading, Unit, bar, check_out, number, tell, write_out
 from mocap.errors import MocapError, warn
-from mocap.files.conversion import find_files, require_apart, with_file
+from mocap.files.conversion import convert, find_files, require_apart
 
 if TYPE_CHECKING:
     from mocap.editing.stances import Stance
@@ -237,16 +238,13 @@ def retarget(
     require_folder(out)
     pairs = [(source, out / f"{source.stem}.{format}") for source in find_files(clips)]
     require_apart(pairs, [to])
-    wearer, failed = _body(to, to_scale), []
-    for source, target in bar("retargeting")(pairs):
-        try:
-            motion = reading.load(source)
-            worn = editing.retarget(motion, wearer)
-            make_folder(out)
-            files.save(worn, target)
-        except MocapError as error:
-            failed.append(with_file(error, source, target))
+    wear = partial(_worn, reading, _body(to, to_scale))
+    failed = convert(pairs, wear, progress=bar("retargeting"))
     return options.tell_of_failures("retargeted", len(pairs), failed, f", in {out}")
+
+
+def _worn(reading: Reading, wearer: "Stance | body.Skeleton", source: Path) -> "body.Motion":
+    return editing.retarget(reading.load(source), wearer)
 
 
 def _body(path: Path, scale: float | None) -> "Stance | body.Skeleton":

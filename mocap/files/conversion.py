@@ -1,16 +1,19 @@
 """Which motion files there are, in folders too, and all of them converted, several at a time."""
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
-from itertools import repeat
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 from mocap import files
 from mocap._shared.atomic import UNFINISHED, make_folder
 from mocap._shared.progress import Progress
 from mocap.errors import MocapError
+
+if TYPE_CHECKING:
+    from mocap.body.motion import Motion
 
 FORMATS = (".amc", ".bvh", ".npz")  # suffixes of the motion files that are found in folders
 
@@ -107,51 +110,46 @@ def require_apart(pairs: Sequence[tuple[Path, Path]], read: Iterable[Path] = ())
 
 
 def convert(
-    pairs: Sequence[tuple[Path, Path]], reading: Mapping[str, Any] | None = None, *, progress: Progress = iter
+    pairs: Sequence[tuple[Path, Path]], load: Callable[[Path], "Motion"], *, progress: Progress = iter
 ) -> list[str]:
     """Convert files, as many at a time as there are processors; a file that fails does not stop the others.
 
     Parameters
     ----------
-    pairs : files to read and files to write, from `plan`.
-    reading : options of `files.load`.
+    pairs : files to read and files to write, as from `plan`.
+    load : gives the motion to write for a file, as `files.load` does; sent to other processes.
     progress : wraps the pairs while they are converted.
 
     Returns
     -------
-    A sentence for each pair, which names the file where something went wrong, or is empty.
+    A sentence for each file that failed, which names it.
 
     Examples
     --------
-    >>> convert([(Path("gone.amc"), Path("walk.bvh"))])
+    >>> convert([(Path("gone.amc"), Path("walk.bvh"))], files.load)
     ['Cannot read gone.amc: No such file or directory.']
     """
     if len(pairs) == 1:
-        return [_convert(*pairs[0], reading or {})]
+        return list(filter(None, [_convert(load, *pairs[0])]))
     from mocap._shared.tasks import serve
 
     workers = min(len(pairs), os.cpu_count() or 1)
     with ProcessPoolExecutor(workers, initializer=serve) as pool:
-        outcomes = pool.map(_convert, *zip(*pairs, strict=True), repeat(reading or {}))
+        outcomes = pool.map(partial(_convert, load), *zip(*pairs, strict=True))
         try:
-            return [next(outcomes) for _ in progress(pairs)]
+            return list(filter(None, [next(outcomes) for _ in progress(pairs)]))
         except BrokenExecutor as error:
             raise MocapError("A worker was ended from outside: is there enough memory?") from error
         finally:  # after an interruption no other file is started
             pool.shutdown(cancel_futures=True)
 
 
-def _convert(source: Path, target: Path, reading: Mapping[str, Any]) -> str:
+def _convert(load: Callable[[Path], "Motion"], source: Path, target: Path) -> str:
     try:
-        motion = files.load(source, **reading)
+        motion = load(source)
         make_folder(target.parent)
         files.save(motion, target)
     except MocapError as error:
-        return with_file(error, source, target)
+        named = any(str(path) in str(error) for path in (source, target))
+        return str(error) if named else f"{source}: {error}"
     return ""
-
-
-def with_file(error: MocapError, source: Path, target: Path) -> str:
-    """Give the sentence of an error, with the file in front where it does not name it."""
-    named = any(str(path) in str(error) for path in (source, target))
-    return str(error) if named else f"{source}: {error}"

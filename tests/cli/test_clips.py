@@ -116,7 +116,7 @@ def test_an_interruption_ends_the_conversion(folder):
 
     pairs = conversion.plan("clips", "out")
     with pytest.raises(KeyboardInterrupt):
-        conversion.convert(pairs, progress=interrupt)
+        conversion.convert(pairs, load_save.load, progress=interrupt)
 
 
 def die(*_):
@@ -125,7 +125,8 @@ def die(*_):
 
 def test_a_worker_that_dies_is_told(folder, monkeypatch):
     monkeypatch.setattr(conversion, "_convert", die)
-    refused("ended from outside: is there enough memory", conversion.convert, conversion.plan("clips", "out"))
+    pairs = conversion.plan("clips", "out")
+    refused("ended from outside: is there enough memory", conversion.convert, pairs, load_save.load)
 
 
 def test_the_list_of_data(run):
