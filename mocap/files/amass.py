@@ -16,10 +16,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocap._shared.archives import Member, open_archive
-from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
@@ -80,13 +78,19 @@ def read(path: str | Path, *, fps: float | None = None) -> Recording:
         if counts[0] == 0:
             raise FormatError(path, None, "one frame or more in 'poses'", "none")
         rate = fps or _rate(path, members)
-        poses, trans = (_finite(path, key, members[key].read()[:, : WIDTHS[key]]) for key in WIDTHS)
+        numbers = {key: members[key].read()[:, :width] for key, width in WIDTHS.items()}
+        for key, rows in numbers.items():
+            fine = (np.abs(rows) < 1e6).all(axis=1)  # not so for nan
+            if not fine.all():
+                got = f"others in frame {fine.argmin()}"
+                raise FormatError(path, None, f"finite numbers below 1e6 in '{key}'", got)
         betas = members.get("betas")
         few = betas is not None and betas.dtype.kind in "fiu" and math.prod(betas.shape) <= WIDTH
         shaped = betas is not None and few and betas.read().any()
     if shaped:
         so = "the bones are those of the mean body, so feet may stand some centimetres off the ground"
         warn(f"{path}: betas, the shape of the body, are ignored: {so}.")
+    poses, trans = (rows.astype(float) for rows in numbers.values())
     local = rotations.from_rotvec(poses.reshape(len(poses), -1, 3))
     local[:, 0] = rotations.multiply(UPRIGHT, local[:, 0])
     places = rotations.rotate(UPRIGHT, PELVIS + trans)
@@ -101,14 +105,6 @@ def _count(path: str | Path, members: Mapping[str, Member], key: str) -> int:
     if len(found.shape) != 2 or found.shape[1] < WIDTHS[key] or found.dtype.kind not in "fiu":
         raise FormatError(path, None, f"{WIDTHS[key]} numbers for each frame in '{key}'", str(found))
     return found.shape[0]
-
-
-def _finite(path: str | Path, key: str, values: NDArray[Any]) -> Array:
-    fine = (np.abs(values) < 1e6).all(axis=1)  # not so for nan
-    if not fine.all():
-        got = f"others in frame {fine.argmin()}"
-        raise FormatError(path, None, f"finite numbers below 1e6 in '{key}'", got)
-    return values.astype(float)
 
 
 def _rate(path: str | Path, members: Mapping[str, Member]) -> float:

@@ -50,12 +50,15 @@ def glb(motion: Motion) -> bytes:
     """
     skeleton, block = motion.skeleton, Block()
     joints = len(skeleton)
+    back = np.tile(np.eye(4, dtype=np.float32), (joints, 1, 1))  # each moves a joint at rest to the origin
+    back[:, 3, :3] = -skeleton.rest  # by columns
+    bind = block.add(back.reshape(-1, 16))
     document = {
         "asset": {"version": "2.0", "generator": "mocap"},
         "scene": 0,
         "scenes": [{"name": motion.name, "nodes": [0, joints]}],
         "nodes": [*_nodes(skeleton), {"name": "body", "mesh": 0, "skin": 0}],
-        "skins": [_skin(skeleton, block)],
+        "skins": [{"inverseBindMatrices": bind, "joints": list(range(joints)), "skeleton": 0}],
         "materials": [{"name": "clay", "pbrMetallicRoughness": CLAY}],
         "meshes": [_mesh(skeleton, block)],
         "animations": [_animation(motion, block)],
@@ -124,14 +127,6 @@ def _nodes(skeleton: Skeleton) -> list[Record]:
         node: Record = {"name": name, "translation": (places[joint] + 0.0).tolist()}
         nodes.append(node | ({"children": below} if (below := skeleton.children(joint)) else {}))
     return nodes
-
-
-def _skin(skeleton: Skeleton, block: Block) -> Record:
-    """Bind the body where the joints are at rest: each matrix moves a joint back to the origin."""
-    matrices = np.tile(np.eye(4, dtype=np.float32), (len(skeleton), 1, 1))
-    matrices[:, 3, :3] = -skeleton.rest  # by columns
-    bind, joints = block.add(matrices.reshape(-1, 16)), list(range(len(skeleton)))
-    return {"inverseBindMatrices": bind, "joints": joints, "skeleton": 0}
 
 
 def _mesh(skeleton: Skeleton, block: Block) -> Record:
