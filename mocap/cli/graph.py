@@ -115,7 +115,9 @@ def build(
     graphs.save(graph, out, origins)
     tell(wrote=out)
     if graphml:
-        graphs.write_graphml(graph, graphml)
+        from mocap.graphs.graph_summary import write_graphml  # the help needs no NumPy
+
+        write_graphml(graph, graphml)
         tell(wrote=graphml)
 
 

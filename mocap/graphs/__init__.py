@@ -29,7 +29,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "motion_graph": ["MotionGraph", "build", "from_transitions"],
         "pruning": ["prune", "prune_graph", "notes_example"],
         "thresholds": ["threshold_curve"],
-        "graph_summary": ["summary", "write_graphml"],
+        "graph_summary": ["summary"],
         "storage": ["load", "save"],
         "compiled_graph": ["compile_graph"],
     },

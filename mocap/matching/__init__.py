@@ -29,7 +29,7 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "point_clouds": ["align", "distinct_joints", "point_cloud", "rms_distance"],
+        "point_clouds": ["align", "distinct_joints", "point_cloud"],
         "distance_grids": ["distance_grid"],
         "minima": ["local_minima"],
         "transitions": ["Transition", "find_transitions"],

@@ -23,6 +23,5 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "walk_to_motion": ["seams", "sources", "to_motion"],
         "random_walks": ["random_walk"],
         "bounded_search": ["Problem", "branch_and_bound", "search_ahead"],
-        "ground_walks": ["GroundWalks"],
     },
 )

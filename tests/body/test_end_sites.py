@@ -10,7 +10,8 @@ from mocap.body.motion import Motion, concatenate, require_alike
 from mocap.body.skeleton import Skeleton
 from mocap.errors import SkeletonMismatch
 from mocap.graphs import build
-from mocap.matching import find_transitions, rms_distance
+from mocap.matching import find_transitions
+from mocap.matching.point_clouds import rms_distance
 from mocap.methods.match_webs import build_web
 from tests.refusals import refusals
 from tests.strategies import wave
