@@ -19,12 +19,12 @@ FOLDER = Path(checks.__file__).parent
 def test_no_two_tables_ask_for_the_same_and_no_file_hides_a_check():
     tables = sorted(FOLDER.glob("*.toml"))
     assert sum(len(tomllib.loads(file.read_text("utf-8"))) for file in tables) == len(ALL)
-    assert {file.stem for file in FOLDER.glob("*.py")} == {"__init__", "answers"}
-    assert "answers" not in ALL
+    assert {file.stem for file in FOLDER.glob("*.py")} == {"__init__", "shared"}
+    assert "shared" not in ALL
     assert all(getattr(checks, name) is check for name, check in ALL.items())
     defined = [
         node.name
-        for node in ast.parse((FOLDER / "answers.py").read_text("utf-8")).body
+        for node in ast.parse((FOLDER / "shared.py").read_text("utf-8")).body
         if isinstance(node, ast.FunctionDef | ast.ClassDef)
     ]
     assert len(defined) == len({*defined})  # tables use them by their names alone

@@ -1,8 +1,8 @@
 """The checks of the course's exercises, by the names of the functions that they ask for.
 
 A notebook has a table here, such as `06-pruning.toml`: what each of its exercises asks for, with which input
-it is tried, and the mistakes that students make, each with its hint. Beside them, `answers` has what several
-tables use, and answers that take many lines.
+it is tried, the right answer, and the mistakes that students make, each with its hint. Beside them, `shared`
+has what tables use by name.
 
 >>> from mocap.course import checks
 >>> checks.speed(lambda positions, fps: ...)
@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from mocap.course.check import Check
-from mocap.course.checks import answers
+from mocap.course.checks import shared
 
 
 @cache
@@ -25,7 +25,7 @@ def all_checks() -> dict[str, Check]:
     found: dict[str, Check] = {}
     for file in sorted(Path(__file__).parent.glob("*.toml")):
         for name, table in tomllib.loads(file.read_text("utf-8")).items():
-            found[name] = Check(name, table, vars(answers), file.stem.partition("-")[0])
+            found[name] = Check(name, table, vars(shared), file.stem.partition("-")[0])
     return found
 
 

@@ -1,7 +1,6 @@
-"""What the tables use by name: answers of many lines, right and wrong, and input that several draw."""
+"""What the tables of exercises use by name: input that several draw, comparisons, and parts of answers."""
 
 from collections import Counter
-from collections.abc import Callable
 from functools import partial, reduce
 from itertools import combinations, pairwise, permutations
 from math import isclose
@@ -159,12 +158,10 @@ def draw_graph(rng: np.random.Generator) -> dict[int, list[int]]:
 # ---- Notebook 07
 
 
-Lengths = dict[int, dict[int, float]]
 At = tuple[int, int]  # a node, and the edges walked before it
-Ways = Callable[[At], list[tuple[float, At]]]
 
 
-def ways_from(lengths: Lengths, longest: int, state: At) -> list[tuple[float, At]]:
+def ways_from(lengths: dict[int, dict[int, float]], longest: int, state: At) -> list[tuple[float, At]]:
     """Lengthen a walk by each edge of its last node, unless it has so many already."""
     node, made = state
     return [(more, (end, made + 1)) for end, more in lengths[node].items()] if made < longest else []
@@ -173,23 +170,6 @@ def ways_from(lengths: Lengths, longest: int, state: At) -> list[tuple[float, At
 def is_at(goal: int, state: At) -> bool:
     """Say whether a walk is at its goal."""
     return state[0] == goal
-
-
-def cheapest(ways: Ways, start: At, done: Callable[[At], bool]) -> tuple[float, list[At], int]:
-    """Search as the notebook does: the least cost, the states of this walk, and the number expanded."""
-    best: tuple[float, list[At]] = (np.inf, [])
-    waiting, expanded = [(0.0, [start])], 0
-    while waiting:
-        cost, walk = waiting.pop()
-        if cost >= best[0]:
-            continue
-        if done(walk[-1]):
-            best = cost, walk
-            continue
-        expanded += 1
-        found = [(cost + more, [*walk, state]) for more, state in ways(walk[-1])]
-        waiting += sorted(found, key=lambda longer: -longer[0])
-    return *best, expanded
 
 
 # ---- Notebook 11
@@ -204,13 +184,11 @@ def long_way(quaternion: Array) -> Array:
 # ---- Notebook 16
 
 
-Pairs = list[tuple[float, int]]
-
-
+Links = dict[int, list[tuple[float, int, int]]]  # of each motion: cost, the other motion, frames off
 MOST = 400  # calls of `matches_of`, far more than a right answer needs
 
 
-def found_near(links: dict[int, list[tuple[float, int, int]]], asked: list[int], match: int) -> Pairs:
+def found_near(links: Links, asked: list[int], match: int) -> list[tuple[float, int]]:
     """Give what is like a match, as pairs (cost, match): motions ten frames apart, a little off each time."""
     asked.append(match)
     if len(asked) > MOST:
@@ -219,19 +197,6 @@ def found_near(links: dict[int, list[tuple[float, int, int]]], asked: list[int],
             "frames, is not new"
         )
     return [(cost, 10 * other + off) for cost, other, off in links[(match + 5) // 10]]
-
-
-def spread(query: int, matches_of: Callable[[int], Pairs], same: Callable[[int, int], bool]) -> list[int]:
-    """Ask what is like a query, then what is like each new find, the cheapest first, until nothing is new."""
-    found, asking = [query], [query]
-    while asking:
-        new = sorted((pair for match in asking for pair in matches_of(match)), key=lambda pair: pair[0])
-        asking = []
-        for _cost, match in new:
-            if not any(same(match, other) for other in found):
-                found.append(match)
-                asking.append(match)
-    return found
 
 
 # ---- Notebook 19
