@@ -114,11 +114,8 @@ def build_site(notebooks: Path, out: Path, progress: Progress = iter, *, moving:
         titles += [page.relative_to(folder).as_posix() for page in sorted(Path(folder).rglob("*.md"))]
         index = INDEX.format("\n".join(titles), "\n".join(_write_reference(Path(folder))))
         write_text(Path(folder, "index.md"), index)
-        quiet: dict[str, Any] = {
-            "status": None,
-            "warning": io.StringIO(),
-        }  # of papers cited twice
-        Sphinx(folder, HERE, out, Path(folder, ".doctrees"), "html", **quiet).build()
+        warned = io.StringIO()  # of papers cited twice
+        Sphinx(folder, HERE, out, Path(folder, ".doctrees"), "html", status=None, warning=warned).build()
     clips = [resample(sample(name), 30) for name in SAMPLES]
     write_text(out / "walk.html", walk_page(graphs.prune(graphs.build(clips, window=10, threshold=0.04))))
     return out / f"{files[0].stem}.html"
