@@ -1,12 +1,11 @@
 """The layered search line by line: lengthen, cross out, keep the best, and look ahead [KGP02, 5.1]."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.artist import Artist
-from matplotlib.lines import Line2D
 
 from mocap._shared.arrays import Array
 from mocap.course.diagrams.pens import show_program
@@ -142,7 +141,9 @@ def layer_steps(line: Array, count: int) -> Callable[[int, int, bool], list[Arti
         state = [*layer_states(line, count, width, look)][: step + 1][-1]
         best = [state.best] if state.best else []
         for pen, walks in zip(pens, (state.crossed, state.kept, best), strict=True):
-            _trace(pen, walks)
+            places = np.concatenate([[*walk.places, np.nan] for walk in walks] or [[np.nan]])
+            pen.set_data(places.imag, places.real)
+            pen.set_markevery((np.flatnonzero(np.isnan(places)) - 1)[: len(walks)].tolist())  # at the ends
         going = sorted((w for w in state.kept if w in state.score), key=lambda walk: walk.places[-1].imag)
         for word in scores:
             word.set_text("")
@@ -154,10 +155,3 @@ def layer_steps(line: Array, count: int) -> Callable[[int, int, bool], list[Arti
         return [*pens, *scores, mark, ground.title]
 
     return draw
-
-
-def _trace(pen: Line2D, walks: Sequence[Steps]) -> None:
-    """Let a pen draw walks, with a marker at the end of each."""
-    places = np.concatenate([[*walk.places, np.nan] for walk in walks] or [[np.nan]])
-    pen.set_data(places.imag, places.real)
-    pen.set_markevery([sum(len(walk.places) + 1 for walk in walks[:n]) - 2 for n in range(1, len(walks) + 1)])
