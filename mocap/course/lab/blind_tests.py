@@ -111,31 +111,24 @@ class BlindTest(Embedded):
 
     @cached_property
     def scene(self) -> dict[str, Any]:
-        """What the script shows: all films, of each pair the one with the seam first."""
-        body, films, data = packed([film for pair in self.pairs for film in (pair.seam, pair.control)])
+        """What the script shows: all films, of each pair the one with the seam first.
+
+        They are packed as characters of the player, but in steps of two millimetres. All have one body.
+        """
+        films, data = list[dict[str, Any]](), b""
+        for film in (film for pair in self.pairs for film in (pair.seam, pair.control)):
+            body, block = packed_character(film, COLOURS["middle"], STEP)
+            low = np.round(body.pop("low"), 4).tolist()
+            films.append({"frames": body.pop("frames"), "offset": len(data), "low": low})
+            data += block
         return {
-            **{"about": repr(self), "body": body, "films": films, "data": data},
+            **{"about": repr(self), "body": body | {"name": ""}, "films": films},
+            "data": zlib.compress(data, 9),
             "plan": {"below_cm": round(100 * self.below, 3), "window": self.window, "seed": self.seed},
             "onLeft": [pair.on_left for pair in self.pairs],
             "sides": [COLOURS[side] for side in SIDES],
             "sentences": [sentence(right, len(self.pairs)) for right in range(len(self.pairs) + 1)],
         }
-
-
-def packed(films: Sequence[Motion]) -> tuple[dict[str, Any], list[dict[str, Any]], bytes]:
-    """Pack films of one body: what all have as characters of the player, what each has, and the coordinates.
-
-    The numbers are second differences over time, as in the player, but in steps of two millimetres: these are
-    small, and compress well.
-    """
-    each: list[dict[str, Any]] = []
-    data = b""
-    for film in films:
-        body, block = packed_character(film, COLOURS["middle"], STEP)
-        low = np.round(body.pop("low"), 4).tolist()
-        each.append({"frames": body.pop("frames"), "offset": len(data), "low": low})
-        data += block
-    return body | {"name": ""}, each, zlib.compress(data, 9)
 
 
 class Pair(NamedTuple):

@@ -11,7 +11,7 @@ from scipy.stats import binom, norm
 from mocap import datasets
 from mocap.body import joint_positions
 from mocap.course import lab
-from mocap.course.lab.blind_tests import STEP, BlindTest, choose, make_pairs, packed
+from mocap.course.lab.blind_tests import STEP, BlindTest, choose, make_pairs
 from mocap.course.lab.sensitivity import COLUMNS, class_curve, d_prime, mean_d_prime, read_answers, sentence
 from mocap.matching import find_transitions
 from mocap.plotting import bones
@@ -113,8 +113,9 @@ def test_the_page_has_films_and_sentences_and_says_without_a_script_what_it_is()
 
 
 def test_the_films_are_exact_to_half_a_step():
-    film = drawn()[3].seam
-    body, (first, second), data = packed([film, film[5:]])
+    pair = drawn()[3]
+    film, scene = pair.seam, BlindTest([pair], 10, 0.04, 0).scene
+    body, (first, second), data = scene["body"], scene["films"], scene["data"]
     assert second["offset"] == 2 * 3 * first["frames"] * body["joints"]
     numbers = np.frombuffer(zlib.decompress(data), "<u2")[: second["offset"] // 2]
     places = np.cumsum(np.cumsum(numbers.reshape(-1, 3, first["frames"]), -1, dtype="<u2"), -1, dtype="<u2")
