@@ -14,6 +14,7 @@ import shutil
 import tempfile
 from importlib.util import find_spec
 from pathlib import Path
+from string import Template
 from typing import Any
 
 import mocap
@@ -44,26 +45,6 @@ ABOVE = NOTE.format(
     "<code>pip install '.[notebooks]'</code>, then <code>mocap lab</code>."
 )
 ABOVE += '<script>document.body.classList.add("mocap-page")</script>'  # players are dark where the page is
-INDEX = """# Motion graphs
-
-<iframe src="walk.html" title="Draw a line. It walks." style="width: 100%; height: 70vh; border: 0"></iframe>
-
-<p><a href="walk.html">Draw in the whole window</a></p>
-
-```{{toctree}}
-:caption: The course
-:maxdepth: 1
-
-{}
-```
-
-```{{toctree}}
-:caption: The package
-:maxdepth: 1
-
-{}
-```
-"""
 REFERENCE = "{0}\n{1}\n\n.. automodule:: {0}\n   :members:\n   :imported-members:\n"
 
 
@@ -112,7 +93,8 @@ def build_site(notebooks: Path, out: Path, progress: Progress = iter, *, moving:
             shutil.copy(page, folder)
         shutil.copytree(notebooks / "teaching", Path(folder, "teaching"), ignore=PRIVATE)
         titles += [page.relative_to(folder).as_posix() for page in sorted(Path(folder).rglob("*.md"))]
-        index = INDEX.format("\n".join(titles), "\n".join(_write_reference(Path(folder))))
+        lists = {"course": "\n".join(titles), "package": "\n".join(_write_reference(Path(folder)))}
+        index = Template((HERE / "index.md").read_text("utf-8")).substitute(lists)
         write_text(Path(folder, "index.md"), index)
         warned = io.StringIO()  # of papers cited twice
         Sphinx(folder, HERE, out, Path(folder, ".doctrees"), "html", status=None, warning=warned).build()

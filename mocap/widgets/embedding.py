@@ -5,6 +5,7 @@ import html
 import json
 import re
 from pathlib import Path
+from string import Template
 from typing import Any, ClassVar, Protocol
 
 from mocap.plotting.picture import Picture
@@ -14,14 +15,7 @@ PARTS = ("scene", "picture", "page", "hand")
 SHARED = SCENE, PICTURE, PAGE, HAND = [Path(__file__).with_name(f"player_{part}.js") for part in PARTS]
 SHADED = [Path(__file__).with_name(f"{part}.js") for part in ("bodies", "player_body")]
 TOUCH = Path(__file__).with_name("touch.js")
-_STYLE = """<style>
-:root { color-scheme: light dark; }
-body { margin: 0 auto; padding: 0.5rem; max-width: 1400px; box-sizing: border-box; }
-h1 { margin: 0.25rem 0; font: 600 1.1rem system-ui, sans-serif; }
-.mocap-page .mocap-player { max-width: none; }
-.mocap-page .mocap-player canvas { height: clamp(160px, calc(100svh - 11rem), 100vw); }
-</style>
-"""
+WHOLE = Path(__file__).with_name("page.html")
 
 
 def joined(*files: Path) -> str:
@@ -74,12 +68,8 @@ class Embedded(Protocol):
     def page(self) -> str:
         """Return it as a whole page, with everything that it needs."""
         heading = f"<h1>{html.escape(self.heading)}</h1>\n" if self.heading else ""
-        return (
-            '<!doctype html>\n<html lang="en">\n<meta charset="utf-8">\n'
-            '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-            f'<link rel="icon" href="data:,">\n<title>{html.escape(self.alt)}</title>\n'
-            f'{_STYLE}<body class="mocap-page">\n{heading}{self.html()}</body>\n</html>\n'
-        )
+        parts = {"title": html.escape(self.alt), "heading": heading, "body": self.html()}
+        return Template(WHOLE.read_text("utf-8")).substitute(parts)
 
     def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, str], dict[str, Any]]:
         bundle, metadata = self.still()._repr_mimebundle_()
