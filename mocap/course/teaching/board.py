@@ -43,14 +43,6 @@ def _pair() -> tuple[Motion, Motion]:
     return circle[56 : 56 + WINDOW], curve[97 : 97 + WINDOW]
 
 
-def _cloud() -> Steps:
-    return (diagrams.window_cloud(_pair()[0], step=step) for step in FOUR)
-
-
-def _theta() -> Steps:
-    return (diagrams.laying_on(*_pair(), step=step) for step in FOUR)
-
-
 def _grid() -> Steps:
     grid = matching.distance_grid(*_walks(180), window=WINDOW)
     low = matching.local_minima(grid)
@@ -75,14 +67,6 @@ def _path() -> Steps:
     return map(diagrams.two_distances(GroundPath([[0, 0], [0, 3], [3, 3]]), rounded), (0, 3, 5, 8))
 
 
-def _tarjan() -> Steps:
-    return map(diagrams.tarjan_steps(graphs.notes_example()), (0, 4, 6, 14, 16, 99))
-
-
-def _search() -> Steps:
-    return map(diagrams.search_steps(graphs.notes_example(), 6, 2), (0, 2, 3, 9, 11, 13))
-
-
 def _layers() -> Steps:
     asked = GroundPath([[0, 0], [0, 2.1], [0.7, 2.1], [0.7, 0]]).at(0.7 * np.arange(7)) @ [1j, 1]
     draw_stage = diagrams.layer_steps(asked, 5)
@@ -96,15 +80,27 @@ def _tree() -> Steps:
 
 WHOLE = "04-laid-on"  # one figure that shows its steps itself
 BOARD: dict[str, tuple[str, Callable[[], Steps]]] = {
-    "01-window": ("A window as a cloud of points", _cloud),
-    "02-theta": ("Four steps to the best turn and shift", _theta),
+    "01-window": (
+        "A window as a cloud of points",
+        lambda: (diagrams.window_cloud(_pair()[0], step=step) for step in FOUR),
+    ),
+    "02-theta": (
+        "Four steps to the best turn and shift",
+        lambda: (diagrams.laying_on(*_pair(), step=step) for step in FOUR),
+    ),
     "03-minima": ("A grid of distances, its minima, those below a threshold", _grid),
     "04-laid-on": ("One clip laid on the end of another: turn, then shift", _laid),
     "05-alpha": ("The share α of the first clip over a window", lambda: map(diagrams.blended_seam, FOUR)),
     "06-slerp": ("From one rotation to another on the ball", _ball),
     "07-graph": ("Two clips become a graph", lambda: map(diagrams.nodes_and_edges, range(6))),
-    "08-tarjan": ("Tarjan's algorithm on eight nodes", _tarjan),
-    "09-search": ("Branch and bound on eight nodes", _search),
+    "08-tarjan": (
+        "Tarjan's algorithm on eight nodes",
+        lambda: map(diagrams.tarjan_steps(graphs.notes_example()), (0, 4, 6, 14, 16, 99)),
+    ),
+    "09-search": (
+        "Branch and bound on eight nodes",
+        lambda: map(diagrams.search_steps(graphs.notes_example(), 6, 2), (0, 2, 3, 9, 11, 13)),
+    ),
     "10-path": ("Two distances from a path: at equal arc length, to the nearest point", _path),
     "11-pinned": ("A leg that reaches its pinned foot", lambda: map(diagrams.knee_triangle, FOUR[:3])),
     "12-layers": ("The layered search along a hairpin: cross out, keep the best four, lengthen", _layers),
