@@ -78,14 +78,16 @@ def build_site(notebooks: Path, out: Path, progress: Progress = iter, *, moving:
         raise missing("The site needs Sphinx, MyST-NB and Furo", "site")
     from sphinx.application import Sphinx
 
-    make_folder(out)
     make_folder(out / "_shared")
     with tempfile.TemporaryDirectory() as folder:
         titles = []
         for file in progress(files):
             title, notebook = prepared(file, moving=moving)
             titles.append(f"{title} <{file.stem}>")
-            _unpack_pictures(notebook, Path(folder), file.stem)
+            for cell in notebook.cells:  # attached pictures become files, which Sphinx finds
+                for name, data in cell.pop("attachments", {}).items():
+                    Path(folder, f"{file.stem}-{name}").write_bytes(base64.b64decode(data["image/png"]))
+                    cell.source = cell.source.replace(f"attachment:{name}", f"{file.stem}-{name}")
             _share(notebook, out)
             notebook.cells.insert(1, nbformat.v4.new_markdown_cell(ABOVE, id="note"))
             write_text(Path(folder, file.name), nbformat.writes(notebook))
@@ -94,8 +96,8 @@ def build_site(notebooks: Path, out: Path, progress: Progress = iter, *, moving:
         shutil.copytree(notebooks / "teaching", Path(folder, "teaching"), ignore=PRIVATE)
         titles += [page.relative_to(folder).as_posix() for page in sorted(Path(folder).rglob("*.md"))]
         lists = {"course": "\n".join(titles), "package": "\n".join(_write_reference(Path(folder)))}
-        index = Template((HERE / "index.md").read_text("utf-8")).substitute(lists)
-        write_text(Path(folder, "index.md"), index)
+        index = Template((HERE / "index.md").read_text("utf-8"))
+        write_text(Path(folder, "index.md"), index.substitute(lists))
         warned = io.StringIO()  # of papers cited twice
         Sphinx(folder, HERE, out, Path(folder, ".doctrees"), "html", status=None, warning=warned).build()
     clips = [resample(sample(name), 30) for name in SAMPLES]
@@ -155,14 +157,6 @@ def _moving(recorded: dict[str, Any]) -> str:
         f'<img alt="{html.escape(recorded["alt"])}" src="data:image/png;base64,{recorded["pictures"][at]}">'
         f'<script type="application/json">{data}</script></div>'
     )
-
-
-def _unpack_pictures(notebook: Any, folder: Path, stem: str) -> None:  # noqa: ANN401
-    """Write the pictures that are attached to cells as files, which Sphinx finds."""
-    for cell in notebook.cells:
-        for name, data in cell.pop("attachments", {}).items():
-            (folder / f"{stem}-{name}").write_bytes(base64.b64decode(data["image/png"]))
-            cell.source = cell.source.replace(f"attachment:{name}", f"{stem}-{name}")
 
 
 def _share(notebook: Any, out: Path) -> None:  # noqa: ANN401
