@@ -137,10 +137,12 @@ def operators(between: bytes, first: int) -> Iterator[tuple[int, int, str]]:
 
 
 def tests_of(root: Path, path: str) -> list[list[str]]:
-    """List the tests for a module: those that name it, the rest of its room, those of rooms above."""
+    """List the tests for a module: those that name it or a name of its, the rest of its room, rooms above."""
     room, module = Path(path).relative_to("mocap").parent, Path(path).stem
+    own = re.findall(r"^(?:def|class) (\w+)", (root / path).read_text("utf-8"), re.MULTILINE)
+    named = re.compile(rf"\b({'|'.join([module, *own])})\b")
     files = sorted(str(file.relative_to(root)) for file in (root / "tests" / room).glob("test_*.py"))
-    first = [file for file in files if re.search(rf"\b{module}\b", (root / file).read_text("utf-8"))]
+    first = [file for file in files if named.search((root / file).read_text("utf-8"))]
     first.sort(key=lambda file: file != f"tests/{room}/test_{module}.py")
     rest = [file for file in files if file not in first]
     above = [f"tests/{name}" for name in ABOVE.get(str(room), "").split()]

@@ -7,9 +7,7 @@ import pytest
 from walking import generate_walk
 
 from mocap._shared.arrays import runs
-from mocap.blending.clocks import frame_times
-from mocap.blending.mixing import crossfade, ground_course, mix
-from mocap.blending.registering import register
+from mocap.blending import crossfade, frame_times, ground_course, mix, register
 from mocap.body import PlanarTransform, resample
 from mocap.feet import clean_up
 from mocap.matching.point_clouds import align, point_cloud

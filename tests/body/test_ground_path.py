@@ -5,8 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap.body import ground_path
-from mocap.body.ground_path import GroundPath, arcs, spline
+from mocap.body import GroundPath, arcs, ground_path, spline
 from tests.refusals import refusals
 from tests.strategies import seeds
 

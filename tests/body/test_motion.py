@@ -9,8 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap.body import rotations
-from mocap.body.motion import concatenate, resample
+from mocap.body import concatenate, resample, rotations
 from mocap.errors import SkeletonMismatch
 from tests.refusals import refusals
 from tests.strategies import random_motion, seeds, wave

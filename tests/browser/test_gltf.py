@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import resample
+from mocap.body import joint_positions, resample
 from mocap.datasets import samples
 from mocap.files.load_save import save
 from tests.browser.conftest import wait_until

@@ -8,14 +8,11 @@ from PIL import Image
 
 from mocap.blending.joining import blend, lay_window_on, splice
 from mocap.blending.weights import cubic_weights, linear_weights
-from mocap.body.ground_path import GroundPath
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import resample
+from mocap.body import GroundPath, joint_positions, resample
 from mocap.course.lab.showing import inspector
 from mocap.datasets.samples import sample
 from mocap.graphs.compiled_graph import compile_graph
-from mocap.matching.distance_grids import distance_grid
-from mocap.matching.point_clouds import align, point_cloud
+from mocap.matching import align, distance_grid, point_cloud
 from mocap.quality.seam_measures import jumps
 from mocap.steering.path_following import follow_path
 from mocap.synthesis.walk_to_motion import to_motion

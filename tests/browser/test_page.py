@@ -8,8 +8,7 @@ import pytest
 from PIL import Image
 from walking import generate_walk
 
-from mocap.body import joint_positions, resample, rotations
-from mocap.body.planar import place
+from mocap.body import joint_positions, place, resample, rotations
 from mocap.datasets import sample
 from mocap.widgets.embedding import PICTURE, SCENE, SHADED, joined
 from mocap.widgets.packing import packed_body, packed_character

@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 
 from mocap import datasets
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import concatenate, resample
+from mocap.body import concatenate, joint_positions, resample
 from mocap.datasets import samples
 from mocap.files import conversion, load_save
 from tests.files.acclaim_clips import write_acclaim

@@ -10,13 +10,9 @@ from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
 from mocap import load
-from mocap.body import rotations
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion, resample
-from mocap.body.skeleton import Skeleton
+from mocap.body import Motion, Skeleton, joint_positions, resample, rotations
 from mocap.datasets.samples import sample
-from mocap.editing.retargeting import copied
-from mocap.editing.stances import stance_of
+from mocap.editing import copied, stance_of
 from mocap.editing.warp_plans import load_plan, warp
 from mocap.errors import FormatError, MocapError
 from mocap.files import load_save

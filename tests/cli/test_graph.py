@@ -4,10 +4,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from mocap.body import rotations
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion, resample
-from mocap.body.skeleton import Skeleton
+from mocap.body import Motion, Skeleton, joint_positions, resample, rotations
 from mocap.cli.walk import _plan
 from mocap.datasets import samples
 from mocap.datasets.clip_origins import Origin, find_again, is_origin

@@ -13,9 +13,7 @@ from mocap.cli.main import _parser, main
 from mocap.datasets import samples
 from mocap.editing.retargeting import copied
 from mocap.files import load_save
-from mocap.graphs import storage
-from mocap.graphs.motion_graph import build
-from mocap.graphs.pruning import prune
+from mocap.graphs import build, prune, storage
 from tests.bundled import bundled
 from tests.editing.bodies import adult, along_x, child, rested, walk
 from tests.files.acclaim_clips import write_acclaim

@@ -11,8 +11,7 @@ from IPython.core.interactiveshell import InteractiveShell
 from PIL import Image
 
 from mocap.course import recording
-from mocap.widgets.experiments import explore
-from mocap.widgets.pointing import handles
+from mocap.widgets import explore, handles
 
 pytest.importorskip("anywidget")
 

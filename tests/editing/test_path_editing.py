@@ -11,8 +11,7 @@ from scipy.spatial import cKDTree
 
 from mocap.body import GroundPath, PlanarTransform, arcs, circle, joint_positions
 from mocap.datasets.samples import sample
-from mocap.editing.displacements import spline_basis
-from mocap.editing.path_editing import moving_frames, on_path, plants_kept, ride_of, start_at
+from mocap.editing import moving_frames, on_path, plants_kept, ride_of, spline_basis, start_at
 from mocap.feet import clean_up
 from mocap.files.load_save import load
 from tests.editing.wishes import smoothness

@@ -5,15 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mocap.body import rotations
+from mocap.body import find_legs, rotations
 from mocap.body.kinematics import forward_kinematics, joint_positions
-from mocap.body.limbs import find_legs
 from mocap.datasets.samples import sample
-from mocap.editing import body_of
+from mocap.editing import Pins, body_of, difference, edit, hierarchy, join_pins, pin, pin_errors, plant_pins
 from mocap.editing.bodies import hinge_of, keep_turned, limit_turns, require_reachable
-from mocap.editing.displacements import difference
-from mocap.editing.edits import edit, hierarchy
-from mocap.editing.pins import Pins, join_pins, pin, pin_errors, plant_pins
 from mocap.files.load_save import load
 from tests.editing.wishes import bar, captured, far_hand, hand, shakes, smoothness, walk
 from tests.refusals import refusals, refused

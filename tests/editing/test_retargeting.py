@@ -10,9 +10,8 @@ from hypothesis import strategies as st
 
 from mocap import load
 from mocap.body import Motion, PlanarTransform, joint_positions, rotations
+from mocap.editing import pin_errors, plants_kept
 from mocap.editing.body_roles import FEET
-from mocap.editing.path_editing import plants_kept
-from mocap.editing.pins import pin_errors
 from mocap.editing.retargeting import copied, dips_of, floor_pins, retarget
 from mocap.editing.stances import Stance, proportioned, stance_of, stance_of_zero
 from mocap.errors import SkeletonMismatch

@@ -8,8 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mocap import load
-from mocap.body import PlanarTransform, rotations
-from mocap.body.skeleton import Skeleton
+from mocap.body import PlanarTransform, Skeleton, rotations
 from mocap.datasets.samples import SKELETON
 from mocap.editing.body_roles import FEET, ROLES, roles
 from mocap.editing.stances import Stance, proportioned, stance_of, stance_of_zero, standing_heights

@@ -11,9 +11,8 @@ from scipy.optimize import minimize
 
 from mocap.body import Motion, PlanarTransform, Skeleton, euler, rotations
 from mocap.errors import SkeletonMismatch
-from mocap.matching import align, distance_grids
+from mocap.matching import align, distance_grids, local_minima
 from mocap.matching.distance_grids import cloud, cloud_distances, distance_grid, tiled_distances
-from mocap.matching.minima import local_minima
 from mocap.matching.other_metrics import HOMEWORK_WEIGHTS, euler_grid, file_angles, root_grid
 from mocap.matching.point_clouds import distinct_joints, rms_distance, unit_weights
 from tests.oracles import distance_oracle, squared_distance

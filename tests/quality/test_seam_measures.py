@@ -8,8 +8,7 @@ from walking import generate
 
 from mocap._shared.arrays import runs
 from mocap.blending import join
-from mocap.body import Motion, Skeleton, concatenate
-from mocap.body.kinematics import joint_positions
+from mocap.body import Motion, Skeleton, concatenate, joint_positions
 from mocap.datasets.samples import sample
 from mocap.errors import SkeletonMismatch
 from mocap.quality.seam_measures import jumps, knee_turns, seam_quality, spread

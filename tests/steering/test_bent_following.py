@@ -11,15 +11,13 @@ from asked_lines import LINES, random_line
 
 from mocap.body import SHAPES, GroundPath, circle, on_ground, resample
 from mocap.datasets import samples
-from mocap.editing import LIMIT, plants_kept
-from mocap.editing.path_editing import moving_frames, ride_of
+from mocap.editing import LIMIT, moving_frames, plants_kept, ride_of
 from mocap.errors import MocapWarning, NoWalk
 from mocap.files.load_save import load
 from mocap.graphs import build, prune
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
+from mocap.steering import Settings, Wishes, follow_path
 from mocap.steering.bent_following import own_paths, own_ride, plan_bending
-from mocap.steering.path_following import follow_path
-from mocap.steering.path_objective import Settings, Wishes
 from mocap.synthesis import random_walk, to_motion
 from tests.bundled import sneaking, walking
 from tests.editing.test_path_editing import slide

@@ -6,8 +6,7 @@ import pytest
 from mocap.body.motion import Motion
 from mocap.errors import NoWalk
 from mocap.graphs.motion_graph import from_transitions
-from mocap.steering.characters import measure_delay, steer
-from mocap.steering.graph_control import Controller
+from mocap.steering import Controller, measure_delay, steer
 from mocap.synthesis.walk_to_motion import to_motion
 from tests.bundled import sneaking, walking
 from tests.refusals import refusals

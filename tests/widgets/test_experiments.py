@@ -14,9 +14,7 @@ from PIL import Image
 from mocap.body.kinematics import joint_positions
 from mocap.errors import MocapError
 from mocap.plotting.stick_figures import StickFigure, ground_axes
-from mocap.widgets import experiments
-from mocap.widgets.experiments import explore
-from mocap.widgets.pointing import handles
+from mocap.widgets import experiments, explore, handles
 from tests.refusals import refused
 from tests.strategies import wave
 

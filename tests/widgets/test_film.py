@@ -11,13 +11,11 @@ from PIL import Image
 
 import mocap
 from mocap import datasets
-from mocap.body.kinematics import joint_positions
-from mocap.body.planar import place
+from mocap.body import joint_positions, place
 from mocap.errors import MocapError
 from mocap.plotting.style import COLOURS, SOURCES
-from mocap.widgets import film
+from mocap.widgets import film, play
 from mocap.widgets.filmed_scene import FilmedScene, stored_scene
-from mocap.widgets.player import play
 from mocap.widgets.shaded_picture import ShadedPicture
 from tests.refusals import refused
 from tests.strategies import wave

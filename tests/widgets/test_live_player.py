@@ -13,10 +13,8 @@ from mocap.blending import register
 from mocap.body import joint_positions, spline
 from mocap.errors import MocapError, MocapWarning
 from mocap.steering.path_following import follow_path
-from mocap.widgets import explore, steered
+from mocap.widgets import Mixer, draw_path, explore, play, steered
 from mocap.widgets.live import LIVE, STILL, WIDGET
-from mocap.widgets.live_player import Mixer, draw_path
-from mocap.widgets.player import play
 from tests.blending.registered import turned, walks
 from tests.bundled import walking
 from tests.refusals import refused

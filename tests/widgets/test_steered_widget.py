@@ -13,9 +13,8 @@ from hypothesis import strategies as st
 from mocap.body.kinematics import joint_positions
 from mocap.errors import MocapError, MocapWarning
 from mocap.steering.characters import CommandClock, as_motion, between
-from mocap.widgets import steered_widget
+from mocap.widgets import steered, steered_widget
 from mocap.widgets.company import START, Company
-from mocap.widgets.steered_widget import steered
 from tests.refusals import refusals
 from tests.widgets.steerable import Dot
 

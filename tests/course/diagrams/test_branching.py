@@ -9,10 +9,9 @@ import pytest
 from mocap import graphs
 from mocap.body import GroundPath
 from mocap.course import diagrams
-from mocap.course.diagrams.branching import edge_lengths, search_events
+from mocap.course.diagrams import edge_lengths, search_events, tarjan_states
 from mocap.course.diagrams.ground import nearest_points
 from mocap.course.diagrams.layers import STRIDE, TURNS, Steps, layer_states, lengthened
-from mocap.course.diagrams.small_graphs import tarjan_states
 from tests.refusals import refusals
 
 EIGHT = graphs.notes_example()

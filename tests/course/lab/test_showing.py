@@ -11,22 +11,15 @@ from matplotlib import colormaps
 from matplotlib.colors import to_hex
 from PIL import Image
 
-from mocap.body.ground_path import GroundPath
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion, resample
-from mocap.body.planar import PlanarTransform
-from mocap.body.skeleton import Skeleton
+from mocap.body import GroundPath, Motion, PlanarTransform, Skeleton, joint_positions, resample
 from mocap.course import lab
 from mocap.course.lab.choices import EACH, LONGEST, around, of_clips, of_graph, of_walk
 from mocap.course.lab.showing import STEP, TABS, Inspector, inspector, packed_clip, packed_skeleton
 from mocap.datasets.samples import sample
-from mocap.graphs.compiled_graph import compile_graph
-from mocap.graphs.motion_graph import from_transitions
-from mocap.matching.distance_grids import distance_grid
-from mocap.matching.point_clouds import rms_distance
+from mocap.graphs import compile_graph, from_transitions
+from mocap.matching import distance_grid, rms_distance
 from mocap.steering.path_following import follow_path
-from mocap.synthesis.random_walks import random_walk
-from mocap.synthesis.walk_to_motion import seams
+from mocap.synthesis import random_walk, seams
 from mocap.widgets.embedding import joined
 from tests.bundled import bundled
 from tests.course.lab.students import written

@@ -4,9 +4,7 @@ from functools import cache
 
 import numpy as np
 
-from mocap.methods.groups.flocking import RATE, Configuration, simulate
-from mocap.methods.groups.group_graphs import GroupGraph, build_group
-from mocap.methods.groups.planning import Scene
+from mocap.methods.groups import RATE, Configuration, GroupGraph, Scene, build_group, simulate
 
 
 @cache

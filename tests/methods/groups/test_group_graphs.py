@@ -6,11 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.body.planar import PlanarTransform
-from mocap.methods.groups import GroupGraph
-from mocap.methods.groups.configurations import compare
+from mocap.methods.groups import GroupGraph, build_group, compare, make_clips, play_group, random_group_walk
 from mocap.methods.groups.flocking import APART, RATE, Configuration, nearest_two
 from mocap.methods.groups.group_clips import HARDEST, bend_to, part, run_from
-from mocap.methods.groups.group_graphs import build_group, make_clips, play_group, random_group_walk
 from tests.methods.groups.built import accelerations, flock, graph
 from tests.refusals import refusals, told
 

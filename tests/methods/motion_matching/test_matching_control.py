@@ -8,9 +8,7 @@ import pytest
 from mocap.body.kinematics import joint_positions
 from mocap.errors import NoWalk
 from mocap.graphs import build, compile_graph, prune
-from mocap.methods.motion_matching.matching_control import MotionMatcher
-from mocap.methods.motion_matching.nearest_frames import Wants
-from mocap.methods.motion_matching.pose_database import tabulate
+from mocap.methods.motion_matching import MotionMatcher, Wants, tabulate
 from mocap.quality.seam_measures import spread
 from mocap.steering import Controller, command_headings, judge_control, measure_delay, steer
 from tests.bundled import WALKS, clips

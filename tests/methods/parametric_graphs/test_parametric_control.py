@@ -13,13 +13,10 @@ from mocap.errors import NoWalk
 from mocap.feet import clean_up
 from mocap.methods.match_webs import weights_for
 from mocap.methods.match_webs.motion_spaces import random_weights
-from mocap.methods.parametric_graphs import build_edge, cut_actions
-from mocap.methods.parametric_graphs.made_motions import optimal_transitions
-from mocap.methods.parametric_graphs.parametric_control import ParametricController
+from mocap.methods.parametric_graphs import ParametricController, build_edge, cut_actions, optimal_transitions
 from mocap.methods.parametric_graphs.parametric_edges import BAD, build_parametric
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters
-from mocap.quality import plant_slides
-from mocap.quality.seam_measures import jumps, spread
+from mocap.quality import jumps, plant_slides, spread
 from mocap.steering import Controller, command_headings, measure_delay, steer
 from tests.bundled import WALKS, bundled, clips
 from tests.methods.parametric_graphs.built import (
