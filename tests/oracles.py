@@ -33,20 +33,17 @@ def _windows(points, window, weights):
     return [np.ascontiguousarray(part * np.sqrt(weights)) for part in (x, y, z)]
 
 
-def distance_rows(a, b, window, rows, weights=None):
-    """Some rows of the distance grid of points (F, P, 3): one window of a against all of b at a time."""
+def distance_oracle(a, b, window, weights=None):
+    """The distance grid of points (F, P, 3), row by row: one window of a against all of b at a time."""
     w = np.tile(unit_weights(weights, a.shape[1]) / window, window)
     xb, yb, zb = _windows(b, window, w)
     sizes = sum((part**2).sum(1) for part in (xb, yb, zb))
-    for i in rows:
+    rows = []
+    for i in range(len(a) - window + 1):
         xa, ya, za = (part[0] for part in _windows(a[i : i + window], window, w))
         turned = np.hypot(xb @ xa + zb @ za, xb @ za - zb @ xa)
-        yield xa @ xa + ya @ ya + za @ za + sizes - 2 * yb @ ya - 2 * turned
-
-
-def distance_oracle(a, b, window, weights=None):
-    """The whole grid, row by row."""
-    return np.array(list(distance_rows(a, b, window, range(len(a) - window + 1), weights)))
+        rows.append(xa @ xa + ya @ ya + za @ za + sizes - 2 * yb @ ya - 2 * turned)
+    return np.array(rows)
 
 
 def least_sum(grid, slope, begin=(0, 0), end=None):

@@ -2,6 +2,7 @@
 
 import warnings
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -30,6 +31,17 @@ def refusals(*rows: tuple) -> Callable:
     def test(row: tuple) -> None:
         kind, *rest = row if isinstance(row[0], type) else (MocapError, *row)
         refused(*rest, kind=kind)
+
+    return test
+
+
+def refused_texts(read: Callable, name: str, *rows: tuple, kind: type[MocapError] = MocapError) -> Callable:
+    """Make one test of rows (a file's text or bytes, sentence): no file of that name can be read."""
+
+    def test(tmp_path: Path) -> None:
+        for text, sentence in rows:
+            (tmp_path / name).write_bytes(text if isinstance(text, bytes) else text.encode())
+            refused(sentence, read, tmp_path / name, kind=kind)
 
     return test
 

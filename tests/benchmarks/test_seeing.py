@@ -11,10 +11,10 @@ import matplotlib
 matplotlib.use("agg")
 
 import matplotlib.pyplot as plt
-import nbformat
 import numpy as np
 import psutil
 import pytest
+from nbformat.v4 import new_code_cell
 from walking import generate_walk
 
 from mocap.body import PlanarTransform, joint_positions
@@ -25,6 +25,7 @@ from mocap.plotting import graph_drawing, grids, stick_figures
 from mocap.widgets import explore, play
 from tests.benchmarks.timing import held, least
 from tests.browser.conftest import browser, lab, page, run_notebook, wait_until  # noqa: F401
+from tests.browser.test_lab import written
 from tests.browser.test_page import PLAYER, twelve
 from tests.strategies import wave
 
@@ -156,10 +157,7 @@ page
 
 def test_three_steered_characters_as_lines_show_55_pictures_a_second_and_hear_within_150_ms(lab, page):  # noqa: F811
     page.add_init_script(WITHOUT_WEBGL)
-    cells = [nbformat.v4.new_code_cell(STEERED.strip())]
-    kernel = {"name": "python3", "display_name": "Python 3"}
-    notebook = nbformat.v4.new_notebook(cells=cells, metadata={"kernelspec": kernel})
-    run_notebook(lab, page, nbformat.writes(notebook), "steered.ipynb")
+    run_notebook(lab, page, written([new_code_cell(STEERED.strip())]), "steered.ipynb")
     it = "document.querySelector('.mocap-steering')?.steering"
     wait_until(lambda: page.evaluate(f"{it}?.pictures > 0"), 120)
     page.locator(".mocap-steering .panels").focus()

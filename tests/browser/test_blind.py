@@ -22,9 +22,7 @@ def blind():
 @pytest.fixture
 def opened(page, blind, tmp_path):
     file = tmp_path / "blind.html"
-    file.write_text(
-        f'<!doctype html><html lang="en"><meta charset="utf-8"><link rel="icon" href="data:,">{blind.html()}'
-    )
+    file.write_text(blind.page(), "utf-8")
     page.goto(file.as_uri())
     return page
 

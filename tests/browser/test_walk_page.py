@@ -10,10 +10,11 @@ import pytest
 from PIL import Image
 
 import mocap
-from mocap import body, datasets, graphs, plain
+from mocap import body, graphs, plain
 from mocap.body import rotations
 from mocap.widgets.walking_page import HERE, STEPS, pack_graph, walk_page
 from tests.browser.conftest import drag, keep, watched_page
+from tests.bundled import WALKS, bundled
 
 SEARCH = """([about, packed, z, x]) => {
   const bytes = Uint8Array.from(atob(packed), (c) => c.charCodeAt(0));
@@ -93,10 +94,8 @@ def test_it_finds_the_walk_of_the_plain_pages(scripts, seed):
 @pytest.fixture(scope="module")
 def file(tmp_path_factory):
     """Write the page of the bundled clips that only walk."""
-    names = [name for name in datasets.SAMPLES if name.startswith("walk")]
-    clips = [mocap.resample(datasets.sample(name), 30) for name in names]
     path = tmp_path_factory.mktemp("walk") / "walk.html"
-    path.write_text(walk_page(graphs.prune(graphs.build(clips, window=10, threshold=0.04))), "utf-8")
+    path.write_text(walk_page(bundled(*WALKS)), "utf-8")
     assert path.stat().st_size < 600_000
     return path
 

@@ -11,7 +11,6 @@ from urllib.request import url2pathname
 import numpy as np
 import pytest
 
-from mocap import datasets
 from mocap.body import concatenate, joint_positions, resample
 from mocap.datasets import samples
 from mocap.files import conversion, load_save
@@ -178,7 +177,7 @@ def walks(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "walks").mkdir()
     for name in ("walk_straight", "stop_and_go"):
-        load_save.save(resample(datasets.sample(name), 60)[:600], f"walks/{name}.bvh")
+        load_save.save(resample(samples.sample(name), 60)[:600], f"walks/{name}.bvh")
     return "find walks/walk_straight.bvh:120-185"
 
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from mocap.course import notebooks, real_clips
 from mocap.course.marked_values import Marked, compare, marked, question, refreshed, values_of, wrong
-from mocap.errors import MocapError
+from tests.refusals import refused
 
 
 @given(st.floats(-1e6, 1e6), st.integers(0, 3))
@@ -61,8 +61,7 @@ def test_what_has_no_value_stays_and_is_listed():
 
 
 def test_a_mark_without_a_number_is_an_error():
-    with pytest.raises(ValueError, match="No number stands directly before"):
-        list(marked("some <!--= n -->"))
+    refused("No number stands directly before", list, marked("some <!--= n -->"), kind=ValueError)
 
 
 def test_the_question_is_answered_in_a_line_of_json(capsys):
@@ -76,8 +75,7 @@ def test_a_number_that_nothing_computes_stops_the_run(tmp_path, monkeypatch):
     monkeypatch.setattr(notebooks, "execute", lambda run, _: run.cells[-1].update(outputs=answered))
     cells = [nbformat.v4.new_markdown_cell(f"It is 9.9<!--= {name} --> cm off.") for name in ("off", "gone")]
     nbformat.write(nbformat.v4.new_notebook(cells=cells), path)
-    with pytest.raises(MocapError, match=r"n.ipynb, cell 1: The text says 9.9; 'gone' gives NameError"):
-        notebooks.run(path, tmp_path)
+    refused("n.ipynb, cell 1: The text says 9.9; 'gone' gives NameError", notebooks.run, path, tmp_path)
     cells[1].metadata["tags"] = ["real"]  # the clips that it needs may be missing
     nbformat.write(nbformat.v4.new_notebook(cells=cells), path)
     notebooks.run(path, tmp_path)

@@ -18,7 +18,7 @@ from mocap.course import checks, notebooks
 from mocap.course.lab.adopting import slots
 from tests.course.stored_notebooks import FOLDER, NAMES, PAGES, ROOT, every_notebook, markdown, read
 from tests.loops import for_each
-from tests.refusals import refused
+from tests.refusals import refused_texts
 
 
 def code(name):
@@ -306,10 +306,9 @@ def test_no_captured_motion_is_stored(name):
             assert not any("application/json" in str(output) for output in cell.get("outputs", ())), cell.id
 
 
-@pytest.mark.parametrize("text", ["{", '{"cells": 1}', "[]", ""])
-def test_what_is_no_notebook_is_told(text, tmp_path):
-    (tmp_path / "n.ipynb").write_text(text)
-    refused(r"n\.ipynb: is not a notebook", notebooks.read, tmp_path / "n.ipynb")
+test_what_is_no_notebook_is_told = refused_texts(
+    notebooks.read, "n.ipynb", *((text, "is not a notebook") for text in ("{", '{"cells": 1}', "[]", ""))
+)
 
 
 def test_a_notebook_whose_cells_have_no_ids_is_read_in_silence(tmp_path, recwarn):

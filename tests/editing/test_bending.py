@@ -125,11 +125,6 @@ def test_captured_walks_keep_to_any_line(real_data, name):
         assert smoothness(bent.motion, motion) <= 1.25
 
 
-@cache
-def walk():
-    return resample(sample("walk_straight")[:1200], 30)
-
-
 def law(curvature):
     return (1 + (1.2 * curvature) ** 2) ** -0.25
 
@@ -143,18 +138,19 @@ def test_a_steady_walk_slows_by_the_law_half_by_steps_and_half_by_the_clock(radi
     inside = (places > 1) & (places < ring.length - 1)
     assert ratio[inside] == pytest.approx(law(1 / radius), rel=0.01)
     assert np.diff(places)[inside[1:]] == pytest.approx(0.04 * law(1 / radius) ** 0.5, rel=0.01)
-    _, _, along, leaning = slow_down(walk(), ride_of(walk()), ring)
+    ride = ride_of(clip("walk_straight"))
+    _, _, along, leaning = slow_down(clip("walk_straight"), ride, ring)
     inside = (along > 1) & (along < ring.length - 1)
-    speeds = np.gradient(along)[inside] / np.gradient(ride_of(walk()).along).mean()
-    assert speeds.mean() == pytest.approx(law(1 / radius), rel=0.05)
-    balance = np.arctan((speeds.mean() * 30 * np.gradient(ride_of(walk()).along).mean()) ** 2 / radius / 9.81)
+    speed, own = np.gradient(along)[inside].mean(), np.gradient(ride.along).mean()
+    assert speed / own == pytest.approx(law(1 / radius), rel=0.05)
+    balance = np.arctan((30 * speed) ** 2 / radius / 9.81)
     assert leaning[inside].mean() == pytest.approx(balance, rel=0.1)
 
 
 def test_legs_lean_by_the_whole_angle_and_the_trunk_by_a_quarter():
     """Measured on the motion: from behind, against the same frames of a walk that does not lean."""
-    bent = bend(walk(), circle(1.0))
-    leaning = slow_down(walk(), ride_of(walk()), bent.line.path)[3]
+    bent = bend(clip("walk_straight"), circle(1.0))
+    leaning = slow_down(clip("walk_straight"), ride_of(clip("walk_straight")), bent.line.path)[3]
     points, names = joint_positions(bent.motion), bent.motion.skeleton.names
     way = np.asarray(moving_frames(bent.line.path, bent.walked).angle)
 

@@ -11,6 +11,7 @@ from mocap.datasets.samples import sample
 from mocap.editing.displacements import difference, displaced, spline_basis
 from mocap.editing.edits import edit, hierarchy, posed, scattered_fit
 from mocap.editing.keys import Key, keys_around, offsets
+from mocap.editing.path_editing import plants_kept
 from mocap.editing.pins import join_pins, pin, pin_errors, plant_pins
 from mocap.feet.footskate import clean_up
 from tests.editing import wishes
@@ -23,7 +24,7 @@ pytestmark = pytest.mark.filterwarnings("error::mocap.errors.MocapWarning")
 
 def check(motion, base, pins, most):
     assert pin_errors(motion, pins).max() < 1e-9
-    assert wishes.plants_kept(motion, base) == 1
+    assert plants_kept(motion, base) == 1
     assert smoothness(motion, base) <= most
     assert wishes.bones(motion) < 1e-12
 
@@ -47,7 +48,7 @@ def test_a_bar_to_duck_under(real_data):
         edited = edit(clip, pins)
         errors = pin_errors(edited, pins)
         assert errors[:, :4].max() < 1e-9 and errors.max() < 1e-5
-        assert wishes.plants_kept(edited, clip) == 1
+        assert plants_kept(edited, clip) == 1
         assert smoothness(edited, clip) < (1.05 if clip.name == "16_15" else 1.2)
         assert shakes(edited, clip, pins) <= 1.15
         assert (wishes.between(*wishes.neck(edited)) - wishes.between(*wishes.neck(clip))).max() < 45
@@ -165,8 +166,9 @@ def post(motion, frame):
     return hand + 0.15 * side + 0.25 * UP + 0.10 * ahead
 
 
-def check_hand(motion, frame, columns):
-    """Warp a hand to a post; `columns` are the joints whose accelerations within the window are compared."""
+@pytest.mark.parametrize("frame", [150, 238])
+def test_a_hand_to_a_post(frame):
+    motion = sample("walk_straight")[:480]
     hand, target = motion.skeleton.index("rhand"), post(motion, frame)
     pose = posed(motion, frame, {"rhand": target})
     ratios = []
@@ -178,7 +180,7 @@ def check_hand(motion, frame, columns):
         outside = np.r_[0 : keys[0].frame + 1, keys[2].frame : len(motion)]
         assert np.abs(change.root[outside]).max() == np.abs(change.turns[outside]).max() == 0
         inside = slice(keys[0].frame, keys[2].frame)
-        pushes = (np.diff(joint_positions(m), 2, axis=0)[inside, columns] for m in (motion, warped))
+        pushes = (np.diff(joint_positions(m), 2, axis=0)[inside, wishes.body(m)] for m in (motion, warped))
         before, after = (np.percentile(np.linalg.norm(push, axis=-1), 99) for push in pushes)
         ratios.append(after / before)
     assert ratios[0] > 1.5  # too short a window jolts
@@ -186,16 +188,9 @@ def check_hand(motion, frame, columns):
     left = rotations.multiply(rotations.from_rotvec(change.turns), motion.rotations)
     miss = joint_positions(replace(motion, rotations=left))[frame, hand] - target
     assert np.linalg.norm(miss) > 0.01  # on the other side
-    return warped
-
-
-@pytest.mark.parametrize("frame", [150, 238])
-def test_a_hand_to_a_post(frame):
-    walk = sample("walk_straight")[:480]
-    warped = check_hand(walk, frame, wishes.body(walk))
     cleaned = clean_up(warped)
     assert slide(cleaned) < 1e-6
-    assert wishes.plants_kept(cleaned, walk) >= 0.99
+    assert plants_kept(cleaned, motion) >= 0.99
 
 
 def test_a_height_alone_may_be_asked_for_without_feet():

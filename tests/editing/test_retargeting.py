@@ -18,7 +18,7 @@ from mocap.errors import SkeletonMismatch
 from mocap.feet import clean_up, mark_plants
 from tests.editing.bodies import LONG, adult, along_x, bends, child, renamed, rested, walk, without
 from tests.editing.test_path_editing import slide
-from tests.editing.wishes import bones, captured
+from tests.editing.wishes import bones, captured, smoothness
 from tests.refusals import refusals, told, unwarned
 
 
@@ -122,30 +122,15 @@ def sinks(motion: Motion, stance: Stance, clip: Motion, source: Stance) -> float
     return MM * max(deepest[role] - allowed[role] * stance.leg / source.leg for role in FEET)
 
 
-def jolts(motion: Motion, base: Motion, stance: Stance) -> float:
-    """Compare the 99th percentiles of accelerations, without hands and head."""
-    joints = [joint for role, joint in stance.roles.items() if role != "head"]
-    tops = [
-        np.percentile(np.linalg.norm(np.diff(joint_positions(clip)[:, joints], 2, axis=0), axis=-1), 99)
-        for clip in (motion, base)
-    ]
-    return float(tops[0] / tops[1])
-
-
-def bent_off(motion: Motion, base: Motion, stance: Stance) -> list[float]:
-    """Measure by how much knees, elbows, hips and shoulders are bent otherwise, rms degrees."""
-    off = bends(motion, stance.roles) - bends(base, stance.roles)
-    return [float(np.sqrt((off[:, [k, k + 4]] ** 2).mean())) for k in range(4)]
-
-
 def held_to_the_bars(clip, source, target, *, scale=None, smooth=1.05, deep=3.0):
     worn = unwarned(retarget, clip, target, source, scale=scale)  # nothing is let go
     base = copied(clip, source, target, scale=scale)
-    knees, *others = bent_off(worn, base, target)
+    off = bends(worn, target.roles) - bends(base, target.roles)
+    knees, *others = (rms(off[:, [k, k + 4]]) for k in range(4))  # degrees; elbows, hips and shoulders
     assert MM * slide(worn) <= 1e-3
     assert plants_kept(worn, base) >= 0.99
     assert sinks(worn, target, clip, source) <= deep
-    assert jolts(worn, base, target) <= smooth
+    assert smoothness(worn, base) <= smooth
     assert knees <= 3
     if scale is None:
         assert max(others) <= 7

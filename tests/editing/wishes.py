@@ -110,12 +110,6 @@ def between(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return np.degrees(rotations.angle_between(rotations.between(a, b), rotations.IDENTITY))
 
 
-def plants_kept(motion: Motion, base: Motion) -> float:
-    """Return the share of planted frames that are still planted."""
-    kept = sum((motion.contacts[n] & base.contacts[n]).sum() for n in FEET)
-    return float(kept / sum(base.contacts[n].sum() for n in FEET))
-
-
 def bones(motion: Motion) -> float:
     """Return by how much a bone in space is longer or shorter than the skeleton's, at most, metres."""
     positions, skeleton = joint_positions(motion), motion.skeleton

@@ -5,13 +5,14 @@ import pytest
 
 from mocap.errors import FormatError
 from mocap.files.path_files import load_path
-from tests.refusals import refused
+from tests.refusals import refusals, refused, refused_texts
+
+SVG = '<svg xmlns="http://www.w3.org/2000/svg">{}</svg>'
 
 
 def svg(tmp_path, body):
-    file = tmp_path / "path.svg"
-    file.write_text(f'<svg xmlns="http://www.w3.org/2000/svg">{body}</svg>')
-    return file
+    (tmp_path / "path.svg").write_text(SVG.format(body))
+    return tmp_path / "path.svg"
 
 
 @pytest.mark.parametrize("text", ["x,z\n0,0\n1,2\n", "0;0\n1;2", "# drawn by hand\n0 0\n\n1\t2\n"])
@@ -140,28 +141,14 @@ PATHLESS = [
     ('<g display="none"><path d="M 0 0 L 5 5"/></g>', "got none"),
     ("<path", "SVG picture"),
 ]
-
-
-@pytest.mark.parametrize(("body", "message"), PATHLESS)
-def test_pictures_without_a_path_are_told(tmp_path, body, message):
-    refused(message, load_path, svg(tmp_path, body))
-
-
-NO_TABLES = [
-    ("path.csv", "1,1", "two points"),
-    ("path.csv", f"0 0\n1{' ' * 500_000}x 2", "line 2: expected x and z .*, got 3"),
-    ("path.csv", "", "an empty file"),
-    ("path.png", "x", "give a .csv or .svg"),
-]
-
-
-@pytest.mark.parametrize(("name", "text", "message"), NO_TABLES)
-def test_tables_without_a_path_are_told(tmp_path, name, text, message):
-    file = tmp_path / name
-    file.write_text(text)
-    refused(message, load_path, file)
-
-
+test_tables_without_a_path_are_told = refused_texts(
+    load_path,
+    "path.csv",
+    ("1,1", "two points"),
+    (f"0 0\n1{' ' * 500_000}x 2", "line 2: expected x and z .*, got 3"),
+    ("", "an empty file"),
+)
+test_another_ending_is_told = refusals(("give a .csv or .svg", load_path, "path.png"))
 NESTED = 5000
 BOMB = "".join(f'<!ENTITY e{n + 1} "{f"&e{n};" * 10}">' for n in range(9))
 
@@ -180,13 +167,9 @@ HOSTILE = [
     (f'<path transform="{"translate(1)  " * 9999}!" d="M 0 0 L 1 1"/>', "a transform, got '!'"),
     (f'<polyline points="{" " * 100_000}x"/>', "2 numbers for each point of a polyline, got 0"),
 ]
-
-
-@pytest.mark.parametrize(("text", "message"), HOSTILE)
-def test_hostile_pictures_are_refused(tmp_path, text, message):
-    file = tmp_path / "path.svg"
-    file.write_text(text)
-    refused(message, load_path, file)
+test_pictures_without_a_path_and_hostile_ones_are_told = refused_texts(
+    load_path, "path.svg", *((SVG.format(body), said) for body, said in PATHLESS), *HOSTILE
+)
 
 
 @pytest.mark.parametrize("hidden", ['display="none"', 'style="fill:red; display : none"'])

@@ -50,13 +50,11 @@ def test_building_finds_transitions_below_the_threshold():
 
 def test_below_the_smallest_threshold_there_is_no_walk():
     least = smallest_threshold(CLIPS, window=WINDOW)
-    with pytest.raises(NoWalk):
-        prune(build(CLIPS, window=WINDOW, threshold=least))
+    refused("no cycle", prune, build(CLIPS, window=WINDOW, threshold=least), kind=NoWalk)
     whole = build(CLIPS, window=WINDOW, threshold=least * 1.0001)
     before = set(whole.graph)
     assert 0 < len(prune(whole).graph) < len(before) and set(whole.graph) == before
-    with pytest.raises(NoWalk, match="add clips that start and end alike"):
-        smallest_threshold([wave(WINDOW)], window=WINDOW)
+    refused("add clips that start and end alike", smallest_threshold, [wave(8)], window=8, kind=NoWalk)
 
 
 def labelled(frames, switch, **settings):

@@ -60,8 +60,7 @@ def test_a_graph_of_bundled_clips_opens_though_these_were_rounded_since(tmp_path
     storage.save(build(clips, window=8, threshold=0.04), tmp_path / "graph.npz")
     path = changed(tmp_path / "graph.npz", fingerprints=np.array(["that of all digits"]))
     assert storage.load(path, clips).clips == tuple(clips)
-    with pytest.raises(MocapError, match="built of another 'walk_straight': other poses"):
-        storage.load(path, [replace(clips[0], labels={})])
+    refused("of another 'walk_straight': other poses", storage.load, path, [replace(clips[0], labels={})])
 
 
 def test_a_file_tells_something_without_its_clips(saved):

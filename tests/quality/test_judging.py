@@ -1,4 +1,4 @@
-"""Each flaw that is put into a walk is found by its own measure; captured people pass."""
+"""Each flaw that is put into a clip, a joint or a walk is found by its own measure; captured people pass."""
 
 from dataclasses import replace
 
@@ -7,14 +7,16 @@ import pytest
 from hypothesis import given, settings
 
 from mocap.blending.joining import join
-from mocap.body import GroundPath, Motion, concatenate, resample, rotations
-from mocap.datasets import samples
+from mocap.body import GroundPath, Motion, concatenate, euler, find_legs, resample, rotations
+from mocap.datasets import sample
 from mocap.files import load_save
+from mocap.quality.clip_flaws import inspect
+from mocap.quality.joint_limits import joint_bends
 from mocap.quality.judging import Judgement, Measure, judge, judgement_table
 from tests.refusals import refused
 from tests.strategies import planar, wave
 
-WALK = resample(samples.sample("walk_straight"), 60)
+WALK = resample(sample("walk_straight"), 60)
 
 
 def stand_out(judged):
@@ -72,7 +74,7 @@ def test_each_flaw_is_found_by_its_own_measure(name):
 @pytest.mark.parametrize("name", ["walk_circle", "walk_curve_1", "sneak", "jog", "stop_and_go"])
 def test_the_bundled_clips_pass_at_any_rate(name):
     for fps in (30, 60):
-        assert stand_out(judge(resample(samples.sample(name), fps)[: 20 * fps])) == []
+        assert stand_out(judge(resample(sample(name), fps)[: 20 * fps])) == []
 
 
 def test_an_elbow_that_bends_backwards_is_found():
@@ -183,3 +185,133 @@ def test_bones_that_stretch_are_a_flaw_and_their_lengths_are_given():
     bones = judge(WALK[:60]).as_dict()["bones"]
     assert len(bones) == len(WALK.skeleton) - 1
     assert bones["ltibia"] == pytest.approx(0.245 * 1.75)
+
+
+@pytest.fixture
+def clean():
+    return replace(wave(120), fps=120.0)
+
+
+def kinds(motion, angles=None):
+    return {flaw.kind: flaw.frames for flaw in inspect(motion, angles).flaws}
+
+
+def test_a_clean_clip_has_no_flaws_and_true_measures(clean):
+    report = inspect(clean)
+    assert report.flaws == []
+    assert "flaws    none found" in report.table()
+    assert report.path == pytest.approx(119 * 0.02, rel=0.1)
+    assert report.height == pytest.approx(0.6, abs=0.1)
+    turns = clean.rotations.copy()
+    turns[:, 0] = rotations.about_y(np.linspace(0, 4, 120))
+    report = inspect(replace(clean, rotations=turns))
+    assert report.turn == pytest.approx(4)
+    assert "turns left by 229° in all" in report.table()
+
+
+def test_frozen_frames(clean):
+    frames = np.arange(120)
+    frames[30:34] = 29
+    frames[60:62] = 59  # two repeats are too few to tell
+    frames[116:] = 115
+    assert kinds(clean[:1]) == {}
+    frozen = replace(clean, root_positions=clean.root_positions[frames], rotations=clean.rotations[frames])
+    assert kinds(frozen) == {"frozen": [30, 31, 32, 33, 116, 117, 118, 119], "teleport": [34]}
+    assert "frozen in frame 30-33, 116-119" in inspect(frozen).table()
+
+
+def test_a_teleport(clean):
+    roots = clean.root_positions.copy()
+    roots[50:] += [0, 0, 0.2]
+    report = inspect(replace(clean, root_positions=roots))
+    assert [str(flaw) for flaw in report.flaws] == ["teleport in frame 50 (0.22 m at most)"]
+
+
+def test_a_snap_and_an_euler_flip(clean):
+    angles = np.degrees(euler.to_euler("xyz", clean.rotations[:, 1]))
+    assert kinds(clean, {"elbow": angles, "stranger": angles * 9}) == {}
+    flipped = angles.copy()
+    flipped[40:80] = flipped[40:80] * [1, -1, 1] + 180
+    assert kinds(clean, {"elbow": flipped}) == {"Euler flip": [40, 80]}
+    turns = clean.rotations.copy()
+    turns[70:, 1] = rotations.multiply(turns[70:, 1], rotations.about_y(1.5))
+    report = inspect(replace(clean, rotations=turns))
+    assert [str(flaw) for flaw in report.flaws] == ["snap in frame 70 ('elbow' by 85° at most)"]
+
+
+def test_zeros_and_feet_under_the_floor(clean):
+    roots, turns = clean.root_positions.copy(), clean.rotations.copy()
+    roots[5], turns[5] = 0, rotations.IDENTITY
+    assert kinds(replace(clean, root_positions=roots, rotations=turns))["nothing but zeros"] == [5]
+    low = replace(clean, root_positions=clean.root_positions - [0, 1.1, 0])
+    assert kinds(low)["under the floor"] == list(range(120))
+    assert "under the floor in frame 0-119 ('root' by 12 cm at most)" in inspect(low).table()
+
+
+REAL = [
+    ("cmu/03/03_02.amc", None, {"frozen": (11, 23, 13), "teleport": (24, 24, 1)}),
+    ("cmu/49/49_04.amc", None, {"frozen": (245, 250, 6)}),
+    ("cmu/16/16_17.amc", None, {"Euler flip": (430, 430, 1)}),
+    ("cmu/02/02_01.amc", None, {}),
+    ("odd/encadyma/null.amc", "odd/golf.asf", {"nothing but zeros": (0, 0, 1)}),
+    ("cmu/127/127_30.amc", None, {"under the floor": (0, 52, 24)}),
+    ("bvh/olaf_bvh_toolbox/walk01.bvh", None, {}),
+]
+
+
+@pytest.mark.parametrize(("name", "skeleton", "flaws"), REAL)
+def test_real_flaws(real_data, name, skeleton, flaws):
+    skeleton = skeleton and real_data / skeleton
+    motion = load_save.load(real_data / name, skeleton=skeleton)
+    found = kinds(motion, load_save.read_angles(real_data / name, skeleton=skeleton))
+    for kind, expected in flaws.items():
+        assert (found[kind][0], found[kind][-1], len(found[kind])) == expected
+    assert set(found) - set(flaws) <= {"snap", "under the floor"} if flaws else found == {}
+
+
+SHORT = resample(sample("walk_straight"), 30)[:90]
+
+
+def worst(motion, turns=()):
+    """Give the name of the joint that is most beyond its limit, the way, and its share."""
+    local = motion.rotations.copy()
+    for name, degrees, axis in turns:
+        joint = motion.skeleton.index(name)
+        local[:, joint] = rotations.multiply(
+            rotations.from_rotvec(np.radians(degrees) * np.array(axis, float)), local[:, joint]
+        )
+    turned = replace(motion, rotations=local)
+    bend = max(joint_bends(turned, find_legs(motion.skeleton)), key=lambda bend: bend.share.max())
+    return bend.joint, bend.way, bend.share.max()
+
+
+def test_a_walk_stays_within_all_limits():
+    assert worst(SHORT)[2] < 0.6
+
+
+BEYOND = [
+    ([("lfemur", 80, (1, 0, 0))], "lfemur", "back"),
+    ([("lfemur", 100, (0, 0, 1))], "lfemur", "out"),
+    ([("rfemur", -100, (0, 0, 1))], "rfemur", "out"),
+    ([("rfemur", 85, (0, 0, 1))], "rfemur", "out"),  # across the other leg
+    ([("lowerneck", 60, (1, 0, 0)), ("upperneck", 60, (1, 0, 0))], "lowerneck", "nodding"),
+    ([("lwrist", 100, (1, 0, 0))], "lwrist", "bent"),
+    ([("ltibia", -100, (1, 0, 0))], "ltibia", "bent"),  # backwards in all frames
+]
+
+
+@pytest.mark.parametrize(("turns", "joint", "way"), BEYOND)
+def test_a_joint_turned_beyond_its_limit_is_found(turns, joint, way):
+    assert worst(SHORT, turns)[:2] == (joint, way)
+    assert worst(SHORT, turns)[2] > 1
+    few = [(name, degrees / 2, axis) for name, degrees, axis in turns if name != "ltibia"]
+    assert worst(SHORT, few)[2] < 1
+
+
+def test_without_legs_or_names_the_rest_is_measured():
+    assert {bend.joint for bend in joint_bends(SHORT)} == {"lradius", "lwrist", "rradius", "rwrist"}
+    names = [f"joint {number}" for number in range(len(SHORT.skeleton))]
+    nameless = replace(SHORT, skeleton=replace(SHORT.skeleton, names=names), contacts={})
+    assert joint_bends(nameless) == []
+    knees = joint_bends(nameless, find_legs(SHORT.skeleton))
+    assert len(knees) == 2

@@ -186,11 +186,6 @@ GRAPH = walking()
 OWN, TURNS = own_paths(GRAPH)
 
 
-def ride_edges(clip):
-    """Give the numbers of the edges that play a clip from its first node to its last."""
-    return np.array([n for n, (s, _, _) in enumerate(GRAPH.edges) if s[0] == clip and not GRAPH.blended[n]])
-
-
 def rows_of(edges):
     return np.concatenate([np.arange(GRAPH.frames[e]) + GRAPH.first[e] for e in edges])
 
@@ -199,7 +194,7 @@ def test_along_a_clip_it_is_the_clips_own_path():
     clip = GRAPH.source.clips[0]
     ride = ride_of(clip)
     heads = np.asarray(moving_frames(ride.path, ride.along).angle)
-    edges = ride_edges(0)
+    edges = np.array([n for n, (s, *_) in enumerate(GRAPH.edges) if s[0] == 0 and not GRAPH.blended[n]])
     first, last = GRAPH.edges[edges[0]][0][1], GRAPH.edges[edges[-1]][1][1]
     rows = rows_of(edges)
     assert len(rows) == last - first

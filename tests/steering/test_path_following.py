@@ -26,27 +26,31 @@ GRAPH = walking()
 BOUNDS = {"NEAR": following, "ASTRAY": following, "SEAMS": following}
 
 
+def walked(path, *wishes, **how):
+    """Follow a path, whatever is warned of."""
+    return quietly(follow_path, GRAPH, path, *wishes, **how)
+
+
 def shapes(first, without=()):
     """List one shape, and the others for a sweep."""
     others = sorted(set(ground_path.SHAPES) - {first, *without})
     return [first, *(pytest.param(shape, marks=pytest.mark.sweep) for shape in others)]
 
 
-STRAIGHT = GroundPath([[2, 1], [2, 9]])
+STRAIGHT, START = GroundPath([[2, 1], [2, 9]]), Wishes(start=GRAPH.nodes[300])
 
 
 @pytest.mark.parametrize("shape", shapes("square", without={"letter S"}))  # two clips turn only so far
 def test_walks_stay_on_their_paths(shape):
-    followed = quietly(follow_path, GRAPH, ground_path.SHAPES[shape]())
+    followed = walked(ground_path.SHAPES[shape]())
     assert followed.off.mean() < 0.06
     assert followed.off.max() < 0.3
     assert followed.progress == 1.0
     assert followed.seams_per_second < 1.6
 
 
-@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_what_it_tells_is_what_the_motion_does():
-    followed = follow_path(GRAPH, s_curve())
+    followed = walked(s_curve())
     motion = followed.motion(name="s")
     body = on_ground(motion.root_positions)
     assert followed.track == pytest.approx(np.stack([body.imag, body.real], axis=1), abs=1e-9)
@@ -58,11 +62,10 @@ def test_what_it_tells_is_what_the_motion_does():
     assert f"({100 * followed.off_at_length.mean():.1f} cm at equal arc length)" in followed.report()
 
 
-@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_distance_at_equal_arc_length_is_that_of_eq_9():
     """As in [KGP02, Eq. 9]: s grows by a step, or by γ where that is more."""
     path = s_curve()
-    followed = follow_path(GRAPH, path)
+    followed = walked(path)
     steps = np.hypot(*np.diff(followed.track, axis=0).T)
     s = np.cumsum(np.maximum(steps, LEAST / GRAPH.fps))
     expected = np.hypot(*(followed.track[1:] - path.at(s)).T)
@@ -71,20 +74,18 @@ def test_distance_at_equal_arc_length_is_that_of_eq_9():
     assert (followed.off <= followed.off_at_length + 0.5).all()
 
 
-@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_with_every_term_off_the_cost_is_eq_9():
     """Then the search sums the squares of the distance at equal arc length, and nothing else.
 
     As in [KGP02, Eq. 9].
     """
     plain = Settings(seam=0, match=0, stray=0, width=30, rescue=0, tries=1)
-    followed = follow_path(GRAPH, s_curve(10), Wishes(slide=0), settings=plain)
+    followed = walked(s_curve(10), Wishes(slide=0), settings=plain)
     assert followed.found.cost == pytest.approx((followed.off_at_length**2).sum(), rel=1e-6)
-    slid = follow_path(GRAPH, s_curve(10), settings=plain)
+    slid = walked(s_curve(10), settings=plain)
     assert slid.found.cost != pytest.approx((slid.off_at_length**2).sum(), rel=0.01)
 
 
-@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_what_is_out_of_bounds_is_searched_for_again(monkeypatch):
     """By a second and a third, wider search, at another price; the best walk is taken."""
     tried, walks = [], []
@@ -99,22 +100,21 @@ def test_what_is_out_of_bounds_is_searched_for_again(monkeypatch):
 
     monkeypatch.setattr(path_following, "find_walk", search)
     monkeypatch.setattr(path_following, "account", measure)
-    once = follow_path(GRAPH, s_curve(), settings=Settings(tries=1))
+    once = walked(s_curve(), settings=Settings(tries=1))
     assert once.excess > 1 and len(tried) == 1
-    better = follow_path(GRAPH, s_curve())
+    better = walked(s_curve())
     assert better.excess == min(walk.excess for walk in walks)
     assert (tried[2].seam > Settings.seam) == (once.seams_per_second > 1)
     for factor, widths in ((1 / 9, [50, 75, 100]), (9, [50])):
         for bound, of in BOUNDS.items():
             monkeypatch.setattr(of, bound, factor * getattr(of, bound) * (9 if factor > 1 else 1))
         tried.clear()
-        walk = follow_path(GRAPH, s_curve())
+        walk = walked(s_curve())
         assert [settings.width for settings in tried] == widths
         assert (walk.excess > 1) == (factor < 1)
     assert walk.walk == once.walk
 
 
-@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_a_second_search_that_is_stopped_is_the_last():
     searches = []
 
@@ -124,15 +124,13 @@ def test_a_second_search_that_is_stopped_is_the_last():
         if len(searches) == 2:
             raise KeyboardInterrupt
 
-    assert follow_path(GRAPH, s_curve(), settings=Settings(progress=progress)).progress == 1.0
+    assert walked(s_curve(), settings=Settings(progress=progress)).progress == 1.0
     assert len(searches) == 2
 
 
-@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_it_starts_where_asked_in_the_direction_of_the_path():
-    node = GRAPH.nodes[300]
-    followed = follow_path(GRAPH, STRAIGHT, Wishes(start=node))
-    assert followed.walk[0][0] == node
+    followed = walked(STRAIGHT, START)
+    assert followed.walk[0][0] == START.start
     assert followed.track[0] == pytest.approx([2, 1], abs=0.06)
     way = followed.track[10] - followed.track[0]
     assert np.arctan2(*way) == pytest.approx(0.0, abs=0.25)
@@ -179,6 +177,7 @@ test_bad_wishes_are_told = refusals(
     (NoWalk, r"no node \(0, 99999\); the nearest", lambda: asked(start=(0, 99999))),
     ("must grow along the path", lambda: asked(times=[(4, 3), (8, 2)])),
     ("in one place", lambda: asked(times=[(4, 3), (4, 5)])),
+    (NoWalk, "out of nodes before its first step", lambda: follow_as_2002(GRAPH, STRAIGHT, START, budget=0)),
     (r"hour, at \d\.\d\d m/s .*: is it in metres", asked, GroundPath([[0, 0], [0, 8000]])),
 )
 
@@ -242,9 +241,3 @@ def test_who_stands_gets_on_by_a_little():
     least = [np.maximum(steps, 0.3 / graph.fps).sum() for steps in own]
     assert counted == pytest.approx(least)
     assert min(steps.sum() / len(steps) for steps in own) * graph.fps < 0.1
-
-
-def test_before_its_first_step_there_is_no_walk():
-    wishes = Wishes(start=GRAPH.nodes[10])
-    with pytest.raises(NoWalk, match="out of nodes before its first step"):
-        follow_as_2002(GRAPH, GroundPath([[0, 0], [0, 3]]), wishes, budget=0)

@@ -15,7 +15,7 @@ from mocap.course.lab.blind_tests import STEP, BlindTest, choose, make_pairs
 from mocap.course.lab.sensitivity import COLUMNS, class_curve, d_prime, mean_d_prime, read_answers, sentence
 from mocap.matching import find_transitions
 from mocap.plotting import bones
-from tests.refusals import refusals, refused
+from tests.refusals import refusals, refused, refused_texts
 
 
 @cache
@@ -217,21 +217,16 @@ def test_the_other_setting_must_be_one(tmp_path):
 ADA = "ada,4.0,10,0,1"
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        (f"{HEAD}\n{ADA},2,left,2.5\n", r"line 2: expected an answer in 8 columns"),
-        (f"{HEAD}\n{ADA},1,left\n", r"line 2: expected"),
-        (f"{HEAD}\n{ADA},1,left,2.5\nada,much,10,0,1,1,left,2.5\n", r"line 3: expected"),
-        (f"{HEAD}\n{ADA},1,left,2.5\n{ADA},0,left,2.5\n", "'ada' answered pair 1 twice, differently"),
-        (f"{HEAD}\n\n", "line 2: expected"),
-        ("x,y\n", "line 1: expected observer,below_cm"),
-        ("", r"a\.csv: expected some text, got an empty file"),
-        (b"\xff\xfe\x00", r"a\.csv, line 1: expected text, got a zero byte"),
-        (None, r"Cannot read .*a\.csv: No such file"),
-    ],
+test_what_is_no_file_of_answers_is_said = refused_texts(
+    lambda file: read_answers([file]),
+    "a.csv",
+    (f"{HEAD}\n{ADA},2,left,2.5\n", r"line 2: expected an answer in 8 columns"),
+    (f"{HEAD}\n{ADA},1,left\n", r"line 2: expected"),
+    (f"{HEAD}\n{ADA},1,left,2.5\nada,much,10,0,1,1,left,2.5\n", r"line 3: expected"),
+    (f"{HEAD}\n{ADA},1,left,2.5\n{ADA},0,left,2.5\n", "'ada' answered pair 1 twice, differently"),
+    (f"{HEAD}\n\n", "line 2: expected"),
+    ("x,y\n", "line 1: expected observer,below_cm"),
+    ("", r"a\.csv: expected some text, got an empty file"),
+    (b"\xff\xfe\x00", r"a\.csv, line 1: expected text, got a zero byte"),
 )
-def test_what_is_no_file_of_answers_is_said(text, said, tmp_path):
-    if text is not None:
-        (tmp_path / "a.csv").write_bytes(text if isinstance(text, bytes) else text.encode())
-    refused(said, read_answers, [tmp_path / "a.csv"])
+test_no_file_is_said = refusals((r"Cannot read .*a\.csv: No such file", read_answers, ["nowhere/a.csv"]))

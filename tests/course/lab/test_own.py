@@ -132,8 +132,7 @@ def test_what_holds_no_graph_and_no_walk_is_refused(clips, graph, by):
     refused("resample one first", own.OwnGraph, [clips[0], mocap.resample(clips[0], 10)], WINDOW, 0.05, by)
     nowhere = changed(graph, graph=graph.graph.copy())
     nowhere.graph.remove_edges_from(list(graph.graph.edges))
-    with pytest.raises(ValueError, match="No walk comes to the end of the line"):
-        nowhere.follow([[0, 0], [0, 3]])
+    refused("No walk comes to the end of the line", nowhere.follow, [[0, 0], [0, 3]], kind=ValueError)
 
 
 # Two students walk a path: one has solved all, one every second exercise, and is wrong in the others.

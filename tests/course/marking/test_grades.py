@@ -10,7 +10,7 @@ import pytest
 from mocap.cli.main import main
 from mocap.course.marking.grades import Mark, grade, read_points, read_roster, tables, write_feedback
 from tests.course.marking.students import HONEST, SPEED, START, hand_in
-from tests.refusals import refused
+from tests.refusals import refused, refused_texts
 
 MOODLE = "Identifier,Full name,Email address,Status,Grade,Last modified (grade)\n"
 MOODLE += "Participant 7,Ada Lovelace,ada@b.org,Submitted,-,-\nParticipant 71,Bob,bob@b.org,Submitted,-,-\n"
@@ -80,12 +80,10 @@ def test_students_are_found_in_what_moodle_and_canvas_wrote(text, sent, tmp_path
         ]
 
 
-@pytest.mark.parametrize(
-    "text", ["spede = 1", "speed = 'x'", "speed = -1", "speed = nan", "speed", "speed = true"]
+NO_POINTS = ("spede = 1", "speed = 'x'", "speed = -1", "speed = nan", "speed", "speed = true")
+test_points_are_of_exercises_and_no_less_than_0 = refused_texts(
+    read_points, "points.toml", *((text, "points.toml") for text in NO_POINTS)
 )
-def test_points_are_of_exercises_and_no_less_than_0(text, tmp_path):
-    (tmp_path / "points.toml").write_text(text)
-    refused(r"points.toml", read_points, tmp_path / "points.toml")
 
 
 def test_a_roster_says_who_students_are(tmp_path):

@@ -13,14 +13,10 @@ from tests.blending.registered import strikes
 BUNDLED = ("walk_straight", "walk_circle", "sneak", "jog", "stop_and_go")
 
 
-def at_strikes(motion):
-    """Frames at which the left foot comes down, by the motion's own marks."""
-    return np.round(strikes(motion)[0] * motion.fps).astype(int).tolist()
-
-
 def cycles(motion, shortest, longest):
-    """Strike to strike of the left foot, as slices of so many seconds."""
-    found = (slice(a, b) for a, b in pairwise(at_strikes(motion)))
+    """Strike to strike of the left foot, by the motion's own marks, as slices of so many seconds."""
+    frames = np.round(strikes(motion)[0] * motion.fps).astype(int).tolist()
+    found = (slice(a, b) for a, b in pairwise(frames))
     return [part for part in found if shortest <= (part.stop - part.start) / motion.fps <= longest]
 
 
