@@ -1,8 +1,9 @@
 """What the tests share."""
 
 import os
+import shlex
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import matplotlib
@@ -72,3 +73,15 @@ def no_figure_stays_open() -> Iterator[None]:
     yield
     if pyplot := sys.modules.get("matplotlib.pyplot"):
         pyplot.close("all")
+
+
+@pytest.fixture
+def run(capsys: pytest.CaptureFixture[str]) -> Callable:
+    """Type a line after `mocap`, which gives a status; return what it says."""
+    from mocap.cli.main import main  # not before coverage is measured
+
+    def typed(line: str, status: int = 0) -> object:
+        assert main(shlex.split(line)) == status, capsys.readouterr()
+        return capsys.readouterr()
+
+    return typed

@@ -1,11 +1,9 @@
 """Clips in a folder, for commands to read."""
 
-import shlex
 from functools import cache
 
 import pytest
 
-from mocap.cli.main import main
 from mocap.files import load_save
 from mocap.methods.groups import build_group
 from tests.strategies import wave
@@ -26,14 +24,3 @@ def one_group():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("mocap.methods.groups.build_group", cache(build_group))
         yield
-
-
-@pytest.fixture
-def run(capsys):
-    """Type a line after `mocap`, which gives a status; return what it says."""
-
-    def typed(line, status=0):
-        assert main(shlex.split(line)) == status, capsys.readouterr()
-        return capsys.readouterr()
-
-    return typed

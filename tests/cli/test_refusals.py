@@ -1,7 +1,6 @@
 """What a command cannot do is one sentence, status 2, and a folder as it was; hostile values too."""
 
 import argparse
-import shlex
 
 import numpy as np
 import pytest
@@ -143,11 +142,10 @@ REFUSED = [
 
 
 @pytest.mark.parametrize(("line", "message"), REFUSED)
-def test_what_cannot_be_is_one_sentence_and_leaves_nothing(folder, monkeypatch, capsys, line, message):
+def test_what_cannot_be_is_one_sentence_and_leaves_nothing(folder, monkeypatch, run, line, message):
     monkeypatch.chdir(folder)
     before = contents(folder)
-    assert main(shlex.split(line)) == 2
-    told = capsys.readouterr().err
+    told = run(line, 2).err
     assert message in told
     assert told.startswith("mocap: ") and told.count("\n") == 1 and len(told) <= 300
     assert contents(folder) == before

@@ -61,10 +61,10 @@ def test_the_first_cell_installs_only_where_the_package_is_missing(copies, monke
 
 
 @pytest.mark.parametrize("command", ["handout", "site"])
-def test_a_folder_that_cannot_be_made_is_told(command, tmp_path, capsys):
+def test_a_folder_that_cannot_be_made_is_told(command, tmp_path, run):
     (tmp_path / "file").write_text("")
-    assert main(["course", command, "-o", str(tmp_path / "file")]) != 0
-    assert f"Cannot make the folder {tmp_path / 'file'}: File exists." in capsys.readouterr().err
+    said = run(f"course {command} -o {tmp_path / 'file'}", 2).err
+    assert f"Cannot make the folder {tmp_path / 'file'}: File exists." in said
 
 
 @pytest.mark.parametrize(
@@ -81,13 +81,12 @@ def test_a_folder_that_cannot_be_made_is_told(command, tmp_path, capsys):
     ],
 )
 def test_without_a_library_one_sentence_says_what_to_install(
-    line, missing, extra, tmp_path, monkeypatch, capsys
+    line, missing, extra, tmp_path, monkeypatch, run
 ):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setitem(sys.modules, missing, None)
     monkeypatch.setattr("subprocess.Popen", None)  # nor is anything started
-    assert main(line.split()) == 2
-    assert f"pip install '.[{extra}]'" in capsys.readouterr().err
+    assert f"pip install '.[{extra}]'" in run(line, 2).err
     assert list(tmp_path.iterdir()) == []
 
 

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from mocap.body import Motion, Skeleton, find_legs
-from mocap.cli.main import main
 from mocap.datasets import downloads, named_sets
 from mocap.datasets.named_sets import HASHES, SETS, clips_of, fetch_set, from_set
 from mocap.files import load_save
@@ -121,28 +120,24 @@ def test_another_archive_a_damaged_one_and_an_empty_one_are_refused(server, data
     assert clips_of("bandai_namco") == {}
 
 
-def test_what_cannot_be_fetched_or_kept_is_one_sentence(server, data, monkeypatch, capsys):
+def test_what_cannot_be_fetched_or_kept_is_one_sentence(server, data, monkeypatch, run):
     monkeypatch.setitem(SETS, "lafan1", SETS["lafan1"]._replace(archive="http://127.0.0.1:9/set.zip"))
-    assert main(["data", "fetch", "lafan1", "--accept"]) == 2
-    said = capsys.readouterr().err.splitlines()[-1]
+    said = run("data fetch lafan1 --accept", 2).err.splitlines()[-1]
     assert said.startswith("mocap: 127.0.0.1:9/.../set.zip breaks off or does not answer") and len(said) < 200
     (data / "100style").write_text("a file")
     refused(r"Cannot keep 100style/100style\.zip in .*: let MOCAP_DATA name", fetch_set, "100style")
 
 
-def test_the_command_shows_the_licence_before_it_fetches(server, data, capsys):
-    assert main(["data", "fetch", "lafan1"]) == 2
-    said = capsys.readouterr()
+def test_the_command_shows_the_licence_before_it_fetches(server, data, run):
+    said = run("data fetch lafan1", 2)
     assert "under CC BY-NC-ND 4.0" in said.out
     assert said.err == "mocap: If you accept this licence, add --accept: 1 MB to download.\n"
     assert not server.asked
-    assert main(["data", "fetch", "lafan1", "--accept"]) == 0
-    assert "4 clips are at hand" in capsys.readouterr().out
+    assert "4 clips are at hand" in run("data fetch lafan1 --accept").out
 
 
-def test_the_sets_are_listed_with_their_licences(data, capsys):
-    assert main(["data", "sets"]) == 0
-    told = capsys.readouterr().out
+def test_the_sets_are_listed_with_their_licences(data, run):
+    told = run("data sets").out
     for known in SETS.values():
         shown = (known.licence, known.allows, known.address, known.size(), known.hips, ", ".join(known.legs))
         assert all(text in told for text in shown)

@@ -12,7 +12,7 @@ from asked_lines import LINES, random_line
 from mocap.body import SHAPES, GroundPath, circle, on_ground, resample
 from mocap.datasets import samples
 from mocap.editing import LIMIT, moving_frames, plants_kept, ride_of
-from mocap.errors import MocapWarning, NoWalk
+from mocap.errors import NoWalk
 from mocap.files.load_save import load
 from mocap.graphs import build, prune
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
@@ -77,10 +77,8 @@ def test_any_line_with_any_walk(graph, line):
 def test_without_bending_a_straight_walk_stays_straight():
     """The naive way: 6 m off an S on average, and nothing that the search could do about it."""
     path = SHAPES["letter S"](1.6)
-    with pytest.warns(
-        MocapWarning, match="no clips turn as it does there; `bend` turns them, and `follow_as_2002`"
-    ):
-        plain = follow_path(straight_walker(), path)
+    advice = "no clips turn as it does there; `bend` turns them, and `follow_as_2002`"
+    plain = told(advice, follow_path, straight_walker(), path)
     assert plain.off.mean() > 0.5
     assert plain.bent is None
     assert bent_walk(straight_walker(), path).off.mean() < 0.025

@@ -104,11 +104,10 @@ def test_a_drawing_has_its_steps_with_numbers(name):
     assert (page[:, -board.GAP // 2 :] == 255).all()  # no heading is cut
 
 
-def test_the_command_writes_them_and_a_sheet_of_all(tmp_path, monkeypatch, capsys):
+def test_the_command_writes_them_and_a_sheet_of_all(tmp_path, monkeypatch, run):
     few = {name: board.BOARD[name] for name in ("04-laid-on", "11-pinned")}
     monkeypatch.setattr(board, "BOARD", few)
-    assert main(["course", "board", "-o", str(tmp_path)]) == 0
-    assert capsys.readouterr().out.startswith("wrote 3 pictures to")
+    assert run(f"course board -o {tmp_path}").out.startswith("wrote 3 pictures to")
     assert sorted(p.name for p in tmp_path.iterdir()) == ["04-laid-on.png", "11-pinned.png", "board.png"]
 
 
@@ -239,11 +238,10 @@ def notebook(tmp_path):
     return path
 
 
-def test_the_command_writes_an_mp4(notebook, tmp_path, capsys):
+def test_the_command_writes_an_mp4(notebook, tmp_path, capsys, run):
     imageio = pytest.importorskip("imageio_ffmpeg", reason="pip install imageio-ffmpeg")
     out = tmp_path / "walk.mp4"
-    assert main(["course", "film", str(notebook), "--still", "-o", str(out)]) == 0
-    assert capsys.readouterr().out == f"wrote {out}\n"
+    assert run(f"course film {notebook} --still -o {out}").out == f"wrote {out}\n"
     meta = next(imageio.read_frames(str(out)))
     assert meta["size"] == (1280, 720)
     assert meta["fps"] == 20

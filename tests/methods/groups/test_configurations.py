@@ -7,13 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap.errors import MocapWarning
 from mocap.methods.groups import RATE, Configuration, nearest_two
 from mocap.methods.groups.configurations import SECONDS, assignment_costs, cluster, compare, seen_from_itself
 from mocap.methods.groups.flocking import APART, BODY, Flock, advance, push_apart, simulate, steering_force
 from mocap.methods.groups.group_steering import away_from
 from tests.methods.groups.built import flock
-from tests.refusals import refusals, unwarned
+from tests.refusals import refusals, told, unwarned
 
 ALL_AROUND = tuple(2 * np.pi * k / 72 for k in range(72))
 
@@ -96,8 +95,7 @@ def test_each_node_has_the_most_others_near():
 
 
 def test_where_nodes_cover_little_it_says_so():
-    with pytest.warns(MocapWarning, match=r"1 nodes are within 0.3 m of \d+% of what was simulated"):
-        cluster(flock(12, 60.0), nodes=1, reach=0.3)
+    told(r"1 nodes are within 0.3 m of \d+% of what was", cluster, flock(12, 60.0), nodes=1, reach=0.3)
 
 
 def test_it_ends_where_all_are_covered():
