@@ -1,4 +1,4 @@
-"""Named sets: a copy of one's own, or fetched from a server that does all the things servers do."""
+"""Named sets and the CMU database: a copy of one's own, or fetched from a server that does all they do."""
 
 import hashlib
 import io
@@ -7,10 +7,14 @@ import zipfile
 import numpy as np
 import pytest
 
-from mocap.body import Motion, Skeleton, find_legs
-from mocap.datasets import downloads, named_sets
+from mocap.body import Motion, Skeleton, find_legs, joint_positions, resample
+from mocap.datasets import cmu_database, downloads, named_sets
 from mocap.datasets.named_sets import HASHES, SETS, clips_of, fetch_set, from_set
+from mocap.editing.stances import stance_of
+from mocap.errors import SkeletonMismatch
 from mocap.files import load_save
+from mocap.graphs.motion_graph import build
+from tests.files.acclaim_clips import SPINE
 from tests.refusals import refused
 
 
@@ -50,7 +54,7 @@ def packed(clips):
 
 
 @pytest.fixture
-def server(monkeypatch, tmp_path, data, server):
+def sets(monkeypatch, tmp_path, data, server):
     clips = {f"{n}{number}": bvh(tmp_path, "lafan1", number) for n in ("walk", "run") for number in (1, 2)}
     server.files["set.zip"] = packed(clips)
     known = {"archive": f"{server.url}/set.zip", "megabytes": 1}
@@ -99,28 +103,28 @@ def test_without_a_folder_of_ones_own_the_cache_is_taken(monkeypatch):
     assert named_sets.folder_of("lafan1").parent.name == "mocap"
 
 
-def test_a_set_is_fetched_once_with_its_terms(server, data, capsys):
+def test_a_set_is_fetched_once_with_its_terms(sets, data, capsys):
     assert fetch_set("lafan1") == ["run1", "run2", "walk1", "walk2"]
     assert "CC BY-NC-ND 4.0: free with the authors' names, but not for" in capsys.readouterr().err
     files = {path.name for path in (data / "lafan1").iterdir()}
     assert files == {"walk1.bvh", "walk2.bvh", "run1.bvh", "run2.bvh", "TERMS.txt"}
     assert fetch_set("lafan1") == sorted(clips_of("lafan1"))
-    assert sum(server.asked.values()) == 1
+    assert sum(sets.asked.values()) == 1
     assert from_set("lafan1", "run2").root_positions[0, 0] == pytest.approx(2)
 
 
-def test_another_archive_a_damaged_one_and_an_empty_one_are_refused(server, data):
-    server.files["set.zip"] = b"a page that says sorry"
+def test_another_archive_a_damaged_one_and_an_empty_one_are_refused(sets, data):
+    sets.files["set.zip"] = b"a page that says sorry"
     refused(r"set\.zip is not the file listed: its checksum differs", fetch_set, "lafan1")
     assert list((data / "lafan1").iterdir()) == []
     refused(r"bandai_namco\.zip is damaged, or no \.zip file: delete it", fetch_set, "bandai_namco")
     (data / "bandai_namco" / "bandai_namco.zip").unlink()
-    server.files["set.zip"] = packed({})
+    sets.files["set.zip"] = packed({})
     refused(r"bandai_namco\.zip holds no \.bvh file", fetch_set, "bandai_namco")
     assert clips_of("bandai_namco") == {}
 
 
-def test_what_cannot_be_fetched_or_kept_is_one_sentence(server, data, monkeypatch, run):
+def test_what_cannot_be_fetched_or_kept_is_one_sentence(sets, data, monkeypatch, run):
     monkeypatch.setitem(SETS, "lafan1", SETS["lafan1"]._replace(archive="http://127.0.0.1:9/set.zip"))
     said = run("data fetch lafan1 --accept", 2).err.splitlines()[-1]
     assert said.startswith("mocap: 127.0.0.1:9/.../set.zip breaks off or does not answer") and len(said) < 200
@@ -128,11 +132,11 @@ def test_what_cannot_be_fetched_or_kept_is_one_sentence(server, data, monkeypatc
     refused(r"Cannot keep 100style/100style\.zip in .*: let MOCAP_DATA name", fetch_set, "100style")
 
 
-def test_the_command_shows_the_licence_before_it_fetches(server, data, run):
+def test_the_command_shows_the_licence_before_it_fetches(sets, data, run):
     said = run("data fetch lafan1", 2)
     assert "under CC BY-NC-ND 4.0" in said.out
     assert said.err == "mocap: If you accept this licence, add --accept: 1 MB to download.\n"
-    assert not server.asked
+    assert not sets.asked
     assert "4 clips are at hand" in run("data fetch lafan1 --accept").out
 
 
@@ -153,3 +157,144 @@ def test_a_real_copy(real_data, monkeypatch):
         assert clip.fps == SETS["bandai_namco"].fps
         legs = [clip.skeleton.names[joint] for joint in find_legs(clip.skeleton)[0]]
         assert legs == SETS["bandai_namco"].legs
+
+
+AMC = "1\nroot 0 0 0 0 0 0\nspine 0\n2\nroot 0 0 1 0 0 0\nspine 9\n"
+FILES = {"07/07.asf": SPINE, "07/07_01.amc": AMC, "07/07_02.amc": AMC}
+FILES |= {"08/08.asf": SPINE, "08/08_01.amc": AMC}
+
+
+@pytest.fixture
+def database(monkeypatch, tmp_path, server):
+    kinds = ["walk", "Run, walk", "sleepwalking"]
+    server.files |= {name: text.encode() for name, text in FILES.items()}
+    rows = {
+        name: {"sha256": hashlib.sha256(text).hexdigest(), "frames": "2", "description": kinds[index % 3]}
+        for index, (name, text) in enumerate(server.files.items())
+    }
+    monkeypatch.setattr(cmu_database, "_registry", lambda: rows)
+    monkeypatch.setattr(cmu_database, "BASE_URL", server.url)
+    monkeypatch.setenv("MOCAP_DATA", str(tmp_path / "cache"))
+    return server
+
+
+def kept(tmp_path):
+    return sorted(str(p.relative_to(tmp_path / "cache")) for p in tmp_path.rglob("*") if p.is_file())
+
+
+def test_a_trial_is_fetched_once(database, tmp_path, capsys):
+    downloads.show_once.cache_clear()
+    motion = cmu_database.cmu("07_01")
+    assert (motion.name, len(motion), motion.fps) == ("07_01", 2, 120.0)
+    assert np.allclose(motion.root_positions[1], [0, 0, 0.0254])
+    assert kept(tmp_path) == ["07/07.asf", "07/07_01.amc"]
+    cmu_database.cmu("07_01")
+    assert database.asked == {"07/07.asf": 1, "07/07_01.amc": 1}
+    told = capsys.readouterr()
+    assert told.err.count("may not resell") == 1
+    assert told.out == ""
+
+
+def test_a_subject_and_a_kind(database):
+    assert [motion.name for motion in cmu_database.cmu(subject=7)] == ["07_01", "07_02"]
+    assert [motion.name for motion in cmu_database.cmu(kind="run")] == ["07_01", "08_01"]
+    where = "in its description is listed; the subjects are 07, 08"
+    refused(f"No trial of subject 8 with 'swim' {where}", lambda: cmu_database.cmu(subject=8, kind="swim"))
+    refused(f"No trial with 'zzz' {where}", lambda: cmu_database.cmu(kind="zzz"))
+    refused("Which trials", cmu_database.cmu)
+    refused(r"No trial '../../x_1' is listed; `mocap data list`", cmu_database.cmu, "../../x_1")
+
+
+WRONG = [
+    ("missing", r"07_01.amc answers 404: try again later, or put a copy of .*MOCAP_DATA"),
+    ("half", r"07_01.amc breaks off or does not answer: try again later, or put a copy"),
+    ("wrong", r"07_01.amc is not the file listed: its checksum differs; put a copy"),
+]
+
+
+@pytest.mark.parametrize(("how", "message"), WRONG)
+def test_what_goes_wrong_is_said_and_not_kept(database, tmp_path, how, message):
+    database.how["07/07_01.amc"] = how
+    refused(message, cmu_database.cmu, "07_01")
+    assert kept(tmp_path) == ["07/07.asf"]
+    assert database.asked["07/07_01.amc"] == 1 + downloads.RETRIES
+    database.how.clear()
+    assert len(cmu_database.cmu("07_01")) == 2
+
+
+def test_a_busy_server_is_asked_again(database):
+    database.how["07/07_01.amc"] = "busy at first"
+    assert len(cmu_database.cmu("07_01")) == 2
+    assert database.asked["07/07_01.amc"] == 3
+
+
+def test_a_server_that_is_gone(database, tmp_path, monkeypatch):
+    cmu_database.cmu("07_01")
+    monkeypatch.setattr(cmu_database, "BASE_URL", "http://127.0.0.1:9/subjects")
+    assert len(cmu_database.cmu("07_01")) == 2  # what is in the cache needs no network
+    refused(r"127.0.0.1:9/.../07_02.amc breaks off or does not answer", cmu_database.cmu, "07_02")
+    assert kept(tmp_path) == ["07/07.asf", "07/07_01.amc"]
+
+
+def test_a_file_that_broke_in_the_cache_is_fetched_again(database, tmp_path):
+    cmu_database.cmu("07_01")
+    (tmp_path / "cache/07/07_01.amc").write_text(AMC[:20])
+    assert len(cmu_database.cmu("07_01")) == 2
+    assert database.asked["07/07_01.amc"] == 2
+
+
+def test_line_ends_make_no_difference(database, tmp_path, monkeypatch):
+    database.files["07/07_01.amc"] = AMC.replace("\n", "\r\n").encode()
+    assert len(cmu_database.cmu("07_01")) == 2
+    assert (tmp_path / "cache/07/07_01.amc").read_bytes() == AMC.encode()
+
+
+def test_a_folder_that_is_none(database, tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("MOCAP_DATA", str(tmp_path / "file"))
+    refused(r"Cannot keep 07/07.asf in .*file .*: let MOCAP_DATA name a folder", cmu_database.cmu, "07_01")
+
+
+def test_an_interruption_leaves_nothing(database, tmp_path, monkeypatch):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(downloads.hashlib, "sha256", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        cmu_database.cmu("07_01")
+    assert kept(tmp_path) == []
+
+
+def test_every_listed_file_is_found_without_a_network(real_data, monkeypatch):
+    monkeypatch.setenv("MOCAP_DATA", str(real_data / "cmu"))
+    monkeypatch.setattr("pooch.HTTPDownloader.__call__", lambda *_: pytest.fail("no network"))
+    listed = sorted(cmu_database._registry())
+    assert listed == sorted(str(p.relative_to(real_data / "cmu")) for p in (real_data / "cmu").rglob("*.a*"))
+    for name in listed:
+        assert cmu_database.fetch_listed(name) == real_data / "cmu" / name
+    walks = cmu_database.cmu(subject=16, kind="walk")
+    assert len(walks) == 26
+    lengths = {trial.name: trial.frames for trial in cmu_database.trials(16)}
+    assert all(len(walk) == lengths[walk.name] for walk in walks)
+
+
+@pytest.mark.filterwarnings("ignore:.*let go|.*off its pin")
+def test_one_body_wears_the_clips_of_another_person(real_data, monkeypatch):
+    monkeypatch.setenv("MOCAP_DATA", str(real_data / "cmu"))
+    own = stance_of(cmu_database.cmu("16_15"))
+    worn = cmu_database.cmu("02_01", skeleton=own)
+    assert worn.skeleton is own.skeleton
+    assert (worn.name, len(worn), worn.fps) == ("02_01", 343, 120.0)
+    feet = find_legs(worn.skeleton)
+    balls = [(worn.skeleton.names[leg.ball], leg.ball) for leg in feet]
+    stands = [joint_positions(worn)[worn.contacts[name], ball, 1] for name, ball in balls]
+    assert [float(np.median(height)) for height in stands] == pytest.approx(
+        [own.heights["left ball"], own.heights["right ball"]], abs=1e-6
+    )
+    everyone = [cmu_database.cmu("16_15"), worn, cmu_database.cmu("49_01", skeleton=own)]
+    graph = build([resample(clip, 30) for clip in everyone], window=10, threshold=0.08)
+    assert graph.count("transition") > 0
+    with pytest.raises(SkeletonMismatch):
+        build([everyone[0], cmu_database.cmu("02_01")], window=10, threshold=0.08)
+    runs = cmu_database.cmu(subject=2, kind="walk", skeleton=own.skeleton)
+    assert {clip.skeleton for clip in runs} == {own.skeleton}
