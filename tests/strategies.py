@@ -38,6 +38,12 @@ def random_motion(seed: int, frames: int = 5, joints: int = 6, *, skeleton: Skel
     )
 
 
+def glide(path: np.ndarray) -> Motion:
+    """Move a dot along a line at 30 Hz, to these metres."""
+    dot = Skeleton(["root"], [-1], [[0, 0, 0]])
+    return Motion(dot, path[:, None] * [1.0, 0, 0], np.tile(rotations.IDENTITY, (len(path), 1, 1)), 30.0)
+
+
 def wave(frames: int, *, period: float = 40, phase: float = 0.0, name: str = "wave", seed: int = 0) -> Motion:
     """Return a swinging two-bone arm that glides along z: smooth, periodic, and so full of transitions."""
     arm = Skeleton(

@@ -1,10 +1,11 @@
-"""What work takes beside the bare work that it cannot do without, or beside the duration of its motion.
+"""What work takes beside the bare work that it cannot do without, or its motion lasts; and what memory.
 
 See the ratios: pytest -m benchmark -n 0 -s tests/benchmarks/test_ratios.py
 Both sides take turns in one run, in CPU seconds; of each the fastest turn counts. What is linear in its input
 may take more for each frame of a large one, for caches, but grow by no worse power.
 """
 
+import os
 import subprocess
 import sys
 from dataclasses import replace
@@ -424,3 +425,51 @@ def test_a_step_takes_a_millisecond_and_to_turn_about_the_standing_foot_a_third_
         for make in (lambda: Controller(walking()), lambda: FootTurner(Controller(walking())))
     )
     held("a turned step", turned / alone, 1.3)
+
+
+SEARCH = """
+import sys, time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from mocap import load, resample
+from mocap.matching import find_transitions
+
+folder, names, frames, below = Path(sys.argv[1]), sys.argv[2].split(","), int(sys.argv[3]), float(sys.argv[4])
+short = [resample(load(folder / name), 30) for name in names]
+clips = []
+while sum(map(len, clips)) < frames:
+    clips.append(short[len(clips) % len(short)])
+def peak():
+    return int(Path("/proc/self/status").read_text().split("VmHWM:")[1].split()[0]) / 1000
+
+Path("/proc/self/clear_refs").write_text("5")  # forget the peak of reading the clips
+before = peak()
+start, busy = time.perf_counter(), time.process_time()
+with ThreadPoolExecutor(2) as pool:
+    found = find_transitions(clips, window=10, below=below, executor=pool)
+seconds, busy = time.perf_counter() - start, time.process_time() - busy
+print(len(found), seconds, busy, peak() - before, peak())
+"""
+
+
+def searched(folder, names, frames, below):
+    """Search in a process of its own: transitions, seconds, CPU seconds, megabytes more, megabytes at all."""
+    command = [sys.executable, "-c", SEARCH, str(folder), ",".join(names), str(frames), str(below)]
+    alone = os.environ | {"OMP_NUM_THREADS": "1"}  # the executor's threads share the cores
+    done = subprocess.run(command, capture_output=True, text=True, check=True, env=alone)
+    return [float(word) for word in done.stdout.split()]
+
+
+def test_the_homeworks_clips_take_less_than_200_megabytes(real_data):
+    names = [f"walk_fwd_{name}.AMC" for name in ("circle", "curve1", "curve2")]
+    *_, more, whole = searched(real_data / "hw3", names, 3798, 0.04)
+    print(f"\n{whole:.0f} MB, clips, Python and all; {more:.0f} MB of it in the search")
+    assert whole < 200
+
+
+def test_eighty_thousand_frames_in_a_minute_and_500_megabytes(real_data):
+    names = sorted(path.name for path in (real_data / "cmu" / "16").glob("*.amc"))
+    found, seconds, busy, _, whole = searched(real_data / "cmu" / "16", names, 80_000, 0.02)
+    print(f"\n{found:.0f} transitions in {seconds:.0f} s ({busy:.0f} CPU seconds), {whole:.0f} MB")
+    assert whole < 500
+    assert busy < 120, "two cores have 120 seconds in a minute, whoever else uses them"

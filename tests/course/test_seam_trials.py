@@ -5,11 +5,12 @@ import pytest
 
 from mocap.blending import cubic_weights, inertialize, join, lay_window_on, linear_weights
 from mocap.blending.joining import blend, splice
-from mocap.body import Motion, Skeleton, resample
+from mocap.body import resample
 from mocap.course.seam_trials import Passage, choose_matches, passage, walk_costs
 from mocap.datasets.samples import sample
 from mocap.matching import find_transitions
 from mocap.quality import jumps
+from tests.strategies import glide
 
 CLIPS = [resample(sample(name), 30) for name in ("walk_straight", "stop_and_go")]
 WALK = sample("walk_straight")
@@ -47,12 +48,6 @@ def test_a_passage_is_the_join_at_the_middle_of_the_match(window):
     assert blended.jolts[3].max() > 0
     lengths = np.linalg.norm(blended.gap.reshape(48, -1, 3), axis=-1)
     assert blended.size(blended.gap) == pytest.approx(30 * np.sqrt((lengths**2).mean(axis=1)))
-
-
-def glide(path):
-    """Move a dot along a line at 30 Hz, to these metres."""
-    dot = Skeleton(["root"], [-1], [[0, 0, 0]])
-    return Motion(dot, path[:, None] * [1.0, 0, 0], np.tile([1.0, 0, 0, 0], (len(path), 1, 1)), 30.0)
 
 
 def walked(window, weights=cubic_weights):

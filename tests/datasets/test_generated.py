@@ -272,8 +272,3 @@ def test_the_jump_as_it_is_made_keeps_to_the_ground_and_the_limits():
     assert not inspect(JUMP).flaws
     frames = JUMP.rotations.reshape(len(JUMP), -1)
     assert len(np.unique(frames.round(6), axis=0)) == len(frames)
-
-
-def test_the_jump_is_a_sample_but_no_walk():
-    assert "jump" not in SAMPLES
-    assert sample("jump") is JUMP

@@ -143,20 +143,16 @@ def test_long_words_and_names_make_no_long_messages(tmp_path, suffix, long):
     assert complaints(read, path, texts) > 20
 
 
-@pytest.mark.parametrize(("suffix", "text"), [(".csv", "x,z\n0 , 0\n0 ; 5\n5 5"), (".svg", DRAWING)])
-def test_long_words_in_paths_make_no_long_messages(tmp_path, suffix, text):
-    for variant in (text, text.replace("<path", "<text"), re.sub("<(path|polyline)", "<text", text)):
-        assert complaints(path_files.load_path, tmp_path / f"a{suffix}", long_ones(variant)) > 20
-
-
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize(
     ("suffix", "text"), [(".csv", "x,z\n0 , 0\n0 ; 5\n5 5\n" + "1 2\n" * 9), (".svg", DRAWING)]
 )
 def test_broken_paths_are_read_or_refused_in_a_short_sentence(tmp_path, suffix, text):
-    chance = random.Random(suffix)
+    """Of changed texts, and of texts with long words; of pictures also where a line, or both, are no path."""
+    chance, variants = random.Random(suffix), (text, text.replace("<path", "<text"))
     texts = (mutated(text, chance) for _ in range(500))
-    assert complaints(path_files.load_path, tmp_path / f"a{suffix}", texts) > 20
+    for some in (texts, *map(long_ones, (*variants, re.sub("<(path|polyline)", "<text", text)))):
+        assert complaints(path_files.load_path, tmp_path / f"a{suffix}", some) > 20
 
 
 def test_long_names_make_no_long_messages_in_writing(tmp_path):

@@ -8,22 +8,16 @@ from walking import generate
 
 from mocap._shared.arrays import runs
 from mocap.blending import join
-from mocap.body import Motion, Skeleton, concatenate, joint_positions
+from mocap.body import concatenate, joint_positions
 from mocap.datasets.samples import sample
 from mocap.errors import SkeletonMismatch
 from mocap.quality.seam_measures import jumps, knee_turns, seam_quality, spread
 from mocap.quality.standing_feet import ground_slides, plant_slides
 from tests.refusals import refusals, refused
-from tests.strategies import random_motion
+from tests.strategies import glide, random_motion
 
 WALK = sample("walk_straight")
 USUAL = spread([WALK])
-
-
-def glide(path: np.ndarray, fps: float = 30.0) -> Motion:
-    dot = Skeleton(["root"], [-1], [[0, 0, 0]])
-    still = np.tile([1.0, 0, 0, 0], (len(path), 1, 1))
-    return Motion(dot, path[:, None] * [1.0, 0, 0] + [0, 1, 0], still, fps)
 
 
 def test_jumps_are_those_of_curves_known_in_closed_form():

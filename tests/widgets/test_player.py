@@ -196,8 +196,7 @@ def test_what_ffmpeg_complains_of_is_the_error_and_the_old_film_stays(tmp_path, 
     monkeypatch.setattr(ffmpeg, "get_ffmpeg_exe", lambda: str(fake))
     old = tmp_path / "wave.mp4"
     old.write_bytes(b"an old film")
-    with pytest.raises(MocapError, match="ffmpeg cannot write the film: av_write: No space left on device"):
-        film.save_animation(wave(9), old)
+    refused("cannot write the film: av_write: No space left on device", film.save_animation, wave(9), old)
     assert old.read_bytes() == b"an old film"
     assert sorted(path.name for path in tmp_path.iterdir()) == ["ffmpeg", "wave.mp4"]
 
