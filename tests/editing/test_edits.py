@@ -22,9 +22,14 @@ from tests.refusals import refusals, told
 pytestmark = pytest.mark.filterwarnings("error::mocap.errors.MocapWarning")
 
 
+def all_stand(motion, base):
+    """Whether every planted frame is still planted."""
+    return all((motion.contacts[name] >= mark).all() for name, mark in base.contacts.items())
+
+
 def check(motion, base, pins, most):
     assert pin_errors(motion, pins).max() < 1e-9
-    assert plants_kept(motion, base) == 1
+    assert all_stand(motion, base)
     assert smoothness(motion, base) <= most
     assert wishes.bones(motion) < 1e-12
 
@@ -48,7 +53,7 @@ def test_a_bar_to_duck_under(real_data):
         edited = edit(clip, pins)
         errors = pin_errors(edited, pins)
         assert errors[:, :4].max() < 1e-9 and errors.max() < 1e-5
-        assert plants_kept(edited, clip) == 1
+        assert all_stand(edited, clip)
         assert smoothness(edited, clip) < (1.05 if clip.name == "16_15" else 1.2)
         assert shakes(edited, clip, pins) <= 1.15
         assert (wishes.between(*wishes.neck(edited)) - wishes.between(*wishes.neck(clip))).max() < 45

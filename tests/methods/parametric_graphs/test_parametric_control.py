@@ -19,20 +19,7 @@ from mocap.methods.parametric_graphs.stride_spaces import draw_parameters
 from mocap.quality import jumps, plant_slides, spread
 from mocap.steering import Controller, command_headings, measure_delay, steer
 from tests.bundled import WALKS, bundled, clips
-from tests.methods.parametric_graphs.built import (
-    HAND,
-    SMALL,
-    act,
-    acting,
-    bad_ones,
-    by_turn_and_speed,
-    of_hands,
-    space,
-    stepping,
-    walk_and_jog,
-    walk_anywhere,
-    walking,
-)
+from tests.methods.parametric_graphs import built
 from tests.refusals import refusals
 
 SPEED = 0.8
@@ -40,8 +27,8 @@ SPEED = 0.8
 
 def test_it_obeys_nearly_as_soon_as_the_motion_graph_of_the_same_clips():
     graph = measure_delay(Controller(bundled(*WALKS)), speed=SPEED).mean
-    strides = measure_delay(ParametricController(walking()), speed=SPEED)
-    steps = measure_delay(ParametricController(stepping(0.04)), speed=SPEED)
+    strides = measure_delay(ParametricController(built.walking()), speed=SPEED)
+    steps = measure_delay(ParametricController(built.stepping(0.04)), speed=SPEED)
     assert strides.mean <= 1.7 * graph and steps.mean <= 1.2 * graph
     assert max(strides.slowest, steps.slowest) < 8
 
@@ -49,24 +36,24 @@ def test_it_obeys_nearly_as_soon_as_the_motion_graph_of_the_same_clips():
 @pytest.mark.sweep
 def test_seams_between_kinds_cost_what_their_edges_promise():
     """Each is left when its own edge says so: left when the first of them may, one costs 10 cm."""
-    random, character = np.random.default_rng(0), ParametricController(walk_and_jog())
+    random, character = np.random.default_rng(0), ParametricController(built.walk_and_jog())
     for _ in range(60):
         label, heading = ("walk", "jog")[random.integers(2)], random.uniform(-3, 3)
         for _ in range(60):
             character.step(heading, 1.0, label)
-    assert {chosen.node for chosen in character.chosen} == set(walk_and_jog())
+    assert {chosen.node for chosen in character.chosen} == set(built.walk_and_jog())
     assert max(chosen.cost for chosen in character.chosen) <= 0.08
 
 
 def test_no_frame_jolts_more_than_the_clips():
     """As in [HG07, seam]."""
-    walked = steer(ParametricController(walking()), command_headings(40, 30, seed=1), SPEED).motion
+    walked = steer(ParametricController(built.walking()), command_headings(40, 30, seed=1), SPEED).motion
     limit = np.percentile(spread(clips()).within(1), 99.9)
     assert (jumps(walked) > limit).mean() < 0.02
 
 
 def test_it_goes_where_it_is_asked_to_go():
-    walked = steer(ParametricController(walking()), [1.0] * 300, SPEED).motion
+    walked = steer(ParametricController(built.walking()), [1.0] * 300, SPEED).motion
     way = walked.root_positions[-1] - walked.root_positions[150]
     assert np.arctan2(way[0], way[2]) == pytest.approx(1.0, abs=0.1)
     assert abs(heading(walked.rotations[-60:, 0]).mean() - 1.0) < 0.2
@@ -74,7 +61,7 @@ def test_it_goes_where_it_is_asked_to_go():
 
 def test_the_wish_is_cut_by_the_box_and_both_are_kept():
     """As in [HG07, 5]."""
-    character = ParametricController(walking())
+    character = ParametricController(built.walking())
     for _ in range(60):
         character.step(3.0, SPEED)
     first = character.chosen[0]
@@ -82,7 +69,7 @@ def test_the_wish_is_cut_by_the_box_and_both_are_kept():
 
 
 def test_frames_left_count_down_to_a_decision():
-    character = ParametricController(walking())
+    character = ParametricController(built.walking())
     left, decided = [], []
     for _ in range(80):
         left.append(character.frames_left)
@@ -94,7 +81,7 @@ def test_frames_left_count_down_to_a_decision():
 
 
 def test_it_goes_from_kind_to_kind_by_the_changes_between_and_without_a_label_as_the_speed_says():
-    character = ParametricController(walk_and_jog(), start="walk to jog")
+    character = ParametricController(built.walk_and_jog(), start="walk to jog")
     for label, speed, kind in (("walk", 1.0, "walk"), ("jog", 1, "jog"), ("", 0.8, "walk"), ("", 2.5, "jog")):
         for _ in range(200):
             character.step(0.4, speed, label)
@@ -106,8 +93,8 @@ def test_it_goes_from_kind_to_kind_by_the_changes_between_and_without_a_label_as
 
 def walked(label):
     """Walk for two seconds in a graph with a node to which nothing leads."""
-    apart = nx.DiGraph(walking())
-    apart.add_node("far", space=walking().nodes["walk"]["space"])
+    apart = nx.DiGraph(built.walking())
+    apart.add_node("far", space=built.walking().nodes["walk"]["space"])
     character = ParametricController(apart)
     for _ in range(60):
         character.step(0.0, 1.0, label)
@@ -115,17 +102,17 @@ def walked(label):
 
 test_commands_that_are_none_and_nodes_that_nothing_leads_to_are_refused = refusals(
     *(
-        ("A command is a finite heading", lambda told=told: ParametricController(walking()).step(*told))
+        ("A command is a finite heading", lambda told=told: ParametricController(built.walking()).step(*told))
         for told in ((np.nan, 1.0), (0.0, np.inf), (0.0, -1.0))
     ),
-    ("There is no node 'fly'; there are: walk", lambda: ParametricController(walking(), start="fly")),
+    ("There is no node 'fly'; there are: walk", lambda: ParametricController(built.walking(), start="fly")),
     (NoWalk, "There is no node 'fly'", walked, "fly"),
     (NoWalk, "No motions lead from 'walk' to 'far'", walked, "far"),
 )
 
 
 def test_asked_by_turn_and_speed_it_walks_as_fast_as_told_and_knows_what_it_got():
-    graph = build_parametric({"walk": by_turn_and_speed()}, good=0.06, sampling=SMALL)
+    graph = build_parametric({"walk": built.by_turn_and_speed()}, good=0.06, sampling=built.SMALL)
     for speed in (0.7, 0.75, 0.8):
         character = ParametricController(graph)
         track = steer(character, [0.0] * 450, speed).motion.root_positions[150:, [0, 2]] @ [1j, 1]
@@ -139,8 +126,8 @@ GOOD = 0.03  # T_GOOD, metres
 
 def test_boxes_hold_next_to_no_bad_target_among_fresh_ones_and_among_those_drawn_inside():
     """As in [HG07, 4]. A box of no width holds none of the fresh targets: so draw inside each one, too."""
-    source, edge = space(), walking().edges["walk", "walk"]["edge"]
-    boxes, share = bad_ones(source, source, edge, BAD * GOOD, seed=0)
+    source, edge = built.space(), built.walking().edges["walk", "walk"]["edge"]
+    boxes, share = built.bad_ones(source, source, edge, BAD * GOOD, seed=0)
     assert boxes <= 0.1 and share <= 0.01
     at = draw_parameters(source, 100, np.random.default_rng(0))
     within = [optimal_transitions(source, source, a[None], _inside(edge.look_up(a)))[0] for a in at]
@@ -153,12 +140,12 @@ def _inside(way, count=20):
 
 def test_seams_of_300_random_targets_cost_what_the_edges_promise():
     """And at the looked-up phases nearly as little as at the best ones."""
-    character = ParametricController(walking())
-    pairs = walk_anywhere(character, 300)
+    character = ParametricController(built.walking())
+    pairs = built.walk_anywhere(character, 300)
     cost = np.array([chosen.cost for chosen in character.chosen])
     bad = BAD * GOOD
     assert cost.max() <= bad + 0.01 and (cost > bad).mean() <= 0.02
-    spaces = walking().nodes
+    spaces = built.walking().nodes
     best = [
         optimal_transitions(
             spaces[node]["space"], spaces[chosen.node]["space"], at[None], chosen.taken[None]
@@ -170,8 +157,8 @@ def test_seams_of_300_random_targets_cost_what_the_edges_promise():
 
 def test_what_was_got_is_said_and_one_turn_over_and_over_is_no_circle():
     """Seams are aligned by the whole body, and turn it: up to some degrees a stride."""
-    character = ParametricController(walking())
-    tested = walking().nodes[character.node]["space"]
+    character = ParametricController(built.walking())
+    tested = built.walking().nodes[character.node]["space"]
     character._wish = lambda *_: np.full(1, np.radians(20))
     facing = []
     while len(character.chosen) < 12:
@@ -195,13 +182,13 @@ def slide(character):
 
 def test_feet_slide_no_more_than_those_of_a_motion_graph_of_the_same_clips():
     plain = slide(Controller(bundled(*WALKS)))
-    for graph in (walking(), stepping(0.04)):
+    for graph in (built.walking(), built.stepping(0.04)):
         assert slide(ParametricController(graph)) <= 1.3 * plain
 
 
 def test_bad_thresholds_twice_the_good_ones_cut_no_box():
     """Between T_GOOD and 1.35 T_GOOD a target may be in a box; with 2 T_GOOD none is ever cut off."""
-    source = space()
+    source = built.space()
     thresholds, few = (0.03, BAD * 0.03, 0.06, 1.0), (50, 300)
     edges = [build_edge(source, source, good=0.03, bad=bad, sampling=few) for bad in thresholds]
     widths = [(edge.high - edge.low).mean() for edge in edges]
@@ -211,7 +198,7 @@ def test_bad_thresholds_twice_the_good_ones_cut_no_box():
 @pytest.mark.parametrize("node", ["reach", "punch"])
 def test_a_place_of_the_world_is_met_and_planted_feet_rest_in_the_changes_too(node):
     """As in [HG07, 5], with a place of the world for the wish."""
-    done = act(acting(), node, 12)
+    done = built.act(built.acting(), node, 12)
     off = done.missed(done.motion)
     assert np.median(off) <= 0.015 and np.percentile(off, 90) <= 0.05
     ways = {"reach": {"walk", "reach"}, "punch": {"walk", "to_guard", "punch", "from_guard"}}
@@ -225,7 +212,7 @@ def test_a_place_of_the_world_is_met_and_planted_feet_rest_in_the_changes_too(no
 @pytest.mark.parametrize("node", ["reach", "punch"])
 def test_a_clip_that_is_left_out_is_made_nearer_than_the_nearest_clip_and_the_mean(node):
     """As in [HG07, nodes]: of the others, in the median; the mean is that of the d + 1 nearest."""
-    space, off = of_hands()[node], []
+    space, off = built.of_hands()[node], []
     examples, known = space.examples, space.values[: len(space.examples)]
     for out in range(len(examples)):
         rest = np.abs(space.weights[:, out]) < 1e-9
@@ -233,31 +220,31 @@ def test_a_clip_that_is_left_out_is_made_nearer_than_the_nearest_clip_and_the_me
         near = np.argsort(np.linalg.norm(known - known[out], axis=1))[1:5]
         mixes = [weights_for(others, known[out]), np.eye(len(known))[near[0]]]
         mixes.append(np.eye(len(known))[near].mean(axis=0))
-        off.append([np.linalg.norm(HAND(examples.blend(mix)) - known[out]) for mix in mixes])
+        off.append([np.linalg.norm(built.HAND(examples.blend(mix)) - known[out]) for mix in mixes])
     made, nearest, mean = np.median(off, axis=0)
     assert made < 0.6 * nearest and made < 0.6 * mean
 
 
 @pytest.mark.parametrize("node", ["reach", "punch"])
 def test_what_blends_do_is_got_when_it_is_asked(node):
-    space = of_hands()[node]
+    space = built.of_hands()[node]
     rows = random_weights(space.values[: len(space.examples)], 40, spread=0, seed=3)
-    wishes = np.array([HAND(space.examples.blend(row)) for row in rows])
-    got = [HAND(space.examples.blend(row)) for row in weights_for(space, wishes)]
+    wishes = np.array([built.HAND(space.examples.blend(row)) for row in rows])
+    got = [built.HAND(space.examples.blend(row)) for row in weights_for(space, wishes)]
     assert np.median(np.linalg.norm(got - wishes, axis=1)) < 0.006
 
 
 def test_walks_do_not_turn_into_punches_by_themselves():
-    spaces = {name: acting().nodes[name]["space"] for name in ("walk", "punch", "to_guard")}
+    spaces = {name: built.acting().nodes[name]["space"] for name in ("walk", "punch", "to_guard")}
     direct, guarded = (
-        build_edge(spaces["walk"], spaces[other], good=np.inf, sampling=SMALL).least
+        build_edge(spaces["walk"], spaces[other], good=np.inf, sampling=built.SMALL).least
         for other in ("punch", "to_guard")
     )
     assert direct > 0.14 > 0.05 > guarded
 
 
 def test_without_a_label_one_who_punched_walks_on():
-    character = ParametricController(acting(), start="punch")
+    character = ParametricController(built.acting(), start="punch")
     for _ in range(200):
         character.step(0.5, 0.8)
     seen = [chosen.node for chosen in character.chosen]
@@ -284,6 +271,6 @@ test_what_makes_no_sense_is_refused = refusals(
     ("one span for each clip, got 1 and 0", cut_actions, [WALK], []),
     ("takes those from -13 to 55: leave it more room", cut_actions, [WALK], [(2, 40)]),
     ("leave it more room", cut_actions, [WALK], [(60, 40)]),
-    ("A place of the world is three", lambda: ParametricController(acting()).aim([1, 2])),
-    ("three finite numbers", lambda: ParametricController(acting()).aim([1, 2, np.nan])),
+    ("A place of the world is three", lambda: ParametricController(built.acting()).aim([1, 2])),
+    ("three finite numbers", lambda: ParametricController(built.acting()).aim([1, 2, np.nan])),
 )
