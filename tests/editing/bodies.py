@@ -30,6 +30,7 @@ for _side, _name, _end in (("l", "Left", "_L"), ("r", "Right", "_R")):
     SMPL |= {_side + old: f"{_side.upper()}_{new}" for old, new in zip(_parts, _smpl, strict=True)}
     LONG |= {_side + old: _name + new for old, new in zip(_parts, _long, strict=True)}
     UNDERSCORED |= {_side + old: new + _end for old, new in zip(_parts, _short, strict=True)}
+NAMINGS = (LONG, UNDERSCORED, UP_AND_LOW, DAZ, SMPL)
 
 
 def renamed(motion: Motion, names: dict[str, str]) -> Motion:

@@ -8,17 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocap.body import (
-    SHAPES,
-    GroundPath,
-    arcs,
-    circle,
-    find_legs,
-    joint_positions,
-    on_ground,
-    resample,
-    s_curve,
-)
+from mocap.body import GroundPath, find_legs, joint_positions, on_ground, resample
+from mocap.body.ground_path import SHAPES, arcs, circle, s_curve
 from mocap.datasets.samples import sample
 from mocap.editing.bending import bend
 from mocap.editing.line_rounding import _smoothed, round_line

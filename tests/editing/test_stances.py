@@ -15,19 +15,7 @@ from mocap.editing.mirroring import mirror, symmetry
 from mocap.editing.stances import Stance, proportioned, stance_of, stance_of_zero, standing_heights
 from mocap.feet.footplants import mark_plants
 from mocap.files import load_save
-from tests.editing.bodies import (
-    DAZ,
-    LONG,
-    SMPL,
-    UNDERSCORED,
-    UP_AND_LOW,
-    adult,
-    along_x,
-    renamed,
-    rested,
-    walk,
-    without,
-)
+from tests.editing.bodies import NAMINGS, adult, along_x, renamed, rested, walk, without
 from tests.refusals import refusals, refused, told, unwarned
 from tests.strategies import random_quaternions, seeds
 
@@ -154,7 +142,7 @@ def test_the_bundled_body_has_all_roles():
     assert [SKELETON.names[found[f"{side} ball"]] for side in ("left", "right")] == ["ltoes", "rtoes"]
 
 
-@pytest.mark.parametrize("names", [LONG, UNDERSCORED, UP_AND_LOW, DAZ, SMPL])
+@pytest.mark.parametrize("names", NAMINGS)
 def test_names_do_not_matter_where_they_are_known(names):
     body = renamed(walk(), names).skeleton
     assert {role: SKELETON.names[joint] for role, joint in roles(body).items()} == {

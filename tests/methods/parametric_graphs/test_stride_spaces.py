@@ -13,28 +13,13 @@ from mocap.body import joint_positions, resample
 from mocap.errors import MocapError, NoWalk, SkeletonMismatch
 from mocap.matching.distance_grids import distance_grid
 from mocap.methods.match_webs import weights_for
-from mocap.methods.parametric_graphs import (
-    build_parametric,
-    cut_strides,
-    made_motions,
-    make_space,
-    measure_mixes,
-)
+from mocap.methods.parametric_graphs import build_parametric, cut_strides, made_motions, make_space
 from mocap.methods.parametric_graphs.made_motions import make_motion, near_end, optimal_transitions
 from mocap.methods.parametric_graphs.parametric_edges import BAD, build_edge, shrink_box
-from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, place_evenly
+from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, measure_mixes, place_evenly
 from tests.bundled import clips
 from tests.editing.wishes import bones
-from tests.methods.parametric_graphs.built import (
-    SMALL,
-    bad_ones,
-    by_turn_and_speed,
-    missed,
-    space,
-    strides,
-    walk_and_jog,
-    walking,
-)
+from tests.methods.parametric_graphs import built
 from tests.refusals import refusals
 
 HALF, SPAN, WINDOW = made_motions.HALF, made_motions.SPAN, made_motions.WINDOW
@@ -43,17 +28,17 @@ HALF, SPAN, WINDOW = made_motions.HALF, made_motions.SPAN, made_motions.WINDOW
 @pytest.mark.parametrize("feet", ["lrl", "lr", "rl"])
 def test_what_is_asked_is_got(feet):
     """As in [HG07, nodes]."""
-    tested = space(feet)
-    off = missed(tested, draw_parameters(tested, 300, np.random.default_rng(5)))
+    tested = built.space(feet)
+    off = built.missed(tested, draw_parameters(tested, 300, np.random.default_rng(5)))
     assert off.max() <= 0.1 and off.mean() <= 0.01
 
 
 def test_sources_are_placed_evenly_and_at_the_ends():
     """For several parameters only where the space reaches: the corners of its range may hold no stride."""
-    one, both = space(), by_turn_and_speed()
+    one, both = built.space(), built.by_turn_and_speed()
     np.testing.assert_allclose(place_evenly(one, 9), np.linspace(one.low, one.high, 9))
     at = place_evenly(both, 40)
-    assert missed(both, at)[:, 0].max() < 2
+    assert built.missed(both, at)[:, 0].max() < 2
     for end in ("min", "max"):
         np.testing.assert_array_equal(getattr(at, end)(axis=0), getattr(both.reached, end)(axis=0))
 
@@ -66,7 +51,7 @@ def test_sources_are_placed_evenly_and_at_the_ends():
 
 
 def test_the_range_is_cut_to_what_the_strides_come_to_and_weights_never_reach_beyond():
-    wide, tested = make_space(strides(), 0.2, -9.0, 9.0), space()
+    wide, tested = make_space(built.strides(), 0.2, -9.0, 9.0), built.space()
     assert wide.low[0] > -2.5 and wide.high[0] < 2.5
     far = weights_for(tested, [[-9.0], [9.0]])
     np.testing.assert_allclose(far.sum(axis=1), 1)
@@ -77,18 +62,18 @@ def test_the_range_is_cut_to_what_the_strides_come_to_and_weights_never_reach_be
 def test_a_change_of_two_degrees_changes_the_clip_by_millimetres():
     """Where windows are compared; of raw strides, the nearest few, it does by more than a centimetre."""
     asked = np.linspace(-1.1, 1.1, 60)[:, None]
-    one, other = (near_end(space(), a, 0.0)[0] for a in (asked, asked + np.radians(2)))
+    one, other = (near_end(built.space(), a, 0.0)[0] for a in (asked, asked + np.radians(2)))
     assert 100 * np.median(np.sqrt(((one - other) ** 2).sum(axis=-1).mean(axis=(1, 2)))) < 0.4
 
 
 def some(count, spread=1.0):
     """Strides evenly spread over the turns, as many as asked for."""
-    turns = strides().values[:, 0]
-    wanted = np.linspace(-spread, spread, count)
-    return strides().take(np.isin(np.arange(len(turns)), np.abs(turns - wanted[:, None]).argmin(axis=1)))
+    turns = built.strides().values[:, 0]
+    wanted = np.linspace(-spread, spread, count)[:, None]
+    return built.strides().take(np.isin(np.arange(len(turns)), np.abs(turns - wanted).argmin(axis=1)))
 
 
-def made(some=strides, low=-0.5, high=0.5):
+def made(some=built.strides, low=-0.5, high=0.5):
     return make_space(some(), 0.2, low, high)
 
 
@@ -103,14 +88,14 @@ test_what_makes_no_sense_is_refused = refusals(
 
 def test_it_turns_as_asked_and_its_bones_are_whole():
     for asked in (-0.9, 0.0, 0.6):
-        made = make_motion(space(), np.array([asked]))
+        made = make_motion(built.space(), np.array([asked]))
         turn = made.heading[made.frame(1.0)] - made.heading[made.frame(0.0)]
         assert abs(turn - asked) < np.radians(3)  # frames beside phases
         assert bones(made.motion) < 1e-9
 
 
 def test_feet_hardly_slide_while_they_are_planted():
-    made = make_motion(space(), np.array([0.3]))
+    made = make_motion(built.space(), np.array([0.3]))
     points, skeleton = joint_positions(made.motion), made.motion.skeleton
     for name, mark in made.motion.contacts.items():
         planted = points[mark, skeleton.index(name)][:, [0, 2]]
@@ -120,7 +105,7 @@ def test_feet_hardly_slide_while_they_are_planted():
 
 
 def test_it_is_the_mix_that_its_weights_say_and_knows_what_it_came_to():
-    tested, asked = space(), np.array([0.4])
+    tested, asked = built.space(), np.array([0.4])
     made, weights = make_motion(tested, asked), weights_for(tested, asked)
     assert made.values == pytest.approx(asked, abs=1e-6)
     assert measure_mixes(tested.examples, weights[None])[0, 0] == pytest.approx(0.4, abs=2e-3)
@@ -132,7 +117,7 @@ def test_it_is_the_mix_that_its_weights_say_and_knows_what_it_came_to():
 @pytest.mark.parametrize(("source", "target"), [("lrl", "lrl"), ("lr", "rl")])
 def test_costs_are_those_of_a_distance_grid(source, target):
     """As in [HG07, 3.1]."""
-    first, second = space(source), space(target)
+    first, second = built.space(source), built.space(target)
     at, to = np.array([[-0.2], [0.0], [0.3]]), np.array([[0.1], [-0.4]])
     costs, _, _ = optimal_transitions(first, second, at, to)
     for row, asked in enumerate(at):
@@ -147,7 +132,7 @@ def test_costs_are_those_of_a_distance_grid(source, target):
 
 
 def test_it_leaves_near_the_last_strike_and_enters_near_the_first():
-    tested = space()
+    tested = built.space()
     _, leave, enter = optimal_transitions(
         tested, tested, np.zeros((3, 1)), np.linspace(-0.5, 0.5, 5)[:, None]
     )
@@ -155,7 +140,7 @@ def test_it_leaves_near_the_last_strike_and_enters_near_the_first():
 
 
 def test_only_the_frames_near_a_strike_are_made():
-    tested = space()
+    tested = built.space()
     points, phases = near_end(tested, np.array([[0.2]]), 0.0)
     made = make_motion(tested, np.array([0.2]))
     frames = 2 * (HALF + SPAN) + 1
@@ -179,16 +164,16 @@ PLACES = st.floats(-10, 10).map(lambda v: round(v, 2))
 
 def test_few_sources_leave_bad_targets_in_the_boxes_between_them_and_few_targets_leave_boxes_small():
     """As in [HG07, 4]."""
-    source, samples = space(), ((5, 300), (50, 300), (5, 20))
+    source, samples = built.space(), ((5, 300), (50, 300), (5, 20))
     few, many, small = (build_edge(source, source, good=0.03, sampling=sampling) for sampling in samples)
     assert len(many.at) == 50 and (small.high - small.low).mean() < 0.95 * (few.high - few.low).mean()
-    assert bad_ones(source, source, few, BAD * 0.03)[0] > 0.12
-    assert bad_ones(source, source, many, BAD * 0.03)[0] < 0.03
+    assert built.bad_ones(source, source, few, BAD * 0.03)[0] > 0.12
+    assert built.bad_ones(source, source, many, BAD * 0.03)[0] < 0.03
 
 
 def test_with_d_plus_1_neighbours_boxes_jump():
     """The paper's k gives the nearest source alone; d + 4 of sources placed evenly move [HG07, Eqs. 1-2]."""
-    edge = walking().edges["walk", "walk"]["edge"]
+    edge = built.walking().edges["walk", "walk"]["edge"]
     fine = np.radians(np.arange(-70, 70, 0.1))[:, None]
     sides = {k: np.array([edge.look_up(asked, k).low[0] for asked in fine]) for k in (2, 3, None)}
     jumps = {k: np.degrees(np.abs(np.diff(side)).max()) for k, side in sides.items()}
@@ -197,15 +182,15 @@ def test_with_d_plus_1_neighbours_boxes_jump():
 
 
 def test_a_box_reaches_further_to_the_side_one_turns_to():
-    edge = walking().edges["walk", "walk"]["edge"]
+    edge = built.walking().edges["walk", "walk"]["edge"]
     left, right = (edge.look_up(np.array([side])) for side in (0.7, -0.7))
     assert left.low + left.high > right.low + right.high
 
 
 def test_costs_at_the_looked_up_phases_are_nearly_the_best():
     """As in [HG07, Eq. 3]."""
-    source = space()
-    edge, random = walking().edges["walk", "walk"]["edge"], np.random.default_rng(3)
+    source = built.space()
+    edge, random = built.walking().edges["walk", "walk"]["edge"], np.random.default_rng(3)
     at = draw_parameters(source, 30, random)
     leave = np.array([edge.look_up(asked).leave for asked in at])
     best = optimal_transitions(source, source, at, np.zeros((1, 1)))[1][:, 0]
@@ -233,34 +218,34 @@ def test_the_side_that_loses_least_moves_and_shares_count_not_metres():
 
 def test_the_smallest_threshold_is_the_smallest():
     """As in [HG07, no edge]."""
-    source = space()
-    least = build_edge(source, source, good=np.inf, sampling=SMALL).least
-    build_edge(source, source, good=1.001 * least, sampling=SMALL)
+    source = built.space()
+    least = build_edge(source, source, good=np.inf, sampling=built.SMALL).least
+    build_edge(source, source, good=1.001 * least, sampling=built.SMALL)
     with pytest.raises(NoWalk, match=r"Nothing follows turn -?\d+° below 1.0 cm \(the best costs"):
-        build_edge(source, source, good=0.01, sampling=SMALL)
-    assert build_edge(source, source, good=0.05, sampling=SMALL).least == pytest.approx(least)
+        build_edge(source, source, good=0.01, sampling=built.SMALL)
+    assert build_edge(source, source, good=0.05, sampling=built.SMALL).least == pytest.approx(least)
 
 
 def test_good_targets_with_bad_ones_all_around_leave_a_box_of_one():
-    source = space()
-    least = build_edge(source, source, good=np.inf, sampling=SMALL).least
-    tight = build_edge(source, source, good=1.0001 * least, bad=1.0001 * least, sampling=SMALL)
+    source = built.space()
+    least = build_edge(source, source, good=np.inf, sampling=built.SMALL).least
+    tight = build_edge(source, source, good=1.0001 * least, bad=1.0001 * least, sampling=built.SMALL)
     assert (tight.low <= tight.high + 1e-9).all()
 
 
 def changed(**parts):
-    return replace(space(), examples=replace(space().examples, **parts))
+    return replace(built.space(), examples=replace(built.space().examples, **parts))
 
 
 def edge_to(target=None, good=0.04, **settings):
-    return build_edge(space(), target or space(), good=good, **settings)
+    return build_edge(built.space(), target or built.space(), good=good, **settings)
 
 
-def built(edges=None, good=0.03, **spaces):
-    return build_parametric({"walk": space(), **spaces}, edges, good=good, sampling=SMALL)
+def graph_of(edges=None, good=0.03, **spaces):
+    return build_parametric({"walk": built.space(), **spaces}, edges, good=good, sampling=built.SMALL)
 
 
-BONES = replace(space().examples.skeleton, offsets=1.2 * space().examples.skeleton.offsets)
+BONES = replace(built.space().examples.skeleton, offsets=1.2 * built.space().examples.skeleton.offsets)
 
 test_what_cannot_be_built_is_refused = refusals(
     ("T_GOOD <= T_BAD", lambda: edge_to(bad=0.03)),
@@ -268,15 +253,15 @@ test_what_cannot_be_built_is_refused = refusals(
     ("lack head", lambda: edge_to(changed(contact_names=("lfoot", "rfoot", "ltoes", "head")))),
     ("one rate, got 30 and 60 Hz", lambda: edge_to(changed(fps=60.0))),
     (SkeletonMismatch, "sits", lambda: edge_to(changed(skeleton=BONES))),
-    ("There is no space 'run'; there are: walk", built, [("walk", "run")]),
-    (NoWalk, r"walk → walk: Nothing .* raise T_GOOD to 1.\d cm", built, [("walk", "walk")], 0.005),
-    (NoWalk, "Nothing follows 'walk' below 0.5 cm", built, None, 0.005),
-    ("one rate, got 30 and 60 Hz", lambda: built([("walk", "walk"), ("b", "b")], b=changed(fps=60.0))),
+    ("There is no space 'run'; there are: walk", graph_of, [("walk", "run")]),
+    (NoWalk, r"walk → walk: Nothing .* raise T_GOOD to 1.\d cm", graph_of, [("walk", "walk")], 0.005),
+    (NoWalk, "Nothing follows 'walk' below 0.5 cm", graph_of, None, 0.005),
+    ("one rate, got 30 and 60 Hz", lambda: graph_of([("walk", "walk"), ("b", "b")], b=changed(fps=60.0))),
 )
 
 
 def test_by_default_all_edges_that_can_be_had_are_there():
     """As in [HG07, graph]."""
-    some = {name: walk_and_jog().nodes[name]["space"] for name in ("walk", "jog")}
-    graph = build_parametric(some, good=0.05, sampling=SMALL)
+    some = {name: built.walk_and_jog().nodes[name]["space"] for name in ("walk", "jog")}
+    graph = build_parametric(some, good=0.05, sampling=built.SMALL)
     assert set(graph.edges) == {("walk", "walk"), ("jog", "jog")}
