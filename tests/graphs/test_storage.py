@@ -15,7 +15,8 @@ from mocap.datasets.clip_origins import Origin
 from mocap.datasets.samples import sample
 from mocap.errors import FormatError, MocapError
 from mocap.files import load_save
-from mocap.graphs import build, from_transitions, prune, storage, summary, write_graphml
+from mocap.graphs import build, from_transitions, prune, storage, summary
+from mocap.graphs.graph_summary import write_graphml
 from mocap.matching.transitions import Transition
 from tests.refusals import refused
 from tests.strategies import ends, wave

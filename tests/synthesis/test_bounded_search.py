@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from mocap import synthesis
 from mocap.body.planar import on_ground
 from mocap.errors import NoWalk
-from mocap.synthesis import GroundWalks, Problem, branch_and_bound, search_ahead
+from mocap.synthesis import Problem, branch_and_bound, search_ahead
+from mocap.synthesis.ground_walks import GroundWalks
 from tests.bundled import bundled
 from tests.refusals import refusals
 from tests.strategies import seeds

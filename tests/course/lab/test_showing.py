@@ -17,7 +17,8 @@ from mocap.course.lab.choices import EACH, LONGEST, around, of_clips, of_graph, 
 from mocap.course.lab.showing import STEP, TABS, Inspector, inspector, packed_clip, packed_skeleton
 from mocap.datasets.samples import sample
 from mocap.graphs import compile_graph, from_transitions
-from mocap.matching import distance_grid, rms_distance
+from mocap.matching import distance_grid
+from mocap.matching.point_clouds import rms_distance
 from mocap.steering.path_following import follow_path
 from mocap.synthesis import random_walk, seams
 from mocap.widgets.embedding import joined
