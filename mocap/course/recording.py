@@ -76,19 +76,17 @@ def _positions(control: Any) -> list[tuple[str, Any]]:  # noqa: ANN401
     if isinstance(control.value, bool):
         return [("off", False), ("on", True)]
     if hasattr(control, "options"):
-        values = [value for _, value in control._options_full]
-        labels = [str(label) for label, _ in control._options_full]
-        at = values.index(control.value)
+        at, positions = control.index, list(control._options_full)
     elif hasattr(control, "step"):
         count = 1 + max(1, round((control.max - control.min) / control.step))
         steps = (control.min + number * control.step for number in range(count))
         values = [min(type(control.value)(value), control.max) for value in steps]
         at = round((control.value - control.min) / control.step)
         values[at] = control.value
-        labels = [f"{value:.6g}" for value in values]
+        positions = [(f"{value:.6g}", value) for value in values]
     else:
         return []
-    return [(labels[number], values[number]) for number in _spread(len(values), at, COUNTS[0])]
+    return [positions[number] for number in _spread(len(positions), at, COUNTS[0])]
 
 
 def _spread(count: int, at: int, most: int) -> list[int]:
