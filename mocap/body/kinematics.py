@@ -47,14 +47,13 @@ def forward_kinematics(motion: Motion) -> GlobalPoses:
     Notebook: 13-retargeting
     """
     skeleton = motion.skeleton
-    positions = np.empty((len(skeleton), len(motion), 3))  # a joint's frames together
     matrices = rotations.to_matrix(np.swapaxes(motion.rotations, 0, 1))  # L_j, and R_j from the root down
+    for joint in range(1, len(skeleton)):
+        matrices[joint] = matrices[skeleton.parents[joint]] @ matrices[joint]
+    positions = np.einsum("jfxy,jy->jfx", matrices[skeleton.parents], skeleton.offsets)
     positions[0] = motion.root_positions
     for joint in range(1, len(skeleton)):
-        parent = skeleton.parents[joint]
-        matrices[joint] = matrices[parent] @ matrices[joint]
-        moved = np.einsum("fij,j->fi", matrices[parent], skeleton.offsets[joint])
-        positions[joint] = positions[parent] + moved
+        positions[joint] += positions[skeleton.parents[joint]]
     return GlobalPoses(np.swapaxes(positions, 0, 1), np.swapaxes(matrices, 0, 1))
 
 
