@@ -78,6 +78,7 @@ def build_site(notebooks: Path, out: Path, progress: Progress = iter, *, moving:
         raise missing("The site needs Sphinx, MyST-NB and Furo", "site")
     from sphinx.application import Sphinx
 
+    make_folder(out)
     make_folder(out / "_shared")
     with tempfile.TemporaryDirectory() as folder:
         titles = []
@@ -95,9 +96,8 @@ def build_site(notebooks: Path, out: Path, progress: Progress = iter, *, moving:
             shutil.copy(page, folder)
         shutil.copytree(notebooks / "teaching", Path(folder, "teaching"), ignore=PRIVATE)
         titles += [page.relative_to(folder).as_posix() for page in sorted(Path(folder).rglob("*.md"))]
-        lists = {"course": "\n".join(titles), "package": "\n".join(_write_reference(Path(folder)))}
-        index = Template((HERE / "index.md").read_text("utf-8"))
-        write_text(Path(folder, "index.md"), index.substitute(lists))
+        toc = {"course": "\n".join(titles), "package": "\n".join(_write_reference(Path(folder)))}
+        write_text(Path(folder, "index.md"), Template((HERE / "index.md").read_text("utf-8")).substitute(toc))
         warned = io.StringIO()  # of papers cited twice
         Sphinx(folder, HERE, out, Path(folder, ".doctrees"), "html", status=None, warning=warned).build()
     clips = [resample(sample(name), 30) for name in SAMPLES]
