@@ -28,7 +28,7 @@ from tasks import TASKS, Answer, Case
 import mocap
 from mocap import datasets, feet
 from mocap._shared.arrays import Array
-from mocap._shared.atomic import write_text
+from mocap._shared.atomic import write_file
 from mocap.datasets.downloads import kept_in
 from mocap.errors import MocapError, MocapWarning
 
@@ -239,7 +239,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         print(f"## {title_of(name)}\n\n{text}\n", flush=True)
         if not asked.enter:
             before = sections_of(PAGE.read_text("utf-8")) if PAGE.exists() else {}
-            write_text(PAGE, page({**before, title_of(name): text}))
+            write_file(PAGE, page({**before, title_of(name): text}))
 
 
 if __name__ == "__main__":

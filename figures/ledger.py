@@ -15,7 +15,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from mocap._shared.atomic import write_text
+from mocap._shared.atomic import write_file
 from mocap.course.notebooks import read, tagged
 
 PAPERS = Path(__file__).with_name("papers.toml")
@@ -223,4 +223,4 @@ def _slug(key: str, paper: Mapping[str, Any]) -> str:
 
 if __name__ == "__main__":
     checkout = Path(__file__).parents[1]
-    write_text(checkout / "notebooks" / "PAPERS.md", page(ledger(checkout)))
+    write_file(checkout / "notebooks" / "PAPERS.md", page(ledger(checkout)))

@@ -109,10 +109,10 @@ def require_writable(path: str | Path) -> None:
         pass
 
 
-def write_text(path: str | Path, text: str) -> None:
-    """Write a text file as UTF-8, whole or not at all."""
+def write_file(path: str | Path, content: str | bytes) -> None:
+    """Write bytes, or a text as UTF-8, whole or not at all."""
     with replacing(path) as beside:
-        beside.write_text(text, encoding="utf-8", newline="\n")
+        beside.write_bytes(content.encode() if isinstance(content, str) else content)
 
 
 def require_folder(path: Path) -> None:

@@ -97,13 +97,12 @@ def register(
     clouds = [point_cloud(clip[::step]) for clip in clips]
     shortest = min(clip.duration for clip in clips)
     frames = int(min(slack * rate, min(map(len, clouds)) // 2))
+    ours, *others = clouds.pop(reference), *clouds
+    h = clips[reference].duration
+    line, still = (frozen(knots, np.float64) for knots in ([-h / 2, h / 2, 3 * h / 2], np.zeros(3)))
     while True:
-        pairs = [
-            _identity(clip)
-            if n == reference
-            else _register_pair(clouds[reference], cloud, rate, slope, frames)
-            for n, (clip, cloud) in enumerate(zip(clips, clouds, strict=True))
-        ]
+        pairs = [_register_pair(ours, cloud, rate, slope, frames) for cloud in others]
+        pairs.insert(reference, (Curve(0.0, h, line), Curve(0.0, h, still), (0.0, h), 0.0))
         times, angles, holds, costs = zip(*pairs, strict=True)
         # All curves hold, and no clip is at its end yet.
         limits = [*holds, *(t.inverse([0, clip.duration]) for t, clip in zip(times, clips, strict=True))]
@@ -159,13 +158,6 @@ def _mean_along(grid: Floats, times: Curve, rate: float, half: float) -> float:
     u = np.linspace(times.knots[0], times.knots[-1], 2 * len(grid))
     values = map_coordinates(grid, [u * rate - half, times(u) * rate - half], order=1, mode="nearest")
     return float(np.average(values, weights=1 + times.slope(u)))
-
-
-def _identity(clip: Motion) -> _Pair:
-    """Register the reference on itself."""
-    h = clip.duration
-    line, zero = frozen([-h / 2, h / 2, 3 * h / 2], np.float64), frozen(np.zeros(3), np.float64)
-    return Curve(0.0, h, line), Curve(0.0, h, zero), (0.0, h), 0.0
 
 
 def _window_centres(clip: Motion, seconds: float) -> Array:

@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Annotated
 
-from mocap._shared.atomic import require_writable, write_text
+from mocap._shared.atomic import require_writable, write_file
 from mocap.cli.options import bar, number
 from mocap.cli.typed_commands import Group
 from mocap.course import marking
@@ -156,7 +156,7 @@ def mark(
         marks += some
         grades = marking.grades.grade(marks, worth, students)
         for end, text in marking.grades.tables(marks, grades, worth, out.stem).items():
-            write_text(out.with_stem(f"{out.stem}{end}"), text)  # before the next notebook runs
+            write_file(out.with_stem(f"{out.stem}{end}"), text)  # before the next notebook runs
     if unknown := [one.sent for one in grades if students and not one.listed]:
         print(f"not in {roster}: {printable(', '.join(unknown))}", file=sys.stderr)
     if feedback:

@@ -50,7 +50,10 @@ def demo(
         raise NoWalk(f"No walk is left at {asked}; these clips need at least {least:g} cm.") from error
     edges = synthesis.random_walk(pruned, seconds=seconds, seed=seed)
     walk = synthesis.to_motion(pruned, edges)
-    _tell_of_clips(whole.clips)
+    names, frames = [clip.name for clip in whole.clips], sum(map(len, whole.clips))
+    shown = ", ".join(names if len(names) <= SHOWN else [*names[:SHOWN], f"… {names[-1]}"])
+    tell(clips=f"{len(names)}: {shown}", frames=f"{frames} at {whole.fps:g} Hz, {frames / whole.fps:.1f} s")
+    tell(body=f"{len(walk.skeleton)} joints, {quality.inspect(whole.clips[0]).height:.2f} m tall")
     tell(candidates=f"{whole.count('transition') // 2} pairs of windows alike")
     rows = [(e.count("transition"), len(e.graph), e.graph.number_of_edges()) for e in (whole, pruned)]
     print(f"{'':<12} {'whole':>8}{'pruned':>8}")

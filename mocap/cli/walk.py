@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from mocap import body, datasets, editing, files, graphs, plotting, steering, widgets
-from mocap._shared.atomic import make_folder, replacing, require_folder, write_text
+from mocap._shared.atomic import make_folder, replacing, require_folder, write_file
 from mocap.cli import options
 from mocap.cli.options import TURN, Building, Clean, Seed, Skeleton, Sources, Unit, bar, number, tell
 from mocap.errors import MocapError, MocapWarning, NoWalk
@@ -108,7 +108,7 @@ def page(graph: Path, *, out: Path = Path("walk.html"), skeleton: Skeleton = Non
     from mocap.widgets.walking_page import walk_page  # the help needs no NumPy
 
     made = walk_page(graphs.load(graph, skeleton=skeleton, progress=bar("reading")))
-    write_text(out, made)
+    write_file(out, made)
     tell(wrote=f"{out}, {len(made) / 1e6:.2f} MB")
 
 

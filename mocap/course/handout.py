@@ -8,7 +8,7 @@ from difflib import SequenceMatcher
 from pathlib import Path
 from typing import Any
 
-from mocap._shared.atomic import make_folder, write_text
+from mocap._shared.atomic import make_folder, write_file
 from mocap.course.notebooks import library, notebooks_in, read, solution, tagged
 from mocap.course.opening import stored
 from mocap.errors import MocapError, requirement
@@ -78,7 +78,7 @@ def hand_out(
         raise MocapError(f"{there[0]} exists already; choose another folder.")
     for file, text in new.items():
         make_folder(file.parent)
-        write_text(file, text)
+        write_file(file, text)
     return copies
 
 

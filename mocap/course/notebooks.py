@@ -22,7 +22,7 @@ from pathlib import Path
 from pkgutil import resolve_name
 from typing import Any
 
-from mocap._shared.atomic import write_text
+from mocap._shared.atomic import write_file
 from mocap.course import marked_values
 from mocap.errors import MocapError, missing
 
@@ -197,7 +197,7 @@ def run(path: Path, figures: Path) -> None:
             if left and "real" not in cell.metadata.get("tags", ()):
                 raise MocapError(f"{path}, cell {number}: {left[0]}")
     settle(notebook)
-    write_text(path, nbformat.writes(notebook) + "\n")
+    write_file(path, nbformat.writes(notebook) + "\n")
 
 
 def execute(notebook: Any, path: Path, seconds: int = 120) -> None:  # noqa: ANN401

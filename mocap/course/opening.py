@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from importlib.util import find_spec
 from pathlib import Path
 
-from mocap._shared.atomic import write_text
+from mocap._shared.atomic import write_file
 from mocap.course.notebooks import library, notebooks_in, read
 from mocap.errors import MocapError, missing, shortened
 
@@ -113,7 +113,7 @@ def build_lite(notebooks: Path, out: Path) -> Path:
         for file in notebooks_in(notebooks):
             notebook = read(file)
             notebook.cells.insert(1, library().v4.new_code_cell(INSTALL, id="install"))
-            write_text(contents / file.name, library().writes(notebook))
+            write_file(contents / file.name, library().writes(notebook))
         for page in notebooks.glob("[A-Z]*.md"):
             shutil.copy(page, contents)
         (wheel,) = wheels.glob("*.whl")

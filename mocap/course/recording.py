@@ -100,7 +100,16 @@ def _spread(count: int, at: int, most: int) -> list[int]:
 
 def _fitting(pictures: list[Image.Image], at: int, room: int) -> tuple[list[int], list[bytes]]:
     """Choose pictures, and encode them, so that they fit: first smaller, then fewer, then smaller still."""
-    encoded = cache(lambda number, size: _encoded(pictures[number], size))
+
+    @cache
+    def encoded(number: int, size: float) -> bytes:
+        picture, data = pictures[number], io.BytesIO()
+        if size < 1:
+            wide, high = (max(1, round(size * length)) for length in picture.size)
+            picture = picture.resize((wide, high), Image.Resampling.LANCZOS)
+        picture.quantize(COLOURS, Image.Quantize.MAXCOVERAGE).save(data, "png", optimize=True)
+        return data.getvalue()
+
     tries = [(count, size) for count in COUNTS for size in SIZES[:2]]
     for count, size in [*tries, *((COUNTS[-1], size) for size in SIZES[2:])]:
         kept = _spread(len(pictures), at, count)
@@ -108,15 +117,6 @@ def _fitting(pictures: list[Image.Image], at: int, room: int) -> tuple[list[int]
         if sum(map(len, small)) <= room:
             break
     return kept, small
-
-
-def _encoded(picture: Image.Image, size: float) -> bytes:
-    if size < 1:
-        wide, high = (max(1, round(size * length)) for length in picture.size)
-        picture = picture.resize((wide, high), Image.Resampling.LANCZOS)
-    data = io.BytesIO()
-    picture.quantize(COLOURS, Image.Quantize.MAXCOVERAGE).save(data, "png", optimize=True)
-    return data.getvalue()
 
 
 def watch(folder: str) -> None:

@@ -19,7 +19,7 @@ from typing import Any
 
 import mocap
 from mocap import graphs
-from mocap._shared.atomic import make_folder, write_text
+from mocap._shared.atomic import make_folder, write_file
 from mocap._shared.progress import Progress
 from mocap.body.motion import resample
 from mocap.course.notebooks import execute, library, notebooks_in, read
@@ -91,17 +91,17 @@ def build_site(notebooks: Path, out: Path, progress: Progress = iter, *, moving:
                     cell.source = cell.source.replace(f"attachment:{name}", f"{file.stem}-{name}")
             _share(notebook, out)
             notebook.cells.insert(1, nbformat.v4.new_markdown_cell(ABOVE, id="note"))
-            write_text(Path(folder, file.name), nbformat.writes(notebook))
+            write_file(Path(folder, file.name), nbformat.writes(notebook))
         for page in notebooks.glob("*.md"):
             shutil.copy(page, folder)
         shutil.copytree(notebooks / "teaching", Path(folder, "teaching"), ignore=PRIVATE)
         titles += [page.relative_to(folder).as_posix() for page in sorted(Path(folder).rglob("*.md"))]
         toc = {"course": "\n".join(titles), "package": "\n".join(_write_reference(Path(folder)))}
-        write_text(Path(folder, "index.md"), Template((HERE / "index.md").read_text("utf-8")).substitute(toc))
+        write_file(Path(folder, "index.md"), Template((HERE / "index.md").read_text("utf-8")).substitute(toc))
         warned = io.StringIO()  # of papers cited twice
         Sphinx(folder, HERE, out, Path(folder, ".doctrees"), "html", status=None, warning=warned).build()
     clips = [resample(sample(name), 30) for name in SAMPLES]
-    write_text(out / "walk.html", walk_page(graphs.prune(graphs.build(clips, window=10, threshold=0.04))))
+    write_file(out / "walk.html", walk_page(graphs.prune(graphs.build(clips, window=10, threshold=0.04))))
     return out / f"{files[0].stem}.html"
 
 
@@ -181,5 +181,5 @@ def _write_reference(folder: Path) -> list[str]:
     found = pkgutil.walk_packages(mocap.__path__, "mocap.")
     rooms = [room.name for room in found if room.ispkg and "._" not in room.name]
     for room in rooms:
-        write_text(folder / "reference" / f"{room}.rst", REFERENCE.format(room, "=" * len(room)))
+        write_file(folder / "reference" / f"{room}.rst", REFERENCE.format(room, "=" * len(room)))
     return [f"reference/{room}" for room in rooms]

@@ -9,7 +9,7 @@ import zlib
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, NamedTuple
 
-from mocap._shared.atomic import UNFINISHED, replacing, write_text
+from mocap._shared.atomic import UNFINISHED, write_file
 from mocap._shared.progress import Progress
 from mocap.datasets.downloads import fetch, kept_in, show_once
 from mocap.errors import MocapError, shortened
@@ -109,7 +109,7 @@ def fetch_set(name: str, progress: Progress = iter) -> list[str]:
         show_once(known.terms())
         packed = fetch(f"{name}/{name}.zip", known.archive, known.sha256, known.terms())
         _unpack(packed, folder, progress)
-        write_text(folder / WHOLE, f"{known.terms()}\n")
+        write_file(folder / WHOLE, f"{known.terms()}\n")
         packed.unlink()
     return sorted(clips_of(name))
 
@@ -121,8 +121,7 @@ def _unpack(archive: Path, folder: Path, progress: Progress) -> None:
             found = [name for name in files.namelist() if name.lower().endswith(".bvh")]
             clips = [name for name in found if not PurePosixPath(name).name.startswith("._")]  # of macOS
             for name in progress(clips):
-                with replacing(folder / PurePosixPath(name).name) as beside:
-                    beside.write_bytes(files.read(name))
+                write_file(folder / PurePosixPath(name).name, files.read(name))
     except (zipfile.BadZipFile, zlib.error, NotImplementedError, EOFError) as error:
         raise MocapError(f"{archive} is damaged, or no .zip file: delete it, and try again.") from error
     if not clips:

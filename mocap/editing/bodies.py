@@ -164,8 +164,8 @@ def require_reachable(motion: Motion, pins: Pins) -> None:
     paths = [set(skeleton.path_to_root(joint)) for joint in pins.joints]
     for a, b in combinations(range(len(pins.joints)), 2):
         below, above = pins.low[:, a] - pins.high[:, b], pins.low[:, b] - pins.high[:, a]
-        apart = np.linalg.norm(np.maximum(np.maximum(below, above), 0.0), axis=-1)
-        bones = np.linalg.norm(skeleton.offsets[sorted(paths[a] ^ paths[b])], axis=-1).sum()
+        apart = np.linalg.norm(np.maximum(np.maximum(below, above), 0.0), axis=1)
+        bones = np.linalg.norm(skeleton.offsets[sorted(paths[a] ^ paths[b])], axis=1).sum()
         worst = int(apart.argmax())
         if apart[worst] > bones + SLACK:
             first, second = (names[pins.joints[number]] for number in (a, b))

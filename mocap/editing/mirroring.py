@@ -54,7 +54,7 @@ def symmetry(skeleton: Skeleton) -> tuple[NDArray[np.intp], Array, Array]:
         name = shortened(skeleton.names[int(alike.argmin())], 40)
         raise MocapError(f"'{name}' has no mirror image: its side has other joints than the other.")
     apart = skeleton.rest - skeleton.rest[partners]
-    pairs = np.flatnonzero((partners < joints) & (np.linalg.norm(apart, axis=-1) > 1e-3))
+    pairs = np.flatnonzero((partners < joints) & (np.linalg.norm(apart, axis=1) > 1e-3))
     if not len(pairs):
         raise MocapError(f"No left and right joints here: {shortened(', '.join(skeleton.names), 100)}.")
     across = apart[pairs[0]] / np.linalg.norm(apart[pairs[0]])
@@ -137,7 +137,7 @@ def mirror(motion: Motion) -> Motion:
     """
     skeleton = motion.skeleton
     partners, across, turns = symmetry(skeleton)
-    lengths = np.linalg.norm(skeleton.offsets, axis=-1)
+    lengths = np.linalg.norm(skeleton.offsets, axis=1)
     gaps = np.abs(lengths - lengths[partners])
     if gaps.max() > LOPSIDED:
         far = f"{1e3 * gaps.max():.0f} mm ({shortened(skeleton.names[gaps.argmax()], 40)})"

@@ -142,8 +142,8 @@ def lean(motion: Motion, way: Array, angle: Array) -> tuple[Motion, dict[int, Ar
     -------
     The motion, and where its plants shall be, as the `held` of `feet.clean_up`.
     """
-    height, ahead = motion.root_positions[:, 1], np.stack([np.sin(way), 0 * way, np.cos(way)], axis=-1)
-    left = np.stack([np.cos(way), 0 * way, -np.sin(way)], axis=-1)
+    height, ahead = motion.root_positions[:, 1], np.stack([np.sin(way), 0 * way, np.cos(way)], axis=1)
+    left = np.stack([np.cos(way), 0 * way, -np.sin(way)], axis=1)
     outer = replace(motion, root_positions=motion.root_positions - (height * np.tan(angle))[:, None] * left)
     skeleton, legs = motion.skeleton, find_legs(motion.skeleton)
     shares = {0: PELVIS, **dict.fromkeys(skeleton.children(0), TRUNK)}

@@ -70,7 +70,7 @@ class FootTarget(NamedTuple):
         Returns the way from hip to ankle, (..., F, 3): a side of the triangle whose third corner is the ball,
         at a distance that makes it one. The ankle stays on its side of the line from hip to ball.
         """
-        way, foot = self.places[1] - hip, np.linalg.norm(self.places[1] - self.ankle, axis=-1)
+        way, foot = self.places[1] - hip, np.linalg.norm(self.places[1] - self.ankle, axis=1)
         far = np.sqrt(dot(way, way))
         distance = np.clip(distance, np.abs(far - foot) + FLAT, far + foot - FLAT)
         along = (far**2 + distance**2 - foot**2) / (2 * far)
@@ -112,12 +112,12 @@ def foot_target(
     # Where only the ball stands, the foot's length holds the ankle. At first it stays as near as that allows
     # to its own way from plant to plant.
     away = ankle + smooth_fill(places[0] - ankle, flat, fps) - places[1]
-    behind = places[1] + length * away / np.linalg.norm(away, axis=-1, keepdims=True)
+    behind = places[1] + length * away / np.linalg.norm(away, axis=1, keepdims=True)
     goal = np.where(flat[:, None], places[0], behind)
     side = np.where(track.own < -BACK, -1.0, 1.0)
     # A leg that must become shorter stays bent while its foot stands: the knee of a straight one jolts as
     # soon as the hip moves.
-    shorter = flat & (np.linalg.norm(goal - track.hip, axis=-1) > track.limit + SHORTER)
+    shorter = flat & (np.linalg.norm(goal - track.hip, axis=1) > track.limit + SHORTER)
     reach = np.where(binary_propagation(shorter, mask=flat), track.long(BENT), track.limit)
     return FootTarget(track, goal, 0 * goal, places, marks, side, reach).led()
 
@@ -170,7 +170,7 @@ def _pull_in(places: Array, marks: Mask, track: LegTrack) -> Array:
     for _ in range(PULLS):
         ball = np.where(marks[1][:, None], _beyond(track, places[1], foot), 0.0)
         beyond = np.where(marks[0][:, None], _beyond(track, places[0]), ball)
-        far = np.linalg.norm(beyond, axis=-1)
+        far = np.linalg.norm(beyond, axis=1)
         for start, stop in runs(marks[0] | marks[1]) if far.any() else ():
             places[:, start:stop] -= beyond[start + far[start:stop].argmax()]
     return places
@@ -182,7 +182,7 @@ def _beyond(track: LegTrack, place: Array, foot: float = 0.0) -> Array:
     The root may fall, the less the more the leg lies: to lower the root would not help a leg that lies.
     """
     apart = place - track.hip
-    distance = np.linalg.norm(apart, axis=-1)
+    distance = np.linalg.norm(apart, axis=1)
     fall = FALL * track.length * np.minimum(apart[:, 1] / distance, 0.0) ** 2
     excess = distance - track.limit - foot - fall
     return np.asarray(apart * (np.where(excess > 0, excess + ROUNDING, 0.0) / distance)[:, None])
@@ -218,7 +218,7 @@ def smooth_fill(values: Array, known: Mask, fps: float, fade: float = FADE) -> A
         apart = slice(len(values) - later)
         bands[later, apart] *= ~(known[later:] | known[apart])
     bands[0] += known
-    solved = solveh_banded(bands, target, lower=True, check_finite=False)
+    solved = solveh_banded(bands, target, lower=True)
     return np.where(known[:, None], filled, solved)
 
 

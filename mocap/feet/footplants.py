@@ -138,7 +138,7 @@ def _near_place(path: Array, slow: Mask, distance: float) -> Mask:
     near = np.zeros(len(slow), bool)
     for start, stop in runs(slow):
         places = path[start:stop]
-        near[start:stop] = np.linalg.norm(places - np.median(places, axis=0), axis=-1) < distance
+        near[start:stop] = np.linalg.norm(places - np.median(places, axis=0), axis=1) < distance
     return near
 
 
@@ -170,8 +170,8 @@ def settle(marks: Mask, span: int) -> Mask:
 
     Examples
     --------
-    >>> settle(np.array([1, 1, 0, 1, 0, 0, 0, 1, 0, 0], bool), 2).astype(int)
-    array([1, 1, 1, 1, 0, 0, 0, 0, 0, 0])
+    >>> settle(np.array([1, 1, 0, 1, 0, 0, 1, 0, 0, 1, 1, 0], bool), 2).astype(int)
+    array([1, 1, 1, 1, 0, 0, 0, 0, 0, 1, 1, 0])
     """
     settled = np.array(marks, bool)
     for start, stop in runs(~settled):

@@ -95,7 +95,7 @@ def hold_plants(
     excesses = [(slice(None), abs(change[0]) - MOST * length - ROUNDING)]
     excesses += [(slice(None), beyond.max(axis=0) - UNSEEN * length)]
     for n, (target, (_, wanted)) in enumerate(zip(targets, poses, strict=True)):
-        lack = np.linalg.norm(wanted, axis=-1) - target.track.long(0.0) - ROUNDING
+        lack = np.linalg.norm(wanted, axis=1) - target.track.long(0.0) - ROUNDING
         excesses.append((slice(n, n + 1), np.where(target.planted, lack, -1.0)))
     return change[0], list(targets), poses, [excess for excess in excesses if (excess[1] > 0).any()]
 
@@ -126,7 +126,7 @@ def _bounds(targets: Sequence[FootTarget]) -> tuple[Array, Array]:
     """Give how far the root may fall and rise for all planted legs to reach, (F,) each, metres."""
     most, every = MOST * targets[0].track.length, []
     for target in targets:
-        foot = (np.linalg.norm(target.places[1] - target.ankle, axis=-1) - FLAT) * target.rolls
+        foot = (np.linalg.norm(target.places[1] - target.ankle, axis=1) - FLAT) * target.rolls
         place = np.where(target.rolls[:, None], target.places[1], target.ankle)
         every.append(np.where(target.planted, target.track.rises(place, foot), [[-most], [most]]))
     # Where one leg asks for a lower root than another or than the bound, the lower one counts.
@@ -156,8 +156,8 @@ def _displacements(targets: Sequence[FootTarget], change: Array) -> Array:
 
 def _knees(rows: Array) -> Array:
     """Take the knees' part of all rows (..., 1 + 7 L, F): (..., L, 3, F)."""
-    legs = rows[..., 1:, :]
-    return legs.reshape(*legs.shape[:-2], -1, 7, legs.shape[-1])[..., :3, :]
+    *others, _, frames = rows.shape
+    return rows[..., 1:, :].reshape(*others, -1, 7, frames)[..., :3, :]
 
 
 def _least_bent(targets: Sequence[FootTarget], change: Array, push: Array, most: Array, span: int) -> Array:

@@ -128,7 +128,7 @@ def track_leg(motion: Motion, leg: Leg, poses: GlobalPoses) -> LegTrack:
     hip, knee, ankle, ball = (poses.positions[:, joint] for joint in leg)
     thigh, shank, frame = knee - hip, ankle - knee, poses.matrices[:, leg.hip]
     across = np.cross(thigh, shank)
-    if np.linalg.norm(across, axis=-1).max() <= STIFF:
+    if np.abs(across).max() <= STIFF:
         name = motion.skeleton.names[leg.knee]
         raise MocapError(f"'{name}' is straight in every frame: which way does it bend?")
     axis = np.einsum("fji,fj->fi", frame, across).sum(axis=0)  # seen from the thigh

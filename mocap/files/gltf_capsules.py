@@ -82,20 +82,16 @@ def _pieces(skeleton: Skeleton, longest: float) -> Iterator[Piece]:
     A head from which no bone starts gets a ball further along the bone that leads to it.
     """
     behind, places, ball = reaches(skeleton), skeleton.rest, HEAD * longest
+    heads = [re.search("head(?!.*(end|top|nub|site))", name.lower()) for name in skeleton.names]
     for joint, (parent, bone) in enumerate(zip(skeleton.parents.tolist(), skeleton.offsets, strict=True)):
         length = np.linalg.norm(bone) if joint else 0.0
-        if length > 0 and _is_head(skeleton, joint) and not skeleton.children(joint):
+        if length > 0 and heads[joint] and not skeleton.children(joint):
             yield joint, places[joint] + 0.7 * ball / length * bone, np.zeros(3), ball
         if length > LEAST * longest:
             start, radius = places[parent], THICK * np.sqrt(longest * (length + behind[joint]))
-            if _is_head(skeleton, parent):
+            if heads[parent]:
                 start, bone, radius = start + 0.4 * bone, 0.2 * bone, max(radius, ball)
             yield parent, start, bone, radius
-
-
-def _is_head(skeleton: Skeleton, joint: int) -> bool:
-    name = skeleton.names[joint].lower()
-    return "head" in name and not re.search("head.*(end|top|nub|site)", name)
 
 
 def _capsule(start: Array, bone: Array, radius: float) -> tuple[Array, Array]:

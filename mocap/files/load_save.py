@@ -5,7 +5,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from mocap._shared.arrays import Array
-from mocap._shared.atomic import replacing
+from mocap._shared.atomic import write_file
 from mocap.body.motion import Motion, turning
 from mocap.errors import FormatError, MocapError
 from mocap.files import acclaim, amass, bvh, gltf
@@ -149,9 +149,7 @@ def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
         case ".bvh":
             bvh.write([motion], path, frames=len(motion), turns=turning(motion), precision=precision)
         case ".glb":
-            data = gltf.glb(motion)
-            with replacing(path) as beside:
-                beside.write_bytes(data)
+            write_file(path, gltf.glb(motion))
         case _:
             raise MocapError(f"Cannot write {path}: mocap writes {WRITTEN}.")
 

@@ -169,11 +169,11 @@ def find_hops(edges: EdgeTable, leaves: Indices, nodes: int, fps: float) -> Hops
         here, ridden, over = node, 0, False
         while not over:
             found += [(node, here - node, way) for way in range(ways[here], ways[here + 1])]
-            if ride[here] < 0:
+            if ride[here] == -1:
                 break
             ridden, here = ridden + frames[ride[here]], here + 1
             # A hop ends when it has lasted long enough, or where nothing leaves its clip's end.
-            over = ridden >= HOP * fps or (ride[here] < 0 and ways[here] == ways[here + 1])
+            over = ridden >= HOP * fps or (ride[here] == -1 and ways[here] == ways[here + 1])
         if over:
             found.append((node, here - node - 1, ride[here - 1]))
     start, rides, last = np.array(found).T

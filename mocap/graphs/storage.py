@@ -140,8 +140,12 @@ def load(
     Notebook: 05b-choice-points
     """
     found = read(path)
-    given_clips = _find_clips(path, skeleton, progress) if clips is None else clips
-    by_name = {clip.name: resample(clip, found.fps) for clip in given_clips}
+    if clips is None:
+        clips = [] if (placed := find_origins(path)) else [sample(name) for name in found.names]
+        for origin in progress(placed):
+            clip = load_motion(origin.path, skeleton=skeleton or origin.skeleton, scale=origin.scale)
+            clips.append(mirror(clip) if origin.mirrored else clip)
+    by_name = {clip.name: resample(clip, found.fps) for clip in clips}
     with suppress(KeyError, MocapError):  # one end sites for all; what does not go together is named below
         by_name.update(zip(found.names, require_alike([by_name[name] for name in found.names]), strict=True))
     for name, frames, known in zip(found.names, found.frames, found.fingerprints, strict=True):
@@ -202,17 +206,6 @@ def _unpack(path: str | Path) -> Arrays:
             if not np.all(holds):
                 raise FormatError(path, None, f"that {what}", "a damaged file")
     return arrays
-
-
-def _find_clips(path: str | Path, skeleton: Path | None, progress: Progress) -> list[Motion]:
-    placed = find_origins(path)
-    if not placed:
-        return [sample(name) for name in read(path).names]
-    clips = []
-    for origin in progress(placed):
-        clip = load_motion(origin.path, skeleton=skeleton or origin.skeleton, scale=origin.scale)
-        clips.append(mirror(clip) if origin.mirrored else clip)
-    return clips
 
 
 def find_origins(path: str | Path) -> list[Origin]:

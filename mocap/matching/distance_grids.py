@@ -80,11 +80,11 @@ def cloud(points: Array, level: Array, weights: Array, window: int, dtype: type[
     ground = on_ground(points)
     centroids = ground @ weights  # (F,)
     heights, ground = (points[..., 1] - level) * root, (ground - centroids[:, None]) * root
-    frame_sizes = (heights**2).sum(-1) + (np.abs(ground) ** 2).sum(-1)
+    frame_sizes = (heights**2).sum(1) + (np.abs(ground) ** 2).sum(1)
     paths = sliding_window_view(centroids, window)
     centres = paths @ each
     paths = (paths - centres[:, None]) * np.sqrt(each)  # (F - k + 1, k)
-    sizes = sliding_window_view(frame_sizes, window) @ each + (np.abs(paths) ** 2).sum(-1)
+    sizes = sliding_window_view(frame_sizes, window) @ each + (np.abs(paths) ** 2).sum(1)
     off = (0, window - 1)
     return Cloud(
         heights.astype(dtype),

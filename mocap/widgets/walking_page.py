@@ -60,14 +60,8 @@ def pack_graph(graph: MotionGraph) -> tuple[dict[str, Any], bytes]:
     packed = [numbers(ends[:, 0], 1), numbers(ends[:, 1], 1), *(numbers(column) for column in rows.T)]
     nodes = [numbers([node[part] for node in graph.graph], 1) for part in (0, 1)]
     going = sorted({label for _, _, edge in edges for label in edge["labels"]} - {"stand"})
-    counts = {"nodes": len(place), "edges": len(edges), "labels": labels, "going": going}
-    return _about(graph) | counts, motion + b"".join([*nodes, *packed])
-
-
-def _about(graph: MotionGraph) -> dict[str, Any]:
-    """Say what the numbers mean, and how the search is set."""
     skeleton = graph.clips[0].skeleton
-    return {
+    about = {
         "fps": graph.fps,
         "window": graph.window,
         "clips": [{"name": clip.name, "frames": len(clip)} for clip in graph.clips],
@@ -77,8 +71,10 @@ def _about(graph: MotionGraph) -> dict[str, Any]:
         "steps": STEPS,
         "figure": figure(skeleton),
         "feet": feet(skeleton),
-        "search": {name.lower(): getattr(plain, name) for name in SETTINGS},
+        "search": {name.lower(): getattr(plain, name) for name in SETTINGS},  # how it is set
+        **{"nodes": len(place), "edges": len(edges), "labels": labels, "going": going},
     }
+    return about, motion + b"".join([*nodes, *packed])
 
 
 def _row(graph: MotionGraph, labels: list[str], ends: tuple[Node, Node], edge: dict[str, Any]) -> list[int]:

@@ -17,7 +17,7 @@ from pathlib import Path
 from types import FunctionType, ModuleType
 from typing import Any
 
-from mocap._shared.atomic import write_text
+from mocap._shared.atomic import write_file
 from mocap.course.notebooks import names_of
 from mocap.errors import MocapError
 
@@ -192,5 +192,5 @@ def keep(file: Path, name: str, notebook: str, source: str) -> str:
     kept.sort(key=lambda part: part[1].partition("(")[2])  # by notebook
     start = head.rstrip() + "\n" if head.strip() else HEAD
     text = "\n\n".join([start, *(heading + body.rstrip() + "\n" for _, heading, body in kept)]) + FOOT
-    write_text(file, text)
+    write_file(file, text)
     return text

@@ -12,7 +12,7 @@ from pathlib import Path
 from string import Template
 from typing import Any, NamedTuple
 
-from mocap._shared.atomic import make_folder, write_text
+from mocap._shared.atomic import make_folder, write_file
 from mocap.course.checks import all_checks
 from mocap.errors import MocapError
 
@@ -198,12 +198,10 @@ def tables(marks: Sequence[Mark], grades: Sequence[Grade], points: Points, title
     made["-table"].insert(0, ("student", *worth, "points"))
     made["-moodle"].insert(0, (*MOODLE, "Grade"))
     made["-canvas"][:0] = [(*CANVAS, title), ("Points Possible", *4 * [""], round(sum(worth.values()), 4))]
-    return {end: _written(rows) for end, rows in made.items()}
-
-
-def _written(rows: Iterable[Iterable[object]]) -> str:
-    csv.writer(text := io.StringIO(), lineterminator="\n").writerows(map(_cell, row) for row in rows)
-    return text.getvalue()
+    texts = {end: io.StringIO() for end in made}
+    for end, text in texts.items():
+        csv.writer(text, lineterminator="\n").writerows(map(_cell, row) for row in made[end])
+    return {end: text.getvalue() for end, text in texts.items()}
 
 
 def _cell(value: object) -> object:
@@ -238,6 +236,6 @@ def write_feedback(grades: Iterable[Grade], points: Points, folder: Path) -> lis
         file = folder / f"{start}_feedback.html"
         while file in files:  # of another name with other signs
             file = file.with_stem(f"{file.stem}_")
-        write_text(file, PAGE.substitute(title=title, body="\n".join(parts)))
+        write_file(file, PAGE.substitute(title=title, body="\n".join(parts)))
         files.append(file)
     return files

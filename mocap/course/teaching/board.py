@@ -17,7 +17,7 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont, ImageOps
 
 from mocap import datasets, graphs, matching, plotting
-from mocap._shared.atomic import make_folder, replacing
+from mocap._shared.atomic import make_folder, write_file
 from mocap._shared.progress import Progress
 from mocap.body import GroundPath, Motion, arcs, resample, rotations
 from mocap.body.planar import lay_on
@@ -122,9 +122,11 @@ def write_board(out: Path, progress: Progress = iter) -> list[Path]:
     The files, the sheet of all last.
     """
     make_folder(out)
-    files = [_saved(board_sheet(name), out / f"{name}.png") for name in progress(list(BOARD))]
-    page = _laid_out([Image.open(file).convert("RGB") for file in files], SMALL, 3)
-    return [*files, _saved(page, out / "board.png")]
+    pages = {out / f"{name}.png": board_sheet(name) for name in progress(list(BOARD))}
+    pages[out / "board.png"] = _laid_out([page.convert("RGB") for page in pages.values()], SMALL, 3)
+    for file, page in pages.items():
+        write_file(file, few_colours(page))
+    return list(pages)
 
 
 def _laid_out(pictures: list[Image.Image], room: tuple[int, int], columns: int, head: int = 0) -> Image.Image:
@@ -135,12 +137,6 @@ def _laid_out(pictures: list[Image.Image], room: tuple[int, int], columns: int, 
         place = (GAP + number % columns * wide, head + number // columns * high)
         page.paste(ImageOps.pad(picture, room, SMOOTH, PAPER), place)
     return page
-
-
-def _saved(page: Image.Image, path: Path) -> Path:
-    with replacing(path) as beside:
-        beside.write_bytes(few_colours(page))
-    return path
 
 
 @cache

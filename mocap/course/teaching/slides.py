@@ -18,13 +18,12 @@ import re
 import shutil
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
-from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 from string import Template
 from typing import Any
 
-from mocap._shared.atomic import make_folder, write_text
+from mocap._shared.atomic import make_folder, write_file
 from mocap._shared.progress import Progress
 from mocap.course.formulas import to_mathml
 from mocap.course.notebooks import library, notebooks_in
@@ -153,12 +152,12 @@ def build_slides(notebooks: Path, out: Path, progress: Progress = iter, *, movin
     _copy_reveal(out)
     for file in progress(files):
         title, notebook = prepared(file, moving=moving)
-        write_text(
+        write_file(
             out / f"{file.stem}.html",
             page_of(title, deck_of(deck_file(file), notebook), {f.stem for f in files}),
         )
         rows.append(f'<li><a href="{file.stem}.html">{html.escape(title)}</a></li>')
-    write_text(out / "index.html", Template(LIST.read_text("utf-8")).substitute(rows="\n".join(rows)))
+    write_file(out / "index.html", Template(LIST.read_text("utf-8")).substitute(rows="\n".join(rows)))
     return out / "index.html"
 
 
@@ -200,22 +199,16 @@ def page_of(title: str, slides: Iterable[Slide], names: Collection[str]) -> str:
 
 def to_html(cells: Iterable[Any]) -> str:
     """Convert cells; formulas become MathML."""
+    from nbconvert import HTMLExporter
     from nbformat.v4 import new_notebook
 
     def formula(found: re.Match[str]) -> str:
         return found[1] or to_mathml(html.unescape(found[3] or found[4]), block=bool(found[3]))
 
-    made = ""
+    made, exporter = "", HTMLExporter(template_name="basic")  # type: ignore[no-untyped-call]
     for cell in cells:
-        body, _ = _exporter().from_notebook_node(new_notebook(cells=[cell]))
+        body, _ = exporter.from_notebook_node(new_notebook(cells=[cell]))
         if cell.cell_type == "markdown":
             body = MATH.sub(formula, ANCHOR.sub("", body))
         made += re.sub(r' id="cell-id=[^"]*"', "", body)
     return re.sub(r'(href="(?!https?:)[^"]*)\.(?:ipynb|md)\b', r"\1.html", made)
-
-
-@cache
-def _exporter() -> Any:  # noqa: ANN401
-    from nbconvert import HTMLExporter
-
-    return HTMLExporter(template_name="basic")  # type: ignore[no-untyped-call]

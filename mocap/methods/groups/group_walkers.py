@@ -46,7 +46,7 @@ class GroupWalkers:
     @property
     def tracks(self) -> Points:
         """Where each root is, (F, N) complex."""
-        return np.stack([on_ground(motion.root_positions) for motion in self.motions], axis=-1)
+        return np.stack([on_ground(motion.root_positions) for motion in self.motions], axis=1)
 
     @property
     def off(self) -> Array:
@@ -124,7 +124,7 @@ def walk_group(
     if kept < KEPT:
         warn(f"{1 - kept:.0%} of the planted frames were let go: these clips take other steps than the plan.")
     seconds, clock = np.arange(len(motions[0])) / compiled.fps, np.arange(frames) / RATE
-    wanted = np.stack([np.interp(seconds, clock, places) for places in flock.places.T], axis=-1)
+    wanted = np.stack([np.interp(seconds, clock, places) for places in flock.places.T], axis=1)
     return GroupWalkers(motions, kept, wanted)
 
 

@@ -90,7 +90,7 @@ def hand_target(
     """
     tip, root = (motion.skeleton.index(name) for name in (hand, shoulder))
     points = joint_positions(motion)
-    arms = np.linalg.norm(points[:, tip] - points[:, root], axis=-1)
+    arms = np.linalg.norm(points[:, tip] - points[:, root], axis=1)
     moment = arms.argmax() if at is None else round(at * (len(motion) - 1))
     x, _, z = motion.root_positions[0]
     away = points[moment, tip] - [x, 0, z]

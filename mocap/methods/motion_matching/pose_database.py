@@ -100,7 +100,7 @@ def ahead_columns(ahead: Points) -> Array:
 def _seen(vectors: Array, back: Points, origin: Points | float = 0.0) -> Array:
     """See vectors (F, 3) from the body, which is turned back: to its left, up, ahead."""
     seen = (on_ground(vectors) - origin) * back
-    return np.stack([seen.imag, vectors[:, 1], seen.real], axis=-1)
+    return np.stack([seen.imag, vectors[:, 1], seen.real], axis=1)
 
 
 @dataclass(frozen=True, eq=False)

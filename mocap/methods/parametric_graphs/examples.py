@@ -207,7 +207,7 @@ def tabled(found: Sequence[Cut], grid: Array, *, dropped: int = 0) -> Examples:
         facing, ground = np.unwrap(heading(turns[:, 0])), on_ground(roots)
         turns[:, 0] = rotations.multiply(rotations.about_y(-facing), turns[:, 0])
         near = np.round(frames).astype(int)
-        contact = np.stack([clip.contacts[name][near] for name in names], axis=-1)
+        contact = np.stack([clip.contacts[name][near] for name in names], axis=1)
         clock = (frames - frames[zero]) / clip.fps
         way = np.abs(np.diff(ground[zero : one + 1])).sum() / clock[one]
         speed, spin = np.gradient(ground, step) * np.exp(-1j * facing), np.gradient(facing, step)

@@ -170,7 +170,7 @@ class ParametricController:
             window, facing = (joint_positions(p)[:, space.examples.joints].reshape(-1, 3) for p in parts)
             lay = align(window, facing)
             place = self.place @ lay
-        cost = float(np.sqrt(((window - lay.apply_points(facing)) ** 2).sum(axis=-1).mean()))
+        cost = float(np.sqrt(((window - lay.apply_points(facing)) ** 2).sum(axis=1).mean()))
         self.chosen.append(Chosen(node, wished, taken, made.values, cost))
         rest, old = self._laid(self._at, centre - HALF), self.place.apply_motion(parts[0])
         self.node, self.parameters, self.made, self.place = node, taken, made, place

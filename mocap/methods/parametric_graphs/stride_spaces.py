@@ -55,7 +55,7 @@ def measure_mixes(strides: Examples, weights: Array) -> Array:
     zero, one = strides.ends
     way = np.abs(np.diff(ground[:, zero : one + 1], axis=1)).sum(axis=1)
     turn = facing[:, one] - facing[:, zero] - strides.sway
-    return np.stack([turn, way / (weights @ strides.seconds)[:, one]], axis=-1)
+    return np.stack([turn, way / (weights @ strides.seconds)[:, one]], axis=1)
 
 
 def make_space(strides: Examples, width: float, low: float, high: float) -> Space:
@@ -160,5 +160,5 @@ def place_evenly(space: Space, count: int) -> Array:
     gaps = nearest_samples(values, values[chosen], space.scale, 1)[1][:, 0]
     while len(chosen) < min(count, len(values)):
         chosen.append(int(gaps.argmax()))
-        gaps = np.minimum(gaps, np.linalg.norm((values - values[chosen[-1]]) / space.scale, axis=-1))
+        gaps = np.minimum(gaps, np.linalg.norm((values - values[chosen[-1]]) / space.scale, axis=1))
     return values[chosen]
