@@ -17,6 +17,7 @@ from scipy.spatial.transform import Rotation
 from mocap._shared.arrays import Array, frozen
 
 IDENTITY: Array = frozen([1.0, 0.0, 0.0, 0.0], np.float64)
+Z_UP: Array = frozen([0.5**0.5, -(0.5**0.5), 0.0, 0.0], np.float64)  # turns what points along z upwards
 
 
 def from_matrix(matrices: ArrayLike) -> Array:

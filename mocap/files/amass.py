@@ -27,7 +27,6 @@ from mocap.files.recordings import Recording
 _JOINTS: dict[str, Any] = tomllib.loads(Path(__file__).with_name("smpl.toml").read_text("utf-8"))
 SKELETON = replace(Skeleton.from_table(_JOINTS), dofs=["xyz"] * len(_JOINTS))
 PELVIS = np.array([0.0, -0.223, 0.028])  # where `trans` 0 puts the pelvis, in the archive's own axes
-UPRIGHT = rotations.from_rotvec([-np.pi / 2, 0, 0])  # from z up to y up
 
 RATES = ("mocap_framerate", "mocap_frame_rate")
 WIDTH = 3 * len(SKELETON)
@@ -92,8 +91,8 @@ def read(path: str | Path, *, fps: float | None = None) -> Recording:
         warn(f"{path}: betas, the shape of the body, are ignored: {so}.")
     poses, trans = (rows.astype(float) for rows in numbers.values())
     local = rotations.from_rotvec(poses.reshape(len(poses), -1, 3))
-    local[:, 0] = rotations.multiply(UPRIGHT, local[:, 0])
-    places = rotations.rotate(UPRIGHT, PELVIS + trans)
+    local[:, 0] = rotations.multiply(rotations.Z_UP, local[:, 0])
+    places = rotations.rotate(rotations.Z_UP, PELVIS + trans)
     return Recording(Motion(SKELETON, places, local, rate, Path(path).stem), {}, {})
 
 

@@ -20,7 +20,10 @@ from numpy.typing import NDArray
 from mocap._shared.arrays import Array
 from mocap._shared.atomic import replacing
 from mocap.body import euler, rotations
+from mocap.body.kinematics import joint_positions
+from mocap.body.limbs import find_pair
 from mocap.body.motion import Motion
+from mocap.body.rotations import Z_UP
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError, shortened, warn
 from mocap.files.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
@@ -31,6 +34,7 @@ from mocap.files.text import LARGEST, check_room, quick_numbers, read_text, to_n
 SCALE = 0.01  # metres in one unit of the files that are written, and by default of those that are read
 STILL = 1e-5  # metres that a fixed joint may move in its parent's frame: rounding of printed numbers
 SHORTEST, LONGEST = 1e-5, 10.0  # seconds a frame may last
+ALONG = 0.8  # how much of a leg's length is along z where the file has z up
 TIMES = re.compile(
     r"\s*Frames[ \t]*:[ \t]*(\S+)[ \t]*\n\s*Frame[ \t]+Time[ \t]*:[ \t]*(\S+)[ \t]*(?:\n|\Z)", re.IGNORECASE
 )
@@ -58,7 +62,8 @@ def read(
 
     Warns
     -----
-    MocapWarning : where bones were fitted, with how much they stretch, and how far joints moved.
+    MocapWarning : where bones were fitted, with how much they stretch, and how far joints moved; and where
+        legs, found by their names, stand along z at rest and in most frames: then y is made to point up.
     """
     joints, blocks, rate = _channels(path, fps=fps)
     angles = {joint.name: block[:, _turning(joint)] for joint, block in zip(joints, blocks, strict=True)}
@@ -68,7 +73,24 @@ def read(
     offsets, local = _rigid(path, joints, (places, local), stretch)
     skeleton = Skeleton(names, parents, offsets, dofs=[_turns(joint)[::-1] for joint in joints])
     motion = Motion(skeleton, places[:, 0], local, rate, Path(path).stem)
-    return Recording(motion, angles, dict(zip(names[1:], lengths[1:], strict=True)))
+    return Recording(_upright(path, motion), angles, dict(zip(names[1:], lengths[1:], strict=True)))
+
+
+def _upright(path: str | Path, motion: Motion) -> Motion:
+    """Turn all axes so that y is up, where both legs stand along z at rest and in most frames."""
+    skeleton = motion.skeleton
+    if not (legs := find_pair(skeleton, "legs")):
+        return motion
+    (hips, _, ankles), poses = np.transpose(legs), np.vstack([skeleton.rest[None], joint_positions(motion)])
+    up = poses[:, hips] - poses[:, ankles]
+    along_z = (up[..., 2] > ALONG * np.linalg.norm(up, axis=-1)).all(axis=1)
+    if not along_z[0] or along_z[1:].mean() < 0.5:
+        return motion
+    warn(f"{path}: the body stands along z: turned so that y is up.")
+    roots, offsets = (rotations.rotate(Z_UP, way) for way in (motion.root_positions, skeleton.offsets))
+    local = rotations.multiply(rotations.multiply(Z_UP, motion.rotations), rotations.inverse(Z_UP))
+    upright = replace(skeleton, offsets=offsets, axes=np.tile(Z_UP, (len(skeleton), 1)))
+    return replace(motion, skeleton=upright, root_positions=roots, rotations=local)
 
 
 def _poses(joints: list[Joint], blocks: list[Array], scale: float) -> tuple[list[Joint], Array, Array]:
@@ -82,7 +104,8 @@ def _poses(joints: list[Joint], blocks: list[Array], scale: float) -> tuple[list
                 places[:, index, POSITIONS.index(channel)] = numbers
         if order := _turns(joint):
             local[:, index] = euler.from_euler(order.upper(), np.radians(block[:, _turning(joint)]))
-    if [joint.parent for joint in joints].count(0) == 1 and _moves(places[:, 1], scale):
+    parents = [joint.parent for joint in joints]
+    if parents.count(0) == 1 and np.ptp(places[:, 1], axis=0).max() * scale > STILL:
         # The only child takes the root's place: p = p_root + R_root p_child, R = R_root R_child.
         places[:, 1] = places[:, 0] + rotations.rotate(local[:, 0], places[:, 1])
         local[:, 1] = rotations.multiply(local[:, 0], local[:, 1])
@@ -151,23 +174,19 @@ def _rigid(
 ) -> tuple[Array, Array]:
     """Give the offsets of rigid bones (J, 3) and rotations (F, J, 4); bones may stretch by `most` metres."""
     places, local = poses
-    moving = [j for j in range(1, len(joints)) if _moves(places[:, j], 1.0)]
-    if not moving:
+    moved = np.ptp(places[:, 1:], axis=0).max(axis=1)  # metres, of each joint but the root
+    if not (moved > STILL).any():
         return np.vstack([np.zeros((1, 3)), places[0, 1:]]), local
     offsets, fitted, stretch, apart = fit(np.array([joint.parent for joint in joints]), places, local)
     worst = int(stretch.argmax())
     if stretch.max() > most or apart.max() > APART * most:
-        far, mover = max((float(np.ptp(places[:, j], axis=0).max()), j) for j in moving)
-        expected = f"'{joints[mover].name}' in one place below its parent, but for {most:g} m"
-        raise FormatError(path, joints[mover].line, expected, f"one that moves by {far:.2g} m")
+        mover = joints[1 + int(moved.argmax())]
+        expected = f"'{mover.name}' in one place below its parent, but for {most:g} m"
+        raise FormatError(path, mover.line, expected, f"one that moves by {moved.max():.2g} m")
     change = f"{1000 * stretch[worst]:.2g} mm ({shortened(joints[worst].name, 40)})"
     off = f"fitted to rigid bones, joints lie up to {1000 * apart.max():.2g} mm from their places"
     warn(f"{path}: bones change length by up to {change}; {off} in the file.")
     return offsets, fitted
-
-
-def _moves(place: Array, scale: float) -> bool:
-    return bool(np.ptp(place, axis=0).max() * scale > STILL)
 
 
 def write(

@@ -1,6 +1,8 @@
 """What a command cannot do is one sentence, status 2, and a folder as it was; hostile values too."""
 
 import argparse
+import tomllib
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -57,88 +59,7 @@ def contents(folder):
     return {path: path.read_bytes() if path.is_file() else None for path in folder.rglob("*")}
 
 
-CROWD = "crowd --members 3 --through goal.csv -o x --no-film"
-
-
-REFUSED = [
-    ("", "the following arguments are required: COMMAND (see mocap --help)"),
-    ("walk g.npz --random 1s --width 5", "belong to --path"),
-    ("walk g.npz --random 1s --label 0:walk", "belong to --path"),
-    ("walk g.npz --random 1s --bend -o x.bvh", "belong to --path"),
-    ("walk g.npz --random 99h", "up to 24h"),
-    ("walk g.npz --random 1s --scale 0.01", "--scale belongs to --clips"),
-    ("walk g.npz --random 1s --seed -1", "--seed: '-1' is not a whole number from 0"),
-    ("walk g.npz --path l.csv --width -1", "--width: '-1' is not a whole number from 1"),
-    ("walk g.npz --path l.csv --seed 1", "--seed belongs to --random"),
-    ("walk g.npz --random 1s -o nowhere/x.bvh", "Cannot write nowhere"),
-    ("walk g.npz --random 1s -o a.bvh", "is one of the files to read: choose another name with -o."),
-    ("walk g.npz --random 1s -o a.bvh --clips a.bvh", "is one of the files to read"),
-    ("walk walks.npz --path nowhere.csv", "nowhere.csv"),
-    ("walk walks.npz --path l.csv --label walk", "METRES:LABEL"),
-    ("walk walks.npz --path l.csv --label 0:fly", "there are: walk"),
-    ("walk walks.npz --path l.csv --unit 5000", "is it in metres, and do they walk?"),
-    ("walk walks.npz --path l.csv -o walk.fbx", "as .bvh or .glb"),
-    ("walk walks.npz --path l.csv --bend 0", "'0' is not a number"),
-    ("graph a.bvh --by-labels --whole", "give one of them"),
-    ("graph a.bvh -o g.json", "written as .npz, got"),
-    ("graph a.bvh -o nowhere/g.npz", "No such file or directory"),
-    ("graph a.bvh --graphml g.xml", "graph for other tools is written as .graphml, got"),
-    ("graph a.bvh --threshold 0.001", "no cycle"),
-    ("graph info a.bvh", "a.bvh: expected a motion graph"),
-    ("graph info", "arguments are required: file"),
-    ("demo nowhere.bvh -o x", "nowhere.bvh"),
-    ("demo a.bvh -o x --threshold 0.001", "need at least"),
-    ("demo a.bvh -o x --window 60", "too few for a window of 1800"),
-    ("demo a.bvh -o x --window 0.001", "two frames or more, got 0.001 s at 30 Hz"),
-    ("demo a.bvh -o x --seconds 0", "--seconds: '0' is not"),
-    ("demo a.bvh a.bvh -o x", "given twice: a"),
-    ("demo a.bvh -o a.bvh/below", "Cannot make the folder"),
-    ("demo . -o .", "is one of the files to read"),
-    ("blend a.bvh", "two clips or more"),
-    ("blend a.bvh a.bvh --weights 1", "2 clips need 2 weights, got 1"),
-    ("blend a.bvh a.bvh --weights 1 1", "weights that add up to 1, got [1.0, 1.0]"),
-    ("blend a.bvh a.bvh a.bvh --fade 1", "got 3 clips"),
-    ("blend a.bvh a.bvh --fade 99", "does not lie within"),
-    ("blend a.bvh a.bvh -o a.bvh", "is one of the files to read"),
-    ("blend a.bvh a.bvh -o x.fbx", "as .bvh or .glb"),
-    ("blend walk.bvh a.bvh", "skeletons differ"),
-    ("bend walk.bvh --along bad.csv -o x.bvh", "bad.csv, line 2"),
-    ("bend stands.bvh --along l.csv -o x.bvh", "it stands; there is no path to edit"),
-    ("bend a.bvh --along l.csv -o x.bvh", "legs"),
-    ("bend walk.bvh --along l.csv -o x.mp4", "is written as .bvh or .glb"),
-    ("bend walk.bvh --along l.csv -o x.bvh --skeleton a.asf", ".amc clips"),
-    ("bend walk.bvh -o x.bvh", "--along"),
-    ("warp walk.bvh --keys k.txt -o new.txt", "is written as .bvh or .glb, got"),
-    ("warp walk.bvh --keys k.txt -o walk.bvh", "is one of the files to read"),
-    ("warp a.bvh --keys k.txt -o x.bvh", "give --loose-feet."),
-    ("loop walk.bvh --shortest 60 --longest 60", "a cycle takes 60.2"),
-    ("loop walk.bvh -o ./walk.bvh", "is one of the files to read"),
-    ("retarget in --to child.asf -o x --to-scale 2", "--to-scale is"),
-    ("retarget in --to flat.bvh -o x", "flat.bvh: "),
-    ("retarget in --to in/a.bvh -o in", "is one of the files to read"),
-    ("retarget a.bvh in/a.bvh --to child.asf -o x", "both become"),
-    ("retarget in --to child.asf -o a.bvh/x", "Cannot make the folder"),
-    ("retarget in --to child.asf", "required: -o"),
-    ("find walk.bvh:9- in", "Write CLIP:FROM-TO, as in walk.amc:120-250"),
-    ("find walk.bvh:60-61 walk.bvh", "A query must last 0.3 s or more"),
-    ("find walk.bvh:60-99999 walk.bvh", "has frames 0 to"),
-    ("find walk.bvh:60-90 walk.bvh -o a.bvh", "Cannot make the folder"),
-    (f"{CROWD} --members 1", "2"),
-    (f"{CROWD} --skeleton walk.asf", "--skeleton belongs to --graph"),
-    (f"{CROWD} --graph no.npz", "no.npz"),
-    (f"{CROWD} --through disc.csv", "disc.csv, line 1: expected x and z in each line"),
-    (f"{CROWD} --around goal.csv", "goal.csv, line 1: expected x, z and radius in each line"),
-    (f"{CROWD} --around on-us.csv", "The group starts inside the obstacle at x=0, z=0.1"),
-    (f"{CROWD} --around small.csv", "An obstacle has a centre and a radius above 0"),
-    (f"{CROWD} --around ring.csv", "No way past point 1 of 1 was found"),
-    ("info a.bvh --skeleton nothing.asf", "--skeleton is for .amc clips"),
-    ("info a.bvh --nope", "unrecognized arguments: --nope (see mocap info --help)"),
-    ("info 'a\n\x1b[31m'", r"Cannot read a\n\x1b[31m: No such file or directory."),
-    ("graph build nowhere -o x.npz", "Cannot read nowhere: No such file or directory."),
-    ("convert a.bvh a.bvh", "is one of the files to read"),
-    ("convert . .", "is one of the files to read"),
-    ("data list --subject 5", "No trial of subject 5"),
-]
+REFUSED = tomllib.loads(Path(__file__).with_name("refused.toml").read_text("utf-8"))["REFUSED"]
 
 
 @pytest.mark.parametrize(("line", "message"), REFUSED)

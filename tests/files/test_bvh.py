@@ -10,46 +10,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from mocap.body import Motion, Skeleton, euler, joint_positions, rotations
-from mocap.errors import FormatError
+from mocap.body import Motion, Skeleton, euler, joint_positions, resample, rotations
+from mocap.datasets import sample
+from mocap.errors import FormatError, MocapWarning
 from mocap.files import load_save
+from tests.files.acclaim_clips import TEXTS
 from tests.refusals import refused, refused_texts
 from tests.strategies import random_motion, seeds, wave
 
-BVH = """HIERARCHY
-ROOT hips
-{
-	OFFSET 1 2 3
-	CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
-	JOINT left leg
-	{
-		OFFSET 10 0 0
-		CHANNELS 3 Zrotation Xrotation Yrotation
-		End Site
-		{
-			OFFSET 0 -50 0
-		}
-		End Site
-		{
-			OFFSET 0 -50 20
-		}
-	}
-	JOINT head
-	{
-		OFFSET 0 40 0
-		CHANNELS 3 Yrotation Zrotation Xrotation
-		End Site
-		{
-			OFFSET 0 0 0
-		}
-	}
-}
-MOTION
-Frames: 2
-Frame Time: 0.0333333
-0 100 0 0 0 0 0 0 0 0 0 0
-0 100 50 0 0 90 90 90 0 0 0 0
-"""
+BVH = TEXTS["BVH"]
 
 
 @pytest.fixture
@@ -293,3 +262,19 @@ def test_world_positions_that_others_found(real_data):
         expected = [[row[f"{name}.{axis}"] for axis in "xyz"] for row in rows]
         off = np.abs(joint_positions(motion)[:, index] - expected)
         assert off.max() < 2e-4  # centimetres, printed to 5 digits
+
+
+def test_a_body_that_stands_along_z_is_turned_upright(tmp_path):
+    walk, back = resample(sample("walk_straight"), 30), rotations.from_rotvec([np.pi / 2, 0, 0])
+    offsets, places = (rotations.rotate(back, way) for way in (walk.skeleton.offsets, walk.root_positions))
+    local = rotations.multiply(rotations.multiply(back, walk.rotations), rotations.inverse(back))
+    z_up = replace(walk.skeleton, offsets=offsets)
+    load_save.save(replace(walk, skeleton=z_up, root_positions=places, rotations=local), tmp_path / "a.bvh")
+    with pytest.warns(MocapWarning, match=r"a\.bvh: the body stands along z: turned so that y is up\.$"):
+        upright = load_save.load(tmp_path / "a.bvh")
+    order = [upright.skeleton.index(name) for name in walk.skeleton.names]
+    assert np.allclose(joint_positions(upright)[:, order], joint_positions(walk), atol=1e-6)
+    # Who lies on the back, though the legs are along y at rest, stays as the file has it.
+    turned = np.concatenate([rotations.multiply(back, walk.rotations[:, :1]), walk.rotations[:, 1:]], axis=1)
+    load_save.save(replace(walk, rotations=turned), tmp_path / "a.bvh")
+    assert load_save.load(tmp_path / "a.bvh").root_positions == pytest.approx(walk.root_positions, abs=1e-6)
