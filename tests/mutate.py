@@ -6,9 +6,9 @@
 
 A change concerns one token: a comparison, an operator, a number, and/or, min/max, True/False. Docstrings,
 annotations, imports, decorators, error messages and `strict=` stay as they are. For each change, the tests
-that name the module run first, then the rest of its room, then rooms above (with --near, only the first of
-these). A failing test catches the change, and so does one that does not end. Changes that no test catches are
-printed, as file:line:column old -> new. Not for Windows: each run is a fork.
+that name the module run first, then the rest of its room, rooms above, and what all rooms gave (with --near,
+only the first of these). A failing test catches the change, and so does one that does not end. Changes that
+no test catches are printed, as file:line:column old -> new. Not for Windows: each run is a fork.
 """
 
 import argparse
@@ -146,7 +146,7 @@ def tests_of(root: Path, path: str) -> list[list[str]]:
     first.sort(key=lambda file: file != f"tests/{room}/test_{module}.py")
     rest = [file for file in files if file not in first]
     above = [f"tests/{name}" for name in ABOVE.get(str(room), "").split()]
-    return [group for group in ([path, *first], rest, above) if group]
+    return [group for group in ([path, *first], rest, above, ["tests/test_same_results.py"]) if group]
 
 
 def make_copy(copy: Path) -> Path:

@@ -1,58 +1,53 @@
-"""Build, prune, walk and follow give what they gave before the package was put into rooms: the same numbers.
+"""All rooms give what they gave: graphs and walks the same numbers, motions the same to six digits.
 
-All that is compared is whole numbers, so that the last digits of another processor do not matter. Where a
-number is to change, a commit says why.
+What is expected stands in `same_results.toml`. Walks are compared as whole numbers, so that the last digits
+of another processor do not matter; motions by a sum, in which each number has another weight. Where one is
+to change, a commit says why.
 """
 
 import hashlib
+import tomllib
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import mocap
-from mocap import body, datasets, graphs, steering, synthesis
-from tests.bundled import walks_of_16
+from mocap import blending, body, datasets, editing, feet, graphs, steering, synthesis
+from mocap.editing.bodies import hinge_of
+from mocap.graphs.motion_graph import merge_choice_points
+from mocap.matching.transitions import join_clouds
+from mocap.methods import groups, match_webs, motion_matching, parametric_graphs
+from mocap.methods.parametric_graphs.made_motions import make_motion, near_end
+from mocap.methods.parametric_graphs.strides import changing_strides
+from tests.bundled import clips, walking, walks_of_16
+from tests.feet.quiet_clips import slowed, unbent
 from tests.refusals import quietly
 
-EXPECTED = {
-    "bundled": {
-        "transitions": 10088,
-        "whole": (5118, 15199),
-        "pruned": (5029, 14790),
-        "random": (1317, "c3d342f2a5966841"),
-        "S-curve": (466, "a5041f4e4fda1e25"),
-        "square": (642, "ddbde0ce81723d71"),
-    },
-    "CMU 16": {
-        "transitions": 3688,
-        "whole": (1848, 5510),
-        "pruned": (1471, 3905),
-        "random": (1062, "22c774aef647a8a2"),
-        "S-curve": (440, "4c9ca974b0de5883"),
-        "square": (371, "76902fed47f5b378"),
-    },
-}
+EXPECTED = tomllib.loads(Path(__file__).with_name("same_results.toml").read_text("utf-8"))
 
 
-def fingerprint(walk: list) -> tuple[int, str]:
+def fingerprint(walk: list) -> list:
     """Count a walk's edges, and sum them up as the start of a SHA-256."""
     numbers = np.array([(*start, *end, key) for start, end, key in walk], np.int64)
-    return len(walk), hashlib.sha256(numbers.tobytes()).hexdigest()[:16]
+    return [len(walk), hashlib.sha256(numbers.tobytes()).hexdigest()[:16]]
 
 
-@pytest.fixture(params=EXPECTED)
+@pytest.fixture(params=["bundled", "CMU 16"])
 def results(request):
     """Give the graphs of some clips, and what is expected of them."""
     if request.param == "bundled":
-        clips = [datasets.sample(name) for name in datasets.SAMPLES]
+        motions = [datasets.sample(name) for name in datasets.SAMPLES]
     else:
-        clips = walks_of_16(request.getfixturevalue("real_data"))
-    whole = graphs.build([mocap.resample(clip, 30) for clip in clips], window=10, threshold=0.04)
+        motions = walks_of_16(request.getfixturevalue("real_data"))
+    whole = graphs.build([mocap.resample(clip, 30) for clip in motions], window=10, threshold=0.04)
     return whole, graphs.prune(whole), EXPECTED[request.param]
 
 
 def sizes(graph):
-    return graph.graph.number_of_nodes(), graph.graph.number_of_edges()
+    return [graph.graph.number_of_nodes(), graph.graph.number_of_edges()]
 
 
 def test_results_are_the_same(results):
@@ -64,3 +59,174 @@ def test_results_are_the_same(results):
     for shape in ("S-curve", "square"):
         followed = quietly(steering.follow_path, pruned, body.SHAPES[shape]())
         assert fingerprint(followed.walk) == expected[shape], shape
+
+
+WALK = datasets.sample("walk_straight")
+SEAM = blending.join(WALK, 500, WALK, 233, 40)
+NOISE = np.random.default_rng(1).normal(0, 0.0005, WALK.root_positions.shape)
+
+
+def moved(motion, base):
+    """Give how far joints are from where they were."""
+    return body.joint_positions(motion) - body.joint_positions(base)
+
+
+def cleaned(motion, **held):
+    return moved(feet.clean_up(motion, **held), motion)
+
+
+def stood(joint, shares, by):
+    """Hold a joint, at shares of its first plant, where it was but for some metres."""
+    number, (start, stop) = WALK.skeleton.index(joint), feet.runs(WALK.contacts[joint])[1]
+    places, frames = np.full((len(WALK), 3), np.nan), start + ((stop - start) * np.array(shares)).astype(int)
+    places[frames] = body.joint_positions(WALK)[frames, number] + np.array(by)
+    return cleaned(WALK, held={number: places})
+
+
+def reached(frames=240):
+    walk = WALK[:frames]
+    hand = body.joint_positions(walk)[100, walk.skeleton.index("lwrist")]
+    return walk, editing.pin(walk, "lwrist", range(95, 105), np.add(hand, [0.1, 0.4, 0.2]))
+
+
+def played(character, orders):
+    """Steer a character, and lay its poses in a row."""
+    poses = [character.step(*order) for order in orders for _ in range(25)]
+    return [pose.root_position for pose in poses], [pose.rotations for pose in poses]
+
+
+@cache
+def strides(name="walk_curve_2", **how):
+    return parametric_graphs.cut_strides(clips(name), **how)
+
+
+@cache
+def space():
+    return parametric_graphs.make_space(strides(), 0.4, -0.8, 0.8)
+
+
+@cache
+def group():
+    return groups.build_group(3, nodes=2, corridors=(), simulated=40.0, reach=0.4)
+
+
+SCENE = groups.Scene((9 + 2j, 14 - 3j), ((5 + 0j, 0.5), (11 + 1j, 0.8)))
+ORDERS = [(0.0, 1.0), (1.2, 0.7), (-0.8, 1.3)]
+CASES = {
+    "plants under noise": lambda: [
+        *feet.mark_plants(replace(WALK, root_positions=WALK.root_positions + NOISE)).contacts.values(),
+        *slowed(datasets.sample("sneak")[:600], 3).contacts.values(),
+    ],
+    "a seam": lambda: cleaned(SEAM),
+    "straight legs": lambda: cleaned(unbent(datasets.sample("walk_curve_1")[:300], 1)),
+    "straighter legs, slow": lambda: cleaned(unbent(slowed(datasets.sample("sneak")[100:250], 2), 4)),
+    "straight stop": lambda: cleaned(unbent(datasets.sample("stop_and_go")[:300], 3)),
+    "straight jog": lambda: cleaned(unbent(datasets.sample("jog")[:200], 8)),
+    "held out of reach": lambda: stood("rfoot", np.arange(0, 1, 0.01), [0, 0, 0.2]),
+    "ankle held": lambda: stood("lfoot", [0.2, 0.6], [[0.01, 0, 0], [0, 0, 0.02]]),
+    "ball held": lambda: stood("ltoes", np.arange(0, 1, 0.01), [0, 0.01, 0.01]),
+    "edited": lambda: moved(editing.edit(*reached()), WALK[:240]),
+    "in levels": lambda: moved(editing.hierarchy(*reached(160))[0], WALK[:160]),
+    "posed": lambda: moved(editing.posed(WALK, 100, {"lwrist": reached()[1].low[100, 0]}), WALK[100:101]),
+    "keys": lambda: [
+        part
+        for start in (0, 1)
+        for part in editing.offsets(WALK[:60], [editing.Key(start, WALK[90:91]), editing.Key(40)])
+    ],
+    "loop": lambda: moved(editing.loop(WALK), editing.loop(WALK, straight=True)),
+    "ride": lambda: editing.ride_of(WALK[:300]).handles,
+    "bent": lambda: editing.bend(WALK, body.GroundPath([[0, 0], [0, 3], [3, 4]])).motion.rotations,
+    "worn": lambda: body.joint_positions(
+        editing.retarget(
+            WALK[:120], editing.proportioned(editing.stance_of(WALK), legs=0.6, arms=0.7, trunk=0.8)
+        )
+    ),
+    "plants on a cart": lambda: list(
+        feet.mark_plants(
+            replace(WALK, root_positions=WALK.root_positions + np.arange(len(WALK))[:, None] * [0, 0, 0.003])
+        ).contacts.values()
+    ),
+    "mean turns": lambda: body.rotations.mean(WALK.rotations[:60].reshape(-1, 4, 4)),
+    "solved": lambda: editing.solve(*reached(160), [editing.Basis(knots=0.125)]).worst,
+    "hinges": lambda: [hinge_of(WALK[:frames], 3) for frames in (4, 5, 40)],
+    "limits": lambda: editing.limit_turns(WALK, ["ltibia", "lowerneck"]).high,
+    "mixed": lambda: body.joint_positions(
+        blending.mix(blending.register([WALK[100:500], WALK[233:640]]), [0.3, 0.7])
+    ),
+    "flock": lambda: groups.simulate(5, 10),
+    "flock between walls": lambda: groups.simulate(5, 10, corridor=2.5),
+    "group": lambda: [part for clip in group().clips for part in (clip.places, clip.turn, clip.move)],
+    "planned group": lambda: groups.play_group(group(), groups.plan_group(group(), SCENE).clips),
+    "led group": lambda: groups.lead_group(group(), groups.Scene((-9 + 0j,)))[0],
+    "steered group": lambda: groups.steer_group(group().nodes[0], SCENE, limit=30.0)[0],
+    "group that bends": lambda: groups.bend_to(
+        run := groups.simulate(3, 4),
+        groups.Configuration(run.places[-1] + [1, 2j, -1], run.velocities[-1] * 1j),
+    ),
+    "strides": lambda: [strides().values, strides().poses, strides().contacts],
+    "stride": lambda: body.joint_positions(strides().blend(np.eye(len(strides()))[0])),
+    "last of a stride": lambda: strides().motion(
+        np.eye(len(strides()))[0], np.array([len(strides().grid) - 1.0]), 30
+    )[1],
+    "joined clouds": lambda: join_clouds(clips("sneak", "jog"), None, 10, 1, np.float64).sizes < np.inf,
+    "changing strides": lambda: [
+        getattr(changing_strides(strides("jog"), strides(), stands=stands), part)
+        for stands in ("", "first", "second")
+        for part in ("values", "poses", "seconds", "contacts")
+    ],
+    "made stride": lambda: make_motion(space(), np.array([0.3])).motion.root_positions,
+    "windows": lambda: near_end(space(), np.array([[0.3], [-0.2]]), 1.0),
+    "parameters": lambda: played(
+        parametric_graphs.ParametricController(
+            parametric_graphs.build_parametric({"walk": space()}, good=0.05)
+        ),
+        ORDERS,
+    ),
+    "matcher": lambda: played(
+        motion_matching.MotionMatcher(motion_matching.tabulate(clips("walk_curve_1", "walk_circle"))), ORDERS
+    ),
+    "controller": lambda: played(steering.Controller(walking()), ORDERS),
+    "web": lambda: [
+        np.hstack([match.rows, match.frames])
+        for match in match_webs.search(match_webs.build_web([WALK], below=0.05), 0, slice(240, 370))
+    ],
+    "space of walks": lambda: (
+        match_webs.sample_space(
+            blending.register([WALK[100:500], WALK[233:640]]), match_webs.mean_speed, count=10
+        ).values
+    ),
+    "merged": lambda: [
+        [
+            edge.get("cost", 0)
+            for *_, edge in merge_choice_points(
+                graphs.build(clips("walk_curve_1", "sneak"), window=10, threshold=0.04),
+                within=3,
+                threshold=0.04,
+            ).graph.edges(data=True)
+        ]
+    ],
+    "crowd": lambda: [
+        walked.motion().root_positions
+        for walked in steering.walk_crowd(
+            walking(), [body.GroundPath([[x, 0], [0.6 - x, 3 + 3 * x]]) for x in (0.0, 0.6, -0.7)]
+        ).walks
+    ],
+}
+
+
+def summed(result):
+    """Say how many numbers there are, and sum up their sizes, and the numbers with other weights each."""
+    parts = result if isinstance(result, list | tuple) else [result]
+    numbers = np.nan_to_num(
+        np.hstack([np.ravel(np.array(part, complex)) for part in parts]), posinf=0, neginf=0
+    )
+    weights = np.exp(1j * np.arange(len(numbers)) ** 2)
+    return [len(numbers), float(np.abs(numbers).sum()), float((numbers * weights).real.sum())]
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_motions_are_the_same(name):
+    numbers, size, total = EXPECTED["motions"][name]
+    found = summed(quietly(CASES[name]))
+    assert found[0] == numbers
+    assert found[1:] == pytest.approx([size, total], rel=1e-6, abs=1e-7 * size)
