@@ -156,7 +156,9 @@ CASES = {
     "flock": lambda: groups.simulate(5, 10),
     "flock between walls": lambda: groups.simulate(5, 10, corridor=2.5),
     "group": lambda: [part for clip in group().clips for part in (clip.places, clip.turn, clip.move)],
-    "planned group": lambda: groups.play_group(group(), groups.plan_group(group(), SCENE).clips),
+    "planned group": lambda: (
+        groups.play_group(group(), (plan := groups.plan_group(group(), SCENE)).clips) + plan[1:]
+    ),
     "led group": lambda: groups.lead_group(group(), groups.Scene((-9 + 0j,)))[0],
     "steered group": lambda: groups.steer_group(group().nodes[0], SCENE, limit=30.0)[0],
     "group that bends": lambda: groups.bend_to(
