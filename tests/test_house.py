@@ -33,7 +33,7 @@ MOST = {
     "functions": 1_414,  # 1 400
     "classes": 166,  # 170
     "public names": 250,  # 250
-    "lines of tests": 19_966,  # 20 000
+    "lines of tests": 19_982,  # 20 000
 }
 
 

@@ -10,6 +10,7 @@ import tomllib
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ import pytest
 import mocap
 from mocap import blending, body, datasets, editing, feet, graphs, steering, synthesis
 from mocap.editing.bodies import hinge_of
+from mocap.editing.warp_plans import load_plan, warp
 from mocap.graphs.motion_graph import merge_choice_points
 from mocap.matching.transitions import join_clouds
 from mocap.methods import groups, match_webs, motion_matching, parametric_graphs
@@ -89,6 +91,13 @@ def reached(frames=240):
     return walk, editing.pin(walk, "lwrist", range(95, 105), np.add(hand, [0.1, 0.4, 0.2]))
 
 
+def planned():
+    with TemporaryDirectory() as folder:
+        file = Path(folder, "keys.txt")
+        file.write_text("at 100 lhand 0.1 0.2 0\nat 1.5s level\ntime 0 0\ntime 1 1.5\ntime 2 2.4")
+        return load_plan(file, WALK[:300])
+
+
 def played(character, orders):
     """Steer a character, and lay its poses in a row."""
     poses = [character.step(*order) for order in orders for _ in range(25)]
@@ -133,6 +142,8 @@ CASES = {
         for start in (0, 1)
         for part in editing.offsets(WALK[:60], [editing.Key(start, WALK[90:91]), editing.Key(40)])
     ],
+    "warped": lambda: moved(warp(WALK[:300], planned()), WALK[:241]),
+    "slower": lambda: editing.retime(WALK, [(0, 0), (0.5, 1), (3, 2)]).root_positions,
     "loop": lambda: moved(editing.loop(WALK), editing.loop(WALK, straight=True)),
     "ride": lambda: editing.ride_of(WALK[:300]).handles,
     "bent": lambda: editing.bend(WALK, body.GroundPath([[0, 0], [0, 3], [3, 4]])).motion.rotations,
@@ -174,7 +185,7 @@ CASES = {
     "changing strides": lambda: [
         getattr(changing_strides(strides("jog"), strides(), stands=stands), part)
         for stands in ("", "first", "second")
-        for part in ("values", "poses", "seconds", "contacts")
+        for part in ("values", "poses", "seconds", "contacts", "sway", "offset")
     ],
     "made stride": lambda: make_motion(space(), np.array([0.3])).motion.root_positions,
     "windows": lambda: near_end(space(), np.array([[0.3], [-0.2]]), 1.0),
@@ -207,6 +218,13 @@ CASES = {
             ).graph.edges(data=True)
         ]
     ],
+    "past others": lambda: (
+        steering.follow_path(
+            walking(),
+            body.s_curve(),
+            steering.Wishes(others=[body.s_curve().points[::9] + 0.5, np.ones((3, 2))]),
+        ).track
+    ),
     "crowd": lambda: [
         walked.motion().root_positions
         for walked in steering.walk_crowd(

@@ -75,8 +75,8 @@ def hold_plants(
     of a film to the next, or a leg is too short.
     """
     tracks = [target.track for target in targets]
-    change, length = np.zeros((1 + len(tracks), len(tracks[0].own))), tracks[0].length
     span, own = max(1, round(SHOWN * tracks[0].motion.fps)), np.array([track.knee.T for track in tracks])
+    change, length = np.zeros((1 + len(tracks), own.shape[-1])), tracks[0].length
     usual, push = np.linalg.norm(_jumps(own, span), axis=1), np.zeros_like(own)
     usual = np.maximum(np.percentile(usual, USUAL, method="lower"), usual)  # (L, F)
     most = usual + AIM * UNSEEN * length
@@ -102,7 +102,7 @@ def hold_plants(
 
 def _eased(target: FootTarget, jolts: Mask) -> FootTarget:
     """Let a knee that jolts no longer be bent backwards in the run of frames in which it was."""
-    back = target.side < 0
+    back = target.side == -1
     return target._replace(side=np.where(binary_propagation(back & jolts, mask=back), 1.0, target.side))
 
 

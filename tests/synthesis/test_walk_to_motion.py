@@ -73,7 +73,7 @@ test_bad_walks_are_refused = refusals(
     (NoWalk, "no edge", to_motion, GRAPH, [((7, 7), (8, 8), 0)]),
     (NoWalk, "jumps from node", to_motion, GRAPH, [SECOND, FIRST]),
     (NoWalk, "none in that clip", walked, 1, (7, 7)),
-    (NoWalk, r"node \(0, 999\); the nearest is \(0, ", walked, 1, (0, 999)),
+    (NoWalk, r"node \(0, 999\); the nearest is \(0, \d\d", walked, 1, (0, 999)),
     ("longer than 0 s, got 0 s", walked, 0),
     (
         NoWalk,
