@@ -22,6 +22,7 @@ from mocap.editing.warp_plans import load_plan, warp
 from mocap.graphs.motion_graph import merge_choice_points
 from mocap.matching.transitions import join_clouds
 from mocap.methods import groups, match_webs, motion_matching, parametric_graphs
+from mocap.methods.match_webs.local_alignment import apart
 from mocap.methods.parametric_graphs.made_motions import make_motion, near_end
 from mocap.methods.parametric_graphs.strides import changing_strides
 from tests.bundled import clips, walking, walks_of_16
@@ -158,6 +159,7 @@ CASES = {
         ).contacts.values()
     ),
     "mean turns": lambda: body.rotations.mean(WALK.rotations[:60].reshape(-1, 4, 4)),
+    "no turns": lambda: np.shape(body.rotations.to_matrix(np.zeros((0, 4)))),
     "solved": lambda: editing.solve(*reached(160), [editing.Basis(knots=0.125)]).worst,
     "hinges": lambda: [hinge_of(WALK[:frames], 3) for frames in (4, 5, 40)],
     "limits": lambda: editing.limit_turns(WALK, ["ltibia", "lowerneck"]).high,
@@ -185,8 +187,9 @@ CASES = {
     "changing strides": lambda: [
         getattr(changing_strides(strides("jog"), strides(), stands=stands), part)
         for stands in ("", "first", "second")
-        for part in ("values", "poses", "seconds", "contacts", "sway", "offset")
+        for part in ("values", "poses", "seconds", "contacts")
     ],
+    "changed sway": lambda: changing_strides(replace(strides("jog"), sway=0.2), strides()).sway,
     "made stride": lambda: make_motion(space(), np.array([0.3])).motion.root_positions,
     "windows": lambda: near_end(space(), np.array([[0.3], [-0.2]]), 1.0),
     "parameters": lambda: played(
@@ -199,6 +202,7 @@ CASES = {
         motion_matching.MotionMatcher(motion_matching.tabulate(clips("walk_curve_1", "walk_circle"))), ORDERS
     ),
     "controller": lambda: played(steering.Controller(walking()), ORDERS),
+    "apart": lambda: apart([np.stack([np.arange(20) + start] * 2, axis=1) for start in (0, 12, 14)], near=1),
     "web": lambda: [
         np.hstack([match.rows, match.frames])
         for match in match_webs.search(match_webs.build_web([WALK], below=0.05), 0, slice(240, 370))

@@ -168,10 +168,9 @@ def _pull_in(places: Array, marks: Mask, track: LegTrack) -> Array:
     foot = float(track.leg.lengths(track.motion.skeleton)[2])
     # A pull for the frame that is furthest out of reach may leave another one: the hip moves.
     for _ in range(PULLS):
-        ball = np.where(marks[1][:, None], _beyond(track, places[1], foot), 0.0)
-        beyond = np.where(marks[0][:, None], _beyond(track, places[0]), ball)
+        beyond = np.where(marks[0][:, None], _beyond(track, places[0]), _beyond(track, places[1], foot))
         far = np.linalg.norm(beyond, axis=1)
-        for start, stop in runs(marks[0] | marks[1]) if far.any() else ():
+        for start, stop in runs(marks[0] | marks[1]):
             places[:, start:stop] -= beyond[start + far[start:stop].argmax()]
     return places
 
