@@ -68,13 +68,6 @@ def demo(
     tell(wrote=out / "walk.gif")
 
 
-def _tell_of_clips(clips: "Sequence[body.Motion]") -> None:
-    names, frames, fps = [clip.name for clip in clips], sum(map(len, clips)), clips[0].fps
-    shown = ", ".join(names if len(names) <= SHOWN else [*names[:SHOWN], f"… {names[-1]}"])
-    tell(clips=f"{len(clips)}: {shown}", frames=f"{frames} at {fps:g} Hz, {frames / fps:.1f} s")
-    tell(body=f"{len(clips[0].skeleton)} joints, {quality.inspect(clips[0]).height:.2f} m tall")
-
-
 def build(
     clips: Sequence[Path],
     *,
