@@ -189,7 +189,7 @@ CASES = {
         for stands in ("", "first", "second")
         for part in ("values", "poses", "seconds", "contacts")
     ],
-    "changed sway": lambda: changing_strides(replace(strides("jog"), sway=0.2), strides()).sway,
+    "changed sway": lambda: changing_strides(*(replace(strides(), sway=sway) for sway in (0.2, 0.1))).sway,
     "made stride": lambda: make_motion(space(), np.array([0.3])).motion.root_positions,
     "windows": lambda: near_end(space(), np.array([[0.3], [-0.2]]), 1.0),
     "parameters": lambda: played(
