@@ -102,11 +102,11 @@ def require_writable(path: str | Path) -> None:
     Traceback (most recent call last):
     mocap.errors.MocapError: Cannot write nowhere/walk.bvh: No such file or directory.
     """
-    real = Path(os.path.realpath(path))
-    if real.is_dir():
-        raise MocapError(f"Cannot write {path}: it is a folder.")
-    with _told(f"write {path}"), _workshop(real):
-        pass
+    with _told(f"write {path}"):
+        if (real := Path(os.path.realpath(path))).is_dir():
+            raise MocapError(f"Cannot write {path}: it is a folder.")
+        with _workshop(real):
+            pass
 
 
 def write_file(path: str | Path, content: str | bytes) -> None:

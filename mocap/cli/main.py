@@ -85,12 +85,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
             status = int(call(options.run, options) or 0)
             sys.stdout.flush()
             return status
-    except MocapError as error:
-        _say(str(error))
-        return 2
     except BrokenPipeError:  # the reader has seen enough, as with `mocap data list | head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 141
+    except (MocapError, OSError) as error:  # of the system: such as a name that is too long
+        _say(str(error))
+        return 2
     except KeyboardInterrupt:
         _say("interrupted; no half-written file is left.")
         return 130
