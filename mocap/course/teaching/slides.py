@@ -18,6 +18,7 @@ import re
 import shutil
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
+from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 from string import Template
@@ -199,16 +200,22 @@ def page_of(title: str, slides: Iterable[Slide], names: Collection[str]) -> str:
 
 def to_html(cells: Iterable[Any]) -> str:
     """Convert cells; formulas become MathML."""
-    from nbconvert import HTMLExporter
     from nbformat.v4 import new_notebook
 
     def formula(found: re.Match[str]) -> str:
         return found[1] or to_mathml(html.unescape(found[3] or found[4]), block=bool(found[3]))
 
-    made, exporter = "", HTMLExporter(template_name="basic")  # type: ignore[no-untyped-call]
+    made = ""
     for cell in cells:
-        body, _ = exporter.from_notebook_node(new_notebook(cells=[cell]))
+        body, _ = _exporter().from_notebook_node(new_notebook(cells=[cell]))
         if cell.cell_type == "markdown":
             body = MATH.sub(formula, ANCHOR.sub("", body))
         made += re.sub(r' id="cell-id=[^"]*"', "", body)
     return re.sub(r'(href="(?!https?:)[^"]*)\.(?:ipynb|md)\b', r"\1.html", made)
+
+
+@cache
+def _exporter() -> Any:  # noqa: ANN401
+    from nbconvert import HTMLExporter
+
+    return HTMLExporter(template_name="basic")  # type: ignore[no-untyped-call]
