@@ -61,7 +61,7 @@ from mocap.methods.match_webs.local_alignment import apart
 from mocap.methods.motion_matching.nearest_frames import foresee
 from mocap.methods.motion_matching.pose_database import PoseDatabase
 from mocap.plotting import ASKED, COLOURS, CURVES, MARK, SOURCES
-from mocap.plotting.bodies_on_path import bodies_along
+from mocap.plotting.bodies import bodies_along
 from mocap.plotting.picture import legible, small_png
 
 Array = NDArray[np.float64]

@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 
 from mocap import datasets, graphs, resample, synthesis
 from mocap.body import s_curve
-from mocap.plotting.bodies_on_path import bodies_along
+from mocap.plotting.bodies import bodies_along
 from mocap.plotting.picture import legible, small_png
 from mocap.steering import follow_path
 

@@ -28,12 +28,12 @@ LISTED = dict(re.findall(r"^([a-z_]+)  +\w.*?(?:\(([\d, to]+)\))?$", mocap.__doc
 FACES = [room for room in ROOMS if room not in ("_shared", "cli", "methods")]
 BEHIND = (*STOREYS, "cli", "_shared")
 MOST = {
-    "lines of code": 17_130,  # the goal: 17 000
-    "lines of code in the course's rooms": 9_520,  # 9 500
+    "lines of code": 17_071,  # the goal: 17 000
+    "lines of code in the course's rooms": 9_471,  # 9 500
     "functions": 1_414,  # 1 400
     "classes": 166,  # 170
     "public names": 250,  # 250
-    "lines of tests": 19_986,  # 20 000
+    "lines of tests": 19_982,  # 20 000
 }
 
 

@@ -14,7 +14,7 @@ from mocap.blending.weights import cubic_weights
 from mocap.body.motion import Motion
 from mocap.matching.point_clouds import point_cloud
 from mocap.matching.transitions import Transition, Transitions
-from mocap.quality.standing_feet import ground_slides
+from mocap.quality.seam_measures import ground_slides
 
 MATCHED = 10  # frames of a window in which matches were found; blends are centred at its middle
 BESIDE = 24  # frames of both clips on either side of this middle

@@ -6,14 +6,13 @@ it made, or the axes; `show` puts the picture into a notebook with a sentence fo
 Reading order (notebooks 00 to 19)
 ----------------------------------
 1. `style`: colours that colour-blind readers can tell apart
-2. `bodies`: bodies as lines, on flat axes
+2. `bodies`: bodies as lines, on flat axes, and a whole walk in one picture
 3. `stick_figures`: bodies on 3D axes with a ground
-4. `bodies_on_path`: a whole walk in one picture
-5. `grids`: distances and costs as images
-6. `ground_charts`: paths and ways from above
-7. `charts`: curves and bands
-8. `graph_drawing`: motion graphs as timelines and as nodes with arrows
-10. `picture`: a figure as a picture in a notebook
+4. `grids`: distances and costs as images
+5. `ground_charts`: paths and ways from above
+6. `charts`: curves and bands
+7. `graph_drawing`: motion graphs as timelines and as nodes with arrows
+8. `picture`: a figure as a picture in a notebook
 
 References
 ----------

@@ -68,20 +68,6 @@ def ground_axes(
     return ax
 
 
-def rims(discs: ArrayLike) -> Array:
-    """Outline discs on the ground, shape (N, 3), x, z and radius in metres: (N, 48, 3).
-
-    Examples
-    --------
-    >>> rims([[3, 4, 1]])[0, ::12].round(6).tolist()
-    [[3.0, 0.0, 5.0], [4.0, 0.0, 4.0], [3.0, 0.0, 3.0], [2.0, 0.0, 4.0]]
-    """
-    x, z, radius = np.reshape(np.asarray(discs, float), (-1, 3)).T[..., None]
-    angle = np.linspace(0, 2 * np.pi, 48, endpoint=False)
-    across, along = x + radius * np.sin(angle), z + radius * np.cos(angle)
-    return np.stack([across, np.zeros_like(across), along], axis=-1)
-
-
 def keep_inside(ax: Axes3D, points: Array) -> None:
     """Zoom out until all points, shape (..., 3), metres, are inside the picture; never zoom in."""
     flat, zoom = to_picture(points).reshape(-1, 3), ZOOM

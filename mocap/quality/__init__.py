@@ -2,17 +2,15 @@
 
 A seam is compared with the clips' own windows of the same length: a jump that the clips have themselves is
 nothing special. A new measure of clips goes into `clip_flaws`, one of seams into `seam_measures`, and one of
-whole motions into `motion_measures`, with its limit.
+whole motions into `judging`, with its limit.
 
 Reading order (notebooks 01, 04, 09 to 11)
 ----------------------------------------
 1. `clip_flaws`: a clip's length, its path and its flaws
-2. `standing_feet`: how far planted feet slide
-3. `seam_measures`: how a seam jolts, turning knees
-4. `falling`: the centre of mass, and the gravity that a flight shows
-5. `joint_limits`: joints that bend beyond what people's do
-6. `motion_measures`: what can be wrong with a motion, each with its limit
-7. `judging`: any motion in a few numbers, each over its limit
+2. `seam_measures`: how far planted feet slide, how a seam jolts, turning knees
+3. `falling`: the centre of mass, and the gravity that a flight shows
+4. `joint_limits`: joints that bend beyond what people's do
+5. `judging`: any motion in a few numbers, each over its limit
 
 References
 ----------
@@ -28,7 +26,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "clip_flaws": ["inspect"],
         "falling": ["centre_of_mass", "gravity"],
         "judging": ["judge"],
-        "standing_feet": ["plant_slides"],
-        "seam_measures": ["jumps", "knee_turns", "seam_quality", "spread"],
+        "seam_measures": ["jumps", "knee_turns", "plant_slides", "seam_quality", "spread"],
     },
 )

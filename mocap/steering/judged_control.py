@@ -13,8 +13,7 @@ from mocap.body.motion import Motion
 from mocap.body.planar import on_ground
 from mocap.errors import MocapError, MocapWarning
 from mocap.feet.footskate import clean_up
-from mocap.quality.seam_measures import USUAL, Spread, jumps
-from mocap.quality.standing_feet import mean_slide, plant_slides
+from mocap.quality.seam_measures import USUAL, Spread, jumps, mean_slide, plant_slides
 from mocap.steering.characters import Character, Delay, measure_delay, steer
 
 TURNS = np.radians([30, 120])  # of a command

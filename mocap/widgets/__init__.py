@@ -5,21 +5,20 @@ a picture that is drawn anew when its controls move.
 
 Reading order (notebooks 00 to 19)
 ----------------------------------
-1. `packing`: bodies and motions as numbers for all scripts
-2. `embedding`: what plays, as part of a page, as a page, and where nothing plays
-3. `player`: a motion that plays, on a page or in a notebook
-4. `live`: live widgets, and a picture when the notebook is opened again
-5. `shared_traits`: what browser and Python share
-6. `live_player`: players whose scene Python changes: a canvas for paths, sliders that mix
-7. `pointing`: handles to drag
-8. `experiments`: a picture with controls
-9. `walk_figure`: the capsules of a body
-10. `shaded_picture`: bodies and their shadows, drawn without a browser
-11. `filmed_scene`: what a player shows at a moment
-12. `film`: a motion as a film, a strip of poses or a page
-13. `company`: characters that take their steps together, and how long each takes to obey
-14. `steered_widget`: characters side by side that obey one command of the reader
-15. `walking_page`: a page on which a figure walks along drawn lines
+1. `embedding`: what plays, as part of a page, as a page, and where nothing plays
+2. `player`: motions as numbers for all scripts, and one that plays, on a page or in a notebook
+3. `live`: live widgets, and a picture when the notebook is opened again
+4. `shared_traits`: what browser and Python share
+5. `live_player`: players whose scene Python changes: a canvas for paths, sliders that mix
+6. `pointing`: handles to drag
+7. `experiments`: a picture with controls
+8. `walk_figure`: the capsules of a body
+9. `shaded_picture`: bodies and their shadows, drawn without a browser
+10. `filmed_scene`: what a player shows at a moment
+11. `film`: a motion as a film, a strip of poses or a page
+12. `company`: characters that take their steps together, and how long each takes to obey
+13. `steered_widget`: characters side by side that obey one command of the reader
+14. `walking_page`: a page on which a figure walks along drawn lines
 
 References
 ----------

@@ -17,7 +17,7 @@ from mocap._shared.arrays import Array
 from mocap.body.kinematics import joint_positions
 from mocap.errors import MocapError, MocapWarning, shortened
 from mocap.steering.characters import Character, CommandClock, Pose, as_motion, require_command
-from mocap.widgets.packing import packed_body
+from mocap.widgets.player import packed_body
 
 MOST = 4  # characters side by side
 

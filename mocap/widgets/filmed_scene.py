@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.ndimage import gaussian_filter1d
 
 from mocap._shared.arrays import Array
-from mocap.plotting.stick_figures import rims
+from mocap.plotting.bodies import rims
 from mocap.plotting.style import FLOOR, QUIET
 from mocap.widgets.shaded_picture import GROUND, ShadedPicture, blend
 from mocap.widgets.walk_figure import capsules_at

@@ -54,7 +54,7 @@ async function inflated(data) {
   return new Response(new Response(bytes).body.pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();
 }
 
-// Undo the second differences over time of `packing.py`, channel by channel; the numbers wrap around as their type does.
+// Undo the second differences over time of `player.py`, channel by channel; the numbers wrap around as their type does.
 function summed(numbers, frames) {
   for (let i = 0, change = 0, number = 0; i < numbers.length; i++) {
     if (i % frames === 0) change = number = 0;

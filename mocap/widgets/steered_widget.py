@@ -19,8 +19,7 @@ from mocap.steering.characters import Character, as_motion
 from mocap.widgets.company import Company, checked
 from mocap.widgets.embedding import PAGE, PICTURE, SCENE, SHADED, TOUCH, joined
 from mocap.widgets.live import display_live
-from mocap.widgets.packing import LOOK
-from mocap.widgets.player import play
+from mocap.widgets.player import LOOK, play
 from mocap.widgets.shared_traits import AnyWidget, shared, validate
 
 OWN = ("steered_walker.js", "steering_page.js", "steering.js")

@@ -11,8 +11,7 @@ from walking import generate_walk
 from mocap.body import joint_positions, place, resample, rotations
 from mocap.datasets import sample
 from mocap.widgets.embedding import PICTURE, SCENE, SHADED, joined
-from mocap.widgets.packing import packed_body, packed_character
-from mocap.widgets.player import play
+from mocap.widgets.player import packed_body, packed_character, play
 from mocap.widgets.walk_figure import figure
 from tests.browser.conftest import drag, fingers_on, on_a_phone, wait_until, without_scripts
 from tests.strategies import wave

@@ -13,8 +13,7 @@ from mocap.errors import MocapWarning
 from mocap.feet.footplants import mark_plants
 from mocap.files import load_save
 from mocap.matching.point_clouds import point_cloud
-from mocap.quality.seam_measures import jumps
-from mocap.quality.standing_feet import ground_slides
+from mocap.quality.seam_measures import ground_slides, jumps
 from tests.refusals import refusals
 from tests.strategies import wave
 

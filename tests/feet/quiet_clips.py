@@ -10,7 +10,7 @@ from mocap.body.kinematics import forward_kinematics, joint_positions
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
 from mocap.feet.leg_track import UP, pose_leg, track_leg
-from mocap.quality.standing_feet import plant_slides
+from mocap.quality.seam_measures import plant_slides
 
 
 def noise(random: np.random.Generator, frames: int, width: float) -> np.ndarray:

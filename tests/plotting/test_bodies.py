@@ -20,8 +20,7 @@ from mocap import datasets, graphs, plotting, resample
 from mocap.body import Skeleton, joint_positions
 from mocap.matching import distance_grid
 from mocap.plotting import stick_figures
-from mocap.plotting.bodies import film_strip
-from mocap.plotting.bodies_on_path import HIGH, LOW, WIDTH, bodies_along
+from mocap.plotting.bodies import HIGH, LOW, WIDTH, bodies_along, film_strip
 from mocap.plotting.stick_figures import to_picture
 from tests.drawn import hold
 from tests.refusals import refusals

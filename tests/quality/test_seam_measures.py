@@ -11,8 +11,7 @@ from mocap.blending import join
 from mocap.body import concatenate, joint_positions
 from mocap.datasets.samples import sample
 from mocap.errors import SkeletonMismatch
-from mocap.quality.seam_measures import jumps, knee_turns, seam_quality, spread
-from mocap.quality.standing_feet import ground_slides, plant_slides
+from mocap.quality.seam_measures import ground_slides, jumps, knee_turns, plant_slides, seam_quality, spread
 from tests.refusals import refusals, refused
 from tests.strategies import glide, random_motion
 

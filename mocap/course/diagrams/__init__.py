@@ -8,14 +8,13 @@ Reading order (notebooks 00 to 09)
 ----------------------------------
  1. `small_graphs`: nodes and edges on two clips, and Tarjan's search on the paper's small graph
  2. `poses`: two half turns, turns whose order matters, and forward kinematics by joint
- 3. `windows`: what a window is, a lower bound of the distance of two, and sums along diagonals
+ 3. `windows`: what a window is, bounds and sums over windows, and a transition in panels
  4. `laying_clouds`: one cloud of points laid on another, from above
  5. `ground`: one clip aligned with another, and how far a walk is from its path, from above
  6. `seams`: frames of a transition, ways between two rotations, a leg as a triangle, and added jolts
  7. `branching`: the walks that branch and bound takes up, and walks from above
  8. `layers`: the layered search along a line, with the line of its code that runs
- 9. `storyboards`: a transition in panels, for the laboratory
-10. `pens`: arrows, words and discs that several of them share
+ 9. `pens`: arrows, words and discs that several of them share
 
 References
 ----------

@@ -28,7 +28,7 @@ from mocap.plotting.bodies import film_strip
 from mocap.plotting.picture import few_colours, small_png
 from mocap.plotting.style import COLOURS
 from mocap.widgets.embedding import PAGE, PICTURE, SCENE, Embedded
-from mocap.widgets.packing import SIDES, packed_character
+from mocap.widgets.player import SIDES, packed_character
 
 SECONDS = 2.6  # how long a film is
 AROUND = 0.3  # a seam lies within as many seconds of the middle, so that nobody knows when it comes

@@ -3,7 +3,7 @@
 
 const STEP = 5e-6; // metres, and parts of a quaternion: what one unit of a number means
 
-// Undo what `packing.py` does: four planes of bytes make 32-bit numbers, which the player's `summed` sums up.
+// Undo what `player.py` does: four planes of bytes make 32-bit numbers, which the player's `summed` sums up.
 function unpacked(bytes, { offset, frames, channels }) {
   const count = frames * channels, planes = new Uint8Array(bytes, offset, 4 * count);
   const whole = (_, k) => planes[k] | (planes[count + k] << 8) | (planes[2 * count + k] << 16) | (planes[3 * count + k] << 24);

@@ -21,7 +21,7 @@ from mocap.body import rotations
 from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from mocap.course.diagrams.storyboards import storyboard
+from mocap.course.diagrams.windows import storyboard
 from mocap.course.lab.choices import CELLS, EACH, MOST, Choices, around, of_clips, of_graph, of_walk
 from mocap.errors import MocapError
 from mocap.graphs.motion_graph import MotionGraph
@@ -30,7 +30,7 @@ from mocap.plotting import ASKED, COLOURS, CURVES, MARK, PATH, QUIET, SOURCES, d
 from mocap.plotting.picture import small_png
 from mocap.steering.followed import Followed
 from mocap.widgets.embedding import SHARED, TOUCH, Embedded
-from mocap.widgets.packing import SIDES, packed, packed_body, with_contacts
+from mocap.widgets.player import SIDES, packed, packed_body, with_contacts
 
 TABS = ("windows", "turn", "weights", "seam")  # in the order in which the course meets them
 PARTS = ("", "_maths", "_maps", "_stage", "_views", "_page")

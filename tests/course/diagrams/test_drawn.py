@@ -1,6 +1,6 @@
 """The diagrams draw what they drew when they were last looked at; tests/drawn.py says how to draw anew.
 
-Of small_graphs, branching, layers, poses, windows, laying_clouds, ground, seams, pens and storyboards.
+Of small_graphs, branching, layers, poses, windows, laying_clouds, ground, seams and pens.
 """
 
 import numpy as np
@@ -12,7 +12,7 @@ from mocap.blending import cubic_weights, join, lay_window_on
 from mocap.body import GroundPath, PlanarTransform, Skeleton, arcs, rotations
 from mocap.course import diagrams
 from mocap.course.diagrams.layers import STRIDE
-from mocap.course.diagrams.storyboards import draw_matched, storyboard
+from mocap.course.diagrams.windows import draw_matched, storyboard
 from mocap.course.lab.choices import Choices, Pick
 from mocap.course.seam_trials import Passage
 from mocap.matching import point_cloud

@@ -12,7 +12,7 @@ from mocap.methods.groups.group_graphs import play_group, random_group_walk
 from mocap.methods.groups.group_steering import clearances, lead_group, steer_group
 from mocap.methods.groups.group_walkers import walk_group
 from mocap.methods.groups.planning import Scene, Search, plan_group
-from mocap.quality.standing_feet import ground_slides
+from mocap.quality.seam_measures import ground_slides
 from tests.bundled import bundled
 from tests.methods.groups.built import around, course, gap, graph, pocket
 from tests.refusals import refusals
