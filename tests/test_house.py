@@ -28,12 +28,12 @@ LISTED = dict(re.findall(r"^([a-z_]+)  +\w.*?(?:\(([\d, to]+)\))?$", mocap.__doc
 FACES = [room for room in ROOMS if room not in ("_shared", "cli", "methods")]
 BEHIND = (*STOREYS, "cli", "_shared")
 MOST = {
-    "lines of code": 17_071,  # the goal: 17 000
-    "lines of code in the course's rooms": 9_471,  # 9 500
-    "functions": 1_414,  # 1 400
-    "classes": 166,  # 170
-    "public names": 250,  # 250
-    "lines of tests": 19_982,  # 20 000
+    "lines of code": 17_000,
+    "lines of code in the course's rooms": 9_500,
+    "functions": 1_400,
+    "classes": 170,
+    "public names": 250,
+    "lines of tests": 20_000,
 }
 
 
@@ -123,7 +123,7 @@ def lines_of_code(text: str) -> int:
 
 
 def test_the_house_stays_small():
-    """What a bound is to become stands beside it: whoever makes the house smaller lowers the bound."""
+    """A new feature finds its lines by removing others."""
     texts = {name: path.read_text("utf-8") for name, path in MODULES.items()}
     code = {name: lines_of_code(text) for name, text in texts.items()}
     walked = [name for name in code if "/" in name and name.split("/")[0] not in BEHIND]

@@ -22,15 +22,14 @@ References
 
 import lazy_loader
 
+_names = {
+    "skeleton": ["Skeleton"],
+    "motion": ["Motion", "concatenate", "resample"],
+    "kinematics": ["joint_positions", "velocities"],
+    "planar": ["PlanarTransform", "heading", "on_ground", "place"],
+    "ground_path": ["GroundPath", "SHAPES", "arcs", "circle", "s_curve", "spline"],
+    "limbs": ["find_legs"],
+}
 __getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__,
-    submodules=["rotations", "euler", "kinematics"],
-    submod_attrs={
-        "skeleton": ["Skeleton"],
-        "motion": ["Motion", "concatenate", "resample"],
-        "kinematics": ["joint_positions", "velocities"],
-        "planar": ["PlanarTransform", "heading", "on_ground", "place"],
-        "ground_path": ["GroundPath", "SHAPES", "arcs", "circle", "s_curve", "spline"],
-        "limbs": ["find_legs"],
-    },
+    __name__, submodules=["rotations", "euler", "kinematics"], submod_attrs=_names
 )

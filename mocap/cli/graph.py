@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
-from mocap import body, datasets, editing, graphs, quality, synthesis, widgets
+from mocap import datasets, editing, graphs, quality, synthesis, widgets
 from mocap._shared.atomic import make_folder, require_folder
 from mocap.cli.options import Building, Seed, bar, check_out, number, require_other, tell, write_out
 from mocap.cli.typed_commands import Group
@@ -102,7 +102,12 @@ def build(
     motions = building.load(found)
     origins = [Origin(file, building.skeleton, building.scale) for file in found]
     if mirror:
-        motions += _mirrored(motions)
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always", MocapWarning)
+            motions += [editing.mirror(clip) for clip in motions]
+        if caught:  # where bodies are lopsided, one warning is enough
+            more = f" So it is with {len(caught) - 1} more." if len(caught) > 1 else ""
+            warn(f"{caught[0].message}{more}")
         origins += [origin._replace(mirrored=True) for origin in origins]
     graph = building.build(motions, bar("comparing"))
     if not whole:
@@ -115,17 +120,6 @@ def build(
 
         write_graphml(graph, graphml)
         tell(wrote=graphml)
-
-
-def _mirrored(clips: "Sequence[body.Motion]") -> "list[body.Motion]":
-    """Mirror all clips; where bodies are lopsided, one warning is enough."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always", MocapWarning)
-        images = [editing.mirror(clip) for clip in clips]
-    if caught:
-        more = f" So it is with {len(caught) - 1} more." if len(caught) > 1 else ""
-        warn(f"{caught[0].message}{more}")
-    return images
 
 
 def info(file: Path) -> None:

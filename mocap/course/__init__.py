@@ -32,9 +32,5 @@ References
 import lazy_loader
 
 __getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__,
-    submodules=["checks", "diagrams", "lab"],
-    submod_attrs={
-        "real_clips": ["collections", "people"],
-    },
+    __name__, submodules=["checks", "diagrams", "lab"], submod_attrs={"real_clips": ["collections", "people"]}
 )

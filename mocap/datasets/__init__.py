@@ -11,11 +11,9 @@ Reading order (notebooks 01, 10, 11)
 
 import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__,
-    submod_attrs={
-        "samples": ["SAMPLES", "sample"],
-        "named_sets": ["from_set"],
-        "cmu_database": ["cmu", "trials"],
-    },
-)
+_names = {
+    "samples": ["SAMPLES", "sample"],
+    "named_sets": ["from_set"],
+    "cmu_database": ["cmu", "trials"],
+}
+__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=_names)

@@ -27,11 +27,9 @@ References
 
 import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__,
-    submod_attrs={
-        "footplants": ["find_footprints", "mark_plants", "runs", "standing_tracks"],
-        "ankle_targets": ["place_plants"],
-        "footskate": ["clean_up"],
-    },
-)
+_names = {
+    "footplants": ["find_footprints", "mark_plants", "runs", "standing_tracks"],
+    "ankle_targets": ["place_plants"],
+    "footskate": ["clean_up"],
+}
+__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=_names)

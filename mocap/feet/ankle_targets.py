@@ -164,27 +164,21 @@ def place_plants(joints: tuple[Array, Array], marks: tuple[Mask, Mask], length: 
 
 
 def _pull_in(places: Array, marks: Mask, track: LegTrack) -> Array:
-    """Pull plants towards the hip until the leg reaches them in each frame, or leg and foot the ball."""
-    foot = float(track.leg.lengths(track.motion.skeleton)[2])
-    # A pull for the frame that is furthest out of reach may leave another one: the hip moves.
-    for _ in range(PULLS):
-        beyond = np.where(marks[0][:, None], _beyond(track, places[0]), _beyond(track, places[1], foot))
-        far = np.linalg.norm(beyond, axis=1)
-        for start, stop in runs(marks[0] | marks[1]):
-            places[:, start:stop] -= beyond[start + far[start:stop].argmax()]
-    return places
-
-
-def _beyond(track: LegTrack, place: Array, foot: float = 0.0) -> Array:
-    """Give the way that places (F, 3) are beyond the leg's reach, (F, 3), metres.
+    """Pull plants towards the hip until the leg reaches them in each frame, or leg and foot the ball.
 
     The root may fall, the less the more the leg lies: to lower the root would not help a leg that lies.
     """
-    apart = place - track.hip
-    distance = np.linalg.norm(apart, axis=1)
-    fall = FALL * track.length * np.minimum(apart[:, 1] / distance, 0.0) ** 2
-    excess = distance - track.limit - foot - fall
-    return np.asarray(apart * (np.where(excess > 0, excess + ROUNDING, 0.0) / distance)[:, None])
+    foot = track.leg.lengths(track.motion.skeleton)[2] * ~marks[0]
+    # A pull for the frame that is furthest out of reach may leave another one: the hip moves.
+    for _ in range(PULLS):
+        apart = np.where(marks[0][:, None], *places) - track.hip
+        distance = np.linalg.norm(apart, axis=1)
+        fall = FALL * track.length * np.minimum(apart[:, 1] / distance, 0.0) ** 2
+        excess = distance - track.limit - foot - fall
+        beyond = apart * (np.where(excess > 0, excess + ROUNDING, 0.0) / distance)[:, None]
+        for start, stop in runs(marks[0] | marks[1]):
+            places[:, start:stop] -= beyond[start + excess[start:stop].argmax()]
+    return places
 
 
 def smooth_fill(values: Array, known: Mask, fps: float, fade: float = FADE) -> Array:

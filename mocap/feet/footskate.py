@@ -25,7 +25,7 @@ from mocap.body.motion import Motion
 from mocap.errors import MocapError, shortened, warn
 from mocap.feet.ankle_targets import FootTarget, foot_target
 from mocap.feet.footplants import least_frames, settle
-from mocap.feet.least_bending import MOST, hold_plants
+from mocap.feet.least_bending import MOST, Excess, hold_plants
 from mocap.feet.leg_track import UP, pose_leg, track_leg
 
 # At most: how often plants are moved before one is let go, each time by this share of the way. With 8 as
@@ -122,7 +122,7 @@ def _way_back(target: FootTarget, frame: int) -> Array:
     return np.asarray(SHARE * plant[:, None] * away)
 
 
-def let_go(marks: Mask, excesses: Sequence[tuple[slice, Array]], span: int) -> Mask:
+def let_go(marks: Mask, excesses: Sequence[Excess], span: int) -> Mask:
     """Unmark the plants nearest to where they go furthest beyond their bounds.
 
     Parameters
@@ -144,9 +144,7 @@ def let_go(marks: Mask, excesses: Sequence[tuple[slice, Array]], span: int) -> M
     return kept
 
 
-def _nearest(
-    marks: Mask, excesses: Sequence[tuple[slice, Array]], span: int
-) -> Iterator[tuple[int, int, int]]:
+def _nearest(marks: Mask, excesses: Sequence[Excess], span: int) -> Iterator[tuple[int, int, int]]:
     """Give the plants nearest to the worst frames, as for `let_go`: leg, joint, and the plant's frame."""
     frames = np.arange(marks.shape[-1])
     for legs, amount in excesses:
@@ -162,9 +160,6 @@ def _warn_of_plants_let_go(motion: Motion, gone: Mapping[str, Mask], most: float
     """Warn of plants that were let go, in the order of the motion's contacts."""
     plants = [f"{name} {a}-{b - 1}" for name in motion.contacts if name in gone for a, b in runs(gone[name])]
     if plants:
-        more = f" and {len(plants) - 2} more" if len(plants) > 2 else ""
-        warn(
-            f"'{shortened(motion.name, 30)}': to hold these plants would move the root by more than "
-            f"{100 * most:.2g} cm, stretch a leg or jolt a knee, so they are let go: "
-            f"{', '.join(plants[:2])}{more}."
-        )
+        told = ", ".join(plants[:2]) + (f" and {len(plants) - 2} more" if len(plants) > 2 else "")
+        why = f"would move the root by more than {100 * most:.2g} cm, stretch a leg or jolt a knee"
+        warn(f"'{shortened(motion.name, 30)}': to hold these plants {why}, so they are let go: {told}.")

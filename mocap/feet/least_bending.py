@@ -51,10 +51,11 @@ TRIES, STEPS, GAIN, AIM = 20, 20, 1e-4, 0.9
 
 STEP = 1e-5  # metres and radians, for slopes
 
+Pose = tuple[Array, Array]  # a knee's angle (..., F), radians, and the way from hip to ankle (..., F, 3)
+Excess = tuple[slice, Array]  # of which legs, and by how much their plants go beyond bounds, (F,)
 
-def hold_plants(
-    targets: Sequence[FootTarget],
-) -> tuple[Array, list[FootTarget], list[tuple[Array, Array]], list[tuple[slice, Array]]]:
+
+def hold_plants(targets: Sequence[FootTarget]) -> tuple[Array, list[FootTarget], list[Pose], list[Excess]]:
     """Find the smoothest correction that brings planted ankles to their targets.
 
     In the paper: [KSG02, step 3]. There the root moves in all directions, and step 4 may stretch the legs.
@@ -106,7 +107,7 @@ def _eased(target: FootTarget, jolts: Mask) -> FootTarget:
     return target._replace(side=np.where(binary_propagation(back & jolts, mask=back), 1.0, target.side))
 
 
-def _pose(target: FootTarget, rise: Array, extra: Array) -> tuple[Array, Array]:
+def _pose(target: FootTarget, rise: Array, extra: Array) -> Pose:
     """Give the knee's angle (..., F), radians, and the way from hip to ankle (..., F, 3) of a risen root."""
     track, free = target.track, target.track.own + extra
     hip = track.hip + rise[..., None] * UP
@@ -116,7 +117,7 @@ def _pose(target: FootTarget, rise: Array, extra: Array) -> tuple[Array, Array]:
     return np.where(target.planted, held, free), wanted
 
 
-def _rolled(target: FootTarget, pose: tuple[Array, Array], rise: Array) -> FootTarget:
+def _rolled(target: FootTarget, pose: Pose, rise: Array) -> FootTarget:
     """Lead an ankle over the places to which its foot has rolled."""
     ankle = target.track.hip + rise[:, None] * UP + pose[1]
     return target._replace(ankle=np.where(target.planted[:, None], ankle, target.ankle)).led()
@@ -166,12 +167,13 @@ def _least_bent(targets: Sequence[FootTarget], change: Array, push: Array, most:
     Knees jump by at most `most` (L, F) over `span` frames, as soon as their multipliers `push` (L, 3, F) are
     found.
     """
-    track, legs, hard = targets[0].track, len(targets), _hard(span)
+    track, legs = targets[0].track, len(targets)
+    hard = HARD / (span * (2 * span**2 + 1) / 3)  # a free curve jumps so much less for a push of 1
     near = (NEAR * track.motion.fps) ** -4.0
     bands = np.repeat([bending_bands(np.ones_like(change[0]), near)], 1 + 7 * legs, axis=0)
     bands[7::7] = bending_bands(0 * change[0], STIFF**2 * near)
     own = _jumps(np.array([target.track.knee.T for target in targets]), span) + push
-    weighed = partial(_weighed, targets, bands, (own, most, span))
+    weighed = partial(_weighed, targets, bands, (own, most, span, hard))
     bottom, top = _bounds(targets)
     change = np.array([np.clip(change[0], bottom, top), *change[1:]])
     (here, pull, over, cost), damping = weighed(change), 1e-3
@@ -198,19 +200,14 @@ def _least_bent(targets: Sequence[FootTarget], change: Array, push: Array, most:
 
 
 def _weighed(
-    targets: Sequence[FootTarget], bands: Array, bounds: tuple[Array, Array, int], change: Array
+    targets: Sequence[FootTarget], bands: Array, bounds: tuple[Array, Array, int, float], change: Array
 ) -> tuple[Array, Array, Array, float]:
     """Give how far all is moved, how hard it is pulled back, by how much knees jump too far, and the sum."""
-    (own, most, span), moved = bounds, _displacements(targets, change)
+    (own, most, span, hard), moved = bounds, _displacements(targets, change)
     pull, over = band_product(bands, moved), _beyond(own + _jumps(_knees(moved), span), most)
-    cost = (moved * pull).sum() + _hard(span) * (over**2).sum()
-    _knees(pull)[:] += _hard(span) * _differences(over, span)
+    cost = (moved * pull).sum() + hard * (over**2).sum()
+    _knees(pull)[:] += hard * _differences(over, span)
     return moved, pull, over, float(cost)
-
-
-def _hard(span: int) -> float:
-    """Say how much a jump too far counts: a curve that bends freely jumps so much less for a push of 1."""
-    return HARD / (span * (2 * span**2 + 1) / 3)
 
 
 def _gauss_newton(

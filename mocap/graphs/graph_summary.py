@@ -73,8 +73,15 @@ def summary(graph: nx.MultiDiGraph, *, fps: float) -> Summary:
     Notebook: 05b-choice-points
     """
     kinds = [kind for _, _, kind in graph.edges(data="kind")]
-    frames, mean, worst = _waits(graph)
-    nodes, degree = len(graph), len(kinds) / max(len(graph), 1)
+    turn_offs = {node for node, _, kind in graph.edges(data="kind") if kind == "transition"}
+    stretches = [(a, b) for a, b, kind in graph.edges(data="kind") if kind == "clip"]
+    ahead: dict[Node, float] = dict.fromkeys(turn_offs, 0.0)  # from a node to the next turn-off
+    waits = list[float]()  # from each frame of clip
+    for start, end in sorted(stretches, reverse=True):  # from the end, so that the next stretch is known
+        own = ahead.get(end, np.inf) + np.arange(end[1] - start[1], 0, -1)
+        ahead.setdefault(start, float(own[0]))
+        waits += [ahead[start], *own[1:].tolist()]
+    frames, nodes, degree = len(waits), len(graph), len(kinds) / max(len(graph), 1)
     counts = (frames, frames / fps, nodes, len(kinds), kinds.count("transition"), degree)
     starts: dict[Labels, set[Node]] = {}
     for start, _, edge in graph.edges(data=True):
@@ -85,20 +92,7 @@ def summary(graph: nx.MultiDiGraph, *, fps: float) -> Summary:
         here: frozenset(there for there in starts if there != here and starts[there] & ways[here])
         for here in starts
     }
-    return Summary(*counts, mean / fps, worst / fps, reachable)
-
-
-def _waits(graph: nx.MultiDiGraph) -> tuple[int, float, float]:
-    """Count the frames of clip, and the frames from them to the next turn-off: on average, and at worst."""
-    turn_offs = {node for node, _, kind in graph.edges(data="kind") if kind == "transition"}
-    stretches = [(a, b) for a, b, kind in graph.edges(data="kind") if kind == "clip"]
-    ahead: dict[Node, float] = dict.fromkeys(turn_offs, 0.0)  # from a node to the next turn-off
-    waits = []
-    for start, end in sorted(stretches, reverse=True):  # from the end, so that the next stretch is known
-        own = ahead.get(end, np.inf) + np.arange(end[1] - start[1], 0, -1)
-        ahead.setdefault(start, float(own[0]))
-        waits += [ahead[start], *own[1:].tolist()]
-    return len(waits), sum(waits) / max(len(waits), 1), max(waits, default=0.0)
+    return Summary(*counts, sum(waits) / max(frames, 1) / fps, max(waits, default=0.0) / fps, reachable)
 
 
 def write_graphml(motion_graph: MotionGraph, path: str | Path) -> None:

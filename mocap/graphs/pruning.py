@@ -195,14 +195,6 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
     frames = {labels: count for labels, (_, count) in found.items()}
     for message in _shortcomings(frames, least_frames, pruned, components):
         warn(message)
-    reasons = _reasons(graph, kept)
-    ends = ((edge, edge[0] if edge[1] in kept else edge[1]) for edge in graph.edges(keys=True))
-    removed = {edge: reasons[end] for edge, end in ends if end in reasons}
-    return Pruning(pruned, components, removed, tuple(reasons))
-
-
-def _reasons(graph: nx.MultiDiGraph, kept: Nodes) -> dict[Hashable, Reason]:
-    """Give the reason for every node that is removed."""
     on_cycle = set(nx.nodes_with_selfloops(graph))
     on_cycle.update(*(part for part in nx.strongly_connected_components(graph) if len(part) > 1))
     after, before = reached(graph, kept), reached(graph.reverse(copy=False), kept)
@@ -211,7 +203,9 @@ def _reasons(graph: nx.MultiDiGraph, kept: Nodes) -> dict[Hashable, Reason]:
         if node not in kept:
             cycle, aside = node in on_cycle, Reason.ASIDE if node in after else Reason.UNREACHED
             reasons[node] = Reason.DEAD_END if not cycle else Reason.SINK if node not in before else aside
-    return reasons
+    ends = ((edge, edge[0] if edge[1] in kept else edge[1]) for edge in graph.edges(keys=True))
+    removed = {edge: reasons[end] for edge, end in ends if end in reasons}
+    return Pruning(pruned, components, removed, tuple(reasons))
 
 
 def _shortcomings(

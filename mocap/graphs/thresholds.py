@@ -2,6 +2,7 @@
 
 from bisect import bisect_left
 from collections.abc import Sequence
+from functools import partial
 from typing import NamedTuple
 
 import networkx as nx
@@ -34,12 +35,10 @@ def smallest_threshold(clips: Sequence[Motion], *, window: int) -> float:
     """
     found = find_transitions(clips, window=window, below=float("inf"))
     found = found[np.argsort(found.cost, kind="stable")]
-
-    def has_cycle(last: int) -> bool:
-        graph = from_transitions(clips, found[: last + 1], window=window).graph
-        return not nx.is_directed_acyclic_graph(graph)
-
-    first = bisect_left(range(len(found)), True, key=has_cycle)  # a cycle stays one with more transitions
+    made = partial(from_transitions, clips, window=window)
+    first = bisect_left(  # a cycle stays one with more transitions
+        range(len(found)), True, key=lambda n: not nx.is_directed_acyclic_graph(made(found[: n + 1]).graph)
+    )
     if first == len(found):
         raise NoWalk("No two windows of these clips join into a cycle: add clips that start and end alike.")
     return found[first].cost

@@ -26,13 +26,11 @@ References
 
 import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__,
-    submod_attrs={
-        "point_clouds": ["align", "distinct_joints", "point_cloud"],
-        "distance_grids": ["distance_grid"],
-        "minima": ["local_minima"],
-        "transitions": ["Transition", "find_transitions"],
-        "time_paths": ["time_path"],
-    },
-)
+_names = {
+    "point_clouds": ["align", "distinct_joints", "point_cloud"],
+    "distance_grids": ["distance_grid"],
+    "minima": ["local_minima"],
+    "transitions": ["Transition", "find_transitions"],
+    "time_paths": ["time_path"],
+}
+__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=_names)

@@ -155,24 +155,20 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
     """
     clips = require_windows(clips, window)
     each: Mapping[Any, float] = below if isinstance(below, Mapping) else {None: below}
-    _check_thresholds(each, clips)
+    if not each:
+        raise MocapError("There is no threshold: name one for at least one pair of labels.")
+    known = sorted({label for clip in clips for label in clip.labels})
+    for pair, metres in each.items():
+        if not metres > 0:
+            raise MocapError(f"A threshold is above 0 m, got {metres} m{f' for {pair}' if pair else ''}.")
+        for label in set(pair or ()) - set(known):
+            raise MocapError(f"No clip has the label '{label}'; there are: {', '.join(known) or 'none'}.")
     gap = int(window == 1)  # longer windows that run off a clip keep the clips apart by themselves
     double = sum(map(len, clips)) <= FEW
     ready = join_clouds(clips, joint_weights, window, gap, np.float64 if double else np.float32)
     found = find_minima(ready, max(each.values()), progress=progress, executor=executor)
     transitions = _both_ways(found, clips, gap)
     return transitions[transitions.cost < _limits(each, clips, window, transitions)]
-
-
-def _check_thresholds(below: Mapping[Any, float], clips: Sequence[Motion]) -> None:
-    if not below:
-        raise MocapError("There is no threshold: name one for at least one pair of labels.")
-    known = sorted({label for clip in clips for label in clip.labels})
-    for pair, metres in below.items():
-        if not metres > 0:
-            raise MocapError(f"A threshold is above 0 m, got {metres} m{f' for {pair}' if pair else ''}.")
-        for label in set(pair or ()) - set(known):
-            raise MocapError(f"No clip has the label '{label}'; there are: {', '.join(known) or 'none'}.")
 
 
 def join_clouds(

@@ -9,10 +9,9 @@ Reading order (notebooks 00 to 19)
 2. `bodies`: bodies as lines, on flat axes, and a whole walk in one picture
 3. `stick_figures`: bodies on 3D axes with a ground
 4. `grids`: distances and costs as images
-5. `ground_charts`: paths and ways from above
-6. `charts`: curves and bands
-7. `graph_drawing`: motion graphs as timelines and as nodes with arrows
-8. `picture`: a figure as a picture in a notebook
+5. `charts`: curves and bands; paths and ways from above
+6. `graph_drawing`: motion graphs as timelines and as nodes with arrows
+7. `picture`: a figure as a picture in a notebook
 
 References
 ----------
@@ -21,16 +20,13 @@ References
 
 import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__,
-    submod_attrs={
-        "style": ["ASKED", "COLOURS", "CURVES", "FLOOR", "MARK", "PATH", "QUIET", "SOURCES"],
-        "bodies": ["bones", "flat_bodies"],
-        "stick_figures": ["StickFigure", "ground_axes"],
-        "grids": ["distance_image", "walk_rows"],
-        "ground_charts": ["draw_group_plan", "path_from_above"],
-        "charts": ["joint_curve", "quartile_band"],
-        "graph_drawing": ["node_link", "timeline"],
-        "picture": ["show"],
-    },
-)
+_names = {
+    "style": ["ASKED", "COLOURS", "CURVES", "FLOOR", "MARK", "PATH", "QUIET", "SOURCES"],
+    "bodies": ["bones", "flat_bodies"],
+    "stick_figures": ["StickFigure", "ground_axes"],
+    "grids": ["distance_image", "walk_rows"],
+    "charts": ["draw_group_plan", "joint_curve", "path_from_above", "quartile_band"],
+    "graph_drawing": ["node_link", "timeline"],
+    "picture": ["show"],
+}
+__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=_names)

@@ -20,12 +20,10 @@ References
 
 import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__,
-    submod_attrs={
-        "clip_flaws": ["inspect"],
-        "falling": ["centre_of_mass", "gravity"],
-        "judging": ["judge"],
-        "seam_measures": ["jumps", "knee_turns", "plant_slides", "seam_quality", "spread"],
-    },
-)
+_names = {
+    "clip_flaws": ["inspect"],
+    "falling": ["centre_of_mass", "gravity"],
+    "judging": ["judge"],
+    "seam_measures": ["jumps", "knee_turns", "plant_slides", "seam_quality", "spread"],
+}
+__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=_names)

@@ -151,6 +151,7 @@ def inspect(motion: Motion, angles: Mapping[str, Array] | None = None) -> Report
     headings = np.unwrap(heading(motion.rotations[:, 0]))
     steps = np.diff(motion.root_positions[:, [0, 2]], axis=0)
     turns = rotations.angle_between(motion.rotations[1:], motion.rotations[:-1])  # (F - 1, J)
+    too_fast = max(SNAP, FAST / motion.fps)  # radians: large for a frame, and fast for a joint
     most, lowest = turns.max(axis=0, initial=0), positions[..., 1].min(axis=0)
     unturned = np.abs(np.abs(motion.rotations) - rotations.IDENTITY).max(axis=(1, 2)) < STILL
     snapped = f"'{names[most.argmax()]}' by {np.degrees(most.max()):.0f}° at most"
@@ -159,8 +160,8 @@ def inspect(motion: Motion, angles: Mapping[str, Array] | None = None) -> Report
         ("frozen", _frozen(motion), ""),
         ("nothing but zeros", unturned & (np.abs(motion.root_positions).max(axis=1) < STILL), ""),
         ("teleport", *_teleports(motion)),
-        ("snap", np.append(False, _too_fast(motion, turns).any(axis=1)), snapped),
-        ("Euler flip", *_flips(motion, turns, angles or {})),
+        ("snap", np.append(False, (turns > too_fast).any(axis=1)), snapped),
+        ("Euler flip", *_flips(motion, turns, too_fast, angles or {})),
         ("under the floor", positions[..., 1].min(axis=1) < -UNDER, sunk),
     ]
     flaws = [Flaw(kind, np.flatnonzero(marks).tolist(), said) for kind, marks, said in found if marks.any()]
@@ -190,18 +191,13 @@ def _teleports(motion: Motion) -> tuple[Mask, str]:
     return np.append(False, sudden), f"{speeds.max(initial=0) / motion.fps:.2f} m at most"
 
 
-def _too_fast(motion: Motion, turns: Array) -> Mask:
-    """Mark turns, radians per frame, that are large for a frame and fast for a joint."""
-    return (turns > SNAP) & (turns * motion.fps > FAST)
-
-
-def _flips(motion: Motion, turns: Array, angles: Mapping[str, Array]) -> tuple[Mask, str]:
+def _flips(motion: Motion, turns: Array, too_fast: float, angles: Mapping[str, Array]) -> tuple[Mask, str]:
     """Mark angles that jump although their joint does not: rotations have no flips."""
     flips = np.zeros(turns.shape, bool)
     for name in set(angles) & set(motion.skeleton.names):
         joint = motion.skeleton.index(name)
         jumps = np.abs(np.diff(angles[name], axis=0)).max(axis=1, initial=0.0)
         further = jumps > FLIP * np.degrees(turns[:, joint])
-        flips[:, joint] = _too_fast(motion, np.radians(jumps)) & further
+        flips[:, joint] = (np.radians(jumps) > too_fast) & further
     names = [motion.skeleton.names[joint] for joint in np.flatnonzero(flips.any(axis=0))[:3]]
     return np.append(False, flips.any(axis=1)), f"angles of {', '.join(names)}; as rotations they are smooth"

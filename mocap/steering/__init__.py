@@ -14,14 +14,13 @@ Reading order (notebooks 08, 12, 17, 18)
  1. `path_objective`: a path, the wishes along it, and their prices
  2. `layered_search`: many walks as arrays, lengthened together
  3. `path_search`: what walks along a path cost, and which of them go on
- 4. `followed`: what was found along a path, and how well it follows the path
+ 4. `followed`: what was found along a path, as it is or laid on any line, and how well it follows the path
  5. `path_following`: find a walk along a path, in layers and by the paper's branch and bound
- 6. `bent_following`: any line with any walk: a walk that turns little beyond its clips, laid on its path
- 7. `waypoints_and_crowds`: places, labels and times to pass; many characters that keep apart
- 8. `characters`: the protocol, the pose that a step gives, a walk by given commands, how soon they are obeyed
- 9. `graph_control`: a character on a motion graph, and how it looks ahead
-10. `foot_turning`: a character that turns about the foot that stands, beyond what its clips turn
-11. `judged_control`: one protocol for all characters
+ 6. `waypoints_and_crowds`: places, labels and times to pass; many characters that keep apart
+ 7. `characters`: the protocol, the pose that a step gives, a walk by given commands, how soon they are obeyed
+ 8. `graph_control`: a character on a motion graph, and how it looks ahead
+ 9. `foot_turning`: a character that turns about the foot that stands, beyond what its clips turn
+10. `judged_control`: one protocol for all characters
 
 References
 ----------
@@ -31,15 +30,13 @@ References
 
 import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__,
-    submod_attrs={
-        "path_objective": ["Settings", "Wishes"],
-        "path_following": ["follow_as_2002", "follow_path"],
-        "waypoints_and_crowds": ["Waypoint", "through_waypoints", "walk_crowd"],
-        "characters": ["Character", "measure_delay", "steer"],
-        "graph_control": ["Controller"],
-        "foot_turning": ["FootTurner"],
-        "judged_control": ["command_headings", "judge_control"],
-    },
-)
+_names = {
+    "path_objective": ["Settings", "Wishes"],
+    "path_following": ["follow_as_2002", "follow_path"],
+    "waypoints_and_crowds": ["Waypoint", "through_waypoints", "walk_crowd"],
+    "characters": ["Character", "measure_delay", "steer"],
+    "graph_control": ["Controller"],
+    "foot_turning": ["FootTurner"],
+    "judged_control": ["command_headings", "judge_control"],
+}
+__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=_names)

@@ -99,7 +99,14 @@ class FootTurner:
         root = complex(on_ground(pose.root_position))
         self.track.append(self.track[-1] + (root - self.last) / self.turn if self.track else 0j)
         self.last = root
-        self._find_standing_foot(self.character.feet())
+        # The slowest of the feet's joints is the pivot, and the turns of those in the air are forgotten.
+        feet = self.character.feet()
+        moved = np.abs(feet - (self.feet if len(self.track) > 1 else feet))
+        self.turned[moved > STANDING / self.fps] = 0
+        pivot = complex(feet[moved.round(6).argmin()])  # all of a flat foot stands: then the ankle
+        if abs(pivot - self.pivot) > APART:
+            self.angle = 0.0
+        self.feet, self.pivot = feet, pivot
         return pose
 
     def _turn(self, heading: float) -> None:
@@ -118,14 +125,3 @@ class FootTurner:
         self.feet = self.pivot + more * (self.feet - self.pivot)
         self.last = self.pivot + more * (self.last - self.pivot)
         self.turned += angle
-
-    def _find_standing_foot(self, feet: Points) -> None:
-        """Take the slowest of the feet's joints as the pivot, and forget the turns of those in the air."""
-        if len(self.track) == 1:
-            self.feet = feet
-        moved = np.abs(feet - self.feet)
-        self.turned[moved > STANDING / self.fps] = 0
-        pivot = complex(feet[moved.round(6).argmin()])  # all of a flat foot stands: then the ankle
-        if abs(pivot - self.pivot) > APART:
-            self.angle = 0.0
-        self.feet, self.pivot = feet, pivot

@@ -109,7 +109,14 @@ class Controller:
         elif not self.decided:
             self._look()
         self.frame += 1
-        return self._pose()
+        here, there, alpha = self._played()
+        root, turns = self._placed(here, self.turn, self.move)
+        if blending := here != there:
+            other, turned = self._placed(there, *self._after())
+            root, turns = alpha * root + (1 - alpha) * other, rotations.slerp(turned, turns, np.array(alpha))
+        clip, frame = here if alpha >= 0.5 else there
+        marks = self.graph.source.clips[clip].contacts.items()
+        return Pose(root, turns, blending, {name: bool(mark[frame]) for name, mark in marks})
 
     @property
     def frames_left(self) -> int:
@@ -157,17 +164,6 @@ class Controller:
         """Place the clip that the edge under way leads to."""
         turn, move = (complex(some[self.edges[0]]) for some in (self.graph.turn, self.graph.move))
         return self.turn * turn, self.move + self.turn * move
-
-    def _pose(self) -> Pose:
-        """Take the last frame from its clip, or blend it from two clips in a transition."""
-        here, there, alpha = self._played()
-        root, turns = self._placed(here, self.turn, self.move)
-        if blending := here != there:
-            other, turned = self._placed(there, *self._after())
-            root, turns = alpha * root + (1 - alpha) * other, rotations.slerp(turned, turns, np.array(alpha))
-        clip, frame = here if alpha >= 0.5 else there
-        marks = self.graph.source.clips[clip].contacts.items()
-        return Pose(root, turns, blending, {name: bool(mark[frame]) for name, mark in marks})
 
     def _placed(self, at: Node, turn: complex, move: complex) -> tuple[Array, Array]:
         """Place one frame of a clip: root position and rotations."""

@@ -13,8 +13,7 @@ from mocap.errors import MocapError, NoWalk, warn
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph, walk_track
 from mocap.graphs.components import reached
 from mocap.graphs.motion_graph import MotionGraph
-from mocap.steering.bent_following import plan_bending
-from mocap.steering.followed import ASTRAY, Followed, account
+from mocap.steering.followed import ASTRAY, Followed, account, plan_bending
 from mocap.steering.layered_search import States, start_states
 from mocap.steering.path_objective import Route, Settings, Wishes, make_route
 from mocap.steering.path_search import SLOWEST, Found, find_walk, too_slow

@@ -17,11 +17,9 @@ References
 
 import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__,
-    submod_attrs={
-        "walk_to_motion": ["seams", "sources", "to_motion"],
-        "random_walks": ["random_walk"],
-        "bounded_search": ["Problem", "branch_and_bound", "search_ahead"],
-    },
-)
+_names = {
+    "walk_to_motion": ["seams", "sources", "to_motion"],
+    "random_walks": ["random_walk"],
+    "bounded_search": ["Problem", "branch_and_bound", "search_ahead"],
+}
+__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=_names)

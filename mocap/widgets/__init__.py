@@ -28,14 +28,12 @@ References
 
 import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__,
-    submod_attrs={
-        "player": ["play"],
-        "live_player": ["Mixer", "draw_path"],
-        "experiments": ["explore", "step_aside"],
-        "pointing": ["handles"],
-        "film": ["save_animation"],
-        "steered_widget": ["steered"],
-    },
-)
+_names = {
+    "player": ["play"],
+    "live_player": ["Mixer", "draw_path"],
+    "experiments": ["explore", "step_aside"],
+    "pointing": ["handles"],
+    "film": ["save_animation"],
+    "steered_widget": ["steered"],
+}
+__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=_names)

@@ -69,8 +69,14 @@ class Member:
         self.steps += count
         poses, places = [], np.empty((count, len(self.joints), 3))
         for frame in range(count):
-            if not self.fault:
-                self._step(order)
+            try:
+                if not self.fault:
+                    pose = self.character.step(*order)
+                    self.stands = pose, joint_positions(as_motion(self.character, [pose]))[0, self.joints]
+            except Exception as error:  # of any kind: it may come from a student's character
+                if self.stands is None:
+                    raise
+                self.fault = shortened(f"{type(error).__name__}: {error}", 200)
             assert self.stands is not None
             pose, places[frame] = self.stands
             self.clock.command(order[0])
@@ -80,16 +86,6 @@ class Member:
             told["obeyed"].append(self.clock.obeyed)
             told["blending"].append(bool(pose.blending))
         return Walked(poses, places, told | {"fault": self.fault, "delays": self.clock.delays[-20:]})
-
-    def _step(self, order: Command) -> None:
-        """Take a step, or say why there is none."""
-        try:
-            pose = self.character.step(*order)
-            self.stands = pose, joint_positions(as_motion(self.character, [pose]))[0, self.joints]
-        except Exception as error:  # of any kind: it may come from a student's character
-            if self.stands is None:
-                raise
-            self.fault = shortened(f"{type(error).__name__}: {error}", 200)
 
 
 class Company:

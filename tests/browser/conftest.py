@@ -43,6 +43,8 @@ CHROMIUM = [
     "--disable-component-update",
     "--disable-sync",
 ]
+FLAT = ["--disable-software-rasterizer"]
+shaded = pytest.mark.parametrize("browser", [[]], indirect=True, ids=["shaded"])
 
 
 def wait_until(what, seconds=120.0):
@@ -86,13 +88,16 @@ def fingers_on(page, part):
 
 
 @pytest.fixture(scope="package")  # not "session": other tests must not find Playwright's event loop running
-def browser():
+def browser(request):
+    """Start a browser, without WebGL unless a test is `shaded`: strokes take two thirds of the work."""
     program = shutil.which("chromium") or shutil.which("chromium-browser")
     if program is None:
         pytest.skip("no Chromium here: apt-get install chromium")
     playwright = pytest.importorskip("playwright.sync_api", reason="pip install playwright")
     with playwright.sync_playwright() as p:
-        chromium = p.chromium.launch(executable_path=program, args=CHROMIUM)
+        chromium = p.chromium.launch(
+            executable_path=program, args=[*CHROMIUM, *getattr(request, "param", FLAT)]
+        )
         yield chromium
         chromium.close()
 

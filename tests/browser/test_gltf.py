@@ -12,7 +12,7 @@ from PIL import Image
 from mocap.body import joint_positions, resample
 from mocap.datasets import samples
 from mocap.files.load_save import save
-from tests.browser.conftest import wait_until
+from tests.browser.conftest import shaded, wait_until
 
 ADDRESS = "http://127.0.0.1:9"  # nobody listens there: the test itself answers
 PAGE = Path(__file__).with_name("gltf_page.html")
@@ -29,6 +29,7 @@ def three():
     pytest.skip("no three.js here: npm install --no-save three")
 
 
+@shaded
 def test_three_js_puts_all_joints_where_ours_are(page, three, tmp_path):
     walk = resample(samples.sample("walk_straight"), 30)
     save(walk, tmp_path / "walk.glb")

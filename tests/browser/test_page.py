@@ -13,7 +13,7 @@ from mocap.datasets import sample
 from mocap.widgets.embedding import PICTURE, SCENE, SHADED, joined
 from mocap.widgets.player import packed_body, packed_character, play
 from mocap.widgets.walk_figure import figure
-from tests.browser.conftest import drag, fingers_on, on_a_phone, wait_until, without_scripts
+from tests.browser.conftest import drag, fingers_on, on_a_phone, shaded, wait_until, without_scripts
 from tests.strategies import wave
 
 PLAYER = "document.querySelector('.mocap-player').player"
@@ -338,6 +338,7 @@ def test_without_scripts_the_picture_stands_there(page, tmp_path):
     assert page.get_by_role("img", name="A figure plays wave").is_visible()
 
 
+@shaded
 def test_bones_of_twelve_share_their_strokes(resting):
     """Their 360 bones in a stroke each took 60 to 110 ms a picture, shared strokes take 6 to 7."""
     page = resting(twelve())
@@ -408,6 +409,7 @@ def test_capsules_lie_around_the_body_as_it_turns(page):
     assert off[7:].max() < 0.01
 
 
+@shaded
 def test_bodies_are_shaded_by_webgl_and_strokes_without_it(resting):
     drawn = f"""() => {{
         const pen = CanvasRenderingContext2D.prototype, {{ drawImage }} = pen;

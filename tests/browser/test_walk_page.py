@@ -13,8 +13,10 @@ import mocap
 from mocap import body, graphs, plain
 from mocap.body import rotations
 from mocap.widgets.walking_page import HERE, STEPS, pack_graph, walk_page
-from tests.browser.conftest import drag, keep, watched_page
+from tests.browser.conftest import drag, keep, shaded, watched_page
 from tests.bundled import WALKS, bundled
+
+pytestmark = shaded
 
 SEARCH = """([about, packed, z, x]) => {
   const bytes = Uint8Array.from(atob(packed), (c) => c.charCodeAt(0));

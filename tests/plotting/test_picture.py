@@ -12,7 +12,7 @@ from nbconvert import HTMLExporter
 from nbformat.v4 import new_code_cell, new_notebook, new_output
 from PIL import Image
 
-from mocap.plotting import bodies, grids, ground_charts
+from mocap.plotting import bodies, charts, grids
 from mocap.plotting.picture import DPI, show
 from tests.refusals import refused
 from tests.strategies import wave
@@ -67,7 +67,7 @@ def test_a_picture_without_a_sentence_is_refused():
     [
         lambda: bodies.film_strip([wave(30), wave(30, phase=1)]),
         lambda: grids.distance_image(np.random.default_rng(0).random((300, 300)).cumsum(0), fps=30),
-        lambda: ground_charts.path_from_above(wave(90)),
+        lambda: charts.path_from_above(wave(90)),
     ],
 )
 def test_pictures_are_small(draw):

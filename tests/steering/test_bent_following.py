@@ -17,7 +17,7 @@ from mocap.files.load_save import load
 from mocap.graphs import build, prune
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.steering import Settings, Wishes, follow_path, path_following
-from mocap.steering.bent_following import own_paths, own_ride, plan_bending
+from mocap.steering.followed import own_paths, own_ride, plan_bending
 from mocap.synthesis import random_walk, to_motion
 from tests.bundled import sneaking, walking
 from tests.editing.test_path_editing import slide

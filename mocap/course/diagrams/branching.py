@@ -18,7 +18,7 @@ from mocap._shared.arrays import Points
 from mocap.course.diagrams.pens import disc, say
 from mocap.course.diagrams.small_graphs import BOX, EIGHT_PLACES, eight_node_graph
 from mocap.plotting import ASKED, COLOURS, CURVES, PATH, QUIET
-from mocap.plotting.ground_charts import seen_from_above
+from mocap.plotting.charts import seen_from_above
 
 Walk = tuple[int, ...]
 Lengths = Mapping[int, Mapping[int, float]]  # lengths[a][b] is that of the edge from a to b

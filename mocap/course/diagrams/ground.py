@@ -11,7 +11,7 @@ from mocap._shared.arrays import Array
 from mocap.body import Motion, PlanarTransform, heading
 from mocap.body.ground_path import GroundPath
 from mocap.course.diagrams.pens import arrow, trace
-from mocap.plotting.ground_charts import seen_from_above
+from mocap.plotting.charts import seen_from_above
 from mocap.plotting.style import ASKED, COLOURS, CURVES, FLOOR, PATH, QUIET, SOURCES
 
 INK = COLOURS["middle"]

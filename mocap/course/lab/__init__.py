@@ -25,13 +25,10 @@ References
 
 import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__,
-    submodules=["own"],
-    submod_attrs={
-        "showing": ["inspector"],
-        "adopting": ["mine", "whose"],
-        "asking": ["bet", "bets", "quiz"],
-        "blind_tests": ["blind_test"],
-    },
-)
+_names = {
+    "showing": ["inspector"],
+    "adopting": ["mine", "whose"],
+    "asking": ["bet", "bets", "quiz"],
+    "blind_tests": ["blind_test"],
+}
+__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submodules=["own"], submod_attrs=_names)

@@ -11,7 +11,7 @@ import io
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from itertools import zip_longest
+from itertools import repeat, zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -188,21 +188,16 @@ def _middle(scene: Scene) -> Callable[[float], Image.Image]:
     """Give the function that draws the middle of a scene at a time."""
     if (figures := scene.figures) is not None:
         return lambda time: Image.fromarray(figures.picture(time, ROOM))
-    labels = scene.labels or [""] * len(scene.pictures)
-    pictures = [_framed(data, label) for data, label in zip(scene.pictures, labels, strict=True)]
-    pictures += [_card(scene.words)] * (scene.kind == "card")
+    pictures = [_card(scene.words)] if scene.kind == "card" else []
+    for data, label in zip(scene.pictures, scene.labels or repeat(""), strict=False):
+        high = ROOM[1] - 34 * bool(label)
+        picture = ImageOps.pad(Image.open(io.BytesIO(data)).convert("RGBA"), (ROOM[0], high), SMOOTH)
+        page = Image.new("RGB", ROOM, PAPER)
+        page.paste(picture, (0, 0), picture)
+        ImageDraw.Draw(page).text((ROOM[0] / 2, ROOM[1] - 30), label, SOFT, font_of(22), anchor="ma")
+        pictures.append(page)
     there_and_back = pictures + pictures[-2:0:-1]
     return lambda time: there_and_back[int(time / SWEEP) % len(there_and_back)]
-
-
-def _framed(data: bytes, label: str) -> Image.Image:
-    """Bring a picture to the size of the middle, above its label."""
-    high = ROOM[1] - 34 * bool(label)
-    picture = ImageOps.pad(Image.open(io.BytesIO(data)).convert("RGBA"), (ROOM[0], high), SMOOTH)
-    page = Image.new("RGB", ROOM, PAPER)
-    page.paste(picture, (0, 0), picture)
-    ImageDraw.Draw(page).text((ROOM[0] / 2, ROOM[1] - 30), label, SOFT, font_of(22), anchor="ma")
-    return page
 
 
 def _card(words: str) -> Image.Image:

@@ -114,17 +114,6 @@ MATH = re.compile(r"(<(pre|code)\b.*?</\2>)|\$\$(.+?)\$\$|\$([^$\n]+?)\$", re.DO
 ANCHOR = re.compile(r'<a class="anchor-link".*?</a>', re.DOTALL)
 
 
-def _copy_reveal(out: Path) -> None:
-    """Copy reveal.js out of the installed package that ships it."""
-    found = find_spec("sphinx_revealjs")
-    folder = Path(found.origin).parent / "_static" / "revealjs" if found and found.origin else Path()
-    if not all((folder / name).is_file() for name in NEEDED):
-        raise missing("Slides need reveal.js, which sphinx-revealjs ships", "slides")
-    for name in NEEDED:
-        make_folder((out / "reveal" / name).parent)
-        shutil.copyfile(folder / name, out / "reveal" / name)
-
-
 def build_slides(notebooks: Path, out: Path, progress: Progress = iter, *, moving: bool = False) -> Path:
     """Write the decks of a folder's notebooks as pages, and a page that lists them.
 
@@ -150,7 +139,13 @@ def build_slides(notebooks: Path, out: Path, progress: Progress = iter, *, movin
     mocap.errors.MocapError: The folder nowhere holds no notebooks.
     """
     files, rows = [file for file in notebooks_in(notebooks) if deck_file(file).is_file()], []
-    _copy_reveal(out)
+    found = find_spec("sphinx_revealjs")
+    folder = Path(found.origin).parent / "_static" / "revealjs" if found and found.origin else Path()
+    if not all((folder / name).is_file() for name in NEEDED):
+        raise missing("Slides need reveal.js, which sphinx-revealjs ships", "slides")
+    for name in NEEDED:  # out of the installed package that ships it
+        make_folder((out / "reveal" / name).parent)
+        shutil.copyfile(folder / name, out / "reveal" / name)
     for file in progress(files):
         title, notebook = prepared(file, moving=moving)
         write_file(

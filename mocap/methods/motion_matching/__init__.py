@@ -19,11 +19,9 @@ References
 
 import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__,
-    submod_attrs={
-        "pose_database": ["GROUPS", "features", "tabulate"],
-        "nearest_frames": ["Wants"],
-        "matching_control": ["MotionMatcher"],
-    },
-)
+_names = {
+    "pose_database": ["GROUPS", "features", "tabulate"],
+    "nearest_frames": ["Wants"],
+    "matching_control": ["MotionMatcher"],
+}
+__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=_names)

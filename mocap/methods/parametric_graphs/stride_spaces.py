@@ -92,7 +92,7 @@ def make_space(strides: Examples, width: float, low: float, high: float) -> Spac
         raise MocapError(f"A range has ends low < high, got {low} and {high}.")
     values = strides.values[:, :1]
     if len(values) < 3 or np.ptp(values) < width / 2:
-        got = f"{len(values)} with a turn of {_span(values)}"
+        got = f"{len(values)} with a turn of {said('turn', values.min())} to {said('turn', values.max())}"
         raise MocapError(f"A space takes 3 strides or more that vary, got {got}: add clips.")
     mixes = bell_weights(values, np.linspace(low - width, high + width, SAMPLES)[:, None], width)
     come = measure_mixes(strides, mixes)[:, :1]
@@ -100,12 +100,9 @@ def make_space(strides: Examples, width: float, low: float, high: float) -> Spac
     space = MotionSpace(strides, mixes, come, np.maximum((ends[1] - ends[0]) / 2, 1e-9), ("turn",), *ends)
     if len(space.reached) < 3:
         inside = f"{len(space.reached)} of {SAMPLES} samples"
-        raise MocapError(f"Only {inside} lie in the range: they come to a turn of {_span(come)}.")
+        turns = f"{said('turn', come.min())} to {said('turn', come.max())}"
+        raise MocapError(f"Only {inside} lie in the range: they come to a turn of {turns}.")
     return space
-
-
-def _span(turns: Array) -> str:
-    return f"{said('turn', turns.min())} to {said('turn', turns.max())}"
 
 
 def said(name: str, value: float) -> str:
