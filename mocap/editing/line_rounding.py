@@ -8,9 +8,8 @@ from scipy.linalg import solveh_banded
 from scipy.ndimage import maximum_filter1d
 from scipy.spatial import cKDTree
 
-from mocap._shared.arrays import Array, Indices, Points
+from mocap._shared.arrays import Array, Indices
 from mocap.body.ground_path import GroundPath
-from mocap.body.planar import from_ground, on_ground
 from mocap.editing.path_editing import CHORD, Ride, moving_frames
 from mocap.editing.turning import RADIUS, SLOWER, places_on
 from mocap.feet.ankle_targets import bending_bands
@@ -95,7 +94,7 @@ def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> Rounde
     (5, 6, 0.4)
     """
     even = path.resampled(SPACING)
-    asked, spacing = on_ground(even.points), path.length / (len(even.points) - 1)
+    asked, spacing = even.points, path.length / (len(even.points) - 1)
     straight = SLOWER * np.diff(ride.along).max(initial=0.0) * fps / limit  # v₀ / limit at its slowest
     # The radius r at which v₀ q(1/r) / r is the limit, in cells.
     radius = max(TIGHTEST, np.sqrt((np.sqrt(RADIUS**4 + 4 * straight**4) - RADIUS**2) / 2)) / spacing
@@ -123,8 +122,8 @@ def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> Rounde
 
 
 def _widened(
-    asked: Points, least: float, most: float, too_fast: Callable[[GroundPath, Array], Indices]
-) -> tuple[Points, bool]:
+    asked: Array, least: float, most: float, too_fast: Callable[[GroundPath, Array], Indices]
+) -> tuple[Array, bool]:
     """Lay the line anew with a wider reach where it is too fast; say whether it is slow enough at the end.
 
     A reach grows within a chord of such a place; further away it falls with a slope.
@@ -132,7 +131,7 @@ def _widened(
     reach, fall = np.full(len(asked), least), FALL * np.arange(len(asked))
     while True:
         line = _smoothed(asked, reach**4)
-        near = too_fast(GroundPath(from_ground(line)), _metres(line))
+        near = too_fast(GroundPath(line), _metres(line))
         grows = near[reach[near] < most]
         if not len(grows):
             return line, not len(near)
@@ -144,46 +143,45 @@ def _widened(
         reach = np.maximum(reach, np.maximum(after, before))
 
 
-def _measured(path: GroundPath, even: GroundPath, line: Points, places: Array) -> RoundedLine:
+def _measured(path: GroundPath, even: GroundPath, line: Array, places: Array) -> RoundedLine:
     """Measure how far a line is from the one asked for, and that from the line."""
 
     def far(points: Array, goal: GroundPath) -> Array:
         return np.asarray(cKDTree(goal.resampled(SPACING / 10).points).query(points)[0])
 
-    rounded = GroundPath(from_ground(line))
+    rounded = GroundPath(line)
     missed = np.interp(places, even.along, far(even.points, rounded))
-    return RoundedLine(rounded, _metres(line), places, np.maximum(far(from_ground(line), path), missed))
+    return RoundedLine(rounded, _metres(line), places, np.maximum(far(line, path), missed))
 
 
-def _metres(line: Points) -> Array:
-    return np.concatenate([[0.0], np.cumsum(np.abs(np.diff(line)))])
+def _metres(line: Array) -> Array:
+    return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
 
 
-def _steered(points: Points, step: float, radius: float) -> tuple[Array, Points]:
+def _steered(points: Array, step: float, radius: float) -> tuple[Array, Array]:
     """Walk along a line, always towards a point ahead on it, and never in a tighter bend than `radius` cells.
 
     Gives where on the line each point of the walk belongs, in cells of `step` metres, and the points.
     """
     last, ahead = len(points) - 1, max(1, round(AHEAD * radius))
     here, at = points[0], 0.0
-    way = step * (points[1] - here) / np.abs(points[1] - here)
+    heading = np.arctan2(*(points[1] - here))
     places, found = [at], [here]
     while at < last:
         window = points[int(at) : int(at) + ahead + 1]
-        at = min(max(at + SLOWEST, int(at) + float(np.abs(window - here).argmin())), last)
+        at = min(max(at + SLOWEST, int(at) + float(np.hypot(*(window - here).T).argmin())), last)
         goal = points[min(int(at) + ahead, last)] - here
-        turn = 2 * np.angle(goal / way) * step / max(np.abs(goal), step)
-        way = way * np.exp(1j * np.clip(turn, -1 / radius, 1 / radius))
-        here = here + way
+        off = np.pi - (np.pi + heading - np.arctan2(*goal)) % (2 * np.pi)  # in (-π, π]
+        turn = 2 * off * step / max(np.hypot(*goal), step)
+        heading += np.clip(turn, -1 / radius, 1 / radius)
+        here = here + step * np.array([np.sin(heading), np.cos(heading)])
         places.append(at)
         found.append(here)
     return np.array(places), np.array(found)
 
 
-def _smoothed(points: Points, weight: Array) -> Points:
+def _smoothed(points: Array, weight: Array) -> Array:
     """Solve (I + Dᵀ Λ D) x = p, where D takes second differences; `weight` (n,) is Λ, unused at the ends."""
     if len(points) < 3:
         return points
-    pairs = np.stack([points.real, points.imag], axis=1)
-    solved = solveh_banded(bending_bands(weight, 1.0), pairs, lower=True)
-    return np.asarray(solved[:, 0] + 1j * solved[:, 1])
+    return np.asarray(solveh_banded(bending_bands(weight, 1.0), points, lower=True))

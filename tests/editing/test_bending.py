@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocap.body import GroundPath, find_legs, joint_positions, on_ground, resample
+from mocap.body import GroundPath, find_legs, joint_positions, resample
 from mocap.body.ground_path import SHAPES, arcs, circle, s_curve
 from mocap.datasets.samples import sample
 from mocap.editing.bending import bend
@@ -189,7 +189,7 @@ def fastest(path, limit=LIMIT, fps=FPS):
 
 def test_the_line_is_the_least_squares_one():
     random = np.random.default_rng(5)
-    points, weight = on_ground(random.normal(size=(30, 2))), random.uniform(0.1, 9, 30)
+    points, weight = random.normal(size=(30, 2)), random.uniform(0.1, 9, 30)
     second = np.diff(np.eye(30), 2, axis=0)
     matrix = np.eye(30) + second.T @ (weight[1:-1, None] * second)
     assert _smoothed(points, weight) == pytest.approx(np.linalg.solve(matrix, points), abs=1e-12)
