@@ -106,7 +106,7 @@ class Pins:
     def places(self, motion: Motion, poses: GlobalPoses) -> Array:
         """Give what the boxes are for, (F, P + T, 3), metres, from a motion and its joints in the world."""
         arms = (turn.arm(motion, poses.matrices)[:, None] for turn in self.turns)
-        return np.concatenate([poses.positions[:, list(self.joints)], *arms], axis=1)
+        return np.hstack([poses.positions[:, list(self.joints)], *arms])
 
     def gap(self, places: Array) -> Array:
         """Measure clip(p, low, high) - p, (F, P + T, 3), metres."""

@@ -19,11 +19,11 @@ from scipy import sparse
 from scipy.linalg import solveh_banded
 
 from mocap._shared.arrays import Array
-from mocap.body.kinematics import forward_kinematics, joint_positions
+from mocap.body.kinematics import forward_kinematics
 from mocap.body.motion import Motion
 from mocap.editing.bodies import ARM, Body, body_of, require_reachable, warn_of_gaps
 from mocap.editing.displacements import displaced, right_jacobian, spline_basis
-from mocap.editing.pins import Pins, pin_errors, require_pins_of
+from mocap.editing.pins import Pins, require_pins_of
 from mocap.errors import MocapError
 from mocap.feet.ankle_targets import smooth_fill
 
@@ -109,8 +109,7 @@ def solve(
 
     In the paper: [Gle98, objective; finer knots], [LS99, inverse kinematics].
 
-    Steps of Levenberg and Marquardt, `Curve.step`, on the control points c of x = B c. The time grows with
-    the frames.
+    Steps of Levenberg and Marquardt, `Curve.step`, on the control points c. The time grows with the frames.
 
     Parameters
     ----------
@@ -152,19 +151,20 @@ def solve(
     if not len(bases):
         raise MocapError("To solve takes a basis or more, got none.")
     body = body or body_of(base, pins)
-    change, worst = np.zeros((len(base), len(body.price))), [float(pin_errors(base, pins).max(initial=0.0))]
+    change, worst = np.zeros((len(base), len(body.price))), list[float]()
     for number, way in enumerate(bases):
         if number == 0 and (np.isfinite(pins.high) & ~pins.held)[:, : len(pins.joints)].any():
             way = way._replace(damping=CEILING)
         if not (way.knots >= 0 <= way.calm and way.weight > 0 <= way.damping and way.lead >= 0 < way.passes):
             raise MocapError(f"A basis needs a weight and a pass above 0, and no number below 0; got {way}.")
-        missed = pin_errors(base, pins).max(axis=1, initial=0.0) > MET
-        rows = np.flatnonzero(missed) if way.alone else slice(None)
-        change = np.zeros_like(change)
-        if missed.any():
-            some = Motion(base.skeleton, base.root_positions[rows], base.rotations[rows], base.fps)
-            wanted = led(base, pins, way.lead) if way.lead else pins
-            change[rows], left = _descend(some, wanted.at(rows), body, way)
+        poses = forward_kinematics(base)
+        places = pins.places(base, poses)
+        missed = np.linalg.norm(pins.gap(places), axis=-1).max(axis=1, initial=0.0)
+        rows = np.flatnonzero(missed > MET) if way.alone else slice(None)
+        worst, change = worst or [float(missed.max(initial=0.0))], np.zeros_like(change)
+        if (missed > MET).any():
+            wanted = led(places, pins, base.fps, way.lead) if way.lead else pins
+            change[rows], left = _descend(base[rows], wanted.at(rows), body, way)
             base = displaced(base, body.displacement(change, len(base.skeleton)))
             worst += left
     if not quiet:
@@ -195,16 +195,16 @@ def _descend(base: Motion, pins: Pins, body: Body, way: Basis) -> tuple[Array, l
     return curve.basis @ c, worst
 
 
-def led(base: Motion, pins: Pins, seconds: float) -> Pins:
-    """Pin joints between their pins, too: to their own way, moved by the curve that bends least [ours].
+def led(places: Array, pins: Pins, fps: float, seconds: float) -> Pins:
+    """Pin joints between their pins, too: to their own places, moved by the curve that bends least [ours].
 
     Without it angles change smoothly, but a foot at the end of a chain of them accelerates.
     """
-    places, low, high = joint_positions(base)[:, list(pins.joints)], pins.low.copy(), pins.high.copy()
+    low, high = pins.low.copy(), pins.high.copy()
     for joint, axis in np.argwhere(pins.held[:, : len(pins.joints)].any(axis=0)):
         at, held = np.s_[:, joint, axis], pins.held[:, joint, axis]
         away = np.where(held, low[at] - places[at], 0.0)[:, None]
-        way = places[at] + smooth_fill(away, held, base.fps, seconds)[:, 0]
+        way = places[at] + smooth_fill(away, held, fps, seconds)[:, 0]
         free = np.isinf(low[at]) & np.isinf(high[at])
         low[at], high[at] = np.where(free, way, low[at]), np.where(free, way, high[at])
     return Pins(pins.joints, low, high, pins.turns)

@@ -76,9 +76,9 @@ def clean_up(
     Notebook: 04b-feet
     """
     legs = find_legs(motion.skeleton) if legs is None else legs
-    marks = asked = settled_marks(motion, legs)
     own, span = forward_kinematics(motion), least_frames(motion.fps)
     tracks = [track_leg(motion, leg, own) for leg in legs]
+    marks = asked = settled_marks(motion, legs)
     moved = np.zeros((len(legs), len(motion), 3))
     for attempt in count():
         # Steps 1, 2 and 5: each plant gets a place, and between plants the ankles go from place to place.
