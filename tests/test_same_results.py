@@ -17,7 +17,7 @@ import pytest
 
 import mocap
 from mocap import blending, body, datasets, editing, feet, graphs, steering, synthesis
-from mocap.editing.bodies import hinge_of
+from mocap.body.kinematics import hinge_of
 from mocap.editing.warp_plans import load_plan, warp
 from mocap.graphs.motion_graph import merge_choice_points
 from mocap.matching.transitions import join_clouds
@@ -150,7 +150,9 @@ CASES = {
     "bent": lambda: editing.bend(WALK, body.GroundPath([[0, 0], [0, 3], [3, 4]])).motion.rotations,
     "worn": lambda: body.joint_positions(
         editing.retarget(
-            WALK[:120], editing.proportioned(editing.stance_of(WALK), legs=0.6, arms=0.7, trunk=0.8)
+            WALK[:120],
+            editing.proportioned(editing.stance_of(WALK), legs=0.6, arms=0.7, trunk=0.8),
+            editing.stance_of(WALK[:120]),
         )
     ),
     "plants on a cart": lambda: list(

@@ -47,7 +47,7 @@ def frame_by_frame(case: Case) -> Motion:
     """Bring planted joints to the mean places of their plants, in each frame by itself."""
     motion = case.given["motion"]
     pins = plant_pins(motion, find_legs(motion.skeleton))
-    return solve(motion, pins, [REACH], body_of(motion, pins.joints)).motion
+    return solve(motion, pins, [REACH], body_of(motion, pins)).motion
 
 
 METHODS = {

@@ -72,7 +72,7 @@ def frame_by_frame(case: Case) -> Motion:
     """Copy the poses, and bring planted feet to their places in each frame by itself."""
     base = case.truth.base
     pins = floor_pins(base, case.truth.target)
-    return solve(base, pins, [REACH], body_of(base, pins.joints)).motion
+    return solve(base, pins, [REACH], body_of(base, pins)).motion
 
 
 METHODS = {

@@ -8,11 +8,11 @@ Reading order (notebooks 01, 03)
 1. `skeleton`: a tree of joints
 2. `motion`: the body over time; other frame rates; clips in a row
 3. `rotations`: unit quaternions (w, x, y, z) as arrays: product, slerp, conversions
-4. `kinematics`: forward kinematics: from rotations to where every joint is
+4. `kinematics`: forward kinematics: from rotations to where every joint is; which joints are hinges
 5. `planar`: turns about the vertical and moves over the ground
 6. `euler`: Euler angles and their traps
 7. `ground_path`: lines on the ground, by metres along them
-8. `limbs`: which joints are the legs
+8. `limbs`: which joints are the legs, and where their hips head
 9. `fingerprints`: what a clip is known by, whatever it is called
 
 References

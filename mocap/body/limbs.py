@@ -1,5 +1,6 @@
 """Which joints are the legs? Found by the names that common skeletons use, or named by hand."""
 
+from collections.abc import Sequence
 from itertools import pairwise
 from textwrap import shorten
 from typing import Literal, NamedTuple
@@ -115,3 +116,17 @@ def name_leg(skeleton: Skeleton, hip: str, knee: str, ankle: str, ball: str) -> 
         if not np.linalg.norm(skeleton.offsets[below]) > 1e-6:
             raise MocapError(f"'{names[below]}' sits on '{names[above]}': a bone needs a length.")
     return leg
+
+
+def heading_by_hips(positions: Array, legs: Sequence[Leg]) -> Array:
+    """Read where a body heads, square to the line of its hips, from positions (F, J, 3); radians (F,).
+
+    Examples
+    --------
+    >>> left, right = Leg(0, 2, 3, 4), Leg(1, 5, 6, 7)
+    >>> heading_by_hips(np.array([[[0.0, 1, 0.1], [0, 1, -0.1]]]), [left, right]).round(4)
+    array([-1.5708])
+    """
+    left, right = (positions[:, leg.hip] for leg in legs)
+    across = left - right
+    return np.asarray(np.arctan2(-across[:, 2], across[:, 0]))

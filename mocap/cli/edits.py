@@ -244,7 +244,9 @@ def retarget(
 
 
 def _worn(reading: Reading, wearer: "Stance | body.Skeleton", source: Path) -> "body.Motion":
-    return editing.retarget(reading.load(source), wearer)
+    from mocap.editing.retargeting import wear  # the help needs no NumPy
+
+    return wear(reading.load(source), wearer)
 
 
 def _body(path: Path, scale: float | None) -> "Stance | body.Skeleton":

@@ -15,7 +15,7 @@ from typing import NamedTuple
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.datasets.downloads import fetch
-from mocap.editing.retargeting import retarget
+from mocap.editing.retargeting import wear
 from mocap.editing.stances import Stance
 from mocap.errors import MocapError, shortened
 from mocap.files.load_save import load
@@ -97,8 +97,8 @@ def cmu(
     clip : a trial's name, such as "16_15".
     subject : without `clip`, the person's number.
     kind : without `clip`, a word of the description, such as "walk"; `mocap data list` shows all of them.
-    skeleton : the body that wears the motions, as for `editing.retarget`; by default each person's own. A
-        stance, such as `editing.stance_of(cmu("16_15"))`, also says how high the feet stand.
+    skeleton : the body that wears the motions, as for `wear`; by default each person's own. A stance, such as
+        `editing.stance_of(cmu("16_15"))`, also says how high the feet stand.
 
     Returns
     -------
@@ -107,7 +107,7 @@ def cmu(
     Raises
     ------
     MocapError : for a trial that is not listed, or a file that cannot be downloaded, with what to do instead;
-        with `skeleton`, for what `editing.retarget` refuses, such as a trial in which a foot never stands.
+        with `skeleton`, for what `wear` refuses, such as a trial in which a foot never stands.
 
     Examples
     --------
@@ -126,7 +126,7 @@ def cmu(
             raise MocapError(f"No trial '{name}' is listed; `mocap data list` shows those that are.")
         asf = fetch_listed(f"{folder}/{folder}.asf")
         motion = load(fetch_listed(f"{folder}/{name}.amc"), skeleton=asf, fps=120.0)
-        motions.append(motion if skeleton is None else retarget(motion, skeleton))
+        motions.append(motion if skeleton is None else wear(motion, skeleton))
     return motions if clip is None else motions[0]
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array, Indices
 from mocap.body import rotations
-from mocap.body.kinematics import forward_kinematics, joint_positions
+from mocap.body.kinematics import forward_kinematics, hinge_of, joint_positions
 from mocap.body.motion import Motion, turning
 from mocap.editing.displacements import Displacement
 from mocap.editing.pins import Pins, Rows, pin_errors
@@ -21,13 +21,6 @@ from mocap.errors import MocapError, warn
 # by 84° when a foot steps on a stone of 20 cm, with 0.3, 1 and 2 by 63, 45 and 34°, and the root moves by 9,
 # 11, 15 and 17 cm.
 EFFORT = 1.0
-
-# A joint is a hinge if its second singular value is below this share of the first. The knees of six sources
-# have 0.8 % at most; puppy's, which are no hinges, 45 %.
-HINGE = 0.05
-
-# Radians (rms): a joint that turns less in a clip does not show its axis; then the file's axes count.
-STILL = 0.01
 
 TOLERANCE = 0.005  # metres: what pins may be missed by without a warning
 SLACK = 1e-6  # metres by which pins may be farther apart than the bones between them: rounding
@@ -67,9 +60,7 @@ class Body(NamedTuple):
         return Displacement(change[:, :3], turns)
 
 
-def body_of(
-    motion: Motion, pinned: Pins | Sequence[int], *, prices: Mapping[str, float] | None = None
-) -> Body:
+def body_of(motion: Motion, pins: Pins, *, prices: Mapping[str, float] | None = None) -> Body:
     """Choose which joints may turn to bring pinned ones to their places, and price them.
 
     All joints above a pinned one that ever turn may turn. The price of a radian is what it moves: the squared
@@ -79,7 +70,7 @@ def body_of(
     Parameters
     ----------
     motion : the clip that shows which joints turn, and which of them are hinges.
-    pinned : pins, or the indices of pinned joints.
+    pins : their joints count, not where these shall be.
     prices : factors for joints' prices, by name; more than 1 stiffens a joint.
 
     Raises
@@ -89,8 +80,9 @@ def body_of(
     Examples
     --------
     >>> from mocap.datasets import sample
+    >>> from mocap.editing.pins import pin
     >>> walk = sample("walk_straight")
-    >>> body = body_of(walk, [4, 5])  # left ankle and ball
+    >>> body = body_of(walk, pin(walk, "ltoes", [0], [0, 0, 0]))
     >>> [walk.skeleton.names[joint] for joint in np.unique(body.joints)], len(body.price)
     (['root', 'lfemur', 'ltibia', 'lfoot'], 13)
 
@@ -100,9 +92,8 @@ def body_of(
     factors = {skeleton.index(name): factor for name, factor in (prices or {}).items()}
     if not all(np.isfinite(factor) and factor > 0 for factor in factors.values()):
         raise MocapError(f"Factors of prices are above 0, got {dict(prices or {})}.")
+    above = sorted(set().union(*pins.movers(skeleton)))
     turns, paths = turning(motion), [skeleton.path_to_root(joint) for joint in range(len(skeleton))]
-    ways = pinned.movers(skeleton) if isinstance(pinned, Pins) else [paths[joint][1:] for joint in pinned]
-    above = sorted(set().union(*ways))
     positions = joint_positions(motion[:: max(1, len(motion) // POSES)])
     joints: list[int] = []
     axes, price = [np.zeros((0, 3))], [float(len(skeleton))] * 3
@@ -113,36 +104,7 @@ def body_of(
         axes.append(np.eye(3) if hinge is None else hinge[None])
         joints += [joint] * len(axes[-1])
         price += [factors.get(joint, 1.0) * (moved + EFFORT)] * len(axes[-1])
-    return Body(np.array(joints, int), np.concatenate(axes), np.array(price))
-
-
-def hinge_of(motion: Motion, joint: int) -> Array | None:
-    """Find the one axis about which a joint turns, a unit vector in its own frame, or None.
-
-    A joint is a hinge if its rotation vectors from their mean spread along one direction. Where it hardly
-    turns in the clip, it is one if its file gives it one axis. A knee that may turn about three axes meets
-    its pins as well, and twists by up to 19°.
-
-    Parameters
-    ----------
-    motion : the clip that shows it.
-    joint : its index.
-
-    Examples
-    --------
-    >>> from mocap.datasets import sample
-    >>> hinge_of(sample("walk_straight"), 3).round(6) + 0.0  # the left knee
-    array([1., 0., 0.])
-    """
-    turns = motion.rotations[:, joint]
-    away = rotations.difference(rotations.mean(turns), turns)
-    spread, axes = np.linalg.svd(away - away.mean(axis=0), full_matrices=False)[1:]
-    if len(away) > 3 and spread[0] > STILL * np.sqrt(len(away)):
-        return np.asarray(axes[0]) if spread[1] < HINGE * spread[0] else None
-    free = motion.skeleton.dofs[joint]
-    if len(free) != 1:
-        return None
-    return rotations.rotate(motion.skeleton.axes[joint], np.eye(3)["xyz".index(free)])
+    return Body(np.array(joints, int), np.vstack(axes), np.array(price))
 
 
 def require_reachable(motion: Motion, pins: Pins) -> None:

@@ -80,10 +80,10 @@ def edit(motion: Motion, pins: Pins, *, body: Body | None = None) -> Motion:
         return motion
     pins = join_pins(plants := plant_pins(motion), pins)
     body = body or priced(motion, pins, *EDITED)
-    return let_go(solve(motion, pins, EDIT, body, quiet=True).motion, pins, plants)
+    return mark_met(solve(motion, pins, EDIT, body, quiet=True).motion, pins, plants)
 
 
-def let_go(motion: Motion, pins: Pins, plants: Pins) -> Motion:
+def mark_met(motion: Motion, pins: Pins, plants: Pins) -> Motion:
     """Warn of pins that are missed, and mark of the `plants` only those that are where `pins` hold them."""
     warn_of_gaps(motion, pins, CLOSED)
     met = pin_errors(motion, pins) <= CLOSED
@@ -137,12 +137,12 @@ def posed(motion: Motion, frame: int, places: Mapping[str, ArrayLike], *, feet: 
         box = (np.where(free, end, place) for end in (-np.inf, np.inf))
         pins = join_pins(pins, pin(motion, joint, [frame], *box))
     require_reachable(motion, pins)
-    body = priced(motion, pins.joints, *POSED)
+    body = priced(motion, pins, *POSED)
     now = replace(motion[frame : frame + 1], name=f"{motion.name}[{frame}]")
     return replace(solve(now, pins.at([frame]), [POSE], body).motion, name=motion.name)
 
 
-def priced(motion: Motion, pinned: Pins | Sequence[int], trunk: float, neck: float) -> Body:
+def priced(motion: Motion, pins: Pins, trunk: float, neck: float) -> Body:
     """Choose the joints that turn, at so many times the prices of `body_of`; the root's way costs more, too.
 
     The trunk is joints that have a third of the body below them, the neck the other ones up to the head.
@@ -151,7 +151,7 @@ def priced(motion: Motion, pinned: Pins | Sequence[int], trunk: float, neck: flo
     --------
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_straight")
-    >>> head = [walk.skeleton.index("head")]
+    >>> head = pin(walk, "head", [0], [0, 0, 0])
     >>> (priced(walk, head, 4, 8).price / body_of(walk, head).price).tolist()[::3]  # metres, then joints
     [4.0, 4.0, 4.0, 4.0, 4.0, 8.0, 8.0]
     """
@@ -161,7 +161,7 @@ def priced(motion: Motion, pinned: Pins | Sequence[int], trunk: float, neck: flo
     heads = {joint for path in paths if skeleton.names[path[0]].lower().endswith("head") for joint in path}
     above_heads = np.isin(range(len(paths)), [*heads])
     factors = np.where(below > len(skeleton) / 3, trunk, np.where(above_heads, neck, 1)).tolist()
-    body = body_of(motion, pinned, prices=dict(zip(skeleton.names, factors, strict=True)))
+    body = body_of(motion, pins, prices=dict(zip(skeleton.names, factors, strict=True)))
     return body._replace(price=np.append(trunk * body.price[:3], body.price[3:]))
 
 

@@ -6,7 +6,6 @@ of global turns, not of those against the parent: a joint that one body lacks co
 not matter. The last knots are the frames.
 """
 
-from collections.abc import Mapping
 from dataclasses import replace
 from itertools import pairwise
 
@@ -15,15 +14,16 @@ from scipy.spatial.transform import Rotation
 
 from mocap._shared.arrays import Array
 from mocap.body import rotations
-from mocap.body.kinematics import GlobalPoses, forward_kinematics, joint_positions
+from mocap.body.kinematics import forward_kinematics, joint_positions
+from mocap.body.limbs import heading_by_hips
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.bodies import body_of
 from mocap.editing.body_roles import FEET, SIDES
-from mocap.editing.edits import let_go
+from mocap.editing.edits import mark_met
 from mocap.editing.pins import Pins, join_pins, pin_errors, plant_pins, with_plants
 from mocap.editing.solver import CLOSE, Basis, solve
-from mocap.editing.stances import Stance, heading_by_hips, stance_of, stance_of_zero
+from mocap.editing.stances import Stance, stance_of, stance_of_zero
 from mocap.errors import MocapError, shortened, warn
 from mocap.feet.footskate import clean_up
 
@@ -85,7 +85,15 @@ def copied(motion: Motion, source: Stance, target: Stance, *, scale: float | Non
     if not (np.isfinite(scale) and scale > 0):
         raise MocapError(f"A way over the ground needs a scale above 0, got {scale}.")
     poses = forward_kinematics(motion)
-    local = _local(poses, source, target)
+    seen, parents = rotations.from_matrix(poses.matrices), target.skeleton.parents
+    facing = rotations.about_y(heading_by_hips(poses.positions, source.legs))
+    world = np.empty((len(motion), len(parents), 4))
+    for joint, (own, turn) in enumerate(_bone_turns(source, target)):
+        before = seen[:, own] if own is not None else world[:, parents[joint]] if joint else facing
+        world[:, joint] = rotations.multiply(before, turn)
+    local = rotations.multiply(rotations.inverse(world[:, parents]), world)
+    local[:, 0] = world[:, 0]
+    local /= np.linalg.norm(local, axis=-1, keepdims=True)
     start = Motion(target.skeleton, np.zeros((len(motion), 3)), local, motion.fps, motion.name, motion.labels)
     hips, own = (
         positions[:, [leg.hip for leg in stance.legs]].mean(axis=1)  # (F, 3)
@@ -100,46 +108,26 @@ def copied(motion: Motion, source: Stance, target: Stance, *, scale: float | Non
     return replace(start, root_positions=wanted - own, contacts=contacts)
 
 
-def _local(poses: GlobalPoses, source: Stance, target: Stance) -> Array:
-    """Turn the target's joints against their parents, (F, J, 4).
-
-    A joint without a turn of its own keeps the stance's; a root above the pelvis turns with the heading only.
-    """
-    parents, looks = target.skeleton.parents, _bone_turns(source, target)
-    seen = rotations.from_matrix(poses.matrices)
-    world = np.empty((len(seen), len(parents), 4))
-    facing = rotations.about_y(heading_by_hips(poses.positions, source.roles))
-    world[:, 0] = rotations.multiply(facing, target.turns[0])
-    for joint, above in enumerate(parents):
-        if joint in looks:
-            own, turn = looks[joint]
-            world[:, joint] = rotations.multiply(seen[:, own], turn)
-        elif joint:
-            still = rotations.multiply(rotations.inverse(target.turns[above]), target.turns[joint])
-            world[:, joint] = rotations.multiply(world[:, above], still)
-    local = rotations.multiply(rotations.inverse(world[:, parents]), world)
-    local[:, 0] = world[:, 0]
-    return np.asarray(local / np.linalg.norm(local, axis=-1, keepdims=True))
-
-
-def _bone_turns(source: Stance, target: Stance) -> dict[int, tuple[int, Array]]:
+def _bone_turns(source: Stance, target: Stance) -> list[tuple[int | None, Array]]:
     """Find for each of the target's joints the source's joint, and C (4,), the turn between how both look.
 
-    Joints belong together by role, or by name where they have none.
+    Joints belong together by role, or by name where they have none. A joint that has no other turns with the
+    one above it, as it stands, and a root above the pelvis with the heading.
     """
     role_of = {joint: role for role, joint in target.roles.items()}
-    looks = {}
+    looks: list[tuple[int | None, Array]] = []
     for joint, name in enumerate(target.skeleton.names):
         role = role_of.get(joint)
         own = source.roles.get(role or "")
         if role is None and name in source.skeleton.names:
             own = source.skeleton.index(name)
-        if own is None:
-            continue
-        above = target.skeleton.path_to_root(joint)
-        role = next((f"{side} elbow" for side in SIDES if target.roles.get(f"{side} wrist") in above), role)
-        stands = rotations.multiply(_laid(role, source, target), target.turns[joint])
-        looks[joint] = (own, rotations.multiply(rotations.inverse(source.turns[own]), stands))
+        stands, above = target.turns[joint], target.skeleton.path_to_root(joint)
+        before = target.turns[above[1]] if joint else rotations.IDENTITY
+        if own is not None:
+            hands = (side for side in SIDES if target.roles.get(f"{side} wrist") in above)
+            role = next((f"{side} elbow" for side in hands), role)
+            stands, before = rotations.multiply(_laid(role, source, target), stands), source.turns[own]
+        looks.append((own, rotations.multiply(rotations.inverse(before), stands)))
     return looks
 
 
@@ -175,9 +163,7 @@ STILL = 0.001
 MOST = 0.5  # of a leg: hips that move by more to take the steps jump; a child's do at 3 times its own steps
 
 
-def retarget(
-    motion: Motion, body: Skeleton | Stance, source: Stance | None = None, *, scale: float | None = None
-) -> Motion:
+def retarget(motion: Motion, body: Stance, source: Stance, *, scale: float | None = None) -> Motion:
     """Let another body wear a motion, with its feet planted on the floor where the old feet were planted.
 
     In the paper: [Gle98, method].
@@ -188,11 +174,9 @@ def retarget(
 
     Parameters
     ----------
-    motion : F frames; its plants are marked if they are not yet, and its feet cleaned up if they slide. Its
-        plants are the new body's as well.
-    body : how the new body stands; or its skeleton, whose rest pose must stand. Then its balls are as high
-        over the floor as the source's, times the ratio of the legs.
-    source : how the old body stands; by default `stance_of(motion)`.
+    motion : F frames; its `contacts` say when feet stand, the new body's as well. Feet that slide are cleaned
+        up first. Of a clip as it was read, `wear` finds out these and how its body stands.
+    body, source : how the new body stands, and how the old one does.
     scale : of the way over the ground; by default the ratio of the legs. More makes the steps longer.
 
     Returns
@@ -202,7 +186,7 @@ def retarget(
 
     Raises
     ------
-    MocapError : for legs that are not found, rest poses that do not stand, and pins that no pose can meet.
+    MocapError : for contacts that are missing, and pins that no pose can meet.
     SkeletonMismatch : for a motion of another skeleton than the source's.
 
     Warns
@@ -215,37 +199,46 @@ def retarget(
     >>> from mocap.datasets import sample
     >>> from mocap.editing.stances import proportioned
     >>> walk = sample("walk_straight")[:240]
-    >>> child = proportioned(stance_of(walk), legs=0.55, trunk=0.62, arms=0.58, head=0.85)
-    >>> worn = retarget(walk, child)
+    >>> adult = stance_of(walk)
+    >>> worn = retarget(walk, proportioned(adult, legs=0.55, trunk=0.62, arms=0.58, head=0.85), adult)
     >>> [round(float(clip.root_positions[-1, 2] - clip.root_positions[0, 2]), 2) for clip in (walk, worn)]
     [2.12, 1.17]
 
     Notebook: 13-retargeting
     """
-    source = stance_of(motion) if source is None else source
-    if isinstance(body, Skeleton):  # its balls are as high as the source's, times the ratio of the legs
-        ratio = stance_of_zero(body, 0.0).leg / source.leg
-        body = stance_of_zero(body, ratio * source.height("ball"))
-    planted = with_plants(motion, source.legs)
-    if pin_errors(planted, plant_pins(planted, source.legs)).max() > STILL:
-        planted = clean_up(planted, source.legs)
+    planted = motion
+    if pin_errors(motion, plant_pins(motion, source.legs)).max() > STILL:
+        planted = clean_up(motion, source.legs)
     base = copied(planted, source, body, scale=scale)
-    dips = {role: dip * body.leg / source.leg for role, dip in dips_of(motion, source).items()}
-    wishes = floor_pins(base, body, dips)
+    positions = joint_positions(motion)
+    plants = floor_pins(base, body)
+    wishes = join_pins(floor_under(positions, source, body), plants)
     who, trunk = body.roles, body.skeleton.path_to_root(body.roles.get("chest", 0))
     stiff = [*(leg.knee for leg in body.legs), *(joint for joint in trunk if joint > who["pelvis"])]
     prices = dict.fromkeys((body.skeleton.names[joint] for joint in stiff), STIFF)
-    priced = body_of(base, wishes.joints, prices=prices)
-    worn = solve(base, wishes, RETARGET, priced, quiet=True).motion
+    worn = solve(base, wishes, RETARGET, body_of(base, wishes, prices=prices), quiet=True).motion
     if (moved := np.abs(worn.root_positions - base.root_positions).max()) > MOST * body.leg:
         hips = f"the hips move by {100 * moved:.0f} cm to take these steps"
         legs = f"with legs of {100 * body.leg:.0f} cm: no leg takes them at ease"
         warn(f"'{shortened(motion.name)}': {hips}, {legs}.")
-    return let_go(worn, wishes, floor_pins(base, body))
+    return mark_met(worn, wishes, plants)
 
 
-def floor_pins(motion: Motion, stance: Stance, dips: Mapping[str, float] | None = None) -> Pins:
-    """Hold each plant at the height that its joint stands at, and keep feet above the floor.
+def wear(motion: Motion, body: Skeleton | Stance) -> Motion:
+    """Let another body wear a clip as it was read: mark its plants, and find how both bodies stand.
+
+    The balls of a skeleton alone stand as high as the clip's, times the ratio of the legs.
+    """
+    motion = with_plants(motion)
+    source = stance_of(motion)
+    if isinstance(body, Skeleton):
+        ratio = stance_of_zero(body, 0.0).leg / source.leg
+        body = stance_of_zero(body, ratio * source.height("ball"))
+    return retarget(motion, body, source)
+
+
+def floor_pins(motion: Motion, stance: Stance) -> Pins:
+    """Hold each plant at the height that its joint stands at.
 
     Feet differ: an ankle stands 4 cm over the ball in one body and 8 cm in another. So plants take their
     heights from how the new body stands, not from the old feet. A plant's place over the ground is the mean
@@ -255,8 +248,6 @@ def floor_pins(motion: Motion, stance: Stance, dips: Mapping[str, float] | None 
     ----------
     motion : the copied motion; its `contacts` say when ankles and balls stand.
     stance : how its body stands.
-    dips : how far each ankle and ball may be lower than it stands, metres by role; without it there is no
-        floor, only plants.
 
     Raises
     ------
@@ -273,15 +264,17 @@ def floor_pins(motion: Motion, stance: Stance, dips: Mapping[str, float] | None 
 
     Notebook: 13-retargeting
     """
-    heights = np.reshape([stance.heights[role] for role in FEET], (2, 2))
-    free = np.full((len(motion), len(dips or ()), 3), np.inf)
-    low = -free
-    low[..., 1] = [stance.heights[role] - dip for role, dip in (dips or {}).items()]
-    floors = Pins(tuple(stance.roles[role] for role in dips or ()), low, free)
-    return join_pins(floors, plant_pins(motion, stance.legs, heights))
+    return plant_pins(motion, stance.legs, np.reshape([stance.heights[role] for role in FEET], (2, 2)))
 
 
-def dips_of(motion: Motion, stance: Stance) -> dict[str, float]:
-    """Measure how far each ankle and ball ever is below where it stands, metres by role, 0 or more."""
-    lowest = joint_positions(motion)[..., 1].min(axis=0)
-    return {role: max(0.0, stance.heights[role] - float(lowest[stance.roles[role]])) for role in FEET}
+def floor_under(positions: Array, source: Stance, body: Stance) -> Pins:
+    """Keep ankles and balls above where they stand, or as far below as they ever were, for the body's size.
+
+    `positions` (F, J, 3), metres, are those of the source's joints.
+    """
+    lowest = positions[..., 1].min(axis=0)
+    dips = {role: max(0.0, source.heights[role] - lowest[source.roles[role]]) for role in FEET}
+    high = np.full((len(positions), len(FEET), 3), np.inf)
+    low = -high
+    low[..., 1] = [body.heights[role] - dip * body.leg / source.leg for role, dip in dips.items()]
+    return Pins(tuple(body.roles[role] for role in FEET), low, high)

@@ -14,7 +14,7 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.kinematics import forward_kinematics, joint_positions
-from mocap.body.limbs import Leg, find_legs
+from mocap.body.limbs import Leg, find_legs, heading_by_hips
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.body_roles import FEET, SIDES, roles
@@ -129,7 +129,7 @@ def stance_of(motion: Motion, *, mean: bool = False) -> Stance:
             return stance_of_zero(motion.skeleton, heights)
     pose = forward_kinematics(motion)
     world = np.swapaxes(rotations.from_matrix(pose.matrices), 0, 1)  # (J, F, 4)
-    heading = heading_by_hips(pose.positions, who)
+    heading = heading_by_hips(pose.positions, legs)
     turns = rotations.mean(rotations.multiply(rotations.about_y(-heading), world))
     for leg in legs:
         foot = [leg.ankle, leg.ball]
@@ -187,18 +187,6 @@ def stance_of_zero(skeleton: Skeleton, heights: Mapping[str, float] | float) -> 
 
 def _degrees(vector: Array, other: list[int]) -> float:
     return float(np.degrees(np.arctan2(np.linalg.norm(np.cross(vector, other)), np.dot(vector, other))))
-
-
-def heading_by_hips(positions: Array, who: Mapping[str, int]) -> Array:
-    """Read where a body heads, square to the line of its hips, from positions (F, J, 3); radians (F,).
-
-    Examples
-    --------
-    >>> heading_by_hips(np.array([[[0.0, 1, 0.1], [0, 1, -0.1]]]), {"left hip": 0, "right hip": 1}).round(4)
-    array([-1.5708])
-    """
-    across = positions[:, who["left hip"]] - positions[:, who["right hip"]]
-    return np.asarray(np.arctan2(-across[:, 2], across[:, 0]))
 
 
 def standing_heights(motion: Motion, who: Mapping[str, int]) -> dict[str, float]:

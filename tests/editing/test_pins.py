@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from mocap.body import find_legs, rotations
-from mocap.body.kinematics import forward_kinematics, joint_positions
+from mocap.body.kinematics import forward_kinematics, hinge_of, joint_positions
 from mocap.datasets.samples import sample
 from mocap.editing import Pins, body_of, difference, edit, hierarchy, join_pins, pin, pin_errors, plant_pins
-from mocap.editing.bodies import hinge_of, keep_turned, limit_turns, require_reachable
+from mocap.editing.bodies import keep_turned, limit_turns, require_reachable
 from mocap.files.load_save import load
 from tests.editing.wishes import bar, captured, far_hand, hand, shakes, smoothness, walk
 from tests.refusals import refusals, refused
@@ -170,15 +170,16 @@ LEGS = find_legs(walk().skeleton)
 
 def test_only_joints_above_a_pinned_one_take_part_and_the_price_is_what_they_move():
     clip = walk()
-    body = body_of(clip, [joint for leg in LEGS for joint in (leg.ankle, leg.ball)])
+    plants = plant_pins(clip)
+    body, one = body_of(clip, plants), Pins(plants.joints[:1], plants.low[:, :1], plants.high[:, :1])
     names = [clip.skeleton.names[j] for j in body.joints[np.diff(body.joints, prepend=-1) != 0]]
     assert names == ["root", "lfemur", "ltibia", "lfoot", "rfemur", "rtibia", "rfoot"]
     assert len(body.price) == 20 and body.price[:3].tolist() == [38.0] * 3
     root, hip, knee, ankle = body.price[[3, 6, 9, 10]]
     assert root > hip > knee > ankle > 1
-    dear = body_of(clip, [LEGS[0].ankle], prices={"lfemur": 4.0})
+    dear = body_of(clip, one, prices={"lfemur": 4.0})
     assert dear.price[6] == pytest.approx(4 * hip)
-    round_and_round = body_of(sample("walk_circle"), [LEGS[0].ankle])
+    round_and_round = body_of(sample("walk_circle"), one)
     assert (round_and_round.joints == 0).sum() == 3  # the root is no hinge, however far it turns about y
 
 

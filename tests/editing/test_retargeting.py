@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 
 from mocap import load
 from mocap.body import Motion, PlanarTransform, joint_positions, rotations
-from mocap.editing import pin_errors, plants_kept
+from mocap.editing import join_pins, pin_errors, plants_kept
 from mocap.editing.body_roles import FEET
-from mocap.editing.retargeting import copied, dips_of, floor_pins, retarget
+from mocap.editing.retargeting import copied, floor_pins, floor_under, retarget, wear
 from mocap.editing.stances import Stance, proportioned, stance_of, stance_of_zero
 from mocap.errors import SkeletonMismatch
 from mocap.feet import clean_up, mark_plants
@@ -118,8 +118,8 @@ MM = 1000
 
 def sinks(motion: Motion, stance: Stance, clip: Motion, source: Stance) -> float:
     """Measure by how much feet are deeper in the floor than the source's, for their size; millimetres."""
-    allowed, deepest = dips_of(clip, source), dips_of(motion, stance)
-    return MM * max(deepest[role] - allowed[role] * stance.leg / source.leg for role in FEET)
+    allowed, deepest = floor_under(joint_positions(clip), source, stance), joint_positions(motion)
+    return MM * float((allowed.low - deepest[:, list(allowed.joints)])[..., 1].max())
 
 
 def held_to_the_bars(clip, source, target, *, scale=None, smooth=1.05, deep=3.0):
@@ -195,7 +195,7 @@ def test_steps_that_no_leg_takes_are_said():
 def test_a_skeleton_alone_stands_as_high_as_the_source():
     body = child().skeleton
     stance = stance_of_zero(body, 0.55 * adult().height("ball"))
-    worn = retarget(walk(2.0), body)
+    worn = wear(walk(2.0), body)
     assert MM * slide(worn) <= 1e-3
     assert np.allclose(joint_positions(worn), joint_positions(retarget(walk(2.0), stance, adult())))
 
@@ -203,8 +203,8 @@ def test_a_skeleton_alone_stands_as_high_as_the_source():
 FOLDED = rested(walk(), along_x(walk().skeleton))
 
 test_bodies_that_cannot_wear_it_are_refused = refusals(
-    (r"does not stand.*give stance_of a walk", retarget, walk(), FOLDED.skeleton),
-    ("No legs found", retarget, walk(), renamed(walk(), {"lfoot": "fin"}).skeleton),
+    (r"does not stand.*give stance_of a walk", wear, walk(), FOLDED.skeleton),
+    ("No legs found", wear, walk(), renamed(walk(), {"lfoot": "fin"}).skeleton),
     (SkeletonMismatch, "bones differ", retarget, walk(), child(), child()),
 )
 
@@ -265,14 +265,16 @@ def test_plants_are_held_at_the_heights_of_the_stance_a_flat_foot_apart():
 def test_a_floor_bounds_feet_in_all_other_frames():
     plants = floor_pins(walk(), adult())
     assert not plants.asked.all()
-    floor = floor_pins(walk(), adult(), dict.fromkeys(FEET, 0.01))
+    floor = join_pins(floor_under(joint_positions(walk()), adult(), adult()), plants)
     assert floor.asked.all()
     swings = ~floor.held[:, 0, 1]
-    assert np.allclose(floor.low[swings, 0, 1], adult().heights["left ankle"] - 0.01)
+    lowest = joint_positions(walk())[:, adult().roles["left ankle"], 1].min()
+    assert np.allclose(floor.low[swings, 0, 1], min(lowest, adult().heights["left ankle"]))
     assert np.array_equal(floor.held, plants.held)
     sunk = replace(walk(), root_positions=walk().root_positions - [0, 0.05, 0])
     assert pin_errors(sunk, floor).max() == pytest.approx(0.05)
-    assert dips_of(sunk, adult())["left ball"] == pytest.approx(0.05 + dips_of(walk(), adult())["left ball"])
+    depths = [floor_under(joint_positions(m), adult(), adult()).low[0, 1, 1] for m in (sunk, walk())]
+    assert depths[0] == pytest.approx(depths[1] - 0.05)  # of the left ball
 
 
 def test_a_step_is_brought_down_to_the_level_floor():

@@ -52,7 +52,7 @@ def test_slopes_are_those_of_finite_differences(seed):
 def test_a_rail_and_a_free_joint_give_rows_of_zeros():
     clip = walk()[:3]
     rail = pin(clip, "lwrist", [0, 1], [0.3, 1, -np.inf], [0.3, 1, np.inf])
-    body = body_of(walk(), rail.joints)
+    body = body_of(walk(), rail)
     gap, slopes = linear(clip, body, np.zeros((3, len(body.price))), rail)
     assert not slopes[:, 2].any() and not slopes[2].any()
     assert slopes[:2, :2].any(axis=-1).all()
@@ -110,7 +110,7 @@ def test_frames_with_pins_meet_them_and_the_others_stay_to_the_last_bit():
     """As in [LS99, inverse kinematics]."""
     clip = walk()
     few = stone(clip, 0.3).only(slice(200, 300))
-    solved = solve(clip, few, [REACH], body_of(clip, few.joints))
+    solved = solve(clip, few, [REACH], body_of(clip, few))
     assert solved.worst[-1] < 0.001
     alone = np.ones(len(clip), bool)
     alone[200:300] = False
