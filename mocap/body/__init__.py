@@ -12,7 +12,7 @@ Reading order (notebooks 01, 03)
 5. `planar`: turns about the vertical and moves over the ground
 6. `euler`: Euler angles and their traps
 7. `ground_path`: lines on the ground, by metres along them
-8. `limbs`: which joints are the legs, and where their hips head
+8. `limbs`: which joints are the legs, where their hips head, and which joint of a body does what
 9. `fingerprints`: what a clip is known by, whatever it is called
 
 References

@@ -18,11 +18,10 @@ Reading order (notebooks 10 to 14)
 10. `keys`: keys, the curve through them, and warps by offsets and by scale
 11. `retiming`: time keys, and motions at moments between their frames
 12. `warp_plans`: a whole warp out of a small text file
-13. `body_roles`: which joint does what
-14. `stances`: how a body stands, as a value; find it, whatever the rest pose is; change its proportions
-15. `retargeting`: every joint looks where that of the other body looks; where the new feet may be
-16. `mirroring`: left and right swapped, by names and geometry
-17. `cycles`: the stretch of a clip that makes the best cycle, closed by a blend or by a warp
+13. `stances`: how a body stands, as a value; find it, whatever the rest pose is; change its proportions
+14. `retargeting`: every joint looks where that of the other body looks; where the new feet may be
+15. `mirroring`: left and right swapped, by names and geometry
+16. `cycles`: the stretch of a clip that makes the best cycle, closed by a blend or by a warp
 
 References
 ----------

@@ -15,11 +15,10 @@ from scipy.spatial.transform import Rotation
 from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.kinematics import forward_kinematics, joint_positions
-from mocap.body.limbs import heading_by_hips
+from mocap.body.limbs import FEET, SIDES, heading_by_hips
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.bodies import body_of
-from mocap.editing.body_roles import FEET, SIDES
 from mocap.editing.edits import mark_met
 from mocap.editing.pins import Pins, join_pins, pin_errors, plant_pins, with_plants
 from mocap.editing.solver import CLOSE, Basis, solve

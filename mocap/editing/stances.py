@@ -14,10 +14,9 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.kinematics import forward_kinematics, joint_positions
-from mocap.body.limbs import Leg, find_legs, heading_by_hips
+from mocap.body.limbs import FEET, SIDES, Leg, find_legs, heading_by_hips, roles
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from mocap.editing.body_roles import FEET, SIDES, roles
 from mocap.editing.pins import with_plants
 from mocap.errors import MocapError
 
@@ -84,7 +83,7 @@ class Stance:
 
     def height(self, part: str) -> float:
         """Give the mean height of both ankles ("ankle"), or both balls ("ball"), over the floor, metres."""
-        return float(np.mean([self.heights[f"{side} {part}"] for side in SIDES]))
+        return (self.heights[f"left {part}"] + self.heights[f"right {part}"]) / 2
 
     def drop(self, side: str) -> float:
         """Give how far the ball of a side is below its ankle on a flat foot, metres."""

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices
+from mocap.body.limbs import roles
 from mocap.body.skeleton import Skeleton
-from mocap.editing.body_roles import roles
 from mocap.errors import MocapError
 from mocap.files.gltf_capsules import THICK, reaches
 

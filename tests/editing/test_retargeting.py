@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from mocap import load
 from mocap.body import Motion, PlanarTransform, joint_positions, rotations
+from mocap.body.limbs import FEET
 from mocap.editing import join_pins, pin_errors, plants_kept
-from mocap.editing.body_roles import FEET
 from mocap.editing.retargeting import copied, floor_pins, floor_under, retarget, wear
 from mocap.editing.stances import Stance, proportioned, stance_of, stance_of_zero
 from mocap.errors import SkeletonMismatch

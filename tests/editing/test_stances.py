@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from mocap import load
 from mocap.body import PlanarTransform, Skeleton, joint_positions, resample, rotations
+from mocap.body.limbs import FEET, ROLES, roles
 from mocap.datasets.samples import SKELETON, sample
-from mocap.editing.body_roles import FEET, ROLES, roles
 from mocap.editing.mirroring import mirror, symmetry
 from mocap.editing.stances import Stance, proportioned, stance_of, stance_of_zero, standing_heights
 from mocap.feet.footplants import mark_plants
