@@ -37,8 +37,8 @@ def demo(
     seconds : duration of the new walk.
     """
     require_folder(out)
-    require_other(out / "walk.bvh", find_files(clips) if clips else ())
-    motions = building.load(clips) if clips else [datasets.sample(name) for name in datasets.SAMPLES]
+    require_other(out / "walk.bvh", found := find_files(clips))
+    motions = building.load(found) if clips else [datasets.sample(name) for name in datasets.SAMPLES]
     whole = building.build(motions, bar("comparing"))
     try:
         pruned = graphs.prune(whole)
@@ -50,6 +50,7 @@ def demo(
         raise NoWalk(f"No walk is left at {asked}; these clips need at least {least:g} cm.") from error
     edges = synthesis.random_walk(pruned, seconds=seconds, seed=seed)
     walk = synthesis.to_motion(pruned, edges)
+    costs = [100 * seam.cost for seam in synthesis.seams(pruned, edges)]
     names, frames = [clip.name for clip in whole.clips], sum(map(len, whole.clips))
     shown = ", ".join(names if len(names) <= SHOWN else [*names[:SHOWN], f"… {names[-1]}"])
     tell(clips=f"{len(names)}: {shown}", frames=f"{frames} at {whole.fps:g} Hz, {frames / whole.fps:.1f} s")
@@ -59,7 +60,6 @@ def demo(
     print(f"{'':<12} {'whole':>8}{'pruned':>8}")
     for name, *counts in zip(("transitions", "nodes", "edges"), *rows, strict=True):
         tell(**{name: "".join(f"{count:8}" for count in counts)})
-    costs = [100 * seam.cost for seam in synthesis.seams(pruned, edges)]
     tell(**{"new walk": f"{walk.duration:.1f} s, {quality.inspect(walk).path:.1f} m"})
     tell(seams=f"{len(costs)}, the worst {max(costs, default=0.0):.1f} cm RMS")
     make_folder(out)

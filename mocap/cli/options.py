@@ -14,7 +14,6 @@ from mocap import body, files, graphs
 from mocap._shared.atomic import require_writable
 from mocap._shared.progress import Progress
 from mocap.errors import MocapError, printable
-from mocap.files.conversion import find_files
 
 if TYPE_CHECKING:
     from mocap.body.motion import Motion
@@ -87,12 +86,11 @@ class Sources:
     skeleton: Skeleton = None
     scale: Annotated[float | None, LENGTH, "metres per unit of length in .bvh clips (default: 0.01)"] = None
 
-    def load(self, paths: Iterable[Path]) -> "list[Motion]":
-        """Read clips, and folders of them, and warn of bodies of other sizes than people's."""
+    def load(self, found: Sequence[Path]) -> "list[Motion]":
+        """Read the clips that `find_files` found, and warn of bodies of other sizes than people's."""
         from mocap.quality.clip_flaws import warn_of_size
 
-        found = bar("reading")(find_files(paths))
-        clips = [files.load(path, skeleton=self.skeleton, scale=self.scale) for path in found]
+        clips = [files.load(path, skeleton=self.skeleton, scale=self.scale) for path in bar("reading")(found)]
         warn_of_size(clips)
         return clips
 

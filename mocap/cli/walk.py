@@ -149,7 +149,7 @@ def _graph(path: Path, clips: Sequence[Path], sources: Sources, out: Path) -> "g
         warnings.filterwarnings("ignore", lopsided, MocapWarning)
         if not clips:
             return graphs.load(path, skeleton=sources.skeleton, progress=bar("reading"))
-        given = sources.load(clips)
+        given = sources.load(files_read)
         given += [editing.mirror(c) for c in given if mirrored_name(c.name) in found.names]
     return graphs.load(path, given)
 

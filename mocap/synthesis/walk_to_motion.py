@@ -198,7 +198,7 @@ def places(edges: EdgeTable, place: PlanarTransform = IDENTITY) -> PlanarTransfo
     >>> x.round(6).tolist(), z.round(6).tolist()
     ([0.0, 0.0, 1.0], [0.0, 1.0, 1.0])
     """
-    angle = np.cumsum(np.concatenate([[place.angle], edges.angle]))
+    angle = np.cumsum([place.angle, *edges.angle])
     steps = edges.move * np.exp(1j * angle[:-1])
     moved = np.cumsum([place.move, *steps])
     return PlanarTransform(angle, moved.imag, moved.real)
