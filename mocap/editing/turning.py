@@ -67,19 +67,19 @@ def places_on(path: GroundPath, ride: Ride, fps: float, limit: float = np.inf) -
     nothing: r = 1. Where it would turn faster than the limit, radians per second, and than by itself to the
     same side, r is smaller, down to `SLOWER` or `LEAST`.
     """
-    (_, curvature, slower, sharpest), (_, _, own, _) = bends_of(path), bends_of(ride.path)
-    heads = moving_frames(ride.path, ride.along).angle
-    speeds, turned = (np.gradient(some) * fps for some in (ride.along, heads))
+    (_, curvature, slower, sharpest), (_, bends, own, tightest) = bends_of(path), bends_of(ride.path)
     walks = np.clip((_speed(ride.along, fps) - STANDS) / (WALKS - STANDS), 0, 1)
-    paces = own[np.clip(np.round(ride.along / CELL).astype(int), 0, len(own) - 1)]
+    cells, speeds = np.round(ride.along / CELL).astype(int), np.gradient(ride.along) * fps
+    # How it turns by itself is measured as on the line, or it would be slowed on its own path, too.
+    paces, tight = (some[np.clip(cells, 0, len(own) - 1)] for some in (own, np.sign(bends) * tightest))
     here, ratio, last, (low, high) = 0.0, 1.0, len(slower) - 1, RATIOS
     places, there = [], np.stack([slower, sharpest, np.sign(curvature)], axis=1).tolist()
     steps = np.diff(ride.along, prepend=ride.along[:1])
-    for step, pace, walk, speed, turn in np.stack([steps, paces, walks, speeds, turned], axis=1).tolist():
+    for step, pace, walk, speed, bend in np.stack([steps, paces, walks, speeds, tight], axis=1).tolist():
         here += ratio**0.5 * step
         q, k, side = there[min(round(here / CELL), last)]
         ratio = min(max(q / pace, low), high) ** walk
-        more = k * speed - max(side * turn, 0.0)
+        more = (k - max(side * bend, 0.0)) * speed
         if more * ratio > WITHIN * limit:
             ratio = max(WITHIN * limit / more, SLOWER * ratio, min(LEAST / speed, ratio))
         places.append((here, ratio))

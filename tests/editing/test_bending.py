@@ -165,6 +165,13 @@ def test_a_captured_turn_on_its_own_way_comes_back_as_it_was(real_data, name):
     assert not bent.line.roundings
 
 
+def test_who_turns_faster_than_the_limit_by_himself_is_not_slowed_there():
+    """The way of a body that stands turns by up to 580° per second; it was slowed there, and came late."""
+    motion = clip("stop_and_go")
+    laid = bend(motion, ride_of(motion).path).laid
+    assert joint_positions(laid) == pytest.approx(joint_positions(motion), abs=1e-9)
+
+
 LIMIT, FPS, SPEED = np.radians(100), 30.0, 1.2
 RADIUS = 0.2  # metres: on about this arc a walk of this speed, at its slowest, turns by the limit
 
