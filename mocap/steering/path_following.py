@@ -126,7 +126,9 @@ def _tell_departures(graph: CompiledGraph, followed: Followed, bend: float, *, o
     if departures := followed.departures:
         start, end, worst = max(departures, key=lambda stretch: stretch[2])
         often = "once" if len(departures) == 1 else f"{len(departures)} times"
-        why = "it turns too fast there" if bend else "no clips turn as it does there"
+        other = "the clips sway so far" if bend else "no clips turn as it does there"
+        rounded = followed.bent and followed.bent.rounded[followed.off.argmax()]
+        why = "it turns too fast there" if rounded else other
         why += "; `bend` turns them, and `follow_as_2002` may come nearer" if far else ""
         furthest = f"the furthest by {100 * worst:.0f} cm at {start:.1f} to {end:.1f} m"
         warn(f"The walk leaves the path {often}, {furthest}: {why}.")

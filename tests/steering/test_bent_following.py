@@ -109,6 +109,12 @@ def test_what_it_says_is_what_the_motion_does():
     assert f"{followed.seams_per_second:.2f} seams per second" in followed.report()
 
 
+def test_a_line_that_is_not_rounded_is_not_blamed_for_turning():
+    followed = bent_walk(walking(), GroundPath([[0, 0], [0, 4]]))
+    given = walking(), replace(followed, off=followed.off + 0.15), LIMIT
+    told("the clips sway so far", path_following._tell_departures, *given, on_time=False)
+
+
 def test_labels_and_times_are_kept_on_the_line():
     path = SOME["sine"]
     followed = bent_walk(sneaking(), path, wishes=Wishes(labels=[(0, "walk"), (6, "sneak"), (12, "walk")]))
