@@ -65,16 +65,18 @@ class FootTarget(NamedTuple):
         return np.asarray(self.marks[1] & ~self.marks[0])
 
     def rolled(self, hip: Array, distance: Array) -> Array:
-        """Turn the foot about its ball until its ankle is a distance (..., F) from a hip (..., F, 3), metres.
+        """Turn the foot about its ball until its ankle is a distance (..., R) from a hip (..., R, 3), metres.
 
-        Returns the way from hip to ankle, (..., F, 3): a side of the triangle whose third corner is the ball,
-        at a distance that makes it one. The ankle stays on its side of the line from hip to ball.
+        Both are of the R frames in which it rolls. Returns the way from hip to ankle, (..., R, 3): a side of
+        the triangle whose third corner is the ball, at a distance that makes it one. The ankle stays on its
+        side of the line from hip to ball.
         """
-        way, foot = self.places[1] - hip, np.linalg.norm(self.places[1] - self.ankle, axis=1)
+        ball, ankle = self.places[1, self.rolls], self.ankle[self.rolls]
+        way, foot = ball - hip, np.linalg.norm(ball - ankle, axis=1)
         far = np.sqrt(dot(way, way))
         distance = np.clip(distance, np.abs(far - foot) + FLAT, far + foot - FLAT)
         along = (far**2 + distance**2 - foot**2) / (2 * far)
-        ahead, across = way / far[..., None], self.ankle - hip
+        ahead, across = way / far[..., None], ankle - hip
         across = across - dot(across, ahead)[..., None] * ahead
         across *= np.sqrt((distance**2 - along**2) / dot(across, across))[..., None]
         return np.asarray(along[..., None] * ahead + across)

@@ -13,7 +13,6 @@ cannot reach, or that would still jolt a knee, is moved to where its foot was th
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import count
 
 import numpy as np
 from scipy.ndimage import binary_propagation, maximum_filter1d
@@ -28,9 +27,9 @@ from mocap.feet.footplants import least_frames, settle
 from mocap.feet.least_bending import MOST, Excess, hold_plants
 from mocap.feet.leg_track import UP, pose_leg, track_leg
 
-# At most: how often plants are moved before one is let go, each time by this share of the way. With 8 as
-# many frames are held; with 0.25 or 0.35 slow walks accelerate by up to 1.27 times as much as they did.
-MOVES, SHARE = 4, 0.5
+# Plants are moved by this share of the way, as long as what goes beyond falls by a tenth each time. With 0.25
+# or 0.35 slow walks accelerate by up to 1.27 times as much as they did.
+SHARE, FALLS = 0.5, 0.9
 
 
 def clean_up(
@@ -79,8 +78,8 @@ def clean_up(
     own, span = forward_kinematics(motion), least_frames(motion.fps)
     tracks = [track_leg(motion, leg, own) for leg in legs]
     marks = asked = settled_marks(motion, legs)
-    moved = np.zeros((len(legs), len(motion), 3))
-    for attempt in count():
+    moved, before, moving = np.zeros((len(legs), len(motion), 3)), np.inf, not held
+    while True:
         # Steps 1, 2 and 5: each plant gets a place, and between plants the ankles go from place to place.
         asks = zip(tracks, marks, moved, strict=True)
         targets = [foot_target(track, mark, held or {}, way) for track, mark, way in asks]
@@ -88,7 +87,9 @@ def clean_up(
         rise, targets, poses, excesses = hold_plants(targets)
         if not excesses or not marks.any():
             break
-        if attempt < MOVES and not held:
+        worst = max(float(amount.max()) for _, amount in excesses)
+        moving, before = moving and worst < FALLS * before, worst
+        if moving:
             for leg, frame in {(leg, frame) for leg, _, frame in _nearest(marks, excesses, span)}:
                 moved[leg] += _way_back(targets[leg], frame)
         else:

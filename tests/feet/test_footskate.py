@@ -173,10 +173,11 @@ def test_a_plant_out_of_reach_is_moved_and_at_last_let_go_with_a_warning(monkeyp
     cleaned = told(gone, clean_up, lingering)
     assert slides(cleaned).max() < 1e-9
     assert np.abs(cleaned.root_positions - lingering.root_positions).max() <= 0.0205
-    monkeypatch.setattr(footskate, "MOVES", 0)
+    monkeypatch.setattr(footskate, "FALLS", 0.0)  # no move is good enough
     unmoved = told(gone, clean_up, lingering)
     kept = [sum(marks.sum() for marks in m.contacts.values()) for m in (unmoved, cleaned, lingering)]
-    assert 0.3 < kept[0] / kept[2] < 0.9 * kept[1] / kept[2] < 0.9
+    assert 0.3 < kept[0] / kept[2] < 0.95 * kept[1] / kept[2] < 0.9
+    assert kept[1] / kept[2] > 0.8
 
 
 @given(seeds, st.integers(1, 9), st.floats(0, 1))

@@ -80,7 +80,8 @@ def test_no_other_change_bends_less():
     ones, start = np.ones(len(WALK)), np.zeros((3, len(WALK)))
     least_bending.STEPS, before = 40, least_bending.STEPS
     try:
-        found = least_bending._least_bent(targets, start, np.zeros((2, 3, 300)), np.full((2, 300), 1.0), 4)
+        push, most = np.zeros((2, 3, 300)), np.ones((2, 300))
+        found = least_bending._least_bent(targets, start, push, most, (4, 10.0))
     finally:
         least_bending.STEPS = before
     near = (least_bending.NEAR * WALK.fps) ** -4.0
@@ -108,7 +109,7 @@ def test_the_root_follows_two_feet_up_and_down_but_not_all_the_way(height):
 def test_what_cannot_be_held_is_told():
     """One foot leaps, and both are out of reach: a knee jolts, or the root is too far."""
     leap = np.zeros((len(WALK), 3))
-    leap[150, 1] = 0.03
+    leap[150, 1] = 0.06
     marks = np.full((2, len(WALK)), True)
     jolt = hold_plants(shifted(leap, 0 * UP, marks=marks))[-1][-1][1]
     assert abs(int(jolt.argmax()) - 150) <= 8
