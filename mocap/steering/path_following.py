@@ -45,8 +45,8 @@ def follow_path(
     Seams cost, so a walk can be nearer: of 42 lines of 7 m that walks keep to, the paper's own search,
     `follow_as_2002`, which takes two to four times as many seams, is nearer to 21, by 1.9 cm at most; with
     `Settings(seam=0, match=0, width=200, tries=1)`, where they are free here, too, to 5. Of 18 lines that
-    clips do not turn along it is nearer to 5, by up to 1.3 m; where a walk is a metre off on average, the
-    warning says that it may be.
+    clips do not turn along it is nearer to 5, by up to 1.3 m; where a walk leaves its path, the warning says
+    that it may be.
 
     With `bend`, any walk follows any path: the search prices by how much a walk must be turned beyond what
     its clips turn, instead of its distance from the path. Then it is laid on the path [Gle01], and its feet
@@ -68,13 +68,12 @@ def follow_path(
     Raises
     ------
     NoWalk : for a label that no walk can reach, a start that is not in the graph, a dead end, and clips of
-        which no walk goes on at 0.3 m/s; without `bend` where the walk is a metre off on average as well.
+        which no walk goes on at 0.3 m/s, where no times are asked for.
     MocapError : for a path that takes these clips more than an hour, and wishes that make no sense.
 
     Warns
     -----
-    MocapWarning : where the walk is more than 15 cm off the path, where it goes below 0.3 m/s and no times
-        are asked for, and with `bend` for plants that are let go.
+    MocapWarning : where the walk is more than 15 cm off the path, and with `bend` for plants that are let go.
 
     Examples
     --------
@@ -112,24 +111,20 @@ def follow_path(
 
 
 def _tell_departures(graph: CompiledGraph, followed: Followed, bend: float, *, on_time: bool) -> None:
-    """Refuse a walk that stands and does not follow, and warn of one that dawdles, or leaves the path."""
-    far = followed.off.mean() > FAR and not (bend or followed.found.stopped)
-    speed = np.abs(np.diff(on_ground(followed.track))).sum() / followed.seconds
-    if far and speed < SLOWEST:
-        off = f"The nearest walk is {followed.off.mean():.1f} m off the line on average"
-        raise too_slow(graph, f"{off}, and goes at {speed:.2f} m/s")
-    if not on_time and followed.along[-1] < SLOWEST * followed.seconds and not followed.found.stopped:
-        took = f"{followed.seconds:.0f} s for {followed.along[-1]:.1f} m"
-        warn(
-            f"The walk takes {took}: the clips hardly go on{'' if bend else '; `bend` may lay others on it'}."
-        )
+    """Refuse a walk that dawdles, unless times are asked for, and warn of one that leaves the path."""
+    far = followed.off.mean() > FAR
+    went = min(float(np.abs(np.diff(on_ground(followed.track))).sum()), followed.along[-1])
+    dawdles = went < SLOWEST * followed.seconds and not (bend or followed.found.stopped)
+    if dawdles and (far or not on_time):
+        off = f"is {followed.off.mean():.1f} m off the line and " if far else ""
+        raise too_slow(graph, f"The nearest walk {off}takes {followed.seconds:.0f} s for {went:.1f} m")
     if departures := followed.departures:
         start, end, worst = max(departures, key=lambda stretch: stretch[2])
         often = "once" if len(departures) == 1 else f"{len(departures)} times"
         other = "the clips sway so far" if bend else "no clips turn as it does there"
         rounded = followed.bent and followed.bent.rounded[followed.off.argmax()]
         why = "it turns too fast there" if rounded else other
-        why += "; `bend` turns them, and `follow_as_2002` may come nearer" if far else ""
+        why += "" if bend else "; `bend` turns them, and `follow_as_2002` may come nearer"
         furthest = f"the furthest by {100 * worst:.0f} cm at {start:.1f} to {end:.1f} m"
         warn(f"The walk leaves the path {often}, {furthest}: {why}.")
 

@@ -224,7 +224,8 @@ def too_slow(graph: CompiledGraph, nearest: str = "") -> NoWalk:
     some = f"{len(quick)} of {len(clips)} clips go faster than {QUICK:g} m/s"
     helps = f"{some}, but few transitions join their steps: try {'`bend`, ' if nearest else ''}"
     helps += "a larger threshold, or more walks"
-    return NoWalk(f"{fault}; {helps if quick else 'these clips only stand: add some that walk'}.")
+    slow = f"no clip goes faster than {QUICK:g} m/s: add some that walk"
+    return NoWalk(f"{fault}; {helps if quick else slow}.")
 
 
 def _square(numbers: Points) -> Array:
