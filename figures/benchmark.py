@@ -13,6 +13,7 @@ from __future__ import annotations
 import argparse
 import os
 import re
+import sys
 import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -80,22 +81,34 @@ def cases(task: ModuleType, folders: tuple[Path, ...]) -> Iterator[Case]:
 def run(task: ModuleType, some: Iterable[Case], entered: Path | None = None) -> Iterator[Row]:
     """Let all methods answer all cases, and score the answers; those entered, too."""
     for case in some:
+        like = None  # what an answer looks like: a method's own
         for name, method in {**task.METHODS, **({ENTERED: None} if entered else {})}.items():
             try:
-                answer = method(case) if method else read(entered, case)
+                answer = method(case) if method else read(entered, case, like)
+                like = answer if like is None or not len(like) else like
                 values = task.score(case, answer)
-            except MocapError:
+            except MocapError as error:
                 values = [np.nan] * len(task.MEASURES)
+                if not method:
+                    print(f"{case.collection}, {case.name}: {error}", file=sys.stderr)
             for measure, value in zip(task.MEASURES, values, strict=True):
                 yield Row(case.collection, name, case.name, measure, float(value))
 
 
-def read(folder: Path, case: Case) -> Answer:
-    """Read an answer that another program made."""
+def read(folder: Path, case: Case, like: Answer | None = None) -> Answer:
+    """Read an answer that another program made: a motion, or a table of as many columns as another one."""
     table = folder / f"{case.name}.csv"
-    return (
-        np.loadtxt(table, delimiter=",", ndmin=2) if table.exists() else mocap.load(table.with_suffix(".bvh"))
-    )
+    if isinstance(like, mocap.Motion) or (like is None and not table.exists()):
+        return mocap.load(table.with_suffix(".bvh"))
+    try:
+        found = np.loadtxt(table, delimiter=",", ndmin=2)
+    except (OSError, ValueError) as error:
+        raise MocapError(f"'{table.name}' is no table of numbers: {error}"[:200]) from None
+    columns = found.shape[1] if like is None or not len(like) else like.shape[1]
+    if not found.size or not np.isfinite(found).all() or found.shape[1] != columns:
+        got = f"got a table of shape {found.shape}"
+        raise MocapError(f"{case.name} asks for rows of {columns} finite numbers, {got}.")
+    return found
 
 
 def write(folder: Path, case: Case) -> None:
@@ -229,6 +242,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--enter", type=Path, help="a folder of another program's answers")
     parser.add_argument("--write", type=Path, help="write what the cases give, and stop")
     asked = parser.parse_args(arguments)
+    if asked.enter and not asked.enter.is_dir():
+        parser.error(f"There is no folder '{asked.enter}' to enter.")
     warnings.simplefilter("ignore", MocapWarning)
     for name in asked.tasks or TASKS:
         if asked.write:

@@ -39,28 +39,23 @@ TOY = SimpleNamespace(
 
 
 def test_methods_are_compared_with_the_best_baseline_case_by_case():
-    worse = SimpleNamespace(
-        **{**vars(TOY), "METHODS": {**TOY.METHODS, "worse": lambda case: np.full((1, 1), 99)}}
-    )
+    methods = {**TOY.METHODS, "worse": lambda case: np.full((1, 1), 99)}
+    worse = SimpleNamespace(**{**vars(TOY), "METHODS": methods})
     lines = benchmark.table(worse, list(benchmark.run(worse, CASES)))
     assert lines[0] == "| | | off ↓ | guessed ↑ |"
     assert lines[2] == "| toys (5) | *start* | 3.00 [2.00, 4.00] | 3.00 [2.00, 4.00] |"
     assert lines[4] == "|  | guess, refuses 1 | 1.00 [1.00, 1.00]; 4 : 1 | 6.00 [4.50, 7.50]; 4 : 1 |"
     assert lines[5] == "|  | worse | 93 [91, 95]; **0 : 5** | 99 [99, 99]; 5 : 0 |"
-    assert benchmark.summary({"Toys": "\n".join(lines)})[2:] == [
-        "| Toys | guess | 2 | 0 | 0 |",
-        "| Toys | worse | 1 | 0 | 1 |",
-    ]
+    told = benchmark.summary({"Toys": "\n".join(lines)})[2:]
+    assert told == ["| Toys | guess | 2 | 0 | 0 |", "| Toys | worse | 1 | 0 | 1 |"]
 
 
 def test_a_task_that_is_run_again_takes_the_place_of_its_section():
     text = benchmark.page({"Webs": "old\n\n| a |", "Control": "kept", "Other": "no task"})
     found = benchmark.sections_of(text)
     assert list(found) == ["Control", "Webs"] and found["Control"] == "kept"
-    assert benchmark.sections_of(benchmark.page({**found, "Webs": "new"})) == {
-        "Control": "kept",
-        "Webs": "new",
-    }
+    anew = benchmark.sections_of(benchmark.page({**found, "Webs": "new"}))
+    assert anew == {"Control": "kept", "Webs": "new"}
 
 
 def test_the_page_has_a_section_for_every_task():
@@ -78,6 +73,20 @@ def test_an_answer_of_another_program_is_scored_as_those_of_methods(tmp_path):
     rows = list(benchmark.run(TOY, CASES, tmp_path))
     values = {m: [row.value for row in rows if row.method == m] for m in ("guess", benchmark.ENTERED)}
     assert np.array_equal(values["guess"], values[benchmark.ENTERED], equal_nan=True)  # the first is missing
+
+
+def test_what_cannot_be_scored_is_refused_in_a_sentence(tmp_path, capsys):
+    """Text, a nan, too many columns, and no table at all: none of them ends the others."""
+    for case, text in zip(CASES, ("one", "nan", "1,2"), strict=False):
+        (tmp_path / f"{case.name}.csv").write_text(text)
+    rows = list(benchmark.run(TOY, CASES[:4], tmp_path))
+    assert np.isnan([row.value for row in rows if row.method == benchmark.ENTERED]).all()
+    words = ("is no table of numbers: could not", "of 1 finite", "of 1 finite", "toy-4.csv not found")
+    for line, case, word in zip(capsys.readouterr().err.splitlines(), CASES[:4], words, strict=True):
+        assert line.startswith(f"toys, {case.name}: ") and word in line and len(line) <= 200
+    with pytest.raises(SystemExit):
+        benchmark.main(["webs", "--enter", str(tmp_path / "nowhere")])
+    assert "There is no folder" in capsys.readouterr().err
 
 
 @for_each(tasks.TASKS)
@@ -99,8 +108,7 @@ def test_a_perfect_copy_comes_back_from_its_files_with_the_least_errors(tmp_path
     assert {"past.bvh", "next.bvh", "frames.csv"} < {path.name for path in (tmp_path / case.name).iterdir()}
     mocap.save(case.truth[0], tmp_path / f"{case.name}.bvh")
     assert task.score(case, benchmark.read(tmp_path, case)) == pytest.approx((0, 0, 0), abs=1e-4)
-    other = task.METHODS["linear"](case)
-    assert min(task.score(case, other)) > 1e-3
+    assert min(task.score(case, task.METHODS["linear"](case))) > 1e-3
 
 
 TABLE = Path(compare_control.__file__).with_name("control.md")
