@@ -56,6 +56,7 @@ def pair(seed):
 
 
 def test_marks_come_from_the_larger_weight():
+    """As in [KGP02, 3.3]."""
     a, b = pair(3)
     a = replace(a, contacts={"joint5": True}, labels={"walk": True})
     b = replace(b, contacts={"joint5": False}, labels={"run": True})

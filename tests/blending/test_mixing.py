@@ -69,6 +69,7 @@ def test_a_blend_does_not_depend_on_where_its_clips_were_captured():
 
 
 def test_generated_walks_to_the_left_and_the_right_make_one_straight_on():
+    """Turned by one angle all along they would not [KG03, alignment]."""
     registration = generated(*LEFT_AND_RIGHT)
     blend = mix(registration, HALF)
     length = of_parts(registration, registered.way).mean()
@@ -106,6 +107,7 @@ def swinging(u, t):
 
 
 def test_weights_may_swing_from_left_to_right_and_back(real_data):
+    """Turns take a curve of angles: a straight line does not do [KG03, alignment]."""
     registration = register([captured(real_data, name) for name in ("16_15", "16_17", "16_19")])
     blend = mix(registration, swinging)
     assert skate(blend) <= 1.2 * of_parts(registration, skate).mean()

@@ -70,6 +70,7 @@ def test_of_two_holds_the_later_goes_before_and_a_hold_goes_before_a_box():
 
 
 def test_plants_are_held_at_one_place_each():
+    """As in [Gle98, constraints]."""
     clip = walk()
     pins = plant_pins(clip)
     assert [clip.skeleton.names[j] for j in pins.joints] == ["lfoot", "ltoes", "rfoot", "rtoes"]

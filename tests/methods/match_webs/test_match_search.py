@@ -48,6 +48,7 @@ def test_what_a_path_does_not_cover_is_carried_on_straight_but_not_beyond_the_cl
 
 
 def test_a_walking_cycle_finds_the_others_in_steps_and_no_sneaking_or_jogging(bundled):
+    """With half of the paths too few are found [KG04, match web]."""
     query = cycles(bundled.clips[0], 2 / 3, 13 / 6)[2]
     one = search(bundled.web, 0, query, below=0.03, steps=1)
     every = search(bundled.web, 0, query, below=0.03)
