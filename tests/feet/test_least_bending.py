@@ -11,8 +11,8 @@ from mocap._shared.arrays import runs
 from mocap.body.kinematics import GlobalPoses, forward_kinematics
 from mocap.body.limbs import find_legs
 from mocap.datasets.samples import sample
-from mocap.feet import least_bending
-from mocap.feet.ankle_targets import FADE, band_product, bending_bands, foot_target, place_plants, smooth_fill
+from mocap.feet import ankle_targets, least_bending
+from mocap.feet.ankle_targets import band_product, bending_bands, foot_target, place_plants, smooth_fill
 from mocap.feet.least_bending import MOST, UNSEEN, hold_plants
 from mocap.feet.leg_track import UP, track_leg
 from tests.strategies import seeds
@@ -171,7 +171,7 @@ def test_the_filled_curve_keeps_what_is_known_and_bends_least(seed):
 
     def cost(c):
         c = c.reshape(-1, 2)
-        return (np.diff(c, 2, axis=0) ** 2).sum() + (FADE * 30) ** -4 * (c**2).sum()
+        return (np.diff(c, 2, axis=0) ** 2).sum() + ankle_targets.LEAST**-4 * (c**2).sum()
 
     for _ in range(5):
         other = filled + (~known)[:, None] * random.normal(size=filled.shape) * 1e-3
