@@ -168,7 +168,7 @@ def test_a_corner_that_no_clip_can_turn_is_cut_and_told():
 def test_a_walk_that_dawdles_is_refused_unless_times_are_asked_for():
     clips = [resample(replace(sample(name), fps=20), 15) for name in ("walk_circle", "walk_curve_1")]
     graph, line = prune(build(clips, window=20, threshold=0.08)), GroundPath([[0, 0], [0, 3]])
-    slow = r"^The nearest walk takes \d+ s for \d\.\d m; no clip goes faster than 0\.5 m/s: add some that walk"
+    slow = r"^The nearest walk takes \d+ s for \d\.\d m; no clip goes faster than 0\.5 m/s: add some"
     refused(slow, follow_path, graph, line, kind=NoWalk)
     assert follow_path(graph, line, Wishes(times=[(2.5, 12)])).progress == 1.0
 
