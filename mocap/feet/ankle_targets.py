@@ -83,11 +83,11 @@ class FootTarget(NamedTuple):
         across *= np.sqrt((distance**2 - along**2) / dot(across, across))[..., None]
         return np.asarray(along[..., None] * ahead + across)
 
-    def led(self) -> "FootTarget":
-        """Lead ankle and foot from plant to plant, in each of which they are where they must be [step 5]."""
+    def led(self, ankle: Array) -> "FootTarget":
+        """Lead ankle and foot from plant to plant, in each of which the ankle is where given [step 5]."""
         own, fps = self.track.ankle, self.track.motion.fps
-        turn = rotations.to_rotvec(rotations.between(self.track.ball - own, self.places[1] - self.ankle))
-        ankle = own + smooth_fill(self.ankle - own, self.planted, fps)
+        turn = rotations.to_rotvec(rotations.between(self.track.ball - own, self.places[1] - ankle))
+        ankle = own + smooth_fill(ankle - own, self.planted, fps)
         return self._replace(ankle=ankle, turn=smooth_fill(turn, self.marks[1], fps))
 
 
@@ -123,7 +123,7 @@ def foot_target(
     # soon as the hip moves.
     shorter = flat & (np.linalg.norm(goal - track.hip, axis=1) > track.limit + SHORTER)
     reach = np.where(binary_propagation(shorter, mask=flat), track.long(BENT), track.limit)
-    return FootTarget(track, goal, 0 * goal, places, marks, side, reach).led()
+    return FootTarget(track, goal, 0 * goal, places, marks, side, reach).led(goal)
 
 
 def place_plants(joints: tuple[Array, Array], marks: tuple[Mask, Mask], length: float) -> Array:

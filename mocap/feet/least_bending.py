@@ -85,7 +85,8 @@ def hold_plants(targets: Sequence[FootTarget]) -> tuple[Array, list[FootTarget],
     for hard in HARD * HARDER ** np.arange(TRIES):
         change = _least_bent(targets, change, push, most, (span, hard))
         poses = [_pose(target, change[0], extra) for target, extra in zip(targets, change[1:], strict=True)]
-        targets = [_rolled(*those, change[0]) for those in zip(targets, poses, strict=True)]
+        ends = [way + change[0][:, None] * UP for _, way in poses]
+        targets = [target.led(target.track.hip + end) for target, end in zip(targets, ends, strict=True)]
         jumps = _jumps(own + _knees(_displacements(targets, change)), span)
         beyond = np.linalg.norm(jumps, axis=1) - usual  # than it did, and than is usual
         if not (jolting := beyond > UNSEEN * length).any():
@@ -117,12 +118,6 @@ def _pose(target: FootTarget, rise: Array, extra: Array) -> Pose:
     held = track.bend(np.sqrt(dot(wanted, wanted)))
     held *= np.where(rolls, np.copysign(1.0, free), target.side)
     return np.where(target.planted, held, free), wanted
-
-
-def _rolled(target: FootTarget, pose: Pose, rise: Array) -> FootTarget:
-    """Lead an ankle over the places to which its foot has rolled."""
-    ankle = target.track.hip + rise[:, None] * UP + pose[1]
-    return target._replace(ankle=np.where(target.planted[:, None], ankle, target.ankle)).led()
 
 
 def _bounds(targets: Sequence[FootTarget]) -> tuple[Array, Array]:
@@ -225,7 +220,8 @@ def _weighed(
     (own, most, span, hard), moved = bounds, _displacements(targets, change)
     pull, over = band_product(bands, moved), _beyond(own + _jumps(_knees(moved), span), most)
     cost = (moved * pull).sum() + hard * (over**2).sum()
-    _knees(pull)[:] += hard * _differences(over, span)
+    wide = np.pad(over, [(0, 0), (0, 0), (span, span)])  # curves are 0 before and after
+    _knees(pull)[:] += hard * _jumps(wide, span)[..., span:-span]
     return moved, pull, over, float(cost)
 
 
@@ -267,15 +263,9 @@ def _beyond(vectors: Array, most: Array) -> Array:
     return np.asarray(vectors * (np.maximum(size - most, 0.0) / np.maximum(size, ROUNDING))[..., None, :])
 
 
-def _differences(curves: Array, span: int) -> Array:
-    """Give the second differences over `span` frames of curves (..., F) that are 0 before and after."""
-    wide = np.zeros((*curves.shape[:-1], curves.shape[-1] + 2 * span))
-    wide[..., span:-span] = curves
-    return np.asarray(wide[..., 2 * span :] - 2 * curves + wide[..., : -2 * span])
-
-
 def _jumps(curves: Array, span: int) -> Array:
     """Give the second differences over `span` frames of curves (..., F), 0 near their ends."""
-    jumps = _differences(curves, span)
-    jumps[..., :span] = jumps[..., -span:] = 0.0
+    jumps = np.zeros_like(curves)
+    inner = curves[..., span : curves.shape[-1] - span]
+    jumps[..., span : span + inner.shape[-1]] = curves[..., 2 * span :] - 2 * inner + curves[..., : -2 * span]
     return jumps
