@@ -16,8 +16,8 @@ How the constants were set
 Each file names its constants at the top, each with its unit and with what another value does. Those of
 plants were measured on the bundled clips, whose true plants are known, and give an F1 of 0.998 in the worst
 of them; a foot stands for 50 % of the time of captured walks and 33 % of runs'. Those of the clean-up were
-measured at 30, 60 and 120 Hz on 156 captured clips (walks, runs, jumps, dance, golf), of whose planted
-frames 99.99 % are kept, and on those clips with straight legs: 99.99 % are kept, of the worst run 89 %.
+measured at 30, 60 and 120 Hz on 135 clips (walks, runs, jumps, dance, golf), as they are, with straight legs,
+slowed, smoothed and swaying, 3 234 in all: 99.998 % of the planted frames are kept, of the worst 97 %.
 
 References
 ----------
