@@ -113,7 +113,8 @@ def follow_path(
 def _tell_departures(graph: CompiledGraph, followed: Followed, bend: float, *, on_time: bool) -> None:
     """Refuse a walk that dawdles, unless times are asked for, and warn of one that leaves the path."""
     far = followed.off.mean() > FAR
-    went = min(float(np.abs(np.diff(on_ground(followed.track))).sum()), followed.along[-1])
+    once_a_second = [*followed.track[:: round(graph.source.fps)], followed.track[-1]]
+    went = float(np.abs(np.diff(on_ground(np.array(once_a_second)))).sum())  # to sway is not to go on
     dawdles = went < SLOWEST * followed.seconds and not (bend or followed.found.stopped)
     if dawdles and (far or not on_time):
         off = f"is {followed.off.mean():.1f} m off the line and " if far else ""
