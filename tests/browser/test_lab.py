@@ -409,6 +409,7 @@ FAILED = ".jp-OutputArea-output[data-mime-type='application/vnd.jupyter.error']"
 def test_it_runs_and_all_its_sliders_move(file, run, page, request):
     if file.stem == "10-real-data":
         request.getfixturevalue("real_data")
+    page.emulate_media(reduced_motion="reduce")  # no player plays while sliders are moved
     run(file.read_text("utf-8"), file.name)
     assert page.locator(FAILED).count() == 0
     for number in range(page.locator(".noUi-handle").count()):

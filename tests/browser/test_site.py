@@ -11,6 +11,7 @@ from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_outp
 from PIL import Image
 
 from mocap.course.opening import stored
+from mocap.course.teaching import board
 from mocap.course.teaching.slides import build_slides
 from mocap.widgets.player import play
 from tests.browser.conftest import on_a_phone, wait_until
@@ -120,6 +121,7 @@ CUT_OR_SMALL = """() => {
 
 @on_a_phone
 def test_every_page_fits_a_phone(page, site):
+    page.emulate_media(reduced_motion="reduce")  # players that play change no place
     for file in sorted(site.glob("[0-9]*.html")):
         page.goto(file.as_uri())
         assert page.evaluate("document.documentElement.scrollWidth") <= 390, file.name
@@ -172,6 +174,11 @@ def decks(tmp_path_factory):
     (folder / "slides" / "99-walks.md").write_text(DECK, "utf-8")
     build_slides(folder, out)
     return out
+
+
+@pytest.mark.sweep
+def test_all_drawings_for_the_board_are_drawn():
+    assert {len(board.pictures_of(name)) for name in board.BOARD} <= {1, 3, 4, 6}  # once for the decks, too
 
 
 @pytest.mark.parametrize("name", NAMES)

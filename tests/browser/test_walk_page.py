@@ -16,8 +16,6 @@ from mocap.widgets.walking_page import HERE, STEPS, pack_graph, walk_page
 from tests.browser.conftest import drag, keep, shaded, watched_page
 from tests.bundled import WALKS, bundled
 
-pytestmark = shaded
-
 SEARCH = """([about, packed, z, x]) => {
   const bytes = Uint8Array.from(atob(packed), (c) => c.charCodeAt(0));
   const graph = prepare(unpack(about, bytes)), line = { z: Float64Array.from(z), x: Float64Array.from(x) };
@@ -107,6 +105,7 @@ def walks(page):
     return page.evaluate("({ frames: page.walk.frames, metres: page.line.z.length / 100 })")
 
 
+@shaded
 def test_a_hand_draws_and_it_walks(page, file, tmp_path):
     page.goto(f"file://{file}")
     page.wait_for_function("window.page?.walk.frames")
@@ -160,6 +159,7 @@ def test_a_line_that_leads_back_is_walked_from_where_the_figure_is(page, file, r
         assert off < 0.2  # the walk's last half second, from the reader's line
 
 
+@shaded
 def test_it_is_saved_as_motion_and_as_pictures(page, file, tmp_path):
     page.goto(f"file://{file}")
     page.wait_for_function("window.page?.walk.frames")
@@ -183,6 +183,7 @@ def test_it_is_saved_as_motion_and_as_pictures(page, file, tmp_path):
     assert len(film.convert("RGB").getcolors(10**6)) > 20
 
 
+@shaded
 def test_keys_draw_and_a_tap_on_a_seam_shows_both_moments(page, file):
     page.goto(f"file://{file}")
     page.wait_for_function("window.page?.walk.frames")
