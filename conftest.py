@@ -8,8 +8,6 @@ test asks the network for them.
 import os
 from collections import defaultdict
 from collections.abc import Iterator
-from contextlib import suppress
-from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -34,18 +32,6 @@ if not MISSING:
 def pytest_xdist_auto_num_workers() -> int:
     """Start one worker more than there are cores: where browsers and kernels let one wait, one computes."""
     return 1 + (os.cpu_count() or 1)
-
-
-@pytest.hookimpl(tryfirst=True)
-def pytest_collection(session: pytest.Session) -> None:
-    """Let each worker begin to import the tests at another place: what one compiles, the others read."""
-    if worker := getattr(session.config, "workerinput", None):
-        folders = [(Path.cwd() / argument).resolve() for argument in session.config.args]
-        files = sorted(file for folder in folders for file in folder.rglob("test_*.py"))
-        first = len(files) * int(worker["workerid"].removeprefix("gw")) // worker["workercount"]
-        for file in files[first:] + files[:first]:
-            with suppress(Exception, pytest.skip.Exception):  # which is told where the file is collected
-                import_module(".".join(file.relative_to(Path(__file__).parent).with_suffix("").parts))
 
 
 @pytest.hookimpl(wrapper=True)
