@@ -250,10 +250,7 @@ test_a_file_of_another_form_names_the_line = refused_texts(
     ("\n\nat 5 lhand 1 nan 3", "line 3: expected LEFT UP AHEAD, in metres.*got 'nan' as number 2"),
     ("time 1 x", "line 1: expected time NEW OLD, in seconds, got 'x' as number 2"),
     ("time 0 0", "line 1: expected two lines or more about time, got one"),
-    (
-        "time 0 0\n\ntime 2 2\ntime 3 1",
-        "line 4: expected two seconds after 2 and 2, .* line 3, got 3 and 1",
-    ),
+    ("time 0 0\n\ntime 2 2\ntime 3 1", "line 4: expected two seconds after 2 and 2, .* line 3, got 3 and 1"),
     ("time 0 0\ntime 0 1", "line 2: expected two seconds after 0 and 0, .* line 1, got 0 and 1"),
     ("\0", "a zero byte"),
     kind=FormatError,
@@ -264,10 +261,7 @@ test_a_plan_that_the_clip_cannot_follow = refused_texts(
     ("at 361 same", r"line 1: expected a moment up to frame 360, or second 3, got frame 361"),
     ("at 5s same", "got frame 600"),
     ("at 5 hand 0 0 0", r"line 1: expected a joint, such as rhand, lhand, .*got 'hand'"),
-    (
-        "at 1s same\nat 120 level",
-        "line 2: expected one wish for a joint at frame 120, got 'level' beside",
-    ),
+    ("at 1s same\nat 120 level", "line 2: expected one wish for a joint at frame 120, got 'level' beside"),
     ("at 1s lhand 0 0 0\nat 120 lhand 0 1 0", "line 2: .*'lhand' beside 'lhand' of line 1"),
     ("at 1s lhand 0 9 0", r"keys.txt, line 1: Frame 120: '\w+' would be .* m from"),
     ("time 0 0\ntime 1 9", "line 2: expected an old second up to 3, the clip's last, got 9"),
