@@ -68,12 +68,13 @@ def follow_path(
     Raises
     ------
     NoWalk : for a label that no walk can reach, a start that is not in the graph, a dead end, and clips of
-        which no walk goes on at 0.3 m/s, where no times are asked for.
+        which no walk goes on at 0.3 m/s; without `bend` where the walk is a metre off on average as well.
     MocapError : for a path that takes these clips more than an hour, and wishes that make no sense.
 
     Warns
     -----
-    MocapWarning : where the walk is more than 15 cm off the path, and with `bend` for plants that are let go.
+    MocapWarning : where the walk is more than 15 cm off the path, where it goes below 0.3 m/s and no times
+        are asked for, and with `bend` for plants that are let go.
 
     Examples
     --------
@@ -111,14 +112,17 @@ def follow_path(
 
 
 def _tell_departures(graph: CompiledGraph, followed: Followed, bend: float, *, on_time: bool) -> None:
-    """Refuse a walk that dawdles, unless times are asked for, and warn of one that leaves the path."""
-    far = followed.off.mean() > FAR
-    once_a_second = [*followed.track[:: round(graph.source.fps)], followed.track[-1]]
-    went = float(np.abs(np.diff(on_ground(np.array(once_a_second)))).sum())  # to sway is not to go on
-    dawdles = went < SLOWEST * followed.seconds and not (bend or followed.found.stopped)
-    if dawdles and (far or not on_time):
-        off = f"is {followed.off.mean():.1f} m off the line and " if far else ""
-        raise too_slow(graph, f"The nearest walk {off}takes {followed.seconds:.0f} s for {went:.1f} m")
+    """Refuse a walk that stands and does not follow, and warn of one that dawdles, or leaves the path."""
+    far = followed.off.mean() > FAR and not (bend or followed.found.stopped)
+    speed = np.abs(np.diff(on_ground(followed.track))).sum() / followed.seconds
+    if far and speed < SLOWEST:
+        off = f"The nearest walk is {followed.off.mean():.1f} m off the line on average"
+        raise too_slow(graph, f"{off}, and goes at {speed:.2f} m/s")
+    if not on_time and followed.along[-1] < SLOWEST * followed.seconds and not followed.found.stopped:
+        took = f"{followed.seconds:.0f} s for {followed.along[-1]:.1f} m"
+        warn(
+            f"The walk takes {took}: the clips hardly go on{'' if bend else '; `bend` may lay others on it'}."
+        )
     if departures := followed.departures:
         start, end, worst = max(departures, key=lambda stretch: stretch[2])
         often = "once" if len(departures) == 1 else f"{len(departures)} times"

@@ -23,7 +23,7 @@ from mocap.steering.path_search import find_walk
 from mocap.steering.waypoints_and_crowds import Waypoint, through_waypoints, walk_crowd
 from mocap.synthesis.ground_walks import GroundWalks, Stand
 from tests.bundled import bundled, captured, sneaking, walking
-from tests.refusals import quietly, refusals, refused, told
+from tests.refusals import quietly, refusals, told
 from tests.steering.test_bent_following import straight_walker
 
 GRAPH = walking()
@@ -165,12 +165,10 @@ def test_a_corner_that_no_clip_can_turn_is_cut_and_told():
     assert np.isfinite(followed.track).all()
 
 
-def test_a_walk_that_dawdles_is_refused_unless_times_are_asked_for():
+def test_a_walk_that_dawdles_is_told():
     clips = [resample(replace(sample(name), fps=20), 15) for name in ("walk_circle", "walk_curve_1")]
-    graph, line = prune(build(clips, window=20, threshold=0.08)), GroundPath([[0, 0], [0, 3]])
-    slow = r"^The nearest walk takes \d+ s for \d\.\d m; no clip goes faster than 0\.5 m/s: add some"
-    refused(slow, follow_path, graph, line, kind=NoWalk)
-    assert follow_path(graph, line, Wishes(times=[(2.5, 12)])).progress == 1.0
+    with pytest.warns(MocapWarning, match=r"^The walk takes \d+ s for 3\.\d m: the clips hardly go on"):
+        follow_path(prune(build(clips, window=20, threshold=0.08)), GroundPath([[0, 0], [0, 3]]))
 
 
 def asked(path=STRAIGHT, **wishes):
