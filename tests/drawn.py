@@ -58,7 +58,9 @@ def sketch(figure):
                 words += [artist.get_text()] if isinstance(artist, Text) else []
                 shown.setdefault(kind.__name__, []).extend([1.0, *numbers_of(artist, PLACES[kind])])
     shown["words"] = [*"\n".join(filter(None, words)).encode()]
-    return {kind: [len(values), round(weighed(values), 6)] for kind, values in shown.items()}
+    weights = np.cos(np.arange(max(map(len, shown.values()))))  # so that none can take another's place
+    numbers = {kind: np.nan_to_num(np.array(values, float)) for kind, values in shown.items()}
+    return {kind: [len(row), round(float(row @ weights[: len(row)]), 6)] for kind, row in numbers.items()}
 
 
 def numbers_of(artist, places):
@@ -71,11 +73,6 @@ def numbers_of(artist, places):
 
 def looks(artist, names):
     return [getattr(artist, f"get_{name}")() for name in names if hasattr(artist, f"get_{name}")]
-
-
-def weighed(values):
-    """Add up numbers, each with a weight of its own, so that none can take another's place."""
-    return float(np.nan_to_num(np.array(values, float)) @ np.cos(np.arange(len(values))))
 
 
 def hold(file, name, pictures):

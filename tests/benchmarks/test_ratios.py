@@ -65,15 +65,15 @@ def handle_of_a_path():
     return lambda: clean_up(editing.on_path(walk(), path, ride)), walk()
 
 
+def put_on_a_circle():
+    clip = sample("walk_straight")
+    return partial(editing.on_path, clip, circle(3.0), editing.ride_of(clip)), clip
+
+
 def bent(name, path):
     clip = sample(name) if name == "walk_straight" else resample(sample(name), 30)
     frames = len(editing.bend(clip, path).motion)
     return partial(editing.bend, clip, path), clip[:frames]
-
-
-def put_on_a_circle():
-    clip = sample("walk_straight")
-    return partial(editing.on_path, clip, circle(3.0), editing.ride_of(clip)), clip
 
 
 def dragged_key():
@@ -103,14 +103,11 @@ def three():
     return [walks()[speed, 0] for speed in (0.8, 1.1, 1.4)]
 
 
-def pulled_hand():
-    return partial(editing.hierarchy, walk(), hand_at(walk(), (180, 240, 300)), knots=(0.5,)), walk()
-
-
+HAND = partial(editing.hierarchy, knots=(0.5,))
 BESIDE_KINEMATICS = [
     ("edit", 80, lambda: (partial(editing.edit, walk(), stone(walk(), 0.15)), walk())),
     ("a handle of a path", ANSWER, handle_of_a_path),
-    ("a hand", ANSWER, pulled_hand),
+    ("a hand", ANSWER, lambda: (partial(HAND, walk(), hand_at(walk(), (180, 240, 300))), walk())),
     ("a key", 10, dragged_key),
     ("retime", 15, lambda: (partial(editing.retime, person(), [(0, 0), (2, 1), (4.9, 3.9)]), person())),
     *(

@@ -38,11 +38,10 @@ def save_amass(path, size=1):
     pack(path, {"poses": numbers[:, :156], "trans": numbers[:, 156:], **facts})
 
 
-def use_graph(path):
-    return summary(storage.load(path, CLIPS).graph, fps=30).table()
-
-
-KINDS = {"graph": (save_graph, use_graph), "amass": (save_amass, load_save.load)}
+KINDS = {
+    "graph": (save_graph, lambda path: summary(storage.load(path, CLIPS).graph, fps=30).table()),
+    "amass": (save_amass, load_save.load),
+}
 
 
 @pytest.fixture(scope="module")

@@ -12,14 +12,7 @@ from hypothesis import strategies as st
 import mocap
 from mocap.editing.retiming import at_frames
 from mocap.errors import NoWalk
-from mocap.graphs.homework_graph import (
-    connect,
-    segment_distances,
-    segment_graph,
-    segment_motion,
-    segment_walk,
-    segments,
-)
+from mocap.graphs import homework_graph as hw3
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.other_metrics import euler_grid, root_grid
 from tests.refusals import refusals
@@ -29,7 +22,7 @@ CLIPS = [wave(90, name="a"), wave(75, phase=1.0, name="b", seed=1), wave(60, pha
 
 
 def small(**settings):
-    return segment_graph(CLIPS, 20, 6, **{"threshold": 0.5, "metric": root_grid} | settings)
+    return hw3.segment_graph(CLIPS, 20, 6, **{"threshold": 0.5, "metric": root_grid} | settings)
 
 
 @pytest.fixture(scope="module")
@@ -40,19 +33,19 @@ def homework(real_data):
 
 @pytest.fixture(scope="module")
 def homework_grid(homework):
-    return segment_distances(homework)
+    return hw3.segment_distances(homework)
 
 
 @pytest.fixture(scope="module")
 def homework_graph(homework, homework_grid):
-    graph = connect(segments(homework, 200), homework_grid, 185, "distance")
+    graph = hw3.connect(hw3.segments(homework, 200), homework_grid, 185, "distance")
     graph.graph["window"] = 50
     return graph
 
 
 @given(st.integers(1, 3000), st.integers(1, 500))
 def test_segments_take_every_frame_once(frames, length):
-    cuts = segments([range(7), range(frames)], length)[max(7 // length, 1) :]
+    cuts = hw3.segments([range(7), range(frames)], length)[max(7 // length, 1) :]
     assert [n for cut in cuts for n in range(cut.start, cut.end)] == list(range(frames))
     assert len(cuts) == max(frames // length, 1)
     assert all(cut.clip == 1 for cut in cuts)
@@ -62,7 +55,7 @@ def test_segments_take_every_frame_once(frames, length):
 @pytest.mark.parametrize("metric", [root_grid, distance_grid])
 def test_segment_distances_lay_heads_on_tails(metric):
     a, b = wave(25), wave(20, phase=1.0, name="b", seed=1)
-    grid = segment_distances([a, b], segment=10, window=4, metric=metric)
+    grid = hw3.segment_distances([a, b], segment=10, window=4, metric=metric)
     pieces = [a[:10], a[10:], b[:10], b[10:]]
     assert grid.shape == (4, 4)
     for i, j in np.ndindex(4, 4):
@@ -95,7 +88,7 @@ def test_a_long_homework_walk(homework, homework_graph):
     core = max(nx.strongly_connected_components(homework_graph), key=len)
     graph = homework_graph.subgraph(core)
     walk = [min(core), *nx.shortest_path(graph, min(core), max(core))[1:]]
-    motion = segment_motion(homework, homework_graph, walk)
+    motion = hw3.segment_motion(homework, homework_graph, walk)
     steps = np.linalg.norm(np.diff(motion.root_positions, axis=0), axis=-1)
     usual = (np.linalg.norm(np.diff(clip.root_positions, axis=0), axis=-1).max() for clip in homework)
     assert steps.max() < 2 * max(usual)
@@ -105,7 +98,7 @@ def test_a_long_homework_walk(homework, homework_graph):
 def test_probabilities_add_up_also_where_the_distance_is_0(weighting):
     still = at_frames(CLIPS[0], np.zeros(90))
     twins = [still, replace(still, name="twin")]
-    same = segment_graph(twins, 20, 6, 1e-3, weighting, metric=root_grid)
+    same = hw3.segment_graph(twins, 20, 6, 1e-3, weighting, metric=root_grid)
     for graph in (small(weighting=weighting), same):
         assert any(kind == "transition" for _, _, kind in graph.edges(data="kind"))
         for _, following in graph.adjacency():
@@ -118,22 +111,19 @@ def test_probabilities_add_up_also_where_the_distance_is_0(weighting):
 
 def test_successors_are_the_clip_bit_for_bit():
     graph = small()
-    motion = segment_motion(CLIPS, graph, [0, 1, 2, 3])
-    walk = segment_walk(graph, 3, seed=4)
-    assert walk == segment_walk(graph, 3, seed=4)
+    motion = hw3.segment_motion(CLIPS, graph, [0, 1, 2, 3])
+    walk = hw3.segment_walk(graph, 3, seed=4)
+    assert walk == hw3.segment_walk(graph, 3, seed=4)
     assert all(graph.has_edge(*pair) for pair in pairwise(walk))
     np.testing.assert_array_equal(motion.rotations, CLIPS[0].rotations)
     np.testing.assert_array_equal(motion.root_positions, CLIPS[0].root_positions)
 
 
-def transition_of(graph):
-    return next((a, b) for a, b, k in graph.edges(data="kind") if k == "transition" and b + 1 in graph[b])
-
-
 def test_a_transition_goes_from_one_segment_to_the_other_and_on_without_a_stutter():
     graph = small()
-    here, there = transition_of(graph)
-    motion = segment_motion(CLIPS, graph, [here, there, there + 1])
+    kinds = graph.edges(data="kind")
+    here, there = next((a, b) for a, b, k in kinds if k == "transition" and b + 1 in graph[b])
+    motion = hw3.segment_motion(CLIPS, graph, [here, there, there + 1])
     nodes = (graph.nodes[i] for i in (here, there, there + 1))
     parts = [CLIPS[n["clip"]][n["start"] : n["end"]] for n in nodes]
     leave = len(parts[0]) - 6
@@ -152,27 +142,27 @@ def test_a_transition_goes_from_one_segment_to_the_other_and_on_without_a_stutte
 
 
 def lonely():
-    return segment_graph(CLIPS[:1], 20, 6, metric=root_grid)
+    return hw3.segment_graph(CLIPS[:1], 20, 6, metric=root_grid)
 
 
 test_bad_input_is_named = refusals(
     (
         "of 'wave' has 5 frames, too few for a window of 6",
-        lambda: segment_distances([wave(20)], segment=5, window=6),
+        lambda: hw3.segment_distances([wave(20)], segment=5, window=6),
     ),
     (
         "of 'wave' has 4 frames, too few for a window of 5",
-        lambda: segment_distances([wave(4)], segment=10, window=5),
+        lambda: hw3.segment_distances([wave(4)], segment=10, window=5),
     ),
-    ("one clip or more, got none", segment_distances, []),
+    ("one clip or more, got none", hw3.segment_distances, []),
     ("no bone with a weight", lambda: small(metric=euler_grid)),
     ("above 0, got 0", lambda: small(threshold=0)),
     ("above 0, got nan", lambda: small(threshold=np.nan)),
     ("not 'equal'", lambda: small(weighting="equal")),
-    ("too short for windows of 10", lambda: segment_graph(CLIPS, 20, 10, metric=root_grid)),
-    (NoWalk, "Nothing follows segment 3", lambda: segment_walk(lonely(), 9)),
-    (NoWalk, "no segment 99", lambda: segment_walk(lonely(), 9, start=99)),
-    ("at least one segment", lambda: segment_walk(lonely(), 0)),
-    (NoWalk, "no segment", lambda: segment_motion(CLIPS, lonely(), [])),
-    (NoWalk, "jumps from segment 0 to segment 2", lambda: segment_motion(CLIPS, lonely(), [0, 2])),
+    ("too short for windows of 10", lambda: hw3.segment_graph(CLIPS, 20, 10, metric=root_grid)),
+    (NoWalk, "Nothing follows segment 3", lambda: hw3.segment_walk(lonely(), 9)),
+    (NoWalk, "no segment 99", lambda: hw3.segment_walk(lonely(), 9, start=99)),
+    ("at least one segment", lambda: hw3.segment_walk(lonely(), 0)),
+    (NoWalk, "no segment", lambda: hw3.segment_motion(CLIPS, lonely(), [])),
+    (NoWalk, "jumps from segment 0 to segment 2", lambda: hw3.segment_motion(CLIPS, lonely(), [0, 2])),
 )

@@ -26,10 +26,6 @@ def zigzag(turns, hold=1.3, seed=0):
     return np.repeat(np.cumsum(turned), round(hold * 30))
 
 
-def feet_of(motion):
-    return on_ground(joint_positions(motion)[:, feet(motion)])
-
-
 class Noted:
     """A controller that notes how it was turned, so that a test can undo it."""
 
@@ -134,7 +130,7 @@ def test_a_controller_knows_where_its_feet_are():
         pose = controller.step(0.02 * frame, 1.1)
         skeleton, roots = controller.skeleton, pose.root_position[None]
         one = mocap.Motion(skeleton, roots, pose.rotations[None], controller.fps)
-        off.append(np.abs(controller.feet() - feet_of(one)[0]).max())
+        off.append(np.abs(controller.feet() - on_ground(joint_positions(one)[:, feet(one)])[0]).max())
         if not pose.blending:
             assert off[-1] < 1e-9
         controller.turn_about(controller.feet()[0], 0.01)

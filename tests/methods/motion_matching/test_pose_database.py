@@ -12,16 +12,8 @@ from mocap.body import concatenate, heading, place
 from mocap.datasets.samples import sample
 from mocap.errors import SkeletonMismatch
 from mocap.methods.motion_matching import GROUPS, features
+from mocap.methods.motion_matching import pose_database as db
 from mocap.methods.motion_matching.nearest_frames import FrameSearch, fade, foresee, spring, spring_way
-from mocap.methods.motion_matching.pose_database import (
-    AHEAD,
-    FUTURE,
-    WEIGHTS,
-    body_track,
-    standardise,
-    tabulate,
-    turn_speeds,
-)
 from tests.bundled import clips
 from tests.methods.motion_matching.matched import walks
 from tests.refusals import refusals, refused
@@ -31,9 +23,9 @@ from tests.strategies import wave
 @given(st.fixed_dictionaries({name: st.floats(0.1, 10) for name in GROUPS}))
 def test_each_group_spreads_as_its_weight_in_whatever_unit_it_is(units):
     unit = np.concatenate([np.full(columns.stop - columns.start, units[n]) for n, columns in GROUPS.items()])
-    values, mean, scale = standardise(walks().values * unit)
+    values, mean, scale = db.standardise(walks().values * unit)
     for name, columns in GROUPS.items():
-        assert values[:, columns].std(axis=0).mean() == pytest.approx(WEIGHTS[name])
+        assert values[:, columns].std(axis=0).mean() == pytest.approx(db.WEIGHTS[name])
         assert len(set(scale[columns])) == 1
     np.testing.assert_allclose(values * scale + mean, walks().values * unit, atol=1e-9)
 
@@ -53,7 +45,7 @@ def test_rows_are_the_frames_of_the_clips_and_the_last_second_of_each_is_left_ou
 def test_marks_that_a_clip_lacks_are_off_there():
     bare, marked = (replace(clip, contacts={}, labels={}) for clip in clips("walk_circle", "walk_curve_1"))
     marked = replace(marked, labels={"odd": np.ones(len(marked), bool)})
-    table = tabulate([bare, marked])
+    table = db.tabulate([bare, marked])
     assert (
         table.motion.labels["odd"].sum() == len(marked) and not table.motion.labels["odd"][: len(bare)].any()
     )
@@ -65,7 +57,7 @@ def test_turn_speeds_are_those_of_a_steady_turn():
     angle = np.arange(len(clip)) * 0.1 / 2
     turns = spun.rotations.copy()
     turns[:, 3] = np.stack([np.cos(angle), 0 * angle, np.sin(angle), 0 * angle], axis=-1)
-    speeds = turn_speeds(replace(spun, rotations=turns))
+    speeds = db.turn_speeds(replace(spun, rotations=turns))
     np.testing.assert_allclose(speeds[:, 3], [[0, 0.1 * clip.fps, 0]] * len(clip), atol=1e-9)
     assert not speeds[:, 4].any()
 
@@ -74,13 +66,13 @@ CLIP = clips("walk_circle")[0]
 LARGE = replace(CLIP, skeleton=replace(CLIP.skeleton, offsets=2 * CLIP.skeleton.offsets))
 
 test_what_makes_no_sense_is_refused_in_one_sentence = refusals(
-    ("one clip or more, got none", tabulate, []),
-    ("resample", tabulate, [sample("walk_circle"), CLIP]),
-    (SkeletonMismatch, "bone", tabulate, [CLIP, LARGE]),
+    ("one clip or more, got none", db.tabulate, []),
+    ("resample", db.tabulate, [sample("walk_circle"), CLIP]),
+    (SkeletonMismatch, "bone", db.tabulate, [CLIP, LARGE]),
     ("No legs found", features, wave(40)),
-    (r"longest, 'walk_circle', lasts 0.8", tabulate, [CLIP[:25]]),
-    ("at least two frames", tabulate, [CLIP, CLIP[:1]]),
-    ("never vary", tabulate, [concatenate([CLIP[:1]] * 60)]),
+    (r"longest, 'walk_circle', lasts 0.8", db.tabulate, [CLIP[:25]]),
+    ("at least two frames", db.tabulate, [CLIP, CLIP[:1]]),
+    ("never vary", db.tabulate, [concatenate([CLIP[:1]] * 60)]),
 )
 
 
@@ -93,10 +85,10 @@ def test_they_are_the_same_wherever_a_clip_is_placed():
 def test_they_say_where_the_body_will_be():
     """Placed by the track, the places ahead are the track itself some frames later."""
     (clip,) = clips("walk_circle")
-    (ground, facing), values = body_track(clip), features(clip)
+    (ground, facing), values = db.body_track(clip), features(clip)
     ahead = values[:, GROUPS["places ahead"]].reshape(-1, 3, 2) @ [1j, 1]
     frames = np.arange(len(clip) - 30)
-    for number, later in enumerate(np.round(AHEAD * 30).astype(int)):
+    for number, later in enumerate(np.round(db.AHEAD * 30).astype(int)):
         there = ground[frames] + np.exp(1j * facing[frames]) * ahead[frames, number]
         np.testing.assert_allclose(there, ground[frames + later], atol=1e-9)
 
@@ -104,7 +96,7 @@ def test_they_say_where_the_body_will_be():
 def test_the_smoothed_track_does_not_sway():
     """Walking straight, the pelvis turns to and fro by 8 degrees; the track by half of it."""
     (clip,) = clips("walk_straight")
-    swings = [np.ptp(track[30:200]) for track in (heading(clip.rotations[:, 0]), body_track(clip)[1])]
+    swings = [np.ptp(track[30:200]) for track in (heading(clip.rotations[:, 0]), db.body_track(clip)[1])]
     assert swings[1] < 0.6 * swings[0]
 
 
@@ -118,7 +110,7 @@ def queries(count, seed=0):
     """Real poses with other futures: what a character asks."""
     table, random = walks(), np.random.default_rng(seed)
     rows = table.values[random.integers(0, len(table), count)].copy()
-    rows[:, FUTURE] = table.values[random.integers(0, len(table), count)][:, FUTURE]
+    rows[:, db.FUTURE] = table.values[random.integers(0, len(table), count)][:, db.FUTURE]
     return rows
 
 
@@ -126,7 +118,7 @@ def queries(count, seed=0):
 def test_the_product_finds_what_a_loop_finds(future):
     table, weigh = walks(), np.ones(27)
     search = FrameSearch(table, future=future)
-    weigh[FUTURE] = future
+    weigh[db.FUTURE] = future
     for number, query in enumerate(queries(30)):
         now, near = 37 * number, 6
         costs = (((query - table.values) * weigh) ** 2).sum(axis=1)
@@ -150,13 +142,13 @@ def test_to_go_on_as_the_clip_does_is_to_foresee_its_future():
     start = sum(len(clip) for clip in table.clips[:3])
     now = start + 100
     goal = complex(table.drift[now] * np.exp(-1j * table.heading[now]))
-    ahead = foresee(table, now, goal, 0.27) * table.scale[FUTURE] + table.mean[FUTURE]
+    ahead = foresee(table, now, goal, 0.27) * table.scale[db.FUTURE] + table.mean[db.FUTURE]
     np.testing.assert_allclose(ahead[:6], features(table.clips[3])[100, 15:21], atol=0.05)
 
 
 def test_told_to_stop_it_keeps_facing_as_it_does():
     table = walks()
-    ahead = foresee(table, 100, 0j, 0.27) * table.scale[FUTURE] + table.mean[FUTURE]
+    ahead = foresee(table, 100, 0j, 0.27) * table.scale[db.FUTURE] + table.mean[db.FUTURE]
     assert np.hypot(*ahead[4:6]) < 0.4 and ahead[11] > 0.9
 
 
