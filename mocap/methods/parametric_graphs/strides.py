@@ -15,10 +15,15 @@ from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array, Indices, runs
 from mocap._shared.easing import quintic_step
+from mocap.body import rotations
+from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion, require_alike
+from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError
+from mocap.feet.ankle_targets import place_plants
 from mocap.feet.footplants import mark_plants
+from mocap.feet.footskate import clean_up
 from mocap.methods.parametric_graphs.examples import FINE, MARGIN, Examples, mixed_way, on_one_clock, tabled
 from mocap.methods.parametric_graphs.stride_spaces import measure_mixes
 
@@ -164,24 +169,25 @@ def changing_strides(first: Examples, second: Examples, *, stands: str = "") -> 
     first, second = first.take(one), second.take(other)
     first = _held(first, -1, FROM) if stands == "first" else first
     second = _held(second, TO, 2) if stands == "second" else second
-    made = _faded(first, second, quintic_step((first.grid - FROM) / (TO - FROM)), bool(stands))
-    return replace(made, values=measure_mixes(made, np.eye(len(made))))
+    return _stepped(first, second)
 
 
-def _faded(first: Examples, second: Examples, share: Array, stands: bool) -> Examples:
-    """Fade all rates and poses by a share (G,); marks change when half is faded, or come from both sides."""
+def _faded(first: Examples, second: Examples, swings: Indices, marks: Array) -> Examples:
+    """Fade all rates and poses between the phases 0.2 and 0.8, but legs while they swing."""
     grid = first.grid
     apart = (first.poses * second.poses).sum(axis=-1, keepdims=True) < 0  # q and -q are one rotation
     poses = (first.poses, np.where(apart, -second.poses, second.poses))
     paces = [np.gradient(some.seconds, grid[1] - grid[0], axis=1) for some in (first, second)]
+    share = quintic_step((grid - FROM) / (TO - FROM))
+    shares = np.tile(share[:, None], (len(first), 1, len(first.skeleton)))
+    for leg, pairs in zip(find_legs(first.skeleton), swings, strict=True):
+        start, stop = grid[pairs.T[..., None]]
+        shares[..., leg] = quintic_step((grid - start) / (stop - start))[..., None]
 
-    def faded(before: NDArray[Any], after: NDArray[Any]) -> NDArray[Any]:
-        amount = share.reshape(-1, *[1] * (before.ndim - 2))
-        return np.asarray((1 - amount) * before + amount * after)
+    def faded(before: NDArray[Any], after: NDArray[Any], share: Array = share) -> NDArray[Any]:
+        return np.asarray((1 - share) * before + share * after)
 
-    turns = faded(*poses)
-    until, since = (grid < 1, grid > 0) if stands else (share < 0.5, share >= 0.5)
-    before, after = np.where(until[:, None], first.contacts, 1), np.where(since[:, None], second.contacts, 1)
+    turns = faded(*poses, shares[..., None])
     return replace(
         first,
         speeds=faded(first.speeds, second.speeds),
@@ -189,11 +195,49 @@ def _faded(first: Examples, second: Examples, share: Array, stands: bool) -> Exa
         heights=faded(first.heights, second.heights),
         seconds=first.integrated(faded(*paces)),  # how long a phase lasts is what fades
         poses=turns / np.linalg.norm(turns, axis=-1, keepdims=True),
-        contacts=before * after,
+        contacts=marks,
         sway=(first.sway + second.sway) / 2,
         offset=(first.offset + second.offset) / 2,
         dropped=0,
     )
+
+
+def _stepped(first: Examples, second: Examples) -> Examples:
+    """Let each foot stand where the first kind stands until it swings, then where the second one does."""
+    grid, legs, every = first.grid, find_legs(first.skeleton), np.eye(len(first))
+    until, since = (grid < 1)[:, None], (grid > 0)[:, None]
+    marks = np.where(until, first.contacts, 1) * np.where(since, second.contacts, 1)
+    names = [[first.contact_names.index(first.skeleton.names[joint]) for joint in leg[2:]] for leg in legs]
+    swings = np.array([[_swing(row, first.ends) for row in marks[..., name].max(axis=-1)] for name in names])
+    made = _faded(first, second, swings, marks)
+    poses, heights, contacts = made.poses.copy(), made.heights.copy(), marks.copy()
+    places, (zero, one) = np.arange(len(grid)), first.ends
+    for row, weights in enumerate(every):
+        rate = (one - zero) / made.seconds[row, one]
+        moved, facing = made.motion(weights, places, rate)
+        after, turned = second.motion(weights, places, rate)
+        lay = PlanarTransform(facing[one], *moved.root_positions[one, [0, 2]]) @ PlanarTransform(turned[one], *after.root_positions[one, [0, 2]]).inverse()
+        ways = [joint_positions(some) for some in (first.motion(weights, places, rate)[0], lay.apply_motion(after))]
+        held = {}
+        for leg, (start, stop) in zip(legs, swings[:, row], strict=True):
+            ankle, ball = np.where((places < (start + stop) / 2)[:, None], *(way[:, leg[2:]].transpose(1, 0, 2) for way in ways))
+            stands = tuple(moved.contacts[first.skeleton.names[joint]] for joint in leg[2:])
+            held |= dict(zip(leg[2:], place_plants((ankle, ball), stands, leg.lengths(first.skeleton)[2])))
+        clean = clean_up(moved, held=held)
+        turns = clean.rotations.copy()
+        turns[:, 0] = rotations.multiply(rotations.about_y(-facing), turns[:, 0])
+        poses[row] = turns * np.where((turns * poses[row]).sum(-1, keepdims=True) < 0, -1, 1)
+        heights[row] = clean.root_positions[:, 1]
+        contacts[row] = np.stack([clean.contacts[name] for name in first.contact_names], axis=1)
+    made = replace(made, poses=poses, heights=heights, contacts=contacts)
+    return replace(made, values=measure_mixes(made, every))
+
+
+def _swing(stands: Array, ends: tuple[int, int]) -> tuple[int, int]:
+    """Find the frames between which a foot swings that comes down at a phase in (0, 1]."""
+    zero, one = ends
+    found = [(max(a - 1, zero), b) for a, b in runs(stands < 0.5).tolist() if zero < b - 2 and b <= one + 2]
+    return max(found, key=lambda pair: pair[1] - pair[0])
 
 
 def _held(examples: Examples, low: float, high: float) -> Examples:
