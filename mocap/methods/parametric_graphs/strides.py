@@ -6,12 +6,11 @@ the grid the strikes lie at even phases from 0 to 1, so that phase for phase all
 Notebook: 17-parametric-graphs
 """
 
+import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array, Indices, runs
 from mocap._shared.easing import quintic_step
@@ -19,9 +18,8 @@ from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion, require_alike
-from mocap.body.planar import PlanarTransform
-from mocap.errors import MocapError
-from mocap.feet.ankle_targets import place_plants
+from mocap.body.planar import PlanarTransform, on_ground
+from mocap.errors import MocapError, MocapWarning
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
 from mocap.methods.parametric_graphs.examples import FINE, MARGIN, Examples, mixed_way, on_one_clock, tabled
@@ -126,6 +124,7 @@ def _calibrated(strides: Examples, *, steps: bool) -> Examples:
 
 
 FROM, TO = 0.2, 0.8  # phases between which a change takes place
+STEP = (0.05, 0.95)  # phases between which feet step to their new places: seams blend what is beyond
 NEAR = np.radians(5)  # a turn that the other kind nearly has
 EXAMPLES = 60  # of a change, at most
 
@@ -135,22 +134,23 @@ def changing_strides(first: Examples, second: Examples, *, stands: str = "") -> 
 
     Each stride of the first kind is paired with the one of the second that turns most like it. Between the
     phases 0.2 and 0.8 all rates and poses go from the one to the other, with level ends; so its start fits
-    what follows the first kind, and its end what comes before the second.
+    what follows the first kind, and its end what comes before the second. A foot goes from where it stands in
+    the first to where it stands in the second while it swings, and rests before and after.
 
     Parameters
     ----------
     first, second : examples over the same phases, of one skeleton and rate.
     stands : "first" or "second" for examples that do not walk, such as punches: of them only the beginning
-        or the end is in the change, each foot of the walker takes its step from there or to there, and pairs
-        need not turn alike.
+        or the end is in the change, and pairs need not turn alike.
 
     Returns
     -------
-    At most 60 examples, of turns that both kinds have.
+    At most 60 examples, of turns that both kinds have; without pairs of which some foot does not swing.
 
     Raises
     ------
-    MocapError, SkeletonMismatch : for examples over other phases, and of other skeletons or rates.
+    MocapError, SkeletonMismatch : for examples over other phases, and of other skeletons or rates; for steps,
+        in which one foot stands.
 
     Examples
     --------
@@ -169,75 +169,70 @@ def changing_strides(first: Examples, second: Examples, *, stands: str = "") -> 
     first, second = first.take(one), second.take(other)
     first = _held(first, -1, FROM) if stands == "first" else first
     second = _held(second, TO, 2) if stands == "second" else second
-    return _stepped(first, second)
+    shares = _shares(first, second)
+    if not (steps := np.isfinite(shares).all(axis=(1, 2))).any():
+        raise MocapError("In a change each foot swings, but in none of the pairs: cut strides, not steps.")
+    first, second, shares = first.take(steps), second.take(steps), shares[steps]
+    made = _stepped(_faded(first, second, shares), first, second, shares)
+    return replace(made, values=measure_mixes(made, np.eye(len(made))))
 
 
-def _faded(first: Examples, second: Examples, swings: Indices, marks: Array) -> Examples:
-    """Fade all rates and poses between the phases 0.2 and 0.8, but legs while they swing."""
-    grid = first.grid
+def _shares(first: Examples, second: Examples) -> Array:
+    """Say how far the joints of N pairs are faded, (N, G, J): a leg's while it swings; nan if it never does."""
+    grid, (zero, one), skeleton = first.grid, first.ends, first.skeleton
+    stands = np.where(grid[:, None] < 1, first.contacts, 1) * np.where(grid[:, None] > 0, second.contacts, 1)
+    shares = np.tile(quintic_step((grid - FROM) / (TO - FROM))[:, None], (len(first), 1, len(skeleton)))
+    for leg in find_legs(skeleton):
+        foot = [first.contact_names.index(skeleton.names[joint]) for joint in leg[2:]]
+        for row, (ankle, ball) in enumerate(np.moveaxis(stands[..., foot], -1, 1)):
+            air = [span for span in runs(ankle < 0.5) if zero + 2 < span[1] <= one + 2]  # up to a strike
+            off, on = max(air, key=np.ptp) if air else (0, 1)
+            off += ball[off:on].argmin() - 1  # the ball leaves the ground last
+            start, stop = np.clip(grid[[max(off, 0), on]], *STEP) if air else (np.nan, np.nan)
+            shares[row, :, list(leg)] = quintic_step((grid - start) / (stop - start))
+    return shares
+
+
+def _faded(first: Examples, second: Examples, shares: Array) -> Examples:
+    """Fade poses by the shares (N, G, J) of their joints, and all rates by the root's; no joint stands then."""
+    share, step = shares[..., 0], first.grid[1] - first.grid[0]
+    rates = {part: (getattr(first, part), getattr(second, part)) for part in ("speeds", "turning", "heights")}
+    # How long a phase lasts is what fades.
+    rates["seconds"] = np.gradient(first.seconds, step, axis=1), np.gradient(second.seconds, step, axis=1)
+    made = {part: (1 - share) * before + share * after for part, (before, after) in rates.items()}
+    made["seconds"] = first.integrated(made["seconds"])
     apart = (first.poses * second.poses).sum(axis=-1, keepdims=True) < 0  # q and -q are one rotation
-    poses = (first.poses, np.where(apart, -second.poses, second.poses))
-    paces = [np.gradient(some.seconds, grid[1] - grid[0], axis=1) for some in (first, second)]
-    share = quintic_step((grid - FROM) / (TO - FROM))
-    shares = np.tile(share[:, None], (len(first), 1, len(first.skeleton)))
-    for leg, pairs in zip(find_legs(first.skeleton), swings, strict=True):
-        start, stop = grid[pairs.T[..., None]]
-        shares[..., leg] = quintic_step((grid - start) / (stop - start))[..., None]
-
-    def faded(before: NDArray[Any], after: NDArray[Any], share: Array = share) -> NDArray[Any]:
-        return np.asarray((1 - share) * before + share * after)
-
-    turns = faded(*poses, shares[..., None])
-    return replace(
-        first,
-        speeds=faded(first.speeds, second.speeds),
-        turning=faded(first.turning, second.turning),
-        heights=faded(first.heights, second.heights),
-        seconds=first.integrated(faded(*paces)),  # how long a phase lasts is what fades
-        poses=turns / np.linalg.norm(turns, axis=-1, keepdims=True),
-        contacts=marks,
-        sway=(first.sway + second.sway) / 2,
-        offset=(first.offset + second.offset) / 2,
-        dropped=0,
-    )
+    turns = (1 - shares[..., None]) * first.poses + shares[..., None] * np.where(apart, -1, 1) * second.poses
+    made["poses"] = turns / np.linalg.norm(turns, axis=-1, keepdims=True)
+    feet = shares[..., [first.skeleton.index(name) for name in first.contact_names]]
+    made["contacts"] = np.where(feet <= 0, first.contacts, np.where(feet >= 1, second.contacts, 0))
+    sway, offset = (first.sway + second.sway) / 2, (first.offset + second.offset) / 2
+    return replace(first, **made, sway=sway, offset=offset, dropped=0)
 
 
-def _stepped(first: Examples, second: Examples) -> Examples:
-    """Let each foot stand where the first kind stands until it swings, then where the second one does."""
-    grid, legs, every = first.grid, find_legs(first.skeleton), np.eye(len(first))
-    until, since = (grid < 1)[:, None], (grid > 0)[:, None]
-    marks = np.where(until, first.contacts, 1) * np.where(since, second.contacts, 1)
-    names = [[first.contact_names.index(first.skeleton.names[joint]) for joint in leg[2:]] for leg in legs]
-    swings = np.array([[_swing(row, first.ends) for row in marks[..., name].max(axis=-1)] for name in names])
-    made = _faded(first, second, swings, marks)
-    poses, heights, contacts = made.poses.copy(), made.heights.copy(), marks.copy()
-    places, (zero, one) = np.arange(len(grid)), first.ends
-    for row, weights in enumerate(every):
-        rate = (one - zero) / made.seconds[row, one]
-        moved, facing = made.motion(weights, places, rate)
-        after, turned = second.motion(weights, places, rate)
-        lay = PlanarTransform(facing[one], *moved.root_positions[one, [0, 2]]) @ PlanarTransform(turned[one], *after.root_positions[one, [0, 2]]).inverse()
-        ways = [joint_positions(some) for some in (first.motion(weights, places, rate)[0], lay.apply_motion(after))]
-        held = {}
-        for leg, (start, stop) in zip(legs, swings[:, row], strict=True):
-            ankle, ball = np.where((places < (start + stop) / 2)[:, None], *(way[:, leg[2:]].transpose(1, 0, 2) for way in ways))
-            stands = tuple(moved.contacts[first.skeleton.names[joint]] for joint in leg[2:])
-            held |= dict(zip(leg[2:], place_plants((ankle, ball), stands, leg.lengths(first.skeleton)[2])))
-        clean = clean_up(moved, held=held)
-        turns = clean.rotations.copy()
-        turns[:, 0] = rotations.multiply(rotations.about_y(-facing), turns[:, 0])
-        poses[row] = turns * np.where((turns * poses[row]).sum(-1, keepdims=True) < 0, -1, 1)
-        heights[row] = clean.root_positions[:, 1]
-        contacts[row] = np.stack([clean.contacts[name] for name in first.contact_names], axis=1)
-    made = replace(made, poses=poses, heights=heights, contacts=contacts)
-    return replace(made, values=measure_mixes(made, every))
-
-
-def _swing(stands: Array, ends: tuple[int, int]) -> tuple[int, int]:
-    """Find the frames between which a foot swings that comes down at a phase in (0, 1]."""
-    zero, one = ends
-    found = [(max(a - 1, zero), b) for a, b in runs(stands < 0.5).tolist() if zero < b - 2 and b <= one + 2]
-    return max(found, key=lambda pair: pair[1] - pair[0])
+def _stepped(made: Examples, first: Examples, second: Examples, shares: Array) -> Examples:
+    """Lead each foot from its way in the first kind to that in the second, laid on where the change ends."""
+    rows, places, one, legs = [], np.arange(len(made.grid)), made.ends[1], find_legs(made.skeleton)
+    for weights, share, seconds in zip(np.eye(len(made)), shares, made.seconds, strict=True):
+        kinds = (some.motion(weights, places, FINE / seconds[one]) for some in (made, first, second))
+        (moved, facing), (before, _), (after, turned) = kinds
+        turn = np.exp(1j * (facing[one] - turned[one]))
+        at, there = (on_ground(some.root_positions[one]) for some in (moved, after))
+        laid = PlanarTransform.from_complex(turn, at - turn * there).apply_motion(after)
+        a, b = joint_positions(before), joint_positions(laid)
+        ways = a + share[..., None] * (b - a)
+        held = {joint: ways[:, joint] for leg in legs for joint in leg[2:]}
+        always = dict.fromkeys(moved.contacts, np.ones(len(places), bool))
+        with warnings.catch_warnings(action="ignore", category=MocapWarning):  # of feet in the air
+            led = clean_up(replace(moved, contacts=always), held=held)
+        clean = clean_up(replace(led, contacts=moved.contacts))
+        poses = clean.rotations.copy()
+        poses[:, 0] = rotations.multiply(rotations.about_y(-facing), poses[:, 0])
+        marks = np.stack([clean.contacts[name] for name in made.contact_names], axis=-1)
+        rows.append((clean.root_positions[:, 1], poses, marks))
+    heights, poses, contacts = map(np.array, zip(*rows, strict=True))
+    poses *= np.where((poses * made.poses).sum(axis=-1, keepdims=True) < 0, -1, 1)
+    return replace(made, heights=heights, poses=poses, contacts=contacts)
 
 
 def _held(examples: Examples, low: float, high: float) -> Examples:
