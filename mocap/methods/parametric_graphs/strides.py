@@ -178,7 +178,7 @@ def changing_strides(first: Examples, second: Examples, *, stands: str = "") -> 
 
 
 def _shares(first: Examples, second: Examples) -> Array:
-    """Say how far the joints of N pairs are faded, (N, G, J): a leg's while it swings; nan if it never does."""
+    """Say how far joints are faded, (N, G, J): a leg's while it swings; nan if it never does."""
     grid, (zero, one), skeleton = first.grid, first.ends, first.skeleton
     stands = np.where(grid[:, None] < 1, first.contacts, 1) * np.where(grid[:, None] > 0, second.contacts, 1)
     shares = np.tile(quintic_step((grid - FROM) / (TO - FROM))[:, None], (len(first), 1, len(skeleton)))
@@ -194,7 +194,7 @@ def _shares(first: Examples, second: Examples) -> Array:
 
 
 def _faded(first: Examples, second: Examples, shares: Array) -> Examples:
-    """Fade poses by the shares (N, G, J) of their joints, and all rates by the root's; no joint stands then."""
+    """Fade poses by the shares of joints, and all rates by the root's; what is half faded does not stand."""
     share, step = shares[..., 0], first.grid[1] - first.grid[0]
     rates = {part: (getattr(first, part), getattr(second, part)) for part in ("speeds", "turning", "heights")}
     # How long a phase lasts is what fades.
@@ -247,17 +247,14 @@ def _held(examples: Examples, low: float, high: float) -> Examples:
 def _pairs(first: Examples, second: Examples, any_turn: bool) -> tuple[Indices, Indices]:
     """Pair examples of two kinds, spread over their turns: any two, or those that turn most alike."""
     turns, others = first.values[:, 0], second.values[:, 0]
-    if any_turn:
-        count = max(len(turns), len(others))
-        return np.resize(_spread(turns), count)[:EXAMPLES], np.resize(_spread(others), count)[:EXAMPLES]
-    shared = np.flatnonzero((turns >= others.min() - NEAR) & (turns <= others.max() + NEAR))
-    if not len(shared):
+    near = any_turn | (turns >= others.min() - NEAR) & (turns <= others.max() + NEAR)
+    if not (shared := np.flatnonzero(near)).size:
         raise MocapError("The two kinds have no turn in common, so that none can change into the other.")
-    one = shared[_spread(turns[shared])]
+    orders = np.argsort(turns[shared]), np.argsort(others)
+    evenly = (np.linspace(0, len(order) - 1, EXAMPLES).round().astype(int) for order in orders)
+    one, other = (order[np.unique(places)] for order, places in zip(orders, evenly, strict=True))
+    one = shared[one]
+    if any_turn:
+        count = min(max(len(turns), len(others)), EXAMPLES)
+        return np.resize(one, count), np.resize(other, count)
     return one, np.abs(turns[one][:, None] - others).argmin(axis=1)
-
-
-def _spread(turns: Array) -> Indices:
-    """Choose examples that are spread evenly in the order of their turns."""
-    places = np.unique(np.linspace(0, len(turns) - 1, EXAMPLES).round().astype(int))
-    return np.asarray(np.argsort(turns)[places])
