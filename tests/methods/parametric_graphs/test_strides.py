@@ -8,12 +8,16 @@ import pytest
 from mocap.body import Motion, joint_positions, place, resample
 from mocap.body.rotations import multiply
 from mocap.datasets.samples import sample
+from mocap.editing import retarget, stance_of
 from mocap.errors import SkeletonMismatch
-from mocap.methods.parametric_graphs import cut_strides, mixed_way
+from mocap.feet import clean_up, mark_plants
+from mocap.files import load
+from mocap.methods.parametric_graphs import cut_actions, cut_strides, make_space, mixed_way
 from mocap.methods.parametric_graphs.examples import MARGIN
 from mocap.methods.parametric_graphs.strides import changing_strides
+from mocap.quality import plant_slides
 from tests.bundled import clips
-from tests.methods.parametric_graphs.built import jogs, strides
+from tests.methods.parametric_graphs.built import jogs, punches, strides
 from tests.refusals import refusals
 
 
@@ -156,13 +160,44 @@ def test_it_starts_as_the_first_kind_and_ends_as_the_second():
     assert (np.diff(change.seconds, axis=1) > 0).all() and not change.seconds[:, zero].any()
 
 
-def test_a_kind_changed_into_itself_is_itself():
+def test_a_kind_changed_into_itself_is_itself_with_feet_at_rest():
     walk = strides()
     same = changing_strides(walk, walk)
     rows = np.abs(walk.heights[:, None] - same.heights).max(axis=-1).argmin(axis=0)
     assert len(set(rows)) == len(same) == 60
-    np.testing.assert_allclose(same.heights, walk.heights[rows], atol=1e-9)
     np.testing.assert_allclose(same.seconds, walk.seconds[rows], atol=0.01)
+    for one, row in enumerate(rows[:5]):
+        pairs, fps = ((same, one), (walk, row)), 60 / same.seconds[one, same.ends[1]]
+        moved, own = (kind.motion(np.eye(len(kind))[n], np.arange(107.0), fps)[0] for kind, n in pairs)
+        rested = clean_up(replace(own, contacts=moved.contacts)).root_positions[:, 1]
+        np.testing.assert_allclose(rested, same.heights[one], atol=1e-9)
+
+
+def slides(examples, mixes):
+    """How far planted feet stray from their mean place, cm."""
+    plants = [plant for mix in mixes for plant in plant_slides(examples.blend(mix))]
+    return [plant.far for plant in plants if plant.stop - plant.start > 2]
+
+
+def real(data):
+    """The homework's walks, and a boxer's punches on their body."""
+    files = [(f"hw3/walk_fwd_{way}.AMC", "hw3/walker.ASF") for way in ("circle", "curve1", "curve2")]
+    files.append(("cmu/02/02_05.amc", "cmu/02/02.asf"))
+    clips = [mark_plants(resample(load(data / clip, skeleton=data / body), 30)) for clip, body in files]
+    boxer = mark_plants(retarget(clips[-1], stance_of(clips[0]), stance_of(clips[-1])))
+    spans = [(middle - 21, middle + 21) for middle in (85, 130, 173, 216, 259, 301, 346, 392)]
+    return cut_strides(clips[:-1]), cut_actions([boxer] * 8, spans)
+
+
+@pytest.mark.parametrize("clips", ["bundled", "real"])
+def test_planted_feet_rest_in_changes_and_where_they_are_mixed_slide_no_more_than_in_walks(clips, request):
+    walk, punch = real(request.getfixturevalue("real_data")) if clips == "real" else (strides(), punches())
+    own = slides(walk, make_space(walk, 0.25, -1, 1).weights[::40])
+    for pair in ((walk, punch, "second"), (punch, walk, "first")):
+        change = changing_strides(*pair[:2], stands=pair[2])
+        assert max(slides(change, np.eye(len(change)))) < 0.5
+        mixed = slides(change, make_space(change, 0.25, -1, 1).weights[::40])
+        assert np.median(mixed) <= 0.3 * np.median(own) and max(mixed) <= max(own)
 
 
 def changed_to(other):
@@ -175,6 +210,7 @@ def large():
 
 test_kinds_that_do_not_fit_are_refused = refusals(
     ("over the same phases", lambda: changed_to(strides("lr"))),
+    ("cut strides, not steps", changing_strides, strides("lr"), strides("lr")),
     ("one rate, got 30 and 60 Hz", lambda: changed_to(replace(jogs(), fps=60.0))),
     ("no turn in common", lambda: changed_to(replace(jogs(), values=jogs().values + 9))),
     (SkeletonMismatch, "sits", lambda: changed_to(replace(jogs(), skeleton=large()))),
