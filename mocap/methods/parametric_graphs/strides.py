@@ -170,7 +170,7 @@ def changing_strides(first: Examples, second: Examples, *, stands: str = "") -> 
     first = _held(first, -1, FROM) if stands == "first" else first
     second = _held(second, TO, 2) if stands == "second" else second
     shares = _shares(first, second)
-    if not (steps := np.isfinite(shares).all(axis=(1, 2))).any():
+    if not (steps := np.flatnonzero(np.isfinite(shares).all(axis=(1, 2)))).size:
         raise MocapError("In a change each foot swings, but in none of the pairs: cut strides, not steps.")
     first, second, shares = first.take(steps), second.take(steps), shares[steps]
     made = _stepped(_faded(first, second, shares), first, second, shares)
@@ -196,52 +196,48 @@ def _shares(first: Examples, second: Examples) -> Array:
 def _faded(first: Examples, second: Examples, shares: Array) -> Examples:
     """Fade poses by the shares of joints, and all rates by the root's; what is half faded does not stand."""
     share, step = shares[..., 0], first.grid[1] - first.grid[0]
-    rates = {part: (getattr(first, part), getattr(second, part)) for part in ("speeds", "turning", "heights")}
-    # How long a phase lasts is what fades.
-    rates["seconds"] = np.gradient(first.seconds, step, axis=1), np.gradient(second.seconds, step, axis=1)
+    parts = ("speeds", "turning", "heights")
+    rates = {part: [getattr(some, part) for some in (first, second)] for part in parts}
+    rates["seconds"] = [np.gradient(some.seconds, step, axis=1) for some in (first, second)]
     made = {part: (1 - share) * before + share * after for part, (before, after) in rates.items()}
-    made["seconds"] = first.integrated(made["seconds"])
+    made["seconds"] = first.integrated(made["seconds"])  # how long a phase lasts is what fades
     apart = (first.poses * second.poses).sum(axis=-1, keepdims=True) < 0  # q and -q are one rotation
     turns = (1 - shares[..., None]) * first.poses + shares[..., None] * np.where(apart, -1, 1) * second.poses
     made["poses"] = turns / np.linalg.norm(turns, axis=-1, keepdims=True)
     feet = shares[..., [first.skeleton.index(name) for name in first.contact_names]]
     made["contacts"] = np.where(feet <= 0, first.contacts, np.where(feet >= 1, second.contacts, 0))
-    sway, offset = (first.sway + second.sway) / 2, (first.offset + second.offset) / 2
-    return replace(first, **made, sway=sway, offset=offset, dropped=0)
+    middle = {part: (getattr(first, part) + getattr(second, part)) / 2 for part in ("sway", "offset")}
+    return replace(first, **made, **middle, dropped=0)
 
 
 def _stepped(made: Examples, first: Examples, second: Examples, shares: Array) -> Examples:
     """Lead each foot from its way in the first kind to that in the second, laid on where the change ends."""
-    rows, places, one, legs = [], np.arange(len(made.grid)), made.ends[1], find_legs(made.skeleton)
-    for weights, share, seconds in zip(np.eye(len(made)), shares, made.seconds, strict=True):
-        kinds = (some.motion(weights, places, FINE / seconds[one]) for some in (made, first, second))
-        (moved, facing), (before, _), (after, turned) = kinds
+    poses, heights, one = made.poses.copy(), made.heights.copy(), made.ends[1]
+    for row, weights in enumerate(np.eye(len(made))):
+        clock = np.arange(float(len(made.grid))), FINE / made.seconds[row, one]
+        (moved, facing), (after, turned) = (some.motion(weights, *clock) for some in (made, second))
         turn = np.exp(1j * (facing[one] - turned[one]))
         at, there = (on_ground(some.root_positions[one]) for some in (moved, after))
         laid = PlanarTransform.from_complex(turn, at - turn * there).apply_motion(after)
-        a, b = joint_positions(before), joint_positions(laid)
-        ways = a + share[..., None] * (b - a)
-        held = {joint: ways[:, joint] for leg in legs for joint in leg[2:]}
-        always = dict.fromkeys(moved.contacts, np.ones(len(places), bool))
+        a, b = (joint_positions(some) for some in (first.motion(weights, *clock)[0], laid))
+        ways = np.swapaxes(a + shares[row, ..., None] * (b - a), 0, 1)
+        always = dict.fromkeys(moved.contacts, np.ones(len(made.grid), bool))
         with warnings.catch_warnings(action="ignore", category=MocapWarning):  # of feet in the air
-            led = clean_up(replace(moved, contacts=always), held=held)
+            led = clean_up(replace(moved, contacts=always), held=dict(enumerate(ways)))
         clean = clean_up(replace(led, contacts=moved.contacts))
-        poses = clean.rotations.copy()
-        poses[:, 0] = rotations.multiply(rotations.about_y(-facing), poses[:, 0])
-        marks = np.stack([clean.contacts[name] for name in made.contact_names], axis=-1)
-        rows.append((clean.root_positions[:, 1], poses, marks))
-    heights, poses, contacts = map(np.array, zip(*rows, strict=True))
-    poses *= np.where((poses * made.poses).sum(axis=-1, keepdims=True) < 0, -1, 1)
-    return replace(made, heights=heights, poses=poses, contacts=contacts)
+        turns, heights[row] = clean.rotations.copy(), clean.root_positions[:, 1]
+        turns[:, 0] = rotations.multiply(rotations.about_y(-facing), turns[:, 0])
+        poses[row] = turns * np.where((turns * poses[row]).sum(axis=-1, keepdims=True) < 0, -1, 1)
+    return replace(made, heights=heights, poses=poses)
 
 
 def _held(examples: Examples, low: float, high: float) -> Examples:
     """Let examples stand still before one phase and after another."""
     rows = np.searchsorted(examples.grid, np.clip(examples.grid, low, high) - 1e-9)
     goes = rows == np.arange(len(rows))
-    moved = {part: getattr(examples, part) * goes for part in ("speeds", "turning")}
-    stood = {part: getattr(examples, part)[:, rows] for part in ("heights", "poses")}
-    return replace(examples, **moved, **stood, contacts=np.maximum(examples.contacts, ~goes[:, None]))
+    held = {part: getattr(examples, part) * goes for part in ("speeds", "turning")}
+    held |= {part: getattr(examples, part)[:, rows] for part in ("heights", "poses")}
+    return replace(examples, **held, contacts=np.maximum(examples.contacts, ~goes[:, None]))
 
 
 def _pairs(first: Examples, second: Examples, any_turn: bool) -> tuple[Indices, Indices]:
@@ -253,8 +249,7 @@ def _pairs(first: Examples, second: Examples, any_turn: bool) -> tuple[Indices, 
     orders = np.argsort(turns[shared]), np.argsort(others)
     evenly = (np.linspace(0, len(order) - 1, EXAMPLES).round().astype(int) for order in orders)
     one, other = (order[np.unique(places)] for order, places in zip(orders, evenly, strict=True))
-    one = shared[one]
     if any_turn:
         count = min(max(len(turns), len(others)), EXAMPLES)
         return np.resize(one, count), np.resize(other, count)
-    return one, np.abs(turns[one][:, None] - others).argmin(axis=1)
+    return shared[one], np.abs(turns[shared[one]][:, None] - others).argmin(axis=1)

@@ -138,13 +138,11 @@ def reaches():
 @cache
 def punches():
     """One that stands, and whose right hand goes to some place."""
-    clip = samples.sample("stop_and_go")
-    still = resample(clip, 30)
+    still = resample(samples.sample("stop_and_go"), 30)
     speed = np.abs(np.diff(still.root_positions[:, [0, 2]] @ [1j, 1]))
     at = int(np.convolve(speed, np.ones(15), "valid").argmin()) + 7
-    still = concatenate(
-        [replace(still[at : at + 1], contacts=dict.fromkeys(still.contacts, True), labels={})] * 80
-    )
+    still = replace(still[at : at + 1], contacts=dict.fromkeys(still.contacts, True), labels={})
+    still = concatenate([still] * 80)
     return cut_actions([arm_moved(still, 40, *arm) for arm in arms(14, seed=1)], [(22, 58)] * 14)
 
 

@@ -16,7 +16,7 @@ from mocap.methods.parametric_graphs import cut_actions, cut_strides, make_space
 from mocap.methods.parametric_graphs.examples import MARGIN
 from mocap.methods.parametric_graphs.strides import changing_strides
 from mocap.quality import plant_slides
-from tests.bundled import clips
+from tests.bundled import clips, walks_of_16
 from tests.methods.parametric_graphs.built import jogs, punches, strides
 from tests.refusals import refusals
 
@@ -167,10 +167,10 @@ def test_a_kind_changed_into_itself_is_itself_with_feet_at_rest():
     assert len(set(rows)) == len(same) == 60
     np.testing.assert_allclose(same.seconds, walk.seconds[rows], atol=0.01)
     for one, row in enumerate(rows[:5]):
-        pairs, fps = ((same, one), (walk, row)), 60 / same.seconds[one, same.ends[1]]
-        moved, own = (kind.motion(np.eye(len(kind))[n], np.arange(107.0), fps)[0] for kind, n in pairs)
-        rested = clean_up(replace(own, contacts=moved.contacts)).root_positions[:, 1]
-        np.testing.assert_allclose(rested, same.heights[one], atol=1e-9)
+        clock = np.arange(107.0), 60 / same.seconds[one, same.ends[1]]
+        moved, own = (k.motion(np.eye(len(k))[n], *clock)[0] for k, n in ((same, one), (walk, row)))
+        own = clean_up(replace(own, contacts=moved.contacts))
+        np.testing.assert_allclose(own.root_positions[:, 1], same.heights[one], atol=1e-9)
 
 
 def slides(examples, mixes):
@@ -180,13 +180,12 @@ def slides(examples, mixes):
 
 
 def real(data):
-    """The homework's walks, and a boxer's punches on their body."""
-    files = [(f"hw3/walk_fwd_{way}.AMC", "hw3/walker.ASF") for way in ("circle", "curve1", "curve2")]
-    files.append(("cmu/02/02_05.amc", "cmu/02/02.asf"))
-    clips = [mark_plants(resample(load(data / clip, skeleton=data / body), 30)) for clip, body in files]
-    boxer = mark_plants(retarget(clips[-1], stance_of(clips[0]), stance_of(clips[-1])))
-    spans = [(middle - 21, middle + 21) for middle in (85, 130, 173, 216, 259, 301, 346, 392)]
-    return cut_strides(clips[:-1]), cut_actions([boxer] * 8, spans)
+    """Walks, and a boxer's punches on their body."""
+    walks = [resample(clip, 30) for clip in walks_of_16(data)]
+    boxer = resample(load(data / "cmu/02/02_05.amc", skeleton=data / "cmu/02/02.asf"), 30)
+    boxer = retarget(mark_plants(boxer), stance_of(walks[0]), stance_of(boxer))
+    middles = (85, 130, 173, 216, 259, 301, 346, 392)
+    return cut_strides(walks), cut_actions([boxer] * 8, [(middle - 21, middle + 21) for middle in middles])
 
 
 @pytest.mark.parametrize("clips", ["bundled", "real"])
@@ -195,8 +194,8 @@ def test_planted_feet_rest_in_changes_and_where_they_are_mixed_slide_no_more_tha
     own = slides(walk, make_space(walk, 0.25, -1, 1).weights[::40])
     for pair in ((walk, punch, "second"), (punch, walk, "first")):
         change = changing_strides(*pair[:2], stands=pair[2])
-        assert max(slides(change, np.eye(len(change)))) < 0.5
         mixed = slides(change, make_space(change, 0.25, -1, 1).weights[::40])
+        assert max(slides(change, np.eye(len(change)))) < 0.5
         assert np.median(mixed) <= 0.3 * np.median(own) and max(mixed) <= max(own)
 
 
