@@ -165,6 +165,7 @@ def test_what_was_got_is_said_and_one_turn_over_and_over_is_no_circle():
             facing.append(character.place.angle)
     got = np.degrees([chosen.got[0] for chosen in character.chosen[3:]])
     assert np.abs(got - np.degrees(character.chosen[-1].taken[0])).max() <= 1
+    assert built.space().parameters == ("turn",)
     turned = np.degrees(np.diff(np.unwrap(facing)))[3:]
     assert np.abs(turned[-8:].mean() - 20) < 8
 
@@ -172,8 +173,7 @@ def test_what_was_got_is_said_and_one_turn_over_and_over_is_no_circle():
 def slide(character):
     """How far planted joints stray from their mean place in 30 s of turns; plants as the clips say."""
     headings = command_headings(30, character.fps).tolist()
-    plants = plant_slides(steer(character, headings, SPEED).motion)
-    return np.mean([plant.far for plant in plants if plant.stop - plant.start > 2])
+    return np.mean(built.slides(steer(character, headings, SPEED).motion))
 
 
 def test_feet_slide_no_more_than_those_of_a_motion_graph_of_the_same_clips():
@@ -199,7 +199,7 @@ def test_a_place_of_the_world_is_met_and_planted_feet_rest_in_the_changes_too(no
     assert np.median(off) <= 0.015 and np.percentile(off, 90) <= 0.05
     ways = {"reach": {"walk", "reach"}, "punch": {"walk", "to_guard", "punch", "from_guard"}}
     assert {chosen.node for chosen in done.chosen} == ways[node]
-    slides = [plant.far for plant in plant_slides(done.motion) if plant.stop - plant.start > 2]
+    slides = built.slides(done.motion)
     assert np.percentile(slides, 95) <= 2 and max(slides) <= 3.5  # cm, as in walks
     clean = clean_up(done.motion)
     assert plants_kept(clean, done.motion) >= 0.97 and max(plant.far for plant in plant_slides(clean)) < 1e-3
