@@ -4,11 +4,9 @@
     python tests/mutate.py --only mocap/feet/footskate.py --count 20
     python tests/mutate.py --rooms editing methods --near
 
-A change concerns one token: a comparison, an operator, a number, and/or, min/max, True/False. Docstrings,
-annotations, imports, decorators, error messages and `strict=` stay as they are. For each change, the tests
-that name the module run first, then the rest of its room, rooms above, and what all rooms gave (with --near,
-only the first of these). A failing test catches the change, and so does one that does not end. Changes that
-no test catches are printed, as file:line:column old -> new. Not for Windows: each run is a fork.
+A change concerns one token of code: a comparison, an operator, a number, and/or, min/max, True/False. First
+run the tests that name the module (with --near, only these), then the rest of its room, rooms above, and what
+all rooms gave. Changes that no test catches are printed, as file:line:column old -> new. Not for Windows.
 """
 
 import argparse

@@ -1,8 +1,7 @@
 """All rooms give what they gave: graphs and walks the same numbers, motions the same to six digits.
 
-What is expected stands in `same_results.toml`. Walks are compared as whole numbers, so that the last digits
-of another processor do not matter; motions by a sum, in which each number has another weight. Where one is
-to change, a commit says why.
+What is expected stands in `same_results.toml`: of walks whole numbers, so that the last digits of another
+processor do not matter; of motions a sum, in which each number has another weight.
 """
 
 import hashlib

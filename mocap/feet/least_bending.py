@@ -198,9 +198,8 @@ def _least_bent(
         held = (change[0] >= top) & (target[0] < 0) | (change[0] <= bottom) & (target[0] > 0)
         terms = [(slopes, bands, 1)]
         if over.any():
-            held_back = [bending_bands(hard * row.any(axis=0), 0.0, span) for row in over]
-            knees = _knees(slopes).reshape(1 + legs, 3 * legs, -1)
-            terms.append((knees, np.repeat(held_back, 3, axis=0), span))
+            ties = np.repeat([bending_bands(hard * row.any(axis=0), 0.0, span) for row in over], 3, axis=0)
+            terms.append((_knees(slopes).reshape(1 + legs, 3 * legs, -1), ties, span))
         tried = change - _gauss_newton(terms, target, damping, held)
         tried[0] = np.clip(tried[0], bottom, top)
         there, *rest, less = weighed(tried)

@@ -1,8 +1,7 @@
 """What work takes beside the bare work that it cannot do without, or its motion lasts; and what memory.
 
 See the ratios: pytest -m benchmark -n 0 -s tests/benchmarks/test_ratios.py
-Both sides take turns in one run, in CPU seconds; of each the fastest turn counts. What is linear in its input
-may take more for each frame of a large one, for caches, but grow by no worse power.
+Both sides take turns in one run, in CPU seconds; of each the fastest turn counts.
 """
 
 import os

@@ -6,6 +6,7 @@ Screenshots are made only where MOCAP_ARTEFACTS names a folder to keep them in: 
 import contextlib
 import json
 import os
+import shlex
 import shutil
 import socket
 import subprocess
@@ -19,31 +20,17 @@ from urllib.parse import urlsplit
 
 import pytest
 
-LAB = [
-    "--ServerApp.ip=127.0.0.1",
-    "--ServerApp.port_retries=0",
-    "--ServerApp.open_browser=False",
-    "--ServerApp.allow_root=True",
-    "--IdentityProvider.token=",
-    "--LabApp.news_url=None",
-    "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate",
-    "--LabApp.extension_manager=readonly",
-    "--LabApp.expose_app_in_browser=True",
-]
+LAB = shlex.split("""--ServerApp.ip=127.0.0.1 --ServerApp.port_retries=0 --ServerApp.open_browser=False
+--ServerApp.allow_root=True --IdentityProvider.token= --LabApp.news_url=None
+--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate --LabApp.extension_manager=readonly
+--LabApp.expose_app_in_browser=True""")
 SETTINGS = {
     "notebook-extension/tracker": {"windowingMode": "none"},  # cells out of view are in the page as well
     "apputils-extension/notification": {"fetchNews": "false"},
 }
-CHROMIUM = [
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-]
+CHROMIUM = shlex.split("""--no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking
+--disable-component-update --disable-sync""")
+CHROMIUM += ["--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1"]
 PROGRAMS = ("chromium-headless-shell", "chromium", "chromium-browser")
 FLAT = ["--disable-software-rasterizer"]
 shaded = pytest.mark.parametrize("browser", [[]], indirect=True, ids=["shaded"])
