@@ -28,8 +28,8 @@ SETTINGS = {
     "notebook-extension/tracker": {"windowingMode": "none"},  # cells out of view are in the page as well
     "apputils-extension/notification": {"fetchNews": "false"},
 }
-CHROMIUM = shlex.split("""--no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking
---disable-component-update --disable-sync""")
+CHROMIUM = shlex.split("""--no-sandbox --disable-gpu --disable-quic --no-first-run --disable-sync
+--disable-background-networking --disable-component-update""")
 CHROMIUM += ["--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1"]
 PROGRAMS = ("chromium-headless-shell", "chromium", "chromium-browser")
 FLAT = ["--disable-software-rasterizer"]
