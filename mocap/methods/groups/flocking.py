@@ -32,7 +32,8 @@ class Flock(NamedTuple):
     """The rules' figures; lengths in metres, speeds in m/s, accelerations in m/s².
 
     Those nearer than `space` are kept away from, those within `sight` are stayed and gone with; `separate`,
-    `gather`, `align`, `steer` and `keep` weigh the rules. `whim` is how much each member's wish drifts.
+    `gather`, `align`, `steer` and `keep` weigh the rules. `whim` is how much each member's wish drifts. Discs
+    nearer than `avoid` push away.
 
     Examples
     --------
@@ -52,6 +53,7 @@ class Flock(NamedTuple):
     fastest: float = 1.6
     accelerate: float = 1.5
     whim: float = 0.5
+    avoid: float = 2.0
 
 
 class Configuration(NamedTuple):

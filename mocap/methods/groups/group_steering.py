@@ -3,11 +3,11 @@
 On open ground steering is all one needs. In a pocket of obstacles it stays for ever.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Points
+from mocap._shared.arrays import Array, Indices, Mask, Points
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import NoWalk
 from mocap.methods.groups.flocking import (
@@ -23,9 +23,10 @@ from mocap.methods.groups.flocking import (
 from mocap.methods.groups.group_graphs import GroupGraph, play_group
 from mocap.methods.groups.planning import MOST, GroupWalk, Scene, plan_group
 
-DISC_FROM = 2.0  # metres from a disc at which a member begins to steer away
 DISC_FORCE = 3.0  # m/s² per metre
 LIMIT = 120.0  # seconds
+AVOID, GATHER = np.meshgrid((0.8, 1.2, 1.6, 2.0), (0.0, 0.35, 1.0, 2.0))
+TRIED = Flock(whim=0.0, avoid=AVOID.reshape(-1, 1), gather=GATHER.reshape(-1, 1))
 
 
 def steer_group(
@@ -54,16 +55,25 @@ def steer_group(
     Notebook: 19-group-graphs
     """
     scene.check(complex(start.places.mean()))
-    rules = rules or Flock()
-    wishes, frames = whims(start.places.shape, rules, np.random.default_rng(seed)), [start]
-    goal = 0
-    while goal < len(scene.points) and len(frames) <= limit * RATE:
-        ahead = scene.points[goal] - frames[-1].places.mean()
-        wish = np.exp(1j * np.angle(ahead)) * next(wishes)
-        now = advance(frames[-1], wish, rules, away_from(scene.discs, frames[-1].places))
+    frames = []
+    for now, passed in _steering(start, scene, rules or Flock(), seed):
         frames.append(now)
-        goal += bool(abs(now.places.mean() - scene.points[goal]) < scene.near)
-    return Configuration(*np.swapaxes(frames, 0, 1)), goal
+        if passed == len(scene.points) or len(frames) > limit * RATE:
+            break
+    return Configuration(*np.swapaxes(frames, 0, 1)), int(passed)
+
+
+def _steering(
+    now: Configuration, scene: Scene, rules: Flock, seed: int
+) -> Iterator[tuple[Configuration, Indices]]:
+    """Yield frame by frame where flocks that steer are, (..., N), and how many points each has passed."""
+    points, goals = np.array(scene.points), np.zeros(now.places.shape[:-1], int)
+    for wish in whims(now.places.shape, rules, np.random.default_rng(seed)):
+        yield now, goals
+        goal = points[np.minimum(goals, len(points) - 1)]
+        ahead = np.exp(1j * np.angle(goal - now.places.mean(axis=-1)))
+        now = advance(now, ahead[..., None] * wish, rules, away_from(scene.discs, now.places, rules.avoid))
+        goals = goals + ((np.abs(now.places.mean(axis=-1) - goal) < scene.near) & (goals < len(points)))
 
 
 def lead_group(
@@ -72,7 +82,8 @@ def lead_group(
     """Take the quicker of two ways that keep clear: the planned one, or that of a flock that steers [ours].
 
     Clips turn by 1.2 rad in four seconds, so to a goal aside or behind a flock without whims comes sooner.
-    Its way is taken where it keeps clear of discs and of others as a plan does.
+    Sixteen steer side by side, which stay together and avoid discs more or less. The first that is there, and
+    kept clear of discs and of others as a plan does, leads.
 
     Parameters
     ----------
@@ -108,29 +119,37 @@ def lead_group(
 
 
 def _steered(graph: GroupGraph, scene: Scene, start: PlanarTransform, limit: float) -> Configuration | None:
-    """Steer without whims; None where the flock is not there in time, or not as clear of all as a plan."""
-    places, velocities = (start.turn * part for part in graph.nodes[0])
-    first = Configuration(places + start.move, velocities)
-    flock, passed = steer_group(first, scene, rules=Flock(whim=0.0), limit=limit)
-    frames, gaps = np.arange(len(flock.places)), [nearest_two(flock.places).min()]
-    for other in scene.others:
-        there = other[np.minimum(frames, len(other) - 1)]
-        gaps.append(np.abs(flock.places[:, :, None] - there[:, None]).min())
-    clear = min(gaps) >= APART and (clearances(flock, scene) >= scene.body).all()
-    return flock if clear and passed == len(scene.points) else None
+    """Steer by all of `TRIED` side by side; take the first that is there in time, clear as a plan."""
+    places, velocities = (np.tile(start.turn * part, (AVOID.size, 1)) for part in graph.nodes[0])
+    frames: list[Configuration] = []
+    there: Mask = np.zeros(len(places), bool)
+    for now, passed in _steering(Configuration(places + start.move, velocities), scene, TRIED, 0):
+        if there.all() or len(frames) > limit * RATE:
+            break
+        frames.append(now)
+        for row in np.flatnonzero(~there & (passed == len(scene.points))):
+            there[row] = True
+            flock = Configuration(*np.swapaxes([[part[row] for part in frame] for frame in frames], 0, 1))
+            gaps, clock = [nearest_two(flock.places).min()], np.arange(len(frames))
+            for other in scene.others:
+                members = other[np.minimum(clock, len(other) - 1)]
+                gaps.append(np.abs(flock.places[:, :, None] - members[:, None]).min())
+            if min(gaps) >= APART and (clearances(flock, scene) >= scene.body).all():
+                return flock
+    return None
 
 
-def away_from(discs: Sequence[Disc], places: Points) -> Points:
-    """Accelerate members (N,) away from discs nearer than 2 m, by 3 m/s² for each metre.
+def away_from(discs: Sequence[Disc], places: Points, avoid: float = 2.0) -> Points:
+    """Accelerate members (..., N) away from discs nearer than `avoid`, by 3 m/s² for each metre.
 
     Examples
     --------
     >>> away_from([(1 + 0j, 0.5)], np.array([0j, 5j])).round(6)
     array([-4.5+0.j,  0. +0.j])
     """
-    off = places[:, None] - np.array([centre for centre, _ in discs], complex)
-    rim = np.abs(off) - np.array([radius for _, radius in discs])
-    return np.asarray((DISC_FORCE * np.maximum(DISC_FROM - rim, 0) * np.sign(off)).sum(axis=1))
+    off = places[..., None] - np.array([centre for centre, _ in discs], complex)
+    near = np.expand_dims(avoid, -1) - np.abs(off) + np.array([radius for _, radius in discs])
+    return np.asarray((DISC_FORCE * np.maximum(near, 0) * np.sign(off)).sum(axis=-1))
 
 
 def clearances(flock: Configuration, scene: Scene) -> Array:

@@ -1,13 +1,14 @@
 """Plans pass all points and clear all obstacles; characters walk a plan in place and in time."""
 
 from functools import cache
+from itertools import product
 
 import numpy as np
 import pytest
 
 from mocap.body.planar import IDENTITY, PlanarTransform, heading
 from mocap.errors import MocapError, NoWalk
-from mocap.methods.groups.flocking import APART, RATE, Configuration, nearest_two
+from mocap.methods.groups.flocking import APART, RATE, Configuration, Flock, nearest_two
 from mocap.methods.groups.group_graphs import play_group, random_group_walk
 from mocap.methods.groups.group_steering import clearances, lead_group, steer_group
 from mocap.methods.groups.group_walkers import walk_group
@@ -53,32 +54,40 @@ def test_courses_are_found_and_every_one_is_clear(seed):
     planned(course(seed))
 
 
-def best_of_steered(scene, limit):
-    """Seconds that a flock takes that steers, the best of three with other whims that keep clear of discs."""
-    flocks = (steer_group(graph().nodes[0], scene, seed=seed, limit=limit) for seed in range(3))
-    return min(
-        (len(flock.places) - 1) / RATE if points and clearances(flock, scene).min() >= scene.body else np.inf
-        for flock, points in flocks
-    )
+def best_of_steered(scene, seeds, avoids=(0.8, 1.2, 2.0), gathers=(0.35, 1.0)):
+    """Seconds that a flock takes that steers at its best and keeps clear; seed None has no whims."""
+    best = 60.0
+    for avoid, gather, seed in product(avoids, gathers, seeds):
+        rules = Flock(avoid=avoid, gather=gather, whim=0.0 if seed is None else 0.5)
+        flock, points = steer_group(graph().nodes[0], scene, rules=rules, seed=seed or 0, limit=best)
+        clear = clearances(flock, scene).min() >= scene.body and nearest_two(flock.places).min() >= APART
+        if points == len(scene.points) and clear:
+            best = (len(flock.places) - 1) / RATE
+    return best
 
 
-@pytest.mark.parametrize(("width", "length"), [(2, 0), (2.5, 10)])
-def test_twelve_pass_gaps_and_corridors_no_later_than_steered(width, length):
-    scene = gap(width, 16 + 0j, length)
-    found = planned(scene)
-    assert found.seconds <= best_of_steered(scene, found.seconds)
-
-
-def test_whoever_leads_by_the_quicker_way_is_never_later_than_steered():
+@pytest.mark.parametrize(
+    "scene",
+    [
+        gap(2, 16 + 0j),
+        gap(2.5, 14 - 1j),
+        gap(2.5, 16 + 0j, 10.0),
+        gap(3.2, 13 + 1.5j, 8.0),
+        *map(around, (0, 6, 8, 20)),
+    ],
+)
+def test_whoever_leads_by_the_quicker_way_is_never_later_than_steered(scene):
     """Plans alone are later in half of the scenes: clips turn by 1.2 rad in four seconds, a flock at once."""
-    steered = []
-    for seed in (0, 6, 8, 20):
-        flock, plan = lead_group(graph(), around(seed))
-        all_is_well(flock, around(seed))
-        seconds = (len(flock.places) - 1) / RATE
-        assert seconds < best_of_steered(around(seed), seconds)
-        steered.append(plan is None)
-    assert any(steered) and not all(steered)
+    flock, plan = lead_group(graph(), scene)
+    all_is_well(flock, scene)
+    seconds = (len(flock.places) - 1) / RATE
+    assert seconds <= best_of_steered(scene, [None])
+    assert seconds <= best_of_steered(scene, range(3), [2.0], [0.35])
+    assert seconds <= best_of_steered(scene, range(3)) + 0.25  # of 18 draws of whims one may be lucky
+
+
+def test_both_plans_and_flocks_that_steer_lead():
+    assert {lead_group(graph(), scene)[1] is None for scene in (around(0), around(20))} == {False, True}
 
 
 def test_a_flock_that_would_not_keep_clear_does_not_lead():
