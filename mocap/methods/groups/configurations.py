@@ -117,7 +117,16 @@ def _by_turns(one: Configuration, other: Configuration, start: float, rounds: in
     match = Match(np.full(len(turn), np.inf), np.zeros(0, int), turn, move)
     for _ in range(rounds):
         before, square = match.rms, assignment_costs(one, other, match.turn, match.move)
-        match = _laid(one, other, np.array([linear_sum_assignment(costs)[1] for costs in square]))
+        order = np.array([linear_sum_assignment(costs)[1] for costs in square])
+        there, going = (np.take_along_axis(part, order, axis=-1) for part in other)
+        middle, centre = one.places.mean(-1), there.mean(-1)
+        cross = ((one.places - middle[:, None]) * (there - centre[:, None]).conj()).sum(-1)
+        cross = cross + SECONDS**2 * (one.velocities * going.conj()).sum(-1)
+        turn = cross / np.maximum(np.abs(cross), 1e-12)
+        move = middle - turn * centre
+        gap = np.abs(one.places - turn[:, None] * there - move[:, None])
+        change = np.abs(one.velocities - turn[:, None] * going)
+        match = Match(np.sqrt((gap**2 + SECONDS**2 * change**2).mean(-1)), order, turn, move)
         if (match.rms > before - 1e-9).all():
             break
     return match
@@ -128,19 +137,6 @@ def assignment_costs(one: Configuration, other: Configuration, turn: Points, mov
     gap = one.places[:, :, None] - (turn[:, None] * other.places + move[:, None])[:, None]
     change = one.velocities[:, :, None] - (turn[:, None] * other.velocities)[:, None]
     return np.asarray(gap.real**2 + gap.imag**2 + SECONDS**2 * (change.real**2 + change.imag**2))
-
-
-def _laid(one: Configuration, other: Configuration, order: Indices) -> Match:
-    """Lay the second on the first, its members in an order."""
-    there, going = (np.take_along_axis(part, order, axis=-1) for part in other)
-    middle, centre = one.places.mean(-1), there.mean(-1)
-    cross = ((one.places - middle[:, None]) * (there - centre[:, None]).conj()).sum(-1)
-    cross = cross + SECONDS**2 * (one.velocities * going.conj()).sum(-1)
-    turn = cross / np.maximum(np.abs(cross), 1e-12)
-    move = middle - turn * centre
-    gap = np.abs(one.places - turn[:, None] * there - move[:, None])
-    change = np.abs(one.velocities - turn[:, None] * going)
-    return Match(np.sqrt((gap**2 + SECONDS**2 * change**2).mean(-1)), order, turn, move)
 
 
 class Clusters(NamedTuple):

@@ -159,19 +159,16 @@ def clips_from(
     The clips in which nobody comes nearer than 0.60 m or needs more than 2.2 m/s², and how many were made.
     """
     every = Configuration(*np.swapaxes(nodes, 0, 1))  # (K, N)
-
-    def copies(count: int) -> Configuration:
-        return Configuration(*(np.tile(part, (count, 1)) for part in nodes[start]))
-
     angles = np.array(BENDS)
-    free = run_from(copies(len(angles)), angles, random)
-    match = compare(Configuration(*(part[-1][:, None] for part in free)), every, rounds=4)  # (B, K)
     rows, ends, shift = map(np.ravel, np.meshgrid(range(len(angles)), range(len(nodes)), SHIFTS))
+    copies = Configuration(*(np.tile(part, (len(rows), 1)) for part in nodes[start]))
+    free = run_from(Configuration(*(part[: len(angles)] for part in copies)), angles, random)
+    match = compare(Configuration(*(part[-1][:, None] for part in free)), every, rounds=4)  # (B, K)
     order, turn, move = (part[rows, ends] for part in match[1:])
     move = move + 1j * shift * turn
     places, velocities = (turn[:, None] * np.take_along_axis(part[ends], order, axis=-1) for part in every)
     goals = Configuration(places + move[:, None], velocities)
-    runs, clips = run_from(copies(len(rows)), angles[rows], random, goals), []
+    runs, clips = run_from(copies, angles[rows], random, goals), []
     for row, end in enumerate(ends.tolist()):
         goal, run = (Configuration(*(part[..., row, :] for part in some)) for some in (goals, runs))
         paths, apart = part(bend_to(run, goal))

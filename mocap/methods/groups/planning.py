@@ -6,7 +6,7 @@ ours.
 """
 
 from cmath import phase
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from heapq import heappop, heappush
 from typing import NamedTuple
 
@@ -44,17 +44,20 @@ class Scene(NamedTuple):
     body: float = 0.3
     others: tuple[Points, ...] = ()
 
-    def check(self, start: complex) -> None:
-        """Raise MocapError for what makes no sense, and for a start nowhere or inside a disc."""
+    def check(self, start: complex, members: Sequence[complex] | Points = ()) -> None:
+        """Raise MocapError for what makes no sense, and a start in a disc; NoWalk for members near one."""
         if not self.points or np.ndim(self.points) != 1 or not np.isfinite([start, *self.points]).all():
             says = f"A scene has finite points z + ix to pass, one or more, from a start; got {self.points}"
             raise MocapError(f"{says[:160]} from {start}.")
         for centre, radius in self.discs:
             if not (np.isfinite(centre) and 0 < radius < np.inf):
                 raise MocapError(f"An obstacle has a centre and a radius above 0, got {centre}, {radius}.")
+            at = f"obstacle at x={centre.imag:g}, z={centre.real:g}"
             if abs(start - centre) < radius:
-                at = f"x={centre.imag:g}, z={centre.real:g}"
-                raise MocapError(f"The group starts inside the obstacle at {at}.")
+                raise MocapError(f"The group starts inside the {at}.")
+            if len(members) and (gap := np.abs(members - centre) - radius).min() < self.body:
+                far = f"Member {gap.argmin() + 1} starts {gap.min():.2f} m from the rim of the {at}"
+                raise NoWalk(f"{far}: {self.body:g} m is the least.")
 
 
 class Search:
@@ -197,7 +200,7 @@ def plan_group(
 
     Notebook: 19-group-graphs
     """
-    _check_start(graph, start, scene)
+    scene.check(complex(start.move), start.turn * graph.nodes[0].places + start.move)
     search, points = Search(graph, scene), len(scene.points)
     begin = State(0, complex(start.turn), complex(start.move))
     waiting, count, farthest = [(0.0, 0, begin)], 0, 0
@@ -222,15 +225,3 @@ def plan_group(
     wide = min(np.ptp(node.places.imag) for node in graph.nodes) + 2 * scene.body + SHIFTS[-1]
     helps += f", take fewer members, or leave gaps of {wide:.1f} m"  # which let the narrowest node through
     raise NoWalk(f"No way past point {farthest + 1} of {points} was found: {why}. {helps}.")
-
-
-def _check_start(graph: GroupGraph, start: PlanarTransform, scene: Scene) -> None:
-    """Raise MocapError for a start or a scene that makes no sense, NoWalk for a member too near to a disc."""
-    scene.check(complex(start.move))
-    places = start.turn * graph.nodes[0].places + start.move
-    for centre, radius in scene.discs:
-        gap = np.abs(places - centre) - radius
-        if gap.min() < scene.body:
-            rim = f"the rim of the obstacle at x={centre.imag:g}, z={centre.real:g}"
-            far = f"Member {gap.argmin() + 1} starts {gap.min():.2f} m from {rim}"
-            raise NoWalk(f"{far}: {scene.body:g} m is the least.")

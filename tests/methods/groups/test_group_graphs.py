@@ -134,14 +134,9 @@ def test_bending_meets_place_and_velocity_and_keeps_the_start(missing, change):
     np.testing.assert_allclose((bent[-1] - bent[-2]) * RATE, goal.velocities, atol=1e-9)
 
 
-def test_ends_do_not_move_when_members_are_pushed_apart():
+def test_ends_do_not_move_when_members_are_pushed_apart_and_who_starts_too_near_cannot_be_freed():
     steps = np.linspace(0, 4, 41)
     crossing = np.stack([steps + 0.05j, 4 - steps - 0.05j], axis=1)
     free, done = part(crossing)
-    assert done
+    assert done and not part(np.stack([steps, steps + 0.3j], axis=1))[1]
     np.testing.assert_array_equal(free[[0, 1, -2, -1]], crossing[[0, 1, -2, -1]])
-
-
-def test_who_starts_too_near_cannot_be_freed():
-    near = np.stack([np.linspace(0, 4, 41) + 0j, np.linspace(0, 4, 41) + 0.3j], axis=1)
-    assert not part(near)[1]
