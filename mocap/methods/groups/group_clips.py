@@ -13,17 +13,9 @@ from functools import cached_property
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Points
+from mocap.methods.groups import flocking
 from mocap.methods.groups.configurations import compare
-from mocap.methods.groups.flocking import (
-    APART,
-    RATE,
-    Configuration,
-    Flock,
-    advance,
-    nearest_two,
-    push_apart,
-    whims,
-)
+from mocap.methods.groups.flocking import APART, RATE, Configuration, Flock
 
 BENDS = (-1.2, -0.6, 0.0, 0.6, 1.2)  # radians
 SHIFTS = (-0.3, 0.0, 0.3)  # metres to the left, so that a way finds the middle of a gap
@@ -84,7 +76,8 @@ def run_from(
     Places and velocities, shape (F + 1, R, N).
     """
     rules = Flock() if goals is None else Flock(separate=0.0, gather=0.0, align=0.0)
-    wishes, frames, total = whims(starts.places.shape, rules, random), [starts], round(SECONDS * RATE)
+    wishes, frames = flocking.whims(starts.places.shape, rules, random), [starts]
+    total = round(SECONDS * RATE)
     pull: Points | float = 0.0
     for frame in range(total):
         now, done = frames[-1], frame / total
@@ -92,7 +85,7 @@ def run_from(
             spots = goals.places - (1 - done) * SECONDS * goals.velocities
             pull = PULL * (spots - now.places) + 2 * np.sqrt(PULL) * (goals.velocities - now.velocities)
         wish = np.exp(1j * bends * min(1.0, 1.6 * done))[:, None] * next(wishes)
-        frames.append(advance(now, wish, rules, min(1.0, 2 * done) * pull))
+        frames.append(flocking.advance(now, wish, rules, min(1.0, 2 * done) * pull))
     return Configuration(*np.swapaxes(frames, 0, 1))
 
 
@@ -133,20 +126,20 @@ def part(paths: Points) -> tuple[Points, bool]:
     >>> steps = np.linspace(0, 4, 41)
     >>> paths = np.stack([steps + 0.1j, 4 - steps - 0.1j], axis=1)
     >>> free, done = part(paths)
-    >>> done, bool(nearest_two(paths).min() < 0.6 <= nearest_two(free).min())
+    >>> done, bool(flocking.nearest_two(paths).min() < 0.6 <= flocking.nearest_two(free).min())
     (True, True)
     """
     ends = np.minimum(np.arange(len(paths)), np.arange(len(paths))[::-1])
     weight = np.clip((ends - STILL + 1) / 4, 0, 1)[:, None]
     added = np.zeros_like(paths)
     for _ in range(ROUNDS):
-        if nearest_two(paths + added).min() >= APART:
+        if flocking.nearest_two(paths + added).min() >= APART:
             return paths + added, True
-        push = push_apart(paths + added, APART + 0.02)
+        push = flocking.push_apart(paths + added, APART + 0.02)
         for _ in range(4):
             push[1:-1] = (push[:-2] + 2 * push[1:-1] + push[2:]) / 4
         added += 1.5 * push * weight
-    return paths + added, bool(nearest_two(paths + added).min() >= APART)
+    return paths + added, bool(flocking.nearest_two(paths + added).min() >= APART)
 
 
 def clips_from(
