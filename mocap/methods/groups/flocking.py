@@ -33,7 +33,7 @@ class Flock(NamedTuple):
 
     Those nearer than `space` are kept away from, those within `sight` are stayed and gone with; `separate`,
     `gather`, `align`, `steer` and `keep` weigh the rules. `whim` is how much each member's wish drifts. Discs
-    nearer than `avoid` push away.
+    nearer than `avoid` push away. Flocks side by side may differ in `gather` and `avoid`, (K, 1).
 
     Examples
     --------
@@ -44,7 +44,7 @@ class Flock(NamedTuple):
     sight: float = 4.0
     space: float = 1.4
     separate: float = 3.0
-    gather: float = 0.35
+    gather: float | Array = 0.35
     align: float = 0.8
     steer: float = 0.9
     pace: float = 1.1
@@ -53,7 +53,7 @@ class Flock(NamedTuple):
     fastest: float = 1.6
     accelerate: float = 1.5
     whim: float = 0.5
-    avoid: float = 2.0
+    avoid: float | Array = 2.0
 
 
 class Configuration(NamedTuple):

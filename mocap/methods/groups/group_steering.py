@@ -139,7 +139,7 @@ def _steered(graph: GroupGraph, scene: Scene, start: PlanarTransform, limit: flo
     return None
 
 
-def away_from(discs: Sequence[Disc], places: Points, avoid: float = 2.0) -> Points:
+def away_from(discs: Sequence[Disc], places: Points, avoid: float | Array = 2.0) -> Points:
     """Accelerate members (..., N) away from discs nearer than `avoid`, by 3 m/s² for each metre.
 
     Examples

@@ -55,7 +55,7 @@ class Scene(NamedTuple):
             at = f"obstacle at x={centre.imag:g}, z={centre.real:g}"
             if abs(start - centre) < radius:
                 raise MocapError(f"The group starts inside the {at}.")
-            if len(members) and (gap := np.abs(members - centre) - radius).min() < self.body:
+            if len(members) and (gap := np.abs(np.subtract(members, centre)) - radius).min() < self.body:
                 far = f"Member {gap.argmin() + 1} starts {gap.min():.2f} m from the rim of the {at}"
                 raise NoWalk(f"{far}: {self.body:g} m is the least.")
 
