@@ -112,7 +112,7 @@ def test_the_graph_its_components_and_what_pruning_keeps(both):
 
 
 def test_random_walks_and_their_motions(clips, both):
-    """As in [KGP02, 4.1]."""
+    """As in [KGP02, 4.1; Eq. 7]."""
     (_, slow), (_, quick) = both
     slow, quick = plain.prune(slow), graphs.prune(quick)
     for seed in range(5):

@@ -78,8 +78,7 @@ def test_a_hand_on_a_rail_slides_along_it(real_data):
     low, high = (np.where([False, False, True], end, place) for end in (-np.inf, np.inf))
     rail = pin(clip, wrist, frames, low, high)
     assert 0.1 < pin_errors(clip, rail).max() < 0.3
-    edited = edit(clip, rail)
-    check(edited, clip, join_pins(plant_pins(clip), rail), 1.1)
+    check(edited := edit(clip, rail), clip, join_pins(plant_pins(clip), rail), 1.1)
     assert np.ptp(joint_positions(edited)[frames, wrist, 2]) > 0.5
 
 
@@ -142,6 +141,7 @@ def test_levels_do_not_fold_a_neck_under_a_bar(real_data):
 
 
 def test_the_levels_end_where_the_pins_are_met():
+    """As in [LS99, levels]."""
     clip = walk()
     for pins in (plant_pins(clip), pin(clip, "lwrist", [], [0, 0, 0])):
         motion, told = hierarchy(clip, pins)
@@ -188,14 +188,12 @@ def test_a_hand_to_a_post(frame):
         pushes = (np.diff(joint_positions(m), 2, axis=0)[inside, wishes.body(m)] for m in (motion, warped))
         before, after = (np.percentile(np.linalg.norm(push, axis=-1), 99) for push in pushes)
         ratios.append(after / before)
-    assert ratios[0] > 1.5  # too short a window jolts
-    assert ratios[1] < 1.1
+    assert ratios[0] > 1.5 and ratios[1] < 1.1  # too short a window jolts
     left = rotations.multiply(rotations.from_rotvec(change.turns), motion.rotations)
     miss = joint_positions(replace(motion, rotations=left))[frame, hand] - target
     assert np.linalg.norm(miss) > 0.01  # on the other side
     cleaned = clean_up(warped)
-    assert slide(cleaned) < 1e-6
-    assert plants_kept(cleaned, motion) >= 0.99
+    assert slide(cleaned) < 1e-6 and plants_kept(cleaned, motion) >= 0.99
 
 
 def test_a_height_alone_may_be_asked_for_without_feet():

@@ -69,7 +69,7 @@ def test_the_heading_is_calm_while_the_body_stands(real_data):
 
 @pytest.mark.parametrize("name", CLIPS)
 def test_on_its_own_path_nothing_changes(name):
-    """As in [Gle01, 4]."""
+    """As in [Gle01, 4; arc length]."""
     motion = clip(name)
     same = on_path(motion, ride_of(motion).path)
     assert np.abs(joint_positions(same) - joint_positions(motion)).max() <= 1e-12

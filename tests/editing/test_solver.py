@@ -61,6 +61,7 @@ def test_a_rail_and_a_free_joint_give_rows_of_zeros():
 
 @given(seeds, st.integers(1, 12), st.sampled_from([0.0, 1.5, 4.0, 20.0]), st.floats(0, 5), st.floats(0, 9))
 def test_the_banded_step_is_the_plain_one(seed, frames, knots, calm, damping):
+    """As in [Gle98, objective]."""
     random = np.random.default_rng(seed)
     price = random.uniform(1, 9, 3)
     curve = Curve(Basis(knots, calm, weight=30.0), replace(walk()[:frames], fps=1.0), price)

@@ -51,7 +51,7 @@ def test_a_clean_clip_is_left_alone(name):
 
 @pytest.mark.parametrize("way", [join, inertialize])
 def test_after_a_seam_planted_feet_stand_still_and_nothing_pops(way):
-    """As in [KSG02, all steps]."""
+    """As in [KSG02, step 3; step 4; all steps]."""
     skating = JOINED[way]
     cleaned = clean_up(skating)
     assert slides(skating).max() > 0.01

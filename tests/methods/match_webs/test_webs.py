@@ -166,9 +166,10 @@ def test_a_path_crosses_a_gap_that_it_has_earned_and_no_longer_one():
 
 
 def test_short_paths_are_left_out():
+    """Frames of both clips count [KG04, chains and bridges]."""
     costs = np.full((8, 8), 1.0)
-    costs[[0, 1, 2], [0, 1, 2]] = -1
-    assert [len(path) for path in local_paths(costs, least=2)] == [3]
+    costs[[0, 1, 1, 2], [0, 1, 2, 3]] = -1
+    assert [len(path) for path in local_paths(costs, least=2)] == [4]
     assert not list(local_paths(costs, least=3))
 
 

@@ -83,8 +83,7 @@ def obtained(made, wishes, **how):
 def test_walks_turn_and_go_as_asked():
     """Wishes are what other blends do; the unit is 10° and 0.1 m/s."""
     made = space(100)
-    examples = len(made.examples.clips)
-    rows = random_weights(made.values[:examples], 25, spread=0, seed=9)
+    rows = random_weights(made.values[: len(made.examples.clips)], 25, spread=0, seed=9)
     wishes = np.array([gait(blend_of(made.examples, row, fps=30)) for row in rows])
     convex, plain = (obtained(made, wishes, method=method).mean() for method in METHODS)
     assert convex <= 0.1
@@ -102,9 +101,8 @@ def test_out_of_reach_the_blend_stays_at_the_edge():
 def test_asked_without_an_example_the_others_turn_as_it_does():
     """Leave one out: each example that the others enclose is asked for, and got within 2° on average."""
     made = space(100)
-    count = len(made.examples.clips)
     off = []
-    for out in range(count):
+    for out in range(len(made.examples.clips)):
         keep = np.abs(made.weights[:, out]) < 1e-12
         others = MotionSpace(made.examples, made.weights[keep], made.values[keep], made.scale)
         weights = weights_for(others, made.values[out])
@@ -230,11 +228,13 @@ def test_weights_add_up_to_one_and_stay_within_the_spread(numbers, more, spread,
 
 
 def test_two_weights_are_even_over_what_is_allowed():
+    """Also a little beyond the examples [KG04, accessible region]."""
     weights = random_weights([[0.0], [1.0]], 4000, spread=0.1)[:, 0]
     assert kstest((weights + 0.1) / 1.2, "uniform").pvalue > 0.01
 
 
 def test_partners_are_the_nearest_by_scaled_values():
+    """As in [KG04, accessible region]."""
     weights = random_weights(VALUES, 200, near=3, seed=1)
     scaled = VALUES / VALUES.std(axis=0)
     distance = np.linalg.norm(scaled[:, None] - scaled, axis=-1)
