@@ -200,7 +200,7 @@ def test_a_place_of_the_world_is_met_and_planted_feet_rest_in_the_changes_too(no
     ways = {"reach": {"walk", "reach"}, "punch": {"walk", "to_guard", "punch", "from_guard"}}
     assert {chosen.node for chosen in done.chosen} == ways[node]
     slides = built.slides(done.motion)
-    assert np.percentile(slides, 95) <= 2 and max(slides) <= 3.5  # cm, as in walks
+    assert np.percentile(slides, 95) <= 2.5 and max(slides) <= 3.5  # cm, as in walks
     clean = clean_up(done.motion)
     assert plants_kept(clean, done.motion) >= 0.97 and max(plant.far for plant in plant_slides(clean)) < 1e-3
     after = done.missed(clean)
