@@ -21,7 +21,7 @@ from mocap.synthesis.bounded_search import Problem, SearchEdge, search_ahead
 from mocap.synthesis.ground_walks import GroundWalks, Stand
 
 WIDE = 400  # walks that stay in each layer, where all else leaves the path
-FAR = 1.0  # metres from the path on average: a walk that is slow, too, does not follow it
+FAR = 1.0  # metres from the path on average: a walk does not follow it
 AGAIN = 1.25  # a repeated search multiplies or divides the price of a seam by this
 
 
@@ -68,13 +68,13 @@ def follow_path(
     Raises
     ------
     NoWalk : for a label that no walk can reach, a start that is not in the graph, a dead end, and clips of
-        which no walk goes on at 0.3 m/s; without `bend` where the walk is a metre off on average as well.
+        which no walk goes on at 0.3 m/s; without `bend` where the walk is a metre off on average; with
+        `Settings(tries=1)` it is given all the same.
     MocapError : for a path that takes these clips more than an hour, and wishes that make no sense.
 
     Warns
     -----
-    MocapWarning : where the walk is more than 15 cm off the path, where it goes below 0.3 m/s and no times
-        are asked for, and with `bend` for plants that are let go.
+    MocapWarning : where the walk is more than 15 cm off the path, and with `bend` for plants that are let go.
 
     Examples
     --------
@@ -107,22 +107,24 @@ def follow_path(
 
     followed = _best_of(search, replace(settings, width=settings.width_on(route)))
     if not wishes.others:  # with others it goes aside to give way
-        _tell_departures(compiled, followed, bend, on_time=bool(wishes.times))
+        if settings.tries > 1 and not bend:
+            _require_near(compiled, followed)
+        _tell_departures(followed, bend)
     return followed
 
 
-def _tell_departures(graph: CompiledGraph, followed: Followed, bend: float, *, on_time: bool) -> None:
-    """Refuse a walk that stands and does not follow, and warn of one that dawdles, or leaves the path."""
-    far = followed.off.mean() > FAR and not (bend or followed.found.stopped)
-    speed = np.abs(np.diff(on_ground(followed.track))).sum() / followed.seconds
-    if far and speed < SLOWEST:
+def _require_near(graph: CompiledGraph, followed: Followed) -> None:
+    """Raise `NoWalk` for a walk that does not follow the path at all."""
+    if followed.off.mean() > FAR and not followed.found.stopped:
         off = f"The nearest walk is {followed.off.mean():.1f} m off the line on average"
-        raise too_slow(graph, f"{off}, and goes at {speed:.2f} m/s")
-    if not on_time and followed.along[-1] < SLOWEST * followed.seconds and not followed.found.stopped:
-        took = f"{followed.seconds:.0f} s for {followed.along[-1]:.1f} m"
-        warn(
-            f"The walk takes {took}: the clips hardly go on{'' if bend else '; `bend` may lay others on it'}."
-        )
+        speed = np.abs(np.diff(on_ground(followed.track))).sum() / followed.seconds
+        if speed < SLOWEST:
+            raise too_slow(graph, f"{off}, and goes at {speed:.2f} m/s")
+        raise NoWalk(f"{off}: no clips turn as it does; try `bend`, or add clips that turn.")
+
+
+def _tell_departures(followed: Followed, bend: float) -> None:
+    """Warn of a walk that leaves the path."""
     if departures := followed.departures:
         start, end, worst = max(departures, key=lambda stretch: stretch[2])
         often = "once" if len(departures) == 1 else f"{len(departures)} times"

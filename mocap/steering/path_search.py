@@ -104,8 +104,9 @@ class PathSearch(LayeredSearch):
 
         The cost of an edge is that of [KGP02, Eq. 9], g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖², plus the
         prices. One departure from the paper: after each hop s moves half-way to the point of the path
-        abreast of the body, so that a walk which cuts a corner need not walk the metres that it saved.
-        `Wishes.slide` is the share of that distance. Walks that are laid on the path stay on it.
+        abreast of the body, so that a walk which cuts a corner need not walk the metres that it saved; but
+        it moves on by γ in each frame. `Wishes.slide` is the share of that distance. Walks that are laid on
+        the path stay on it.
         """
         of, hop = self.graph.hops.leaving(states.node)
         hops, route = self.hops.take(hop), self.route
@@ -118,7 +119,8 @@ class PathSearch(LayeredSearch):
             return new.take(in_time | np.isfinite(route.clock).any())
         off = new.move + new.turn * at - route.points[point]
         abreast = np.clip((off * route.ways[point].conj()).real, -hops.along, hops.along)
-        return new._replace(along=new.along + route.wishes.slide * abreast)
+        moved = np.maximum(hops.along + route.wishes.slide * abreast, LEAST / self.graph.fps * hops.frames)
+        return new._replace(along=states.along[of] + moved)
 
     def frames_along(self, hop: Indices, start: Array) -> tuple[Indices, Indices, Array]:
         """List the frames that n hops play: their rows, which hop each belongs to, and metres along the path.
@@ -222,8 +224,8 @@ def too_slow(graph: CompiledGraph, nearest: str = "") -> NoWalk:
     clips = [on_ground(clip.root_positions) for clip in graph.source.clips]
     quick = [clip for clip in clips if np.percentile(np.abs(np.diff(clip)), 90) * graph.fps > QUICK]
     some = f"{len(quick)} of {len(clips)} clips go faster than {QUICK:g} m/s"
-    helps = f"{some}, but few transitions join their steps: try {'`bend`, ' if nearest else ''}"
-    helps += "a larger threshold, or more walks"
+    helps = f"{some}, but few transitions join their steps: try a larger threshold, "
+    helps += "more walks, or `bend`" if nearest else "or more walks"
     slow = f"no clip goes faster than {QUICK:g} m/s: add some that walk"
     return NoWalk(f"{fault}; {helps if quick else slow}.")
 

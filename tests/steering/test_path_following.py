@@ -165,10 +165,11 @@ def test_a_corner_that_no_clip_can_turn_is_cut_and_told():
     assert np.isfinite(followed.track).all()
 
 
-def test_a_walk_that_dawdles_is_told():
+def test_no_walk_dawdles():
     clips = [resample(replace(sample(name), fps=20), 15) for name in ("walk_circle", "walk_curve_1")]
-    with pytest.warns(MocapWarning, match=r"^The walk takes \d+ s for 3\.\d m: the clips hardly go on"):
-        follow_path(prune(build(clips, window=20, threshold=0.08)), GroundPath([[0, 0], [0, 3]]))
+    with pytest.warns(MocapWarning, match="leaves the path"):
+        slow = follow_path(prune(build(clips, window=20, threshold=0.08)), GroundPath([[0, 0], [0, 3]]))
+    assert slow.seconds <= slow.along[-1] / 0.3 + 1
 
 
 def asked(path=STRAIGHT, **wishes):
@@ -277,16 +278,16 @@ test_impossible_waypoints_are_told = refusals(
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_bent_walks_meet_waypoints_that_no_clip_turns_to():
-    """A straight walk: without bending it misses a waypoint by metres."""
+    """A straight walk: without bending it misses the waypoints by metres."""
     points = [
         Waypoint(0, 0),
         Waypoint(1.5, 3, seconds=3.2),
         Waypoint(-0.5, 5.5),
         Waypoint(0, 9, seconds=10.0),
     ]
-    _, plain = through_waypoints(straight_walker(), points)
+    with pytest.raises(NoWalk, match="no clips turn as it does; try `bend`"):
+        through_waypoints(straight_walker(), points)
     _, bent = through_waypoints(straight_walker(), points, bend=LIMIT)
-    assert max(arrival.off for arrival in plain) > 0.5
     assert max(arrival.off for arrival in bent) < 0.08
     late = [abs(arrival.late) for arrival in bent if not math.isnan(arrival.late)]
     assert max(late) < 1.5
