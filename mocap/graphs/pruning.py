@@ -20,13 +20,7 @@ import networkx as nx
 
 from mocap._shared.collector import uncollected
 from mocap.errors import NoWalk, warn
-from mocap.graphs.components import (
-    NO_LABELS,
-    Labels,
-    Nodes,
-    largest_components,
-    reached,
-)
+from mocap.graphs.components import NO_LABELS, Labels, Nodes, largest_components, reached
 from mocap.graphs.motion_graph import MotionGraph
 
 

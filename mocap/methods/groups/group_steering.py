@@ -10,16 +10,7 @@ import numpy as np
 from mocap._shared.arrays import Array, Indices, Mask, Points
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import NoWalk
-from mocap.methods.groups.flocking import (
-    APART,
-    RATE,
-    Configuration,
-    Disc,
-    Flock,
-    advance,
-    nearest_two,
-    whims,
-)
+from mocap.methods.groups.flocking import APART, RATE, Configuration, Disc, Flock, advance, nearest_two, whims
 from mocap.methods.groups.group_graphs import GroupGraph, play_group
 from mocap.methods.groups.planning import MOST, GroupWalk, Scene, plan_group
 
