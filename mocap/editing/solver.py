@@ -31,15 +31,9 @@ MET = 5e-10  # metres: pins that are so near are met
 
 GAIN = 3e-5  # share of the cost: what a pass must gain, or it is the last; a hundredth where it does not help
 FALL, RISE = 3.0, 10.0  # the damping falls so where a pass helps, and rises so where it does not
-
-# The damping at first where pins hold a ceiling. The first pass is then one of a small weight, and
-# the body bows. With the weight at once a neck folds by up to 360°.
-CEILING = 1000.0
-
-# Metres: a joint so near to the end of its box shall keep to it in the next step. With 0 a head under a bar
-# leaves the bar and comes back, and 100 passes do not end; with 1e-3 they end as soon.
-NEAR = 1e-4
-
+LEAP = 0.3  # radians: no joint turns further in a pass; else 46 of 216 elbows that reach fold backwards
+CEILING = 1000.0  # damping at first where pins hold one: the body bows. Else levels bend necks further
+NEAR = 1e-4  # metres: so near to the end of its box a joint keeps to it in the next step; with 0 it leaves
 RIDGE = 1e-13  # of the largest entry: a clip of fewer frames than splines leaves some of them unseen
 
 
@@ -180,7 +174,11 @@ def _descend(base: Motion, pins: Pins, body: Body, way: Basis) -> tuple[Array, l
     damping = np.full((len(base) if way.alone else 1, 1), way.damping)
     gap, slopes = linear(base, body, curve.basis @ c, pins)
     while len(worst) < way.passes:
-        new = curve.step(c, gap, slopes, damping)
+        step = curve.step(c, gap, slopes, damping) - c
+        turned = np.abs(curve.basis @ step)[:, 3:].max(
+            axis=1 if way.alone else None, keepdims=True, initial=0
+        )
+        new = c + step / np.maximum(1, turned / LEAP)
         left, then = linear(base, body, curve.basis @ new, pins)
         before = curve.cost(c, gap)
         gain = before - curve.cost(new, left)  # of each frame by itself, or of all together

@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from mocap.body import joint_positions, rotations
+from mocap.body import joint_positions, resample, rotations
 from mocap.datasets.samples import sample
 from mocap.editing.displacements import difference, displaced, spline_basis
 from mocap.editing.edits import edit, hierarchy, posed, scattered_fit
@@ -194,6 +194,17 @@ def test_a_hand_to_a_post(frame):
     assert np.linalg.norm(miss) > 0.01  # on the other side
     cleaned = clean_up(warped)
     assert slide(cleaned) < 1e-6 and plants_kept(cleaned, motion) >= 0.99
+
+
+def test_an_elbow_folds_as_it_does():
+    """Near its shoulder: in one leap it would fold by more than half a turn, and so backwards."""
+    motion = resample(sample("walk_straight"), 30)[:60]
+    upper, elbow = (motion.skeleton.index(name) for name in ("lhumerus", "lradius"))
+    own = rotations.to_rotvec(motion.rotations[:, elbow]).mean(axis=0)
+    for away in ([-0.16, 0.22, 0.36], [-0.11, 0.23, 0.31]):
+        place = joint_positions(motion)[30, upper] + away
+        made = edit(motion, pin(motion, "lwrist", [30], place))[30:31], posed(motion, 30, {"lwrist": place})
+        assert all(rotations.to_rotvec(pose.rotations[0, elbow]) @ own > 0 for pose in made)
 
 
 def test_a_height_alone_may_be_asked_for_without_feet():

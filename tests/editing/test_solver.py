@@ -14,7 +14,6 @@ from mocap.editing.bodies import body_of, keep_turned, limit_turns
 from mocap.editing.displacements import displaced, spline_basis
 from mocap.editing.pins import join_pins, pin, pin_errors, plant_pins
 from mocap.editing.solver import CLOSE, REACH, Basis, Curve, linear, solve
-from mocap.errors import MocapWarning
 from tests.editing.wishes import bar, bones, captured, smoothness, stone, walk
 from tests.refusals import refusals
 from tests.strategies import seeds
@@ -155,10 +154,7 @@ def test_a_bar_needs_a_weight_that_rises(real_data, monkeypatch):
     assert solved.worst[-1] < 0.0025
     assert smoothness(solved.motion, clip) < 1.05
     monkeypatch.setattr("mocap.editing.solver.CEILING", 0.0)
-    with pytest.warns(MocapWarning, match=r"'16_15', frame \d+: '\w+' is [\d.]+ mm off its pin"):
-        at_once = solve(clip, pins, [SPLINES._replace(passes=4)])
-    assert at_once.worst[-1] > 0.05
-    assert smoothness(at_once.motion, clip) > 1.5
+    assert solve(clip, pins, [SPLINES._replace(passes=4)], quiet=True).worst[-1] > 0.05
 
 
 def test_nothing_asked_and_nothing_missed_change_nothing():

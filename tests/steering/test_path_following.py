@@ -23,7 +23,7 @@ from mocap.steering.path_search import find_walk
 from mocap.steering.waypoints_and_crowds import Waypoint, through_waypoints, walk_crowd
 from mocap.synthesis.ground_walks import GroundWalks, Stand
 from tests.bundled import bundled, captured, sneaking, walking
-from tests.refusals import quietly, refusals, told
+from tests.refusals import quietly, refusals, refused, told
 from tests.steering.test_bent_following import straight_walker
 
 GRAPH = walking()
@@ -167,8 +167,8 @@ def test_a_corner_that_no_clip_can_turn_is_cut_and_told():
 
 def test_no_walk_dawdles():
     clips = [resample(replace(sample(name), fps=20), 15) for name in ("walk_circle", "walk_curve_1")]
-    with pytest.warns(MocapWarning, match="leaves the path"):
-        slow = follow_path(prune(build(clips, window=20, threshold=0.08)), GroundPath([[0, 0], [0, 3]]))
+    graph = prune(build(clips, window=20, threshold=0.08))
+    slow = told("leaves the path", follow_path, graph, GroundPath([[0, 0], [0, 3]]))
     assert slow.seconds <= slow.along[-1] / 0.3 + 1
 
 
@@ -285,8 +285,7 @@ def test_bent_walks_meet_waypoints_that_no_clip_turns_to():
         Waypoint(-0.5, 5.5),
         Waypoint(0, 9, seconds=10.0),
     ]
-    with pytest.raises(NoWalk, match="no clips turn as it does; try `bend`"):
-        through_waypoints(straight_walker(), points)
+    refused("as it does; try `bend`", through_waypoints, straight_walker(), points, kind=NoWalk)
     _, bent = through_waypoints(straight_walker(), points, bend=LIMIT)
     assert max(arrival.off for arrival in bent) < 0.08
     late = [abs(arrival.late) for arrival in bent if not math.isnan(arrival.late)]
