@@ -18,7 +18,9 @@ matplotlib.use("agg")
 
 import matplotlib.pyplot as plt
 import numpy as np
-from asked_lines import LINES, random_line
+from asked_lines import LINES, follow_unbent, random_line
+from matplotlib.figure import Figure
+from PIL import Image
 
 import mocap
 from mocap import datasets, graphs
@@ -88,7 +90,7 @@ def _graph(clips: Sequence[mocap.Motion], threshold: float) -> CompiledGraph:
 
 def measure(graph: CompiledGraph, path: GroundPath) -> tuple[Row, Followed, Followed]:
     """Follow a line in both ways, and measure both walks."""
-    plain = follow_path(graph, path)
+    plain = follow_unbent(graph, path)
     took = []
     for _ in range(3):
         begun = time.process_time()
@@ -160,8 +162,16 @@ def beside(target: Path, folder: Path | None) -> list[str]:
         worst = rows.max(axis=0)
         worst[-2:] = rows[:, -2].min(), np.median(rows[:, -1])
         lines += [Row(*worst).line("40 random lines"), ""]
-    figure.savefig(target / "bending.png", dpi=80)
+    save_few_colours(figure, target / "bending.png", dpi=80)
     return lines
+
+
+def save_few_colours(figure: Figure, path: Path, *, dpi: int) -> None:
+    """Save a picture of few colours in a third of the bytes."""
+    figure.savefig(path, dpi=dpi)
+    with Image.open(path) as picture:
+        few = picture.convert("RGB").quantize(64)
+    few.save(path, optimize=True)
 
 
 def main() -> None:

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from functools import cache
 
 import numpy as np
-from asked_lines import LINES, random_line
+from asked_lines import LINES, follow_unbent, random_line
 
 from mocap._shared.arrays import Array
 from mocap.body import GroundPath, Motion, on_ground
@@ -53,7 +53,7 @@ def of(case: Case) -> Followed:
 
 
 METHODS = {
-    "layered search": lambda case: follow_path(
+    "layered search": lambda case: follow_unbent(
         graph(case.given["clips"]), GroundPath(case.given["line"])
     ).motion(),
     "laid on the line": lambda case: of(case).motion(clean=False),
