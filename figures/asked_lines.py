@@ -50,8 +50,14 @@ LINES = {"sine": sine, "spiral": spiral, "zigzag": zigzag, "heart": heart}
 
 
 def follow_unbent(graph: CompiledGraph, path: GroundPath) -> Followed:
-    """Follow a line with clips as they are, however far off: where that is refused, by a single search."""
+    """Follow a line with clips as they are, however far off: where that is refused, by a single search.
+
+    A walk that stands is refused all the same.
+    """
     try:
         return follow_path(graph, path)
     except NoWalk:
-        return follow_path(graph, path, settings=Settings(tries=1))
+        walk = follow_path(graph, path, settings=Settings(tries=1))
+        if np.hypot(*np.diff(walk.track, axis=0).T).sum() < 0.3 * walk.seconds:
+            raise
+        return walk
