@@ -1,5 +1,6 @@
 """Find a walk along a path on the ground: in layers, and by the paper's branch and bound [KGP02, 5.1]."""
 
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
@@ -102,10 +103,18 @@ def follow_path(
     starts = start_of(compiled, route, wishes)
     _require_labels(compiled, [label for _, label in sorted(wishes.labels)], starts.node)
 
+    said: dict[int, list[str]] = {}  # by each walk; only what the best one says is told
+
     def search(settings: Settings) -> Followed:
-        return measure(find_walk(compiled, route, starts, settings))
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            walk = measure(find_walk(compiled, route, starts, settings))
+        said[id(walk)] = [str(warned.message) for warned in caught]
+        return walk
 
     followed = _best_of(search, replace(settings, width=settings.width_on(route)))
+    for sentence in said[id(followed)]:
+        warn(sentence)
     if not wishes.others:  # with others it goes aside to give way
         if settings.tries > 1 and not bend:
             _require_near(compiled, followed)
