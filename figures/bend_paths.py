@@ -19,8 +19,6 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from asked_lines import LINES, follow_unbent, random_line
-from matplotlib.figure import Figure
-from PIL import Image
 
 import mocap
 from mocap import datasets, graphs
@@ -30,6 +28,7 @@ from mocap.editing import LIMIT
 from mocap.editing.path_editing import plants_kept
 from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.plotting import ASKED, CURVES, PATH
+from mocap.plotting.picture import small_png
 from mocap.steering import follow_path
 from mocap.steering.followed import Followed
 from mocap.synthesis import to_motion
@@ -162,16 +161,8 @@ def beside(target: Path, folder: Path | None) -> list[str]:
         worst = rows.max(axis=0)
         worst[-2:] = rows[:, -2].min(), np.median(rows[:, -1])
         lines += [Row(*worst).line("40 random lines"), ""]
-    save_few_colours(figure, target / "bending.png", dpi=80)
+    (target / "bending.png").write_bytes(small_png(figure))
     return lines
-
-
-def save_few_colours(figure: Figure, path: Path, *, dpi: int) -> None:
-    """Save a picture of few colours in a third of the bytes."""
-    figure.savefig(path, dpi=dpi)
-    with Image.open(path) as picture:
-        few = picture.convert("RGB").quantize(64)
-    few.save(path, optimize=True)
 
 
 def main() -> None:

@@ -19,7 +19,7 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from asked_lines import random_line
-from bend_paths import beside, save_few_colours
+from bend_paths import beside
 from matplotlib.axes import Axes
 
 import mocap
@@ -27,6 +27,7 @@ from mocap import datasets, graphs
 from mocap.body import SHAPES, GroundPath, circle, s_curve
 from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.plotting import ASKED, CURVES, PATH
+from mocap.plotting.picture import small_png
 from mocap.quality import seam_quality, spread
 from mocap.steering import (
     Controller,
@@ -173,7 +174,7 @@ def trade_off(found: dict[str, CompiledGraph]) -> list[str]:
     ax.set(xlim=(0, None), ylim=(0, None))
     ax.spines[["top", "right"]].set_visible(False)
     ax.legend(frameon=False)
-    save_few_colours(figure, FOLDER / "trade_off.png", dpi=110)
+    (FOLDER / "trade_off.png").write_bytes(small_png(figure))
     return [*lines, ""]
 
 
@@ -219,7 +220,7 @@ def main() -> None:
     ]
     for (name, graph), ax in zip(found.items(), axes, strict=True):
         lines += table_of_shapes(name, graph, list(ax))
-    save_few_colours(figure, FOLDER / "following.png", dpi=100)
+    (FOLDER / "following.png").write_bytes(small_png(figure))
     lines += ["## Against the paper's search at its best: n, m = 45, 15, 30 000 walks for each stretch", ""]
     lines += [
         "Ten random lines of 7 m; medians [quartiles]. `search_of_2002.md` has more budgets and graphs."
