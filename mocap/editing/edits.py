@@ -273,7 +273,8 @@ def hierarchy(
             break
         asked = np.asarray(pins.held.any(axis=-1) | (errors > 0))  # (F, P + T)
         frames = np.asarray(asked.any(axis=1))
-        change = solve(motion, pins.only(frames), [ASK], body, quiet=True).change
+        missed = errors.max(axis=1) > TOLERANCE  # in all other frames the spline shall stay where it is
+        change = solve(motion, pins.only(missed), [ASK], body, quiet=True).change
         # The root's place listens to all frames, a joint's turns to those in which a joint below is pinned.
         below = [np.isin(body.joints, movers) for movers in pins.movers(base.skeleton)]
         who = np.hstack([np.repeat(frames[:, None], 3, axis=1), asked @ np.array(below)])  # (F, n)
