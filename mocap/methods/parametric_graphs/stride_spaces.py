@@ -54,7 +54,7 @@ def measure_mixes(strides: Examples, weights: Array) -> Array:
     ground, facing = mixed_way(strides, weights)
     zero, one = strides.ends
     way = np.abs(np.diff(ground[:, zero : one + 1], axis=1)).sum(axis=1)
-    turn = facing[:, one] - facing[:, zero] - strides.sway
+    turn = facing[:, one] - strides.sway
     return np.stack([turn, way / (weights @ strides.seconds)[:, one]], axis=1)
 
 
