@@ -92,7 +92,7 @@ def _convex(offsets: Array, gaps: Array) -> Array:
     A row of ones asks for the sum: s² |Σ v · offset|² + (s - 1)² is least for the same v at its best s.
     """
     count, numbers = offsets.shape
-    ridge = RIDGE * np.diag(gaps / max(gaps[-1], 1e-300))
+    ridge = RIDGE * np.diag(gaps / max(gaps[-1], np.finfo(float).tiny))
     rows = np.concatenate([offsets.T, np.ones((1, count)), ridge])
     shares, _ = nnls(rows, np.concatenate([np.zeros(numbers), [1], np.zeros(count)]))
     return np.asarray(shares / shares.sum())

@@ -129,5 +129,5 @@ class MotionMatcher:
     def _speeds(self, place: PlanarTransform, frame: int) -> Array:
         """Give a frame's speeds (J + 1, 3), the root's turned as its place is."""
         speeds: Array = self.database.speeds[frame].copy()
-        speeds[0] = place._replace(x=0.0, z=0.0).apply_points(speeds[0])
+        speeds[0] = rotations.rotate(rotations.about_y(place.angle), speeds[0])
         return speeds

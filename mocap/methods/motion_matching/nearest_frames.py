@@ -129,6 +129,8 @@ class FrameSearch:
     >>> table = tabulate([body.resample(datasets.sample("walk_curve_1"), 30)])
     >>> FrameSearch(table).nearest(table.values[100], now=0, near=6)[0]
     100
+    >>> FrameSearch(table).scale.max(), FrameSearch(table, future=3.0).scale.max()
+    (np.float64(1.0), np.float64(3.0))
     """
 
     def __init__(self, database: PoseDatabase, *, future: float = 1.0, label: str = "") -> None:

@@ -127,9 +127,8 @@ def optimal_transitions(source: Space, target: Space, at: Array, to: Array) -> t
     >>> from mocap.methods.parametric_graphs.strides import cut_strides
     >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
     >>> space = make_space(strides, 0.4, -0.8, 0.8)
-    >>> cost, _, _ = optimal_transitions(space, space, np.array([[0.6]]), np.array([[0.6], [-0.6]]))
-    >>> bool(cost[0, 0] < cost[0, 1])
-    True
+    >>> optimal_transitions(space, space, np.array([[0.6]]), np.array([[0.6], [-0.6]]))[0].round(3)
+    array([[0.02, 0.03]])
 
     Notebook: 17-parametric-graphs
     """
