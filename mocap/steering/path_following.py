@@ -43,11 +43,10 @@ def follow_path(
     where that leaves it, too, a last one where they are free. Where no clip turns as the path does, the walk
     cuts the corner; a warning says where.
 
-    Seams cost, so a walk can be nearer: of 42 lines of 7 m that walks keep to, the paper's own search,
-    `follow_as_2002`, which takes two to four times as many seams, is nearer to 21, by 1.9 cm at most; with
-    `Settings(seam=0, match=0, width=200, tries=1)`, where they are free here, too, to 5. Of 18 lines that
-    clips do not turn along it is nearer to 5, by up to 1.3 m; where a walk leaves its path, the warning says
-    that it may be.
+    Seams cost, so a walk can be nearer: the paper's own search, `follow_as_2002`, takes two to three times as
+    many, and is nearer to 23 of the 40 lines of `figures/BENCHMARK.md`, mostly by a centimetre. With
+    `Settings(seam=0, match=0, width=200, tries=1)`, where seams are free here, too, it is nearer to 2 of the
+    20 of `figures/following.md`. Where a walk leaves its path, the warning says that it may come nearer.
 
     With `bend`, any walk follows any path: the search prices by how much a walk must be turned beyond what
     its clips turn, instead of its distance from the path. Then it is laid on the path [Gle01], and its feet
