@@ -197,6 +197,9 @@ def plan_group(
     >>> found = plan_group(graph, Scene((9 + 2j,), ((5 + 0j, 0.5),)))
     >>> 7 < found.seconds < 20
     True
+    >>> plan_group(graph, Scene((9 + 2j,), ((5 + 0j, 0.5),)), start=PlanarTransform(0, 0, 4.0))
+    Traceback (most recent call last):
+    mocap.errors.NoWalk: Member 1 starts -0.05 m from the rim of the obstacle at x=0, z=5: 0.3 m is the least.
 
     Notebook: 19-group-graphs
     """
