@@ -105,8 +105,8 @@ class PathSearch(LayeredSearch):
         The cost of an edge is that of [KGP02, Eq. 9], g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖², plus the
         prices. One departure from the paper: after each hop s moves half-way to the point of the path
         abreast of the body, so that a walk which cuts a corner need not walk the metres that it saved; but
-        it moves on by γ in each frame. `Wishes.slide` is the share of that distance. Walks that are laid on
-        the path stay on it.
+        it moves on by γ in each frame, unless times are asked for. `Wishes.slide` is the share of that
+        distance. Walks that are laid on the path stay on it.
         """
         of, hop = self.graph.hops.leaving(states.node)
         hops, route = self.hops.take(hop), self.route
@@ -119,7 +119,8 @@ class PathSearch(LayeredSearch):
             return new.take(in_time | np.isfinite(route.clock).any())
         off = new.move + new.turn * at - route.points[point]
         abreast = np.clip((off * route.ways[point].conj()).real, -hops.along, hops.along)
-        moved = np.maximum(hops.along + route.wishes.slide * abreast, LEAST / self.graph.fps * hops.frames)
+        least = LEAST / self.graph.fps * hops.frames * ~np.isfinite(route.clock).any()
+        moved = np.maximum(hops.along + route.wishes.slide * abreast, least)
         return new._replace(along=states.along[of] + moved)
 
     def frames_along(self, hop: Indices, start: Array) -> tuple[Indices, Indices, Array]:
