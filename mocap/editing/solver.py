@@ -225,18 +225,15 @@ def linear(base: Motion, body: Body, x: Array, pins: Pins) -> tuple[Array, Array
     joints, which = np.unique(body.joints, return_inverse=True)
     spins = poses.matrices[:, joints] @ right_jacobian(change.turns[:, joints])
     axes = np.einsum("ftij,tj->fti", spins[:, which], body.axes)  # in the world, (F, T, 3)
-    places = pins.places(moved, poses)
+    places, held = pins.places(moved, poses), len(pins.joints)
+    moves = np.array([np.isin(body.joints, movers) for movers in pins.movers(base.skeleton)])  # (P + T, T')
     slopes = np.zeros((*places.shape, x.shape[1]))
-    slopes[:, : len(pins.joints), :, :3] = np.eye(3)
-    for number, (end, movers) in enumerate(zip(pins.ends, pins.movers(base.skeleton), strict=True)):
-        above = np.flatnonzero(np.isin(body.joints, movers))
-        if number < len(pins.joints):
-            arms = poses.positions[:, [end]] - poses.positions[:, body.joints[above]]
-            ways = np.swapaxes(np.cross(axes[:, above], arms), 1, 2)
-        else:
-            inside = np.einsum("fji,ftj->fit", poses.matrices[:, end], axes[:, above])
-            ways = ARM * np.linalg.solve(right_jacobian(places[:, number] / ARM), inside)
-        slopes[:, number][..., 3 + above] = ways
+    slopes[:, :held, :, :3] = np.eye(3)
+    arms = poses.positions[:, pins.ends[:held], None] - poses.positions[:, None, body.joints]
+    slopes[:, :held, :, 3:] = np.swapaxes(np.cross(axes[:, None], arms), 2, 3)
+    inside = np.einsum("fpji,ftj->fpit", poses.matrices[:, pins.ends[held:]], axes)
+    slopes[:, held:, :, 3:] = ARM * np.linalg.solve(right_jacobian(places[:, held:] / ARM), inside)
+    slopes[..., 3:] *= moves[:, None]
     slopes *= (places != np.clip(places, pins.low + NEAR, pins.high - NEAR))[..., None]
     return pins.gap(places).reshape(len(base), -1), slopes.reshape(len(base), -1, x.shape[1])
 
