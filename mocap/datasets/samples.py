@@ -12,8 +12,7 @@ from typing import Any
 import numpy as np
 
 from mocap._shared.archives import open_archive
-from mocap.body.fingerprints import fingerprint
-from mocap.body.motion import Motion, resample
+from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened
 
@@ -77,18 +76,3 @@ def sample(name: str = "walk_circle") -> Motion:
         {str(label): kind == number for number, label in enumerate(labels)},
         dict(zip(FEET, contacts, strict=True)),
     )
-
-
-def is_bundled(motion: Motion) -> bool:
-    """Check whether a motion is one of `SAMPLES`, at any rate.
-
-    Files that were saved before the clips were stored remember them by all their digits.
-
-    Examples
-    --------
-    >>> is_bundled(sample("jog")), is_bundled(sample("jog")[1:])
-    (True, False)
-    """
-    if motion.name not in SAMPLES:
-        return False
-    return fingerprint(motion) == fingerprint(resample(sample(motion.name), motion.fps))

@@ -19,14 +19,14 @@ from mocap.body.fingerprints import fingerprint
 from mocap.body.motion import Motion, require_alike, resample
 from mocap.body.planar import PlanarTransform
 from mocap.datasets.clip_origins import Origin, find_again, is_origin
-from mocap.datasets.samples import SAMPLES, is_bundled, sample
+from mocap.datasets.samples import SAMPLES, sample
 from mocap.editing.mirroring import mirror
-from mocap.errors import FormatError, MocapError, shortened
+from mocap.errors import FormatError, MocapError, shortened, warn
 from mocap.files.conversion import is_clip
 from mocap.files.load_save import load as load_motion
 from mocap.graphs.motion_graph import MotionGraph
 
-KIND, OURS = "mocap: a motion graph", "a motion graph saved by mocap, version 1"
+KIND, OURS = "mocap: a motion graph", "a motion graph saved by mocap, version 1 or 2"
 # The arrays of the file, with C clips, O origins, N nodes, E edges, T transitions and L labels.
 ARRAYS: dict[str, tuple[type, tuple[int | str, ...]]] = {
     "fps": (float, ()),
@@ -108,7 +108,7 @@ def save(motion_graph: MotionGraph, path: str | Path, origins: Sequence[Origin] 
         "labelled": np.reshape(labelled, (len(edges), len(labels))),
     }
     whole: Arrays = {key: np.asarray(arrays[key], kind) for key, (kind, _) in ARRAYS.items()}
-    pack(path, {"format": np.array(KIND), "version": np.array(1), **whole})
+    pack(path, {"format": np.array(KIND), "version": np.array(2), **whole})
 
 
 def load(
@@ -137,6 +137,11 @@ def load(
     FormatError : for a file that is no motion graph, is damaged, or has a newer version.
     MocapError : for a clip that is missing, cannot be read, or has changed.
 
+    Warns
+    -----
+    MocapWarning : for a file of version 1, which knows its clips by digits that differ between machines, so
+        that only their names and lengths are compared.
+
     Notebook: 05b-choice-points
     """
     found = read(path)
@@ -153,10 +158,12 @@ def load(
             given = shortened(", ".join(by_name) or "none")
             raise MocapError(f"{path} needs the clip '{shortened(name)}'; given are: {given}.")
         now = len(by_name[name])
-        if now != frames or (fingerprint(by_name[name]) != known and not is_bundled(by_name[name])):
+        if now != frames or (known and fingerprint(by_name[name]) != known):
             other = f"{frames} frames then, {now} now" if now != frames else "other poses, bones or units"
             named = f"another '{shortened(name)}'"
             raise MocapError(f"{path} was built of {named}: {other}. Take that clip, or build anew.")
+    if not any(found.fingerprints):
+        warn(f"An older mocap saved {path}: it cannot tell whether its clips have changed; save it anew.")
     return MotionGraph(tuple(by_name[name] for name in found.names), found.window, found.graph)
 
 
@@ -189,7 +196,7 @@ def _unpack(path: str | Path) -> Arrays:
     with open_archive(path, OURS) as members:
         if str(members["format"].read()) not in (KIND, "mocap motion graph"):  # as the first files say
             raise FormatError(path, None, OURS, "an .npz of another kind")
-        if (version := int(members["version"].read())) > 1:
+        if (version := int(members["version"].read())) > 2:
             raise FormatError(path, None, OURS, f"version {version}, which a newer mocap wrote")
         sizes: dict[int | str, int] = {2: 2, 3: 3, 4: 4}
         for key, (kind, shape) in ARRAYS.items():
@@ -202,6 +209,8 @@ def _unpack(path: str | Path) -> Arrays:
             ):
                 raise FormatError(path, None, f"'{key}' to fit the other arrays", str(own))
         arrays = {key: members[key].read() for key in ARRAYS}
+        if version == 1:  # its fingerprints are of all digits
+            arrays["fingerprints"] = np.zeros_like(arrays["fingerprints"])
         for what, holds in _rules(arrays):
             if not np.all(holds):
                 raise FormatError(path, None, f"that {what}", "a damaged file")
