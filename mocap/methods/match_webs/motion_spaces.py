@@ -37,8 +37,8 @@ def turn(motion: Motion) -> float:
     Examples
     --------
     >>> from mocap.datasets.samples import sample
-    >>> round(np.degrees(turn(sample("walk_5m_0.8_120"))) / 10)
-    11
+    >>> [round(np.degrees(turn(sample(f"walk_5m_0.8_{degrees}")))) for degrees in (120, 0, -120)]
+    [112, 3, -107]
 
     Notebook: 16-match-webs
     """
@@ -52,8 +52,9 @@ def mean_speed(motion: Motion) -> float:
     Examples
     --------
     >>> from mocap.datasets.samples import sample
-    >>> round(mean_speed(sample("walk_5m_1.4_0")), 1)
-    1.4
+    >>> walk = sample("walk_5m_1.4_0")
+    >>> round(mean_speed(walk), 2), mean_speed(walk[:1])
+    (1.41, 0.0)
 
     Notebook: 16-match-webs
     """
@@ -83,8 +84,9 @@ def hand_target(
     Examples
     --------
     >>> from mocap.datasets.samples import sample
-    >>> hand_target(sample("walk_straight")[:120]).shape
-    (3,)
+    >>> second = sample("walk_straight")[:120]
+    >>> hand_target(second).round(2).tolist(), hand_target(second, at=0.5).round(2).tolist()
+    ([-0.17, 0.78, 0.77], [-0.16, 0.77, 0.55])
 
     Notebook: 16-match-webs
     """
@@ -131,6 +133,8 @@ def random_weights(
     >>> weights = random_weights([[0.8], [1.1], [1.4]], 100, spread=0.1)
     >>> weights.shape, bool(np.allclose(weights.sum(axis=1), 1)), int((weights != 0).sum(axis=1).max())
     ((100, 3), True, 2)
+    >>> weights.min().round(1).tolist(), weights.max().round(1).tolist()
+    (-0.1, 1.1)
 
     Notebook: 16-match-webs
     """

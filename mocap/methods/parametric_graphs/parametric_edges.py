@@ -84,6 +84,11 @@ def shrink_box(good: Array, bad: Array, scale: Array, eps: float = EPSILON) -> t
     >>> shrink_box(good, bad, np.array([5.0, 5]), eps=0.01)
     (array([0., 0.]), array([ 8.95, 10.  ]))
 
+    Of bad ones outside, those that are 0.06 off move nothing, and one that is 0.04 off moves a side:
+
+    >>> shrink_box(good, np.array([[10.06, 5], [-0.06, 5], [5.0, 10.04]]), np.array([5.0, 5]), eps=0.01)
+    (array([0., 0.]), array([10.  ,  9.99]))
+
     Notebook: 17-parametric-graphs
     """
     low, high = good.min(axis=0).astype(float), good.max(axis=0).astype(float)
@@ -128,10 +133,14 @@ def build_edge(
     >>> from mocap.methods.parametric_graphs.strides import cut_strides
     >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
     >>> space = make_space(strides, 0.4, -0.8, 0.8)
-    >>> edge = build_edge(space, space, good=0.05, sampling=(50, 200))
-    >>> way = edge.look_up(np.array([0.0]))
-    >>> bool(way.low[0] < 0 < way.high[0])
-    True
+    >>> edge = build_edge(space, space, good=0.02, sampling=(50, 200))
+    >>> for turn in (-0.5, 0.0, 0.5):
+    ...     print([round(float(np.squeeze(part)), 2) for part in edge.look_up(np.array([turn]))])
+    [-0.8, 0.56, 1.02, 0.03]
+    [-0.8, 0.8, 0.96, -0.05]
+    [0.54, 0.8, 1.06, 0.05]
+    >>> len(edge.at), round(edge.least, 3)
+    (50, 0.016)
 
     Notebook: 17-parametric-graphs
     """

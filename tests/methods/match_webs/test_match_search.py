@@ -110,13 +110,6 @@ def test_what_is_not_asked_for_is_neither_given_nor_searched_from(bundled):
     assert 0.8 * len(turned) <= len(kept) and all(kept[match.via].cost >= 0 for match in kept[1:])
 
 
-def test_a_match_is_cut_out_of_its_clip(bundled):
-    match = search(bundled.web, 0, bundled.truth[2][1], below=0.03)[1]
-    motion = cut_out(bundled.web, match)
-    assert len(motion) == match.stop - match.start
-    assert np.array_equal(motion.root_positions[0], bundled.clips[match.clip].root_positions[match.start])
-
-
 @pytest.fixture(scope="module")
 def restless():
     """One joint that turns now and then, and stands still for long."""

@@ -269,6 +269,7 @@ test_what_makes_no_sense_is_refused = refusals(
     ("one span for each clip, got 1 and 0", cut_actions, [WALK], []),
     ("takes those from -13 to 55: leave it more room", cut_actions, [WALK], [(2, 40)]),
     ("leave it more room", cut_actions, [WALK], [(60, 40)]),
+    ("leave it more room", cut_actions, [WALK], [(217, 278)]),
     ("A place of the world is three", lambda: ParametricController(built.acting()).aim([1, 2])),
     ("three finite numbers", lambda: ParametricController(built.acting()).aim([1, 2, np.nan])),
 )
