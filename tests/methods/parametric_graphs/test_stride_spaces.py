@@ -47,7 +47,7 @@ def test_sources_are_placed_evenly_and_at_the_ends():
         return gaps.min(axis=1).max()
 
     drawn = [draw_parameters(both, 40, np.random.default_rng(seed)) for seed in range(10)]
-    assert nearest(at) < 0.7 * min(map(nearest, drawn))
+    assert len(at) == 40 and nearest(at) < 0.7 * min(map(nearest, drawn))
 
 
 def test_the_range_is_cut_to_what_the_strides_come_to_and_weights_never_reach_beyond():
