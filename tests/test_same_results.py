@@ -133,11 +133,13 @@ def acted():
         count=30,
         parameters=("turn", "speed"),
     )
-    graph = parametric_graphs.build_parametric(spaces, good=0.1, sampling=(6, 50))
+    graph = parametric_graphs.build_parametric(spaces, good=0.06, sampling=(6, 50))
     character = parametric_graphs.ParametricController(graph, start="any")
+    first = played(character, [(0.0, 1.0, "hand")] * 2)  # nobody aims
     character.aim(character.end.apply_points(spaces["hand"].reached.mean(axis=0)))
-    orders = [(0.4, 1.0, label) for label in ("hand", "hand", "any", "walk", "")] + ORDERS
-    return [*played(character, orders), *(part for chosen in character.chosen for part in chosen[1:])]
+    orders = [(-5.9, 0.7, label) for label in ("hand", "hand", "any", "any", "walk", "walk")] + ORDERS
+    then, blending = played(character, orders), [character.step(1.0, 0.7).blending for _ in range(60)]
+    return [*first, *then, blending, *(part for chosen in character.chosen for part in chosen[1:])]
 
 
 @cache
@@ -214,9 +216,8 @@ CASES = {
     "changing strides": lambda: [
         getattr(changing_strides(strides("jog"), strides(), stands=stands), part)
         for stands in ("", "first", "second")
-        for part in ("values", "poses", "seconds", "contacts")
+        for part in ("values", "poses", "seconds", "contacts", "offset")
     ],
-    "changed sway": lambda: changing_strides(*(replace(strides(), sway=sway) for sway in (0.2, 0.1))).sway,
     "made stride": lambda: list(vars(make_motion(space(), np.array([0.3]))).values())[1:],
     "windows": lambda: near_end(space(), np.array([[0.3], [-0.2]]), 1.0),
     "parameters": acted,

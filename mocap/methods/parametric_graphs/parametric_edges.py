@@ -59,6 +59,15 @@ class ParametricEdge:
 
         The farthest of k sources always weighs 0. So with k = d + 1, as [HG07, 4] says, one parameter gives
         the nearest source and nothing else, and boxes jump; k is d + 4 by default [ours].
+
+        Examples
+        --------
+        >>> at = np.arange(7.0)[:, None]
+        >>> edge = ParametricEdge(at, at - 1, at + 1, at[:, 0] + 0.5, at[:, 0], np.ones(1), 0.0)
+        >>> [round(float(np.squeeze(part)), 2) for part in edge.look_up(np.array([0.25]))]
+        [-0.62, 1.38, 0.88, 0.38]
+        >>> edge.look_up(np.array([0.25]), 2).high, edge.look_up(np.array([3.0])).high
+        (array([1.]), array([4.]))
         """
         (rows,), gaps = nearest_samples(asked[None], self.at, self.scale, count or len(asked) + NEIGHBOURS)
         (shares,) = neighbour_weights(gaps)
@@ -84,10 +93,19 @@ def shrink_box(good: Array, bad: Array, scale: Array, eps: float = EPSILON) -> t
     >>> shrink_box(good, bad, np.array([5.0, 5]), eps=0.01)
     (array([0., 0.]), array([ 8.95, 10.  ]))
 
-    Of bad ones outside, those that are 0.06 off move nothing, and one that is 0.04 off moves a side:
+    Where much of the second counts as far as little of the first, 2 from its end is nearer than 1:
 
-    >>> shrink_box(good, np.array([[10.06, 5], [-0.06, 5], [5.0, 10.04]]), np.array([5.0, 5]), eps=0.01)
-    (array([0., 0.]), array([10.  ,  9.99]))
+    >>> shrink_box(good, bad, np.array([5.0, 20]), eps=0.1)
+    (array([0., 4.]), array([10., 10.]))
+
+    A box keeps 0.1 · 5 off a bad target, and 0.1 · 20:
+
+    >>> bad = np.array([[10.5, 5], [-0.5, 5], [5, 12], [5, -2]])
+    >>> [part.tolist() for part in shrink_box(good, bad, np.array([5.0, 20]), eps=0.1)]
+    [[0.0, 0.0], [10.0, 10.0]]
+    >>> bad = np.array([[10.25, 5], [-0.25, 5], [5, 11], [5, -1]])
+    >>> [part.tolist() for part in shrink_box(good, bad, np.array([5.0, 20]), eps=0.1)]
+    [[0.25, 1.0], [9.75, 9.0]]
 
     Notebook: 17-parametric-graphs
     """

@@ -129,7 +129,7 @@ test_hostile_input_is_one_sentence = refusals(
     ("one clip or more, got none", build_web, []),
     (SkeletonMismatch, "joints", build_web, [still(), still(2)]),
     ("resample one first", build_web, [still(), still(fps=60.0)]),
-    ("No clip is long enough for a path: that takes 0.47 s", build_web, [still(frames=5)]),
+    ("No clip is long enough for a path: that takes 0.47 s", build_web, [still(frames=13)]),
 )
 
 
