@@ -143,6 +143,9 @@ def optimal_transitions(source: Space, target: Space, at: Array, to: Array) -> t
     >>> space = make_space(strides, 0.4, -0.8, 0.8)
     >>> optimal_transitions(space, space, np.array([[0.6]]), np.array([[0.6], [-0.6]]))[0].round(3)
     array([[0.02, 0.03]])
+
+    What it costs to go on from turns by -0.8, 0.6 and 0.8 to one by -0.6, and when to leave and to enter:
+
     >>> turns = np.linspace(-0.8, 0.8, 9)[:, None]
     >>> found = optimal_transitions(space, space, turns, turns[1:2])
     >>> [part[[0, 7, 8], 0].round(2).tolist() for part in found]

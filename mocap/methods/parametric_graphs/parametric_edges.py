@@ -152,7 +152,7 @@ def build_edge(
     >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
     >>> space = make_space(strides, 0.4, -0.8, 0.8)
     >>> edge = build_edge(space, space, good=0.02, sampling=(50, 200))
-    >>> for turn in (-0.5, 0.0, 0.5):
+    >>> for turn in (-0.5, 0.0, 0.5):  # the box of what may follow, and when to leave and to enter
     ...     print([round(float(np.squeeze(part)), 2) for part in edge.look_up(np.array([turn]))])
     [-0.8, 0.56, 1.02, 0.03]
     [-0.8, 0.8, 0.96, -0.05]

@@ -142,9 +142,9 @@ def test_a_search_that_explodes_says_so(bundled, monkeypatch, recwarn):
         found = search(bundled.web, 0, slice(240, 300), below=0.03, lengths=(1 / 2, 2))
         return np.bincount([match.generation for match in found])[:3].tolist()
 
+    monkeypatch.setattr(match_search, "FEW", 13)
     assert ask() == [1, 5, 14] and not recwarn
     monkeypatch.setattr(match_search, "LEAK", 2)
-    monkeypatch.setattr(match_search, "FEW", 13)
     told("One step found 14 matches, more than 2 times the step before", ask)
 
 
