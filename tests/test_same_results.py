@@ -227,8 +227,8 @@ CASES = {
     "controller": lambda: played(steering.Controller(walking()), ORDERS),
     "apart": lambda: apart([np.stack([np.arange(20) + start] * 2, axis=1) for start in (0, 12, 14)], near=1),
     "web": lambda: [
-        (web := match_webs.build_web([WALK[:20], WALK[:700], *LESS], below=0.05)).cells,
-        *(np.hstack([match.rows, match.frames]) for match in match_webs.search(web, 1, slice(240, 370))),
+        (web := match_webs.build_web([WALK[:20], *LESS, WALK[:700]], below=0.05)).cells,
+        *(np.hstack([match.rows, match.frames]) for match in match_webs.search(web, 3, slice(240, 370))),
     ],
     "space of walks": lambda: [
         part

@@ -219,10 +219,10 @@ def cut_actions(clips: Sequence[Motion], spans: Sequence[tuple[int, int]]) -> Ex
     >>> from mocap import body, datasets
     >>> walk = body.resample(datasets.sample("walk_straight"), 30)
     >>> cut = cut_actions([walk, walk, walk], [(23, 83), (100, 136), (217, 277)])
-    >>> cut.grid[[0, -1]].round(2).tolist(), cut.seconds[:2, [0, *cut.ends, -1]].round(2).tolist()
-    ([-0.38, 1.38], [[-0.77, 0.0, 2.0, 2.77], [-0.77, 0.0, 1.14, 1.91]])
-    >>> cut.dropped, cut.sway, cut.offset
-    (0, 0.0, 0.0)
+    >>> cut.grid[[0, -1]].round(2).tolist(), cut.dropped, cut.sway, cut.offset
+    ([-0.38, 1.38], 0, 0.0, 0.0)
+    >>> cut.seconds[:, [0, *cut.ends, -1]].round(2).tolist()
+    [[-0.77, 0.0, 2.0, 2.77], [-0.77, 0.0, 1.14, 1.91], [-0.77, 0.0, 2.04, 2.81]]
     """
     if len(spans) != len(clips):
         raise MocapError(f"Actions are cut by one span for each clip, got {len(clips)} and {len(spans)}.")

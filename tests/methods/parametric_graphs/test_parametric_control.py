@@ -267,9 +267,9 @@ WALK = clips()[3]
 test_what_makes_no_sense_is_refused = refusals(
     ("one clip or more, got none", cut_actions, [], []),
     ("one span for each clip, got 1 and 0", cut_actions, [WALK], []),
-    ("takes those from -13 to 55: leave it more room", cut_actions, [WALK], [(2, 40)]),
+    ("takes those from -1 to 105: leave it more room", cut_actions, [WALK], [(22, 82)]),
     ("leave it more room", cut_actions, [WALK], [(60, 40)]),
-    ("leave it more room", cut_actions, [WALK], [(217, 278)]),
+    ("takes those from 195 to 301: leave it more room", cut_actions, [WALK], [(218, 278)]),
     ("A place of the world is three", lambda: ParametricController(built.acting()).aim([1, 2])),
     ("three finite numbers", lambda: ParametricController(built.acting()).aim([1, 2, np.nan])),
 )
