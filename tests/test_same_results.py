@@ -7,7 +7,7 @@ processor do not matter; of motions a sum, in which each number has another weig
 import hashlib
 import tomllib
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -65,6 +65,7 @@ def test_results_are_the_same(results):
 
 WALK = datasets.sample("walk_straight")
 SEAM = blending.join(WALK, 500, WALK, 233, 40)
+LESS = [datasets.sample("sneak")[:1300], datasets.sample("jog")[:700]]
 NOISE = np.random.default_rng(1).normal(0, 0.0005, WALK.root_positions.shape)
 
 
@@ -109,9 +110,36 @@ def strides(name="walk_curve_2", **how):
     return parametric_graphs.cut_strides(clips(name), **how)
 
 
+def parts(strides):
+    return [part for part in vars(strides).values() if isinstance(part, int | float | np.ndarray)]
+
+
 @cache
 def space():
     return parametric_graphs.make_space(strides(), 0.4, -0.8, 0.8)
+
+
+def hands(examples, count):
+    reach = partial(match_webs.hand_target, at=0.5)
+    return match_webs.sample_space(examples, reach, count=count, parameters=("left", "up", "ahead"))
+
+
+def acted():
+    """Reach for a place, then walk as told by turn and speed, and by turn alone."""
+    spaces = {"walk": space(), "hand": hands(strides(), 20)}
+    spaces["any"] = match_webs.sample_space(
+        strides("walk_curve_1"),
+        lambda blend: [match_webs.turn(blend), match_webs.mean_speed(blend)],
+        count=30,
+        parameters=("turn", "speed"),
+    )
+    graph = parametric_graphs.build_parametric(spaces, good=0.06, sampling=(6, 50))
+    character = parametric_graphs.ParametricController(graph, start="any")
+    first = played(character, [(0.0, 1.0, "hand")] * 2)  # nobody aims
+    character.aim(character.end.apply_points(spaces["hand"].reached.mean(axis=0)))
+    orders = [(-5.9, 0.7, label) for label in ("hand", "hand", "any", "any", "walk", "walk")] + ORDERS
+    then, blending = played(character, orders), [character.step(1.0, 0.7).blending for _ in range(60)]
+    return [*first, *then, blending, *(part for chosen in character.chosen for part in chosen[1:])]
 
 
 @cache
@@ -179,40 +207,39 @@ CASES = {
         run := groups.simulate(3, 4),
         groups.Configuration(run.places[-1] + [1, 2j, -1], run.velocities[-1] * 1j),
     ),
-    "strides": lambda: [strides().values, strides().poses, strides().contacts],
+    "strides": lambda: [*parts(strides()), *parts(strides(by="curves"))],
+    "steps": lambda: [part for feet in ("lr", "rl") for part in parts(strides("sneak", feet=feet))],
+    "sneaking strides": lambda: parts(strides("sneak", label="sneak", margin=0.5)),
     "stride": lambda: body.joint_positions(strides().blend(np.eye(len(strides()))[0])),
-    "last of a stride": lambda: strides().motion(
-        np.eye(len(strides()))[0], np.array([len(strides().grid) - 1.0]), 30
-    )[1],
+    "mixed strides": lambda: strides().mixed(np.eye(len(strides()))[:2] - 0.01, np.array([[0, 106.0]] * 2)),
     "joined clouds": lambda: join_clouds(clips("sneak", "jog"), None, 10, 1, np.float64).sizes < np.inf,
     "changing strides": lambda: [
         getattr(changing_strides(strides("jog"), strides(), stands=stands), part)
         for stands in ("", "first", "second")
-        for part in ("values", "poses", "seconds", "contacts")
+        for part in ("values", "poses", "seconds", "contacts", "offset")
     ],
-    "changed sway": lambda: changing_strides(*(replace(strides(), sway=sway) for sway in (0.2, 0.1))).sway,
-    "made stride": lambda: make_motion(space(), np.array([0.3])).motion.root_positions,
+    "made stride": lambda: list(vars(make_motion(space(), np.array([0.3]))).values())[1:],
     "windows": lambda: near_end(space(), np.array([[0.3], [-0.2]]), 1.0),
-    "parameters": lambda: played(
-        parametric_graphs.ParametricController(
-            parametric_graphs.build_parametric({"walk": space()}, good=0.05)
-        ),
-        ORDERS,
-    ),
+    "parameters": acted,
     "matcher": lambda: played(
         motion_matching.MotionMatcher(motion_matching.tabulate(clips("walk_curve_1", "walk_circle"))), ORDERS
     ),
     "controller": lambda: played(steering.Controller(walking()), ORDERS),
     "apart": lambda: apart([np.stack([np.arange(20) + start] * 2, axis=1) for start in (0, 12, 14)], near=1),
     "web": lambda: [
-        np.hstack([match.rows, match.frames])
-        for match in match_webs.search(match_webs.build_web([WALK], below=0.05), 0, slice(240, 370))
+        (web := match_webs.build_web([WALK[:20], *LESS, WALK[:700]], below=0.05)).cells,
+        *(np.hstack([match.rows, match.frames]) for match in match_webs.search(web, 3, slice(240, 370))),
     ],
-    "space of walks": lambda: (
-        match_webs.sample_space(
-            blending.register([WALK[100:500], WALK[233:640]]), match_webs.mean_speed, count=10
-        ).values
-    ),
+    "space of walks": lambda: [
+        part
+        for made in [hands(blending.register([WALK[start : start + 400] for start in (0, 90, 233, 370)]), 10)]
+        for how in ("convex", "neighbours")
+        for part in (
+            match_webs.weights_for(made, made.values[5:9] + 0.001, method=how),
+            made.values,
+            made.scale,
+        )
+    ],
     "merged": lambda: [
         [
             edge.get("cost", 0)

@@ -43,6 +43,8 @@ def minima_1d(grid: ArrayLike) -> Mask:
     array([[1, 0, 0, 0],
            [0, 1, 1, 1],
            [0, 1, 1, 0]])
+    >>> minima_1d([[0, np.inf, np.inf, np.inf]]).tolist()
+    [[True, False, False, False]]
 
     Notebook: 16-match-webs
     """
@@ -78,6 +80,15 @@ def local_paths(costs: ArrayLike, *, slope: int = 2, least: int = 1) -> Iterator
     >>> next(local_paths(costs)).tolist()
     [[0, 1], [1, 2], [1, 3], [2, 4]]
 
+    It advances two frames in the first clip. Three steps to the right in a row are too many for it:
+
+    >>> [len(list(local_paths(costs, least=least))) for least in (2, 3)]
+    [1, 0]
+    >>> costs = np.ones((4, 7))
+    >>> costs[[0, 1, 2], [1, 2, 6]] = -3
+    >>> next(local_paths(costs)).tolist(), next(local_paths(costs, slope=3)).tolist()
+    ([[0, 1], [1, 2]], [[0, 1], [1, 2], [1, 3], [1, 4], [1, 5], [2, 6]])
+
     Notebook: 16-match-webs
     """
     grid = np.asarray(costs)
@@ -104,8 +115,15 @@ def apart(paths: Iterable[NDArray[Any]], *, near: int) -> list[NDArray[Any]]:
     Examples
     --------
     >>> down = np.stack([np.arange(4), np.arange(4)], axis=1)
-    >>> len(apart([down, down + [0, 1], down + [0, 2]], near=1))
-    2
+    >>> kept = apart([down + [0, columns] for columns in (0, 1, 2, -1, -2)], near=1)
+    >>> [path[0].tolist() for path in kept]
+    [[0, 0], [0, 2], [0, -2]]
+
+    A path of which half has been said is kept:
+
+    >>> half = np.array([[0, 0], [1, 1], [2, 7], [3, 8]])
+    >>> len(apart([down, half], near=1)), len(apart([down, half[:3]], near=1))
+    (2, 1)
 
     Notebook: 16-match-webs
     """
@@ -178,6 +196,8 @@ def pieces(starts: Sequence[int], most: int, overlap: int) -> list[slice]:
     --------
     >>> [(p.start, p.stop) for p in pieces([0, 40, 70, 100, 350], most=100, overlap=20)]
     [(0, 100), (100, 200), (180, 280), (260, 350)]
+    >>> [(p.start, p.stop) for p in pieces([0, 60, 120, 180, 240], most=120, overlap=20)]
+    [(0, 120), (120, 240)]
     """
     found: list[slice] = []
     begin = starts[0]

@@ -97,6 +97,8 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
     >>> found = search(web, 0, slice(240, 370))
     >>> [(match.start, match.stop) for match in found[:3]], len(found)
     ([(240, 370), (100, 232), (376, 500)], 8)
+    >>> [(match.generation, match.via, round(match.cost, 3)) for match in found[:3]]
+    [(0, -1, 0.0), (1, 0, 0.027), (1, 0, 0.03)]
 
     Notebook: 16-match-webs
     """
@@ -132,7 +134,17 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
 
 
 def _query(web: MatchWeb, clip: int, frames: slice) -> Match:
-    """Count the query, as all matches while they are searched for, in the numbering of all frames."""
+    """Count the query, as all matches while they are searched for, in the numbering of all frames.
+
+    Examples
+    --------
+    At 120 Hz the shortest query, 0.3 s, has 36 frames, and a web counts every fourth:
+
+    >>> from mocap.datasets.samples import sample
+    >>> web = MatchWeb((sample("walk_straight"),), [0, 301], 0.05, np.empty((0, 2)), [], [0])
+    >>> _query(web, 0, slice(0, 36))[:3], _query(web, 0, slice(1165, 1201))[:3]
+    ((0, 0, 9), (0, 291, 300))
+    """
     motion = web.clips[clip]
     first, last = frames.start or 0, len(motion) if frames.stop is None else frames.stop
     if not 0 <= first < last <= len(motion):
@@ -147,7 +159,18 @@ def _query(web: MatchWeb, clip: int, frames: slice) -> Match:
 
 
 def _spread(web: MatchWeb, found: Match) -> float:
-    """Measure how far the points of a match are from their mean place, RMS in metres."""
+    """Measure how far the points of a match are from their mean place, RMS in metres.
+
+    Examples
+    --------
+    In a stride the points of a walker move by tens of centimetres, in 0.3 s by less:
+
+    >>> from mocap.datasets.samples import sample
+    >>> walk = sample("walk_straight")
+    >>> web = MatchWeb((walk,), [0, 301], 0.05, np.empty((0, 2)), [], [0])
+    >>> [round(_spread(web, _query(web, 0, slice(240, stop))), 3) for stop in (276, 370)]
+    [0.135, 0.385]
+    """
     every = max(1, round(web.clips[0].fps / web.rate))
     points = point_cloud(cut_out(web, _in_own_frames(web, found.clip, found))[::every])
     return float(np.sqrt(((points - points.mean(axis=0)) ** 2).sum(-1).mean()))
@@ -189,12 +212,20 @@ def crossings(web: MatchWeb, found: Match, number: int, below: float) -> Iterato
 
     Examples
     --------
+    A path covers 18 of the 20 frames of a match. Frame 11 lies on two frames, and gets their mean. The rest
+    goes on straight, but does not leave the second clip, which begins at 50:
+
+    >>> from mocap.body import resample
     >>> from mocap.datasets.samples import sample
-    >>> from mocap.methods.match_webs.webs import build_web
-    >>> web, rows = build_web([sample("walk_straight")], below=0.05), np.arange(60.0, 92)
-    >>> found = crossings(web, Match(0, 60, 92, 0.0, -1, 0, rows, rows), 0, 0.05)
-    >>> min((crossing.cost, crossing.start, crossing.stop) for crossing in found)[1:]
-    (25, 58)
+    >>> walk = resample(sample("walk_straight"), 30)
+    >>> cells = [[11, 50], *([11 + n, 51 + n] for n in range(20))]
+    >>> web = MatchWeb((walk[:50], walk[50:120]), [0, 50, 120], 0.05, np.array(cells), [0.02] * 21, [0, 21])
+    >>> rows = np.arange(9.0, 29)
+    >>> [hit] = crossings(web, Match(0, 9, 29, 0.0, -1, 0, rows, rows), 0, 0.05)
+    >>> hit.clip, hit.start, hit.stop, round(hit.cost, 3), hit.via, hit.generation
+    (1, 50, 69, 0.02, 0, 1)
+    >>> hit.rows[[0, 1, -1]].tolist(), hit.frames[[0, 1, -1]].tolist()
+    ([11.0, 12.0, 28.0], [50.5, 52.0, 68.0])
     """
     start, stop = found.start, found.stop
     first, last = web.cells[web.offsets[:-1]], web.cells[web.offsets[1:] - 1]
@@ -225,8 +256,11 @@ def cut_out(web: MatchWeb, match: Match) -> Motion:
     >>> from mocap.datasets.samples import sample
     >>> from mocap.methods.match_webs.webs import build_web
     >>> web = build_web([sample("walk_straight")], below=0.05)
-    >>> cut_out(web, search(web, 0, slice(240, 370))[1])
-    Motion('walk_straight', 132 frames at 120 Hz, 38 joints)
+    >>> match = search(web, 0, slice(240, 370))[1]
+    >>> match.start, cut_out(web, match)
+    (100, Motion('walk_straight', 132 frames at 120 Hz, 38 joints))
+    >>> np.array_equal(cut_out(web, match).root_positions[0], web.clips[0].root_positions[100])
+    True
 
     Notebook: 16-match-webs
     """

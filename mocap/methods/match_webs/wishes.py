@@ -71,6 +71,13 @@ def shares_for(
     >>> space = MotionSpace(None, np.eye(2), np.array([[0.0], [1]]), np.ones(1))
     >>> shares_for(space, np.array([[0.25]]))[1].round(2)
     array([[0.75, 0.25]])
+
+    For one number three neighbours count, of which the last has no weight:
+
+    >>> space = MotionSpace(None, np.eye(4), np.array([[3.0], [0], [1], [4]]), np.ones(1))
+    >>> nearest, shares = shares_for(space, np.array([[0.25]]), method="neighbours")
+    >>> nearest.tolist(), shares.round(2).tolist()
+    ([[1, 2, 0]], [[0.79, 0.21, 0.0]])
     """
     samples, numbers = space.values.shape
     if asked.ndim != 2 or asked.shape[1] != numbers or not np.isfinite(asked).all():
@@ -90,6 +97,13 @@ def _convex(offsets: Array, gaps: Array) -> Array:
     """Find v ≥ 0 with the sum one that makes |Σ v · offset| least; of equals, those of the nearest samples.
 
     A row of ones asks for the sum: s² |Σ v · offset|² + (s - 1)² is least for the same v at its best s.
+
+    Examples
+    --------
+    A sample 1 below the wish and one 2 above it are mixed, and hardly that which is 200 above:
+
+    >>> _convex(np.array([[-1.0], [2], [200]]), np.array([1.0, 2, 200])).round(4).tolist()
+    [0.7147, 0.2846, 0.0007]
     """
     count, numbers = offsets.shape
     ridge = RIDGE * np.diag(gaps / max(gaps[-1], np.finfo(float).tiny))

@@ -84,14 +84,39 @@ class Examples:
         return replace(self, **{part: getattr(self, part)[which] for part in parts})
 
     def integrated(self, rates: NDArray[Any]) -> NDArray[Any]:
-        """Integrate rates (M, G) over the phases, from phase 0 on."""
+        """Integrate rates (M, G) over the phases, from phase 0 on.
+
+        Examples
+        --------
+        >>> from mocap import body, datasets
+        >>> from mocap.methods.parametric_graphs.strides import cut_strides
+        >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_1"), 30)])
+        >>> rates = np.array([np.ones(107), 2 * strides.grid])
+        >>> strides.ends, strides.integrated(rates)[:, [0, 23, 53, 83, 106]].round(2).tolist()
+        ((23, 83), [[-0.38, 0.0, 0.5, 1.0, 1.38], [0.15, 0.0, 0.25, 1.0, 1.91]])
+        """
         step, zero = self.grid[1] - self.grid[0], self.ends[0]
         total = np.cumsum((rates[:, 1:] + rates[:, :-1]) / 2 * step, axis=1)
         total = np.concatenate([np.zeros((len(rates), 1)), total], axis=1)
         return np.asarray(total - total[:, zero : zero + 1])
 
     def blend(self, weights: Array) -> Motion:
-        """Blend the action by weights (N,): one frame per phase from 0 to 1, as long as the mix takes."""
+        """Blend the action by weights (N,): one frame per phase from 0 to 1, as long as the mix takes.
+
+        Examples
+        --------
+        A foot stands where it does in more than half of the mix, here in both:
+
+        >>> from mocap import body, datasets
+        >>> from mocap.methods.parametric_graphs.strides import cut_strides
+        >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_1"), 30)])
+        >>> blend = strides.blend(np.eye(len(strides))[[0, 2]].mean(axis=0))
+        >>> len(blend), round(blend.duration, 3), strides.seconds[[0, 2], 83].round(3).tolist()
+        (61, 1.267, [1.3, 1.233])
+        >>> one, other = strides.contacts[[0, 2], 23:84, 0]
+        >>> one.sum().tolist(), other.sum().tolist(), blend.contacts["lfoot"].sum().tolist()
+        (15, 16, 15)
+        """
         zero, one = self.ends
         rate = (one - zero) / float(weights @ self.seconds[:, one])
         return self.motion(weights, np.arange(zero, one + 1.0), rate)[0]
@@ -113,6 +138,22 @@ class Examples:
         ----------
         weights : shape (M, N).
         places : shape (M, F), from 0 to G - 1.
+
+        Examples
+        --------
+        Half of a stride that turns by 77° to the left, and half of one by 41° to the right:
+
+        >>> from mocap import body, datasets
+        >>> from mocap.methods.parametric_graphs.strides import cut_strides
+        >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_1"), 30)])
+        >>> weights, places = np.eye(len(strides))[[0, 2]].mean(axis=0), np.array([23, 53.25, 83, 106])
+        >>> roots, turns, headings = strides.mixed(weights[None], places[None])
+        >>> np.degrees(headings[0]).round().tolist()
+        [0.0, 18.0, 18.0, 42.0]
+        >>> roots[0].round(2).tolist()
+        [[0.0, 1.0, 0.0], [0.06, 0.99, 0.43], [0.22, 0.99, 0.86], [0.37, 0.98, 1.15]]
+        >>> np.linalg.norm(turns, axis=-1).round(9).tolist() == np.ones((1, 4, 38)).tolist()
+        True
         """
         low = np.clip(places.astype(int), 0, len(self.grid) - 2)
         share, row, used = places - low, np.arange(len(weights))[:, None], np.flatnonzero(weights.any(axis=0))
@@ -177,8 +218,11 @@ def cut_actions(clips: Sequence[Motion], spans: Sequence[tuple[int, int]]) -> Ex
     --------
     >>> from mocap import body, datasets
     >>> walk = body.resample(datasets.sample("walk_straight"), 30)
-    >>> len(cut_actions([walk, walk, walk], [(30, 65), (66, 101), (100, 136)]))
-    3
+    >>> cut = cut_actions([walk, walk, walk], [(23, 83), (100, 136), (217, 277)])
+    >>> cut.grid[[0, -1]].round(2).tolist(), cut.dropped, cut.sway, cut.offset
+    ([-0.38, 1.38], 0, 0.0, 0.0)
+    >>> cut.seconds[:, [0, *cut.ends, -1]].round(2).tolist()
+    [[-0.77, 0.0, 2.0, 2.77], [-0.77, 0.0, 1.14, 1.91], [-0.77, 0.0, 2.04, 2.81]]
     """
     if len(spans) != len(clips):
         raise MocapError(f"Actions are cut by one span for each clip, got {len(clips)} and {len(spans)}.")
@@ -238,9 +282,10 @@ def mixed_way(examples: Examples, weights: Array) -> tuple[Points, Array]:
     >>> from mocap import body, datasets
     >>> from mocap.methods.parametric_graphs.strides import cut_strides
     >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_1"), 30)])
-    >>> ground, heading = mixed_way(strides, np.eye(len(strides))[:2])
-    >>> ground.shape == heading.shape == (2, len(strides.grid))
-    True
+    >>> ground, heading = mixed_way(strides, np.eye(len(strides))[:1])
+    >>> zero, one = strides.ends
+    >>> np.degrees(heading[0, [zero, one]]).round().tolist(), ground[0, [zero, one]].round(2).tolist()
+    ([0.0, 77.0], [0j, (0.6+0.54j)])
 
     Notebook: 17-parametric-graphs
     """

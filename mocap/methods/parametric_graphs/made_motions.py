@@ -61,6 +61,8 @@ def make_motion(space: Space, asked: Array) -> MadeMotion:
     >>> made = make_motion(make_space(strides, 0.4, -0.8, 0.8), np.array([0.5]))
     >>> float((made.heading[made.frame(1.0)] - made.heading[made.frame(0.0)]).round(1))
     0.5
+    >>> len(made.motion), made.frame(0.0), made.frame(1.0), made.phases[[0, -1]].round(3).tolist()
+    (67, 14, 52, [-0.363, 1.376])
     """
     examples, (near,), (shares,) = space.examples, *shares_for(space, asked[None])
     weights, values = (shares @ part[near] for part in (space.weights, space.values))
@@ -87,6 +89,18 @@ def near_end(space: Space, asked: Array, phase: float) -> tuple[Array, Array]:
     Raises
     ------
     MocapError : for windows that run off the margins by more than a frame; they would hold the last frame.
+
+    Examples
+    --------
+    Windows of 11 frames about the 7 nearest to a strike take 17:
+
+    >>> from mocap import body, datasets
+    >>> from mocap.methods.parametric_graphs.stride_spaces import make_space
+    >>> from mocap.methods.parametric_graphs.strides import cut_strides
+    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
+    >>> points, phases = near_end(make_space(strides, 0.4, -0.8, 0.8), np.array([[0.5]]), 1.0)
+    >>> points.shape, phases[0, [0, 8, -1]].round(2).tolist()
+    ((1, 17, 31, 3), [0.8, 1.01, 1.22])
     """
     examples, rate, reach = space.examples, space.examples.fps, HALF + SPAN
     weights = weights_for(space, asked)
@@ -129,6 +143,13 @@ def optimal_transitions(source: Space, target: Space, at: Array, to: Array) -> t
     >>> space = make_space(strides, 0.4, -0.8, 0.8)
     >>> optimal_transitions(space, space, np.array([[0.6]]), np.array([[0.6], [-0.6]]))[0].round(3)
     array([[0.02, 0.03]])
+
+    What it costs to go on from turns by -0.8, 0.6 and 0.8 to one by -0.6, and when to leave and to enter:
+
+    >>> turns = np.linspace(-0.8, 0.8, 9)[:, None]
+    >>> found = optimal_transitions(space, space, turns, turns[1:2])
+    >>> [part[[0, 7, 8], 0].round(2).tolist() for part in found]
+    [[0.02, 0.03, 0.03], [1.07, 0.93, 0.94], [0.08, -0.08, -0.08]]
 
     Notebook: 17-parametric-graphs
     """

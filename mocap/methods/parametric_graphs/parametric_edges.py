@@ -59,6 +59,15 @@ class ParametricEdge:
 
         The farthest of k sources always weighs 0. So with k = d + 1, as [HG07, 4] says, one parameter gives
         the nearest source and nothing else, and boxes jump; k is d + 4 by default [ours].
+
+        Examples
+        --------
+        >>> at = np.arange(7.0)[:, None]
+        >>> edge = ParametricEdge(at, at - 1, at + 1, at[:, 0] + 0.5, at[:, 0], np.ones(1), 0.0)
+        >>> [round(float(np.squeeze(part)), 2) for part in edge.look_up(np.array([0.25]))]
+        [-0.62, 1.38, 0.88, 0.38]
+        >>> edge.look_up(np.array([0.25]), 2).high, edge.look_up(np.array([3.0])).high
+        (array([1.]), array([4.]))
         """
         (rows,), gaps = nearest_samples(asked[None], self.at, self.scale, count or len(asked) + NEIGHBOURS)
         (shares,) = neighbour_weights(gaps)
@@ -83,6 +92,20 @@ def shrink_box(good: Array, bad: Array, scale: Array, eps: float = EPSILON) -> t
     >>> good, bad = np.array([[0.0, 0], [10, 10]]), np.array([[9.0, 2]])
     >>> shrink_box(good, bad, np.array([5.0, 5]), eps=0.01)
     (array([0., 0.]), array([ 8.95, 10.  ]))
+
+    Where much of the second counts as far as little of the first, 2 from its end is nearer than 1:
+
+    >>> shrink_box(good, bad, np.array([5.0, 20]), eps=0.1)
+    (array([0., 4.]), array([10., 10.]))
+
+    A box keeps 0.1 · 5 off a bad target, and 0.1 · 20:
+
+    >>> bad = np.array([[10.5, 5], [-0.5, 5], [5, 12], [5, -2]])
+    >>> [part.tolist() for part in shrink_box(good, bad, np.array([5.0, 20]), eps=0.1)]
+    [[0.0, 0.0], [10.0, 10.0]]
+    >>> bad = np.array([[10.25, 5], [-0.25, 5], [5, 11], [5, -1]])
+    >>> [part.tolist() for part in shrink_box(good, bad, np.array([5.0, 20]), eps=0.1)]
+    [[0.25, 1.0], [9.75, 9.0]]
 
     Notebook: 17-parametric-graphs
     """
@@ -128,10 +151,14 @@ def build_edge(
     >>> from mocap.methods.parametric_graphs.strides import cut_strides
     >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
     >>> space = make_space(strides, 0.4, -0.8, 0.8)
-    >>> edge = build_edge(space, space, good=0.05, sampling=(50, 200))
-    >>> way = edge.look_up(np.array([0.0]))
-    >>> bool(way.low[0] < 0 < way.high[0])
-    True
+    >>> edge = build_edge(space, space, good=0.02, sampling=(50, 200))
+    >>> for turn in (-0.5, 0.0, 0.5):  # the box of what may follow, and when to leave and to enter
+    ...     print([round(float(np.squeeze(part)), 2) for part in edge.look_up(np.array([turn]))])
+    [-0.8, 0.56, 1.02, 0.03]
+    [-0.8, 0.8, 0.96, -0.05]
+    [0.54, 0.8, 1.06, 0.05]
+    >>> len(edge.at), round(edge.least, 3)
+    (50, 0.016)
 
     Notebook: 17-parametric-graphs
     """

@@ -110,13 +110,6 @@ def test_what_is_not_asked_for_is_neither_given_nor_searched_from(bundled):
     assert 0.8 * len(turned) <= len(kept) and all(kept[match.via].cost >= 0 for match in kept[1:])
 
 
-def test_a_match_is_cut_out_of_its_clip(bundled):
-    match = search(bundled.web, 0, bundled.truth[2][1], below=0.03)[1]
-    motion = cut_out(bundled.web, match)
-    assert len(motion) == match.stop - match.start
-    assert np.array_equal(motion.root_positions[0], bundled.clips[match.clip].root_positions[match.start])
-
-
 @pytest.fixture(scope="module")
 def restless():
     """One joint that turns now and then, and stands still for long."""
@@ -149,9 +142,9 @@ def test_a_search_that_explodes_says_so(bundled, monkeypatch, recwarn):
         found = search(bundled.web, 0, slice(240, 300), below=0.03, lengths=(1 / 2, 2))
         return np.bincount([match.generation for match in found])[:3].tolist()
 
+    monkeypatch.setattr(match_search, "FEW", 13)
     assert ask() == [1, 5, 14] and not recwarn
     monkeypatch.setattr(match_search, "LEAK", 2)
-    monkeypatch.setattr(match_search, "FEW", 13)
     told("One step found 14 matches, more than 2 times the step before", ask)
 
 

@@ -110,8 +110,10 @@ def test_no_path_runs_from_one_clip_into_the_next(bundled):
 def test_clips_too_short_for_a_path_are_left_out_with_a_warning(bundled):
     walk = bundled.clips[0]
     short = replace(walk[:40], name="blink")
-    left_out = r"^Too short to hold a path of 0.47 s, and left out: 'blink', 'blink'\.$"
-    web = told(left_out, build_web, [short, walk, short], below=0.05)
+    left_out = (
+        r"^Too short to hold a path of 0.47 s, and left out: 'blink', 'blink', 'blink', 'blink' and 1 more\.$"
+    )
+    web = told(left_out, build_web, [short, walk, *[short] * 4], below=0.05)
     alone = build_web([walk], below=0.05)
     assert np.array_equal(web.cells, alone.cells)
     assert {web.clip_at(frame) for frame in web.cells.ravel()} == {1}
@@ -127,7 +129,7 @@ test_hostile_input_is_one_sentence = refusals(
     ("one clip or more, got none", build_web, []),
     (SkeletonMismatch, "joints", build_web, [still(), still(2)]),
     ("resample one first", build_web, [still(), still(fps=60.0)]),
-    ("No clip is long enough for a path: that takes 0.47 s", build_web, [still(frames=5)]),
+    ("No clip is long enough for a path: that takes 0.47 s", build_web, [still(frames=13)]),
 )
 
 
@@ -203,10 +205,6 @@ def test_a_valley_has_a_floor_of_minima_in_one_dimension_and_few_in_two():
     floor = minima_1d(grid)
     assert all(floor[i].any() for i in range(40))
     assert len(local_minima(grid)) < 15
-
-
-def test_infinite_cells_are_no_minima():
-    assert not minima_1d(np.full((3, 3), np.inf)).any()
 
 
 @given(st.lists(st.integers(1, 400), min_size=1, max_size=12), st.integers(60, 200), st.integers(0, 50))

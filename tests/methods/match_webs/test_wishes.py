@@ -258,16 +258,6 @@ def test_a_turn_counts_past_half_a_circle_and_to_the_left(degrees):
     assert np.degrees(turn(walk(degrees))) == pytest.approx(degrees, abs=15)
 
 
-@pytest.mark.parametrize("speed", [0.7, 1.4])
-def test_the_speed_is_that_of_the_path(speed):
-    assert mean_speed(walk(90, speed)) == pytest.approx(speed, rel=0.05)
-
-
-def test_one_frame_has_no_speed_and_no_turn():
-    frame = walk(0)[:1]
-    assert mean_speed(frame) == turn(frame) == 0
-
-
 def test_measures_do_not_depend_on_where_a_clip_was_captured():
     here = walk(70)
     there = PlanarTransform(2.0, 50.0, -9.0).apply_motion(here)

@@ -185,10 +185,10 @@ def test_feet_slide_no_more_than_those_of_a_motion_graph_of_the_same_clips():
 def test_bad_thresholds_twice_the_good_ones_cut_no_box():
     """Between T_GOOD and 1.35 T_GOOD one may be in a box; with 2 T_GOOD none is cut off [HG07, 3.2]."""
     source = built.space()
-    thresholds, few = (0.03, BAD * 0.03, 0.06, 1.0), (50, 300)
+    thresholds, few = (0.03, None, 0.06, 1.0), (50, 300)
     edges = [build_edge(source, source, good=0.03, bad=bad, sampling=few) for bad in thresholds]
     widths = [(edge.high - edge.low).mean() for edge in edges]
-    assert widths[0] < widths[1] <= widths[2] == pytest.approx(widths[3], rel=0.01)
+    assert widths[0] < widths[1] < widths[2] == widths[3]
 
 
 @pytest.mark.parametrize("node", ["reach", "punch"])
@@ -267,8 +267,9 @@ WALK = clips()[3]
 test_what_makes_no_sense_is_refused = refusals(
     ("one clip or more, got none", cut_actions, [], []),
     ("one span for each clip, got 1 and 0", cut_actions, [WALK], []),
-    ("takes those from -13 to 55: leave it more room", cut_actions, [WALK], [(2, 40)]),
+    ("takes those from -1 to 105: leave it more room", cut_actions, [WALK], [(22, 82)]),
     ("leave it more room", cut_actions, [WALK], [(60, 40)]),
+    ("takes those from 195 to 301: leave it more room", cut_actions, [WALK], [(218, 278)]),
     ("A place of the world is three", lambda: ParametricController(built.acting()).aim([1, 2])),
     ("three finite numbers", lambda: ParametricController(built.acting()).aim([1, 2, np.nan])),
 )

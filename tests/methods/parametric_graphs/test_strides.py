@@ -12,8 +12,9 @@ from mocap.editing import retarget, stance_of
 from mocap.errors import SkeletonMismatch
 from mocap.feet import clean_up, mark_plants
 from mocap.files import load
-from mocap.methods.parametric_graphs import cut_actions, cut_strides, make_space, mixed_way
+from mocap.methods.parametric_graphs import cut_actions, cut_strides, make_space
 from mocap.methods.parametric_graphs.examples import MARGIN
+from mocap.methods.parametric_graphs.stride_spaces import measure_mixes
 from mocap.methods.parametric_graphs.strides import changing_strides
 from tests.bundled import clips, walks_of_16
 from tests.methods.parametric_graphs.built import jogs, punches, slides, strides
@@ -45,12 +46,7 @@ def test_times_rise_and_steps_are_half_of_strides(feet):
 def test_an_example_by_itself_is_the_clip():
     """Weight 1 on one example gives back its own way over the ground, to a centimetre of interpolation."""
     cut = strides()
-    ground, heading = mixed_way(cut, np.eye(len(cut)))
-    zero, one = cut.ends
-    turn = heading[:, one] - heading[:, zero]
-    np.testing.assert_allclose(turn, cut.values[:, 0], atol=np.radians(0.5))
-    length = np.abs(np.diff(ground[:, zero : one + 1], axis=1)).sum(axis=1)
-    np.testing.assert_allclose(length / cut.seconds[:, one], cut.values[:, 1], rtol=0.01)
+    np.testing.assert_allclose(measure_mixes(cut, np.eye(len(cut))), cut.values, atol=np.radians(0.5))
 
 
 def test_it_does_not_matter_where_clips_were_captured():
@@ -93,16 +89,6 @@ def test_by_curves_examples_are_more_alike_at_one_phase_than_by_strikes():
         apart = np.sqrt(((points[:, None] - points[None]) ** 2).sum(-1) / len(cut.skeleton))
         gaps.append(apart[np.triu_indices(len(calm), 1)].mean())
     assert gaps[1] < gaps[0] < 0.06  # 4.6 and 5.1 cm
-
-
-def test_what_is_no_stride_is_left_out():
-    """A clip that limps twice on one foot has other strikes between."""
-    (clip,) = clips()[3:4]
-    contacts = {name: mark.copy() for name, mark in clip.contacts.items()}
-    first = np.flatnonzero(np.diff(contacts["rfoot"].astype(int)) == 1)[2] + 1
-    contacts["rfoot"][first : first + 30] = False
-    limping = cut_strides([replace(clip, contacts=contacts)])
-    assert limping.dropped > cut_strides([clip]).dropped
 
 
 def test_feet_that_are_not_marked_are_marked():
