@@ -17,6 +17,8 @@ import pytest
 import mocap
 from mocap import blending, body, datasets, editing, feet, graphs, steering, synthesis
 from mocap.body.kinematics import hinge_of
+from mocap.editing.line_rounding import round_line
+from mocap.editing.turning import places_on
 from mocap.editing.warp_plans import load_plan, warp
 from mocap.graphs.motion_graph import merge_choice_points
 from mocap.matching.transitions import join_clouds
@@ -75,6 +77,12 @@ def moved(motion, base):
 
 def cleaned(motion, **held):
     return moved(feet.clean_up(motion, **held), motion)
+
+
+def laid(clip, *points):
+    """Lay a walk on a line, and measure it there."""
+    bent = editing.bend(clip, body.GroundPath(points))
+    return [body.joint_positions(bent.motion), bent.off, bent.along, bent.turned, bent.rounded]
 
 
 def stood(joint, shares, by):
@@ -146,7 +154,21 @@ CASES = {
     "slower": lambda: editing.retime(WALK, [(0, 0), (0.5, 1), (3, 2)]).root_positions,
     "loop": lambda: moved(editing.loop(WALK), editing.loop(WALK, straight=True)),
     "ride": lambda: editing.ride_of(WALK[:300]).handles,
-    "bent": lambda: editing.bend(WALK, body.GroundPath([[0, 0], [0, 3], [3, 4]])).motion.rotations,
+    "bent": lambda: laid(WALK, [0, 0], [0, 3], [3, 4]),
+    "bent back": lambda: laid(clips("walk_curve_1")[0][:300], [0, 0], [0, 3], [2, 1]),
+    "rounded": lambda: [
+        part
+        for line in (
+            [[0, 0], [0, 3], [0.1, 0]],
+            [[0, 0], [0, 3], [1.5, 0.4]],
+            [[n % 2, n / 3] for n in range(9)],
+        )
+        for part in round_line(body.GroundPath(line), editing.ride_of(WALK), 120, 1.7)[1:]
+    ],
+    "slowed": lambda: places_on(
+        body.GroundPath([[0, 0], [0, 2], [1, 0]]), editing.ride_of(datasets.sample("stop_and_go")), 120, 1.5
+    ),
+    "mirrored": lambda: editing.mirror(WALK).rotations,
     "worn": lambda: body.joint_positions(
         editing.retarget(
             WALK[:120],
@@ -161,7 +183,7 @@ CASES = {
     ),
     "mean turns": lambda: body.rotations.mean(WALK.rotations[:60].reshape(-1, 4, 4)),
     "no turns": lambda: np.shape(body.rotations.to_matrix(np.zeros((0, 4)))),
-    "solved": lambda: editing.solve(*reached(160), [editing.Basis(knots=0.125)]).worst,
+    "solved": lambda: [*editing.solve(*reached(160), [editing.Basis(knots=0.125)])[1:]],
     "hinges": lambda: [hinge_of(WALK[:frames], 3) for frames in (4, 5, 40)],
     "limits": lambda: editing.limit_turns(WALK, ["ltibia", "lowerneck"]).high,
     "mixed": lambda: body.joint_positions(
