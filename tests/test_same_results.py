@@ -96,7 +96,9 @@ def stood(joint, shares, by):
 def reached(frames=240):
     walk = WALK[:frames]
     hand = body.joint_positions(walk)[100, walk.skeleton.index("lwrist")]
-    return walk, editing.pin(walk, "lwrist", range(95, 105), np.add(hand, [0.1, 0.4, 0.2]))
+    below = editing.pin(walk, "head", range(50, 80), [-np.inf] * 3, [np.inf, 1.45, np.inf])
+    held = editing.pin(walk, "lwrist", range(95, 105), np.add(hand, [0.1, 0.4, 0.2]))
+    return walk, editing.join_pins(held, below)
 
 
 def planned():
@@ -128,6 +130,7 @@ def group():
 
 
 SCENE = groups.Scene((9 + 2j, 14 - 3j), ((5 + 0j, 0.5), (11 + 1j, 0.8)))
+SHORTLY = [editing.Basis(0.125, 0.1, passes=4, lead=0.2), editing.REACH._replace(passes=2)]
 ORDERS = [(0.0, 1.0), (1.2, 0.7), (-0.8, 1.3)]
 CASES = {
     "plants under noise": lambda: [
@@ -158,12 +161,10 @@ CASES = {
     "bent back": lambda: laid(clips("walk_curve_1")[0][:300], [0, 0], [0, 3], [2, 1]),
     "rounded": lambda: [
         part
-        for line in (
-            [[0, 0], [0, 3], [0.1, 0]],
-            [[0, 0], [0, 3], [1.5, 0.4]],
-            [[n % 2, n / 3] for n in range(9)],
-        )
-        for part in round_line(body.GroundPath(line), editing.ride_of(WALK), 120, 1.7)[1:]
+        for x in (0.1, 1.0, 1.5)
+        for part in round_line(
+            body.GroundPath([[0, 0], [0, 3], [x, 0.4], [2, 3]]), editing.ride_of(WALK), 120, 1.7
+        )[1:]
     ],
     "slowed": lambda: places_on(
         body.GroundPath([[0, 0], [0, 2], [1, 0]]), editing.ride_of(datasets.sample("stop_and_go")), 120, 1.5
@@ -183,7 +184,8 @@ CASES = {
     ),
     "mean turns": lambda: body.rotations.mean(WALK.rotations[:60].reshape(-1, 4, 4)),
     "no turns": lambda: np.shape(body.rotations.to_matrix(np.zeros((0, 4)))),
-    "solved": lambda: [*editing.solve(*reached(160), [editing.Basis(knots=0.125)])[1:]],
+    "solved": lambda: [*editing.solve(*reached(160), SHORTLY)[1:]],
+    "stance": lambda: editing.stance_of(WALK, mean=True).turns,
     "hinges": lambda: [hinge_of(WALK[:frames], 3) for frames in (4, 5, 40)],
     "limits": lambda: editing.limit_turns(WALK, ["ltibia", "lowerneck"]).high,
     "mixed": lambda: body.joint_positions(

@@ -85,6 +85,8 @@ def body_of(motion: Motion, pins: Pins, *, prices: Mapping[str, float] | None = 
     >>> body = body_of(walk, pin(walk, "ltoes", [0], [0, 0, 0]))
     >>> [walk.skeleton.names[joint] for joint in np.unique(body.joints)], len(body.price)
     (['root', 'lfemur', 'ltibia', 'lfoot'], 13)
+    >>> body.price.round(2).tolist()  # a metre, then radians: of root and hip about 3 axes, knee, and ankle
+    [38.0, 38.0, 38.0, 10.75, 10.75, 10.75, 3.47, 3.47, 3.47, 1.65, 1.06, 1.06, 1.06]
 
     Notebook: 14-levels
     """
