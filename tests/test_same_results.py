@@ -155,15 +155,15 @@ CASES = {
     ],
     "warped": lambda: moved(warp(WALK[:300], planned()), WALK[:241]),
     "slower": lambda: editing.retime(WALK, [(0, 0), (0.5, 1), (3, 2)]).root_positions,
-    "loop": lambda: moved(editing.loop(WALK), editing.loop(WALK, straight=True)),
+    "loop": lambda: moved(editing.loop(WALK), editing.loop(WALK, straight=True, clean=True)),
     "ride": lambda: editing.ride_of(WALK[:300]).handles,
     "bent": lambda: laid(WALK, [0, 0], [0, 3], [3, 4]),
     "bent back": lambda: laid(clips("walk_curve_1")[0][:300], [0, 0], [0, 3], [2, 1]),
     "rounded": lambda: [
         part
-        for x in (0.1, 1.0, 1.5)
+        for x in (0.1, 1.5, 2.5)
         for part in round_line(
-            body.GroundPath([[0, 0], [0, 3], [x, 0.4], [2, 3]]), editing.ride_of(WALK), 120, 1.7
+            body.GroundPath([[0, 0], [0, 3], [x, 1.5], [2, 3]]), editing.ride_of(WALK), 120, 1.0
         )[1:]
     ],
     "slowed": lambda: places_on(

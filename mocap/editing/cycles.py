@@ -72,8 +72,8 @@ def find_loop(motion: Motion, *, seconds: tuple[float, float] = (0.4, 3.0)) -> L
     (994, 1134, 0.011, 0.0316)
     >>> [find_loop(clip)[:2] for clip in (walk[994:1166], resample(walk, 20))]
     [(0, 140), (166, 189)]
-    >>> find_loop(walk, seconds=(2.0, 3.0))[:2]  # two strides
-    (134, 407)
+    >>> [find_loop(walk, seconds=bounds)[:2] for bounds in ((2.0, 3.0), (0.2, 0.2))]  # two strides; the least
+    [(134, 407), (747, 771)]
     """
     slow = resample(motion, COARSE) if motion.fps > COARSE else motion
     if not SEAM <= seconds[0] <= seconds[1] < np.inf:
@@ -173,6 +173,8 @@ def loop(motion: Motion, found: Loop | None = None, *, straight: bool = False, c
     >>> turn = heading(round_.rotations[[0, -1], 0])
     >>> bool(abs(turn[1] - turn[0]) < 1e-9), len(round_)
     (True, 133)
+    >>> len(loop(walk, Loop(0, 24, 0, 0))), len(loop(walk, Loop(400, 455, 0, 0)))  # the seam takes 24 frames
+    (25, 56)
     """
     found, window = found or find_loop(motion), max(2, round(SEAM * motion.fps))
     if not 0 <= found.first < found.last < len(motion) - window or found.last - found.first < window:
@@ -226,9 +228,12 @@ def repeated(cycle: Motion, times: int) -> Motion:
     Examples
     --------
     >>> from mocap.datasets import sample
-    >>> stride = loop(sample("walk_straight"))
-    >>> len(repeated(stride, 3)) == 3 * (len(stride) - 1) + 1
-    True
+    >>> stride = loop(sample("walk_straight"), straight=True)
+    >>> rounds = repeated(stride, 3)
+    >>> len(stride), len(rounds)  # the last frame of a round is the first of the next
+    (141, 421)
+    >>> [round(float(clip.root_positions[-1, 2] - clip.root_positions[0, 2]), 2) for clip in (stride, rounds)]
+    [1.25, 3.75]
     """
     if times < 1 or len(cycle) < 2:
         raise MocapError(f"A cycle of {len(cycle)} frames cannot be repeated {times} times.")
