@@ -42,6 +42,8 @@ def retime(motion: Motion, keys: Sequence[tuple[float, float]]) -> Motion:
     >>> walk = sample("walk_straight")[:241]  # 2 s
     >>> retime(walk, [(0, 0), (1, 0.5), (2.5, 2)]).duration
     2.5
+    >>> len(retime(walk, [(0, 0), (0.7, 0.5)]))  # 0.7 s are 84 frames, and one more shows the end
+    85
 
     Notebook: 11-warping
     """
