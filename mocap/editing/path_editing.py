@@ -142,9 +142,9 @@ def moving_frames(path: GroundPath, along: ArrayLike, *, chord: float = CHORD) -
     >>> back = moving_frames(GroundPath([[0, 0], [0, 2], [0, 0]]), [-1.0, 1.0, 2.0, 3.0])
     >>> np.degrees(back.angle).round().tolist(), back.z.round(3).tolist()
     ([0.0, 0.0, 90.0, 180.0], [-1.0, 1.0, 1.959, 1.0])
-    >>> small = GroundPath([[0, 0], [0, 0.1], [0.1, 0], [0, 0]])  # 34 cm back to where it starts, and on to -x
+    >>> small = GroundPath([[0, 0], [0, 0.1], [0.1, 0], [0, 0]])  # back to where it starts, and on to -x
     >>> beyond = moving_frames(small, [-2.0, 2.34], chord=0.5)
-    >>> (beyond.x + 0.0).round(2).tolist(), beyond.z.round(2).tolist()
+    >>> (beyond.x.round(2) + 0.0).tolist(), (beyond.z.round(2) + 0.0).tolist()
     ([0.0, -2.0], [-2.0, 0.0])
 
     Notebook: 12-path-editing
