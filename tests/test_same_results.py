@@ -17,6 +17,8 @@ import pytest
 import mocap
 from mocap import blending, body, datasets, editing, feet, graphs, steering, synthesis
 from mocap.body.kinematics import hinge_of
+from mocap.editing.line_rounding import round_line
+from mocap.editing.turning import places_on
 from mocap.editing.warp_plans import load_plan, warp
 from mocap.graphs.motion_graph import merge_choice_points
 from mocap.matching.transitions import join_clouds
@@ -78,6 +80,12 @@ def cleaned(motion, **held):
     return moved(feet.clean_up(motion, **held), motion)
 
 
+def laid(clip, *points):
+    """Lay a walk on a line, and measure it there."""
+    bent = editing.bend(clip, body.GroundPath(points))
+    return [body.joint_positions(bent.motion), bent.off, bent.along, bent.turned, bent.rounded]
+
+
 def stood(joint, shares, by):
     """Hold a joint, at shares of its first plant, where it was but for some metres."""
     number, (start, stop) = WALK.skeleton.index(joint), feet.runs(WALK.contacts[joint])[1]
@@ -89,7 +97,9 @@ def stood(joint, shares, by):
 def reached(frames=240):
     walk = WALK[:frames]
     hand = body.joint_positions(walk)[100, walk.skeleton.index("lwrist")]
-    return walk, editing.pin(walk, "lwrist", range(95, 105), np.add(hand, [0.1, 0.4, 0.2]))
+    below = editing.pin(walk, "head", range(50, 80), [-np.inf] * 3, [np.inf, 1.45, np.inf])
+    held = editing.pin(walk, "lwrist", range(95, 105), np.add(hand, [0.1, 0.4, 0.2]))
+    return walk, editing.join_pins(held, below)
 
 
 def planned():
@@ -148,6 +158,7 @@ def group():
 
 
 SCENE = groups.Scene((9 + 2j, 14 - 3j), ((5 + 0j, 0.5), (11 + 1j, 0.8)))
+SHORTLY = [editing.Basis(0.125, 0.1, passes=4, lead=0.2), editing.REACH._replace(passes=2)]
 ORDERS = [(0.0, 1.0), (1.2, 0.7), (-0.8, 1.3)]
 CASES = {
     "plants under noise": lambda: [
@@ -172,9 +183,21 @@ CASES = {
     ],
     "warped": lambda: moved(warp(WALK[:300], planned()), WALK[:241]),
     "slower": lambda: editing.retime(WALK, [(0, 0), (0.5, 1), (3, 2)]).root_positions,
-    "loop": lambda: moved(editing.loop(WALK), editing.loop(WALK, straight=True)),
+    "loop": lambda: moved(editing.loop(WALK), editing.loop(WALK, straight=True, clean=True)),
     "ride": lambda: editing.ride_of(WALK[:300]).handles,
-    "bent": lambda: editing.bend(WALK, body.GroundPath([[0, 0], [0, 3], [3, 4]])).motion.rotations,
+    "bent": lambda: laid(WALK, [0, 0], [0, 3], [3, 4]),
+    "bent back": lambda: laid(clips("walk_curve_1")[0][:300], [0, 0], [0, 3], [2, 1]),
+    "rounded": lambda: [
+        part
+        for x in (0.1, 1.5, 2.5)
+        for part in round_line(
+            body.GroundPath([[0, 0], [0, 3], [x, 1.5], [2, 3]]), editing.ride_of(WALK), 120, 1.0
+        )[1:]
+    ],
+    "slowed": lambda: places_on(
+        body.GroundPath([[0, 0], [0, 2], [1, 0]]), editing.ride_of(datasets.sample("stop_and_go")), 120, 1.5
+    ),
+    "mirrored": lambda: editing.mirror(WALK).rotations,
     "worn": lambda: body.joint_positions(
         editing.retarget(
             WALK[:120],
@@ -189,7 +212,8 @@ CASES = {
     ),
     "mean turns": lambda: body.rotations.mean(WALK.rotations[:60].reshape(-1, 4, 4)),
     "no turns": lambda: np.shape(body.rotations.to_matrix(np.zeros((0, 4)))),
-    "solved": lambda: editing.solve(*reached(160), [editing.Basis(knots=0.125)]).worst,
+    "solved": lambda: [*editing.solve(*reached(160), SHORTLY)[1:]],
+    "stance": lambda: editing.stance_of(WALK, mean=True).turns,
     "hinges": lambda: [hinge_of(WALK[:frames], 3) for frames in (4, 5, 40)],
     "limits": lambda: editing.limit_turns(WALK, ["ltibia", "lowerneck"]).high,
     "mixed": lambda: body.joint_positions(

@@ -85,6 +85,8 @@ def body_of(motion: Motion, pins: Pins, *, prices: Mapping[str, float] | None = 
     >>> body = body_of(walk, pin(walk, "ltoes", [0], [0, 0, 0]))
     >>> [walk.skeleton.names[joint] for joint in np.unique(body.joints)], len(body.price)
     (['root', 'lfemur', 'ltibia', 'lfoot'], 13)
+    >>> body.price.round(2).tolist()  # a metre, then radians: of root and hip about 3 axes, knee, and ankle
+    [38.0, 38.0, 38.0, 10.75, 10.75, 10.75, 3.47, 3.47, 3.47, 1.65, 1.06, 1.06, 1.06]
 
     Notebook: 14-levels
     """
@@ -136,7 +138,21 @@ def require_reachable(motion: Motion, pins: Pins) -> None:
 
 
 def warn_of_gaps(motion: Motion, pins: Pins, tolerance: float = TOLERANCE) -> None:
-    """Warn of the pin that is missed by most beyond a tolerance, metres."""
+    """Warn of the pin that is missed by most beyond a tolerance, metres.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> from mocap.datasets import sample
+    >>> from mocap.editing.pins import pin
+    >>> walk = sample("walk_straight")[:9]
+    >>> with warnings.catch_warnings(record=True, action="always") as said:
+    ...     warn_of_gaps(walk, pin(walk, "root", [5, 6], walk.root_positions[5] + [0, 0.02, 0]))
+    ...     warn_of_gaps(walk, pin(walk, "root", [5], walk.root_positions[5] + [0, 0.004, 0]))
+    >>> print(*(warning.message for warning in said))
+    'walk_straight', frame 6: 'root' is 21.8 mm off its pin, and pins of 2 frames are missed: are they
+    within reach, and do they agree?
+    """
     errors = pin_errors(motion, pins)
     if errors.max(initial=0.0) > tolerance:
         frame, joint = np.unravel_index(errors.argmax(), errors.shape)
@@ -192,6 +208,8 @@ def limit_turns(motion: Motion, joints: Sequence[str], *, more: float = 10.0) ->
     >>> neck = limit_turns(sample("walk_straight")[:60], ["lowerneck", "upperneck"])
     >>> (neck.high[0] / ARM).round(2).tolist()  # radians
     [[0.18, 0.18, 0.18], [0.18, 0.2, 0.19]]
+    >>> (neck.low[0] / ARM).round(2).tolist()
+    [[-0.18, -0.18, -0.18], [-0.19, -0.19, -0.19]]
 
     Notebook: 14-levels
     """

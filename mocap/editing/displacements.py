@@ -155,6 +155,8 @@ def right_jacobian(turns: Array) -> Array:
     array([[ 1.      ,  1.      ,  0.      ],
            [-1.      ,  1.      ,  0.      ],
            [ 0.      ,  0.      ,  1.570796]])
+    >>> float(right_jacobian(np.array([0, 0, 1e-5]))[0, 1].round(9))  # half of a small turn
+    5e-06
     """
     angle = np.linalg.norm(turns, axis=-1)[..., None, None]
     size = np.maximum(angle, 1e-4)  # below, both quotients are at their limits to 1e-9

@@ -84,7 +84,20 @@ def edit(motion: Motion, pins: Pins, *, body: Body | None = None) -> Motion:
 
 
 def mark_met(motion: Motion, pins: Pins, plants: Pins) -> Motion:
-    """Warn of pins that are missed, and mark of the `plants` only those that are where `pins` hold them."""
+    """Warn of pins that are missed, and mark of the `plants` only those that are where `pins` hold them.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> from mocap.datasets import sample
+    >>> plants = plant_pins(walk := sample("walk_straight")[:240])
+    >>> with warnings.catch_warnings(action="ignore"):
+    ...     for up in ([0, 0.00009, 0], [0, 0.00015, 0]):  # metres
+    ...         higher = Pins(plants.joints, plants.low + up, plants.high + up)
+    ...         print(mark_met(walk, higher, plants).contacts["lfoot"].sum())
+    71
+    0
+    """
     warn_of_gaps(motion, pins, CLOSED)
     met = pin_errors(motion, pins) <= CLOSED
     stands = plants.held.all(axis=-1) & met[:, [pins.joints.index(joint) for joint in plants.joints]]

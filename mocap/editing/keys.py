@@ -114,6 +114,12 @@ def keys_around(motion: Motion, keys: Sequence[Key], seconds: float = HALF_SECON
     >>> walk = sample("walk_straight")
     >>> [key.frame for key in keys_around(walk, [Key(100, walk[100:101])])]
     [40, 100, 160]
+    >>> [key.frame for key in keys_around(walk, [Key(20, walk[20:21])])]  # from the clip's start on
+    [20, 80]
+    >>> [key.frame for key in keys_around(walk, [Key(60, walk[60:61]), Key(1140, walk[1140:1141])])]
+    [0, 60, 1140, 1200]
+    >>> [key.frame for key in keys_around(walk, [Key(40), Key(60, walk[60:61])], seconds=1 / 120)]
+    [40, 60, 61]
 
     Notebook: 11-warping
     """

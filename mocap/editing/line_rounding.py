@@ -43,10 +43,10 @@ class RoundedLine(NamedTuple):
 
     Examples
     --------
-    >>> moved = np.array([0, 0, 0.3, 0.4, 0])
-    >>> line = RoundedLine(GroundPath([[0, 0], [0, 4]]), np.arange(5.0), np.arange(5.0), moved)
-    >>> line.roundings
-    [(2.0, 3.0, 0.4)]
+    >>> along = np.array([0, 1, 2, 2.1, 2.25, 2.5, 2.75])
+    >>> moved = np.array([0, 0.3, 0.4, 0, 0.2, 0.01, 0.015])
+    >>> RoundedLine(GroundPath([[0, 0], [0, 3]]), along, along, moved).roundings  # 25 cm apart is one, 50 not
+    [(1.0, 2.25, 0.4), (2.75, 2.75, 0.015)]
     """
 
     path: GroundPath
@@ -162,6 +162,13 @@ def _steered(points: Array, step: float, radius: float) -> tuple[Array, Array]:
     """Walk along a line, always towards a point ahead on it, and never in a tighter bend than `radius` cells.
 
     Gives where on the line each point of the walk belongs, in cells of `step` metres, and the points.
+
+    Examples
+    --------
+    >>> there_and_back = np.array([[0, 0], [0, 1], [0, 2], [0, 3], [0.1, 2], [0.2, 1]])
+    >>> places, points = _steered(there_and_back, step=1.0, radius=1.0)
+    >>> places.tolist(), points[3:, 1].round(1).tolist()
+    ([0.0, 0.5, 1.0, 2.0, 3.0, 3.5, 4.0, 4.5, 5.0], [3.0, 3.5, 3.1, 2.1, 1.5, 1.2])
     """
     last, ahead = len(points) - 1, max(1, round(AHEAD * radius))
     here, at = points[0], 0.0
@@ -181,7 +188,13 @@ def _steered(points: Array, step: float, radius: float) -> tuple[Array, Array]:
 
 
 def _smoothed(points: Array, weight: Array) -> Array:
-    """Solve (I + Dᵀ Λ D) x = p, where D takes second differences; `weight` (n,) is Λ, unused at the ends."""
+    """Solve (I + Dᵀ Λ D) x = p, where D takes second differences; `weight` (n,) is Λ, unused at the ends.
+
+    Examples
+    --------
+    >>> _smoothed(np.array([[0.0, 0], [0, 3], [0, 0]]), np.full(3, 0.5))[:, 1].round(6).tolist()
+    [0.75, 1.5, 0.75]
+    """
     if len(points) < 3:
         return points
     return np.asarray(solveh_banded(bending_bands(weight, 1.0), points, lower=True))

@@ -48,6 +48,15 @@ class Ride:
     path : the path over the ground.
     along : shape (F,), metres along the path.
     handles : shape (K, 2), the control points of the path, (x, z) in metres; none of a path that has none.
+
+    Examples
+    --------
+    >>> handles = np.array([[0, -2], [0, 0], [0, 2], [0, 4], [0, 6]])
+    >>> ride = Ride(GroundPath([[0, 0], [0, 4]]), np.arange(5.0), handles)
+    >>> Ride(ride.path, ride.along).handles.shape
+    (0, 2)
+    >>> ride.with_handles(handles + [[0, 0], [0, 0], [3, 0], [0, 0], [0, 0]]).points.round(2).T.tolist()
+    [[0.5, 1.44, 2.0, 1.44, 0.5], [0.0, 1.0, 2.0, 3.0, 4.0]]
     """
 
     path: GroundPath
@@ -127,8 +136,16 @@ def moving_frames(path: GroundPath, along: ArrayLike, *, chord: float = CHORD) -
     Examples
     --------
     >>> corner = GroundPath([[0, 0], [0, 2], [2, 2]])
-    >>> np.degrees(moving_frames(corner, [0.0, 2.0, 4.0]).angle).round()
-    array([ 0., 45., 90.])
+    >>> frames = moving_frames(corner, [-1.0, 1.75, 2.0, 2.1, 4.0, 5.0])  # m; 1 m beyond both ends, too
+    >>> np.degrees(frames.angle).round().tolist(), frames.x.round(3).tolist()
+    ([0.0, 0.0, 45.0, 67.0, 90.0, 90.0], [0.0, 0.0, 0.021, 0.096, 2.0, 3.0])
+    >>> back = moving_frames(GroundPath([[0, 0], [0, 2], [0, 0]]), [-1.0, 1.0, 2.0, 3.0])
+    >>> np.degrees(back.angle).round().tolist(), back.z.round(3).tolist()
+    ([0.0, 0.0, 90.0, 180.0], [-1.0, 1.0, 1.959, 1.0])
+    >>> small = GroundPath([[0, 0], [0, 0.1], [0.1, 0], [0, 0]])  # back to where it starts, and on to -x
+    >>> beyond = moving_frames(small, [-2.0, 2.34], chord=0.5)
+    >>> (beyond.x.round(2) + 0.0).tolist(), (beyond.z.round(2) + 0.0).tolist()
+    ([0.0, -2.0], [-2.0, 0.0])
 
     Notebook: 12-path-editing
     """
@@ -214,6 +231,9 @@ def on_path(
     >>> bent = on_path(walk, start_at(circle(2.0), ride), ride)
     >>> bool(np.ptp(bent.root_positions[:, 0]) > 3.8)
     True
+    >>> shorter = on_path(walk, GroundPath([[0, 0], [0, 6]]), ride, keep="ends").root_positions
+    >>> float((shorter[-1, 2] - shorter[0, 2]).round(1))  # metres, in steps a bit more than half as long
+    6.0
 
     Notebook: 12-path-editing
     """
@@ -234,9 +254,12 @@ def plants_kept(cleaned: Motion, bent: Motion) -> float:
 
     Examples
     --------
+    >>> from dataclasses import replace
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_straight")
-    >>> plants_kept(walk, walk)
+    >>> plants_kept(walk, walk), plants_kept(replace(walk, contacts={}), walk)
+    (1.0, 0.0)
+    >>> plants_kept(walk, replace(walk, contacts={}))
     1.0
 
     Notebook: 12-path-editing

@@ -147,6 +147,8 @@ def pin(
     >>> bar = pin(walk, "head", slice(20, 40), [-np.inf] * 3, [np.inf, 1.3, np.inf])
     >>> int(bar.asked.sum())
     20
+    >>> pin(walk, 0, [40], [0, 1, 0]).low[40].tolist()  # the root, at one place
+    [[0.0, 1.0, 0.0]]
 
     Notebook: 14-levels
     """
@@ -186,8 +188,8 @@ def join_pins(*several: Pins) -> Pins:
     >>> floor = Pins((4,), [[[-np.inf, 0, -np.inf]]], [[[np.inf] * 3]])
     >>> bar = Pins((4,), [[[-np.inf] * 3]], [[[np.inf, 1.3, np.inf]]])
     >>> both = join_pins(floor, bar)
-    >>> both.low[0, 0, 1], both.high[0, 0, 1]
-    (np.float64(0.0), np.float64(1.3))
+    >>> float(both.low[0, 0, 1]), float(both.high[0, 0, 1])
+    (0.0, 1.3)
 
     Notebook: 14-levels
     """

@@ -256,8 +256,8 @@ def floor_pins(motion: Motion, stance: Stance) -> Pins:
     --------
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_straight")
-    >>> pins = floor_pins(walk, stance_of(walk))
-    >>> ankle = pins.low[:, 0, 1]  # held at one height, or free
+    >>> upstairs = replace(walk, root_positions=walk.root_positions + [0, 0.2, 0])
+    >>> ankle = floor_pins(upstairs, stance_of(walk)).low[:, 0, 1]  # held at one height, or free
     >>> np.unique(ankle[np.isfinite(ankle)]).round(3)
     array([0.068])
 

@@ -42,6 +42,8 @@ def retime(motion: Motion, keys: Sequence[tuple[float, float]]) -> Motion:
     >>> walk = sample("walk_straight")[:241]  # 2 s
     >>> retime(walk, [(0, 0), (1, 0.5), (2.5, 2)]).duration
     2.5
+    >>> len(retime(walk, [(0, 0), (0.7, 0.5)]))  # 0.7 s are 84 frames, and one more shows the end
+    85
 
     Notebook: 11-warping
     """
@@ -82,6 +84,9 @@ def at_frames(motion: Motion, frames: ArrayLike) -> Motion:
     >>> walk = sample("walk_straight")[:9]
     >>> at_frames(walk, [0, 2.5, 8])
     Motion('walk_straight', 3 frames at 120 Hz, 38 joints)
+    >>> falls = replace(walk, root_positions=np.arange(9)[:, None] ** 2 * [0, -1, 1])
+    >>> at_frames(falls, [-1, 0.5, 2.5, 7.5, 9]).root_positions[:, 2].tolist()
+    [0.0, 0.375, 6.25, 56.375, 64.0]
     """
     last = len(motion) - 1
     moments = np.clip(np.asarray(frames, float), 0, last)

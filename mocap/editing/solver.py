@@ -52,8 +52,10 @@ class Basis(NamedTuple):
 
     Examples
     --------
-    >>> Basis(knots=0.125).alone, Basis().alone
-    (False, True)
+    >>> Basis(), [way.alone for way in (Basis(), Basis(knots=0.125), CLOSE)]
+    (Basis(knots=0.0, calm=0.0, weight=300.0, damping=1.0, passes=30, lead=0.0), [True, False, False])
+    >>> [*REACH], [*CLOSE]
+    ([0.0, 0.0, 100.0, 0.001, 16, 0.0], [0.0, 0.06, 1000000.0, 0.1, 30, 0.0])
 
     Notebook: 14-levels
     """

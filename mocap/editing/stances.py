@@ -238,6 +238,8 @@ def proportioned(
     >>> child = proportioned(adult, legs=0.55, trunk=0.62, arms=0.58, head=0.85)
     >>> round(child.leg / adult.leg, 3)
     0.55
+    >>> bool((proportioned(adult).points == adult.points).all())  # without shares it is the same body
+    True
 
     Notebook: 13-retargeting
     """

@@ -47,8 +47,11 @@ def bends_of(path: GroundPath) -> tuple[Array, Array, Array, Array]:
     Examples
     --------
     >>> from mocap.body import circle
-    >>> bends_of(circle(1.0))[2][100].round(2)
-    np.float64(0.8)
+    >>> [round(float(some[100]), 2) for some in bends_of(circle(1.0))]  # 2 m along it
+    [2.0, 1.0, 0.8, 1.0]
+    >>> corner = GroundPath([[0, 0], [0, 2], [1, 2]])
+    >>> [some[[80, 90, 100]].round(2).tolist() for some in bends_of(corner)[1:]]  # 40 cm and 20 before, at it
+    [[0.66, 1.86, 2.58], [0.88, 0.64, 0.55], [2.01, 3.79, 3.99]]
     """
     along = np.arange(0.0, path.length + CELL, CELL)
     turning = np.gradient(np.asarray(moving_frames(path, along).angle), CELL)
@@ -66,6 +69,13 @@ def places_on(path: GroundPath, ride: Ride, fps: float, limit: float = np.inf) -
     own path: 1 for a captured turn on its own path. Where a body stands, its path curls, and that says
     nothing: r = 1. Where it would turn faster than the limit, radians per second, and than by itself to the
     same side, r is smaller, down to `SLOWER` or `LEAST`.
+
+    Examples
+    --------
+    >>> straight = Ride(GroundPath([[0, 0], [0, 6]]), np.arange(0, 6, 0.5))  # half a metre in a frame
+    >>> corner = GroundPath([[0, 0], [0, 3], [3, 3]])
+    >>> [part[4:8].round(2).tolist() for part in places_on(corner, straight, 2.0)]
+    [[2.0, 2.5, 2.99, 3.36], [1.0, 0.97, 0.55, 0.83]]
     """
     (_, curvature, slower, sharpest), (_, bends, own, tightest) = bends_of(path), bends_of(ride.path)
     walks = np.clip((_speed(ride.along, fps) - STANDS) / (WALKS - STANDS), 0, 1)
@@ -109,9 +119,11 @@ def slow_down(
     >>> from mocap.datasets import sample
     >>> from mocap.editing import ride_of
     >>> walk = sample("walk_straight")[:480]
-    >>> slow, _, _, leaning = slow_down(walk, ride_of(walk), circle(1.0))
-    >>> round(slow.duration / walk.duration, 2), np.degrees(leaning[200]).round()
-    (1.11, np.float64(4.0))
+    >>> slow, own, along, leaning = slow_down(walk, ride_of(walk), circle(1.0))
+    >>> round(slow.duration / walk.duration, 2), round(float(along[-1] / own[-1]), 2)
+    (1.11, 0.9)
+    >>> round(float(np.degrees(leaning[200])), 2)
+    4.23
     """
     (places, ratio), numbers = places_on(path, ride, motion.fps, limit), np.arange(len(motion))
     clock = ratio**-0.5  # new frames per old frame
@@ -141,6 +153,18 @@ def lean(motion: Motion, way: Array, angle: Array) -> tuple[Motion, dict[int, Ar
     Returns
     -------
     The motion, and where its plants shall be, as the `held` of `feet.clean_up`.
+
+    Examples
+    --------
+    >>> from mocap.body import joint_positions
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")[:240]  # left is +x where it goes towards +z
+    >>> leaning, held = lean(walk, np.zeros(240), np.full(240, 0.1))
+    >>> moved = dict(zip(walk.skeleton.names, (joint_positions(leaning) - joint_positions(walk))[0, :, 0]))
+    >>> [round(float(moved[name]), 3) for name in ("head", "root", "ltibia", "lfoot")]  # metres
+    [0.014, 0.0, -0.042, -0.085]
+    >>> round(float(np.nanmean(held[4] - joint_positions(walk)[:, 4], axis=0)[0]), 3)  # of the left ankle
+    -0.099
     """
     height, ahead = motion.root_positions[:, 1], np.stack([np.sin(way), 0 * way, np.cos(way)], axis=1)
     left = np.stack([np.cos(way), 0 * way, -np.sin(way)], axis=1)

@@ -51,7 +51,7 @@ class WarpPlan(NamedTuple):
 
 
 def load_plan(path: str | Path, motion: Motion) -> WarpPlan:
-    """Read how a motion shall be warped, from a text file with one key in each line.
+    r"""Read how a motion shall be warped, from a text file with one key in each line.
 
     `at 1.5s lhand 0.10 0.25 0` moves the left hand, at second 1.5, by 10 cm to the body's left and by 25 cm
     up; without the s the moment is a frame. Several joints may be moved at one moment. `at 1s same` says that
@@ -76,10 +76,13 @@ def load_plan(path: str | Path, motion: Motion) -> WarpPlan:
     >>> from mocap.datasets import sample
     >>> with TemporaryDirectory() as folder:
     ...     file = Path(folder, "keys.txt")
-    ...     _ = file.write_text("at 1.5s lhand 0.1 0.25 0  # to the post")
+    ...     _ = file.write_text("at 1.5s lhand 0.1 0.2 0  # to the post\nat 180 root 0 -0.1 0\n"
+    ...                         "time 0 0\ntime 15 10.004")
     ...     plan = load_plan(file, sample("walk_straight"))
     >>> [(frame, wish.joint) for frame, wishes in plan.wishes.items() for wish in wishes]
-    [(180, 'lhand')]
+    [(180, 'lhand'), (180, 'root')]
+    >>> plan.times  # the clip lasts 10 s: less than half a frame later is its last frame
+    [(3, 0.0, 0.0), (4, 15.0, 10.0)]
     """
     plan = WarpPlan(str(path), {}, [])
     for number, words in lines(read_text(path)):

@@ -95,9 +95,9 @@ test_what_cannot_be_looped_is_refused = refusals(
     ),
     *(
         (f"from frame {a} to {b} of 200 leaves no room for a seam of 6", loop, wave(200), Loop(a, b, 0, 0))
-        for a, b in ((-1, 40), (40, 40), (0, 3), (0, 195), (50, 40))
+        for a, b in ((-1, 40), (40, 40), (0, 3), (0, 194), (50, 40))
     ),
-    *(("cannot be repeated", repeated, WALK, times) for times in (0, -1)),
+    *(("cannot be repeated", repeated, WALK[:frames], times) for frames, times in ((9, 0), (9, -1), (1, 2))),
 )
 
 

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
-from mocap.body import GroundPath, PlanarTransform, arcs, circle, joint_positions
+from mocap.body import GroundPath, arcs, circle, joint_positions
 from mocap.datasets.samples import sample
 from mocap.editing import moving_frames, on_path, plants_kept, ride_of, spline_basis, start_at
 from mocap.feet import clean_up
@@ -87,25 +87,9 @@ def test_a_moving_frame_on_a_circle_heads_along_it(radius, turn):
     assert moving_frames(start_at(arc, ride), [0.0]).angle == pytest.approx(own, abs=1e-9)
 
 
-def test_beyond_its_ends_a_path_goes_straight_on():
-    path = GroundPath([[0, 0], [0, 2], [2, 2]])
-    frames = moving_frames(path, [-1.0, 5.0])
-    assert np.stack([frames.x, frames.z], axis=1) == pytest.approx(np.array([[0, -1], [3, 2]]), abs=1e-12)
-    assert frames.angle == pytest.approx([0, np.pi / 2])
-
-
 def test_headings_do_not_spin_where_angles_wrap():
     arc = arcs((0, 0), 0.9 * np.pi, [(4.0, 1.0)])
     assert np.abs(np.diff(moving_frames(arc, np.linspace(0, 4, 99)).angle)).max() < 0.02
-
-
-def test_a_path_that_comes_back_on_itself_has_a_heading_everywhere():
-    back = GroundPath([[0, 0], [0, 2], [0, 0]])
-    frames = moving_frames(back, np.linspace(0, 4, 9))
-    assert np.isfinite(frames.angle).all()
-    assert abs(frames.angle[-1] - frames.angle[0]) == pytest.approx(np.pi)
-    tiny = GroundPath([[0, 0], [0.05, 0.1], [0, 0]])
-    assert np.isfinite(np.stack(moving_frames(tiny, [-1.0, 0.1, 1.0]))).all()
 
 
 @pytest.mark.parametrize("name", CLIPS)
@@ -132,7 +116,6 @@ def test_steps_twice_as_long_are_warned_of():
     longer = told(r"takes steps 2\.50 times as long on this path", on_path, motion, far, ride, keep="ends")
     end = np.hypot(*(longer.root_positions[-1, [0, 2]] - far.points[-1]))
     assert end == pytest.approx(off(motion[-1:], GroundPath(ride.path.points[-3:]))[0], abs=0.03)
-    assert plants_kept(replace(motion, contacts={}), replace(motion, contacts={})) == 1.0
     ends = unwarned(on_path, motion, far, ride).root_positions[[0, -1], 2]
     assert np.ptp(ends) == pytest.approx(ride.path.length, abs=0.05)
 
@@ -151,4 +134,3 @@ def test_a_clip_of_few_frames_has_a_path():
     motion = replace(straight()[0][:3], root_positions=[[0, 1, 0], [0, 1, 0.5], [0.1, 1, 1]])
     ride = ride_of(motion)
     assert ride.path.points == pytest.approx(motion.root_positions[:, [0, 2]], abs=1e-4)
-    assert PlanarTransform(*(float(part[0]) for part in moving_frames(ride.path, ride.along))).angle < 0.2

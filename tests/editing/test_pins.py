@@ -167,6 +167,8 @@ def test_levels_keep_a_trunk_upright():
 
 test_limits_that_are_none_are_refused = refusals(
     ("neck", limit_turns, walk()[:9], ["neck"]),
+    ("above 0, got {'root': 0}", lambda: body_of(walk(), plant_pins(walk()), prices={"root": 0})),
+    ("above 0, got {'root': inf}", lambda: body_of(walk(), plant_pins(walk()), prices={"root": INF})),
     ("0 degrees or more .* got -1", lambda: limit_turns(walk()[:9], NECK, more=-1.0)),
 )
 

@@ -275,8 +275,3 @@ def test_a_floor_bounds_feet_in_all_other_frames():
     assert pin_errors(sunk, floor).max() == pytest.approx(0.05)
     depths = [floor_under(joint_positions(m), adult(), adult()).low[0, 1, 1] for m in (sunk, walk())]
     assert depths[0] == pytest.approx(depths[1] - 0.05)  # of the left ball
-
-
-def test_a_step_is_brought_down_to_the_level_floor():
-    higher = replace(walk(), root_positions=walk().root_positions + np.array([0, 0.2, 0]))
-    assert np.array_equal(floor_pins(higher, adult()).low, floor_pins(walk(), adult()).low)
