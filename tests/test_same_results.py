@@ -238,8 +238,8 @@ CASES = {
     "mixed strides": lambda: strides().mixed(np.eye(len(strides()))[:2] - 0.01, np.array([[0, 106.0]] * 2)),
     "joined clouds": lambda: join_clouds(clips("sneak", "jog"), None, 10, 1, np.float64).sizes < np.inf,
     "changing strides": lambda: [
-        getattr(changing_strides(strides("jog"), strides(), stands=stands), part)
-        for stands in ("", "first", "second")
+        getattr(made, part)
+        for made in [changing_strides(strides("jog"), strides(), stands=at) for at in ("", "first", "second")]
         for part in ("values", "poses", "seconds", "contacts", "offset")
     ],
     "made stride": lambda: list(vars(make_motion(space(), np.array([0.3]))).values())[1:],

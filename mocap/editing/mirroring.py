@@ -153,7 +153,7 @@ def mirror(motion: Motion) -> Motion:
     names = dict(zip(skeleton.names, (skeleton.names[joint] for joint in partners), strict=True))
     return replace(
         motion,
-        root_positions=motion.root_positions * (1 - 2 * ACROSS),
+        root_positions=motion.root_positions @ _reflection(ACROSS),
         rotations=local[:, partners],
         name=mirrored_name(motion.name),
         labels={pattern.sub(lambda word: other[word[0]], name): mark for name, mark in motion.labels.items()},
