@@ -170,8 +170,8 @@ CASES = {
     "mixed": lambda: body.joint_positions(
         blending.mix(blending.register([WALK[100:500], WALK[233:640]]), [0.3, 0.7])
     ),
-    "flock": lambda: groups.simulate(5, 10),
-    "flock between walls": lambda: groups.simulate(5, 10, corridor=2.5),
+    "flock": lambda: groups.simulate(5, 10, seed=1),
+    "flock between walls": lambda: groups.simulate(5, 10, corridor=6.0, seed=2),
     "group": lambda: [getattr(clip, name) for clip in group().clips for name in clip.__dataclass_fields__],
     "planned group": lambda: (
         groups.play_group(group(), (plan := groups.plan_group(group(), WALL, weight=1.2)).clips) + plan[1:]
