@@ -119,7 +119,7 @@ def group():
     return groups.build_group(3, nodes=1, corridors=(1.5,), simulated=40.0, reach=0.4)
 
 
-MET = np.linspace(20, 0, 150)[:, None] + [1j, -1j]
+MET = np.linspace(20, 14, 7)[:, None] + [0.6j, -0.6j]
 WALL = groups.Scene((4 - 3j, 18 + 0j, 14 - 3j), [(9 + 1.5j * k, 0.6) for k in range(-2, 3)], 0.6, 0.3, [MET])
 HERE = body.PlanarTransform(0.4, 0.5, -1.0)
 BEHIND = groups.Scene((-9 + 0j,), ((-4 + 0.4j, 0.5),), others=(np.array([[9j], [-7 + 0.5j]]),))
@@ -174,7 +174,7 @@ CASES = {
     "flock between walls": lambda: groups.simulate(5, 10, corridor=6.0, seed=2),
     "group": lambda: [getattr(clip, name) for clip in group().clips for name in clip.__dataclass_fields__],
     "planned group": lambda: (
-        groups.play_group(group(), (plan := groups.plan_group(group(), WALL, weight=1.2)).clips) + plan[1:]
+        groups.play_group(group(), (plan := groups.plan_group(group(), WALL, weight=1.3)).clips) + plan[1:]
     ),
     "led group": lambda: [groups.lead_group(group(), to, start=HERE)[0] for to in (WALL, BEHIND)],
     "steered group": lambda: groups.steer_group(group().nodes[0], WALL, limit=30.0)[0],

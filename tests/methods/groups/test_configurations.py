@@ -163,5 +163,5 @@ def test_two_are_pushed_just_apart(gap):
 
 test_what_makes_no_sense_is_refused = refusals(
     *((f"two members or more, got {count}", simulate, count, 5.0) for count in (1, 2.5, np.nan, np.inf)),
-    ("wider than 1.3 m, got 1.2 m", lambda: simulate(4, 5.0, corridor=1.2)),
+    ("wider than 1.3 m, got 1.29", lambda: simulate(4, 5.0, corridor=2 * BODY + APART)),
 )
