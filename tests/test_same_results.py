@@ -178,7 +178,10 @@ CASES = {
     ),
     "led group": lambda: [groups.lead_group(group(), to, start=HERE)[0] for to in (WALL, BEHIND)],
     "steered group": lambda: groups.steer_group(group().nodes[0], WALL, limit=30.0)[0],
-    "walked group": lambda: groups.walk_group(walking(), groups.simulate(2, 3, seed=2)).tracks,
+    "walked group": lambda: [
+        (walked := groups.walk_group(walking(), groups.simulate(2, 3, seed=2))).tracks,
+        walked.wanted,
+    ],
     "clusters": lambda: groups.cluster(groups.simulate(5, 30), nodes=3, reach=0.4)[1:],
     "matched groups": lambda: groups.compare(
         *(groups.Configuration(*np.array(groups.simulate(5, 10))[:, start::20]) for start in (0, 7))

@@ -165,7 +165,7 @@ test_scenes_that_make_no_sense_or_have_no_way_are_refused = refusals(
     *((words, lambda scene=scene: plan_group(graph(), scene)) for scene, words in SCENES),
     *((words, lambda scene=scene: steer_group(graph().nodes[0], scene)) for scene, words in SCENES),
     (NoWalk, "No way past point 1 of 1 was found: obstacles closed every way", plan, (20 + 0j,), RING),
-    (NoWalk, "past point 2 of 2 was found: the limit of 5 states", lambda: plan((4 + 0j, 60 + 0j), most=5)),
+    (NoWalk, "past point 2 of 2 was found: the limit of 5 states", lambda: plan((4 + 0j, 20 + 0j), most=5)),
     (
         NoWalk,
         r"Member 4 starts -0.20 m from the rim .*: 0.3 m is the least",
