@@ -184,7 +184,7 @@ CASES = {
     ],
     "clusters": lambda: groups.cluster(groups.simulate(5, 30), nodes=3, reach=0.4)[1:],
     "matched groups": lambda: groups.compare(
-        *(groups.Configuration(*np.array(groups.simulate(5, 10))[:, start::20]) for start in (0, 7))
+        *(groups.Configuration(*half) for half in np.split(np.array(groups.simulate(8, 10)), 2, axis=1))
     ),
     "group that bends": lambda: groups.bend_to(
         run := groups.simulate(3, 4),

@@ -143,6 +143,11 @@ def away_from(discs: Sequence[Disc], places: Points, avoid: float | Array = 2.0)
 
     >>> away_from([(1.5 + 0j, 0.5)], np.array([0j, -0.9 + 0j, -1.1 + 0j, 1.25 + 0j])).real.round(2).tolist()
     [-3.0, -0.3, 0.0, -6.75]
+
+    Of the flocks that `lead_group` steers some avoid a rim half a metre off more, some less:
+
+    >>> away_from([(1 + 0j, 0.5)], np.zeros((4, 1)), AVOID[0, :, None]).real.round(2).ravel().tolist()
+    [-0.9, -2.1, -3.3, -4.5]
     """
     off = places[..., None] - np.array([centre for centre, _ in discs], complex)
     near = np.expand_dims(avoid, -1) - np.abs(off) + np.array([radius for _, radius in discs])
