@@ -93,8 +93,8 @@ class Wants(NamedTuple):
     Examples
     --------
     >>> wants = Wants(future=0.5)
-    >>> wants.every, wants.halflife, wants.fade
-    (0.1, 0.27, 0.1)
+    >>> wants.every, wants.halflife, wants.fade, wants.near
+    (0.1, 0.27, 0.1, 0.2)
 
     Notebook: 18-motion-matching
     """
