@@ -154,11 +154,14 @@ def acted():
 
 @cache
 def group():
-    return groups.build_group(3, nodes=2, corridors=(), simulated=40.0, reach=0.4)
+    return groups.build_group(3, nodes=1, corridors=(1.5,), simulated=40.0, reach=0.4)
 
 
-SCENE = groups.Scene((9 + 2j, 14 - 3j), ((5 + 0j, 0.5), (11 + 1j, 0.8)))
 SHORTLY = [editing.Basis(0.125, 0.1, passes=4, lead=0.2), editing.REACH._replace(passes=2)]
+MET = np.linspace(20, 14, 7)[:, None] + [0.6j, -0.6j]
+WALL = groups.Scene((4 - 3j, 18 + 0j, 14 - 3j), [(9 + 1.5j * k, 0.6) for k in range(-2, 3)], 0.6, 0.3, [MET])
+HERE = body.PlanarTransform(0.4, 0.5, -1.0)
+BEHIND = groups.Scene((-9 + 0j,), ((-4 + 0.4j, 0.5),), others=(np.array([[9j], [-7 + 0.5j]]),))
 ORDERS = [(0.0, 1.0), (1.2, 0.7), (-0.8, 1.3)]
 CASES = {
     "plants under noise": lambda: [
@@ -219,14 +222,22 @@ CASES = {
     "mixed": lambda: body.joint_positions(
         blending.mix(blending.register([WALK[100:500], WALK[233:640]]), [0.3, 0.7])
     ),
-    "flock": lambda: groups.simulate(5, 10),
-    "flock between walls": lambda: groups.simulate(5, 10, corridor=2.5),
-    "group": lambda: [part for clip in group().clips for part in (clip.places, clip.turn, clip.move)],
+    "flock": lambda: groups.simulate(5, 10, seed=1),
+    "flock between walls": lambda: groups.simulate(5, 10, corridor=6.0, seed=2),
+    "group": lambda: [getattr(clip, name) for clip in group().clips for name in clip.__dataclass_fields__],
     "planned group": lambda: (
-        groups.play_group(group(), (plan := groups.plan_group(group(), SCENE)).clips) + plan[1:]
+        groups.play_group(group(), (plan := groups.plan_group(group(), WALL, weight=1.3)).clips) + plan[1:]
     ),
-    "led group": lambda: groups.lead_group(group(), groups.Scene((-9 + 0j,)))[0],
-    "steered group": lambda: groups.steer_group(group().nodes[0], SCENE, limit=30.0)[0],
+    "led group": lambda: [groups.lead_group(group(), to, start=HERE)[0] for to in (WALL, BEHIND)],
+    "steered group": lambda: groups.steer_group(group().nodes[0], WALL, limit=30.0)[0],
+    "walked group": lambda: [
+        (walked := groups.walk_group(walking(), groups.simulate(2, 3, seed=2))).tracks,
+        walked.wanted,
+    ],
+    "clusters": lambda: groups.cluster(groups.simulate(5, 30), nodes=3, reach=0.4)[1:],
+    "matched groups": lambda: groups.compare(
+        *(groups.Configuration(*half) for half in np.split(np.array(groups.simulate(8, 10)), 2, axis=1))
+    ),
     "group that bends": lambda: groups.bend_to(
         run := groups.simulate(3, 4),
         groups.Configuration(run.places[-1] + [1, 2j, -1], run.velocities[-1] * 1j),
@@ -248,6 +259,10 @@ CASES = {
     "matcher": lambda: played(
         motion_matching.MotionMatcher(motion_matching.tabulate(clips("walk_curve_1", "walk_circle"))), ORDERS
     ),
+    "pose table": lambda: [
+        getattr(motion_matching.tabulate([clip[:60] for clip in clips("walk_curve_1", "jog")]), part)
+        for part in ("values", "mean", "scale", "usable", "ground", "heading", "drift", "spin", "speeds")
+    ],
     "controller": lambda: played(steering.Controller(walking()), ORDERS),
     "apart": lambda: apart([np.stack([np.arange(20) + start] * 2, axis=1) for start in (0, 12, 14)], near=1),
     "web": lambda: [

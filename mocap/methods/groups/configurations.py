@@ -49,10 +49,14 @@ def seen_from_itself(group: Configuration) -> tuple[Configuration, Points, Point
 
     Examples
     --------
-    >>> group = Configuration(np.array([5j, 7j]), np.array([1j, 1j]))
+    It goes to the left at 0.2 m/s, the least there may be:
+
+    >>> group = Configuration(np.array([5j, 7j]), np.array([0.1j, 0.3j]))
     >>> own, turn, move = seen_from_itself(group)
-    >>> own.places.real.round(6), move
-    (array([-1.,  1.]), np.complex128(6j))
+    >>> own.places.real.round(6).tolist(), own.velocities.real.round(6).tolist()
+    ([-1.0, 1.0], [0.1, 0.3])
+    >>> complex(turn), complex(move)
+    (1j, 6j)
 
     Notebook: 19-group-graphs
     """
@@ -111,29 +115,39 @@ def compare(
 
 def _by_turns(one: Configuration, other: Configuration, start: float, rounds: int) -> Match:
     """Assign and lay M pairs on by turns, (M, N) each, from one turn, until no pair gets nearer."""
-    way, other_way = one.velocities.mean(-1), other.velocities.mean(-1)
+    way, other_way = one.velocities.mean(axis=1), other.velocities.mean(axis=1)
     turn = np.exp(1j * (np.angle(way * other_way.conj()) + start))
-    move = one.places.mean(-1) - turn * other.places.mean(-1)
+    move = one.places.mean(axis=1) - turn * other.places.mean(axis=1)
     match = Match(np.full(len(turn), np.inf), np.zeros(0, int), turn, move)
     for _ in range(rounds):
         before, square = match.rms, assignment_costs(one, other, match.turn, match.move)
         order = np.array([linear_sum_assignment(costs)[1] for costs in square])
-        there, going = (np.take_along_axis(part, order, axis=-1) for part in other)
-        middle, centre = one.places.mean(-1), there.mean(-1)
-        cross = ((one.places - middle[:, None]) * (there - centre[:, None]).conj()).sum(-1)
-        cross = cross + SECONDS**2 * (one.velocities * going.conj()).sum(-1)
+        there, going = (np.take_along_axis(part, order, axis=1) for part in other)
+        middle, centre = one.places.mean(axis=1), there.mean(axis=1)
+        cross = ((one.places - middle[:, None]) * (there - centre[:, None]).conj()).sum(axis=1)
+        cross = cross + SECONDS**2 * (one.velocities * going.conj()).sum(axis=1)
         turn = cross / np.maximum(np.abs(cross), 1e-12)
         move = middle - turn * centre
         gap = np.abs(one.places - turn[:, None] * there - move[:, None])
         change = np.abs(one.velocities - turn[:, None] * going)
-        match = Match(np.sqrt((gap**2 + SECONDS**2 * change**2).mean(-1)), order, turn, move)
+        match = Match(np.sqrt((gap**2 + SECONDS**2 * change**2).mean(axis=1)), order, turn, move)
         if (match.rms > before - 1e-9).all():
             break
     return match
 
 
 def assignment_costs(one: Configuration, other: Configuration, turn: Points, move: Points) -> Array:
-    """Say what it costs to take member j of the second for member i of the first, (M, N, N) m²."""
+    """Say what it costs to take member j of the second for member i of the first, (M, N, N) m².
+
+    Examples
+    --------
+    Two stand 1 m apart. Two others were turned and moved, and go twice as fast: this adds 0.7² m² everywhere.
+
+    >>> one = Configuration(np.array([[0j, 1 + 0j]]), np.array([[1 + 0j, 1 + 0j]]))
+    >>> other = Configuration(np.array([[5j, 6j]]), np.array([[2j, 2j]]))
+    >>> assignment_costs(one, other, np.array([-1j]), np.array([-5 + 0j])).round(2).tolist()
+    [[[0.49, 1.49], [1.49, 0.49]]]
+    """
     gap = one.places[:, :, None] - (turn[:, None] * other.places + move[:, None])[:, None]
     change = one.velocities[:, :, None] - (turn[:, None] * other.velocities)[:, None]
     return np.asarray(gap.real**2 + gap.imag**2 + SECONDS**2 * (change.real**2 + change.imag**2))
@@ -173,10 +187,14 @@ def cluster(flock: Configuration, *, nodes: int = 8, reach: float = 0.5) -> Clus
 
     Examples
     --------
+    Of one frame a second, two are enough; eight that reach less far leave out 2 %:
+
     >>> from mocap.methods.groups.flocking import simulate
-    >>> found = cluster(simulate(4, 60), nodes=4, reach=0.4)
-    >>> len(found.nodes), found.covered > 0.8
-    (4, True)
+    >>> found, fine = cluster(simulate(4, 60)), cluster(simulate(4, 60), reach=0.3)
+    >>> found.frames.tolist(), found.covered
+    ([440, 190], 1.0)
+    >>> len(fine.nodes), round(fine.covered, 2)
+    (8, 0.98)
 
     Notebook: 19-group-graphs
     """

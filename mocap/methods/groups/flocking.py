@@ -105,6 +105,16 @@ def steering_force(now: Configuration, wish: Points, rules: Flock, besides: Poin
     wish : (..., N), direction times share of the pace.
     rules : the figures.
     besides : (..., N), what else accelerates the members: discs, walls, or a place to reach.
+
+    Examples
+    --------
+    Two walk side by side at their pace. At 0.3 m they push each other away as hard as they can, at 0.7 m with
+    3 · 0.5 - 0.35 · 0.7 m/s². At 3 m they are drawn together by 0.35 · 3 m/s², and at 5 m they see nobody:
+
+    >>> pairs = np.array([0, 1j]) * [[0.3], [0.7], [3.0], [5.0]]
+    >>> force = steering_force(Configuration(pairs, 1.1 + 0 * pairs), 1 + 0 * pairs, Flock())
+    >>> force[:, 1].imag.round(3).tolist()
+    [1.5, 1.255, -1.05, 0.0]
     """
     places, velocities = now
     gap = places[..., :, None] - places[..., None, :]
@@ -214,8 +224,8 @@ def nearest_two(places: Points) -> Array:
 
     Examples
     --------
-    >>> nearest_two(np.array([[0j, 3 + 4j, 1j]]))
-    array([1.])
+    >>> nearest_two(np.array([[0j, 3 + 4j, 1j]])), nearest_two(np.array([[0j]]))
+    (array([1.]), array([inf]))
 
     Notebook: 19-group-graphs
     """

@@ -32,8 +32,13 @@ class MotionMatcher:
     >>> from mocap.methods.motion_matching.pose_database import tabulate
     >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
     >>> matcher = MotionMatcher(tabulate(clips))
-    >>> matcher.step(heading=0.0, speed=0.8).rotations.shape
-    (38, 4)
+    >>> poses = [matcher.step(heading=1.0, speed=0.8) for _ in range(15)]
+    >>> poses[0].rotations.shape, matcher.frames_left, matcher.cuts
+    ((38, 4), 0, [6])
+    >>> [number for number, pose in enumerate(poses) if pose.blending]  # for 0.2 s after the cut
+    [6, 7, 8, 9, 10, 11]
+    >>> [number for number, pose in enumerate(poses) if pose.contacts["rtoes"]]  # then the right ball lifts
+    [0, 1]
 
     Notebook: 18-motion-matching
     """

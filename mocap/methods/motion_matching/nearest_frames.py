@@ -92,8 +92,9 @@ class Wants(NamedTuple):
 
     Examples
     --------
-    >>> Wants(future=0.5).every
-    0.1
+    >>> wants = Wants(future=0.5)
+    >>> wants.every, wants.halflife, wants.fade, wants.near
+    (0.1, 0.27, 0.1, 0.2)
 
     Notebook: 18-motion-matching
     """
@@ -127,8 +128,8 @@ class FrameSearch:
     >>> from mocap import body, datasets
     >>> from mocap.methods.motion_matching.pose_database import tabulate
     >>> table = tabulate([body.resample(datasets.sample("walk_curve_1"), 30)])
-    >>> FrameSearch(table).nearest(table.values[100], now=0, near=6)[0]
-    100
+    >>> [FrameSearch(table).nearest(table.values[100], now=now, near=6)[0] for now in (0, 94, 95)]
+    [100, 100, 101]
     >>> FrameSearch(table).scale.max(), FrameSearch(table, future=3.0).scale.max()
     (np.float64(1.0), np.float64(3.0))
     """
@@ -182,6 +183,13 @@ def foresee(database: PoseDatabase, now: int, goal: complex, halflife: float) ->
     >>> ahead = foresee(table, 100, 1.3 + 0j, 0.27) * table.scale[FUTURE] + table.mean[FUTURE]
     >>> ahead[4:6].round(1)  # after one second she would be 1.2 m ahead
     array([0. , 1.2])
+
+    Asked to go to the left, she comes there in a bend, 0.8 m to the left, and then faces to the left:
+
+    >>> ahead = foresee(table, 100, 1.3j, 0.27) * table.scale[FUTURE] + table.mean[FUTURE]
+    >>> places, directions = ahead.reshape(2, 3, 2).round(2).tolist()
+    >>> places, directions
+    ([[0.11, 0.29], [0.43, 0.4], [0.83, 0.43]], [[0.71, 0.7], [0.97, 0.23], [1.0, 0.06]])
 
     Notebook: 18-motion-matching
     """

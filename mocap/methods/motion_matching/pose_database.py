@@ -74,6 +74,9 @@ def features(motion: Motion) -> Array:
     >>> walk = features(sample("walk_straight"))
     >>> walk.shape, walk[100, 20].round(1)  # after one second she is 1 m ahead
     ((1201, 27), np.float64(1.0))
+    >>> left, right = walk[:, 0:3].mean(axis=0), walk[:, 3:6].mean(axis=0)
+    >>> left.round(2).tolist(), right.round(2).tolist()  # ankles: left, up and ahead of the middle
+    ([0.06, 0.11, -0.03], [-0.05, 0.11, -0.02])
 
     Notebook: 18-motion-matching
     """
@@ -91,6 +94,11 @@ def features(motion: Motion) -> Array:
 
 def ahead_columns(ahead: Points) -> Array:
     """Write complex numbers z + ix, (..., 3) of them, as the six columns (x, z, x, z, x, z).
+
+    Examples
+    --------
+    >>> ahead_columns(np.array([1 + 2j, 3 + 4j, 5 + 6j])).tolist()
+    [2.0, 1.0, 4.0, 3.0, 6.0, 5.0]
 
     Notebook: 18-motion-matching
     """
@@ -187,6 +195,8 @@ def tabulate(clips: Sequence[Motion]) -> PoseDatabase:
     >>> table = tabulate([body.resample(datasets.sample("walk_curve_1"), 30)])
     >>> table.values.shape == (len(table), 27), len(table) - int(table.usable.sum())
     (True, 30)
+    >>> tabulate([table.motion[:32]]).usable.nonzero()[0].tolist()  # the last second is left out
+    [0, 1]
 
     Notebook: 18-motion-matching
     """

@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 from mocap.methods.groups import RATE, Configuration, nearest_two
 from mocap.methods.groups.configurations import SECONDS, assignment_costs, cluster, compare, seen_from_itself
 from mocap.methods.groups.flocking import APART, BODY, Flock, advance, push_apart, simulate, steering_force
-from mocap.methods.groups.group_steering import away_from
 from tests.methods.groups.built import flock
 from tests.refusals import refusals, told, unwarned
 
@@ -135,17 +134,6 @@ def test_each_rule_pulls_where_it_should():
     assert np.abs(force(gather=100)).max() == pytest.approx(Flock().accelerate)
 
 
-def test_who_sees_nobody_is_pulled_by_nobody():
-    far = Configuration(np.array([0j, 100 + 0j]), np.ones(2, complex))
-    alone = steering_force(far, np.ones(2, complex), Flock(keep=0))
-    np.testing.assert_allclose(alone, 0, atol=1e-12)
-
-
-def test_a_disc_pushes_away_from_two_metres_on():
-    pushed = away_from([(1.5 + 0j, 0.5)], np.array([0j, 50j, -1.1 + 0j, -0.9 + 0j]))
-    np.testing.assert_allclose(pushed, [-3, 0, 0, -0.3], atol=1e-9)
-
-
 def test_in_a_corridor_a_flock_keeps_between_the_walls_its_pace_and_its_distance():
     places, velocities = simulate(12, 30, corridor=2.0)
     assert np.abs(places.imag).max() < 1.0 - BODY + 0.05
@@ -174,10 +162,6 @@ def test_two_are_pushed_just_apart(gap):
 
 
 test_what_makes_no_sense_is_refused = refusals(
-    *((f"two members or more, got {count}", simulate, count, 5.0) for count in (1, 2.5, np.nan)),
-    ("wider than 1.3 m, got 1.2 m", lambda: simulate(4, 5.0, corridor=1.2)),
+    *((f"two members or more, got {count}", simulate, count, 5.0) for count in (1, 2.5, np.nan, np.inf)),
+    ("wider than 1.3 m, got 1.29", lambda: simulate(4, 5.0, corridor=2 * BODY + APART)),
 )
-
-
-def test_who_is_alone_has_nobody_near():
-    assert nearest_two(np.zeros((2, 1), complex)).tolist() == [np.inf, np.inf]

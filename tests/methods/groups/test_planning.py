@@ -16,7 +16,7 @@ from mocap.methods.groups.planning import Scene, Search, plan_group
 from mocap.quality.seam_measures import ground_slides
 from tests.bundled import bundled
 from tests.methods.groups.built import around, course, gap, graph, pocket
-from tests.refusals import refusals
+from tests.refusals import refusals, unwarned
 
 
 def walked(found, start=IDENTITY):
@@ -109,12 +109,6 @@ def test_a_plan_leaves_the_pocket_that_steering_never_leaves():
     assert points == 0 and stuck.places[-1].real.mean() < 16
 
 
-def test_on_open_ground_steering_is_enough():
-    scene = Scene((10 + 2j, 18 - 3j))
-    flock, points = steer_group(graph().nodes[0], scene)
-    assert points == 2 and passed(flock, scene) == 2
-
-
 def test_more_weight_finds_a_way_with_fewer_states():
     few, many = (plan_group(graph(), course(8), weight=weight).expanded for weight in (2.0, 1.0))
     assert few < many / 4
@@ -134,11 +128,6 @@ def test_two_groups_pass_each_other():
 
     assert least(alone) < APART <= least(careful)
     assert careful.spared > 0
-
-
-def test_the_goal_may_be_passed_within_the_first_clip():
-    found = plan_group(graph(), Scene((1.5 + 0j,)))
-    assert len(found.clips) == 1 and found.seconds < 4
 
 
 def test_what_a_refusal_advises_helps():
@@ -176,7 +165,7 @@ test_scenes_that_make_no_sense_or_have_no_way_are_refused = refusals(
     *((words, lambda scene=scene: plan_group(graph(), scene)) for scene, words in SCENES),
     *((words, lambda scene=scene: steer_group(graph().nodes[0], scene)) for scene, words in SCENES),
     (NoWalk, "No way past point 1 of 1 was found: obstacles closed every way", plan, (20 + 0j,), RING),
-    (NoWalk, "past point 1 of 1 was found: the limit of 5 states", lambda: plan((60 + 0j,), most=5)),
+    (NoWalk, "past point 2 of 2 was found: the limit of 5 states", lambda: plan((4 + 0j, 20 + 0j), most=5)),
     (
         NoWalk,
         r"Member 4 starts -0.20 m from the rim .*: 0.3 m is the least",
@@ -227,7 +216,9 @@ def led():
 
 @cache
 def walkers():
-    return walk_group(bundled("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight"), led())
+    return unwarned(
+        walk_group, bundled("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight"), led()
+    )
 
 
 def test_each_is_where_it_should_be_by_then():
@@ -262,7 +253,7 @@ def test_the_bare_lines_bring_them_together_and_out_of_time():
     assert loose.off.mean() > 3 * walkers().off.mean()
 
 
-@pytest.mark.parametrize(("some", "got"), [(np.s_[:5, :], "6 and 0.4 s"), (np.s_[:, :0], "0 and 13.7 s")])
+@pytest.mark.parametrize(("some", "got"), [(np.s_[:10, :], "6 and 0.9 s"), (np.s_[:, :0], "0 and 13.7 s")])
 def test_a_plan_for_nobody_or_of_less_than_a_second_is_refused(some, got):
     with pytest.raises(MocapError, match=f"a member or more and lasts 1 s or more, got {got}: does it lead"):
         walk_group(bundled("walk_curve_1"), Configuration(*(part[some] for part in led())))
@@ -270,7 +261,7 @@ def test_a_plan_for_nobody_or_of_less_than_a_second_is_refused(some, got):
 
 def test_who_stands_at_the_end_is_carried_on_all_the_same():
     places = led().places.copy()
-    places[-15:] = places[-15]
+    places[-11:] = places[-11]
     walked = walk_group(bundled("walk_circle", "walk_curve_1"), Configuration(places[:, :2], places[:, :2]))
     assert len(walked.motions[0]) == len(walked.wanted)
 

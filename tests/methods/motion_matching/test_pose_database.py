@@ -70,7 +70,7 @@ test_what_makes_no_sense_is_refused_in_one_sentence = refusals(
     ("resample", db.tabulate, [sample("walk_circle"), CLIP]),
     (SkeletonMismatch, "bone", db.tabulate, [CLIP, LARGE]),
     ("No legs found", features, wave(40)),
-    (r"longest, 'walk_circle', lasts 0.8", db.tabulate, [CLIP[:25]]),
+    (r"longest, 'walk_circle', lasts 1.00", db.tabulate, [CLIP[:31]]),
     ("at least two frames", db.tabulate, [CLIP, CLIP[:1]]),
     ("never vary", db.tabulate, [concatenate([CLIP[:1]] * 60)]),
 )
@@ -98,12 +98,6 @@ def test_the_smoothed_track_does_not_sway():
     (clip,) = clips("walk_straight")
     swings = [np.ptp(track[30:200]) for track in (heading(clip.rotations[:, 0]), db.body_track(clip)[1])]
     assert swings[1] < 0.6 * swings[0]
-
-
-def test_feet_on_the_left_are_left():
-    (clip,) = clips("walk_straight")
-    feet = features(clip)[:, GROUPS["feet"]]
-    assert feet[:, 0].mean() > 0.03 > -0.03 > feet[:, 3].mean()
 
 
 def queries(count, seed=0):
