@@ -208,7 +208,8 @@ def crowd(
     for count, motion in enumerate(walkers.motions, 1):
         files.save(motion, out / f"member-{count:02}.{to}")
     with replacing(out / "plan.png") as beside:
-        plotting.draw_group_plan(plan.places, scene.points, scene.discs, near=scene.near).savefig(beside)
+        drawn = plotting.draw_group_plan(plan.places, scene.points, scene.discs, near=scene.near)
+        drawn.savefig(beside, bbox_inches="tight")
     if not no_film:  # a .gif of half the frames is three times as large as an .mp4 even so
         name, fps = ("crowd.mp4", 25.0) if find_spec("imageio_ffmpeg") else ("crowd.gif", 12.5)
         widgets.save_animation(walkers.motions, out / name, discs=discs, fps=fps, progress=bar("drawing"))
