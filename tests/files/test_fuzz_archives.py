@@ -153,7 +153,7 @@ def tampered(honest, chance):
     return data
 
 
-@pytest.mark.filterwarnings("error", "ignore:Duplicate name", "ignore:.*betas")
+@pytest.mark.filterwarnings("error", "ignore:Duplicate name", "ignore:.*betas", "ignore:An older mocap")
 @pytest.mark.parametrize("count", [500, pytest.param(20_000, marks=pytest.mark.exhaustive)])
 def test_tampered_archives_are_read_or_refused_in_a_sentence(honest, tmp_path, count):
     for start, (kind, (_, use)) in enumerate(KINDS.items()):
