@@ -104,10 +104,10 @@ def three():
 
 HAND = partial(editing.hierarchy, knots=(0.5,))
 BESIDE_KINEMATICS = [
-    ("edit", 95, lambda: (partial(editing.edit, walk(), stone(walk(), 0.15)), walk())),
+    ("edit", 80, lambda: (partial(editing.edit, walk(), stone(walk(), 0.15)), walk())),
     ("a handle of a path", ANSWER, handle_of_a_path),
     ("a hand", ANSWER, lambda: (partial(HAND, walk(), hand_at(walk(), (180, 240, 300))), walk())),
-    ("a key", 14, dragged_key),  # eight passes, because no joint leaps
+    ("a key", 10, dragged_key),
     ("retime", 15, lambda: (partial(editing.retime, person(), [(0, 0), (2, 1), (4.9, 3.9)]), person())),
     *(
         (f"bend {name}", 50 if path is CORNER else 36, partial(bent, name, path))  # to round takes 10 ms
@@ -159,10 +159,7 @@ BESIDE_DURATION = [
     ("mark_plants", 0.1, lambda: (partial(mark_plants, minute()[1]), 60)),
     ("clean_up", 0.1, lambda: (partial(clean_up, minute()[1]), 60)),
     ("to_motion", 1 / 100, played),
-    *(  # corners that no clip turns take all tries
-        (f"follow a {name}", 1 / 25 if name == "square" else 1 / 50, partial(followed, walking, line))
-        for name, line in SHAPES.items()
-    ),
+    *((f"follow a {name}", 1 / 50, partial(followed, walking, line)) for name, line in SHAPES.items()),
     *(
         (f"bend to a {line.__name__}", 1 / 60, partial(followed, graph, line, bend=editing.LIMIT))
         for line in (sine, spiral, heart)
@@ -335,7 +332,7 @@ def of_minima(data, folder):
 
 
 BESIDE_BARE = [
-    *((f"read {s}", 4, partial(reading, suffix=s)) for s in (".amc", ".bvh")),
+    *((f"read {s}", 3, partial(reading, suffix=s)) for s in (".amc", ".bvh")),
     ("write .bvh", 3, writing),
     ("forward kinematics", 3, placing),
     *(
