@@ -134,3 +134,6 @@ def test_a_clip_of_few_frames_has_a_path():
     motion = replace(straight()[0][:3], root_positions=[[0, 1, 0], [0, 1, 0.5], [0.1, 1, 1]])
     ride = ride_of(motion)
     assert ride.path.points == pytest.approx(motion.root_positions[:, [0, 2]], abs=1e-4)
+    tiny = GroundPath([[0, 0], [0.05, 0.1], [0, 0]])
+    assert np.isfinite(np.stack(moving_frames(tiny, [-1.0, 0.1, 1.0]))).all()
+    assert abs(moving_frames(ride.path, ride.along).angle[0]) < 0.2

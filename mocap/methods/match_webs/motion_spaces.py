@@ -129,9 +129,9 @@ def random_weights(
 
     Examples
     --------
-    >>> weights = random_weights([[0.8], [1.1], [1.4]], 100, spread=0.1)
-    >>> weights.shape, int((weights != 0).sum(axis=1).max()), weights.max().round(1).tolist()
-    ((100, 3), 2, 1.1)
+    >>> w = random_weights([[0.8], [1.1], [1.4]], 100, spread=0.1)
+    >>> w.shape, bool(np.allclose(w.sum(axis=1), 1)), int((w != 0).sum(axis=1).max()), float(w.max().round(1))
+    ((100, 3), True, 2, 1.1)
 
     Notebook: 16-match-webs
     """
