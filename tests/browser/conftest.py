@@ -85,7 +85,7 @@ def browser(request):
     program = next(filter(None, map(shutil.which, PROGRAMS)), None)
     if program is None:
         pytest.skip("no Chromium here: apt-get install chromium-headless-shell")
-    playwright = pytest.importorskip("playwright.sync_api", reason="pip install playwright")
+    playwright = pytest.importorskip("playwright.sync_api", reason="pip install '.[ci]'")
     with playwright.sync_playwright() as p:
         chromium = p.chromium.launch(
             executable_path=program, args=[*CHROMIUM, *getattr(request, "param", FLAT)]

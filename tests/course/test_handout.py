@@ -93,7 +93,7 @@ def test_without_a_library_one_sentence_says_what_to_install(
 @pytest.mark.parametrize("stem", COURSE)
 def test_a_solution_without_what_is_marked_is_the_stub_again(stem):
     """As nbgrader cuts it out, with our stub and with its own, which raises an error."""
-    clear = pytest.importorskip("nbgrader.preprocessors", reason="pip install '.[test]'").ClearSolutions
+    clear = pytest.importorskip("nbgrader.preprocessors", reason="pip install '.[ci]'").ClearSolutions
     right = {name: solution(cell) for name, cell in tagged(COURSE[stem], "solution")}
     for name, cell in tagged(COURSE[stem], "exercise"):
         merged = nbformat.v4.new_code_cell(_merged(cell.source, right[name]))
@@ -109,7 +109,7 @@ def test_a_solution_without_what_is_marked_is_the_stub_again(stem):
 
 def test_nbgrader_gives_full_marks_for_right_answers_and_none_for_wrong_or_empty_ones(tmp_path, monkeypatch):
     """It makes the assignment, grades three students and writes feedback, as at a university."""
-    pytest.importorskip("nbgrader", reason="pip install '.[test]'")
+    pytest.importorskip("nbgrader", reason="pip install '.[ci]'")
     import alembic
     from nbgrader.apps.api import NbGraderAPI
     from traitlets.config import Config

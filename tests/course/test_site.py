@@ -24,6 +24,7 @@ PAGES = ("GLOSSARY", "FORMULAS", "PAPERS", "PROJECT", "README")
 
 def course_site(tmp_path_factory):
     """Make the pages of the whole course, once for all workers."""
+    pytest.importorskip("myst_nb", reason="pip install '.[site]'")
     base = tmp_path_factory.getbasetemp()
     base = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
     with (base / "site.lock").open("w") as lock:

@@ -128,7 +128,7 @@ def test_odd_names_are_kept():
 
 
 def test_trimesh_reads_the_body_and_the_joints():
-    trimesh = pytest.importorskip("trimesh", reason="pip install trimesh")
+    trimesh = pytest.importorskip("trimesh", reason="pip install '.[ci]'")
     motion = walk()
     scene = trimesh.load(io.BytesIO(gltf.glb(motion)), file_type="glb")
     spots, _, _, corners = gltf_capsules.body(motion.skeleton)

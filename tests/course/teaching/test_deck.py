@@ -234,7 +234,7 @@ def notebook(tmp_path):
 
 
 def test_the_command_writes_an_mp4(notebook, tmp_path, capsys, run):
-    imageio = pytest.importorskip("imageio_ffmpeg", reason="pip install imageio-ffmpeg")
+    imageio = pytest.importorskip("imageio_ffmpeg", reason="pip install '.[video]'")
     out = tmp_path / "walk.mp4"
     assert run(f"course film {notebook} --still -o {out}").out == f"wrote {out}\n"
     meta = next(imageio.read_frames(str(out)))

@@ -18,6 +18,7 @@ NAME = "06-pruning"
 
 @pytest.fixture(scope="module")
 def decks(tmp_path_factory):
+    pytest.importorskip("sphinx_revealjs", reason="pip install '.[slides]'")
     folder, out = tmp_path_factory.mktemp("notebooks"), tmp_path_factory.mktemp("slides")
     shutil.copy(stored() / f"{NAME}.ipynb", folder)
     shutil.copytree(stored() / "slides", folder / "slides")
