@@ -5,18 +5,33 @@ site names them, the homework's in `hw3`. Where they are missing, tests of them 
 test asks the network for them.
 """
 
+from __future__ import annotations
+
 import os
 from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
-from nbformat import NotebookNode
-from nbformat.v4 import new_code_cell
-from nbval.plugin import IPyNbCell, IPyNbFile
+
+if TYPE_CHECKING:  # nbformat and nbval are imported only when a notebook is collected: they take seconds
+    from nbformat import NotebookNode
+    from nbval.plugin import IPyNbCell, IPyNbFile
 
 FIRST = ("test_lab", "test_release", "test_house")  # they wait most, while others compute
 LONG = (Path(__file__).parent / "tests" / "long.txt").read_text("utf-8")  # then files that are named here
+
+FEW_FILES = 8  # so many run sooner in one process: each worker imports everything again
+NBVAL_OPTIONS = {  # the options of the plugin nbval, which pyproject.toml blocks because of its imports
+    "nbval_cell_timeout": 120,  # seconds
+    "nbval_current_env": True,
+    "nbval_kernel_name": None,
+    "nbval_kernel_startup_timeout": 60,  # seconds
+    "nbval_lax": False,
+    "nbval_sanitize_with": str(Path(__file__).parent / "tests" / "nbval.cfg"),
+    "nbdime": False,
+}
 
 REAL = Path(os.environ.get("MOCAP_REAL_DATA", Path(__file__).parents[1] / "shared" / "data")).resolve()
 THERE = all((REAL / folder).is_dir() for folder in ("cmu", "hw3"))
@@ -29,9 +44,25 @@ if not MISSING:
     os.environ["MOCAP_DATA"] = str(REAL / "cmu")  # for the kernels of the notebooks, which inherit it
 
 
-def pytest_xdist_auto_num_workers() -> int:
-    """Start one worker more than there are cores: where browsers and kernels let one wait, one computes."""
-    return 1 + (os.cpu_count() or 1)
+def pytest_xdist_auto_num_workers(config: pytest.Config) -> int:
+    """Start one worker more than there are cores: while browsers and kernels let one wait, one computes.
+
+    A few files run in this process.
+    """
+    paths = [Path(config.invocation_params.dir, arg.partition("::")[0]) for arg in config.args]
+    files = sum(sum(1 for _ in path.rglob("*.py")) if path.is_dir() else 1 for path in paths)
+    files += sum(sum(1 for _ in path.rglob("*.ipynb")) for path in paths)
+    return 0 if files <= FEW_FILES else 1 + (os.cpu_count() or 1)
+
+
+def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> IPyNbFile | None:
+    """Collect the cells of a notebook by nbval."""
+    if file_path.suffix != ".ipynb":
+        return None
+    from nbval.plugin import IPyNbFile
+
+    vars(parent.config.option).update(NBVAL_OPTIONS)
+    return IPyNbFile.from_parent(parent, path=file_path)
 
 
 @pytest.hookimpl(wrapper=True)
@@ -42,7 +73,7 @@ def pytest_make_collect_report(collector: pytest.Collector) -> Iterator[None]:
     clips are missing, nothing that needs them is compared.
     """
     report = yield
-    if isinstance(collector, IPyNbFile) and report.passed:
+    if collector.path.suffix == ".ipynb" and report.passed:
         tags = [(cell.source, tag) for cell in collector.nb.cells for tag in cell.metadata.get("tags", ())]
         names = {source: tag for source, tag in tags if tag.startswith("experiment:")}
         watch = (
@@ -68,6 +99,9 @@ def _compared(cell: NotebookNode) -> bool:
 
 
 def _cell(notebook: IPyNbFile, name: str, number: int, source: str) -> IPyNbCell:
+    from nbformat.v4 import new_code_cell
+    from nbval.plugin import IPyNbCell
+
     options = defaultdict(bool)  # whatever the cell prints is right
     cell = new_code_cell(source)
     return IPyNbCell.from_parent(notebook, name=name, cell_num=number, cell=cell, options=options)

@@ -6,12 +6,9 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-import matplotlib
 import pytest
-from coverage import Coverage
 from hypothesis import HealthCheck, settings
 
-matplotlib.use("agg")
 SWEEP = bool(os.environ.get("MOCAP_SWEEP"))  # .ci/run tries more of everything
 
 # A busy machine is no failure. `few` is for other versions of libraries: that a call has gone shows at once.
@@ -24,6 +21,21 @@ settings.load_profile("house")
 # What takes a second or more, by `pytest --durations=0`, and the longest notebooks: a sweep runs them.
 LONG = frozenset(Path(__file__).with_name("long.txt").read_text("utf-8").split())
 ASKED_FOR = ("benchmark", "exhaustive", *(() if SWEEP else ("sweep", "tools")))
+
+
+class DrawWithoutDisplay:
+    """Choose matplotlib's backend as soon as its pyplot is imported.
+
+    A variable of the environment would reach the kernels of the notebooks too, whose figures would not show.
+    """
+
+    @staticmethod
+    def find_spec(name: str, path: object = None, target: object = None) -> None:
+        if name == "matplotlib.pyplot":
+            sys.modules["matplotlib"].use("agg")
+
+
+sys.meta_path.insert(0, DrawWithoutDisplay)
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
@@ -45,7 +57,8 @@ def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
     """
     drawn = getattr(getattr(item, "obj", None), "is_hypothesis_test", "/test_fuzz" in item.nodeid)
     long = item.get_closest_marker("sweep") and ("/course/" not in item.nodeid or "/teaching/" in item.nodeid)
-    measured = Coverage.current() if drawn or long else None
+    coverage = sys.modules.get("coverage")  # which nothing imports if nothing is measured
+    measured = coverage.Coverage.current() if coverage and (drawn or long) else None
     if measured:
         measured.stop()
     done = yield

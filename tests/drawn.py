@@ -1,11 +1,13 @@
 """What figures show, held against what they showed when somebody last looked at them.
 
-Beside a table of pictures lies what they showed, as `drawn.json`. After a change that is meant, look at the
-pictures, and write it anew: MOCAP_DRAW_ANEW=1 pytest tests/plotting tests/course/diagrams -n 0
+Beside a table of pictures lies what they showed, as `drawn.json`, and of a few the picture itself. After a
+change that is meant, look at the pictures, and write all anew: MOCAP_DRAW_ANEW=1 pytest tests/plotting
+tests/course/diagrams -n 0
 """
 
 import json
 import os
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +18,8 @@ from matplotlib.image import AxesImage
 from matplotlib.lines import Line2D
 from matplotlib.patches import FancyArrowPatch, Patch
 from matplotlib.spines import Spine
+from matplotlib.testing.compare import compare_images
+from matplotlib.testing.decorators import remove_ticks_and_titles
 from matplotlib.text import Annotation, Text
 from matplotlib.ticker import FixedLocator
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
@@ -35,6 +39,8 @@ PLACES = {
     FancyArrowPatch: lambda arrow: [arrow.get_linewidth()],
     Patch: lambda patch: [patch.get_patch_transform().transform(patch.get_path().vertices)],
 }
+PIXELS_PER_INCH = 40  # of a stored picture
+ROOT_MEAN_SQUARE = 1  # of the differences between stored and new pixels, of 255
 COLOURS = ("color", "facecolor", "edgecolor", "markeredgecolor")
 SIZES = ("linewidth", "zorder", "alpha", "markersize", "fontsize")
 MARKS = ("marker", "markevery", "drawstyle", "ha", "va")
@@ -88,3 +94,17 @@ def hold(file, name, pictures):
         assert one.keys() == kept.keys(), f"{name}, picture {number}"
         for kind, sums in one.items():
             assert sums == pytest.approx(kept[kind], rel=1e-6, abs=1e-5), f"{name}, picture {number}: {kind}"
+
+
+def compare_with_baseline(figure, baseline, folder):
+    """Compare the pixels of a figure with a stored picture, or store it.
+
+    Letters differ between versions of matplotlib, and so does the layout around them: no text is drawn.
+    """
+    remove_ticks_and_titles(figure)
+    drawn = baseline if os.environ.get("MOCAP_DRAW_ANEW") else folder / baseline.name
+    figure.savefig(drawn, dpi=PIXELS_PER_INCH, metadata={"Software": None})
+    stored = folder / f"stored-{baseline.name}"  # the picture of the difference lies beside this copy
+    shutil.copyfile(baseline, stored)
+    difference = compare_images(stored, drawn, tol=ROOT_MEAN_SQUARE)
+    assert difference is None, difference

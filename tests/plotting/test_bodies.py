@@ -1,11 +1,11 @@
 """Pictures show what they showed when somebody last looked; bodies are inside them, however large these are.
 
-`drawn.json` holds what is drawn; tests/drawn.py says how to draw it anew. `baseline` holds how a few pictures
-look: `pytest tests/plotting/test_bodies.py --mpl-generate-path=tests/plotting/baseline` draws them anew.
+`drawn.json` holds what is drawn, `baseline` a few pictures; tests/drawn.py says how to draw both anew.
 """
 
 from dataclasses import replace
 from functools import cache
+from pathlib import Path
 
 import matplotlib.pyplot as plt
 import networkx as nx
@@ -22,10 +22,11 @@ from mocap.matching import distance_grid
 from mocap.plotting import stick_figures
 from mocap.plotting.bodies import HIGH, LOW, WIDTH, bodies_along, film_strip
 from mocap.plotting.stick_figures import to_picture
-from tests.drawn import hold
+from tests.drawn import compare_with_baseline, hold
 from tests.refusals import refusals
 from tests.strategies import random_motion, seeds, wave
 
+BASELINE = Path(__file__).parent / "baseline"
 RANDOM = np.random.default_rng(0)
 SAMPLES, ROWS = RANDOM.gamma(2.0, size=(5, 41)), RANDOM.random((10, 2))
 WALKS = [resample(datasets.sample(f"walk_curve_{n}"), 30)[:120] for n in (1, 2)]
@@ -104,15 +105,7 @@ def test_a_picture_is_drawn_as_ever(name):
     hold(__file__, name, PICTURES[name]())
 
 
-# Letters differ between versions of matplotlib, and so does the layout around them: no text is drawn.
-def alike(tolerance=1):
-    return pytest.mark.mpl_image_compare(
-        baseline_dir="baseline",
-        tolerance=tolerance,
-        remove_text=True,
-        style="default",
-        savefig_kwargs={"dpi": 40},
-    )
+drawn_in_default_style = plt.style.context("default", after_reset=True)
 
 
 def bare():
@@ -126,8 +119,8 @@ def without_text(figure):
     return figure
 
 
-@alike()
-def test_ghosts_look_as_ever():
+@drawn_in_default_style
+def test_ghosts_look_as_ever(tmp_path):
     motion = wave(60)
     points = joint_positions(motion)[[0, 25, 50]]
     low, high, way = points.min(axis=(0, 1)), points.max(axis=(0, 1)), motion.root_positions * [1, 0, 1]
@@ -137,14 +130,15 @@ def test_ghosts_look_as_ever():
     ax.plot(*to_picture(way).T, color=plotting.PATH, linewidth=1.5, zorder=1)
     for alpha, pose in zip((0.15, 0.15 + 0.35 / 3, 1.0), points, strict=True):
         stick_figures.StickFigure(motion.skeleton, ax, alpha).pose(pose)
-    return ax.figure
+    compare_with_baseline(ax.figure, BASELINE / "test_ghosts_look_as_ever.png", tmp_path)
 
 
-@alike()
-def test_a_small_graph_looks_as_ever():
+@drawn_in_default_style
+def test_a_small_graph_looks_as_ever(tmp_path):
     graph = nx.DiGraph([(1, 2), (2, 3), (3, 1), (3, 4), (2, 1)])
     plotting.node_link(graph, kept=graph.subgraph([1, 2, 3]), ax=bare())
-    return without_text(plt.gcf())
+    without_text(plt.gcf())
+    compare_with_baseline(plt.gcf(), BASELINE / "test_a_small_graph_looks_as_ever.png", tmp_path)
 
 
 def on_picture(ax, points):
