@@ -35,6 +35,7 @@ NBVAL_OPTIONS = {  # the options of the plugin nbval, which pyproject.toml block
 
 REAL = Path(os.environ.get("MOCAP_REAL_DATA", Path(__file__).parents[1] / "shared" / "data")).resolve()
 THERE = all((REAL / folder).is_dir() for folder in ("cmu", "hw3"))
+NEED_CLIPS = ("mocap.course.real_clips.collections",)  # examples of docstrings that ask for captured clips
 MISSING = None if THERE else f"no real clips at {REAL}; name their folder in MOCAP_REAL_DATA"
 
 os.environ["MOCAP_MINE"] = ""  # nobody has solved anything: no test reads a file beside the notebooks
@@ -67,35 +68,50 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> IPyNbFile 
 
 @pytest.hookimpl(wrapper=True)
 def pytest_make_collect_report(collector: pytest.Collector) -> Iterator[None]:
-    """Add a first cell to each notebook that nbval runs, and two last ones.
+    """Add cells to each notebook that nbval runs.
 
-    They compare the marked numbers in its text with their values, and drive its experiments. Where the real
-    clips are missing, nothing that needs them is compared.
+    The first one, and the last, drive its experiments. The two before the last compare the marked numbers in
+    its text with their values: those of any text, and those that come from captured clips. Without the clips
+    the latter are skipped, and no output that needs clips is compared.
     """
     report = yield
     if collector.path.suffix == ".ipynb" and report.passed:
-        tags = [(cell.source, tag) for cell in collector.nb.cells for tag in cell.metadata.get("tags", ())]
-        names = {source: tag for source, tag in tags if tag.startswith("experiment:")}
-        watch = (
-            f"import sys\nsys.path.append({str(Path(__file__).parent)!r})\n"
-            f"from tests.course import driving\ndriving.watch({names!r})"
-        )
-        last = len(report.result)
-        for item in report.result:
-            if MISSING and "real" in item.cell.metadata.get("tags", ()):
-                item.options["check"] = False
-        texts = [
-            cell.source for cell in collector.nb.cells if cell.cell_type == "markdown" and _compared(cell)
-        ]
-        numbers = f"from mocap.course import marked_values\nmarked_values.compare({texts!r}, globals())"
-        report.result.insert(0, _cell(collector, "experiments, before", -1, watch))
-        report.result.append(_cell(collector, "numbers in the text", last, numbers))
-        report.result.append(_cell(collector, "experiments", last + 1, "driving.drive_all()"))
+        if MISSING:
+            for item in report.result:
+                if _needs_clips(item.cell):
+                    item.options["check"] = False
+        report.result.insert(0, _cell(collector, "experiments, before", -1, _watching(collector.nb)))
+        last = len(report.result) - 1
+        texts = [cell for cell in collector.nb.cells if cell.cell_type == "markdown"]
+        everywhere = [cell.source for cell in texts if not _needs_clips(cell)]
+        of_clips = [cell.source for cell in texts if _needs_clips(cell)]
+        report.result.append(_cell(collector, "numbers in the text", last, _comparing(everywhere)))
+        if of_clips:
+            numbers = _cell(collector, "numbers from captured clips", last + 1, _comparing(of_clips))
+            if MISSING:
+                numbers.add_marker(pytest.mark.skip(reason=MISSING))
+            report.result.append(numbers)
+        report.result.append(_cell(collector, "experiments", last + 2, "driving.drive_all()"))
     return report
 
 
-def _compared(cell: NotebookNode) -> bool:
-    return not (MISSING and "real" in cell.metadata.get("tags", ()))
+def _needs_clips(cell: NotebookNode) -> bool:
+    return "real" in cell.metadata.get("tags", ())
+
+
+def _watching(notebook: NotebookNode) -> str:
+    """Return the code of a cell that keeps what the experiments of a notebook show."""
+    tags = [(cell.source, tag) for cell in notebook.cells for tag in cell.metadata.get("tags", ())]
+    names = {source: tag for source, tag in tags if tag.startswith("experiment:")}
+    return (
+        f"import sys\nsys.path.append({str(Path(__file__).parent)!r})\n"
+        f"from tests.course import driving\ndriving.watch({names!r})"
+    )
+
+
+def _comparing(texts: list[str]) -> str:
+    """Return the code of a cell that compares the marked numbers of some texts with their values."""
+    return f"from mocap.course import marked_values\nmarked_values.compare({texts!r}, globals())"
 
 
 def _cell(notebook: IPyNbFile, name: str, number: int, source: str) -> IPyNbCell:
@@ -124,5 +140,5 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     long = [item for item in items if item.nodeid.partition("::")[0] in LONG]
     items[:] = dict.fromkeys([*first, *notebooks, *browser, *long, *items])
     for item in items:
-        if MISSING and item.path.name == "10-real-data.ipynb":
+        if MISSING and (item.path.name == "10-real-data.ipynb" or item.name in NEED_CLIPS):
             item.add_marker(pytest.mark.skip(reason=MISSING))
