@@ -3,10 +3,14 @@
     python tests/mutate.py --count 100 --seed 1
     python tests/mutate.py --only mocap/feet/footskate.py --count 20
     python tests/mutate.py --rooms editing methods --near
+    python tests/mutate.py --bounds
 
 A change concerns one token of code: a comparison, an operator, a number, and/or, min/max, True/False. First
 run the tests that name the module (with --near, only these), then the rest of its room, rooms above, and what
 all rooms gave. Changes that no test catches are printed, as file:line:column old -> new. Not for Windows.
+
+With --bounds, make the changes that tests/bounds.toml lists instead. Each belongs to an assertion that has
+room for other arithmetic, and is caught only if that assertion fails: its room does not hide what it is for.
 """
 
 import argparse
@@ -19,6 +23,7 @@ import re
 import shutil
 import sys
 import tempfile
+import tomllib
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
@@ -47,7 +52,16 @@ NAMES |= {new: old for old, new in NAMES.items()}
 LEFT_OUT = (ast.JoinedStr, ast.Raise, ast.Import, ast.ImportFrom)
 LIMIT = 120  # seconds of processor time for a group of tests
 LOADED_ONCE = "networkx scipy.ndimage scipy.optimize scipy.sparse.csgraph scipy.spatial hypothesis.strategies"
-OPTIONS = ["-x", "-q", "-n0", "-pno:cacheprovider", "--no-cov", "--tb=no", "-oaddopts=", "--doctest-modules"]
+OPTIONS = [
+    "-x",
+    "-q",
+    "-n0",
+    "-pno:cacheprovider",
+    "--no-cov",
+    "--tb=line",
+    "-oaddopts=",
+    "--doctest-modules",
+]
 OPTIONS += ["-m", "not tools and not benchmark and not exhaustive and (sweep or not sweep)"]
 QUICK = """
 from hypothesis import Phase  # the same examples each time, and no search for simpler ones
@@ -62,6 +76,23 @@ def modules(rooms: list[str] | None = None) -> list[str]:
         return [f"mocap/{room}/{name}.py" for room, names in MODULES.items() for name in names.split()]
     files = [file for room in rooms for file in sorted((ROOT / "mocap" / room).rglob("[!_]*.py"))]
     return [file.relative_to(ROOT).as_posix() for file in files]
+
+
+class Bound(NamedTuple):
+    """An assertion with room for other arithmetic, and a change of the package at which it still fails."""
+
+    test: str  # as pytest names it
+    assertion: str  # its text, which occurs once in a file of the tests
+    room: str  # what was measured, and where
+    file: str
+    old: str  # occurs once in this file
+    new: str
+    helper: str = ""  # the file of the assertion, if not that of the test
+
+    @property
+    def asserting(self) -> str:
+        """The file of the assertion."""
+        return self.helper or self.test.partition("::")[0]
 
 
 class Change(NamedTuple):
@@ -158,8 +189,8 @@ def make_copy(copy: Path) -> Path:
     return copy
 
 
-def run(copy: Path, tests: list[str]) -> None:
-    """Run tests in this process, then end it."""
+def run(copy: Path, tests: list[str], output: str) -> None:
+    """Run tests in this process, with what they print in a file, then end it."""
     import resource  # missing on Windows, where pytest still imports this file
 
     resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT))
@@ -167,13 +198,13 @@ def run(copy: Path, tests: list[str]) -> None:
     sys.path.insert(0, str(copy))
     sys.dont_write_bytecode = True
     for stream in (1, 2):
-        os.dup2(os.open(os.devnull, os.O_WRONLY), stream)
+        os.dup2(os.open(output, os.O_WRONLY | os.O_CREAT | os.O_APPEND), stream)
     os._exit(pytest.main([*OPTIONS, *tests]))
 
 
-def passes(copy: Path, tests: list[str]) -> bool:
+def passes(copy: Path, tests: list[str], output: str = os.devnull) -> bool:
     """Run tests in a process of their own, which need not import the libraries again."""
-    process = multiprocessing.get_context("fork").Process(target=run, args=(copy, tests))
+    process = multiprocessing.get_context("fork").Process(target=run, args=(copy, tests, output))
     process.start()
     process.join()
     return process.exitcode == 0
@@ -192,18 +223,50 @@ def survives(change: Change, groups: list[list[str]], copies: "SimpleQueue[Path]
         copies.put(copy)
 
 
-def main() -> None:
-    """Make the changes, and print those that no test catches."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--count", type=int, default=100, help="how many changes (100)")
-    parser.add_argument("--seed", type=int, default=1, help="which changes (1)")
-    parser.add_argument("--only", metavar="PATH", help="one module, as mocap/feet/footskate.py")
-    parser.add_argument("--rooms", nargs="+", metavar="ROOM", help="all modules of these rooms, as editing")
-    parser.add_argument("--near", action="store_true", help="run only the tests that name the module")
-    parser.add_argument("--jobs", type=int, default=1, help="how many changes at the same time (1)")
-    wanted = parser.parse_args()
-    for name in LOADED_ONCE.split():
-        importlib.import_module(name)
+def bounds() -> list[Bound]:
+    """Read the bounds that have room, with a change for each."""
+    table = tomllib.loads((ROOT / "tests" / "bounds.toml").read_text("utf-8"))
+    return [Bound(**entry) for entry in table["bound"]]
+
+
+def verdict(bound: Bound, copy: Path) -> str:
+    """Make the change of a bound in a copy; return "caught" if its assertion fails, else the reason."""
+    file = copy / bound.file
+    source = file.read_text("utf-8")
+    output = copy / "output.txt"
+    output.unlink(missing_ok=True)
+    if not passes(copy, [bound.test]):
+        return "fails without the change"
+    file.write_text(source.replace(bound.old, bound.new), "utf-8")
+    try:
+        survived = passes(copy, [bound.test], str(output))
+    finally:
+        file.write_text(source, "utf-8")
+    if survived:
+        return "missed"
+    asserting = (copy / bound.asserting).read_text("utf-8")
+    line = asserting.count("\n", 0, asserting.index(bound.assertion)) + 1
+    at_the_bound = f"{bound.asserting}:{line}: " in output.read_text("utf-8")
+    return "caught" if at_the_bound else "fails at another line"
+
+
+def check_bounds(only: str | None) -> bool:
+    """Print for each bound, or those of one module, whether its change is caught; return whether all are."""
+    os.environ.setdefault("MOCAP_REAL_DATA", str(ROOT.parent / "shared" / "data"))  # the copy is elsewhere
+    chosen = [bound for bound in bounds() if only in (None, bound.file)]
+    verdicts = []
+    with tempfile.TemporaryDirectory() as folder:
+        copy = make_copy(Path(folder) / "copy")
+        for bound in chosen:
+            verdicts.append(verdict(bound, copy))
+            print(f"{verdicts[-1]}: {bound.file}: {bound.old} -> {bound.new}\n    {bound.test}", flush=True)
+    caught = verdicts.count("caught")
+    print(f"{caught} of {len(chosen)} changes are caught by the assertions that have room")
+    return caught == len(chosen)
+
+
+def check_random_changes(wanted: argparse.Namespace) -> None:
+    """Make changes at random places, and print those that no test catches."""
     paths = [wanted.only] if wanted.only else modules(wanted.rooms)
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(wanted.jobs) as pool:
         copy = make_copy(Path(folder) / "0")
@@ -217,12 +280,30 @@ def main() -> None:
         for job in range(wanted.jobs):
             copies.put(shutil.copytree(copy, Path(folder) / f"copy{job}"))
         caught = 0
-        found = pool.map(survives, changes, groups, [copies] * len(changes))
-        for change, survived in zip(changes, found, strict=True):
+        results = pool.map(survives, changes, groups, [copies] * len(changes))
+        for change, survived in zip(changes, results, strict=True):
             caught += not survived
             if survived:
                 print(change, flush=True)
     print(f"{caught} of {len(changes)} changes caught ({caught / len(changes):.0%})")
+
+
+def main() -> None:
+    """Read the options, and check the bounds or random changes."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--count", type=int, default=100, help="how many changes (100)")
+    parser.add_argument("--seed", type=int, default=1, help="which changes (1)")
+    parser.add_argument("--only", metavar="PATH", help="one module, as mocap/feet/footskate.py")
+    parser.add_argument("--rooms", nargs="+", metavar="ROOM", help="all modules of these rooms, as editing")
+    parser.add_argument("--near", action="store_true", help="run only the tests that name the module")
+    parser.add_argument("--bounds", action="store_true", help="the changes of tests/bounds.toml instead")
+    parser.add_argument("--jobs", type=int, default=1, help="how many changes at the same time (1)")
+    wanted = parser.parse_args()
+    for name in LOADED_ONCE.split():
+        importlib.import_module(name)
+    if wanted.bounds:
+        sys.exit(0 if check_bounds(wanted.only) else 1)
+    check_random_changes(wanted)
 
 
 if __name__ == "__main__":

@@ -147,6 +147,16 @@ def test_changes_are_made_in_modules_that_there_are():
     assert all((ROOT / path).is_file() for path in mutate.modules())
 
 
+@pytest.mark.parametrize("bound", mutate.bounds())
+def test_a_bound_with_room_has_a_change_that_can_be_made(bound):
+    """Whether the change is caught, `python tests/mutate.py --bounds` finds out."""
+    file, _, name = bound.test.partition("[")[0].partition("::")
+    assert f"def {name}(" in (ROOT / file).read_text("utf-8")
+    assert (ROOT / bound.asserting).read_text("utf-8").count(bound.assertion) == 1
+    assert (ROOT / bound.file).read_text("utf-8").count(bound.old) == 1
+    assert bound.new != bound.old and bound.room
+
+
 def test_importing_the_package_is_light():
     code = "import sys, mocap; print(sorted({m.split('.')[0] for m in sys.modules} & set(sys.argv[1:])))"
     heavy = ["matplotlib", "ipywidgets", "networkx", "scipy", "numpy", "argparse", "tqdm"]

@@ -125,7 +125,8 @@ def test_all_frames_at_once_do_not_jolt(fps):
     clip = walk(fps)
     pins = stone(clip, 0.15)
     solved = solve(clip, pins, [SPLINES])
-    assert pin_errors(solved.motion, pins).max() < 0.003
+    # Room for a pass more or less under other arithmetic: 2.9 mm and 1.09 were measured at most.
+    assert pin_errors(solved.motion, pins).max() < 0.0035
     assert smoothness(solved.motion, clip) < 1.15
     assert bones(solved.motion) < 1e-12
     assert solved.worst[-1] == pytest.approx(pin_errors(solved.motion, pins).max())
@@ -152,7 +153,7 @@ def test_a_bar_needs_a_weight_that_rises(real_data, monkeypatch):
     pins = bar(clip, 1.35, 230)
     solved = solve(clip, pins, [SPLINES])
     assert solved.worst[-1] < 0.0025
-    assert smoothness(solved.motion, clip) < 1.05
+    assert smoothness(solved.motion, clip) < 1.08  # room for a pass more or less: 1.022 was measured
     monkeypatch.setattr("mocap.editing.solver.CEILING", 0.0)
     assert told("mm off its pin", solve, clip, pins, [SPLINES._replace(passes=4)]).worst[-1] > 0.05
 

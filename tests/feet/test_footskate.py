@@ -95,8 +95,9 @@ WALKS = (*range(11, 35), 47, 58)
 RUNS = (35, 38, 42, 45, 52, 56)
 
 
+# Room for other arithmetic: a plant more may be let go. Here all 1615 and 311 planted frames are kept.
 CAPTURED = [
-    (30.0, WALKS[::3], 0.999),
+    (30.0, WALKS[::3], 0.99),
     (120.0, RUNS[:2], 0.98),
     *(
         pytest.param(fps, trials, least, marks=pytest.mark.sweep)
@@ -166,18 +167,37 @@ def test_plants_stand_where_they_are_held():
     assert np.abs(moved[cleaned.contacts["rtoes"], LEGS[1].ball]).max() < 1e-9
 
 
-def test_a_plant_out_of_reach_is_moved_and_at_last_let_go_with_a_warning(monkeypatch):
-    late = {name: maximum_filter1d(marks, 61) for name, marks in WALK.contacts.items()}
-    lingering = replace(WALK, contacts=late, name="n" * 300)[:360]
-    gone = r"so they are let go: \w+ \d+-\d+, \w+ \d+-\d+ and \d+ more\.$"
-    cleaned = told(gone, clean_up, lingering)
-    assert slides(cleaned).max() < 1e-9
-    assert np.abs(cleaned.root_positions - lingering.root_positions).max() <= 0.0205
+def lingering(name, width, last):
+    """A clip whose feet are marked as planted half a width before they stand and after."""
+    clip = sample(name)
+    late = {joint: maximum_filter1d(marks, width) for joint, marks in clip.contacts.items()}
+    return replace(clip, contacts=late, name="n" * 300)[:last]
+
+
+def planted(motion):
+    return sum(marks.sum() for marks in motion.contacts.values())
+
+
+@pytest.mark.filterwarnings("ignore:.*let go")
+def test_a_plant_out_of_reach_is_moved_and_then_held(monkeypatch):
+    clip = lingering("jog", 65, 240)
+    moved = clean_up(clip)
     monkeypatch.setattr(footskate, "FALLS", 0.0)  # no move is good enough
-    unmoved = told(gone, clean_up, lingering)
-    kept = [sum(marks.sum() for marks in m.contacts.values()) for m in (unmoved, cleaned, lingering)]
-    assert 0.3 < kept[0] / kept[2] < 0.95 * kept[1] / kept[2] < 0.9
-    assert kept[1] / kept[2] > 0.8
+    unmoved = clean_up(clip)
+    # Room for other arithmetic, under which other frames may be let go: all 775 are kept, and 686 unmoved.
+    assert planted(moved) > 0.96 * planted(clip)
+    assert planted(unmoved) < 0.94 * planted(clip)
+
+
+def test_a_plant_that_stays_out_of_reach_is_let_go_with_a_warning():
+    clip = lingering("walk_straight", 61, 360)
+    gone = r"so they are let go: \w+ \d+-\d+, \w+ \d+-\d+ and \d+ more\.$"
+    cleaned = told(gone, clean_up, clip)
+    assert slides(cleaned).max() < 1e-9
+    assert np.abs(cleaned.root_positions - clip.root_positions).max() <= 0.0205
+    # Room for other arithmetic, under which other frames are let go: from 838 to 901 of 1121 are kept.
+    assert 0.65 * planted(clip) < planted(cleaned)
+    assert planted(cleaned) < 0.9 * planted(clip)
 
 
 @given(seeds, st.integers(1, 9), st.floats(0, 1))
@@ -234,7 +254,7 @@ HERE = {
 @RATES
 @pytest.mark.parametrize("kind", HERE)
 def test_all_plants_of_quiet_clips_are_held(kind, fps):
-    check_clean_up(HERE[kind](fps), 0.995)
+    check_clean_up(HERE[kind](fps), 0.97)  # room for other arithmetic: a plant may be let go; here none is
 
 
 @pytest.mark.parametrize("name", ["walk_straight", "sneak"])

@@ -63,7 +63,8 @@ def test_a_hit_gives_that_sample():
         for method in METHODS:
             got = weights_for(made, made.values[number], method=method)
             assert got @ made.values[:6] == pytest.approx(made.values[number], abs=1e-5)
-    assert np.array_equal(weights_for(made, made.values[50], method="neighbours"), made.weights[50])
+    hit = weights_for(made, made.values[50], method="neighbours")
+    assert hit == pytest.approx(made.weights[50], abs=1e-12)  # room for rounding where the weights are mixed
 
 
 def test_the_weights_of_neighbours_are_those_of_the_paper():
