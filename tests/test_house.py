@@ -1,11 +1,13 @@
 """The house: its rooms and their faces, its floors, its tools."""
 
+import ast
 import importlib
 import inspect
 import re
 import subprocess
 import sys
 import tomllib
+from graphlib import TopologicalSorter
 from itertools import chain
 from pathlib import Path
 from types import ModuleType
@@ -81,6 +83,26 @@ def test_the_tests_stand_in_the_same_rooms():
     for room in set(ROOMS) - set(STOREYS):
         tested = {path.stem.removeprefix("test_") for path in (ROOT / "tests" / room).glob("test_*.py")}
         assert tested & set(files(room)), room
+
+
+def imports_of(file: Path) -> set[str]:
+    """List the modules that a file imports: at its head, in functions, and for types only."""
+    names: set[str] = set()
+    for node in ast.walk(ast.parse(file.read_text("utf-8"))):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        if isinstance(node, ast.ImportFrom):
+            names |= {str(node.module), *(f"{node.module}.{alias.name}" for alias in node.names)}
+    return names
+
+
+@pytest.mark.parametrize("room", [".", *ROOMS])
+def test_no_files_of_a_room_import_each_other_in_a_circle(room):
+    """Imports for types count: `if TYPE_CHECKING` hides a circle from Python, not from a reader."""
+    prefix = ".".join(["mocap", *Path(room).parts])
+    modules = {f"{prefix}.{path.stem}": path for path in (PACKAGE / room).glob("*.py")}
+    below = {name: imports_of(path) & (modules.keys() - {name}) for name, path in modules.items()}
+    assert set(TopologicalSorter(below).static_order()) == modules.keys()
 
 
 def test_changes_are_made_in_modules_that_there_are():

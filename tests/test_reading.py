@@ -321,12 +321,12 @@ def test_a_comment_at_a_def_excuses_the_complexity_of_the_function():
 # The record -------------------------------------------------------------------------------------------------
 
 
-def test_comments_docstrings_and_formatting_do_not_change_a_fingerprint():
-    plain = "def f(a, b):\n    return a + b\n"
+def test_comments_docstrings_imports_and_formatting_do_not_change_a_fingerprint():
+    plain = "import a\n\n\ndef f(a, b):\n    return a + b\n"
     same = '"""About."""\n\n\ndef f(\n    a,\n    b,\n):\n    """Add."""\n    # really\n    return (a + b)\n'
     assert reading.fingerprint(plain) == reading.fingerprint(same)
-    for other in ("a - b", "a + b + 0", "a + c", "'a + b'"):
-        assert reading.fingerprint(plain.replace("a + b", other)) != reading.fingerprint(plain)
+    for changed in ("a - b", "a + b + 0", "a + c", "'a + b'"):
+        assert reading.fingerprint(plain.replace("a + b", changed)) != reading.fingerprint(plain)
 
 
 def test_a_fingerprint_is_the_same_in_each_version_of_python():
