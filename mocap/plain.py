@@ -55,13 +55,17 @@ def rotate(q: Array, v: Array) -> Array:
 
 def multiply(p: Array, q: Array) -> Array:
     """Multiply quaternions (..., 4): the turn that does q first, then p."""
-    w, u, s, v = p[..., :1], p[..., 1:], q[..., :1], q[..., 1:]
-    return np.concatenate([w * s - (u * v).sum(-1, keepdims=True), w * v + s * u + np.cross(u, v)], -1)
+    w, u = p[..., :1], p[..., 1:]
+    s, v = q[..., :1], q[..., 1:]
+    real = w * s - (u * v).sum(-1, keepdims=True)
+    imaginary = w * v + s * u + np.cross(u, v)
+    return np.concatenate([real, imaginary], -1)
 
 
 def joint_positions(clip: Motion) -> Array:
     """Go down the tree: a joint stands at its parent's place plus its offset, turned as the parent is."""
-    places, turns = [clip.root_positions], [clip.rotations[:, 0]]  # (F, 3), (F, 4) for each joint
+    places = [clip.root_positions]  # (F, 3) for each joint
+    turns = [clip.rotations[:, 0]]  # (F, 4) for each joint
     for joint in range(1, len(clip.skeleton.parents)):
         parent = clip.skeleton.parents[joint]
         places.append(places[parent] + rotate(turns[parent], clip.skeleton.offsets[joint]))
@@ -80,15 +84,18 @@ def ground(points: Array) -> Ground:
 def windows(clip: Motion) -> Array:
     """Give the points of all windows of a clip: K frames of joints in each."""
     points = joint_positions(clip)
-    apart = np.sort(np.unique(points[0].round(6), axis=0, return_index=True)[1])  # one of joints at one place
+    _, joints = np.unique(points[0].round(6), axis=0, return_index=True)  # one of those at the same place
+    joints = np.sort(joints)
     starts = range(len(points) - K + 1)
-    return np.array([points[i : i + K, apart].reshape(-1, 3) for i in starts])  # (F - K + 1, n, 3)
+    return np.array([points[i : i + K, joints].reshape(-1, 3) for i in starts])  # (F - K + 1, n, 3)
 
 
 def align(p: Array, q: Array) -> tuple[Ground, Ground]:
     """Find the turn and the move that lay the points q (..., n, 3) on p best [KGP02, Eqs. 2-4]."""
-    g, h = ground(p), ground(q)
-    g_mean, h_mean = g.mean(-1), h.mean(-1)
+    g = ground(p)
+    h = ground(q)
+    g_mean = g.mean(-1)
+    h_mean = h.mean(-1)
     turn = (np.conj(h - h_mean[..., None]) * (g - g_mean[..., None])).sum(-1)
     turn = np.exp(1j * np.angle(turn))
     return turn, g_mean - turn * h_mean
@@ -98,7 +105,8 @@ def window_distance(p: Array, q: Array) -> Array:
     """Lay the points q (..., n, 3) on p, and measure how far apart they are: RMS, metres [KGP02, Eq. 1]."""
     turn, move = align(p, q)
     aside = ground(p) - turn[..., None] * ground(q) - move[..., None]
-    return np.asarray(np.sqrt(np.mean(abs(aside) ** 2 + (p[..., 1] - q[..., 1]) ** 2, -1)))
+    above = p[..., 1] - q[..., 1]
+    return np.asarray(np.sqrt(np.mean(abs(aside) ** 2 + above**2, -1)))
 
 
 def distance_grid(a: Array, b: Array) -> Array:
@@ -108,9 +116,13 @@ def distance_grid(a: Array, b: Array) -> Array:
 
 def local_minima(grid: Array, below: float) -> list[tuple[int, int]]:
     """Find the cells below a threshold that are as low as all their eight neighbours [KGP02, 3.2]."""
-    around = np.pad(grid, 1, constant_values=np.inf)
-    low = np.argwhere(grid < below).tolist()
-    return [(i, j) for i, j in low if grid[i, j] == around[i : i + 3, j : j + 3].min()]
+    padded = np.pad(grid, 1, constant_values=np.inf)
+    minima = []
+    for i, j in np.argwhere(grid < below).tolist():
+        neighbours = padded[i : i + 3, j : j + 3]  # (i, j) is their centre
+        if grid[i, j] == neighbours.min():
+            minima.append((i, j))
+    return minima
 
 
 def undo(turn: complex, move: complex) -> Lay:
@@ -121,7 +133,7 @@ def undo(turn: complex, move: complex) -> Lay:
 def find_transitions(clips: Sequence[Motion]) -> Found:
     """List where a walk may leave a clip and enter one, and how the second clip is laid on the first."""
     points = [windows(clip) for clip in clips]
-    found: Found = []
+    transitions: Found = []
     for a in range(len(clips)):
         for b in range(a, len(clips)):
             for i, j in local_minima(distance_grid(points[a], points[b]), BELOW):
@@ -129,9 +141,9 @@ def find_transitions(clips: Sequence[Motion]) -> Found:
                     continue  # a window is like itself; and what lies below the diagonal is the way back
                 cost = float(window_distance(points[a][i], points[b][j]))
                 turn, move = map(complex, align(points[a][i], points[b][j]))
-                found.append((a, i, b, j, cost, (turn, move)))
-                found.append((b, j, a, i, cost, undo(turn, move)))
-    return sorted(found, key=lambda transition: transition[:4])
+                transitions.append((a, i, b, j, cost, (turn, move)))
+                transitions.append((b, j, a, i, cost, undo(turn, move)))
+    return sorted(transitions, key=lambda transition: transition[:4])
 
 
 # 3. From one clip into another -----------------------------------------------------------------------------
@@ -139,22 +151,26 @@ def find_transitions(clips: Sequence[Motion]) -> Found:
 
 def lay(clip: Motion, frames: slice, turn: complex, move: complex) -> tuple[Array, Array]:
     """Take frames of a clip, laid elsewhere on the ground: roots (F, 3), rotations (F, J, 4)."""
-    roots, turns = clip.root_positions[frames].copy(), clip.rotations[frames].copy()
+    roots = clip.root_positions[frames].copy()
+    turns = clip.rotations[frames].copy()
     laid = turn * ground(roots) + move
     roots[:, 2], roots[:, 0] = laid.real, laid.imag
     half = np.angle(turn) / 2
-    turns[:, 0] = multiply(np.array([np.cos(half), 0, np.sin(half), 0]), turns[:, 0])
+    about_y = np.array([np.cos(half), 0, np.sin(half), 0])
+    turns[:, 0] = multiply(about_y, turns[:, 0])
     return roots, turns
 
 
 def slerp(p: Array, q: Array, share: Array | float) -> Array:
     """Go a share of the way from p to q (..., 4), the short way round, at constant speed [KGP02, Eq. 6]."""
     cosine = (p * q).sum(-1, keepdims=True)
-    q, angle = np.where(cosine < 0, -q, q), np.arccos(np.minimum(abs(cosine), 1))
-    near = angle < 1e-7
-    sine = np.where(near, 1, np.sin(angle))
-    arc = (np.sin((1 - share) * angle) * p + np.sin(share * angle) * q) / sine
-    return np.where(near, p, arc)
+    q = np.where(cosine < 0, -q, q)
+    angle = np.arccos(np.minimum(abs(cosine), 1))
+    is_tiny = angle < 1e-7
+    sine = np.where(is_tiny, 1, np.sin(angle))
+    part_of_p = np.sin((1 - share) * angle) * p
+    part_of_q = np.sin(share * angle) * q
+    return np.where(is_tiny, p, (part_of_p + part_of_q) / sine)
 
 
 def cubic_weights() -> Array:
@@ -163,18 +179,23 @@ def cubic_weights() -> Array:
     return 2 * t**3 - 3 * t**2 + 1
 
 
-def blend(one: tuple[Array, Array], other: tuple[Array, Array]) -> tuple[Array, Array]:
+def blend(first: tuple[Array, Array], second: tuple[Array, Array]) -> tuple[Array, Array]:
     """Mix two windows: roots on straight lines, turns by slerp [KGP02, Eqs. 5-6]."""
     alpha = cubic_weights()[:, None]
-    return alpha * one[0] + (1 - alpha) * other[0], slerp(other[1], one[1], alpha[..., None])
+    first_roots, first_turns = first
+    second_roots, second_turns = second
+    roots = alpha * first_roots + (1 - alpha) * second_roots
+    return roots, slerp(second_turns, first_turns, alpha[..., None])
 
 
 def join(a: Motion, i: int, b: Motion, j: int) -> tuple[Array, Array]:
     """Play a up to frame i, blend K frames of both, and play on with b, laid on a [KGP02, 3.3]."""
     turn, move = map(complex, align(windows(a)[i], windows(b)[j]))
-    first, then = lay(a, slice(0, i), 1, 0), lay(b, slice(j + K, None), turn, move)
-    mixed = blend(lay(a, slice(i, i + K), 1, 0), lay(b, slice(j, j + K), turn, move))
-    roots, turns = zip(first, mixed, then, strict=True)
+    start = lay(a, slice(0, i), 1, 0)
+    leaving = lay(a, slice(i, i + K), 1, 0)
+    entering = lay(b, slice(j, j + K), turn, move)
+    end = lay(b, slice(j + K, None), turn, move)
+    roots, turns = zip(start, blend(leaving, entering), end, strict=True)
     return np.concatenate(roots), np.concatenate(turns)
 
 
@@ -188,8 +209,8 @@ def cut_and_join(clips: Sequence[Motion], transitions: Found) -> nx.MultiDiGraph
         graph.add_nodes_from([(clip, 0), (clip, len(motion))])
     for a, i, b, j, cost, laid in transitions:
         graph.add_edge((a, i), (b, j + K), kind="transition", frames=K, cost=cost, lay=laid)
-    for (clip, start), (same, end) in pairwise(sorted(graph)):
-        if clip == same:
+    for (clip, start), (next_clip, end) in pairwise(sorted(graph)):
+        if clip == next_clip:
             graph.add_edge((clip, start), (clip, end), kind="clip", frames=end - start, cost=0.0, lay=(1, 0))
     return graph
 
@@ -199,7 +220,7 @@ def components(graph: nx.MultiDiGraph) -> list[set[Node]]:
     number: dict[Node, int] = {}  # the order in which nodes are met
     low: dict[Node, int] = {}  # the smallest number that a node leads back to
     waiting: list[Node] = []  # met, and in no component yet
-    found: list[set[Node]] = []
+    complete: list[set[Node]] = []
     sys.setrecursionlimit(max(sys.getrecursionlimit(), 2 * len(graph) + 1000))
 
     def visit(node: Node) -> None:
@@ -213,13 +234,13 @@ def components(graph: nx.MultiDiGraph) -> list[set[Node]]:
                 low[node] = min(low[node], number[successor])
         if low[node] == number[node]:  # nothing in it leads further back: a component is complete
             first = waiting.index(node)
-            found.append(set(waiting[first:]))
+            complete.append(set(waiting[first:]))
             del waiting[first:]
 
     for node in graph:
         if node not in number:
             visit(node)
-    return found
+    return complete
 
 
 def prune(graph: nx.MultiDiGraph) -> nx.MultiDiGraph:
@@ -239,16 +260,25 @@ def random_walk(graph: nx.MultiDiGraph, seconds: float, seed: int) -> list[Edge]
     """Walk at random: a second or more of clip, then a transition; cheap ones are likelier than dear ones."""
     random = np.random.default_rng(seed)
     node = sorted(graph)[random.integers(len(graph))]
-    walk, frames, since = [], 0, 0
+    walk: list[Edge] = []
+    frames = 0
+    frames_of_clip = 0  # since the last transition
     while frames < seconds * FPS and graph.out_degree(node):  # at a dead end the walk is over
-        edges = list(graph.out_edges(node, keys=True, data=True))
-        onward = [edge for edge in edges if edge[3]["kind"] == "clip"]
-        leaving = [edge for edge in edges if edge[3]["kind"] == "transition"]
-        choices = leaving if leaving and (since >= FPS or not onward) else onward
-        odds = np.array([1 / (edge[3]["cost"] + 0.001) for edge in choices])
-        start, node, key, edge = choices[random.choice(len(choices), p=odds / odds.sum())]
-        walk.append((start, node, key))
-        frames, since = frames + edge["frames"], since + edge["frames"] if edge["kind"] == "clip" else 0
+        edges = list(graph.out_edges(node, keys=True))
+        onward = [edge for edge in edges if graph.edges[edge]["kind"] == "clip"]
+        leaving = [edge for edge in edges if graph.edges[edge]["kind"] == "transition"]
+        may_leave = frames_of_clip >= FPS or not onward
+        choices = leaving if leaving and may_leave else onward
+        odds = np.array([1 / (graph.edges[edge]["cost"] + 0.001) for edge in choices])
+        edge = choices[random.choice(len(choices), p=odds / odds.sum())]
+        walk.append(edge)
+        _, node, _ = edge
+        played = graph.edges[edge]["frames"]
+        frames += played
+        if graph.edges[edge]["kind"] == "clip":
+            frames_of_clip += played
+        else:
+            frames_of_clip = 0
     return walk
 
 
@@ -267,7 +297,9 @@ def to_motion(
     """Play a walk: each clip is laid by the product of all transitions before it [KGP02, 4.1]."""
     pieces = []
     for start, end, key in walk:
-        (a, i), (b, j), edge = start, end, graph.edges[start, end, key]
+        a, i = start
+        b, j = end
+        edge = graph.edges[start, end, key]
         piece = lay(clips[a], slice(i, i + edge["frames"]), turn, move)
         turn, move = product((turn, move), edge["lay"])
         if edge["kind"] == "transition":
@@ -278,12 +310,12 @@ def to_motion(
 
 
 def branch_and_bound(
-    graph: nx.MultiDiGraph, node: Hashable, state: State, step: Step, done: Callable[[State], bool]
+    graph: nx.MultiDiGraph, node: Hashable, state: State, step: Step, is_complete: Callable[[State], bool]
 ) -> tuple[float, list[Edge]] | None:
     """Find the cheapest walk from a node on: depth first, cheap edges first [KGP02, Eq. 8, 4.2].
 
-    step(state, edge) gives what an edge costs, 0 or more, and the next state; done(state) says when a walk is
-    complete. A walk that costs as much as the best complete one cannot become better: it is cut.
+    step(state, edge) gives what an edge costs, 0 or more, and the next state; is_complete(state) says when a
+    walk is complete. A walk that costs as much as the best complete one cannot become better: it is cut.
     """
     best: tuple[float, list[Edge]] | None = None
     branches: list[Any] = [(0.0, node, state, [])]
@@ -291,13 +323,13 @@ def branch_and_bound(
         cost, node, state, walk = branches.pop()
         if best and cost >= best[0]:
             continue
-        if done(state):
+        if is_complete(state):
             best = cost, walk
             continue
         longer = []
         for edge in graph.out_edges(node, keys=True):
-            more, after = step(state, edge)
-            longer.append((cost + more, edge[1], after, [*walk, edge]))
+            price, next_state = step(state, edge)
+            longer.append((cost + price, edge[1], next_state, [*walk, edge]))
         branches += sorted(longer, key=lambda branch: branch[0], reverse=True)  # the cheapest is popped first
     return best
 
@@ -309,6 +341,8 @@ LAYER = 0.15  # metres of the line in a layer
 LOOK = 22  # frames that each walk looks ahead
 RESCUE = 1.5  # m²: what lies ahead costs no more than this, since a transition can leave it
 SEAM = 0.15  # m²: the price of a transition
+CELL = 0.1  # metres: of two walks at one node and in one cell of the ground, the cheaper one goes on
+CELL_TURN = 0.1  # radians: if their headings are in one interval as well
 
 
 class Walk(NamedTuple):
@@ -321,12 +355,14 @@ class Walk(NamedTuple):
     turn: complex
     move: complex
     edge: Edge | None = None
-    before: Walk | None = None  # the walk without its last edge
+    previous: Walk | None = None  # the walk without its last edge
 
 
 def lay_on(track: Ground, line: Ground) -> Lay:
     """Lay the start of a track on the start of a line, so that both lead the same way."""
-    turn = np.exp(1j * np.angle((line[-1] - line[0]) / (track[-1] - track[0])))
+    line_direction = line[-1] - line[0]
+    track_direction = track[-1] - track[0]
+    turn = np.exp(1j * np.angle(line_direction / track_direction))
     return turn, line[0] - turn * track[0]
 
 
@@ -335,7 +371,9 @@ class Search:
 
     def __init__(self, clips: Sequence[Motion], graph: nx.MultiDiGraph, line: Ground) -> None:
         """Prepare a search; `line` holds points of the ground, 1 cm apart."""
-        self.graph, self.line, self.end = graph, line, (len(line) - 1) / 100
+        self.graph = graph
+        self.line = line
+        self.end = (len(line) - 1) / 100  # metres
         self.roots = [ground(clip.root_positions) for clip in clips]
         self.tracks = {edge: ground(to_motion(clips, graph, [edge])[0]) for edge in graph.edges(keys=True)}
         self.ahead = {(clip, frame): self.roots[clip][frame : frame + LOOK] for clip, frame in graph}
@@ -343,10 +381,11 @@ class Search:
     def price(self, walk: Walk, track: Ground) -> tuple[float, float]:
         """Give what a track costs [KGP02, Eq. 9], and how far it comes: root and line, at equal lengths."""
         clip, frame = walk.node
-        along = walk.along + np.cumsum(abs(np.diff(track, prepend=self.roots[clip][max(frame - 1, 0)])))
+        start = self.roots[clip][max(frame - 1, 0)]
+        along = walk.along + np.cumsum(abs(np.diff(track, prepend=start)))
         wanted = self.line[np.clip(100 * along, 0, len(self.line) - 1).astype(int)]
-        off = abs(walk.turn * track + walk.move - wanted) ** 2  # m² in each frame
-        return float((off + 100 * off**2).sum()), float(along[-1])  # 10 cm off cost twice what Eq. 9 says
+        errors = abs(walk.turn * track + walk.move - wanted) ** 2  # m² in each frame
+        return float((errors + 100 * errors**2).sum()), float(along[-1])  # 10 cm cost twice what Eq. 9 says
 
     def look_ahead(self, walk: Walk) -> Walk:
         """Expect what the walk will cost if its clip plays on."""
@@ -355,9 +394,16 @@ class Search:
     def lengthen(self, walk: Walk, edge: Edge) -> Walk:
         """Let a walk take one more edge."""
         cost, along = self.price(walk, self.tracks[edge])
-        cost += SEAM * (self.graph.edges[edge]["kind"] == "transition")
+        if self.graph.edges[edge]["kind"] == "transition":
+            cost += SEAM
         turn, move = product((walk.turn, walk.move), self.graph.edges[edge]["lay"])
         return self.look_ahead(Walk(walk.cost + cost, 0, along, edge[1], turn, move, edge, walk))
+
+    def lengthened(self, walks: list[Walk]) -> Iterator[Walk]:
+        """Yield each walk with one more edge, for each edge of its node."""
+        for walk in walks:
+            for edge in self.graph.out_edges(walk.node, keys=True):
+                yield self.lengthen(walk, edge)
 
     def starts(self) -> list[Walk]:
         """Start at each node from which the root goes somewhere: at the line's start, and along it."""
@@ -371,8 +417,10 @@ class Search:
         """Cross out what stands where another one stands and costs more; keep the best of the others."""
         kept: dict[Hashable, Walk] = {}
         for walk in sorted(walks, key=lambda walk: walk.cost + walk.expected):
-            here = walk.turn * self.ahead[walk.node][0] + walk.move
-            kept.setdefault((walk.node, here.real // 0.1, here.imag // 0.1, np.angle(walk.turn) // 0.1), walk)
+            place = walk.turn * self.ahead[walk.node][0] + walk.move
+            heading = np.angle(walk.turn)
+            cell = (walk.node, place.real // CELL, place.imag // CELL, heading // CELL_TURN)
+            kept.setdefault(cell, walk)
         return list(kept.values())[:WIDTH]
 
     def layers(self) -> Iterator[tuple[list[Walk], Walk | None]]:
@@ -382,15 +430,13 @@ class Search:
         while waiting:
             layer = min(waiting)
             kept = self.best_of(waiting.pop(layer))
-            for walk in kept:
-                for edge in self.graph.out_edges(walk.node, keys=True):
-                    new = self.lengthen(walk, edge)
-                    if best and new.cost >= best.cost:
-                        continue
-                    if new.along >= self.end:
-                        best = new
-                    else:
-                        waiting.setdefault(max(int(new.along / LAYER), layer), []).append(new)
+            for walk in self.lengthened(kept):
+                if best and walk.cost >= best.cost:
+                    continue
+                if walk.along >= self.end:
+                    best = walk
+                else:
+                    waiting.setdefault(max(int(walk.along / LAYER), layer), []).append(walk)
             yield kept, best
 
     def walk(self) -> tuple[list[Edge], complex, complex]:
@@ -399,9 +445,9 @@ class Search:
         if walk is None:
             raise ValueError("No walk comes to the end of the line.")
         edges = []
-        while walk.before and walk.edge:
+        while walk.previous and walk.edge:
             edges.append(walk.edge)
-            walk = walk.before
+            walk = walk.previous
         return edges[::-1], walk.turn, walk.move
 
 
@@ -417,7 +463,7 @@ def points_along(corners: Array) -> Ground:
     return np.asarray(np.interp(np.arange(0, along[-1], 0.01), along, corner))
 
 
-def main(given: Sequence[str] | None = None) -> int:
+def main(arguments: Sequence[str] | None = None) -> int:
     """Read clips and a line, and write a walk along it."""
     from mocap import MocapError, Motion, load, resample, save  # files and their checks are the package's
     from mocap.body.motion import require_alike
@@ -428,10 +474,10 @@ def main(given: Sequence[str] | None = None) -> int:
     parser.add_argument("clips", nargs="+", type=Path, help="motion files, or folders of them")
     parser.add_argument("path", type=Path, help="where to walk: .csv with points x, z in metres, or .svg")
     parser.add_argument("-o", "--out", type=Path, default=Path("walk.bvh"), help="the file to write")
-    asked = parser.parse_args(given)
+    options = parser.parse_args(arguments)
     try:
-        line = points_along(load_path(asked.path).points)
-        loaded = [load(path) for path in find_files(asked.clips)]
+        line = points_along(load_path(options.path).points)
+        loaded = [load(path) for path in find_files(options.clips)]
         long = [clip for clip in (resample(clip, FPS) for clip in loaded) if len(clip) > K]
         if not long:
             raise MocapError(f"A window takes {K} frames, and no clip is longer.")
@@ -439,12 +485,12 @@ def main(given: Sequence[str] | None = None) -> int:
         graph = prune(cut_and_join(clips, find_transitions(clips)))
         print(f"{len(clips)} clips make a graph of {len(graph)} nodes and {graph.size()} edges.")
         roots, turns = follow(clips, graph, line)
-        off = [abs(line - point).min() for point in ground(roots)]
-        save(Motion(clips[0].skeleton, roots, turns, FPS, "walk"), asked.out)
+        errors = [abs(line - point).min() for point in ground(roots)]
+        save(Motion(clips[0].skeleton, roots, turns, FPS, "walk"), options.out)
     except (MocapError, ValueError) as error:
         print(f"mocap.plain: {error}", file=sys.stderr)
         return 2
-    print(f"{asked.out}: {len(roots) / FPS:.1f} s, {100 * np.mean(off):.1f} cm off the line on average.")
+    print(f"{options.out}: {len(roots) / FPS:.1f} s, {100 * np.mean(errors):.1f} cm off the line on average.")
     return 0
 
 

@@ -7,21 +7,22 @@ stone [LS99]. All four add a displacement map to a motion: a smooth curve for th
 Reading order (notebooks 10 to 14)
 ---------------------------------
  1. `displacements`: what an edit adds to a motion, and the splines that keep it smooth
- 2. `pins`: where joints shall be, and for how long
- 3. `bodies`: which joints may turn, about which axes, at what price; limits, and orientations that are kept
- 4. `solver`: how a change may run over time; the smallest smooth one, for each frame by itself or for all
- 5. `edits`: a calm change, to the last digit; one pose, made by dragging joints; levels, from coarse to fine
- 6. `path_editing`: the path taken off a motion, changed, and the motion put back on it
- 7. `turning`: slower in bends, and leaning in, as people take them
- 8. `line_rounding`: a line rounded where a walk would turn too fast on it
- 9. `bending`: a walk laid on any line, with feet that stand
-10. `keys`: keys, the curve through them, and warps by offsets and by scale
-11. `retiming`: time keys, and motions at moments between their frames
-12. `warp_plans`: a whole warp out of a small text file
-13. `stances`: how a body stands, as a value; find it, whatever the rest pose is; change its proportions
-14. `retargeting`: every joint looks where that of the other body looks; where the new feet may be
-15. `mirroring`: left and right swapped, by names and geometry
-16. `cycles`: the stretch of a clip that makes the best cycle, closed by a blend or by a warp
+ 2. `turns`: how a joint is turned, as a position in metres
+ 3. `pins`: where joints shall be, and for how long
+ 4. `bodies`: which joints may turn, about which axes, at what price; limits, and orientations that are kept
+ 5. `solver`: how a change may run over time; the smallest smooth one, for each frame by itself or for all
+ 6. `edits`: a calm change, to the last digit; one pose, made by dragging joints; levels, from coarse to fine
+ 7. `path_editing`: the path taken off a motion, changed, and the motion put back on it
+ 8. `turning`: slower in bends, and leaning in, as people take them
+ 9. `line_rounding`: a line rounded where a walk would turn too fast on it
+10. `bending`: a walk laid on any line, with feet that stand
+11. `keys`: keys, the curve through them, and warps by offsets and by scale
+12. `retiming`: time keys, and motions at moments between their frames
+13. `warp_plans`: a whole warp out of a small text file
+14. `stances`: how a body stands, as a value; find it, whatever the rest pose is; change its proportions
+15. `retargeting`: every joint looks where that of the other body looks; where the new feet may be
+16. `mirroring`: left and right swapped, by names and geometry
+17. `cycles`: the stretch of a clip that makes the best cycle, closed by a blend or by a warp
 
 References
 ----------

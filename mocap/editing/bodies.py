@@ -15,6 +15,7 @@ from mocap.body.kinematics import forward_kinematics, hinge_of, joint_positions
 from mocap.body.motion import Motion, turning
 from mocap.editing.displacements import Displacement
 from mocap.editing.pins import Pins, Rows, pin_errors
+from mocap.editing.turns import ARM, Turn
 from mocap.errors import MocapError, warn
 
 # Square metres per radian²: what a turn costs beyond what it moves. An ankle moves little: with 0.02 it turns
@@ -25,9 +26,7 @@ EFFORT = 1.0
 TOLERANCE = 0.005  # metres: what pins may be missed by without a warning
 SLACK = 1e-6  # metres by which pins may be farther apart than the bones between them: rounding
 
-POSES = 20  # so many are enough for mean distances
-
-ARM = 0.3  # metres: a turn that is missed by an angle counts as a place missed by so many times the angle
+POSES = 20  # frames of a clip from which mean distances are taken
 
 
 class Body(NamedTuple):
@@ -94,15 +93,17 @@ def body_of(motion: Motion, pins: Pins, *, prices: Mapping[str, float] | None = 
     factors = {skeleton.index(name): factor for name, factor in (prices or {}).items()}
     if not all(np.isfinite(factor) and factor > 0 for factor in factors.values()):
         raise MocapError(f"Factors of prices are above 0, got {dict(prices or {})}.")
-    above = sorted(set().union(*pins.movers(skeleton)))
-    turns, paths = turning(motion), [skeleton.path_to_root(joint) for joint in range(len(skeleton))]
+    can_turn = turning(motion)
+    paths = [skeleton.path_to_root(joint) for joint in range(len(skeleton))]
     positions = joint_positions(motion[:: max(1, len(motion) // POSES)])
     joints: list[int] = []
-    axes, price = [np.zeros((0, 3))], [float(len(skeleton))] * 3
-    for joint in (joint for joint in above if turns[joint]):
-        below = [other for other, path in enumerate(paths) if joint in path]
+    axes = [np.zeros((0, 3))]
+    price = [float(len(skeleton))] * 3  # of the root's three coordinates
+    above = sorted(set().union(*pins.movers(skeleton)))
+    for joint in (joint for joint in above if can_turn[joint]):
+        below = [descendant for descendant, path in enumerate(paths) if joint in path]
         moved = ((positions[:, below] - positions[:, [joint]]) ** 2).sum(axis=(1, 2)).mean()
-        hinge = hinge_of(motion, joint) if joint else None  # who walks round in a circle tips, too
+        hinge = hinge_of(motion, joint) if joint else None  # a root that only turns on a circle can also tip
         axes.append(np.eye(3) if hinge is None else hinge[None])
         joints += [joint] * len(axes[-1])
         price += [factors.get(joint, 1.0) * (moved + EFFORT)] * len(axes[-1])
@@ -124,17 +125,26 @@ def require_reachable(motion: Motion, pins: Pins) -> None:
     ------
     MocapError : naming the frame, both joints, and both lengths.
     """
-    names, skeleton = motion.skeleton.names, motion.skeleton
+    skeleton = motion.skeleton
     paths = [set(skeleton.path_to_root(joint)) for joint in pins.joints]
     for a, b in combinations(range(len(pins.joints)), 2):
-        below, above = pins.low[:, a] - pins.high[:, b], pins.low[:, b] - pins.high[:, a]
-        apart = np.linalg.norm(np.maximum(np.maximum(below, above), 0.0), axis=1)
-        bones = np.linalg.norm(skeleton.offsets[sorted(paths[a] ^ paths[b])], axis=1).sum()
-        worst = int(apart.argmax())
-        if apart[worst] > bones + SLACK:
-            first, second = (names[pins.joints[number]] for number in (a, b))
-            far = f"'{second}' would be {apart[worst]:.2f} m from '{first}'"
-            raise MocapError(f"Frame {worst}: {far}, the bones between reach {bones:.2f} m.")
+        distances = _distances_between_boxes(pins, a, b)
+        worst = int(distances.argmax())
+        bones = sorted(paths[a] ^ paths[b])
+        reach = np.linalg.norm(skeleton.offsets[bones], axis=1).sum()
+        if distances[worst] > reach + SLACK:
+            first = skeleton.names[pins.joints[a]]
+            second = skeleton.names[pins.joints[b]]
+            request = f"'{second}' would be {distances[worst]:.2f} m from '{first}'"
+            raise MocapError(f"Frame {worst}: {request}, the bones between reach {reach:.2f} m.")
+
+
+def _distances_between_boxes(pins: Pins, a: int, b: int) -> Array:
+    """Compute the least distances (F,) between points of the boxes in columns a and b, metres."""
+    from_b_up_to_a = pins.low[:, a] - pins.high[:, b]
+    from_a_up_to_b = pins.low[:, b] - pins.high[:, a]
+    gaps = np.maximum(np.maximum(from_b_up_to_a, from_a_up_to_b), 0.0)
+    return np.asarray(np.linalg.norm(gaps, axis=1))
 
 
 def warn_of_gaps(motion: Motion, pins: Pins, tolerance: float = TOLERANCE) -> None:
@@ -156,34 +166,15 @@ def warn_of_gaps(motion: Motion, pins: Pins, tolerance: float = TOLERANCE) -> No
     errors = pin_errors(motion, pins)
     if errors.max(initial=0.0) > tolerance:
         frame, joint = np.unravel_index(errors.argmax(), errors.shape)
-        name, far = motion.skeleton.names[pins.ends[joint]], 1000 * errors[frame, joint]
-        off = f"'{name}' is {far:.3g} mm off its pin"
-        missed = f"pins of {int((errors > tolerance).any(1).sum())} frames are missed"
-        why = "are they within reach, and do they agree?"
-        warn(f"'{motion.name}', frame {frame}: {off}, and {missed}: {why}")
+        name = motion.skeleton.names[pins.ends[joint]]
+        worst = f"'{name}' is {1000 * errors[frame, joint]:.3g} mm off its pin"
+        frames = int((errors > tolerance).any(axis=1).sum())
+        missed = f"pins of {frames} frames are missed"
+        question = "are they within reach, and do they agree?"
+        warn(f"'{motion.name}', frame {frame}: {worst}, and {missed}: {question}")
 
 
-class Turn(NamedTuple):
-    """How one joint is turned, q, as a place for which `Pins` have a box: ARM log(r⁻¹ q).
-
-    Parameters
-    ----------
-    joint : its index.
-    reference : r, quaternions (F, 4).
-    world : whether q is the joint's turn in the world, or against its parent.
-    """
-
-    joint: int
-    reference: Array
-    world: bool
-
-    def arm(self, motion: Motion, matrices: Array) -> Array:
-        """Give ARM log(r⁻¹ q), (F, 3), metres; `matrices` (F, J, 3, 3) are the joints' turns in the world."""
-        world = self.world
-        turned = rotations.from_matrix(matrices[:, self.joint]) if world else motion.rotations[:, self.joint]
-        return np.asarray(ARM * rotations.difference(self.reference, turned))
-
-
+# reads: name: `more` is part of the public function, and goes when the pins are split into boxes
 def limit_turns(motion: Motion, joints: Sequence[str], *, more: float = 10.0) -> Pins:
     """Keep joints within what they do in the clip, and some degrees more.
 
@@ -215,12 +206,17 @@ def limit_turns(motion: Motion, joints: Sequence[str], *, more: float = 10.0) ->
     """
     if not 0 <= more < np.inf:
         raise MocapError(f"Limits lie 0 degrees or more beyond what a clip does, got {more}.")
-    numbers = [motion.skeleton.index(name) for name in joints]
-    means = (np.tile(rotations.mean(motion.rotations[:, number]), (len(motion), 1)) for number in numbers)
-    turns = tuple(Turn(number, mean, world=False) for number, mean in zip(numbers, means, strict=True))
-    zero, reach = np.zeros((len(motion), len(turns), 3)), ARM * np.radians(more)
+    turns = tuple(_turn_from_mean(motion, motion.skeleton.index(name)) for name in joints)
+    zero = np.zeros((len(motion), len(turns), 3))
     arms = Pins((), zero, zero, turns).places(motion, forward_kinematics(motion))
+    reach = ARM * np.radians(more)
     return Pins((), zero + arms.min(axis=0) - reach, zero + arms.max(axis=0) + reach, turns)
+
+
+def _turn_from_mean(motion: Motion, joint: int) -> Turn:
+    """Describe how a joint is turned against its parent, from its mean rotation in the clip."""
+    mean = rotations.mean(motion.rotations[:, joint])
+    return Turn(joint, np.tile(mean, (len(motion), 1)), world=False)
 
 
 def keep_turned(motion: Motion, joint: str, frames: Rows) -> Pins:
@@ -248,6 +244,6 @@ def keep_turned(motion: Motion, joint: str, frames: Rows) -> Pins:
     Notebook: 14-levels
     """
     number = motion.skeleton.index(joint)
-    own = rotations.from_matrix(forward_kinematics(motion).matrices[:, number])
+    reference = rotations.from_matrix(forward_kinematics(motion).matrices[:, number])
     zero = np.zeros((len(motion), 1, 3))
-    return Pins((), zero, zero, (Turn(number, own, world=True),)).only(frames)
+    return Pins((), zero, zero, (Turn(number, reference, world=True),)).only(frames)

@@ -8,7 +8,6 @@ to close, clip(p, low, high) - p. How a joint is turned is such a p as well: a r
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,13 +17,11 @@ from mocap.body.kinematics import GlobalPoses, forward_kinematics, joint_positio
 from mocap.body.limbs import Leg, find_legs
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
+from mocap.editing.turns import Turn
 from mocap.errors import MocapError
 from mocap.feet.ankle_targets import place_plants
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import settled_marks
-
-if TYPE_CHECKING:
-    from mocap.editing.bodies import Turn
 
 Rows = slice | Sequence[int] | NDArray[np.intp] | Mask
 
@@ -57,19 +54,24 @@ class Pins:
     joints: tuple[int, ...]
     low: Array
     high: Array
-    turns: tuple["Turn", ...] = ()
+    turns: tuple[Turn, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "joints", tuple(int(joint) for joint in self.joints))
         for key in ("low", "high"):
             object.__setattr__(self, key, frozen(getattr(self, key), np.float64))
-        shape = (len(self.low), len(self.joints) + len(self.turns), 3)
-        if self.low.shape != shape or self.high.shape != shape or len(set(self.joints)) < len(self.joints):
+        shape = (len(self.low), len(self.ends), 3)
+        are_different = len(set(self.joints)) == len(self.joints)
+        if not are_different or self.low.shape != shape or self.high.shape != shape:
             raise MocapError(f"{len(self.joints)} different joints need boxes {shape}, got {self.low.shape}.")
-        wrong = ~(self.low <= self.high) | (self.low == np.inf) | (self.high == -np.inf)
-        if wrong.any():
-            frame, pin, axis = at = tuple(np.argwhere(wrong)[0])
-            got = f"{self.low[at]:.4g} and {self.high[at]:.4g} for {'xyz'[axis]}"
+        is_ordered = self.low <= self.high  # False for what is no number
+        is_finite = (self.low < np.inf) & (self.high > -np.inf)
+        wrong = np.argwhere(~(is_ordered & is_finite))
+        if len(wrong):
+            frame, pin, axis = wrong[0]
+            low = self.low[frame, pin, axis]
+            high = self.high[frame, pin, axis]
+            got = f"{low:.4g} and {high:.4g} for {'xyz'[axis]}"
             needs = f"a pin needs low ≤ high, got {got}; from -inf to inf an axis is free"
             raise MocapError(f"Frame {frame}, joint {self.ends[pin]}: {needs}.")
 
@@ -86,21 +88,25 @@ class Pins:
         """The axes that are held, (F, P + T, 3)."""
         return np.asarray(self.low == self.high)
 
+    # reads: name: public, and goes when the pins are split into boxes
     @property
     def asked(self) -> Mask:
         """Where anything is asked of a joint, (F, P + T)."""
         return np.asarray((np.isfinite(self.low) | np.isfinite(self.high)).any(axis=-1))
 
+    # reads: name: public, and goes when the pins are split into boxes
     def at(self, rows: Rows) -> "Pins":
         """Take some frames."""
         turns = (turn._replace(reference=turn.reference[rows]) for turn in self.turns)
         return Pins(self.joints, self.low[rows], self.high[rows], tuple(turns))
 
+    # reads: name: public, and goes when the pins are split into boxes
     def only(self, rows: Rows) -> "Pins":
         """Free all other frames."""
         keep = np.zeros((len(self), 1, 1), bool)
         keep[rows] = True
-        low, high = np.where(keep, self.low, -np.inf), np.where(keep, self.high, np.inf)
+        low = np.where(keep, self.low, -np.inf)
+        high = np.where(keep, self.high, np.inf)
         return Pins(self.joints, low, high, self.turns)
 
     def places(self, motion: Motion, poses: GlobalPoses) -> Array:
@@ -114,8 +120,10 @@ class Pins:
 
     def movers(self, skeleton: Skeleton) -> list[list[int]]:
         """Find the joints whose turns move what each box is for."""
-        above = [skeleton.path_to_root(joint)[1:] for joint in self.joints]
-        return above + [skeleton.path_to_root(t.joint) if t.world else [t.joint] for t in self.turns]
+        movers = [skeleton.path_to_root(joint)[1:] for joint in self.joints]
+        for turn in self.turns:
+            movers.append(skeleton.path_to_root(turn.joint) if turn.world else [turn.joint])
+        return movers
 
 
 def pin(
@@ -159,17 +167,20 @@ def pin(
         counted = f"'{motion.name}' has {len(motion)} frames, counted from 0"
         takes = f"frames are their numbers, a slice, or {len(motion)} marks"
         raise MocapError(f"{counted}; {takes}.") from None
-    boxes = np.full((2, len(motion), 1, 3), [[[[-np.inf]]], [[[np.inf]]]])
-    for box, place in zip(boxes, (low, low if high is None else high), strict=True):
-        if np.shape(place) not in ((3,), (len(rows), 3)):
-            raise MocapError(f"'{joint}': a place is (3,) or ({len(rows)}, 3) metres, got {np.shape(place)}.")
-        box[rows, 0] = place
-    pins = Pins((number,), *boxes)
+    shape = (len(motion), 1, 3)
+    pins_low = np.full(shape, -np.inf)
+    pins_high = np.full(shape, np.inf)
+    for box, corner in ((pins_low, low), (pins_high, low if high is None else high)):
+        got = np.shape(corner)
+        if got not in ((3,), (len(rows), 3)):
+            raise MocapError(f"'{joint}': a place is (3,) or ({len(rows)}, 3) metres, got {got}.")
+        box[rows, 0] = corner
+    pins = Pins((number,), pins_low, pins_high)
     require_pins_of(motion, pins)
     return pins
 
 
-def join_pins(*several: Pins) -> Pins:
+def join_pins(*parts: Pins) -> Pins:
     """Join pins into one value: all of them hold together.
 
     Of two that hold one axis of a joint the later goes before; a held axis goes before a box; of two boxes
@@ -177,7 +188,7 @@ def join_pins(*several: Pins) -> Pins:
 
     Parameters
     ----------
-    several : at least one, all of F frames.
+    parts : at least one, all of F frames.
 
     Raises
     ------
@@ -193,23 +204,35 @@ def join_pins(*several: Pins) -> Pins:
 
     Notebook: 14-levels
     """
-    if not several or len({len(pins) for pins in several}) > 1:
-        counts = ", ".join(str(len(pins)) for pins in several) or "none"
+    if not parts or len({len(part) for part in parts}) > 1:
+        counts = ", ".join(str(len(part)) for part in parts) or "none"
         raise MocapError(f"Pins that are joined need the same number of frames, got {counts}.")
-    joints = tuple(dict.fromkeys(joint for pins in several for joint in pins.joints))
-    turns = tuple(turn for pins in several for turn in pins.turns)
-    low = np.full((len(several[0]), len(joints) + len(turns), 3), -np.inf)
-    high, next_turn = -low, len(joints)
-    for pins in several:
-        columns = [joints.index(joint) for joint in pins.joints]
-        columns += range(next_turn, next_turn := next_turn + len(pins.turns))
-        before = low[:, columns], high[:, columns]
-        common = np.maximum(before[0], pins.low), np.minimum(before[1], pins.high)
-        apart = common[0] > common[1]
-        later = pins.held | (apart & (before[0] != before[1]))
-        for kind, new, old, both in zip((low, high), (pins.low, pins.high), before, common, strict=True):
-            kind[:, columns] = np.select([later, apart], [new, old], both)
+    joints = tuple(dict.fromkeys(joint for part in parts for joint in part.joints))
+    turns = tuple(turn for part in parts for turn in part.turns)
+    shape = (len(parts[0]), len(joints) + len(turns), 3)
+    low = np.full(shape, -np.inf)
+    high = np.full(shape, np.inf)
+    first_turn = len(joints)
+    for part in parts:
+        next_turn = first_turn + len(part.turns)
+        columns = [*map(joints.index, part.joints), *range(first_turn, next_turn)]
+        merged = _merged_boxes(low[:, columns], high[:, columns], part)
+        low[:, columns], high[:, columns] = merged
+        first_turn = next_turn
     return Pins(joints, low, high, turns)
+
+
+def _merged_boxes(low: Array, high: Array, later: Pins) -> tuple[Array, Array]:
+    """Merge boxes with those of later pins, in the same columns, by the order of `join_pins`."""
+    common_low = np.maximum(low, later.low)
+    common_high = np.minimum(high, later.high)
+    is_disjoint = common_low > common_high
+    is_held = low == high
+    is_later = later.held | (is_disjoint & ~is_held)
+    choices = [is_later, is_disjoint]  # the first that is true counts
+    merged_low = np.select(choices, [later.low, low], common_low)
+    merged_high = np.select(choices, [later.high, high], common_high)
+    return merged_low, merged_high
 
 
 def plant_pins(motion: Motion, legs: Sequence[Leg] | None = None, heights: ArrayLike | None = None) -> Pins:
@@ -240,19 +263,30 @@ def plant_pins(motion: Motion, legs: Sequence[Leg] | None = None, heights: Array
     Notebook: 12-path-editing
     """
     legs = find_legs(motion.skeleton) if legs is None else legs
-    positions, several = joint_positions(motion), []
+    positions = joint_positions(motion)
+    parts = []
     for number, (leg, marks) in enumerate(zip(legs, settled_marks(motion, legs), strict=True)):
         tracks = np.swapaxes(positions[:, [leg.ankle, leg.ball]], 0, 1)  # (2, F, 3)
         length = float(leg.lengths(motion.skeleton)[2])
-        if heights is not None:
-            ankle, ball = own = np.asarray(heights, float)[number]
-            tracks, length = tracks * [1, 0, 1], np.sqrt(length**2 - (ankle - ball) ** 2)
-        places = place_plants((tracks[0], tracks[1]), (marks[0], marks[1]), length)
-        if heights is not None:
-            places[..., 1] = own[:, None]
-        low, high = (np.swapaxes(np.where(marks[..., None], places, f), 0, 1) for f in (-np.inf, np.inf))
-        several.append(Pins((leg.ankle, leg.ball), low, high))
-    return join_pins(*several)
+        if heights is None:
+            places = place_plants((tracks[0], tracks[1]), (marks[0], marks[1]), length)
+        else:
+            places = _places_at_heights(tracks, marks, length, np.asarray(heights, float)[number])
+        planted = marks[..., None]
+        low = np.where(planted, places, -np.inf)
+        high = np.where(planted, places, np.inf)
+        parts.append(Pins((leg.ankle, leg.ball), np.swapaxes(low, 0, 1), np.swapaxes(high, 0, 1)))
+    return join_pins(*parts)
+
+
+def _places_at_heights(tracks: Array, marks: Mask, length: float, heights: Array) -> Array:
+    """Place the plants of an ankle and a ball (2, F, 3) on the ground, then lift them to two heights."""
+    ankle, ball = heights
+    flat_tracks = tracks * [1, 0, 1]
+    flat_length = np.sqrt(length**2 - (ankle - ball) ** 2)
+    places = place_plants((flat_tracks[0], flat_tracks[1]), (marks[0], marks[1]), flat_length)
+    places[..., 1] = heights[:, None]
+    return places
 
 
 def pin_errors(motion: Motion, pins: Pins) -> Array:

@@ -1,0 +1,47 @@
+"""How a joint is turned, as a position for which pins have a box.
+
+A pin is a box for a position. A rotation fits into it as a rotation vector times a length: then one formula
+gives the residual of both, in metres. The length is ours.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mocap._shared.arrays import Array
+from mocap.body import rotations
+from mocap.body.motion import Motion
+
+ARM = 0.3  # metres: a rotation that is missed by an angle counts as a position missed by ARM times the angle
+
+
+class Turn(NamedTuple):
+    """How one joint is turned, q, as a position for which `Pins` have a box: ARM log(r⁻¹ q).
+
+    Parameters
+    ----------
+    joint : its index.
+    reference : r, quaternions (F, 4).
+    world : whether q is the joint's rotation in the world, or against its parent.
+
+    Examples
+    --------
+    >>> from mocap.body.kinematics import forward_kinematics
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")[:2]
+    >>> matrices = forward_kinematics(walk).matrices
+    >>> Turn(0, walk.rotations[:, 0], world=True).arm(walk, matrices).round(9).tolist()
+    [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]
+    """
+
+    joint: int
+    reference: Array
+    world: bool
+
+    def arm(self, motion: Motion, matrices: Array) -> Array:
+        """Compute ARM log(r⁻¹ q), (F, 3), metres; `matrices` (F, J, 3, 3) are the joints' in the world."""
+        if self.world:
+            turned = rotations.from_matrix(matrices[:, self.joint])
+        else:
+            turned = motion.rotations[:, self.joint]
+        return np.asarray(ARM * rotations.difference(self.reference, turned))
