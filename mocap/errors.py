@@ -91,14 +91,14 @@ def requirement(extra: str) -> str:
 
 
 def missing(what: str, extra: str) -> MocapError:
-    """Say what is not installed, and how to install it.
+    """Say what is not installed, and how to install it; the quotes are those that every shell knows.
 
     Examples
     --------
-    >>> print(str(missing("Films need imageio-ffmpeg", "video")).replace("'.[", "'motion-graphs["))
-    Films need imageio-ffmpeg: pip install 'motion-graphs[video]'.
+    >>> print(str(missing("Films need imageio-ffmpeg", "video")).replace('".[', '"motion-graphs['))
+    Films need imageio-ffmpeg: pip install "motion-graphs[video]".
     """
-    return MocapError(f"{what}: pip install '{requirement(extra)}'.")
+    return MocapError(f'{what}: pip install "{requirement(extra)}".')
 
 
 class MocapWarning(UserWarning):

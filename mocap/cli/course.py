@@ -147,6 +147,7 @@ def mark(
     -----
     For example: mocap course mark handed-in -o marks.csv --points points.toml --feedback feedback
     """
+    marking.walls.require_sealing()  # before anything is read
     worth, students = marking.grades.read_points(points), marking.grades.read_roster(roster)
     require_writable(out)
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends it as Ctrl-C does

@@ -86,7 +86,7 @@ def test_without_a_library_one_sentence_says_what_to_install(
     monkeypatch.chdir(tmp_path)
     monkeypatch.setitem(sys.modules, missing, None)
     monkeypatch.setattr("subprocess.Popen", None)  # nor is anything started
-    assert f"pip install '.[{extra}]'" in run(line, 2).err
+    assert f'pip install ".[{extra}]"' in run(line, 2).err
     assert list(tmp_path.iterdir()) == []
 
 

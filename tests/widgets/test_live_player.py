@@ -60,7 +60,7 @@ def test_without_the_libraries_one_sentence_says_what_to_install(kind, gone, mon
     monkeypatch.setitem(sys.modules, gone, None)
     for name in ("shared_traits", *LIVE_ONES):
         monkeypatch.delitem(sys.modules, f"mocap.widgets.{name}", raising=False)
-    with pytest.raises(MocapError, match=r"needs anywidget and ipywidgets: pip install '\.\[notebooks\]'"):
+    with pytest.raises(MocapError, match=r'needs anywidget and ipywidgets: pip install "\.\[notebooks\]"'):
         importlib.import_module(f"mocap.widgets.{kind}")
 
 

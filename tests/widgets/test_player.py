@@ -163,7 +163,7 @@ def test_a_film_is_read_back_as_mp4(tmp_path):
 
 def test_without_imageio_ffmpeg_one_sentence_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
-    refused(r"pip install '\.\[video\]'", film.save_animation, wave(9), tmp_path / "wave.mp4")
+    refused(r'pip install "\.\[video\]"', film.save_animation, wave(9), tmp_path / "wave.mp4")
     assert list(tmp_path.iterdir()) == []
 
 

@@ -19,5 +19,5 @@ Reading order
 import lazy_loader
 
 __getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__, submodules=["grades"], submod_attrs={"marks": ["mark"]}
+    __name__, submodules=["grades", "walls"], submod_attrs={"marks": ["mark"]}
 )

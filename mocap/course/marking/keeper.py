@@ -13,7 +13,6 @@ from __future__ import annotations
 import gc
 import json
 import os
-import resource
 import select
 import signal
 import socket
@@ -103,9 +102,10 @@ def _children(pid: int) -> list[int]:
 
 def _descendants(pid: int) -> Iterator[int]:
     """Yield the bytes of memory of each descendant."""
+    page = os.sysconf("SC_PAGE_SIZE")
     for child in _children(pid):
         with suppress(OSError):
-            yield int(Path(f"/proc/{child}/statm").read_text().split()[1]) * resource.getpagesize()
+            yield int(Path(f"/proc/{child}/statm").read_text().split()[1]) * page
         yield from _descendants(child)
 
 

@@ -28,6 +28,7 @@ from mocap.course.marking.cells import Cell, Sheet, code_cells, course_sheets, n
 from mocap.course.marking.grades import Mark, sent_by
 from mocap.course.marking.plain_data import unpack
 from mocap.course.marking.sealed import Ended, Sealed, protection
+from mocap.course.marking.walls import require_sealing
 from mocap.course.notebooks import library
 from mocap.course.opening import stored
 from mocap.errors import MocapError
@@ -75,7 +76,8 @@ def mark(
 
     Raises
     ------
-    MocapError : if there are no notebooks, or one has changed the package where no wall kept it from that.
+    MocapError : if there are no notebooks, this system cannot seal a process, or a notebook has changed the
+        package where no wall kept it from that.
 
     Examples
     --------
@@ -84,6 +86,7 @@ def mark(
     mocap.errors.MocapError: The folder nowhere holds no notebooks.
     """
     library()
+    require_sealing()
     files = [file for file in sorted(folder.rglob("*.ipynb")) if ".ipynb_checkpoints" not in file.parts]
     if not files:
         raise MocapError(f"The folder {folder} holds no notebooks.")

@@ -18,7 +18,6 @@ from typing import Any
 
 import mocap
 from mocap.course.marking import walls
-from mocap.errors import MocapError
 
 REPLY = 1 << 20  # bytes of an answer, of which the course's have some thousands
 REPLIES: dict[str, tuple[type, ...]] = {"begin": (), "prepare": (bool, str), "call": (object, list, str, str)}
@@ -49,7 +48,7 @@ class Sealed:
 
     Raises
     ------
-    MocapError : on Windows, which has no such limits.
+    MocapError : where `walls.require_sealing` raises it, as on Windows.
 
     Examples
     --------
@@ -64,8 +63,7 @@ class Sealed:
     """
 
     def __init__(self, hidden: Iterable[Path] = ()) -> None:
-        if os.name != "posix":
-            raise MocapError("Marking needs Linux or macOS: on Windows, use WSL or a container.")
+        walls.require_sealing()
         self.hidden = [str(place.resolve()) for place in hidden]
         self.folder, self.running = Path(tempfile.mkdtemp(prefix="marking-")).resolve(), False
         self._start()

@@ -13,15 +13,17 @@ import ctypes
 import errno
 import os
 import platform
-import resource
 import signal
+import socket
 import struct
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
+from importlib.util import find_spec
 from pathlib import Path
 
 import mocap
+from mocap.errors import MocapError
 
 ALL = ("landlock", "filter")
 FILES, INODES = 500 << 20, 2000  # bytes and number of files in the home
@@ -51,6 +53,27 @@ DENIED = {
 FLAGS = {"x86_64": ((257, 32), (2, 24)), "aarch64": ((56, 32),)}  # of openat and open: where they stand
 
 
+def require_sealing() -> None:
+    """Raise where a student's code cannot run in a process that has limits and can be ended as a whole.
+
+    The limits are those of `resource`, the process starts by `fork`, and its socket is sent to it. Windows
+    and the Python of a browser have none of the three.
+
+    Raises
+    ------
+    MocapError : if one of them is missing. No notebook runs without them.
+
+    Examples
+    --------
+    >>> require_sealing()
+    """
+    if not (hasattr(os, "fork") and hasattr(socket, "send_fds") and find_spec("resource")):
+        raise MocapError(
+            "Marking seals each student's code by means that this system lacks: run it on Linux or macOS, on"
+            " Windows in WSL, or in a container."
+        )
+
+
 def fork_behind(walls: Sequence[str], home: Path, hidden: Sequence[str], work: Callable[[], object]) -> int:
     """Fork a process that raises walls and then works; it does not work where one cannot be raised.
 
@@ -65,6 +88,8 @@ def fork_behind(walls: Sequence[str], home: Path, hidden: Sequence[str], work: C
     -------
     The number of the process; it dies with this one, and ends with 0 if the work is done.
     """
+    import resource  # Windows has none, and is refused by `require_sealing`
+
     if child := os.fork():
         return child
     status = 1

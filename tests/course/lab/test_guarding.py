@@ -1,11 +1,9 @@
 import contextlib
-import threading
 import time
 
 import numpy as np
 import pytest
 
-from mocap._shared.limits import time_limit
 from mocap.course import checks
 from mocap.course.lab import adopting
 from mocap.course.lab.adopting import Slot, in_form
@@ -92,21 +90,6 @@ def test_a_function_that_never_ends_is_stopped_though_it_catches_exceptions(monk
 
     assert slot("hamilton", forever)(*np.eye(4)[:2]).tolist() == [0, 1, 0, 0]
     assert "yours did not end within 0.05 s; the package's" in capsys.readouterr().out
-
-
-def test_a_limit_inside_another_and_in_another_thread_is_none():
-    with time_limit(5), time_limit(1e-3):
-        sum(range(100_000))
-    ended = []
-
-    def work():
-        with time_limit(1e-4):
-            ended.append(sum(range(100_000)))
-
-    thread = threading.Thread(target=work)
-    thread.start()
-    thread.join()
-    assert ended
 
 
 def test_interrupting_is_left_to_the_reader():
