@@ -248,7 +248,7 @@ def test_graphs_and_other_archives_in_a_folder_are_no_clips(tmp_path):
 
 
 def test_an_empty_folder_is_refused(tmp_path):
-    refused(r"holds no \.amc \(with \.asf\), \.bvh .* file\.", conversion.find_files, [tmp_path])
+    refused(r"holds no \.amc \(with \.asf\), \.bvh.* file\.", conversion.find_files, [tmp_path])
 
 
 def test_a_name_without_end_is_refused_in_a_sentence():
