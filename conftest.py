@@ -15,6 +15,7 @@ from nbformat import NotebookNode
 from nbformat.v4 import new_code_cell
 from nbval.plugin import IPyNbCell, IPyNbFile
 
+collect_ignore = ["notebooks/examples"]  # programs: `tests/test_examples.py` runs them
 FIRST = ("test_lab", "test_release", "test_house")  # they wait most, while others compute
 LONG = (Path(__file__).parent / "tests" / "long.txt").read_text("utf-8")  # then files that are named here
 
