@@ -19,6 +19,7 @@ if TYPE_CHECKING:  # nbformat and nbval are imported only when a notebook is col
     from nbformat import NotebookNode
     from nbval.plugin import IPyNbCell, IPyNbFile
 
+collect_ignore = ["notebooks/examples"]  # programs: `tests/test_examples.py` runs them
 FIRST = ("test_lab", "test_release", "test_house")  # they wait most, while others compute
 LONG = (Path(__file__).parent / "tests" / "long.txt").read_text("utf-8")  # then files that are named here
 

@@ -56,12 +56,107 @@ execute(notebook, Path("course/00-quickstart.ipynb").resolve())
 
 def test_one_version_and_one_date_stand_everywhere():
     citation = (ROOT / "CITATION.cff").read_text("utf-8")
-    head, when = re.search(r"^## (\S+) \((.*)\)$", (ROOT / "CHANGELOG.md").read_text("utf-8"), re.M).groups()
     cited = re.search(r"^version: (.*)$", citation, re.M)[1]
     built = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]["version"]
-    assert head == cited == built == mocap.__version__
+    assert cited == built == mocap.__version__
     date = re.search(r"^date-released: (.*)$", citation, re.M)
-    assert when == (date[1] if date else "unreleased")
+    if date:
+        assert released()[0] == (mocap.__version__, date[1])
+    else:
+        assert mocap.__version__ not in dict(released())
+
+
+CHANGES = (ROOT / "CHANGELOG.md").read_text("utf-8")
+KINDS = ["Added", "Changed", "Deprecated", "Removed", "Fixed", "Security"]
+
+
+def released():
+    """List the versions in the changelog and their dates, the latest first."""
+    return re.findall(r"^## \[(\d+\.\d+\.\d+)\] - (\d{4}-\d\d-\d\d)$", CHANGES, re.M)
+
+
+def faults_of_sections(text):
+    """List versions that are not in the form, or out of order."""
+    first, *others = re.findall(r"^## (.*)$", text, re.M) or [""]
+    form = re.compile(r"\[(\d+)\.(\d+)\.(\d+)\] - \d{4}-\d\d-\d\d")
+    found = [] if first == "[Unreleased]" else ["the first section is not [Unreleased]"]
+    found += [head for head in others if not form.fullmatch(head)]
+    versions = [[*map(int, match.groups())] for head in others if (match := form.fullmatch(head))]
+    if versions != sorted(versions, reverse=True):
+        found.append("the latest version is not the first")
+    return found
+
+
+def faults_of_kinds(text):
+    """List kinds of changes that are none, or out of order."""
+    found = []
+    for section in re.split(r"^## ", text, flags=re.M)[1:]:
+        kinds = re.findall(r"^### (.*)$", section, re.M)
+        unknown = [kind for kind in kinds if kind not in KINDS]
+        found += unknown
+        if not unknown and kinds != sorted(kinds, key=KINDS.index):
+            found.append("the kinds are out of order")
+    return found
+
+
+def faults_of_entries(text):
+    """List entries that are no single, short sentence, or stand twice."""
+    lines = text.splitlines()
+    entries = [line.removeprefix("- ") for line in lines if line.startswith("- ")]
+    found = [entry for entry in entries if not entry.endswith(".") or len(entry) > 170]
+    if any(line.startswith(" ") for line in lines):
+        found.append("an entry has two lines")
+    if len(set(entries)) < len(entries):
+        found.append("an entry stands twice")
+    return found
+
+
+def faults(text):
+    """List what is not in the form of Keep a Changelog."""
+    return faults_of_sections(text) + faults_of_kinds(text) + faults_of_entries(text)
+
+
+def test_the_changelog_has_one_section_per_version_and_one_line_per_entry():
+    assert faults(CHANGES) == []
+
+
+def test_what_never_was_released_is_not_listed_as_changed_or_removed():
+    first = re.split(r"^## ", CHANGES, flags=re.M)[1]
+    assert released() or re.findall(r"^### (.*)$", first, re.M) == ["Added"]
+
+
+FORM = """# Changelog
+
+## [Unreleased]
+
+### Added
+
+- A thing.
+
+## [0.1.0] - 2030-01-31
+
+### Fixed
+
+- A fault.
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "fault"),
+    [
+        ("## [Unreleased]", "## 0.2.0 (unreleased)", "the first section is not [Unreleased]"),
+        ("[0.1.0] - 2030-01-31", "0.1.0", "0.1.0"),
+        ("### Fixed", "### Gone", "Gone"),
+        ("- A fault.", "- A fault.\n  In two lines.", "an entry has two lines"),
+        ("- A fault.", "- A fault", "A fault"),
+        ("- A fault.", "- A thing.", "an entry stands twice"),
+        ("### Fixed", "### Removed\n\n- Another.\n\n### Changed", "the kinds are out of order"),
+        ("## [0.1.0]", "## [0.0.9] - 2029-01-31\n\n## [0.1.0]", "the latest version is not the first"),
+    ],
+)
+def test_another_form_would_be_noticed(old, new, fault):
+    assert faults(FORM) == []
+    assert fault in faults(FORM.replace(old, new))
 
 
 def test_the_page_lists_what_is_stable():

@@ -8,4 +8,5 @@
 6. `collector`: pause Python's garbage collector while a graph grows
 7. `tasks`: work by threads, processes or a cluster
 8. `limits`: a limit of time for code that others wrote
+9. `deprecation`: names that are removed, and warn for one version before
 """

@@ -33,7 +33,7 @@ def info(file: Path, *, joints: bool = False, reading: Reading) -> None:
 
     Parameters
     ----------
-    file : an .amc, .bvh or .npz file.
+    file : a motion file.
     joints : list the names of the joints, too.
     """
     motion, angles, _ = reading.read(file)
@@ -50,7 +50,7 @@ def view(clip: Path, *, out: Path | None = None, reading: Reading) -> None:
 
     Parameters
     ----------
-    clip : an .amc, .bvh or AMASS .npz file.
+    clip : a motion file.
     out : an .html, .gif, .mp4 or .png to write; opens no browser.
     """
     if out:
@@ -82,7 +82,7 @@ def judge(
 
     Parameters
     ----------
-    made (FILE) : .amc, .bvh or AMASS .npz files, or folders of them, and the folders inside.
+    made (FILE) : motion files, or folders of them, and the folders inside.
     against (CLIP) : the clips that they are made of.
     path : the path that they should follow, .csv or .svg.
     json : print all numbers as JSON.
@@ -114,7 +114,7 @@ def judge(
 
 
 def convert(source: Path, target: Path, *, reading: Reading, to: Literal["bvh", "glb"] = "bvh") -> int:
-    """Convert clips from .amc, .bvh and AMASS .npz to .bvh or .glb; whole folders of them.
+    """Convert motion files to .bvh or .glb; whole folders of them.
 
     Convert a clip, or all clips in a folder and the folders inside it. For one clip, the suffix of OUT is the
     format. Lengths in a .bvh are centimetres. A .glb is for engines and
@@ -122,7 +122,7 @@ def convert(source: Path, target: Path, *, reading: Reading, to: Literal["bvh", 
 
     Parameters
     ----------
-    source (IN) : an .amc, .bvh or .npz file, or a folder.
+    source (IN) : a motion file, or a folder.
     target (OUT) : the new file, or folder.
     to : format for the clips of a folder.
 
@@ -152,7 +152,7 @@ def find(
     Parameters
     ----------
     query (QUERY[:FROM-TO]) : a clip and its frames, as in walk.amc:120-250 (the last one not included).
-    clips : .amc, .bvh or AMASS .npz files, or folders of them.
+    clips : motion files, or folders of them.
     out : folder to write the matches into, as files (default: write none).
     below : largest distance of a match, cm.
 

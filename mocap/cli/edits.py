@@ -130,7 +130,7 @@ def loop(
 
     Parameters
     ----------
-    clip : an .amc, .bvh or AMASS .npz file.
+    clip : a motion file.
     out : file to write.
     shortest : seconds of a cycle at least.
     longest : seconds of a cycle at most.
@@ -179,7 +179,7 @@ def blend(
 
     Parameters
     ----------
-    clips (CLIP) : an .amc, .bvh or AMASS .npz file.
+    clips (CLIP) : a motion file.
     weights : one for each clip, with the sum 1 (default: all alike).
     fade (SECONDS) : pass from the first into the second clip, in the middle of what they have in common.
     slack : seconds that one clip may start or end before the others, at most half of the shortest.

@@ -32,7 +32,7 @@ def demo(
 
     Parameters
     ----------
-    clips : .amc, .bvh or AMASS .npz files, or folders of them (default: the bundled clips).
+    clips : motion files, or folders of them (default: the bundled clips).
     out : folder to write to.
     seconds : duration of the new walk.
     """
@@ -82,7 +82,7 @@ def build(
 
     Parameters
     ----------
-    clips : .amc, .bvh or AMASS .npz files, or folders of them.
+    clips : motion files, or folders of them.
     out : file to write.
     by_labels : keep the largest component of each set of labels.
     whole : do not prune.

@@ -17,6 +17,7 @@ from mocap.cli.options import as_options
 from mocap.cli.typed_commands import Group, Run, add_commands, call
 from mocap.cli.walk import crowd, page, walk
 from mocap.errors import MocapError, MocapWarning, printable, shortened
+from mocap.files import formats
 
 LONGEST = 150  # letters of a sentence about options, which may quote what was typed
 ACTIONS = (*GRAPH.commands, "-h", "--help")  # before any other word, `build` may be left out
@@ -34,7 +35,8 @@ class _Parser(argparse.ArgumentParser):
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = _Parser(prog="mocap", description="New human motion out of captured motion.")
+    about = f"New human motion out of captured motion. Motion files are {formats.listed()}."
+    parser = _Parser(prog="mocap", description=about)
     parser.add_argument("--version", action="version", version=f"mocap {mocap.__version__}")
     parser.set_defaults(parser=parser)
     add_commands(parser, COMMANDS)

@@ -14,6 +14,7 @@ from mocap import body, files, graphs
 from mocap._shared.atomic import require_writable
 from mocap._shared.progress import Progress
 from mocap.errors import MocapError, printable
+from mocap.files import formats
 
 if TYPE_CHECKING:
     from mocap.body.motion import Motion
@@ -66,7 +67,8 @@ class Reading:
         from mocap.files.load_save import read  # the help needs no NumPy
         from mocap.files.rigid_bones import STRETCH
 
-        if self.skeleton and path.suffix.lower() in (".bvh", ".npz"):
+        suffix = path.suffix.lower()
+        if self.skeleton and suffix in formats.READ and suffix != ".amc":
             raise MocapError(f"--skeleton is for .amc clips; {path} needs none.")
         return read(path, self.skeleton, self.fps, self.scale, STRETCH)
 

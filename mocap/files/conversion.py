@@ -11,11 +11,10 @@ from mocap import files
 from mocap._shared.atomic import UNFINISHED, make_folder
 from mocap._shared.progress import Progress
 from mocap.errors import MocapError
+from mocap.files import formats
 
 if TYPE_CHECKING:
     from mocap.body.motion import Motion
-
-FORMATS = (".amc", ".bvh", ".npz")  # suffixes of the motion files that are found in folders
 
 
 def is_clip(path: Path) -> bool:
@@ -29,7 +28,7 @@ def is_clip(path: Path) -> bool:
     from mocap.files.amass import is_amass  # the help of the command needs no NumPy
 
     suffix = path.suffix.lower()
-    return suffix in FORMATS and (suffix != ".npz" or is_amass(path))
+    return suffix in formats.READ and (suffix != ".npz" or is_amass(path))
 
 
 def find_files(paths: Iterable[Path], *, deep: bool = False) -> list[Path]:
@@ -58,7 +57,7 @@ def find_files(paths: Iterable[Path], *, deep: bool = False) -> list[Path]:
         except OSError as error:
             raise MocapError(f"Cannot read {path}: {error.strerror}.") from error
         if not inside:
-            raise MocapError(f"The folder {path} holds no .amc, .bvh or AMASS .npz file.")
+            raise MocapError(f"The folder {path} holds no {formats.listed('or')} file.")
         found += inside
     return found
 

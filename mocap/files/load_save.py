@@ -1,20 +1,18 @@
 """Read and write motions; the suffix of the file's name decides the format."""
 
 import math
-from contextlib import suppress
 from pathlib import Path
 
 from mocap._shared.arrays import Array
 from mocap._shared.atomic import write_file
 from mocap.body.motion import Motion, turning
-from mocap.errors import FormatError, MocapError
-from mocap.files import acclaim, amass, bvh, gltf
-from mocap.files.asf import read_skeleton
+from mocap.errors import MocapError
+from mocap.files import bvh, formats, gltf
 from mocap.files.recordings import Recording
 from mocap.files.rigid_bones import STRETCH
 from mocap.files.text import check_above_0, read_text
 
-READ, WRITTEN = ".amc (with .asf), .bvh and AMASS .npz", ".bvh and .glb"
+WRITTEN = ".bvh and .glb"
 
 
 def load(
@@ -25,7 +23,7 @@ def load(
     scale: float | None = None,
     stretch: float = STRETCH,
 ) -> Motion:
-    """Read a motion from an `.amc` or `.bvh` file, or an `.npz` of AMASS.
+    """Read a motion from a file, in one of the formats of `files.formats.READ`.
 
     Parameters
     ----------
@@ -52,7 +50,7 @@ def load(
     --------
     >>> load("walk.fbx")
     Traceback (most recent call last):
-    mocap.errors.MocapError: Cannot read walk.fbx: mocap reads .amc (with .asf), .bvh and AMASS .npz.
+    mocap.errors.MocapError: Cannot read walk.fbx: mocap reads .amc (with .asf), ...
 
     Notebook: 01b-motion-files
     """
@@ -67,23 +65,17 @@ def read(
     check_above_0(fps=fps, scale=scale)
     if not stretch >= 0:
         raise MocapError(f"stretch must be 0 or more metres, got {stretch}.")
-    match path.suffix.lower():
-        case ".amc":
-            asf = _skeleton_for(path) if skeleton is None else Path(skeleton)
-            return acclaim.read(path, read_skeleton(asf, scale=scale), fps=fps)
-        case ".bvh":
-            return bvh.read(path, scale=scale or bvh.SCALE, fps=fps, stretch=stretch)
-        case ".npz":
-            if scale not in (None, 1.0):
-                raise MocapError(f"All .npz files are in metres: leave out scale={scale:g}.")
-            return amass.read(path, fps=fps)
-        case ".asf":
-            raise MocapError(f"{path} is a skeleton without a motion: files.asf.read_skeleton reads it.")
-        case ".glb":
-            raise MocapError(f"Cannot read {path}: mocap writes .glb, and reads {READ}.")
-        case "":
-            read_text(path, most=1)  # raises for a file that is not there, and for a folder
-    raise MocapError(f"Cannot read {path}: mocap reads {READ}.")
+    suffix = path.suffix.lower()
+    if suffix in formats.READ:
+        options = formats.ReadOptions(None if skeleton is None else Path(skeleton), fps, scale, stretch)
+        return formats.READ[suffix].read(path, options)
+    if suffix == ".asf":
+        raise MocapError(f"{path} is a skeleton without a motion: files.asf.read_skeleton reads it.")
+    if suffix == ".glb":
+        raise MocapError(f"Cannot read {path}: mocap writes .glb, and reads {formats.listed()}.")
+    if suffix == "":
+        read_text(path, most=1)  # raises for a file that is not there, and for a folder
+    raise MocapError(f"Cannot read {path}: mocap reads {formats.listed()}.")
 
 
 def read_angles(path: str | Path, *, skeleton: str | Path | None = None) -> dict[str, Array]:
@@ -152,20 +144,3 @@ def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
             write_file(path, gltf.glb(motion))
         case _:
             raise MocapError(f"Cannot write {path}: mocap writes {WRITTEN}.")
-
-
-def _skeleton_for(path: Path) -> Path:
-    """Choose among the `.asf` files beside an AMC file."""
-    counts = acclaim.first_frame(read_text(path, most=100_000))
-    beside = sorted(file for file in path.parent.iterdir() if file.suffix.lower() == ".asf")
-    fitting = []
-    for file in beside:
-        with suppress(MocapError):
-            fitting += [file] if acclaim.fits(counts, read_skeleton(file)) else []
-    stems = [path.stem.lower(), path.stem.lower().split("_")[0]]
-    named = [file for stem in stems for file in fitting if file.stem.lower() == stem]
-    if named or len(fitting) == 1:
-        return (named or fitting)[0]
-    found = ", ".join(file.name for file in fitting or beside)
-    problem = f"{'several that fit' if fitting else 'none that fits'} ({found})" if beside else "none"
-    raise FormatError(path, None, "its .asf file beside it, or named by skeleton=", problem)

@@ -16,7 +16,7 @@ from mocap._shared.arrays import Array
 from mocap.body import euler, rotations
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, shortened
-from mocap.matching.distance_grids import diagonal_sum, require_windows
+from mocap.matching.distance_grids import diagonal_sum, distance_grid, require_windows
 
 _SIDED = {"femur": 50, "tibia": 30, "foot": 15, "toes": 5, "clavicle": 30, "humerus": 15, "radius": 5}
 _MIDDLE = {"lowerback": 50, "upperback": 40, "thorax": 30, "lowerneck": 20, "upperneck": 15, "head": 5}
@@ -134,3 +134,11 @@ def file_angles(motion: Motion, joint: int) -> Array:
     own = rotations.multiply(rotations.multiply(rotations.inverse(axis), motion.rotations[:, joint]), axis)
     every = dofs + "".join(sorted(set("xyz") - set(dofs)))  # it does not turn about the axes that it lacks
     return np.degrees(euler.to_euler(every, own)[:, : len(dofs)])
+
+
+METRICS: Mapping[str, Metric] = {
+    "point clouds": distance_grid,
+    "roots": root_grid,
+    "Euler angles": euler_grid,
+}
+"""All metrics, by name. One test holds each of them to the interface of `Metric`."""

@@ -102,7 +102,7 @@ def test_what_fails_names_options_not_arguments(folder, run, monkeypatch):
 
 def test_plans_that_make_no_sense_are_refused(folder, run):
     (folder / "empty").mkdir()
-    assert "holds no .amc, .bvh or AMASS .npz file" in run("convert empty out", 2).err
+    assert "holds no .amc (with .asf), .bvh" in run("convert empty out", 2).err
     write_acclaim(wave(20), folder / "clips" / "a.amc")
     refused(r"a.amc and .*a.bvh would both become .*a.bvh", conversion.plan, "clips", "out")
 

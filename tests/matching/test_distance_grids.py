@@ -13,7 +13,7 @@ from mocap.body import Motion, PlanarTransform, Skeleton, euler, rotations
 from mocap.errors import SkeletonMismatch
 from mocap.matching import align, distance_grids, local_minima
 from mocap.matching.distance_grids import cloud, cloud_distances, distance_grid, tiled_distances
-from mocap.matching.other_metrics import HOMEWORK_WEIGHTS, euler_grid, file_angles, root_grid
+from mocap.matching.other_metrics import HOMEWORK_WEIGHTS, METRICS, euler_grid, file_angles, root_grid
 from mocap.matching.point_clouds import distinct_joints, rms_distance, unit_weights
 from mocap.matching.time_paths import origins, path_mean, path_sums, time_path, trace
 from tests.oracles import distance_oracle, least_sum, longest_run, path_sum, squared_distance
@@ -225,10 +225,7 @@ def body_motion(seed, frames=6):
     return Motion(skeleton, random.normal(size=(frames, 3)), turns, 30.0, f"body{seed}"), angles
 
 
-ALL = [root_grid, euler_grid, distance_grid]
-
-
-@pytest.mark.parametrize("metric", ALL)
+@pytest.mark.parametrize("metric", METRICS.values(), ids=METRICS)
 def test_all_metrics_have_one_interface(metric):
     (a, _), (b, _) = body_motion(0, 9), body_motion(0, 7)
     grid = metric(a, b, window=3)
