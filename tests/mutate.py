@@ -2,7 +2,7 @@
 
     python tests/mutate.py --count 100 --seed 1
     python tests/mutate.py --only mocap/feet/footskate.py --count 20
-    python tests/mutate.py --rooms editing methods --near
+    python tests/mutate.py --rooms editing methods --near --least 85 --jobs 2
     python tests/mutate.py --bounds
 
 A change concerns one token of code: a comparison, an operator, a number, and/or, min/max, True/False. First
@@ -285,7 +285,10 @@ def check_random_changes(wanted: argparse.Namespace) -> None:
             caught += not survived
             if survived:
                 print(change, flush=True)
-    print(f"{caught} of {len(changes)} changes caught ({caught / len(changes):.0%})")
+    percent = 100 * caught / len(changes)
+    print(f"{caught} of {len(changes)} changes caught ({percent:.0f}%)")
+    if wanted.least is not None and percent < wanted.least:
+        raise SystemExit(f"Too few: at least {wanted.least:g}% must be caught.")
 
 
 def main() -> None:
@@ -296,6 +299,7 @@ def main() -> None:
     parser.add_argument("--only", metavar="PATH", help="one module, as mocap/feet/footskate.py")
     parser.add_argument("--rooms", nargs="+", metavar="ROOM", help="all modules of these rooms, as editing")
     parser.add_argument("--near", action="store_true", help="run only the tests that name the module")
+    parser.add_argument("--least", type=float, metavar="N", help="fail if less than N percent are caught")
     parser.add_argument("--bounds", action="store_true", help="the changes of tests/bounds.toml instead")
     parser.add_argument("--jobs", type=int, default=1, help="how many changes at the same time (1)")
     wanted = parser.parse_args()

@@ -1,0 +1,92 @@
+"""Write the files that other programs read, and beside each the positions of joints that they should find.
+
+    python -m tests.elsewhere.write_files FOLDER
+
+For each motion there are NAME.bvh and NAME.glb, written by `mocap.save` with its defaults as users call it,
+and NAME.npz with the names and parents of the joints, their positions in metres, and the frame rate. The
+positions come from `mocap.body.joint_positions` and not from the files, so a writer's error shows as a
+distance. The motions differ in length, frame rate, number of joints, size, side and rest pose.
+"""
+
+import argparse
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+import mocap
+from mocap.body import Motion, Skeleton, joint_positions
+from mocap.datasets import sample
+from mocap.editing import mirror, retarget
+from mocap.graphs import compile_graph
+from mocap.methods.groups import Configuration, walk_group
+from tests.bundled import WALKS, bundled
+from tests.editing.bodies import adult, child
+
+PLAN_SECONDS = 4
+SPACING = 1.5  # metres between two members of a group
+PLAN_STEP = 0.09  # metres in 0.1 s: a walking pace of 0.9 m/s
+
+
+def single_motions() -> list[Motion]:
+    """Return motions of one person, and of a pendulum 2 cm long."""
+    walk = sample("walk_straight")
+    two_seconds = walk[:240]
+    return [
+        walk,
+        sample("jog"),
+        sample("sneak"),
+        replace(mocap.resample(walk, 30), name="walk_at_30"),
+        replace(mirror(two_seconds), name="mirrored"),
+        replace(retarget(two_seconds, child(), adult()), name="retargeted"),
+        replace(walk[:3], name="three_frames"),
+        replace(walk[:1], name="one_frame"),
+        pendulum(),
+    ]
+
+
+def pendulum() -> Motion:
+    """Return a swing of three joints with a bone of 1 cm between two of them."""
+    skeleton = Skeleton(["hook", "middle", "weight"], [-1, 0, 1], [[0, 0, 0], [0, -0.01, 0], [0, -0.01, 0]])
+    half_angles = 0.3 * np.sin(np.linspace(0, 4 * np.pi, 121))
+    rotations = np.zeros((121, 3, 4))
+    rotations[..., 0] = 1
+    rotations[:, 0, 0] = np.cos(half_angles)
+    rotations[:, 0, 3] = np.sin(half_angles)
+    return Motion(skeleton, np.tile([0.0, 0.02, 0.0], (121, 1)), rotations, 60.0, name="pendulum")
+
+
+def group_motions() -> list[Motion]:
+    """Return the walks of three members of a group, side by side."""
+    times = np.arange(10 * PLAN_SECONDS + 1)[:, None]
+    positions = PLAN_STEP * times + 1j * SPACING * np.arange(3)
+    plan = Configuration(positions, np.full(positions.shape, 10 * PLAN_STEP + 0j))
+    members = walk_group(compile_graph(bundled(*WALKS)), plan).motions
+    return [replace(motion, name=f"member_{number}") for number, motion in enumerate(members, 1)]
+
+
+def write(motion: Motion, folder: Path) -> None:
+    """Write a motion as .bvh and as .glb, and its positions as .npz."""
+    mocap.save(motion, folder / f"{motion.name}.bvh")
+    mocap.save(motion, folder / f"{motion.name}.glb")
+    np.savez(
+        folder / f"{motion.name}.npz",
+        names=motion.skeleton.names,
+        parents=motion.skeleton.parents,
+        positions=joint_positions(motion),
+        fps=motion.fps,
+    )
+
+
+def main() -> None:
+    """Write all files into the folder that the command names."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=Path, help="a folder, which is made where it is missing")
+    folder = parser.parse_args().folder
+    folder.mkdir(parents=True, exist_ok=True)
+    for motion in [*single_motions(), *group_motions()]:
+        write(motion, folder)
+
+
+if __name__ == "__main__":
+    main()
