@@ -15,6 +15,7 @@ from mocap.errors import MocapError
 if TYPE_CHECKING:
     from mocap.body.motion import Motion
 
+MOST_WORKERS = 61  # processes of a pool; Windows cannot wait for more
 FORMATS = (".amc", ".bvh", ".npz")  # suffixes of the motion files that are found in folders
 
 
@@ -133,7 +134,7 @@ def convert(
         return list(filter(None, [_convert(load, *pairs[0])]))
     from mocap._shared.tasks import serve
 
-    workers = min(len(pairs), os.cpu_count() or 1)
+    workers = min(len(pairs), os.cpu_count() or 1, MOST_WORKERS)
     with ProcessPoolExecutor(workers, initializer=serve) as pool:
         outcomes = pool.map(partial(_convert, load), *zip(*pairs, strict=True))
         try:
