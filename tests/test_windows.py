@@ -212,7 +212,7 @@ def more(folder):
     (folder / "clips").mkdir()
     for name in ("a.bvh", "b.bvh"):
         shutil.copy(folder / name, folder / "clips")
-    texts = {"keys.txt": "at 1.5s head 0 0.1 0", "line.csv": "0, 0\n0, 3\n1, 5", "points.csv": "1, 6"}
+    texts = {"keys.txt": "at 1.5s hand 0 0.1 0", "line.csv": "0, 0\n0, 3\n1, 5", "points.csv": "1, 6"}
     for name, text in texts.items():
         (folder / name).write_text(text, "utf-8")
     with contextlib.chdir(folder):
