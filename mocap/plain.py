@@ -16,6 +16,7 @@ The paper: [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2
 from __future__ import annotations
 
 import argparse
+import io
 import sys
 from collections.abc import Callable, Hashable, Iterator, Sequence
 from itertools import pairwise
@@ -475,6 +476,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("path", type=Path, help="where to walk: .csv with points x, z in metres, or .svg")
     parser.add_argument("-o", "--out", type=Path, default=Path("walk.bvh"), help="the file to write")
     options = parser.parse_args(arguments)
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="replace")  # a name may hold letters that a pipe of Windows lacks
     try:
         line = points_along(load_path(options.path).points)
         loaded = [load(path) for path in find_files(options.clips)]

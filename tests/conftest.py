@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
+collect_ignore = ["windows/sitecustomize.py"]  # it changes the Python that imports it
 SWEEP = bool(os.environ.get("MOCAP_SWEEP"))  # .ci/run tries more of everything
 
 # A busy machine is no failure. `few` is for other versions of libraries: that a call has gone shows at once.

@@ -189,8 +189,8 @@ def _query(text: str) -> tuple[Path, slice]:
 
     Examples
     --------
-    >>> _query("walk.amc:120-250")
-    (PosixPath('walk.amc'), slice(120, 250, None))
+    >>> _query("walk.amc:120-250") == (Path("walk.amc"), slice(120, 250))
+    True
     >>> _query("walk.amc")[1]
     slice(None, None, None)
     """

@@ -1,6 +1,7 @@
 """The command `mocap`, or `python -m mocap`."""
 
 import argparse
+import errno
 import os
 import re
 import sys
@@ -65,6 +66,15 @@ def _say(message: Warning | str, *_place: object, **_more: object) -> None:
     print(f"mocap: {text}", file=sys.stderr)
 
 
+def _pipe_is_closed(error: Exception) -> bool:
+    """Return whether the reader has seen enough, as with `mocap data list | head`.
+
+    Windows reports that as an invalid argument of a file without a name.
+    """
+    invalid = isinstance(error, OSError) and error.errno == errno.EINVAL and error.filename is None
+    return isinstance(error, BrokenPipeError) or (os.name == "nt" and invalid)
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command and return its exit status.
 
@@ -87,10 +97,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
             status = int(call(options.run, options) or 0)
             sys.stdout.flush()
             return status
-    except BrokenPipeError:  # the reader has seen enough, as with `mocap data list | head`
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 141
     except (MocapError, OSError) as error:  # of the system: such as a name that is too long
+        if _pipe_is_closed(error):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            return 141
         _say(str(error))
         return 2
     except KeyboardInterrupt:

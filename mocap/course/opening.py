@@ -10,6 +10,7 @@ import tempfile
 from collections.abc import Sequence
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 from mocap._shared.atomic import write_file
 from mocap.course.notebooks import library, notebooks_in, read
@@ -80,6 +81,7 @@ def open_course(copy: Path, options: Sequence[str] = ()) -> int:
             continue
 
 
+LOCAL: dict[str, Any] = {"text": True, "encoding": "locale", "errors": "replace"}  # what programs write
 INSTALL = "%pip install -q motion-graphs anywidget ipywidgets"  # which the browser's Python does not have
 
 
@@ -125,7 +127,7 @@ def build_lite(notebooks: Path, out: Path) -> Path:
 def _call(folder: str, command: list[str | Path]) -> None:
     """Run a Python module in a folder, where it may leave files."""
     whole = [sys.executable, "-m", *map(str, command)]
-    done = subprocess.run(whole, cwd=folder, capture_output=True, text=True, check=False)
+    done = subprocess.run(whole, cwd=folder, capture_output=True, check=False, **LOCAL)
     if done.returncode:
         last = (done.stderr or done.stdout).strip().splitlines()[-1:]
         raise MocapError(f"'{command[0]} {command[1]}' failed: {shortened(''.join(last), 120)}")

@@ -16,6 +16,8 @@ from mocap.files import formats
 if TYPE_CHECKING:
     from mocap.body.motion import Motion
 
+MOST_WORKERS = 61  # processes of a pool; Windows cannot wait for more
+
 
 def is_clip(path: Path) -> bool:
     """Check whether a file holds a motion, by its suffix; an `.npz` may hold a graph or anything else.
@@ -132,7 +134,7 @@ def convert(
         return list(filter(None, [_convert(load, *pairs[0])]))
     from mocap._shared.tasks import serve
 
-    workers = min(len(pairs), os.cpu_count() or 1)
+    workers = min(len(pairs), os.cpu_count() or 1, MOST_WORKERS)
     with ProcessPoolExecutor(workers, initializer=serve) as pool:
         outcomes = pool.map(partial(_convert, load), *zip(*pairs, strict=True))
         try:

@@ -114,7 +114,7 @@ def write_mp4(pictures: Iterator[NDArray[np.uint8]], path: Path, fps: float) -> 
         ffmpeg = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=said, stderr=said)
         assert ffmpeg.stdin
         try:
-            with suppress(BrokenPipeError), ffmpeg.stdin as pipe:
+            with suppress(OSError), ffmpeg.stdin as pipe:  # it has ended, and says why; on Windows EINVAL
                 for picture in chain([first], pictures):
                     pipe.write(np.ascontiguousarray(picture).data)
         finally:

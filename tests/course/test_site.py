@@ -6,7 +6,6 @@ import posixpath
 import re
 import subprocess
 import sys
-from fcntl import LOCK_EX, flock
 from html.parser import HTMLParser
 
 import nbformat
@@ -27,8 +26,9 @@ def course_site(tmp_path_factory):
     pytest.importorskip("myst_nb", reason="pip install '.[site]'")
     base = tmp_path_factory.getbasetemp()
     base = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+    fcntl = pytest.importorskip("fcntl", reason="workers wait for the site by a lock that Windows lacks")
     with (base / "site.lock").open("w") as lock:
-        flock(lock, LOCK_EX)
+        fcntl.flock(lock, fcntl.LOCK_EX)
         if not (base / "site").exists():
             # In a process of its own, which no coverage slows down.
             build = [sys.executable, "-m", "mocap", "course", "site", "-o", str(base / "site")]
