@@ -5,8 +5,8 @@ import warnings
 from pathlib import Path
 
 
-def shortened(text: str, most: int = 80) -> str:
-    """Cut a text from a file, made `printable`, to at most `most` characters, and say how long it was.
+def shortened(text: str, length: int = 80) -> str:
+    """Cut a text from a file, made `printable`, to at most `length` characters, and say how long it was.
 
     Examples
     --------
@@ -14,11 +14,11 @@ def shortened(text: str, most: int = 80) -> str:
     "'1.0 2.0 x 3.0 ...' (37 characters)"
     """
     text = printable(text)
-    if len(text) <= most:
+    if len(text) <= length:
         return text
     quote = "'" if text.startswith("'") else ""
-    more = f" ...{quote} ({len(text.strip(quote))} characters)"
-    return text[: most - len(more)].rstrip() + more
+    end = f" ...{quote} ({len(text.strip(quote))} characters)"
+    return text[: length - len(end)].rstrip() + end
 
 
 def printable(text: object) -> str:
@@ -57,7 +57,10 @@ class FormatError(MocapError):
     """
 
     def __init__(self, path: str | Path, line: int | None, expected: str, got: str) -> None:
-        self.path, self.line, self.expected, self.got = Path(path), line, expected, got
+        self.path = Path(path)
+        self.line = line
+        self.expected = expected
+        self.got = got
         super().__init__(path, line, expected, got)
 
     def __str__(self) -> str:
@@ -85,12 +88,13 @@ def requirement(extra: str) -> str:
     from importlib.metadata import distributions  # only here: it takes a while
 
     # What was installed from a folder says so.
-    noted = [found.read_text("direct_url.json") or "" for found in distributions(name="motion-graphs")]
+    installed = distributions(name="motion-graphs")
+    noted = [distribution.read_text("direct_url.json") or "" for distribution in installed]
     local = all("dir_info" in note for note in noted)
     return f"{'.' if local else 'motion-graphs'}[{extra}]"
 
 
-def missing(what: str, extra: str) -> MocapError:
+def missing(need: str, extra: str) -> MocapError:
     """Say what is not installed, and how to install it; the quotes are those that every shell knows.
 
     Examples
@@ -98,7 +102,7 @@ def missing(what: str, extra: str) -> MocapError:
     >>> print(str(missing("Films need imageio-ffmpeg", "video")).replace('".[', '"motion-graphs['))
     Films need imageio-ffmpeg: pip install "motion-graphs[video]".
     """
-    return MocapError(f'{what}: pip install "{requirement(extra)}".')
+    return MocapError(f'{need}: pip install "{requirement(extra)}".')
 
 
 class MocapWarning(UserWarning):
@@ -107,7 +111,9 @@ class MocapWarning(UserWarning):
 
 def warn(sentence: str) -> None:
     """Warn by a `MocapWarning`, which shows the line that called this package."""
-    frame, level = sys._getframe(), 1
+    frame = sys._getframe()
+    level = 1
     while frame.f_back and frame.f_globals.get("__name__", "").startswith("mocap."):
-        frame, level = frame.f_back, level + 1
+        frame = frame.f_back
+        level += 1
     warnings.warn(printable(sentence), MocapWarning, stacklevel=level)

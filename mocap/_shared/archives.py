@@ -22,7 +22,8 @@ from mocap._shared.atomic import replacing
 from mocap.errors import FormatError, MocapError
 
 Arrays = dict[str, NDArray[Any]]
-RATIO, ROOM = 8, 2**20  # bytes of arrays: at most ROOM, and RATIO for each byte of the file; ours have three
+ROOM = 2**20  # bytes of arrays that any file may hold
+RATIO = 8  # bytes of arrays besides, for each byte of the file; ours have three
 MOST = 2**14  # members
 LAST = {"U": 0x10FFFF, "b": 1}  # the largest codes of letters and of truths
 
@@ -34,14 +35,17 @@ class Member:
     """
 
     def __init__(self, archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> None:
-        self.archive, self.entry = archive, entry
+        self.archive = archive
+        self.entry = entry
         self.shape: tuple[int, ...] = ()
-        self.dtype, self.fits = np.dtype(object), False
+        self.dtype = np.dtype(object)
+        self.fits = False
         with archive.open(entry) as packed, suppress(ValueError), warnings.catch_warnings(action="ignore"):
             if npy.read_magic(packed) == (1, 0):
                 shape, _, dtype = npy.read_array_header_1_0(packed)
                 if dtype.kind in "biufcU":
-                    self.shape, self.dtype = shape, dtype
+                    self.shape = shape
+                    self.dtype = dtype
                     self.fits = packed.tell() + math.prod(shape) * dtype.itemsize == entry.file_size
 
     def __str__(self) -> str:
@@ -63,11 +67,11 @@ class Member:
 
 def pack(path: str | Path, arrays: Mapping[str, Any]) -> None:
     """Write an `.npz` file, whole or not at all: packed, unless so much would come out that it is refused."""
-    with replacing(path) as beside:
+    with replacing(path) as new:
         for save in (np.savez_compressed, np.savez):
-            with beside.open("wb") as file:
+            with new.open("wb") as file:
                 save(file, allow_pickle=False, **arrays)
-            room = RATIO * beside.stat().st_size + ROOM
+            room = RATIO * new.stat().st_size + ROOM
             if sum(np.asarray(array).nbytes for array in arrays.values()) < room:
                 break
 

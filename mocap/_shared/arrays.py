@@ -47,5 +47,5 @@ def ranges(first: Indices, counts: Indices) -> Indices:
     >>> ranges(np.array([5, 0]), np.array([2, 3])).tolist()
     [5, 6, 0, 1, 2]
     """
-    before = np.cumsum(counts) - counts
-    return np.asarray(np.arange(counts.sum()) + np.repeat(first - before, counts))
+    starts = np.cumsum(counts) - counts  # of the ranges in the row
+    return np.asarray(np.arange(counts.sum()) + np.repeat(first - starts, counts))

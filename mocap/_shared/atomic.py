@@ -21,12 +21,12 @@ DAY = 86_400  # seconds; nobody writes one file for so long
 
 
 @contextmanager
-def _told(what: str) -> Iterator[None]:
+def _explained(action: str) -> Iterator[None]:
     """Say of an error of the system what it hinders."""
     try:
         yield
     except OSError as error:
-        raise MocapError(f"Cannot {what}: {error.strerror or error}.") from error
+        raise MocapError(f"Cannot {action}: {error.strerror or error}.") from error
 
 
 @contextmanager
@@ -56,7 +56,7 @@ def replacing(path: str | Path) -> Iterator[Path]:
     mocap.errors.MocapError: Cannot write nowhere/walk.bvh: No such file or directory.
     """
     real = Path(os.path.realpath(path))
-    with _told(f"write {path}"), _workshop(real) as folder:
+    with _explained(f"write {path}"), _workshop(real) as folder:
         new = folder / Path(path).name
         yield new
         _sync(new, os.O_RDWR)
@@ -65,8 +65,8 @@ def replacing(path: str | Path) -> Iterator[Path]:
             _sync(real.parent, os.O_RDONLY)
 
 
-def _sync(path: Path, how: int) -> None:
-    number = os.open(path, how)
+def _sync(path: Path, flags: int) -> None:
+    number = os.open(path, flags)
     try:
         os.fsync(number)
     finally:
@@ -79,18 +79,18 @@ def _workshop(path: Path) -> Iterator[Path]:
     if path.is_symlink():
         raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
     _tidy(path.parent)
-    made = tempfile.TemporaryDirectory(prefix=UNFINISHED, dir=path.parent, ignore_cleanup_errors=True)
-    with made as folder:
+    temporary = tempfile.TemporaryDirectory(prefix=UNFINISHED, dir=path.parent, ignore_cleanup_errors=True)
+    with temporary as folder:
         yield Path(folder)
 
 
 @cache
 def _tidy(place: Path) -> None:
     """Remove the folders of processes that were killed."""
-    for left in place.glob(f"{UNFINISHED}*"):
+    for folder in place.glob(f"{UNFINISHED}*"):
         with suppress(OSError):  # another process may do so as well
-            if time.time() - left.stat().st_mtime > DAY:
-                shutil.rmtree(left)
+            if time.time() - folder.stat().st_mtime > DAY:
+                shutil.rmtree(folder)
 
 
 def require_writable(path: str | Path) -> None:
@@ -102,8 +102,9 @@ def require_writable(path: str | Path) -> None:
     Traceback (most recent call last):
     mocap.errors.MocapError: Cannot write nowhere/walk.bvh: No such file or directory.
     """
-    with _told(f"write {path}"):
-        if (real := Path(os.path.realpath(path))).is_dir():
+    with _explained(f"write {path}"):
+        real = Path(os.path.realpath(path))
+        if real.is_dir():
             raise MocapError(f"Cannot write {path}: it is a folder.")
         with _workshop(real):
             pass
@@ -111,8 +112,8 @@ def require_writable(path: str | Path) -> None:
 
 def write_file(path: str | Path, content: str | bytes) -> None:
     """Write bytes, or a text as UTF-8, whole or not at all."""
-    with replacing(path) as beside:
-        beside.write_bytes(content.encode() if isinstance(content, str) else content)
+    with replacing(path) as new:
+        new.write_bytes(content.encode() if isinstance(content, str) else content)
 
 
 def require_folder(path: Path) -> None:
@@ -124,7 +125,7 @@ def require_folder(path: Path) -> None:
     Traceback (most recent call last):
     mocap.errors.MocapError: Cannot make the folder ...below: Not a directory.
     """
-    with _told(f"make the folder {path}"):
+    with _explained(f"make the folder {path}"):
         nearest = next((place for place in (path, *path.parents) if place.exists()), Path())
         with _workshop(nearest / UNFINISHED):
             pass
@@ -139,5 +140,5 @@ def make_folder(path: Path) -> None:
     Traceback (most recent call last):
     mocap.errors.MocapError: Cannot make the folder ...atomic.py: File exists.
     """
-    with _told(f"make the folder {path}"):
+    with _explained(f"make the folder {path}"):
         path.mkdir(parents=True, exist_ok=True)

@@ -57,13 +57,13 @@ def _alarm(seconds: float) -> Iterator[None]:
     def overdue(*_: object) -> None:
         raise Overdue
 
-    before = signal.signal(signal.SIGALRM, overdue)
+    previous = signal.signal(signal.SIGALRM, overdue)
     signal.setitimer(signal.ITIMER_REAL, seconds)
     try:
         yield
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)
+        signal.signal(signal.SIGALRM, previous)
 
 
 @contextmanager

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
@@ -36,10 +37,10 @@ class Origin(NamedTuple):
 
 def _places(file: Path, folder: Path) -> list[str]:
     try:
-        near = [Path(os.path.relpath(file, folder)).as_posix()]
+        relative = [Path(os.path.relpath(file, folder)).as_posix()]
     except ValueError:  # on Windows, from one drive to another
-        near = []
-    return [*near, str(file.resolve())]
+        relative = []
+    return [*relative, str(file.resolve())]
 
 
 def find_again(text: str, folder: Path) -> Origin | None:
@@ -50,11 +51,13 @@ def find_again(text: str, folder: Path) -> Origin | None:
     >>> find_again(Origin(Path("clips/gone.bvh")).text(Path("graphs")), Path("graphs"))
     """
     kept = json.loads(text)
-    path, skeleton = (
-        next((place for place in (folder / name for name in kept[key]) if place.is_file()), None)
-        for key in ("path", "skeleton")
-    )
+    path = _first_file(folder / name for name in kept["path"])
+    skeleton = _first_file(folder / name for name in kept["skeleton"])
     return Origin(path, skeleton, kept["scale"], kept.get("mirrored", False)) if path else None
+
+
+def _first_file(places: Iterable[Path]) -> Path | None:
+    return next((place for place in places if place.is_file()), None)
 
 
 def is_origin(text: str) -> bool:

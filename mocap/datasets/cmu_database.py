@@ -66,18 +66,18 @@ def trials(subject: int | None = None, kind: str | None = None) -> list[Trial]:
     >>> [trial.name for trial in trials(subject=127, kind="walk")]
     ['127_04']
     """
-    found = []
+    listed = []
     for name, row in _registry().items():
         person, file = name.split("/")
         said = kind is None or re.search(rf"\b{re.escape(kind)}\b", row["description"], re.IGNORECASE)
         if file.endswith(".amc") and said and subject in (None, int(person)):
-            found.append(Trial(file[:-4], int(person), int(row["frames"]), row["description"]))
-    if not found:
+            listed.append(Trial(file[:-4], int(person), int(row["frames"]), row["description"]))
+    if not listed:
         subjects = ", ".join(sorted({name.split("/")[0] for name in _registry()}))
         person_asked = f" of subject {subject}" if subject is not None else ""
         word_asked = f" with '{shortened(kind, 40)}' in its description" if kind is not None else ""
         raise MocapError(f"No trial{person_asked}{word_asked} is listed; the subjects are {subjects}.")
-    return found
+    return listed
 
 
 def cmu(

@@ -45,16 +45,13 @@ def fetch(name: str, url: str, sha256: str | None, terms: str) -> Path:
         pooch.HTTPDownloader(progressbar=sys.stderr.isatty(), timeout=TIMEOUT)(url, output_file, store)
         show_once(terms)
         if name.endswith((".asf", ".amc")):
-            unix = Path(output_file).read_bytes().replace(b"\r\n", b"\n")
-            for data in (unix, unix.replace(b"\n", b"\r\n")):
-                if hashlib.sha256(data).hexdigest() == sha256:
-                    Path(output_file).write_bytes(data)
+            _restore_line_ends(Path(output_file), sha256)
 
     place = f"{urlsplit(url).netloc}/.../{url.rpartition('/')[2]}"
     hint = f"put a copy of {name} into a folder that MOCAP_DATA names"
     pooch.get_logger().setLevel("WARNING")
-    known = {"registry": {name: sha256}, "urls": {name: url}}
-    store = pooch.create(kept_in(), base_url="", **known, retry_if_failed=RETRIES)
+    listing = {"registry": {name: sha256}, "urls": {name: url}}
+    store = pooch.create(kept_in(), base_url="", **listing, retry_if_failed=RETRIES)
     try:
         return Path(store.fetch(name, downloader=download))
     except RequestException as error:
@@ -66,6 +63,14 @@ def fetch(name: str, url: str, sha256: str | None, terms: str) -> Path:
     except OSError as error:
         problem = f"Cannot keep {name} in {store.abspath} ({error.strerror or error})"
         raise MocapError(f"{problem}: let MOCAP_DATA name a folder you may write to.") from error
+
+
+def _restore_line_ends(file: Path, sha256: str | None) -> None:
+    """Write a text with the line ends, of Unix or of Windows, that its checksum asks for."""
+    unix = file.read_bytes().replace(b"\r\n", b"\n")
+    for data in (unix, unix.replace(b"\n", b"\r\n")):
+        if hashlib.sha256(data).hexdigest() == sha256:
+            file.write_bytes(data)
 
 
 @cache

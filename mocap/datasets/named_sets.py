@@ -44,7 +44,7 @@ class NamedSet(NamedTuple):
         return f"{self.megabytes} MB" if self.megabytes else "some hundred MB"
 
 
-SETS = {name: NamedSet(**known) for name, known in _TABLES["sets"].items()}
+SETS = {name: NamedSet(**row) for name, row in _TABLES["sets"].items()}
 """The sets by the names of their folders."""
 
 HASHES: dict[str, str] = _TABLES["clips"]
@@ -75,8 +75,8 @@ def clips_of(name: str) -> dict[str, Path]:
     ------
     MocapError : for an unknown set.
     """
-    found = (path for path in folder_of(name).rglob("*.bvh") if UNFINISHED not in str(path))
-    return {path.stem: path for path in sorted(found, reverse=True)}
+    paths = (path for path in folder_of(name).rglob("*.bvh") if UNFINISHED not in str(path))
+    return {path.stem: path for path in sorted(paths, reverse=True)}
 
 
 def fetch_set(name: str, progress: Progress = iter) -> list[str]:
@@ -105,11 +105,11 @@ def fetch_set(name: str, progress: Progress = iter) -> list[str]:
     """
     folder = folder_of(name)
     if not (folder / WHOLE).exists():
-        known = SETS[name]
-        show_once(known.terms())
-        packed = fetch(f"{name}/{name}.zip", known.archive, known.sha256, known.terms())
+        named_set = SETS[name]
+        show_once(named_set.terms())
+        packed = fetch(f"{name}/{name}.zip", named_set.archive, named_set.sha256, named_set.terms())
         _unpack(packed, folder, progress)
-        write_file(folder / WHOLE, f"{known.terms()}\n")
+        write_file(folder / WHOLE, f"{named_set.terms()}\n")
         packed.unlink()
     return sorted(clips_of(name))
 
@@ -118,8 +118,8 @@ def _unpack(archive: Path, folder: Path, progress: Progress) -> None:
     """Write all .bvh files of an archive into a folder, without the archive's own folders."""
     try:
         with zipfile.ZipFile(archive) as files:
-            found = [name for name in files.namelist() if name.lower().endswith(".bvh")]
-            clips = [name for name in found if not PurePosixPath(name).name.startswith("._")]  # of macOS
+            names = [name for name in files.namelist() if name.lower().endswith(".bvh")]
+            clips = [name for name in names if not PurePosixPath(name).name.startswith("._")]  # of macOS
             for name in progress(clips):
                 write_file(folder / PurePosixPath(name).name, files.read(name))
     except (zipfile.BadZipFile, zlib.error, NotImplementedError, EOFError) as error:
@@ -149,10 +149,12 @@ def from_set(name: str, clip: str) -> Motion:
     """
     from mocap.files.load_save import load
 
-    folder, known = folder_of(name), SETS[name]
-    show_once(known.terms())
-    if (path := clips_of(name).get(clip)) is None:
-        gets = f"`mocap data fetch {name}` gets the set ({known.size()}) from {known.address}"
+    folder = folder_of(name)
+    named_set = SETS[name]
+    show_once(named_set.terms())
+    path = clips_of(name).get(clip)
+    if path is None:
+        gets = f"`mocap data fetch {name}` gets the set ({named_set.size()}) from {named_set.address}"
         raise MocapError(f"No clip '{shortened(clip, 40)}' in {folder}: {gets}, or unpack it there.")
     if clip in HASHES and hashlib.sha256(path.read_bytes()).hexdigest() != HASHES[clip]:
         raise MocapError(f"{path} is not the file listed: its checksum differs. Get it anew.")

@@ -16,7 +16,11 @@ from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened
 
-FPS, UNIT, ORDER = 120.0, 2.0**-31, 6
+FPS = 120.0  # frames per second of all bundled clips
+UNIT = 2.0**-31  # metres, or parts of a quaternion: what the stored numbers count
+ORDER = 6  # how often the stored numbers are differences
+ROOT_ROTATION = slice(3, 7)  # columns of a clip: the root's position, its quaternion,
+OTHER_ROTATIONS = slice(7, None)  # and (x, y, z) of the quaternions of all other joints
 FEET = ["lfoot", "rfoot", "ltoes", "rtoes"]
 STORE = Path(__file__).with_name("clips.npz")  # from `figures/bundled_clips.py`
 
@@ -52,8 +56,9 @@ def sample(name: str = "walk_circle") -> Motion:
     Notebook: 01-skeletons-and-clips
     """
     if name not in _KEYS:
-        some, more = ", ".join(_KEYS[:10]), len(_KEYS) - 10
-        raise MocapError(f"No bundled clip '{shortened(name, 40)}'; there are {some} and {more} walks.")
+        clips = ", ".join(_KEYS[:10])
+        walks = len(_KEYS) - 10
+        raise MocapError(f"No bundled clip '{shortened(name, 40)}'; there are {clips} and {walks} walks.")
     keys = ("digits", "moving", "flipped", "labels", "kind", "contacts")
     with open_archive(STORE, OURS) as store:
         digits, moving, flipped, labels, kind, contacts = (store[f"{name}/{key}"].read() for key in keys)
@@ -61,18 +66,15 @@ def sample(name: str = "walk_circle") -> Motion:
     numbers: Any = (folded >> 1) ^ -(folded & 1)
     for _ in range(ORDER):
         numbers = numbers.cumsum(axis=1)
-    columns = np.zeros((len(kind), len(moving)))  # root positions, its quaternions, (x, y, z) of the others
+    columns = np.zeros((len(kind), len(moving)))
     columns[:, moving] = UNIT * numbers.T
     turns = np.empty((len(kind), len(SKELETON), 4))
-    turns[:, 0], turns[:, 1:, 1:] = columns[:, 3:7], columns[:, 7:].reshape(len(kind), -1, 3)
+    turns[:, 0] = columns[:, ROOT_ROTATION]
+    turns[:, 1:, 1:] = columns[:, OTHER_ROTATIONS].reshape(len(kind), -1, 3)
     turns[:, 0] /= np.linalg.norm(turns[:, 0], axis=-1, keepdims=True)
     turns[:, 1:, 0] = np.sqrt(1 - (turns[:, 1:, 1:] ** 2).sum(axis=-1))
-    return Motion(
-        SKELETON,
-        columns[:, :3],
-        np.where(flipped.T[..., None], -turns, turns),
-        FPS,
-        name if name in (*SAMPLES, "jump") else str(labels[0]),
-        {str(label): kind == number for number, label in enumerate(labels)},
-        dict(zip(FEET, contacts, strict=True)),
-    )
+    rotations = np.where(flipped.T[..., None], -turns, turns)
+    title = name if name in (*SAMPLES, "jump") else str(labels[0])
+    marks = {str(label): kind == number for number, label in enumerate(labels)}
+    plants = dict(zip(FEET, contacts, strict=True))
+    return Motion(SKELETON, columns[:, :3], rotations, FPS, title, marks, plants)
