@@ -36,7 +36,9 @@ def test_the_two_means_of_the_paces_1_and_2():
 def test_with_constant_weights_a_blend_lasts_as_long_as_the_clips_do_on_average(weight):
     weights = np.array([1 - weight, weight])
     times, shares = clock(weights, 120.0)
-    assert 0 <= weights @ pair().durations - (len(times) - 1) / 120 < 1 / 120
+    rest = weights @ pair().durations - (len(times) - 1) / 120
+    # Room for rounding: a millionth of a frame, as the code has; 0 was measured.
+    assert -1e-8 <= rest < 1 / 120
     assert times[0] == pair().span[0] and times[-1] <= pair().span[1]
     assert np.all(np.diff(times) > 0) and shares.shape == (len(times), 2)
 

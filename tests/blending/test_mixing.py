@@ -93,9 +93,7 @@ def test_captured_walks_of_two_speeds_stay_in_step(real_data):
     ours, frames, stretched, knee, knee_of_frames, knee_stretched = np.array(ratios).T
     assert ours.max() <= 1.0 and np.all(ours <= frames / 2)
     assert np.median(ours) <= np.median(frames) / 3 and np.median(ours) <= np.median(stretched) / 3
-    # Room for other time curves under other arithmetic: 0.928 and 0.820 were measured.
-    assert knee.min() >= 0.88
-    assert max(np.median(knee_of_frames), np.median(knee_stretched)) < 0.87
+    assert knee.min() >= 0.9 > max(np.median(knee_of_frames), np.median(knee_stretched))
 
 
 def swinging(u, t):

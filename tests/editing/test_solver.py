@@ -153,7 +153,7 @@ def test_a_bar_needs_a_weight_that_rises(real_data, monkeypatch):
     pins = bar(clip, 1.35, 230)
     solved = solve(clip, pins, [SPLINES])
     assert solved.worst[-1] < 0.0025
-    assert smoothness(solved.motion, clip) < 1.08  # room for a pass more or less: 1.022 was measured
+    assert smoothness(solved.motion, clip) < 1.05
     monkeypatch.setattr("mocap.editing.solver.CEILING", 0.0)
     assert told("mm off its pin", solve, clip, pins, [SPLINES._replace(passes=4)]).worst[-1] > 0.05
 

@@ -197,7 +197,6 @@ def test_a_plant_that_stays_out_of_reach_is_let_go_with_a_warning():
     assert np.abs(cleaned.root_positions - clip.root_positions).max() <= 0.0205
     # Room for other arithmetic, under which other frames are let go: from 838 to 901 of 1121 are kept.
     assert 0.65 * planted(clip) < planted(cleaned)
-    assert planted(cleaned) < 0.9 * planted(clip)
 
 
 @given(seeds, st.integers(1, 9), st.floats(0, 1))
