@@ -49,8 +49,10 @@ if not MISSING:
 def pytest_xdist_auto_num_workers(config: pytest.Config) -> int:
     """Start one worker more than there are cores: while browsers and kernels let one wait, one computes.
 
-    A few files run in this process.
+    A few files run in this process, as do the results that are to be accepted.
     """
+    if config.option.accept_results:
+        return 0
     paths = [Path(config.invocation_params.dir, arg.partition("::")[0]) for arg in config.args]
     files = sum(sum(1 for _ in path.rglob("*.py")) if path.is_dir() else 1 for path in paths)
     files += sum(sum(1 for _ in path.rglob("*.ipynb")) for path in paths)

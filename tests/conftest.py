@@ -12,16 +12,65 @@ from hypothesis import HealthCheck, settings
 collect_ignore = ["windows/sitecustomize.py"]  # it changes the Python that imports it
 SWEEP = bool(os.environ.get("MOCAP_SWEEP"))  # .ci/run tries more of everything
 
-# A busy machine is no failure. `few` is for other versions of libraries: that a call has gone shows at once.
-for profile, count in {"house": 50 if SWEEP else 20, "few": 5}.items():
+# Gates try the same examples on every machine and in every run. `--hypothesis-profile=random` tries others,
+# and prints how to repeat what fails. `few` is for other versions of libraries: that a call has gone shows at
+# once. A busy machine is no failure.
+EXAMPLES = {"house": 50 if SWEEP else 20, "few": 5, "random": 50}
+for profile, count in EXAMPLES.items():
     settings.register_profile(
-        profile, max_examples=count, deadline=None, suppress_health_check=[HealthCheck.too_slow]
+        profile,
+        max_examples=count,
+        deadline=None,
+        derandomize=profile != "random",
+        print_blob=True,
+        suppress_health_check=[HealthCheck.too_slow],
     )
 settings.load_profile("house")
 
 # What takes a second or more, by `pytest --durations=0`, and the longest notebooks: a sweep runs them.
 LONG = frozenset(Path(__file__).with_name("long.txt").read_text("utf-8").split())
 ASKED_FOR = ("benchmark", "exhaustive", *(() if SWEEP else ("sweep", "tools")))
+ACCEPTED = pytest.StashKey[dict]()  # changes of each case of test_same_results.py that are accepted
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption(
+        "--accept-results",
+        action="store_true",
+        help="store what the cases of tests/test_same_results.py give now, and print what has changed",
+    )
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Run only the cases of stored results where these are to be accepted, in this process."""
+    if not config.option.accept_results:
+        return
+    if getattr(config.option, "numprocesses", None) or hasattr(config, "workerinput"):
+        raise pytest.UsageError("--accept-results writes files in one process: leave -n away, or give -n 0")
+    config.stash[ACCEPTED] = {}
+    if config.args_source is not pytest.Config.ArgsSource.ARGS:
+        config.args = [str(Path(__file__).with_name("test_same_results.py"))]
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
+    """Print what has been accepted, the cases with changes in a table."""
+    cases = config.stash.get(ACCEPTED, None)
+    if cases is None:
+        return
+    from tests.frozen.store import FOLDER, show_table
+
+    rows = [(case, change) for case, changes in cases.items() for change in changes]
+    terminalreporter.section("accepted results")
+    for line in show_table(rows) if rows else ():
+        terminalreporter.line(line)
+    changed = sum(map(bool, cases.values()))
+    terminalreporter.line(f"{changed} of {len(cases)} cases have changed and are stored in {FOLDER}")
+
+
+@pytest.fixture(scope="session")
+def accepted_results(pytestconfig: pytest.Config) -> dict | None:
+    """Return where the changes of accepted cases are collected; None where nothing is to be accepted."""
+    return pytestconfig.stash.get(ACCEPTED, None)
 
 
 class DrawWithoutDisplay:
