@@ -35,6 +35,7 @@ SPACING = 0.3  # seconds between the knots of the curves; those of time may be f
 # walks wobbles by a fifth. Clips that are cut alike take the closest: a straight line through nine punches
 # makes blends miss their targets by 8 mm, where these miss by 5.
 SPACINGS, AS_GOOD = (np.inf, 8.0, 4.0, 2.0), 1.06
+AS_NEAR = 1e-9  # metres beyond that, so that rounding does not decide for clips that are the same
 
 _Pair = tuple[Curve, Curve, tuple[float, float], float]
 """A clip registered on the reference: its curves of time and angle, where they hold, and the path's mean."""
@@ -139,7 +140,7 @@ def _register_pair(ours: Array, theirs: Array, rate: float, slope: int, slack: i
     u, own = (path.T + half) / rate
     bounds = {"least": 1 / (slope + 1), "most": slope + 1.0}
     times = fit_curve(u, own, spacing=SPACING, **bounds)
-    enough = AS_GOOD * _mean_along(grid, times, rate, half)
+    enough = AS_GOOD * _mean_along(grid, times, rate, half) + AS_NEAR
     wide = SPACINGS if slack else ()
     fewer = (fit_curve(u, own, spacing=wider * SPACING, **bounds) for wider in wide)
     times = next((curve for curve in fewer if _mean_along(grid, curve, rate, half) <= enough), times)

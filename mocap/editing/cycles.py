@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mocap._shared.ties import first_least
 from mocap.blending.joining import join
 from mocap.body import rotations
 from mocap.body.motion import Motion, concatenate, resample
@@ -21,6 +22,7 @@ from mocap.editing.path_editing import plants_kept
 from mocap.errors import MocapError, MocapWarning, shortened, warn
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
+from mocap.matching import distance_grids
 from mocap.matching.distance_grids import Floats, distance_grid
 from mocap.matching.point_clouds import point_cloud
 
@@ -29,6 +31,12 @@ LONGEST = 300.0  # seconds of a clip: the grid of all its windows takes 0.3 GB
 ROWS = 600  # frames of the clip, evenly chosen, that a cycle may cover
 MOSTLY = 90  # percent of the frames: where the data leap, a frame counts no more than these
 ENOUGH = 1.1  # times the least cost: two strides are hardly better than one
+
+# m² and metres. In 32 bits D is right to some 4e-7 m², so a D of less than `NOTHING` is 0. Costs are then
+# right to some 1e-5 m, and the first of equal cycles is taken: a clip that repeats itself has one a round.
+NOTHING = 1e-6
+EQUAL = 2e-5
+
 MARGIN = 3.0  # seconds: longer than any footplant of a walk, and than the reach of any correction
 SEAM = 0.2  # seconds: the window in which two moments are compared, and in which the cycle is closed
 
@@ -86,7 +94,7 @@ def find_loop(motion: Motion, *, seconds: tuple[float, float] = (0.4, 3.0)) -> L
     points = point_cloud(slow)
     points = (points - points.mean(axis=(0, 1))).astype(np.float32)  # kilometres away 32 bits are too few
     grid = distance_grid(points, points, window=window)
-    np.sqrt(np.maximum(grid, 0.0, out=grid), out=grid)
+    np.sqrt(np.where(grid < NOTHING, np.float32(0.0), grid), out=grid)
     first, length, missed = _best(grid, least, most)
     ends = (first / slow.fps, (first + length) / slow.fps)
     return _refined(motion, ends, seconds[0], missed)
@@ -100,7 +108,7 @@ def _best(grid: Floats, least: int, most: int) -> tuple[int, int, float]:
     >>> swing = np.array([0, 1, 2, 1, 0, 1, 2, 1, 0])
     >>> distances = np.abs(np.subtract.outer(swing, swing)).astype(float)
     >>> _best(distances, 2, 6), [round(number, 3) for number in _best(distances, 2, 3)]
-    ((0, 4, 0.0), [3, 2, 0.333])
+    ((0, 4, 0.0), [1, 2, 0.333])
     """
     count = len(grid)
     chosen = np.unique(np.linspace(0, count - 1, min(count, ROWS)).astype(int))
@@ -117,10 +125,10 @@ def _best(grid: Floats, least: int, most: int) -> tuple[int, int, float]:
             outside = 1 - (before[length:-1] - before[:starts])
             missed = share @ nearest[:, :starts] / np.maximum(outside, 1e-9)
             costs = np.diagonal(grid, length) + missed
-            start = int(costs.argmin())
+            start = int(first_least(costs, EQUAL))
             found.append((float(costs[start]), start, length, float(missed[start])))
         np.minimum(nearest[:, :starts], rows[:, length:], out=nearest[:, :starts])
-    enough = ENOUGH * min(cost for cost, *_ in found)
+    enough = ENOUGH * min(cost for cost, *_ in found) + EQUAL
     return next(row[1:] for row in found if row[0] <= enough)
 
 
@@ -134,7 +142,7 @@ def _refined(motion: Motion, ends: tuple[float, float], shortest: float, missed:
     parts = [motion[places[0] : places[-1] + window] for places in around]
     grid = distance_grid(*parts, window=window)
     grid[np.subtract.outer(*around) > -shortest * motion.fps] = np.inf
-    i, j = np.unravel_index(int(grid.argmin()), grid.shape)
+    i, j = np.unravel_index(int(first_least(grid, distance_grids.EQUAL)), grid.shape)
     return Loop(around[0][int(i)], around[1][int(j)], float(np.sqrt(max(grid[i, j], 0.0))), missed)
 
 

@@ -36,6 +36,11 @@ Floats = NDArray[np.floating[Any]]
 
 TILE = 256, 640  # rows and columns worked on at a time: few enough to stay in a core's cache
 
+# m²: distances D that differ by less are equal, but for rounding, which is some 1e-14 m² for a body that
+# walks. Windows that are alike have a D of 1e-4 to 1e-2 m². A D below this one is 0: its root, less than a
+# micrometre, would be rounding alone, made larger.
+EQUAL = 1e-12
+
 
 class Cloud(NamedTuple):
     """A clip ready for matching; its arrays are already multiplied by square roots of the weights.
@@ -163,11 +168,11 @@ def distance_grid(
 
     Returns
     -------
-    D, shape (F_a - k + 1, F_b - k + 1), m². Never negative, and exactly symmetric where a and b are the
-    same points. The error is below 4e-6 · (S + S') in 32 bits and 1e-14 · (S + S') in 64, with S as at the
-    head of this module and y from the ground. Far from the origin the points themselves have fewer digits:
-    this adds 1e-15 · √(S + S') times that distance. On real walks the error in 32 bits is at most 4e-7 m²:
-    7 µm where √D is 3 cm.
+    D, shape (F_a - k + 1, F_b - k + 1), m². Never negative, 0 in 64 bits where it is below 1e-12 m², and
+    exactly symmetric where a and b are the same points. Otherwise the error is below 4e-6 · (S + S') in 32
+    bits and 1e-14 · (S + S') in 64, with S as at the head of this module and y from the ground. Far from the
+    origin the points themselves have fewer digits: this adds 1e-15 · √(S + S') times that distance. On real
+    walks the error in 32 bits is at most 4e-7 m²: 7 µm where √D is 3 cm.
 
     Raises
     ------
@@ -203,6 +208,8 @@ def distance_grid(
     same = np.array_equal(points[0], points[1])
     clouds = (cloud(p.astype(float), level, weights, window, dtype) for p in points)
     grid = tiled_distances(*(c.part(slice(len(c.sizes) - window + 1)) for c in clouds), upper=same)
+    if dtype == np.float64:
+        grid[grid < EQUAL] = 0.0
     return np.triu(grid) + np.triu(grid, 1).T if same else grid
 
 

@@ -13,22 +13,24 @@ from mocap._shared.progress import Progress
 from mocap._shared.tasks import run_in_order
 from mocap.body.planar import from_ground
 from mocap.errors import MocapError
-from mocap.matching.distance_grids import Cloud, tiled_distances
+from mocap.matching.distance_grids import EQUAL, Cloud, tiled_distances
 
 AT_ONCE = 1024  # pairs measured together, to limit the memory
 BLOCK = 1280  # windows on a side of a block
 
 
-def local_minima(grid: ArrayLike, below: float = np.inf) -> Indices:
+def local_minima(grid: ArrayLike, below: float = np.inf, *, equal: float = EQUAL) -> Indices:
     """Find the entries under a threshold that are lower than all eight neighbours [KGP02, 3.2].
 
-    Entries beyond the border count as infinite. Of neighbours that are exactly equal, the first in reading
-    order counts as the lower one. So a plateau has one minimum or more, and no two of them side by side.
+    Entries beyond the border count as infinite. Of neighbours that are equal, the first in reading order
+    counts as the lower one. A plateau therefore has one minimum or more, and no two of them side by side.
 
     Parameters
     ----------
     grid : shape (n, m).
     below : only entries under this value, in the grid's unit.
+    equal : neighbours that differ by no more are equal, in the grid's unit. By default 1e-12, rounding of a
+        `distance_grid`: where a body stands still or a clip repeats itself, distances differ by that alone.
 
     Returns
     -------
@@ -54,7 +56,8 @@ def local_minima(grid: ArrayLike, below: float = np.inf) -> Indices:
     rows, columns = np.divmod(np.flatnonzero(values < below), values.shape[1])
     for r, c in ((r, c) for r in (-1, 0, 1) for c in (-1, 0, 1) if (r, c) != (0, 0)):
         own, beside = values[rows, columns], padded[rows + 1 + r, columns + 1 + c]
-        lower = own < beside if (r, c) < (0, 0) else own <= beside  # most are out after the first neighbour
+        # Most are out after the first neighbour.
+        lower = own < beside - equal if (r, c) < (0, 0) else own <= beside + equal
         rows, columns = rows[lower], columns[lower]
     return np.stack([rows, columns], axis=-1)
 

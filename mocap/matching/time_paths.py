@@ -26,11 +26,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Indices, Mask
+from mocap._shared.ties import first_least
 from mocap.errors import MocapError
 
 Floats = NDArray[np.floating[Any]]
 
 ROUNDS = 50  # of the search for the least mean, which takes two to four
+
+# Of the largest cost: sums of costs that differ by less are equal, and the earlier kind of step is taken.
+# Rounding of a sum is some 1e-13 of that cost.
+EQUAL = 1e-9
 
 
 class PathSums(NamedTuple):
@@ -40,12 +45,14 @@ class PathSums(NamedTuple):
     steps : (n, m), how this path ends: 0 for a diagonal step, k for k steps down, W + k for k to the right.
     begins : (n, m), whether a path that is here after a diagonal step begins here.
     slope : W.
+    equal : sums that differ by no more are equal, in the unit of the costs.
     """
 
     totals: Floats
     steps: NDArray[np.int8]
     begins: Mask
     slope: int
+    equal: float
 
 
 def path_sums(costs: Floats, starts: Mask, *, slope: int) -> PathSums:
@@ -57,6 +64,11 @@ def path_sums(costs: Floats, starts: Mask, *, slope: int) -> PathSums:
         may be negative: a path begins afresh only where the best sum before is not below 0.
     starts : shape (n, m), booleans: where a path may begin. True everywhere makes it a local alignment.
     slope : W, at least 1 and at most 63.
+
+    Returns
+    -------
+    The sums. Of equal paths to a cell the one is kept that ends with a diagonal step, else with fewer steps
+    down, else with fewer to the right.
 
     Examples
     --------
@@ -70,6 +82,7 @@ def path_sums(costs: Floats, starts: Mask, *, slope: int) -> PathSums:
     # The states of a row and of the one above, shape (2 W + 1, m): A, V₁ … V_W, H₁ … H_W.
     row, above = np.full((2, 2 * slope + 1, costs.shape[1]), np.inf, costs.dtype)
     least = np.full(costs.shape[1] + 1, np.inf, costs.dtype)  # M of the row above, one to the right
+    equal = EQUAL * float(np.abs(costs).max(initial=0.0, where=np.isfinite(costs)))
     for i, cost in enumerate(costs):
         before, later = least[:-1], cost[1:]
         if some[i]:
@@ -80,9 +93,10 @@ def path_sums(costs: Floats, starts: Mask, *, slope: int) -> PathSums:
         np.add(row[0, :-1], later, out=row[slope + 1, 1:])
         for k in range(slope + 2, 2 * slope + 1):
             np.add(row[k - 1, :-1], later, out=row[k, 1:])
-        steps[i], least[1:] = row.argmin(0), np.minimum.reduce(row, out=totals[i])
+        least[1:] = np.minimum.reduce(row, out=totals[i])
+        steps[i] = (row <= totals[i] + equal).argmax(0)
         row, above = above, row
-    return PathSums(totals, steps, begins, slope)
+    return PathSums(totals, steps, begins, slope, equal)
 
 
 def origins(sums: PathSums) -> Indices:
@@ -195,7 +209,7 @@ def time_path(grid: ArrayLike, *, slope: int = 2, slack: int = 0) -> Indices:
         if not np.isfinite(totals.min()):
             frames = f"{len(costs)} frames cannot be laid on {costs.shape[1]}"
             raise MocapError(f"{frames} with slope {slope}: at most {slope + 1} to 1.")
-        end = ends[totals.argmin()]
+        end = ends[first_least(totals, sums.equal)]
         path = trace(sums, (int(end[0]), int(end[1])))
         level, before = path_mean(costs, path), level
         if not slack or abs(level - before) <= 1e-9 * abs(level):

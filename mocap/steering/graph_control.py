@@ -14,6 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Points
+from mocap._shared.ties import in_order
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import find_legs
@@ -22,7 +23,7 @@ from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph, Node
 from mocap.steering.characters import Pose, require_command
-from mocap.steering.layered_search import States, hop_states, start_states
+from mocap.steering.layered_search import EQUAL, States, hop_states, start_states
 
 SEAM = 0.1  # m²/s, as all costs here
 LABEL = 4.0  # m²/s per second
@@ -196,7 +197,7 @@ class Controller:
         longer = going.then(of, steps._replace(cost=cost))
         first = np.where(going.hop[of] < 0, hop, going.hop[of])
         walks = States.join([self.walks.take(~short), longer._replace(hop=first)])
-        self.walks = walks.take(np.argsort(walks.cost / walks.frames)[:WIDTH])
+        self.walks = walks.take(in_order(walks.cost / walks.frames, EQUAL)[:WIDTH])
 
     def _choose(self) -> None:
         """Take the first hop of the best walk, and look ahead from its end."""

@@ -17,7 +17,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array, Indices, Mask, Points
+from mocap._shared.ties import in_order
 from mocap.graphs.compiled_graph import CompiledGraph
+
+# In the unit of costs, m² or m²/s: walks whose costs differ by less are equally good, and go in the order in
+# which they were found. Rounding of a cost is some 1e-12; a frame that is 1 cm off a path costs 1e-4 m².
+EQUAL = 1e-7
+
+# Of a cell's width: a place or a direction so little below a cell's border is on it. Straight paths have
+# places whose x is 0, but for rounding.
+ON_BORDER = 1e-6
 
 
 class States(NamedTuple):
@@ -85,7 +94,7 @@ def standing(states: States, at: Points, place: float, turn: float) -> Indices:
     `at`, shape (nodes,), is where the root is at each node, in the coordinates of its clip.
     """
     body = (states.move + states.turn * at[states.node]) / place
-    cells = np.floor([body.real, body.imag, np.angle(states.turn) / turn])
+    cells = np.floor(np.array([body.real, body.imag, np.angle(states.turn) / turn]) + ON_BORDER)
     return np.concatenate([states.node[None], cells.astype(np.intp)])
 
 
@@ -105,7 +114,7 @@ def select(scores: Array, cells: Indices, width: int) -> Indices:
 
     Notebook: 08c-judging-a-search
     """
-    order = np.argsort(scores, kind="stable")
+    order = in_order(scores, EQUAL)
     cells = cells[:, order]
     alike = np.lexsort(cells)  # walks that stand alike come together, the best of them first
     cells = cells[:, alike]
@@ -167,7 +176,7 @@ class LayeredSearch:
         self.arrived.append(states.take(done))
         # No cost is below 0, so a walk that costs as much as the best one cannot become better.
         best = min(arrived.cost.min() for arrived in self.arrived)
-        return states.take(~done & (states.cost < best))
+        return states.take(~done & (states.cost < best - EQUAL))
 
     def trace(self, states: States, row: int) -> States:
         """Give the states of one walk, from its start over all rounds to this row of some states."""

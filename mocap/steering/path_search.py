@@ -14,10 +14,11 @@ from typing import NamedTuple
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Mask, Points
+from mocap._shared.ties import first_least
 from mocap.body.planar import on_ground
 from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import AHEAD, LEAST, CompiledGraph
-from mocap.steering.layered_search import LayeredSearch, States, hop_states, standing
+from mocap.steering.layered_search import EQUAL, LayeredSearch, States, hop_states, standing
 from mocap.steering.path_objective import Route, Settings
 
 LAYER = 0.15  # metres of path
@@ -212,7 +213,7 @@ class PathSearch(LayeredSearch):
         if not self.arrived and len(self.history) < 2:
             raise NoWalk(f"The search was {stopped} before its first step.")
         last = States.join(self.arrived or self.history[-1:])
-        walk = self.trace(last, int(last.cost.argmin()))
+        walk = self.trace(last, int(first_least(last.cost, EQUAL)))
         hops = walk.hop[1:]
         along, edges = self.frames_along(hops, walk.along[:-1])[2], self.graph.hops.edges(hops)
         turn, move, cost = complex(walk.turn[0]), complex(walk.move[0]), float(walk.cost[-1])

@@ -15,7 +15,11 @@ from typing import Any, NamedTuple
 import networkx as nx
 import numpy as np
 
+from mocap._shared.ties import in_order
 from mocap.errors import MocapError, NoWalk
+
+# In the unit of the costs: walks whose costs differ by less cost the same, and the first one found is kept.
+EQUAL = 1e-9
 
 State = Any
 SearchEdge = tuple[Hashable, Hashable, int]
@@ -135,7 +139,7 @@ def branch_and_bound(
         while stack and not stopped:
             branch = stack.pop()
             furthest = max(furthest, branch, key=lambda b: b.frames)
-            if best and branch.cost >= best.cost:
+            if best and branch.cost >= best.cost - EQUAL:
                 cut += 1
             elif problem.done(branch.state) or branch.frames >= horizon:
                 best = branch
@@ -172,7 +176,7 @@ def children(problem: Problem, branch: Branch) -> list[Branch]:
         if not cost >= 0:
             raise MocapError(f"A cost must be 0 or more, got {cost} for the edge {edge}.")
         found.append(Branch(branch.cost + cost, end, state, branch.frames + frames, edge, branch))
-    return sorted(found, key=lambda child: child.cost, reverse=True)
+    return [found[number] for number in in_order([-child.cost for child in found], EQUAL)]
 
 
 def search_ahead(

@@ -12,6 +12,7 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from mocap._shared.arrays import Array, Indices, Mask, Points
+from mocap._shared.ties import first_least, whole_steps
 from mocap.errors import MocapError, warn
 from mocap.methods.groups.flocking import RATE, Configuration
 
@@ -21,6 +22,11 @@ ROUNDS = 5
 EVERY = 1.0  # seconds between the frames that nodes are chosen from
 COVERED = 0.8  # a smaller share of the simulation near a node is warned of
 SLOWEST = 0.2  # m/s; the mean velocity of a slower group has no direction
+
+# m² and metres: orders of the members whose costs differ by less are equal, as are RMS distances. Rounding is
+# some 1e-12; two groups that are alike are decimetres apart.
+EQUAL_COSTS = 1e-6
+EQUAL = 1e-9
 
 
 class Match(NamedTuple):
@@ -108,7 +114,7 @@ def compare(
     rows = [part.reshape(-1, sizes[0]) for part in parts]
     one, other = Configuration(*rows[:2]), Configuration(*rows[2:])
     tried = [_by_turns(one, other, start, rounds) for start in starts]
-    best = np.argmin([match.rms for match in tried], axis=0)
+    best = first_least([match.rms for match in tried], EQUAL, axis=0)
     found = (np.stack(part)[best, np.arange(len(best))] for part in zip(*tried, strict=True))
     return Match._make(part.reshape((*parts[0].shape[:-1], *part.shape[1:])) for part in found)
 
@@ -121,7 +127,8 @@ def _by_turns(one: Configuration, other: Configuration, start: float, rounds: in
     match = Match(np.full(len(turn), np.inf), np.zeros(0, int), turn, move)
     for _ in range(rounds):
         before, square = match.rms, assignment_costs(one, other, match.turn, match.move)
-        order = np.array([linear_sum_assignment(costs)[1] for costs in square])
+        # Whole numbers have no rounding, so equal orders stay equal.
+        order = np.array([linear_sum_assignment(costs)[1] for costs in whole_steps(square, EQUAL_COSTS)])
         there, going = (np.take_along_axis(part, order, axis=1) for part in other)
         middle, centre = one.places.mean(axis=1), there.mean(axis=1)
         cross = ((one.places - middle[:, None]) * (there - centre[:, None]).conj()).sum(axis=1)

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mocap._shared.arrays import Indices, Points
+from mocap._shared.ties import whole_steps
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import MocapError, NoWalk
 from mocap.methods.groups.flocking import APART, RATE, Disc
@@ -23,6 +24,8 @@ PACE = 1.05  # m/s, at which a group is expected to go on
 TURNING = 1.3  # seconds per radian still to turn
 CELL, SECTOR = 0.7, 0.3  # metres and radians: groups that stand nearer than this are one state
 MOST = 4000  # states to expand
+
+EQUAL = 1e-6  # seconds: ways that promise to take as long; the first one found goes on first
 
 
 class Scene(NamedTuple):
@@ -232,7 +235,7 @@ def plan_group(
         for left, after in search.go_on(state):
             count += 1
             promise = after.seconds + (0.0 if after.goal == points else weight * left)
-            heappush(waiting, (promise, count, after))
+            heappush(waiting, (float(whole_steps(promise, EQUAL)), count, after))
     why = f"the limit of {most} states ended the search" if waiting else "obstacles closed every way"
     helps = "Set a point on the way, allow more states" if waiting else "Start farther off or turned"
     wide = min(np.ptp(node.places.imag) for node in graph.nodes) + 2 * scene.body + SHIFTS[-1]

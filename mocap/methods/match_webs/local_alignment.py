@@ -17,8 +17,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array, Indices, Mask
 from mocap._shared.progress import Progress
+from mocap._shared.ties import in_order
+from mocap.matching import distance_grids
 from mocap.matching.distance_grids import Cloud, Floats, tiled_distances
 from mocap.matching.time_paths import origins, path_sums, trace
+
+# Metres: distances of windows that differ by no more are equal, but for rounding, which is some 1e-13 m.
+EQUAL = 1e-9
+# Metres: sums along a path, or their means, that differ by less rank alike; the first one found is better.
+RANKS = 1e-6
 
 
 def minima_1d(grid: ArrayLike) -> Mask:
@@ -31,7 +38,8 @@ def minima_1d(grid: ArrayLike) -> Mask:
 
     Parameters
     ----------
-    grid : shape (n, m); cells beyond the border count as infinite, and infinite cells are no minima.
+    grid : shape (n, m), metres; cells beyond the border count as infinite, and infinite cells are no minima.
+        A cell that is higher by a nanometre is as high.
 
     Returns
     -------
@@ -49,7 +57,8 @@ def minima_1d(grid: ArrayLike) -> Mask:
     Notebook: 16-match-webs
     """
     cells = np.asarray(grid)
-    around = np.pad(cells, 1, mode="edge")
+    around = np.pad(cells.astype(np.result_type(cells, np.float32), copy=False), 1, mode="edge")
+    around += EQUAL
     in_row = (cells <= around[1:-1, :-2]) & (cells <= around[1:-1, 2:])
     in_column = (cells <= around[:-2, 1:-1]) & (cells <= around[2:, 1:-1])
     return np.asarray((in_row | in_column) & (cells < np.inf))
@@ -97,10 +106,11 @@ def local_paths(costs: ArrayLike, *, slope: int = 2, least: int = 1) -> Iterator
     cells = np.flatnonzero(totals < 0)
     best = np.zeros(len(totals), totals.dtype)
     np.minimum.at(best, begun[cells], totals[cells])
-    ends = cells[totals[cells] == best[begun[cells]]]  # the best of each beginning
+    ends = cells[totals[cells] <= best[begun[cells]] + sums.equal]  # the best of each beginning
+    ends = ends[np.unique(begun[ends], return_index=True)[1]]  # of equal ones, the first
     advance = np.array(np.divmod(ends, grid.shape[1])) - np.divmod(begun[ends], grid.shape[1])
     ends = ends[advance.min(axis=0) >= least]
-    for end in ends[np.argsort(totals[ends], kind="stable")]:
+    for end in ends[in_order(totals[ends], RANKS)]:
         yield trace(sums, divmod(int(end), grid.shape[1]))
 
 
@@ -166,20 +176,18 @@ def find_paths(cloud: Cloud, starts: Indices, below: float, progress: Progress) 
     last = len(cloud.sizes) - cloud.window + 1
     found = []
     for pair in progress(pairs):
-        grid: Floats = np.sqrt(
-            tiled_distances(*(cloud.part(slice(s.start, min(s.stop, last))) for s in pair))
-        )
+        squares = tiled_distances(*(cloud.part(slice(s.start, min(s.stop, last))) for s in pair))
+        grid: Floats = np.sqrt(np.where(squares < distance_grids.EQUAL, 0.0, squares))
         corner = [part.start for part in pair]
         first = corner[0] - corner[1] + LEAST  # the second window is at least so much later
         if first + len(grid) > 0:
             grid[np.tri(len(grid), grid.shape[1], first - 1, dtype=bool)] = np.inf
-        costs = grid - np.float32(below)
-        costs += np.where(minima_1d(grid), np.float32(0), np.float32(OFF_MINIMUM * below))
+        costs = grid - below + np.where(minima_1d(grid), 0.0, OFF_MINIMUM * below)
         paths = apart(local_paths(costs, slope=SLOPE, least=LEAST), near=NEAR)
         found += [np.column_stack([path + corner, grid[tuple(path.T)]]) for path in paths]
     if np.diff(starts).max() > ROWS:  # then parts of a clip may have found the same
-        found.sort(key=lambda path: float((path[:, 2] - below).sum()))
-        found = apart(found, near=NEAR)
+        sums = [float((path[:, 2] - below).sum()) for path in found]
+        found = apart((found[number] for number in in_order(sums, RANKS)), near=NEAR)
     return found
 
 

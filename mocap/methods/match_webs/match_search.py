@@ -8,10 +8,11 @@ from typing import NamedTuple
 import numpy as np
 
 from mocap._shared.arrays import Array
+from mocap._shared.ties import in_order
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, warn
 from mocap.matching.point_clouds import point_cloud
-from mocap.methods.match_webs.local_alignment import LEAST
+from mocap.methods.match_webs.local_alignment import LEAST, RANKS
 from mocap.methods.match_webs.webs import MatchWeb
 
 SAME = 0.5  # share of the union of two stretches above which they are one match
@@ -118,7 +119,7 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
             if shortest <= other.stop - other.start <= longest
         ]
         before = len(found)
-        for match in sorted(new, key=lambda other: other.cost):
+        for match in (new[number] for number in in_order([other.cost for other in new], RANKS)):
             common = np.minimum(places[:, 1], match.stop) - np.maximum(places[:, 0], match.start)
             union = np.maximum(places[:, 1], match.stop) - np.minimum(places[:, 0], match.start)
             fresh = (common <= SAME * union).all()  # it is none of those that were found

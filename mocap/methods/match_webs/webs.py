@@ -120,7 +120,7 @@ def build_web(clips: Sequence[Motion], *, below: float = 0.12, progress: Progres
         names = ", ".join(short[:4]) + (f" and {len(short) - 4} more" if len(short) > 4 else "")
         warn(f"Too short to hold a path of {lasts}, and left out: {names}.")
     used = [clip for clip, use in zip(low, long, strict=True) if use]
-    ready = join_clouds(used, None, WINDOW, 0, np.float32)
+    ready = join_clouds(used, None, WINDOW, 0, np.float64)  # in 32 bits paths would hang on rounding
     starts = np.cumsum([0, *(len(clip) * use for clip, use in zip(low, long, strict=True))])
     paths = find_paths(ready, np.unique(starts), below, progress)
     cells = np.concatenate([np.empty((0, 3)), *paths])

@@ -6,7 +6,7 @@ from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.planar import PlanarTransform
 from mocap.errors import warn
-from mocap.methods.motion_matching.nearest_frames import FrameSearch, Wants, fade, foresee
+from mocap.methods.motion_matching.nearest_frames import EQUAL, FrameSearch, Wants, fade, foresee
 from mocap.methods.motion_matching.pose_database import FUTURE, PoseDatabase
 from mocap.steering.characters import Pose, require_command
 
@@ -110,7 +110,7 @@ class MotionMatcher:
         stay = now < table.last[now] and (not label or bool(table.motion.labels[label][now]))
         staying = search.cost(query, now) - self.wants.bonus if stay else np.inf
         new, cost = search.nearest(query, now, round(self.wants.near * self.fps))
-        if cost >= staying:
+        if cost >= staying - EQUAL:
             return
         # The new frame's track is put on the old one's; what differs becomes the offset.
         turn = complex(self.place.turn * np.exp(1j * (table.heading[now] - table.heading[new])))

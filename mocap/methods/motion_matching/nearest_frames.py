@@ -15,10 +15,19 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array
+from mocap._shared.ties import first_least
 from mocap.errors import MocapError, NoWalk
 from mocap.methods.motion_matching.pose_database import AHEAD, FUTURE, PoseDatabase, ahead_columns
 
 PULL = 2 * np.log(2)  # times the half-life: how hard a spring pulls
+
+# Squared distances of standardised features, without unit. In 32 bits they are right to some 1e-5 of a
+# frame's own size, so those within `NEARLY` of the least are measured again in 64 bits. Then those that
+# differ by less than `EQUAL` are equal, and the first frame is taken, or the one that plays.
+NEARLY = 0.01
+EQUAL = 1e-8
+
+BEHIND = 1e-9  # radians: a goal so nearly straight behind is behind, and reached by a turn to the left
 
 Value = complex | NDArray[Any]  # complex numbers are points on the ground
 
@@ -157,9 +166,13 @@ class FrameSearch:
         """Find the frame nearest to a query, not within `near` frames of now, and its squared distance."""
         costs = self.sizes - 2 * (self.bank @ (query * self.scale).astype(np.float32))
         costs[np.abs(self.frames - now) < near] = np.inf
-        best = int(costs.argmin())
-        frame = int(self.frames[best])
-        return (frame, self.cost(query, frame)) if np.isfinite(costs[best]) else (now, np.inf)
+        least = costs.min()
+        if not np.isfinite(least):
+            return now, np.inf
+        near_least = self.frames[costs <= least + NEARLY]
+        exact = [self.cost(query, frame) for frame in near_least.tolist()]
+        best = int(first_least(exact, EQUAL))
+        return int(near_least[best]), exact[best]
 
 
 def foresee(database: PoseDatabase, now: int, goal: complex, halflife: float) -> Array:
@@ -195,6 +208,8 @@ def foresee(database: PoseDatabase, now: int, goal: complex, halflife: float) ->
     """
     seen = complex(database.drift[now] * np.exp(-1j * database.heading[now]))
     way = spring_way(seen, goal, halflife, AHEAD)
-    facing = spring(0.0, float(database.spin[now]), float(np.angle(goal)) if goal else 0.0, halflife, AHEAD)
+    bearing = float(np.angle(goal)) if goal else 0.0
+    bearing += 2 * np.pi if bearing < BEHIND - np.pi else 0.0
+    facing = spring(0.0, float(database.spin[now]), bearing, halflife, AHEAD)
     ahead = np.concatenate([ahead_columns(way), ahead_columns(np.exp(1j * facing))])
     return np.asarray((ahead - database.mean[FUTURE]) / database.scale[FUTURE])

@@ -1,0 +1,69 @@
+"""Ties broken by rule: values that only rounding tells apart are equal, and the first of equals is taken.
+
+The last bit of a sum depends on the processor, on the library and on the order of its terms. Where two
+answers are equally good, that bit alone would choose between them. Each method therefore names the difference
+below which two of its values are equal, in their unit: far above rounding, and far below what matters.
+"""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mocap._shared.arrays import Indices
+
+
+def first_least(values: ArrayLike, equal: float, axis: int | None = None) -> NDArray[np.intp]:
+    """Return the index of the first value that is at most `equal` above the least one, as `np.argmin` does.
+
+    Examples
+    --------
+    >>> values = [3.0, 1.0 + 1e-12, 1.0]
+    >>> int(np.argmin(values)), int(first_least(values, equal=1e-9))
+    (2, 1)
+    """
+    numbers = np.asarray(values)
+    least = numbers.min(axis=axis, keepdims=True)
+    return np.asarray((numbers <= least + equal).argmax(axis=axis))
+
+
+def ranks(values: ArrayLike, equal: float) -> Indices:
+    """Rank values, shape (N,): 0 for the least, and one rank for all that follow each other within `equal`.
+
+    Examples
+    --------
+    >>> ranks([0.5, 0.3 + 1e-12, np.inf, 0.3, np.inf], equal=1e-9).tolist()
+    [1, 0, 2, 0, 2]
+    """
+    numbers = np.asarray(values, float)
+    order = np.argsort(numbers, kind="stable")
+    rising = numbers[order]
+    higher = rising[1:] > rising[:-1] + equal
+    ranked = np.zeros(len(numbers), np.intp)
+    ranked[order[1:]] = np.cumsum(higher)
+    return ranked
+
+
+def in_order(values: ArrayLike, equal: float) -> Indices:
+    """Sort values by their `ranks`: the indices, with equal values in the order given.
+
+    Examples
+    --------
+    >>> in_order([0.5, 0.3 + 1e-12, 0.3], equal=1e-9).tolist()
+    [1, 2, 0]
+    """
+    return np.argsort(ranks(values, equal), kind="stable")
+
+
+def whole_steps(values: ArrayLike, step: float) -> NDArray[Any]:
+    """Round values to whole multiples of a step, which have no rounding errors of their own.
+
+    Two values on either side of the middle between two multiples stay apart, however near they are. For
+    values that differ by rounding this is as rare as rounding is small beside the step.
+
+    Examples
+    --------
+    >>> whole_steps([0.3, 0.3 + 1e-12, 0.4, np.inf], 1e-9).tolist()
+    [300000000.0, 300000000.0, 400000000.0, inf]
+    """
+    return np.asarray(np.rint(np.asarray(values) / step))
