@@ -66,12 +66,10 @@ def skeleton_beside(path: Path) -> Path:
         with suppress(MocapError):
             if acclaim.fits(counts, asf.read_skeleton(file)):
                 fitting.append(file)
-    for stem in (path.stem.lower(), path.stem.lower().split("_")[0]):
-        for file in fitting:
-            if file.stem.lower() == stem:
-                return file
-    if len(fitting) == 1:
-        return fitting[0]
+    stems = (path.stem.lower(), path.stem.lower().split("_")[0])
+    named = [file for stem in stems for file in fitting if file.stem.lower() == stem]
+    if named or len(fitting) == 1:
+        return (named or fitting)[0]
     names = ", ".join(file.name for file in fitting or skeletons)
     problem = "none"
     if skeletons:
