@@ -36,8 +36,8 @@ class _Parser(argparse.ArgumentParser):
 
 
 def _parser() -> argparse.ArgumentParser:
-    about = f"New human motion out of captured motion. Motion files are {formats.listed()}."
-    parser = _Parser(prog="mocap", description=about)
+    description = f"New human motion out of captured motion. Motion files are {formats.listed()}."
+    parser = _Parser(prog="mocap", description=description)
     parser.add_argument("--version", action="version", version=f"mocap {mocap.__version__}")
     parser.set_defaults(parser=parser)
     add_commands(parser, COMMANDS)
@@ -59,7 +59,7 @@ def _written_out(words: list[str]) -> list[str]:
     return ["--after" if word == "--" and words[0] == "lab" else word for word in words]
 
 
-def _say(message: Warning | str, *_place: object, **_more: object) -> None:
+def _say(message: Warning | str, *_place: object, **_options: object) -> None:
     """Write an error or a warning as one line, with the names that options have on a command line."""
     text = as_options(printable(message))
     text = re.sub(r"\S{200,}", lambda word: shortened(word[0]), text)  # endless names

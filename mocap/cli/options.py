@@ -14,7 +14,6 @@ from mocap import body, files, graphs
 from mocap._shared.atomic import require_writable
 from mocap._shared.progress import Progress
 from mocap.errors import MocapError, printable
-from mocap.files import formats
 
 if TYPE_CHECKING:
     from mocap.body.motion import Motion
@@ -67,8 +66,7 @@ class Reading:
         from mocap.files.load_save import read  # the help needs no NumPy
         from mocap.files.rigid_bones import STRETCH
 
-        suffix = path.suffix.lower()
-        if self.skeleton and suffix in formats.READ and suffix != ".amc":
+        if self.skeleton and path.suffix.lower() in (".bvh", ".npz"):
             raise MocapError(f"--skeleton is for .amc clips; {path} needs none.")
         return read(path, self.skeleton, self.fps, self.scale, STRETCH)
 

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from contextlib import suppress
 from itertools import chain
 from pathlib import Path
 
@@ -20,8 +19,8 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.body import euler, rotations
 from mocap.body.motion import Motion
-from mocap.errors import FormatError, MocapError
-from mocap.files.asf import MOVES, TURNS, AcclaimSkeleton, read_skeleton
+from mocap.errors import FormatError
+from mocap.files.asf import MOVES, TURNS, AcclaimSkeleton
 from mocap.files.recordings import Recording
 from mocap.files.text import check_room, lines, quick_numbers, read_text, to_numbers
 
@@ -69,30 +68,6 @@ def read(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None) ->
     places = asf.bones["root"].vector + moves * asf.unit
     motion = Motion(asf.skeleton, places, local, fps or rate or CMU_RATE, Path(path).stem)
     return Recording(motion, angles, {})
-
-
-def skeleton_beside(path: Path) -> Path:
-    """Choose among the `.asf` files in the folder of an AMC file the one whose bones fit its first frame.
-
-    That of the same name comes first, then that of the name up to the first `_`, then the only one that fits.
-
-    Raises
-    ------
-    FormatError : where none fits, or several do and none has such a name.
-    """
-    counts = first_frame(read_text(path, most=100_000))
-    beside = sorted(file for file in path.parent.iterdir() if file.suffix.lower() == ".asf")
-    fitting = []
-    for file in beside:
-        with suppress(MocapError):
-            fitting += [file] if fits(counts, read_skeleton(file)) else []
-    stems = [path.stem.lower(), path.stem.lower().split("_")[0]]
-    named = [file for stem in stems for file in fitting if file.stem.lower() == stem]
-    if named or len(fitting) == 1:
-        return (named or fitting)[0]
-    found = ", ".join(file.name for file in fitting or beside)
-    problem = f"{'several that fit' if fitting else 'none that fits'} ({found})" if beside else "none"
-    raise FormatError(path, None, "its .asf file beside it, or named by skeleton=", problem)
 
 
 def first_frame(text: str) -> dict[str, int]:

@@ -50,18 +50,18 @@ def find_files(paths: Iterable[Path], *, deep: bool = False) -> list[Path]:
     >>> find_files([Path("walk.amc"), Path("run.bvh")]) == [Path("walk.amc"), Path("run.bvh")]
     True
     """
-    found: list[Path] = []
+    clips: list[Path] = []
     for path in paths:
         try:
             within = path.rglob("*") if deep else path.iterdir()
-            clips = (p for p in within if UNFINISHED not in str(p) and p.is_file() and is_clip(p))
-            inside = sorted(clips) if path.is_dir() else [path]
+            motions = (p for p in within if UNFINISHED not in str(p) and p.is_file() and is_clip(p))
+            inside = sorted(motions) if path.is_dir() else [path]
         except OSError as error:
             raise MocapError(f"Cannot read {path}: {error.strerror}.") from error
         if not inside:
             raise MocapError(f"The folder {path} holds no {formats.listed('or')} file.")
-        found += inside
-    return found
+        clips += inside
+    return clips
 
 
 def plan(source: str | Path, target: str | Path, suffix: str = ".bvh") -> list[tuple[Path, Path]]:
@@ -83,11 +83,12 @@ def plan(source: str | Path, target: str | Path, suffix: str = ".bvh") -> list[t
     >>> plan("walk.amc", "walk.bvh") == [(Path("walk.amc"), Path("walk.bvh"))]
     True
     """
-    source, target = Path(source), Path(target)
+    source = Path(source)
+    target = Path(target)
     pairs = [(source, target)]
     if source.is_dir():
-        found = find_files([source], deep=True)
-        pairs = [(path, (target / path.relative_to(source)).with_suffix(suffix)) for path in found]
+        clips = find_files([source], deep=True)
+        pairs = [(path, (target / path.relative_to(source)).with_suffix(suffix)) for path in clips]
     require_apart(pairs)
     return pairs
 
@@ -102,11 +103,12 @@ def require_apart(pairs: Sequence[tuple[Path, Path]], read: Iterable[Path] = ())
     mocap.errors.MocapError: a/walk.bvh and b/walk.bvh would both become walk.bvh: take them one by one.
     """
     sources = {os.path.realpath(path) for path in (*read, *(path for path, _ in pairs))}
-    taken: dict[Path, Path] = {}
+    sources_of: dict[Path, Path] = {}
     for path, new in pairs:
         if os.path.realpath(new) in sources:
             raise MocapError(f"{new} is one of the files to read: choose another name or folder.")
-        if (first := taken.setdefault(new, path)) != path:
+        first = sources_of.setdefault(new, path)
+        if first != path:
             raise MocapError(f"{first} and {path} would both become {new}: take them one by one.")
 
 

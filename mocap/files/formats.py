@@ -7,10 +7,11 @@ the help of the command can print the table without NumPy.
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from mocap.errors import MocapError
+from mocap.errors import FormatError, MocapError
 
 if TYPE_CHECKING:
     from mocap.files.recordings import Recording
@@ -42,8 +43,38 @@ def read_amc(path: Path, options: ReadOptions) -> Recording:
     """Read an Acclaim motion and its skeleton, by default the `.asf` file beside it that fits."""
     from mocap.files import acclaim, asf
 
-    skeleton = options.skeleton or acclaim.skeleton_beside(path)
+    skeleton = options.skeleton or skeleton_beside(path)
     return acclaim.read(path, asf.read_skeleton(skeleton, scale=options.scale), fps=options.fps)
+
+
+def skeleton_beside(path: Path) -> Path:
+    """Choose among the `.asf` files in the folder of an AMC file the one whose bones fit its first frame.
+
+    That of the same name comes first, then that of the name up to the first `_`, then the only one that fits.
+
+    Raises
+    ------
+    FormatError : where none fits, or several do and none has such a name.
+    """
+    from mocap.files import acclaim, asf
+    from mocap.files.text import read_text
+
+    counts = acclaim.first_frame(read_text(path, most=100_000))
+    skeletons = sorted(file for file in path.parent.iterdir() if file.suffix.lower() == ".asf")
+    fitting = []
+    for file in skeletons:
+        with suppress(MocapError):
+            if acclaim.fits(counts, asf.read_skeleton(file)):
+                fitting.append(file)
+    stems = (path.stem.lower(), path.stem.lower().split("_")[0])
+    named = [file for stem in stems for file in fitting if file.stem.lower() == stem]
+    if named or len(fitting) == 1:
+        return (named or fitting)[0]
+    names = ", ".join(file.name for file in fitting or skeletons)
+    problem = "none"
+    if skeletons:
+        problem = f"{'several that fit' if fitting else 'none that fits'} ({names})"
+    raise FormatError(path, None, "its .asf file beside it, or named by skeleton=", problem)
 
 
 def read_bvh(path: Path, options: ReadOptions) -> Recording:
