@@ -13,6 +13,7 @@ A leg that this machine cannot run is skipped, with the reason. The exit code is
 import argparse
 import multiprocessing
 import os
+import platform
 import re
 import shutil
 import signal
@@ -22,6 +23,7 @@ import tempfile
 import tomllib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from itertools import islice
 from pathlib import Path
 from types import MappingProxyType
 from typing import NamedTuple
@@ -56,9 +58,10 @@ OPTIONS = [
 ]
 OPTIONS += ["--hypothesis-profile=few", "--hypothesis-seed=1"]
 
-# Kernels of OpenBLAS for x86-64 and ARM, from old to new.
-KERNELS = ["Prescott", "Nehalem", "Sandybridge", "Haswell", "Zen", "SkylakeX", "Cooperlake", "Sapphirerapids"]
-KERNELS += ["ARMV8", "NEOVERSEN1", "NEOVERSEV1", "VORTEX"]
+# Kernels of OpenBLAS, from old to new, by what `platform.machine` returns.
+X86_64 = ["Prescott", "Nehalem", "Sandybridge", "Haswell", "Zen", "SkylakeX", "Cooperlake", "Sapphirerapids"]
+ARM = ["ARMV8", "NEOVERSEN1", "NEOVERSEV1", "VORTEX"]
+KERNELS = {"x86_64": X86_64, "AMD64": X86_64, "aarch64": ARM, "arm64": ARM}
 BUSY = 4  # processes beside the tests
 PROBE = """
 import numpy as np
@@ -114,7 +117,7 @@ def kernel_legs() -> Iterator[Leg]:
     """Yield a leg for each kernel of OpenBLAS; skip those that do not work here or repeat an earlier one."""
     default, _ = find_kernel()
     tried = {default: "the leg as it is"}
-    for name in KERNELS:
+    for name in KERNELS.get(platform.machine(), []):
         taken, reason = find_kernel(name)
         if not reason and taken in tried:
             reason = f"OpenBLAS takes {taken}, as in {tried[taken]}"
@@ -204,9 +207,9 @@ def main() -> None:
     parser.add_argument("--legs", nargs="+", metavar="NAME", help="only legs whose name holds one of these")
     parser.add_argument("tests", nargs="*", default=TESTS, help="which tests (those of the numeric rooms)")
     wanted = parser.parse_args()
-    legs = [leg for leg in all_legs() if any(name in leg.name for name in wanted.legs or [""])]
+    legs = (leg for leg in all_legs() if any(name in leg.name for name in wanted.legs or [""]))
     all_pass = True
-    for leg in legs[: 1 if wanted.quick else None]:
+    for leg in islice(legs, 1 if wanted.quick else None):
         line, passes = run_leg(leg, wanted.tests)
         all_pass &= passes
         print(f"{leg.name:32} {line}", flush=True)
