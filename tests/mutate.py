@@ -48,6 +48,7 @@ LEFT_OUT = (ast.JoinedStr, ast.Raise, ast.Import, ast.ImportFrom)
 LIMIT = 120  # seconds of processor time for a group of tests
 LOADED_ONCE = "networkx scipy.ndimage scipy.optimize scipy.sparse.csgraph scipy.spatial hypothesis.strategies"
 OPTIONS = ["-x", "-q", "-n0", "-pno:cacheprovider", "--no-cov", "--tb=no", "-oaddopts=", "--doctest-modules"]
+OPTIONS += [f"-pno:{plugin}" for plugin in ("nbval", "pytest_mpl", "anyio")]  # slow to import, and unused
 OPTIONS += ["-m", "not tools and not benchmark and not exhaustive and (sweep or not sweep)"]
 QUICK = """
 from hypothesis import Phase  # the same examples each time, and no search for simpler ones
