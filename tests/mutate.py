@@ -62,6 +62,7 @@ OPTIONS = [
     "-oaddopts=",
     "--doctest-modules",
 ]
+OPTIONS += [f"-pno:{plugin}" for plugin in ("nbval", "pytest_mpl", "anyio")]  # slow to import, and unused
 OPTIONS += ["-m", "not tools and not benchmark and not exhaustive and (sweep or not sweep)"]
 QUICK = """
 from hypothesis import Phase  # the same examples each time, and no search for simpler ones

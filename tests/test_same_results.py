@@ -24,7 +24,8 @@ def test_results_are_the_same(name, request, accepted_results):
     if accepted_results is not None:
         accepted_results[name] = store.accept(name, found)
     changes = store.compare(store.read(store.path_of(name)), found)
-    assert not changes, "\n".join([f"{name} has changed:", *map(str, changes)])
+    if changes:
+        pytest.fail("\n".join([f"{name} has changed:", *map(str, changes)]), pytrace=False)
 
 
 def test_every_stored_result_has_a_case(accepted_results):
