@@ -1,6 +1,6 @@
-"""How quick characters and crowds are, as ratios within one run, on a machine that does nothing else.
+"""Time of steps of characters, of building what they play, and of groups, as ratios within one run.
 
-Run them alone, and see the ratios: pytest -m benchmark -n 0 -s tests/benchmarks/test_characters.py
+See the ratios: pytest -m benchmark -n 0 tests/benchmarks/test_characters.py
 """
 
 import gc
@@ -14,24 +14,23 @@ from mocap.methods import groups
 from mocap.methods.motion_matching import MotionMatcher, tabulate
 from mocap.methods.parametric_graphs import ParametricController
 from mocap.steering import Controller, FootTurner, measure_delay
-from tests.benchmarks.timing import fastest, held
+from tests.benchmarks.timing import add_poses, fastest, hold, ratio, yardstick
 from tests.bundled import WALKS, bundled, clips
 from tests.methods.groups.built import course, graph
 from tests.methods.parametric_graphs.built import stepping, walking
 
 pytestmark = pytest.mark.benchmark
-STEPS = 1200
-POSE = np.ones((38, 4))
+STEPS = 1200  # 40 seconds
 
 
 def additions():
-    """Add poses, 250 per step: where that takes 0.1 ms, a step as quick makes 10 000 poses per second."""
-    for _ in range(250 * STEPS):
-        np.add(POSE, POSE)
+    """Add poses as often as 1200 steps take at 10 000 poses per second."""
+    for _ in range(STEPS):
+        add_poses()
 
 
 def steps(make):
-    """Walk for 40 seconds, with another heading in each frame."""
+    """Return a work: a walk of 40 seconds with another heading in each frame."""
     character = make()
 
     def walk():
@@ -42,9 +41,11 @@ def steps(make):
 
 
 def characters():
-    """Give what makes a character of each kind, all of the same clips."""
-    compiled, table = graphs.compile_graph(bundled(*WALKS)), tabulate(clips())
-    walks, paces = walking(), stepping(0.04)
+    """Return a function for each kind of character that makes one, all of the same clips."""
+    compiled = graphs.compile_graph(bundled(*WALKS))
+    table = tabulate(clips())
+    walks = walking()
+    paces = stepping(0.04)
     gc.freeze()
     return {
         "motion graph": lambda: Controller(compiled),
@@ -56,31 +57,33 @@ def characters():
 
 
 def test_steps_beside_those_of_a_character_on_a_motion_graph():
-    makes = characters()
-    *walked, bare = fastest(*map(steps, makes.values()), additions, turns=3)
-    times = dict(zip(makes, walked, strict=True))
-    held("a turned step, in those of a graph", times["turned"] / times["motion graph"], np.inf)
+    makers = characters()
+    *walked, bare = fastest(*map(steps, makers.values()), additions, repeats=3)
+    times = dict(zip(makers, walked, strict=True))
+    hold("a step of a motion graph, in 250 additions", times["motion graph"] / bare, 8)
+    hold("a turned step, in steps of a graph", times["turned"] / times["motion graph"], 1.3)
     for name in ("matching", "strides", "steps"):
-        held(f"a step of {name}, in those of a graph", times[name] / times["motion graph"], 1)
-    for name, most in (("strides", 1), ("steps", 1.7)):
-        held(f"a step of {name}, in 250 additions", times[name] / bare, most)
+        hold(f"a step of {name}, in steps of a graph", times[name] / times["motion graph"], 1)
+    for name, bound in (("strides", 1), ("steps", 1.7)):
+        hold(f"a step of {name}, in 250 additions", times[name] / bare, bound)
 
 
 def test_worst_steps_beside_those_of_a_character_on_a_motion_graph():
-    """The worst step of a run, in the best of five runs: what else the machine does is not the step's."""
-    makes = characters()
-    runs = {name: [measure_delay(makes[name](), speed=0.8).worst for _ in range(5)] for name in makes}
-    for name, most in (("matching", 1.2), ("strides", 3), ("steps", 3)):
-        held(f"the worst step of {name}", min(runs[name]) / min(runs["motion graph"]), most)
+    """The worst step of a run is that of the best of five runs: other processes delay single steps."""
+    makers = characters()
+    worst = {}
+    for name, make in makers.items():
+        worst[name] = min(measure_delay(make(), speed=0.8).worst for _ in range(5))
+    for name, bound in (("matching", 1.2), ("strides", 3), ("steps", 3)):
+        hold(f"the worst step of {name}, in those of a graph", worst[name] / worst["motion graph"], bound)
+
+
+def build_graph():
+    graphs.compile_graph(graphs.prune(graphs.build(list(clips()), window=10, threshold=0.04)))
 
 
 def test_to_prepare_matching_is_cheap_beside_a_graph():
-    built, tabled = fastest(
-        lambda: graphs.compile_graph(graphs.prune(graphs.build(list(clips()), window=10, threshold=0.04))),
-        lambda: tabulate(clips()),
-        turns=3,
-    )
-    held("to tabulate, in building the graph", tabled / built, 0.8)
+    hold("to tabulate, in building the graph", ratio(lambda: tabulate(clips()), build_graph, 3), 0.8)
 
 
 @pytest.mark.filterwarnings("ignore:6 nodes are within")  # of 24 members
@@ -88,36 +91,35 @@ def test_to_prepare_matching_is_cheap_beside_a_graph():
 def test_a_group_is_played_at_a_fiftieth_of_its_simulation(count, nodes):
     group = graph(count, nodes)
     walk = groups.random_group_walk(group, 30)
-    simulated, played = fastest(
-        lambda: groups.simulate(count, 100), lambda: groups.play_group(group, walk), turns=3
-    )
-    held("playing, in simulating the same 120 s", played / simulated, 1 / 50)
+    play = partial(groups.play_group, group, walk)
+    simulate = partial(groups.simulate, count, 100)
+    hold(f"playing 120 s of {count}, in simulating them", ratio(play, simulate, 3), 1 / 50)
 
 
 def test_to_build_a_group_takes_at_most_twelve_times_as_long_as_to_simulate_its_five_minutes():
-    built, simulated = fastest(lambda: groups.build_group(12), lambda: groups.simulate(12, 300), turns=2)
-    held("to build a group, in simulating", built / simulated, 12)
+    build = partial(groups.build_group, 12)
+    simulate = partial(groups.simulate, 12, 300)
+    hold("to build a group, in simulating its 300 s", ratio(build, simulate, 2), 12)
 
 
 def test_a_search_takes_at_most_four_times_as_long_as_simulating():
-    """On average over the courses among eight discs that are found; seed 0 is closed from the start."""
-    group, times = graph(), []
+    """The mean over the courses among eight discs that have a plan; seed 0 is closed from the start."""
+    group = graph()
+    ratios = []
     for seed in range(1, 12):
         scene = course(seed)
         seconds = groups.plan_group(group, scene).seconds
-        searched, simulated = fastest(
-            partial(groups.plan_group, group, scene),
-            partial(groups.simulate, 12, max(seconds - 20, 1)),
-            turns=2,
-        )
-        times.append(searched / simulated)
-    held("a search, in simulating", np.mean(times), 4)
+        search = partial(groups.plan_group, group, scene)
+        simulate = partial(groups.simulate, 12, max(seconds - 20, 1))
+        ratios.append(ratio(search, simulate, 2))
+    hold("a search of a group, in simulating its plan", np.mean(ratios), 4)
 
 
-def test_twelve_characters_for_a_minute_take_a_fifth_of_it():
+def test_twelve_characters_take_a_few_yardsticks_for_each_second():
+    """A yardstick takes some 10 ms: 20 for each second are a fifth of its duration."""
     group = graph()
-    walk = groups.random_group_walk(group, 15, seed=2)
-    plan = groups.play_group(group, walk)
+    plan = groups.play_group(group, groups.random_group_walk(group, 15, seed=2))
     compiled = graphs.compile_graph(bundled(*WALKS))
-    (took,) = fastest(lambda: groups.walk_group(compiled, plan), turns=1)
-    held("twelve characters, in their own time", took * groups.RATE / (len(plan.places) - 1), 1 / 5)
+    seconds = (len(plan.places) - 1) / groups.RATE
+    walk = partial(groups.walk_group, compiled, plan)
+    hold("twelve characters, yardsticks per second", ratio(walk, yardstick, 1) / seconds, 20)

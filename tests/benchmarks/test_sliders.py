@@ -1,7 +1,10 @@
-"""Whether all sliders of all notebooks answer the hand.
+"""Time of a picture while each slider of each notebook is dragged, in drawings of empty axes.
 
-Each notebook runs once. Then each slider is dragged from its low end to its high end in a dozen steps, in the
-notebook's own kernel; the time is CPU milliseconds for a picture, the median of the steps.
+Each notebook runs once. Then each slider is dragged from its low end to its high end in a dozen steps, in
+the notebook's own kernel. The time of a picture is the median of the steps in CPU seconds. The slowest slider
+of a notebook is held to the bound.
+
+See the ratios: pytest -m benchmark -n 0 -s tests/benchmarks/test_sliders.py
 """
 
 import json
@@ -12,42 +15,50 @@ from nbformat.v4 import new_code_cell
 
 from mocap.course.notebooks import execute, read
 from mocap.course.opening import stored
+from tests.benchmarks.timing import hold
 
 pytestmark = pytest.mark.benchmark
-PICTURES = 12  # a second
+BOUND = 3  # drawings of empty axes
 ROOT = Path(__file__).parents[2]
 DRAG = """import json, time
 from statistics import median
+from tests.benchmarks.timing import draw_empty_axes, fastest
 from tests.course.driving import displayed
 from mocap.widgets.experiments import Experiment
+empty = fastest(draw_empty_axes, repeats=9)[0]
 dragged = {}
 for name, shown in displayed.items():
     for slider, control in shown.controls.items() if isinstance(shown, Experiment) else ():
         if not hasattr(control, "min"):
             continue
-        rest, took = control.value, []
+        initial, seconds = control.value, []
         for step in range(12):
-            value = type(rest)(control.min + (control.max - control.min) * step / 11)
+            value = type(initial)(control.min + (control.max - control.min) * step / 11)
             start = time.process_time()
             control.value = value
-            took.append(1000 * (time.process_time() - start))
-        shown.set(**{slider: rest})
-        dragged[f"{name}, {slider}"] = median(took)
+            seconds.append(time.process_time() - start)
+        shown.set(**{slider: initial})
+        dragged[f"{name}, {slider}"] = median(seconds) / empty
 print(json.dumps(dragged))"""
 
 
-@pytest.mark.parametrize("name", sorted(file.name for file in stored().glob("*.ipynb")))
-def test_each_slider_shows_twelve_pictures_a_second(name):
-    notebook = read(stored() / name)
+def experiments(notebook):
+    """Return the names of a notebook's experiments by the sources of their cells."""
     tags = [(cell.source, tag) for cell in notebook.cells for tag in cell.metadata.get("tags", ())]
-    names = {source: tag for source, tag in tags if tag.startswith("experiment:")}
+    return {source: tag for source, tag in tags if tag.startswith("experiment:")}
+
+
+@pytest.mark.parametrize("name", sorted(file.name for file in stored().glob("*.ipynb")))
+def test_each_slider_shows_a_picture_in_the_time_of_a_few_empty_ones(name):
+    notebook = read(stored() / name)
+    names = experiments(notebook)
+    if not names:
+        pytest.skip(f"{name} has no experiment")
     driving = f"import sys; sys.path.append({str(ROOT)!r}); from tests.course import driving"
-    notebook.cells = [
-        new_code_cell(f"{driving}; driving.watch({names!r})"),
-        *notebook.cells,
-        new_code_cell(DRAG),
-    ]
+    watch = new_code_cell(f"{driving}; driving.watch({names!r})")
+    notebook.cells = [watch, *notebook.cells, new_code_cell(DRAG)]
     execute(notebook, stored() / name, 600)
     dragged = json.loads(notebook.cells[-1].outputs[-1].text)
-    print(name, *(f"\n  {slider}: {took:.0f} ms" for slider, took in dragged.items()))
-    assert {slider: took for slider, took in dragged.items() if took > 1000 / PICTURES} == {}
+    print(name, *(f"\n  {slider}: {ratio:.2f}" for slider, ratio in dragged.items()))
+    if dragged:
+        hold(f"slowest slider of {name}, in empty axes", max(dragged.values()), BOUND)

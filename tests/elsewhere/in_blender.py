@@ -119,11 +119,8 @@ def compare(path):
     right = millimetres <= BOUND and abs(length - len(positions)) <= FRAME_BOUND
     if path.suffix == ".bvh":
         right = right and abs(rate - fps) <= 1e-6 * fps
-    print(
-        f"{path.name:20} {len(names):6} {len(positions):7} {length:10.3f} {fps:5g} {rate:5g}",
-        f"{millimetres:11.4f}",
-        "" if right else " WRONG",
-    )
+    counts = f"{len(names):6} {len(positions):7} {length:10.3f}"
+    print(f"{path.name:20} {counts} {fps:5g} {rate:5g} {millimetres:11.4f}{'' if right else '  WRONG'}")
     return right
 
 

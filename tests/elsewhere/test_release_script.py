@@ -64,12 +64,12 @@ def test_a_leg_that_fails_stops_no_other_and_the_script_fails(tmp_path):
     python.parent.mkdir()
     python.write_text(PYTHON)
     python.chmod(0o755)
-    done = release("kernels", "bounds", MOCAP_VENV=str(tmp_path))
-    assert done.returncode == 1, done.stderr
-    assert done.stdout.index("kernels fail") < done.stdout.index("run tests/mutate.py --bounds")
-    heads, *rows = [line.split() for line in done.stdout.splitlines()[-3:]]
+    result = release("kernels", "bounds", MOCAP_VENV=str(tmp_path))
+    assert result.returncode == 1, result.stderr
+    assert result.stdout.index("kernels fail") < result.stdout.index("run tests/mutate.py --bounds")
+    heads, *rows = [line.split() for line in result.stdout.splitlines()[-3:]]
     assert heads == ["leg", "minutes", "result"]
-    assert [(leg, result) for leg, _, result in rows] == [("kernels", "FAILED"), ("bounds", "passed")]
+    assert [(leg, outcome) for leg, _, outcome in rows] == [("kernels", "FAILED"), ("bounds", "passed")]
     alone = release("bounds", MOCAP_VENV=str(tmp_path))
     assert alone.returncode == 0
 
@@ -80,17 +80,17 @@ def test_each_leg_of_mutants_runs_two_seeds_and_both_must_pass(tmp_path):
     python.parent.mkdir()
     python.write_text(PYTHON.replace("*arithmetic*", '*"--seed 1"*"--least 93"*'))
     python.chmod(0o755)
-    done = release("mutation-core", "mutation-editing-methods", MOCAP_VENV=str(tmp_path), MUTANTS="6")
-    assert done.returncode == 1
-    results = [line.split()[-1] for line in done.stdout.splitlines()[-2:]]
-    assert results == ["FAILED", "passed"]
-    assert done.stdout.count("--count 6 --seed 2 --jobs 2 --least 93") == 1
+    result = release("mutation-core", "mutation-editing-methods", MOCAP_VENV=str(tmp_path), MUTANTS="6")
+    assert result.returncode == 1
+    outcomes = [line.split()[-1] for line in result.stdout.splitlines()[-2:]]
+    assert outcomes == ["FAILED", "passed"]
+    assert result.stdout.count("--count 6 --seed 2 --jobs 2 --least 93") == 1
     for seed in (1, 2):
-        assert f"--count 6 --seed {seed} --jobs 2 --rooms editing methods --least 85" in done.stdout
+        assert f"--count 6 --seed {seed} --jobs 2 --rooms editing methods --least 85" in result.stdout
 
 
-@pytest.mark.parametrize(("least", "passes"), [(66, True), (67, False)])
-def test_mutants_that_survive_beyond_the_share_asked_for_fail(monkeypatch, capsys, least, passes):
+@pytest.mark.parametrize(("percent", "passes"), [(66, True), (67, False)])
+def test_mutants_that_survive_beyond_the_share_asked_for_fail(monkeypatch, capsys, percent, passes):
     def small_copy(folder):
         (folder / "mocap").mkdir(parents=True)
         (folder / "mocap" / "limit.py").write_text("print(1 < 2)\n")
@@ -99,7 +99,7 @@ def test_mutants_that_survive_beyond_the_share_asked_for_fail(monkeypatch, capsy
     monkeypatch.setattr(mutate, "make_copy", small_copy)
     monkeypatch.setattr(mutate, "passes", lambda copy, tests: True)
     monkeypatch.setattr(mutate, "survives", lambda change, groups, copies: change.old == "<")
-    monkeypatch.setattr(sys, "argv", ["mutate.py", "--only", "mocap/limit.py", "--least", str(least)])
+    monkeypatch.setattr(sys, "argv", ["mutate.py", "--only", "mocap/limit.py", "--least", str(percent)])
     if passes:
         mutate.main()
     else:

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 import mocap
-from mocap.body import Motion, Skeleton, joint_positions
+from mocap.body import Motion, Skeleton, joint_positions, rotations
 from mocap.datasets import sample
 from mocap.editing import mirror, retarget
 from mocap.graphs import compile_graph
@@ -24,8 +24,15 @@ from tests.bundled import WALKS, bundled
 from tests.editing.bodies import adult, child
 
 PLAN_SECONDS = 4
+MEMBERS = 3
 SPACING = 1.5  # metres between two members of a group
 PLAN_STEP = 0.09  # metres in 0.1 s: a walking pace of 0.9 m/s
+PENDULUM_FRAMES = 121
+
+
+def named(motion: Motion, name: str) -> Motion:
+    """Return a motion under another name, which becomes that of its file."""
+    return replace(motion, name=name)
 
 
 def single_motions() -> list[Motion]:
@@ -36,11 +43,11 @@ def single_motions() -> list[Motion]:
         walk,
         sample("jog"),
         sample("sneak"),
-        replace(mocap.resample(walk, 30), name="walk_at_30"),
-        replace(mirror(two_seconds), name="mirrored"),
-        replace(retarget(two_seconds, child(), adult()), name="retargeted"),
-        replace(walk[:3], name="three_frames"),
-        replace(walk[:1], name="one_frame"),
+        named(mocap.resample(walk, 30), "walk_at_30"),
+        named(mirror(two_seconds), "mirrored"),
+        named(retarget(two_seconds, child(), adult()), "retargeted"),
+        named(walk[:3], "three_frames"),
+        named(walk[:1], "one_frame"),
         pendulum(),
     ]
 
@@ -48,21 +55,20 @@ def single_motions() -> list[Motion]:
 def pendulum() -> Motion:
     """Return a swing of three joints with a bone of 1 cm between two of them."""
     skeleton = Skeleton(["hook", "middle", "weight"], [-1, 0, 1], [[0, 0, 0], [0, -0.01, 0], [0, -0.01, 0]])
-    half_angles = 0.3 * np.sin(np.linspace(0, 4 * np.pi, 121))
-    rotations = np.zeros((121, 3, 4))
-    rotations[..., 0] = 1
-    rotations[:, 0, 0] = np.cos(half_angles)
-    rotations[:, 0, 3] = np.sin(half_angles)
-    return Motion(skeleton, np.tile([0.0, 0.02, 0.0], (121, 1)), rotations, 60.0, name="pendulum")
+    angles = 0.6 * np.sin(np.linspace(0, 4 * np.pi, PENDULUM_FRAMES))  # radians about z
+    local = np.tile(rotations.IDENTITY, (PENDULUM_FRAMES, len(skeleton), 1))
+    local[:, 0] = rotations.from_rotvec(np.outer(angles, [0, 0, 1]))
+    hook = np.tile([0.0, 0.02, 0.0], (PENDULUM_FRAMES, 1))
+    return Motion(skeleton, hook, local, 60.0, name="pendulum")
 
 
 def group_motions() -> list[Motion]:
     """Return the walks of three members of a group, side by side."""
     times = np.arange(10 * PLAN_SECONDS + 1)[:, None]
-    positions = PLAN_STEP * times + 1j * SPACING * np.arange(3)
+    positions = PLAN_STEP * times + 1j * SPACING * np.arange(MEMBERS)
     plan = Configuration(positions, np.full(positions.shape, 10 * PLAN_STEP + 0j))
     members = walk_group(compile_graph(bundled(*WALKS)), plan).motions
-    return [replace(motion, name=f"member_{number}") for number, motion in enumerate(members, 1)]
+    return [named(motion, f"member_{number}") for number, motion in enumerate(members, 1)]
 
 
 def write(motion: Motion, folder: Path) -> None:
