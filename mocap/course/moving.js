@@ -1,10 +1,14 @@
 // Moves the recordings of experiments, on the site and on slides: a slider chooses one of the pictures beside it.
 for (const moving of document.querySelectorAll(".moving")) {
-  const slider = moving.querySelector("input"), label = moving.querySelector("output"), picture = moving.querySelector("img");
-  const { labels, pictures } = JSON.parse(moving.querySelector("script").textContent);
+  const [slider, label] = [moving.querySelector("input"), moving.querySelector("output")];
+  const [picture, packed] = [moving.querySelector("img"), moving.querySelector("script")];
+  if (!slider || !label || !picture || !packed) continue;
+  /** @type {{ labels: string[], pictures: string[] }} */
+  const { labels, pictures } = JSON.parse(packed.text);
   slider.addEventListener("input", () => {
-    picture.src = "data:image/png;base64," + pictures[slider.value];
-    label.textContent = labels[slider.value];
-    slider.setAttribute("aria-valuetext", labels[slider.value]);
+    const place = Number(slider.value);
+    picture.src = `data:image/png;base64,${pictures[place]}`;
+    label.textContent = labels[place];
+    slider.setAttribute("aria-valuetext", labels[place]);
   });
 }

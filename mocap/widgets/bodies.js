@@ -1,11 +1,24 @@
 // Figures of shaded capsules with their shadows, by WebGL 2. Places are [x, y, z], metres, y up. `Bodies` lays them
 // over another picture; the scene of the walking page adds a ground to them.
 
-const HEAD = "#version 300 es\nprecision highp float; uniform mat4 view; uniform vec3 eye, target, sun, ground, sky;\n";
+/**
+ * @typedef {typeof LOOKS.light} Look
+ *
+ * What the shaders ask of a camera: the matrix of its view, and places and a direction of the world.
+ * @typedef {{ view: Float32Array, eye: number[], target: number[], sun: number[] }} Sight
+ *
+ * Attributes with their sizes, as texts, that a buffer holds; 1 where they go on with each instance, else 0.
+ * @typedef {[attributes: string[], each: number, source: WebGLBuffer]} Layout
+ */
+
+const HEAD =
+  "#version 300 es\nprecision highp float; uniform mat4 view; uniform vec3 eye, target, sun, ground, sky;\n";
 const SHEET = `vec3 paper(vec2 p) { return mix(ground, sky, smoothstep(3., 24., length(p - target.xz))); }
 float clear(vec2 p) { return 1. - smoothstep(9., 24., length(p - target.xz)); }\n`;
+/** @type {Record<string, string[]>} */
 export const FIGURES = {
-  shadow: [ // of a capsule: a soft stadium, the softer and the paler the higher the capsule is
+  shadow: [
+    // of a capsule: a soft stadium, the softer and the paler the higher the capsule is
     `in vec2 corner; in vec4 a, b; out vec2 p; flat out vec4 ends, size; void main() {
       vec2 A = a.xz - sun.xz / sun.y * a.y, B = b.xz - sun.xz / sun.y * b.y, soft = .02 + .12 * max(vec2(a.y, b.y), 0.);
       vec2 way = B - A; float l = length(way); way = l > 1e-4 ? way / l : vec2(0, 1); vec2 across = vec2(way.y, -way.x);
@@ -17,7 +30,8 @@ export const FIGURES = {
       float k = (1. - smoothstep(r - .8 * soft, r + soft, far)) * .05 / (.05 + 1.2 * soft * soft);
       o = over > 0. ? vec4(0., 0., 0., over * k) : vec4(paper(p) * mix(vec3(1.), shade, k), 1.); }`,
   ],
-  limb: [ // a tapered capsule: a ball whose upper half is at the other end, flattened from front to back
+  limb: [
+    // a tapered capsule: a ball whose upper half is at the other end, flattened from front to back
     `in vec4 corner, a, b, left; in float side; out vec3 n, p; out float tone; void main() {
       vec3 y = b.xyz - a.xyz; float l = length(y); y = l > 1e-5 ? y / l : vec3(0, 1, 0);
       vec3 x = normalize(left.xyz - y * dot(left.xyz, y) + vec3(0, 0, 1e-4)), z = cross(x, y); bool upper = corner.w > .5;
@@ -33,55 +47,135 @@ export const FIGURES = {
       o = vec4(c * light * low + rim * sky * .28 * (.4 + .6 * up) + shine, 1.); }`,
   ],
 };
+const SHADED = /** @type {const} */ (["ground", "sky", "shade", "middle", "near", "far"]); // colours
 const PLACE = ["a 4", "b 4", "left 4", "side 1"];
-export const SIZE = 13; // numbers of a capsule: an end and its radius, the other end and its radius, the way to the
-// body's left, how flat it is, and its side (-1 right, 0, 1 left)
+// Numbers of a capsule: an end and its radius, the other end and its radius, the way to the body's left, how flat it
+// is, and its side (-1 right, 0, 1 left).
+export const SIZE = 13;
+/** @type {Record<string, string>} */
 const SHAPES = { shadow: "corner 2", limb: "corner 4" };
 
 export const LOOKS = {
-  light: { ground: "#ece6da", sky: "#faf7f0", shade: "#8a8290", line: "#e2502a", middle: "#3b5a8c", near: "#4a6fa8", far: "#304a76", ink: "#2b2f3d", body: "#737b8c", night: 0 },
-  dark: { ground: "#1a1d26", sky: "#2a2e3b", shade: "#3c3f4c", line: "#ff7a4f", middle: "#d8cdb8", near: "#e9dfcb", far: "#c3b8a4", ink: "#f0e9dc", body: "#c9c3b6", night: 1 },
+  light: {
+    ground: "#ece6da",
+    sky: "#faf7f0",
+    shade: "#8a8290",
+    line: "#e2502a",
+    middle: "#3b5a8c",
+    near: "#4a6fa8",
+    far: "#304a76",
+    ink: "#2b2f3d",
+    body: "#737b8c",
+    night: 0,
+  },
+  dark: {
+    ground: "#1a1d26",
+    sky: "#2a2e3b",
+    shade: "#3c3f4c",
+    line: "#ff7a4f",
+    middle: "#d8cdb8",
+    near: "#e9dfcb",
+    far: "#c3b8a4",
+    ink: "#f0e9dc",
+    body: "#c9c3b6",
+    night: 1,
+  },
 };
+/** @param {string} colour */
 export const rgb = (colour) => [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16) / 255);
 
+/**
+ * @param {WebGL2RenderingContext} gl
+ * @param {string[]} shaders
+ */
 function program(gl, [vertex, fragment]) {
   const made = gl.createProgram();
-  for (const [type, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+  const texts = new Map([
+    [gl.VERTEX_SHADER, vertex],
+    [gl.FRAGMENT_SHADER, fragment],
+  ]);
+  for (const [type, text] of texts) {
     const shader = gl.createShader(type);
+    if (!shader) throw new Error("no WebGL any more");
     gl.shaderSource(shader, HEAD + SHEET + text);
     gl.compileShader(shader);
-    if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Error(gl.getShaderInfoLog(shader));
+    if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) {
+      throw new Error(gl.getShaderInfoLog(shader) ?? "a shader does not compile");
+    }
     gl.attachShader(made, shader);
   }
   gl.linkProgram(made);
   return made;
 }
 
-function ball(around, heights) { // corners x, y, z and which half; triangles
-  const corners = [], faces = [], turn = around + 1;
+/**
+ * Corners x, y, z and which half; triangles.
+ * @param {number} around
+ * @param {number[]} heights
+ */
+function ball(around, heights) {
+  /** @type {number[]} */
+  const corners = [];
+  /** @type {number[]} */
+  const faces = [];
+  const turn = around + 1;
   heights.forEach((degrees, ring) => {
-    const up = (degrees * Math.PI) / 180, upper = ring * 2 >= heights.length ? 1 : 0;
+    const up = (degrees * Math.PI) / 180;
+    const upper = ring * 2 >= heights.length ? 1 : 0;
     for (let i = 0; i <= around; i++) {
       const angle = (2 * Math.PI * i) / around;
       corners.push(Math.cos(up) * Math.cos(angle), Math.sin(up), Math.cos(up) * Math.sin(angle), upper);
-      if (ring && i < around) faces.push(ring * turn + i, (ring - 1) * turn + i, ring * turn + i + 1, ring * turn + i + 1, (ring - 1) * turn + i, (ring - 1) * turn + i + 1);
+      if (ring && i < around) {
+        faces.push(
+          ring * turn + i,
+          (ring - 1) * turn + i,
+          ring * turn + i + 1,
+          ring * turn + i + 1,
+          (ring - 1) * turn + i,
+          (ring - 1) * turn + i + 1,
+        );
+      }
     }
   });
   return [corners, faces];
 }
 
 export class Bodies {
+  /**
+   * @param {WebGL2RenderingContext} gl
+   * @param {number} most
+   * @param {Record<string, string[]>} shaders
+   */
   constructor(gl, most, shaders = FIGURES) {
-    Object.assign(this, { gl, instances: new Float32Array(SIZE * most) });
+    this.gl = gl;
+    this.instances = new Float32Array(SIZE * most);
     // Two balls, a fine one and a coarse one for many figures.
-    const [[fine, few], [coarse, fewer]] = [ball(16, [-90, -64, -40, -18, 0, 0, 18, 40, 64, 90]), ball(10, [-90, -45, 0, 0, 45, 90])];
-    const corners = new Float32Array([...fine, ...coarse]), faces = new Uint16Array([...few, ...fewer.map((corner) => corner + fine.length / 4)]);
-    this.balls = [[few.length, 0], [fewer.length, 2 * few.length]];
-    Object.assign(this, { places: this.buffer(this.instances), triangles: this.buffer(faces, gl.ELEMENT_ARRAY_BUFFER) });
-    this.shapes = { shadow: this.buffer(new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1])), limb: this.buffer(corners) };
-    this.parts = Object.fromEntries(Object.entries(shaders).map(([name, texts]) => [name, this.part(name, program(gl, texts))]));
+    const [[fine, few], [coarse, fewer]] = [
+      ball(16, [-90, -64, -40, -18, 0, 0, 18, 40, 64, 90]),
+      ball(10, [-90, -45, 0, 0, 45, 90]),
+    ];
+    const corners = new Float32Array([...fine, ...coarse]);
+    const faces = new Uint16Array([...few, ...fewer.map((corner) => corner + fine.length / 4)]);
+    this.balls = [
+      [few.length, 0],
+      [fewer.length, 2 * few.length],
+    ];
+    this.places = this.buffer(this.instances);
+    this.triangles = this.buffer(faces, gl.ELEMENT_ARRAY_BUFFER);
+    /** @type {Record<string, WebGLBuffer>} */
+    this.shapes = {
+      shadow: this.buffer(new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1])),
+      limb: this.buffer(corners),
+    };
+    this.parts = Object.fromEntries(
+      Object.entries(shaders).map(([name, texts]) => [name, this.part(name, program(gl, texts))]),
+    );
   }
 
+  /**
+   * @param {BufferSource} data
+   * @param {GLenum} target
+   */
   buffer(data, target = this.gl.ARRAY_BUFFER) {
     const made = this.gl.createBuffer();
     this.gl.bindBuffer(target, made);
@@ -89,44 +183,86 @@ export class Bodies {
     return made;
   }
 
-  layouts(name) { return [[[SHAPES[name]], 0, this.shapes[name]], [PLACE, 1, this.places]]; }
+  /**
+   * @param {string} name
+   * @returns {Layout[]}
+   */
+  layouts(name) {
+    return [
+      [[SHAPES[name]], 0, this.shapes[name]],
+      [PLACE, 1, this.places],
+    ];
+  }
 
+  /**
+   * @param {string} name
+   * @param {WebGLProgram} made
+   */
   part(name, made) {
-    const { gl } = this, array = gl.createVertexArray();
+    const { gl } = this;
+    const array = gl.createVertexArray();
     gl.bindVertexArray(array);
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.triangles);
     for (const [list, each, source] of this.layouts(name)) {
-      const sizes = list.map((text) => text.split(" ")), stride = 4 * sizes.reduce((sum, [, size]) => sum + Number(size), 0);
+      const attributes = list.map((text) => {
+        const [attribute, size] = text.split(" ");
+        return { attribute, size: Number(size) };
+      });
+      const stride = 4 * attributes.reduce((sum, { size }) => sum + size, 0);
       gl.bindBuffer(gl.ARRAY_BUFFER, source);
-      sizes.reduce((offset, [attribute, size]) => {
+      let offset = 0;
+      for (const { attribute, size } of attributes) {
         const at = gl.getAttribLocation(made, attribute);
-        if (at >= 0) { gl.enableVertexAttribArray(at); gl.vertexAttribPointer(at, Number(size), gl.FLOAT, false, stride, offset); gl.vertexAttribDivisor(at, each); }
-        return offset + 4 * size;
-      }, 0);
+        if (at >= 0) {
+          gl.enableVertexAttribArray(at);
+          gl.vertexAttribPointer(at, size, gl.FLOAT, false, stride, offset);
+          gl.vertexAttribDivisor(at, each);
+        }
+        offset += 4 * size;
+      }
     }
     return { made, array };
   }
 
+  /**
+   * @param {string} name
+   * @param {Sight} camera
+   * @param {Look} look
+   * @param {number} over
+   */
   use(name, camera, look, over = 0) {
-    const { gl } = this, { made, array } = this.parts[name], at = (uniform) => gl.getUniformLocation(made, uniform);
+    const { gl } = this;
+    const { made, array } = this.parts[name];
+    /** @param {string} uniform */
+    const at = (uniform) => gl.getUniformLocation(made, uniform);
     gl.useProgram(made);
     gl.bindVertexArray(array);
     gl.uniformMatrix4fv(at("view"), false, camera.view);
-    for (const [uniform, value] of [["eye", camera.eye], ["target", camera.target], ["sun", camera.sun]]) gl.uniform3fv(at(uniform), value);
-    for (const colour of ["ground", "sky", "shade", "middle", "near", "far"]) gl.uniform3fv(at(colour), rgb(look[colour]));
+    gl.uniform3fv(at("eye"), camera.eye);
+    gl.uniform3fv(at("target"), camera.target);
+    gl.uniform3fv(at("sun"), camera.sun);
+    for (const colour of SHADED) gl.uniform3fv(at(colour), rgb(look[colour]));
     gl.uniform1f(at("night"), look.night);
     gl.uniform1f(at("over"), over);
   }
 
+  /** @param {number[]} colour */
   clear(colour) {
     const { gl } = this;
     gl.viewport(0, 0, gl.canvas.width, gl.canvas.height);
-    gl.clearColor(...colour);
+    const [red, green, blue, alpha] = colour;
+    gl.clearColor(red, green, blue, alpha);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.disable(gl.DEPTH_TEST);
   }
 
-  // Shadows that overlap are one shadow: the darkest of them, or, over another picture, the least transparent.
+  /**
+   * Shadows that overlap are one shadow: the darkest of them, or, over another picture, the least transparent.
+   * @param {Sight} camera
+   * @param {Look} look
+   * @param {number} count
+   * @param {number} over
+   */
   shadows(camera, look, count, over = 0) {
     const { gl } = this;
     gl.bindBuffer(gl.ARRAY_BUFFER, this.places);
@@ -139,8 +275,15 @@ export class Bodies {
     gl.disable(gl.BLEND);
   }
 
+  /**
+   * @param {Sight} camera
+   * @param {Look} look
+   * @param {number} count
+   * @param {boolean} coarse
+   */
   limbs(camera, look, count, coarse = false) {
-    const { gl } = this, [corners, begin] = this.balls[Number(coarse)];
+    const { gl } = this;
+    const [corners, begin] = this.balls[Number(coarse)];
     gl.enable(gl.DEPTH_TEST);
     this.use("limb", camera, look);
     gl.drawElementsInstanced(gl.TRIANGLES, corners, gl.UNSIGNED_SHORT, begin, count);

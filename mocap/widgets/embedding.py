@@ -18,10 +18,19 @@ TOUCH = Path(__file__).with_name("touch.js")
 WHOLE = Path(__file__).with_name("page.html")
 
 
+# Lines of a script that are no part of the joined module. No line of a template may start like one of them:
+# eslint checks that.
+COMMENT = re.compile(r"^ *(//.*|/\*\*([^*]|\*(?!/))*\*/)\n", re.MULTILINE)
+IMPORT = re.compile(r"^import [^;]*;\n", re.MULTILINE)
+EXPORT = re.compile(r"^export (?!default)", re.MULTILINE)
+
+
 def joined(*files: Path) -> str:
-    """Join scripts to the one module that a page and a widget run."""
-    texts = "\n".join(file.read_text("utf-8") for file in files)
-    return re.sub(r"^import .*\n|^export (?!default)", "", texts, flags=re.M)
+    """Join scripts, without their comments, to the single module that a page or a widget runs."""
+    script = "\n".join(file.read_text("utf-8") for file in files)
+    for removed in (COMMENT, IMPORT, EXPORT):
+        script = removed.sub("", script)
+    return script
 
 
 class Embedded(Protocol):

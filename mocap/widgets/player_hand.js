@@ -1,13 +1,67 @@
 // What the reader's hand does on the canvas: turn, zoom, draw a path with the mouse, a finger or the keys.
 
-const SHORTEST = 0.5, LONGEST = 100; // metres of a path that can be walked
-const PEN_STEP = 0.25; // metres per press of an arrow key
+import { PEN_KEYS } from "./player_page.js";
 
-class Hand {
+/**
+ * @import { Camera } from "./player_scene.js"
+ *
+ * What a hand turns and plays: a player, or an inspector, which has no path to draw and no part to mark.
+ * @typedef {object} Handled
+ * @property {HTMLElement} root
+ * @property {HTMLCanvasElement} canvas
+ * @property {HTMLInputElement} scrub
+ * @property {Camera} camera
+ * @property {number[]} panned metres [x, z] that the reader has moved the view
+ * @property {number} reach metres from the camera to what is looked at
+ * @property {{ fps: number, asked?: number[][] }} scene
+ * @property {number} seconds
+ * @property {boolean} [chase] whether the view turns with the walk
+ * @property {boolean} [drawing] whether the hand draws a path
+ * @property {() => number} frame
+ * @property {(time: number) => void} seek
+ * @property {(playing?: boolean) => void} toggle
+ * @property {() => void} update
+ * @property {(text: string) => void} say
+ * @property {() => void} [mark]
+ * @property {(path: number[][]) => void} [ask]
+ */
+
+const SHORTEST = 0.5; // metres of a path that can be walked
+const LONGEST = 100;
+const PEN_STEP = 0.25; // metres per press of an arrow key
+/** @type {Record<string, number[]>} */
+const TURNS = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] }; // radians
+const PAN = 300; // pixels per radian of these
+
+// What keys do on the canvas, beside the arrows.
+/** @type {Record<string, (hand: Hand) => void>} */
+const ON_CANVAS = {
+  " ": ({ player }) => player.toggle(),
+  "+": (hand) => hand.zoomBy(1.15),
+  "-": (hand) => hand.zoomBy(1 / 1.15),
+  Home: ({ player }) => player.seek(0),
+  End: ({ player }) => player.seek(player.seconds),
+};
+
+export class Hand {
+  /** @type {Map<number, PointerEvent>} */
+  pointers = new Map();
+  /** @type {number[][]} places [x, z] of a path */
+  drawn = [];
+  /** @type {number | null} the pointer that draws */
+  stroke = null;
+  /** @type {boolean} whether the keys draw */
+  pen = false;
+  /** @type {{ yaw: number, pitch: number }} of the camera when a finger came down */
+  before = { yaw: 0, pitch: 0 };
+  /** @type {number | undefined} of the camera when the path was drawn */
+  yaw;
+
+  /** @param {Handled} player */
   constructor(player) {
-    this.player = player; this.pointers = new Map(); this.drawn = []; this.stroke = null; this.pen = false;
+    this.player = player;
     const { canvas } = player;
-    for (const kind of ["pointerdown", "pointermove", "pointerup", "pointercancel"]) {
+    for (const kind of /** @type {const} */ (["pointerdown", "pointermove", "pointerup", "pointercancel"])) {
       canvas.addEventListener(kind, (event) => this[kind](event));
     }
     canvas.addEventListener("contextmenu", (event) => event.preventDefault());
@@ -15,9 +69,19 @@ class Hand {
     player.root.addEventListener("keydown", (event) => this.key(event));
   }
 
-  get camera() { return this.player.camera; }
-  get busy() { return this.stroke !== null || this.pen; } // then figure and view wait
+  get camera() {
+    return this.player.camera;
+  }
 
+  // While the hand draws, figure and view wait.
+  get busy() {
+    return this.stroke !== null || this.pen;
+  }
+
+  /**
+   * @param {number} yaw
+   * @param {number} pitch
+   */
   orbit(yaw, pitch) {
     this.player.chase = false;
     this.camera.yaw += yaw;
@@ -25,37 +89,62 @@ class Hand {
     this.player.update();
   }
 
-  zoomBy(factor) { this.camera.zoom = Math.min(12, Math.max(0.2, this.camera.zoom * factor)); this.player.update(); }
+  /** @param {number} factor */
+  zoomBy(factor) {
+    this.camera.zoom = Math.min(12, Math.max(0.2, this.camera.zoom * factor));
+    this.player.update();
+  }
 
-  // Move what is looked at over the ground, in pixels.
+  /**
+   * Move what is looked at over the ground, in pixels.
+   * @param {number} across
+   * @param {number} down
+   */
   pan(across, down) {
-    const { right, ahead, focus } = this.camera, metres = this.player.reach / (this.camera.zoom * focus), level = Math.hypot(ahead[0], ahead[2]) || 1;
-    [0, 2].forEach((k, i) => { this.player.panned[i] += metres * (down * ahead[k] / level - across * right[k]); });
+    const { right, ahead, focus } = this.camera;
+    const metres = this.player.reach / (this.camera.zoom * focus);
+    const level = Math.hypot(ahead[0], ahead[2]) || 1;
+    [0, 2].forEach((k, i) => {
+      this.player.panned[i] += metres * ((down * ahead[k]) / level - across * right[k]);
+    });
     this.player.update();
   }
 
   // ---- mouse and fingers ----
 
-  // The wheel zooms where the canvas has the focus; elsewhere it scrolls the page.
+  /**
+   * The wheel zooms where the canvas has the focus; elsewhere it scrolls the page.
+   * @param {WheelEvent} event
+   */
   wheel(event) {
     if (!event.ctrlKey && document.activeElement !== this.player.canvas) return;
     event.preventDefault();
     this.zoomBy(Math.exp(-event.deltaY / 400));
   }
 
+  /** @param {PointerEvent} event */
   pointerdown(event) {
     this.player.canvas.setPointerCapture(event.pointerId);
     this.pointers.set(event.pointerId, event);
     this.before = { yaw: this.camera.yaw, pitch: this.camera.pitch };
-    this.stroke = this.player.drawing && event.button === 0 && this.pointers.size === 1 ? event.pointerId : null;
+    this.stroke =
+      this.player.drawing && event.button === 0 && this.pointers.size === 1 ? event.pointerId : null;
     if (this.stroke !== null) this.drawn = [];
   }
 
-  // One finger or the mouse turns the view; two fingers zoom and move it, as shift or the right button do. In drawing mode, one finger or the left button draws.
+  /**
+   * One finger or the mouse turns the view; two fingers zoom and move it, as shift or the right button do. In drawing
+   * mode, one finger or the left button draws.
+   * @param {PointerEvent} event
+   */
   pointermove(event) {
     const before = this.pointers.get(event.pointerId);
     if (!before) return;
     const others = [...this.pointers.values()].filter((other) => other.pointerId !== event.pointerId);
+    /**
+     * @param {PointerEvent} p
+     * @param {PointerEvent} q
+     */
     const from = (p, q) => Math.hypot(p.offsetX - q.offsetX, p.offsetY - q.offsetY);
     this.pointers.set(event.pointerId, event);
     const [across, down] = [event.offsetX - before.offsetX, event.offsetY - before.offsetY];
@@ -67,6 +156,7 @@ class Hand {
     else this.orbit(-across / 150, down / 150);
   }
 
+  /** @param {PointerEvent} event */
   pointerup(event) {
     this.pointers.delete(event.pointerId);
     if (this.stroke === event.pointerId) this.walk();
@@ -74,7 +164,10 @@ class Hand {
     this.player.update();
   }
 
-  // The finger scrolls the page: what it turned until that was known is turned back.
+  /**
+   * The finger scrolls the page: what it turned until that was known is turned back.
+   * @param {PointerEvent} event
+   */
   pointercancel(event) {
     this.pointers.delete(event.pointerId);
     this.stroke = null;
@@ -84,6 +177,7 @@ class Hand {
 
   // ---- the path that is drawn ----
 
+  /** @param {number[] | null} place */
   draw(place) {
     const last = this.drawn.at(-1);
     if (place && (!last || Math.hypot(place[0] - last[0], place[1] - last[1]) > 0.05)) this.drawn.push(place);
@@ -91,59 +185,126 @@ class Hand {
   }
 
   get metres() {
-    return this.drawn.reduce((sum, [x, z], i) => sum + (i ? Math.hypot(x - this.drawn[i - 1][0], z - this.drawn[i - 1][1]) : 0), 0);
+    return this.drawn.reduce(
+      (sum, [x, z], i) => sum + (i ? Math.hypot(x - this.drawn[i - 1][0], z - this.drawn[i - 1][1]) : 0),
+      0,
+    );
   }
 
   // Ask for a walk along what was drawn, or say why there is none.
   walk() {
     const { metres } = this;
-    if (metres < SHORTEST) this.player.say(`That is ${metres.toFixed(1)} m. Drag over the ground for at least ${SHORTEST} m.`);
-    else if (metres > LONGEST) this.player.say(`That is ${metres.toFixed(0)} m. Draw at most ${LONGEST} m, or zoom in.`);
-    else { this.yaw = this.camera.yaw; this.player.ask(this.drawn); return; }
+    if (metres < SHORTEST) {
+      this.player.say(`That is ${metres.toFixed(1)} m. Drag over the ground for at least ${SHORTEST} m.`);
+    } else if (metres > LONGEST) {
+      this.player.say(`That is ${metres.toFixed(0)} m. Draw at most ${LONGEST} m, or zoom in.`);
+    } else {
+      this.yaw = this.camera.yaw;
+      this.player.ask?.(this.drawn);
+      return;
+    }
     this.drawn = [];
     this.player.update();
   }
 
   // ---- keys ----
 
+  /** @param {KeyboardEvent} event */
   key(event) {
-    const { player } = this, onCanvas = event.target === player.canvas;
-    const turn = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] }[event.key];
-    if (onCanvas && this.pen && this.penKey(event.key, turn && !event.shiftKey && turn)) { /* the pen took it */ }
-    else if (event.key === " " && (onCanvas || event.target === player.scrub)) player.toggle();
-    else if (onCanvas && player.drawing && event.key === "p") this.takePen();
-    else if (onCanvas && turn && event.shiftKey) this.orbit(...turn);
-    else if (onCanvas && turn && event.altKey) this.pan(300 * turn[0], 300 * turn[1]);
-    else if (onCanvas && turn && turn[0]) { player.toggle(false); player.seek((player.frame() + Math.sign(turn[0])) / player.scene.fps); }
-    else if (onCanvas && (event.key === "+" || event.key === "-")) this.zoomBy(event.key === "+" ? 1.15 : 1 / 1.15);
-    else if (onCanvas && event.key === "l") player.mark();
-    else if (onCanvas && event.key === "Home") player.seek(0);
-    else if (onCanvas && event.key === "End") player.seek(player.seconds);
+    const { player } = this;
+    const act = event.target === player.canvas ? this.onCanvas(event) : undefined;
+    if (act) act();
+    else if (event.target === player.scrub && event.key === " ") player.toggle();
     else return;
     event.preventDefault();
     event.stopPropagation();
   }
 
+  /**
+   * What a key does on the canvas, if it does anything there.
+   * @param {KeyboardEvent} event
+   * @returns {(() => void) | undefined}
+   */
+  onCanvas(event) {
+    const { player } = this;
+    const turn = TURNS[event.key];
+    const drawn = this.pen ? this.penKey(event.key, event.shiftKey ? undefined : turn) : undefined;
+    if (drawn) return drawn;
+    if (turn) return this.turnKey(turn, event);
+    if (event.key === "p" && player.drawing) return () => this.takePen();
+    if (event.key === "l" && player.mark) return () => player.mark?.();
+    const act = ON_CANVAS[event.key];
+    return act && (() => act(this));
+  }
+
+  /**
+   * What an arrow does: it turns or moves the view, or goes to the next frame.
+   * @param {number[]} turn
+   * @param {KeyboardEvent} event
+   * @returns {(() => void) | undefined}
+   */
+  turnKey([yaw, pitch], event) {
+    const { player } = this;
+    if (event.shiftKey) return () => this.orbit(yaw, pitch);
+    if (event.altKey) return () => this.pan(PAN * yaw, PAN * pitch);
+    if (!yaw) return undefined; // up and down scroll the page
+    return () => {
+      player.toggle(false);
+      player.seek((player.frame() + Math.sign(yaw)) / player.scene.fps);
+    };
+  }
+
   takePen() {
-    const start = this.player.scene.asked[0] ?? [0, 0];
+    const start = this.player.scene.asked?.[0] ?? [0, 0];
     this.pen = true;
     this.drawn = [[...start]];
     this.player.say(`The pen is down. ${PEN_KEYS}`);
     this.player.update();
   }
 
-  // With the pen down, arrows draw: up is away from the camera. Returns whether the key was the pen's.
+  /**
+   * What a key does with the pen down, if it does anything: arrows draw.
+   * @param {string} key
+   * @param {number[] | undefined} turn
+   * @returns {(() => void) | undefined}
+   */
   penKey(key, turn) {
-    const [x, z] = this.drawn.at(-1), { ahead, right } = this.camera, along = Math.hypot(ahead[0], ahead[2]) || 1;
-    if (turn) {
-      const [a, b] = [Math.sign(turn[0]) * PEN_STEP, (Math.sign(turn[1]) * PEN_STEP) / along];
-      this.drawn.push([x + a * right[0] + b * ahead[0], z + a * right[2] + b * ahead[2]]);
-      this.player.say(`${this.metres.toFixed(2)} m drawn. ${PEN_KEYS}`);
-    } else if (key === "Backspace" && this.drawn.length > 1) this.drawn.pop();
-    else if (key === "Enter") { this.pen = false; this.walk(); }
-    else if (key === "Escape") { this.pen = false; this.drawn = []; this.player.say(""); }
-    else return false;
+    if (turn) return () => this.penStep(Math.sign(turn[0]), Math.sign(turn[1]));
+    if (key === "Backspace" && this.drawn.length > 1) return () => this.takeBack();
+    if (key === "Enter") return () => this.putPenAway(() => this.walk());
+    if (key === "Escape") return () => this.putPenAway(() => this.forget());
+    return undefined;
+  }
+
+  /**
+   * Draw a step to the right or the left, up or down: up is away from the camera.
+   * @param {number} across
+   * @param {number} up
+   */
+  penStep(across, up) {
+    const [x, z] = this.drawn[this.drawn.length - 1];
+    const { ahead, right } = this.camera;
+    const a = across * PEN_STEP;
+    const b = (up * PEN_STEP) / (Math.hypot(ahead[0], ahead[2]) || 1);
+    this.drawn.push([x + a * right[0] + b * ahead[0], z + a * right[2] + b * ahead[2]]);
+    this.player.say(`${this.metres.toFixed(2)} m drawn. ${PEN_KEYS}`);
     this.player.update();
-    return true;
+  }
+
+  takeBack() {
+    this.drawn.pop();
+    this.player.update();
+  }
+
+  forget() {
+    this.drawn = [];
+    this.player.say("");
+  }
+
+  /** @param {() => void} then */
+  putPenAway(then) {
+    this.pen = false;
+    then();
+    this.player.update();
   }
 }

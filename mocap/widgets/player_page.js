@@ -1,9 +1,27 @@
 // The page around the canvas: its parts, their style, and colours for light and dark surroundings.
 
-const KEYS = "Space plays, arrows step, shift and arrows turn the view, plus and minus zoom, alt and arrows move it, L marks a part to play.";
-const PEN_KEYS = "Arrows draw, Backspace takes back, Enter walks the path, Escape puts the pen away.";
+/**
+ * The model of a widget, which anywidget shares with Python.
+ * @typedef {object} Model
+ * @property {(name: string) => any} get
+ * @property {(name: string, value: unknown) => void} set
+ * @property {(name: string, call: (...what: any[]) => void) => void} on
+ * @property {(name: string, call: (...what: any[]) => void) => void} off
+ * @property {() => void} save_changes
+ * @property {(content: object) => void} send
+ *
+ * @typedef {{ model: Model, el: HTMLElement }} Rendered
+ *
+ * The colours of what is drawn on the ground.
+ * @typedef {typeof LIGHT} Palette
+ */
 
-const STYLE = `
+export const VIEW_KEYS =
+  "Space plays, arrows step, shift and arrows turn the view, plus and minus zoom, alt and arrows move it";
+export const KEYS = `${VIEW_KEYS}, L marks a part to play.`;
+export const PEN_KEYS = "Arrows draw, Backspace takes back, Enter walks the path, Escape puts the pen away.";
+
+export const STYLE = `
 .mocap-player { max-width: 720px; background: #fff; color: #222; font: 13px/1.4 system-ui, sans-serif; color-scheme: light;
   forced-color-adjust: none; }
 .mocap-player.dark { background: #1b1b1b; color: #ddd; color-scheme: dark; }
@@ -38,7 +56,7 @@ const STYLE = `
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2].map((speed) => `<option value="${speed}">${speed}×</option>`).join("");
 
-const PARTS = `<style>${STYLE}</style><canvas tabindex="0" role="application" aria-roledescription="player"></canvas>
+export const PARTS = `<style>${STYLE}</style><canvas tabindex="0" role="application" aria-roledescription="player"></canvas>
   <div class="bar"><button class="play" aria-label="play"></button>
     <div class="scrub"><input type="range" min="0" step="1" aria-label="frame"><div></div><b hidden></b></div><span class="clock"></span></div>
   <div class="bar"><label>speed <select aria-label="speed">${SPEEDS}</select></label>
@@ -49,25 +67,72 @@ const PARTS = `<style>${STYLE}</style><canvas tabindex="0" role="application" ar
     <button class="draw" aria-pressed="false">draw a path</button>
     <span class="legend"></span></div><div class="message" role="status"></div>`;
 
-const LIGHT = { ink: "#333333", asked: "#000000", line: "#bfb7a8", shadow: "#000000" };
-const DARK = { ink: "#dddddd", asked: "#ffffff", line: "#41465a", shadow: "#ffffff" };
+export const LIGHT = { ink: "#333333", asked: "#000000", line: "#bfb7a8", shadow: "#000000" };
+export const DARK = { ink: "#dddddd", asked: "#ffffff", line: "#41465a", shadow: "#ffffff" };
 
 // Whether the page around the player is dark: JupyterLab says so itself, a page of its own goes with the reader's system.
-function isDark() {
-  const lab = document.body?.dataset.jpThemeLight;
-  return lab ? lab === "false" : document.body?.classList.contains("mocap-page") && matchMedia("(prefers-color-scheme: dark)").matches;
+export function isDark() {
+  const lab = document.body.dataset.jpThemeLight;
+  if (lab) return lab === "false";
+  return document.body.classList.contains("mocap-page") && matchMedia("(prefers-color-scheme: dark)").matches;
 }
 
-function coloured(colour, text) {
+/**
+ * @param {string} colour
+ * @param {string} text
+ */
+export function coloured(colour, text) {
   const mark = document.createElement("span");
   mark.style.background = colour;
   return [mark, text];
 }
 
-// On a page: each output that appears starts the players, or what else shows itself there, that have not been started yet.
-function start(Kind) {
+/**
+ * On a page: each output that appears starts the players, or what else shows itself there, that have not been started yet.
+ * @param {new (root: HTMLElement, scene: any) => object} Kind
+ */
+export function start(Kind) {
   const name = Kind.name.toLowerCase();
-  for (const root of document.querySelectorAll(`.mocap-${name}:not([data-started])`)) {
-    root[name] = new Kind(root, { ...JSON.parse(root.querySelector("script").textContent), autoplay: true });
+  /** @type {NodeListOf<HTMLElement>} */
+  const roots = document.querySelectorAll(`.mocap-${name}:not([data-started])`);
+  for (const root of roots) {
+    const scene = JSON.parse(partOf(root, "script", HTMLScriptElement).text);
+    Object.assign(root, { [name]: new Kind(root, { ...scene, autoplay: true }) });
   }
+}
+
+/**
+ * The part of a page that a selector names, which must be there.
+ * @template {Element} T
+ * @param {ParentNode} root
+ * @param {string} selector
+ * @param {new () => T} Kind
+ * @returns {T}
+ */
+export function partOf(root, selector, Kind) {
+  const found = root.querySelector(selector);
+  if (!(found instanceof Kind)) throw new Error(`The page has no ${selector}.`);
+  return found;
+}
+
+/**
+ * Keep keys for parts of a page: JupyterLab takes them away from what does not say this.
+ * @param {HTMLElement} root
+ * @param {string} selector
+ */
+export function keepKeys(root, selector) {
+  /** @type {NodeListOf<HTMLElement>} */
+  const parts = root.querySelectorAll(selector);
+  for (const part of parts) part.dataset.lmSuppressShortcuts = "true";
+}
+
+/**
+ * A canvas's pen.
+ * @param {HTMLCanvasElement} canvas
+ * @param {CanvasRenderingContext2DSettings} [settings]
+ */
+export function penOf(canvas, settings) {
+  const pen = canvas.getContext("2d", settings);
+  if (!pen) throw new Error("The browser draws on no canvas.");
+  return pen;
 }

@@ -1,7 +1,22 @@
 // The parts of the page for steered characters, and their style; what they share with the player is in its files.
 
-const STEERING_KEYS = "Arrows or W, A, S, D choose the direction, two together one between; Q and E turn it by 15 degrees; plus and "
-  + "minus change the speed; space pauses; shift and arrows turn the view.";
+import { STYLE, partOf } from "./player_page.js";
+import { Picture } from "./player_picture.js";
+import { Camera } from "./player_scene.js";
+import { Walker } from "./steered_walker.js";
+
+/**
+ * @import { PackedMember } from "./steered_walker.js"
+ *
+ * The view that all pictures share: angles of the camera, and how near it is.
+ * @typedef {{ yaw: number, pitch: number, zoom: number }} View
+ *
+ * @typedef {ReturnType<typeof panel>} Panel
+ */
+
+export const STEERING_KEYS =
+  "Arrows or W, A, S, D choose the direction, two together one between; Q and E turn it by 15 degrees; plus and " +
+  "minus change the speed; space pauses; shift and arrows turn the view.";
 
 const STEERING_STYLE = `
 .mocap-steering { max-width: 1080px; }
@@ -27,10 +42,13 @@ const STEERING_STYLE = `
   .mocap-steering figcaption { flex: 1 1 35%; align-self: center; }
 }`;
 
-const VIEWS = { behind: [Math.PI, 0.35], side: [Math.PI / 2, 0.25], above: [Math.PI, 1.5] }; // yaw and pitch of the camera
-const VIEW_OPTIONS = Object.keys(VIEWS).map((name) => `<option>${name}</option>`).join("");
+/** @type {Record<string, [yaw: number, pitch: number]>} */
+export const VIEWS = { behind: [Math.PI, 0.35], side: [Math.PI / 2, 0.25], above: [Math.PI, 1.5] }; // yaw and pitch of the camera
+const VIEW_OPTIONS = Object.keys(VIEWS)
+  .map((name) => `<option>${name}</option>`)
+  .join("");
 
-const STEERING_PARTS = `<style>${STYLE}${STEERING_STYLE}</style><div class="panels" tabindex="0" role="application"></div>
+export const STEERING_PARTS = `<style>${STYLE}${STEERING_STYLE}</style><div class="panels" tabindex="0" role="application"></div>
   <div class="bar"><div class="pad"><i></i></div><div class="beside">
     <div class="bar"><button class="play"></button>
       <label>speed <input class="speed" type="range" step="0.05" aria-label="speed, metres per second"><output></output></label>
@@ -38,12 +56,27 @@ const STEERING_PARTS = `<style>${STYLE}${STEERING_STYLE}</style><div class="pane
       <label>view <select class="view" aria-label="view">${VIEW_OPTIONS}</select></label></div>
     <div class="under"></div></div></div><div class="message" role="status"></div>`;
 
-// A picture of one character: its canvas, its name, and what it is doing.
-function panel(member, shared) {
+/**
+ * A picture of one character: its canvas, its name, and what it is doing.
+ * @param {PackedMember} member
+ * @param {View} shared
+ */
+export function panel(member, shared) {
   const root = document.createElement("figure");
-  root.innerHTML = '<canvas></canvas><figcaption><i></i><b></b> <span class="state"></span><span class="fault"></span></figcaption>';
-  const find = (what) => root.querySelector(what), canvas = find("canvas"), camera = new Camera();
-  find("i").style.background = member.colour; find("b").textContent = member.name;
+  root.innerHTML =
+    '<canvas></canvas><figcaption><i></i><b></b> <span class="state"></span><span class="fault"></span></figcaption>';
+  const canvas = partOf(root, "canvas", HTMLCanvasElement);
+  const camera = new Camera();
+  partOf(root, "i", HTMLElement).style.background = member.colour;
+  partOf(root, "b", HTMLElement).textContent = member.name;
   Object.assign(camera, shared);
-  return { root, canvas, camera, picture: new Picture(canvas, camera), walker: new Walker(member), state: find(".state"), fault: find(".fault") };
+  return {
+    root,
+    canvas,
+    camera,
+    picture: new Picture(canvas, camera),
+    walker: new Walker(member),
+    state: partOf(root, ".state", HTMLElement),
+    fault: partOf(root, ".fault", HTMLElement),
+  };
 }

@@ -1,42 +1,110 @@
 // A camera that holds a whole line, or follows a figure from three quarters in front; the reader's hand turns it.
 
+/**
+ * @import { Sight } from "./bodies.js"
+ * @import { Line } from "./walk_search.js"
+ *
+ * What the scene needs of the camera.
+ * @typedef {Sight & { zoom: number }} View
+ */
+
+/** @param {number[]} v */
 const unit = (v) => v.map((value) => value / Math.hypot(...v));
+/**
+ * @param {number[]} a
+ * @param {number[]} b
+ */
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
-export class Camera {
-  constructor() {
-    this.at = { z: 0, x: 0, y: 0.5, yaw: -0.5, pitch: 0.9, far: 9 };
-    this.goal = { ...this.at };
-    this.hand = { yaw: 0, pitch: 0, zoom: 1 };
-  }
+const NAMES = /** @type {const} */ (["z", "x", "y", "yaw", "pitch", "far"]);
 
-  hold({ z, x }, tall) { // look at all of a line
+export class Camera {
+  at = { z: 0, x: 0, y: 0.5, yaw: -0.5, pitch: 0.9, far: 9 };
+  goal = { ...this.at };
+  hand = { yaw: 0, pitch: 0, zoom: 1 };
+  // Of the last picture.
+  eye = [0, 0, 0];
+  right = [1, 0, 0];
+  up = [0, 1, 0];
+  back = [0, 0, 1];
+  zoom = 1;
+  wide = 1;
+  width = 1;
+  height = 1;
+
+  /**
+   * Look at all of a line.
+   * @param {Line} line
+   * @param {boolean} tall
+   */
+  hold({ z, x }, tall) {
     const [z0, z1, x0, x1] = [Math.min(...z), Math.max(...z), Math.min(...x), Math.max(...x)];
     const far = Math.max(4.5, Math.hypot(z1 - z0, x1 - x0) * (tall ? 1.7 : 1.05) + 1.5);
     Object.assign(this.goal, { z: (z0 + z1) / 2, x: (x0 + x1) / 2, y: 0.3, pitch: 0.95, yaw: -0.5, far });
   }
 
-  follow(seconds, place, heading, tall, reach = 0) { // `reach`: how far others are from the place
-    const turn = heading + 0.75 - this.goal.yaw, lag = 1 - Math.exp(-0.5 * seconds); // it swings round slowly
+  /**
+   * `reach`: how far others are from the place.
+   * @param {number} seconds
+   * @param {number[]} place
+   * @param {number} heading
+   * @param {boolean} tall
+   * @param {number} reach
+   */
+  follow(seconds, place, heading, tall, reach = 0) {
+    const turn = heading + 0.75 - this.goal.yaw;
+    const lag = 1 - Math.exp(-0.5 * seconds); // it swings round slowly
     const yaw = this.goal.yaw + lag * Math.atan2(Math.sin(turn), Math.cos(turn));
-    Object.assign(this.goal, { z: place[0], x: place[1], y: 0.8, pitch: 0.3 + 0.06 * reach, yaw, far: (tall ? 5.6 : 4.6) + 1.6 * reach });
+    Object.assign(this.goal, {
+      z: place[0],
+      x: place[1],
+      y: 0.8,
+      pitch: 0.3 + 0.06 * reach,
+      yaw,
+      far: (tall ? 5.6 : 4.6) + 1.6 * reach,
+    });
   }
 
+  /**
+   * @param {number} seconds
+   * @param {boolean} snap
+   */
   step(seconds, snap) {
-    for (const [name, goal] of Object.entries(this.goal)) {
-      const share = snap ? 1 : 1 - Math.exp(-seconds * (name === "z" || name === "x" ? 3.5 : 2.2)), way = goal - this.at[name];
+    for (const name of NAMES) {
+      const share = snap ? 1 : 1 - Math.exp(-seconds * (name === "z" || name === "x" ? 3.5 : 2.2));
+      const way = this.goal[name] - this.at[name];
       this.at[name] += share * (name === "yaw" ? Math.atan2(Math.sin(way), Math.cos(way)) : way);
     }
   }
 
-  // What the scene needs; right, up and back of the picture stay for `ground`.
+  /**
+   * What the scene needs; right, up and back of the picture stay for `ground`.
+   * @param {number} width
+   * @param {number} height
+   * @returns {View}
+   */
   view(width, height) {
-    const { at, hand } = this, yaw = at.yaw + hand.yaw, pitch = Math.max(0.06, Math.min(at.pitch + hand.pitch, 1.5)), far = at.far * hand.zoom;
+    const { at, hand } = this;
+    const yaw = at.yaw + hand.yaw;
+    const pitch = Math.max(0.06, Math.min(at.pitch + hand.pitch, 1.5));
+    const far = at.far * hand.zoom;
     const [cy, sy, cp, sp] = [Math.cos(yaw), Math.sin(yaw), Math.cos(pitch), Math.sin(pitch)];
-    const back = [cp * sy, sp, cp * cy], right = [cy, 0, -sy], up = [-sp * sy, cp, -sp * cy];
+    const back = [cp * sy, sp, cp * cy];
+    const right = [cy, 0, -sy];
+    const up = [-sp * sy, cp, -sp * cy];
     const eye = [at.x + far * back[0], at.y + far * back[1], at.z + far * back[2]];
-    const zoom = 1 / Math.tan(width < height ? 0.42 : 0.34), wide = (zoom * height) / width, near = 0.1, end = 200;
-    const a = (end + near) / (near - end), b = (2 * end * near) / (near - end), rows = [right.map((v) => v * wide), up.map((v) => v * zoom), back.map((v) => v * a), back.map((v) => -v)];
+    const zoom = 1 / Math.tan(width < height ? 0.42 : 0.34);
+    const wide = (zoom * height) / width;
+    const near = 0.1;
+    const end = 200;
+    const a = (end + near) / (near - end);
+    const b = (2 * end * near) / (near - end);
+    const rows = [
+      right.map((v) => v * wide),
+      up.map((v) => v * zoom),
+      back.map((v) => v * a),
+      back.map((v) => -v),
+    ];
     const view = [0, 1, 2].flatMap((k) => rows.map((row) => row[k]));
     view.push(...rows.map((row, k) => -dot(row, eye) + (k === 2 ? b : 0)));
     const sun = unit([-0.62 * cy + 0.34 * sy, 0.95, 0.62 * sy + 0.34 * cy]); // over the left shoulder of who looks
@@ -44,8 +112,14 @@ export class Camera {
     return { view: new Float32Array(view), eye, target: [at.x, 0, at.z], sun, zoom };
   }
 
-  ground(px, py) { // the point [z, x] of the ground under a point of the picture
-    const x = ((px / this.width) * 2 - 1) / this.wide, y = (1 - (py / this.height) * 2) / this.zoom;
+  /**
+   * The point [z, x] of the ground under a point of the picture.
+   * @param {number} px
+   * @param {number} py
+   */
+  ground(px, py) {
+    const x = ((px / this.width) * 2 - 1) / this.wide;
+    const y = (1 - (py / this.height) * 2) / this.zoom;
     const way = [0, 1, 2].map((k) => this.right[k] * x + this.up[k] * y - this.back[k]);
     if (way[1] > -0.02) return null;
     const far = Math.min(-this.eye[1] / way[1], 60);

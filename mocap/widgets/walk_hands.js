@@ -2,91 +2,217 @@
 
 import { bodyAt } from "./walk_body.js";
 import { walkable } from "./walk_line.js";
+import { after } from "./walk_search.js";
 
-const clampedZoom = (zoom) => Math.max(0.35, Math.min(4, zoom)), moments = () => document.getElementById("moments");
+/**
+ * @import { Body } from "./walk_body.js"
+ * @import { Page } from "./walk_page.js"
+ * @import { Lay, Node } from "./walk_search.js"
+ *
+ * A moment of a clip.
+ * @typedef {Pick<Node, "clip" | "frame">} Moment
+ */
 
+const ASIDE = 0.5; // metres of two bodies from the seam that joins them
+const TURNS = new Map([
+  ["ArrowLeft", 0.26],
+  ["ArrowRight", -0.26],
+  ["ArrowUp", 0],
+]); // radians of the pen
+
+/** @param {number} zoom */
+const clampedZoom = (zoom) => Math.max(0.35, Math.min(4, zoom));
+
+/**
+ * The length of a line through points.
+ * @param {number[][]} points
+ */
+const lengthOf = (points) =>
+  points.slice(1).reduce((sum, [z, x], i) => sum + Math.hypot(z - points[i][0], x - points[i][1]), 0);
+
+// A page is one of these.
 export class Hands {
+  /** @type {Map<number, PointerEvent>} the fingers on the page, or the mouse */
+  touches = new Map();
+  /** @type {number[][] | null} the points [z, x] of the line that is drawn */
+  stroke = null;
+  /** @type {boolean} whether the hand turns the view */
+  turning = false;
+  /** @type {number} the heading of the pen that keys move */
+  pen = 0;
+  /** @type {{ bodies: Body[] } | null} what is shown while the walk stands still */
+  shown = null;
+
+  /** @this {Page} */
   listen() {
-    const { canvas } = this, on = (name, act) => canvas.addEventListener(name, act);
-    on("contextmenu", (event) => event.preventDefault());
-    on("pointerdown", (event) => {
+    const { canvas } = this;
+    canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+    canvas.addEventListener("pointerdown", (event) => {
       this.touches.set(event.pointerId, event);
       canvas.setPointerCapture(event.pointerId);
-      if (this.touches.size > 1 || event.button === 2 || event.shiftKey) { this.stroke = null; this.turning = [event.clientX, event.clientY]; return; }
+      if (this.touches.size > 1 || event.button === 2 || event.shiftKey) {
+        this.stroke = null;
+        this.turning = true;
+        return;
+      }
       const point = this.camera.ground(event.clientX, event.clientY);
       if (point) this.stroke = [point];
     });
-    on("pointermove", (event) => this.move(event));
-    for (const name of ["pointerup", "pointercancel"]) on(name, (event) => this.lift(event));
-    canvas.addEventListener("wheel", (event) => {
-      this.camera.hand.zoom = clampedZoom(this.camera.hand.zoom * Math.exp(event.deltaY / 900));
-      event.preventDefault();
-    }, { passive: false });
-    on("keydown", (event) => this.key(event));
-    addEventListener("resize", () => { this.sharp = 1; this.fit(); });
+    canvas.addEventListener("pointermove", (event) => this.move(event));
+    canvas.addEventListener("pointerup", (event) => this.lift(event));
+    canvas.addEventListener("pointercancel", (event) => this.lift(event));
+    canvas.addEventListener(
+      "wheel",
+      (event) => {
+        this.camera.hand.zoom = clampedZoom(this.camera.hand.zoom * Math.exp(event.deltaY / 900));
+        event.preventDefault();
+      },
+      { passive: false },
+    );
+    canvas.addEventListener("keydown", (event) => this.key(event));
+    addEventListener("resize", () => {
+      this.sharp = 1;
+      this.fit();
+    });
     addEventListener("hashchange", () => this.fromAddress());
   }
 
+  /**
+   * @this {Page}
+   * @param {PointerEvent} event
+   */
   move(event) {
-    const before = this.touches.get(event.pointerId), { hand } = this.camera;
+    const before = this.touches.get(event.pointerId);
+    const { hand } = this.camera;
     if (!before) return;
     if (this.turning) {
-      const others = [...this.touches.values()].filter((touch) => touch.pointerId !== event.pointerId), far = (touch) => Math.hypot(touch.clientX - others[0].clientX, touch.clientY - others[0].clientY);
+      const others = [...this.touches.values()].filter((touch) => touch.pointerId !== event.pointerId);
+      /** @param {PointerEvent} touch */
+      const far = (touch) => Math.hypot(touch.clientX - others[0].clientX, touch.clientY - others[0].clientY);
       if (others.length) hand.zoom = clampedZoom((hand.zoom * far(before)) / Math.max(far(event), 1));
       hand.yaw -= (event.clientX - before.clientX) / 180;
       hand.pitch += (event.clientY - before.clientY) / 250;
     } else if (this.stroke) {
-      for (const part of event.getCoalescedEvents?.().length ? event.getCoalescedEvents() : [event]) {
-        const point = this.camera.ground(part.clientX, part.clientY), last = this.stroke.at(-1);
+      const parts = event.getCoalescedEvents?.() ?? [];
+      for (const part of parts.length ? parts : [event]) {
+        const point = this.camera.ground(part.clientX, part.clientY);
+        const last = this.stroke[this.stroke.length - 1];
         if (point && Math.hypot(point[0] - last[0], point[1] - last[1]) > 0.01) this.stroke.push(point);
       }
     }
     this.touches.set(event.pointerId, event);
   }
 
+  /**
+   * @this {Page}
+   * @param {PointerEvent} event
+   */
   lift(event) {
     const { stroke } = this;
     this.touches.delete(event.pointerId);
-    if (!this.touches.size) this.turning = null;
-    if (!stroke || event.type === "pointercancel") { this.stroke = null; return; }
+    if (!this.touches.size) this.turning = false;
     this.stroke = null;
-    const length = stroke.reduce((sum, [z, x], i) => sum + (i ? Math.hypot(z - stroke[i - 1][0], x - stroke[i - 1][1]) : 0), 0);
-    if (length < 0.3) { this.tap(stroke[0]); return; }
-    if (length < 1) { this.say("Draw a longer line: a metre or more."); return; }
+    if (!stroke || event.type === "pointercancel") return;
+    const length = lengthOf(stroke);
+    if (length < 0.3) {
+      this.tap(stroke[0]);
+      return;
+    }
+    if (length < 1) {
+      this.say("Draw a longer line: a metre or more.");
+      return;
+    }
     this.set(walkable(stroke));
     this.view(false);
   }
 
-  tap(point) { // on a seam: the two moments that it joins, side by side; anywhere else, walk on
-    const near = this.shown ? [] : this.seams().map((seam) => ({ ...seam, off: Math.hypot(...this.placeAt(seam.frame).map((value, c) => value - point[c])) })).sort((a, b) => a.off - b.off);
-    moments().hidden = true;
+  /**
+   * Show the two moments that a seam joins, side by side; walk on where there is none.
+   * @this {Page}
+   * @param {number[]} point
+   */
+  tap(point) {
+    /** @param {number} frame */
+    const off = (frame) => {
+      const [z, x] = this.placeAt(frame);
+      return Math.hypot(z - point[0], x - point[1]);
+    };
+    const near = this.shown ? [] : this.seams().filter(({ frame }) => off(frame) <= 0.35);
+    const [seam] = near.sort((a, b) => off(a.frame) - off(b.frame));
+    this.moments.hidden = true;
     this.shown = null;
-    if (!near.length || near[0].off > 0.35) return;
-    const { walk, about } = this, edge = walk.edges[near[0].at], moment = (clip, frame) => `${about.clips[clip].name.replaceAll("_", " ")}, ${(frame / about.fps).toFixed(1)} s`;
-    const still = (start, lay) => bodyAt({ graph: walk.graph, edges: [{ start, end: start, frames: 1, seam: false }], lays: [lay], begins: [0], frames: 1 }, 0);
-    const [c, s, z, x] = walk.lays[near[0].at], [d, t, y, w] = edge.lay, aside = 0.5, from = { clip: edge.start.clip, frame: edge.start.frame + 5 }, to = { clip: edge.end.clip, frame: edge.end.frame - 5 };
-    const other = [c * d - s * t, s * d + c * t, c * y - s * w + z, s * y + c * w + x];
-    const { right } = this.camera, shift = (lay, sign) => [lay[0], lay[1], lay[2] + sign * aside * right[2], lay[3] + sign * aside * right[0]];
-    this.shown = { bodies: [still(from, shift(walk.lays[near[0].at], -1)), still(to, shift(other, 1))] };
-    this.time = near[0].frame;
-    moments().textContent = `Two moments that are alike: ${moment(from.clip, from.frame)} and ${moment(to.clip, to.frame)}. Here the walk passes from one into the other. Tap to walk on.`;
-    moments().hidden = false;
+    if (seam) this.showMoments(seam);
   }
 
+  /**
+   * @this {Page}
+   * @param {{ at: number, frame: number }} seam
+   */
+  showMoments(seam) {
+    const { walk, about } = this;
+    const { at, frame } = seam;
+    const [edge, lay] = [walk.edges[at], walk.lays[at]];
+    const from = { clip: edge.start.clip, frame: edge.start.frame + 5 };
+    const to = { clip: edge.end.clip, frame: edge.end.frame - 5 };
+    this.shown = { bodies: [this.still(from, lay, -ASIDE), this.still(to, after(lay, edge.lay), ASIDE)] };
+    this.time = frame;
+    const [one, other] = [from, to].map(
+      (moment) =>
+        `${about.clips[moment.clip].name.replaceAll("_", " ")}, ${(moment.frame / about.fps).toFixed(1)} s`,
+    );
+    this.moments.textContent =
+      `Two moments that are alike: ${one} and ${other}. ` +
+      "Here the walk passes from one into the other. Tap to walk on.";
+    this.moments.hidden = false;
+  }
+
+  /**
+   * The body of a moment, some metres to the right on the picture.
+   * @this {Page}
+   * @param {Moment} moment
+   * @param {Lay} lay
+   * @param {number} aside
+   */
+  still(moment, lay, aside) {
+    const { right } = this.camera;
+    const [c, s, z, x] = lay;
+    const shifted = [c, s, z + aside * right[2], x + aside * right[0]];
+    const node = { ...moment, number: 0, out: [], ahead: this.walk.edges[0].track };
+    const edge = { start: node, end: node, seam: false, frames: 1, lay: [1, 0, 0, 0] };
+    return bodyAt({ graph: this.walk.graph, edges: [edge], lays: [shifted], begins: [0], frames: 1 }, 0);
+  }
+
+  /**
+   * @this {Page}
+   * @param {KeyboardEvent} event
+   */
   key(event) {
-    const turn = { ArrowLeft: 0.26, ArrowRight: -0.26, ArrowUp: 0 }[event.key];
-    if (turn !== undefined) {
-      if (!this.stroke) { this.pen = this.camera.at.yaw + Math.PI; this.stroke = [this.walk.frames ? this.place() : [0, 0]]; }
-      this.pen += turn;
-      const [z, x] = this.stroke.at(-1);
-      this.stroke.push([z + 0.3 * Math.cos(this.pen), x + 0.3 * Math.sin(this.pen)]);
-    } else if (event.key === "Enter" && this.stroke?.length > 4) {
+    const turn = TURNS.get(event.key);
+    if (turn !== undefined) this.penStep(turn);
+    else if (event.key === "Enter" && this.stroke && this.stroke.length > 4) {
       const points = walkable(this.stroke);
       this.stroke = null;
       this.set(points);
-    } else if (event.key === "Escape") this.stroke = this.shown = null;
-    else if (event.key === " ") this.play(!this.playing);
+    } else if (event.key === "Escape") {
+      this.stroke = null;
+      this.shown = null;
+    } else if (event.key === " ") this.play(!this.playing);
     else return;
     event.preventDefault();
+  }
+
+  /**
+   * Turn the pen, and draw 30 cm.
+   * @this {Page}
+   * @param {number} turn
+   */
+  penStep(turn) {
+    if (!this.stroke) {
+      this.pen = this.camera.at.yaw + Math.PI;
+      this.stroke = [this.walk.frames ? this.place() : [0, 0]];
+    }
+    this.pen += turn;
+    const [z, x] = this.stroke[this.stroke.length - 1];
+    this.stroke.push([z + 0.3 * Math.cos(this.pen), x + 0.3 * Math.sin(this.pen)]);
   }
 }

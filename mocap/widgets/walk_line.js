@@ -4,9 +4,15 @@ import { nearest } from "./walk_search.js";
 
 const LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
 const TIGHT = 0.8; // metres: nobody walks on a smaller circle
-const STRIDE = 0.25, TURN = (Math.PI * 0.72) / 32; // a letter goes 25 cm, and turns by up to 31 times 4°
+const STRIDE = 0.25;
+const TURN = (Math.PI * 0.72) / 32; // a letter goes 25 cm, and turns by up to 31 times 4°
 
-export function even(points, gap) { // points [z, x] at equal distances
+/**
+ * Points [z, x] at equal distances.
+ * @param {number[][]} points
+ * @param {number} gap
+ */
+export function even(points, gap) {
   const out = [points[0]];
   let [z, x] = points[0];
   for (const [toZ, toX] of points.slice(1)) {
@@ -19,21 +25,32 @@ export function even(points, gap) { // points [z, x] at equal distances
   return out;
 }
 
-export function smooth(points, metres) { // three means over twice `metres`; the ends stay
+/**
+ * Three means over twice `metres`; the ends stay.
+ * @param {number[][]} points
+ * @param {number} metres
+ */
+export function smooth(points, metres) {
   let line = even(points, 0.02);
   const most = Math.round(metres / 0.02);
   for (let pass = 0; pass < 3; pass++) {
     const sums = [[0, 0]];
-    for (const [z, x] of line) sums.push([sums.at(-1)[0] + z, sums.at(-1)[1] + x]);
+    line.forEach(([z, x], i) => sums.push([sums[i][0] + z, sums[i][1] + x]));
     line = line.map((_, i) => {
-      const reach = Math.min(most, i, line.length - 1 - i), [a, b] = [sums[i - reach], sums[i + reach + 1]];
+      const reach = Math.min(most, i, line.length - 1 - i);
+      const [a, b] = [sums[i - reach], sums[i + reach + 1]];
       return [(b[0] - a[0]) / (2 * reach + 1), (b[1] - a[1]) / (2 * reach + 1)];
     });
   }
   return even(line, 0.01);
 }
 
-function sharpest(line) { // turn per metre, over 30 cm
+/**
+ * Turn per metre, over 30 cm.
+ * @param {number[][]} line
+ */
+function sharpest(line) {
+  /** @param {number} i */
   const way = (i) => Math.atan2(line[i + 10][1] - line[i - 10][1], line[i + 10][0] - line[i - 10][0]);
   let most = 0;
   for (let i = 10; i + 40 < line.length; i += 5) {
@@ -43,42 +60,72 @@ function sharpest(line) { // turn per metre, over 30 cm
   return most;
 }
 
-// Smooth a line until it asks for no circle that is too tight.
+/**
+ * Smooth a line until it asks for no circle that is too tight.
+ * @param {number[][]} points
+ */
 export function walkable(points) {
   let line = smooth(points, 0.12);
-  for (let reach = 0.17; sharpest(line) > 1 / TIGHT && reach < 0.9; reach *= 1.35) line = smooth(points, reach);
+  for (let reach = 0.17; sharpest(line) > 1 / TIGHT && reach < 0.9; reach *= 1.35) {
+    line = smooth(points, reach);
+  }
   return line;
 }
 
-// A way from a place onto a line: half a metre on, which clips take to begin a turn, then by turns that can be walked
-// towards a place 70 cm further along the line.
+/**
+ * A way from a place onto a line: half a metre on, which clips take to begin a turn, then by turns that can be walked
+ * towards a place 70 cm further along the line.
+ * @param {number[][]} line
+ * @param {number[]} place
+ * @param {number} heading
+ */
 export function ledOnto(line, [z, x], heading) {
-  const way = [], at = arrays(line);
-  let k = 0, off = Infinity;
+  const way = [];
+  const at = arrays(line);
+  let k = 0;
+  let off = Infinity;
   for (let far = 0; far < 12 && k + 30 < line.length && off > 0.02; far += 0.05) {
     way.push([z, x]);
     if (far > 0.5) {
       k = nearest(at, [z, x], k, k + 30);
       off = Math.hypot(line[k][0] - z, line[k][1] - x);
-      const [toZ, toX] = line[Math.min(k + 70, line.length - 1)], wanted = Math.atan2(toX - x, toZ - z) - heading;
-      heading += Math.max(-0.05 / TIGHT, Math.min(Math.atan2(Math.sin(wanted), Math.cos(wanted)), 0.05 / TIGHT));
+      const [toZ, toX] = line[Math.min(k + 70, line.length - 1)];
+      const wanted = Math.atan2(toX - x, toZ - z) - heading;
+      heading += Math.max(
+        -0.05 / TIGHT,
+        Math.min(Math.atan2(Math.sin(wanted), Math.cos(wanted)), 0.05 / TIGHT),
+      );
     }
     [z, x] = [z + 0.05 * Math.cos(heading), x + 0.05 * Math.sin(heading)];
   }
   return smooth([...way, ...line.slice(k + 5)], 0.12);
 }
 
-export const arrays = (line) => ({ z: Float64Array.from(line, (p) => p[0]), x: Float64Array.from(line, (p) => p[1]) });
+/** @param {number[][]} line */
+export const arrays = (line) => ({
+  z: Float64Array.from(line, (p) => p[0]),
+  x: Float64Array.from(line, (p) => p[1]),
+});
 
-export function written(line) { // the first direction in two letters, then a letter for each 25 cm
-  const points = even(line, 0.02), ahead = points[Math.min(10, points.length - 1)];
-  let [z, x] = points[0], k = 0, text = "";
+/**
+ * The first direction in two letters, then a letter for each 25 cm.
+ * @param {number[][]} line
+ */
+export function written(line) {
+  const points = even(line, 0.02);
+  const ahead = points[Math.min(10, points.length - 1)];
+  let [z, x] = points[0];
+  let k = 0;
+  let text = "";
   const first = Math.floor((Math.atan2(ahead[1] - x, ahead[0] - z) / (2 * Math.PI) + 1) * 4096) % 4096;
   let angle = (first / 4096) * 2 * Math.PI;
   while (k < points.length - 8) {
     while (k < points.length - 1 && Math.hypot(points[k][0] - z, points[k][1] - x) < STRIDE) k++;
     const wanted = Math.atan2(points[k][1] - x, points[k][0] - z) - angle;
-    const turn = Math.max(-31, Math.min(31, Math.round(Math.atan2(Math.sin(wanted), Math.cos(wanted)) / TURN)));
+    const turn = Math.max(
+      -31,
+      Math.min(31, Math.round(Math.atan2(Math.sin(wanted), Math.cos(wanted)) / TURN)),
+    );
     angle += turn * TURN;
     z += STRIDE * Math.cos(angle);
     x += STRIDE * Math.sin(angle);
@@ -87,21 +134,28 @@ export function written(line) { // the first direction in two letters, then a le
   return LETTERS[first >> 6] + LETTERS[first & 63] + text;
 }
 
-export function read(text) { // null where the word is no line
+/**
+ * Null where the word is no line.
+ * @param {string} text
+ */
+export function read(text) {
   const numbers = [...text].map((letter) => LETTERS.indexOf(letter));
   if (numbers.length < 6 || numbers.length > 2000 || numbers.includes(-1)) return null;
   let angle = ((numbers[0] * 64 + numbers[1]) / 4096) * 2 * Math.PI;
   const points = [[0, 0]];
   for (const number of numbers.slice(2)) {
     angle += (number - 31) * TURN;
-    const [z, x] = points.at(-1);
+    const [z, x] = points[points.length - 1];
     points.push([z + STRIDE * Math.cos(angle), x + STRIDE * Math.sin(angle)]);
   }
   return smooth(points, 0.12);
 }
 
-export function firstLine() { // loops, as a pen tries them
+export function firstLine() {
+  // loops, as a pen tries them
   const points = [];
-  for (let t = -1.2; t <= 13.4; t += 0.02) points.push([1.55 * Math.cos(t) * (1 - 0.02 * t), 0.62 * t - 1.5 * Math.sin(t) - 3.8]);
+  for (let t = -1.2; t <= 13.4; t += 0.02) {
+    points.push([1.55 * Math.cos(t) * (1 - 0.02 * t), 0.62 * t - 1.5 * Math.sin(t) - 3.8]);
+  }
   return smooth(points, 0.1);
 }

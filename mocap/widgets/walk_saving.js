@@ -2,79 +2,166 @@
 
 import { poseAt } from "./walk_body.js";
 
+/** @import { Walk } from "./walk_search.js" */
+
+/** @param {number} value */
 const degrees = (value) => ((value * 180) / Math.PI).toFixed(4);
 
-function angles([w, x, y, z]) { // of turns about Z, X and Y, in this order
+/**
+ * Of turns about Z, X and Y, in this order.
+ * @param {number[]} turn
+ */
+function angles([w, x, y, z]) {
   const lift = Math.asin(Math.max(-1, Math.min(2 * (y * z + w * x), 1)));
-  return [Math.atan2(2 * (w * z - x * y), 1 - 2 * (x * x + z * z)), lift, Math.atan2(2 * (w * y - x * z), 1 - 2 * (x * x + y * y))];
+  return [
+    Math.atan2(2 * (w * z - x * y), 1 - 2 * (x * x + z * z)),
+    lift,
+    Math.atan2(2 * (w * y - x * z), 1 - 2 * (x * x + y * y)),
+  ];
 }
 
+/** @param {Walk} walk */
 export function bvh(walk) {
-  const { joints, parents, offsets, fps } = walk.graph.about, order = [], lines = ["HIERARCHY"];
+  const { joints, parents, offsets, fps } = walk.graph.about;
+  /** @type {number[]} the joints, as they are written */
+  const order = [];
+  const lines = ["HIERARCHY"];
+  /** @param {number[]} values */
   const numbers = (values) => values.map((value) => (100 * value).toFixed(4)).join(" ");
+  /**
+   * @param {number} j
+   * @param {string} indent
+   */
   const joint = (j, indent) => {
     const children = parents.flatMap((parent, child) => (parent === j && child ? [child] : []));
     order.push(j);
-    lines.push(`${indent}${j ? "JOINT" : "ROOT"} ${joints[j]}`, `${indent}{`, `${indent}  OFFSET ${numbers(offsets[j])}`);
-    lines.push(`${indent}  CHANNELS ${j ? "3" : "6 Xposition Yposition Zposition"} Zrotation Xrotation Yrotation`);
+    lines.push(
+      `${indent}${j ? "JOINT" : "ROOT"} ${joints[j]}`,
+      `${indent}{`,
+      `${indent}  OFFSET ${numbers(offsets[j])}`,
+    );
+    lines.push(
+      `${indent}  CHANNELS ${j ? "3" : "6 Xposition Yposition Zposition"} Zrotation Xrotation Yrotation`,
+    );
     for (const child of children) joint(child, `${indent}  `);
-    if (!children.length) lines.push(`${indent}  End Site`, `${indent}  {`, `${indent}    OFFSET 0 0 0`, `${indent}  }`);
+    if (!children.length) {
+      lines.push(`${indent}  End Site`, `${indent}  {`, `${indent}    OFFSET 0 0 0`, `${indent}  }`);
+    }
     lines.push(`${indent}}`);
   };
   joint(0, "");
   lines.push("MOTION", `Frames: ${walk.frames}`, `Frame Time: ${(1 / fps).toFixed(8)}`);
   for (let frame = 0; frame < walk.frames; frame++) {
     const { root, turns } = poseAt(walk, frame);
-    lines.push([numbers(root.map((value, c) => value - (offsets[0][c] ?? 0))), ...order.map((j) => angles(turns[j]).map(degrees).join(" "))].join(" "));
+    lines.push(
+      [
+        numbers(root.map((value, c) => value - (offsets[0][c] ?? 0))),
+        ...order.map((j) => angles(turns[j]).map(degrees).join(" ")),
+      ].join(" "),
+    );
   }
   return `${lines.join("\n")}\n`;
 }
 
-// LZW as GIF has it: codes grow from nine bits, and the table begins anew when it is full.
+/**
+ * LZW as GIF has it: codes grow from nine bits, and the table begins anew when it is full.
+ * @param {Uint8Array} pixels
+ */
 function squeezed(pixels) {
-  const bytes = [], CLEAR = 256;
-  let bits = 0, held = 0, size = 9, table = new Map(), next = 258, word = pixels[0];
+  const bytes = [];
+  const CLEAR = 256;
+  let bits = 0;
+  let held = 0;
+  let size = 9;
+  let table = new Map();
+  let next = 258;
+  let word = pixels[0];
+  /** @param {number} code */
   const put = (code) => {
     held |= code << bits;
-    for (bits += size; bits >= 8; bits -= 8) { bytes.push(held & 255); held >>= 8; }
+    for (bits += size; bits >= 8; bits -= 8) {
+      bytes.push(held & 255);
+      held >>= 8;
+    }
   };
   put(CLEAR);
   for (let i = 1; i < pixels.length; i++) {
-    const longer = (word << 8) | pixels[i], known = table.get(longer);
-    if (known !== undefined) { word = known; continue; }
+    const longer = (word << 8) | pixels[i];
+    const known = table.get(longer);
+    if (known !== undefined) {
+      word = known;
+      continue;
+    }
     put(word);
     table.set(longer, next++);
     if (next > 1 << size && size < 12) size++;
-    if (next === 4096) { put(CLEAR); table = new Map(); next = 258; size = 9; }
+    if (next === 4096) {
+      put(CLEAR);
+      table = new Map();
+      next = 258;
+      size = 9;
+    }
     word = pixels[i];
   }
   put(word);
   put(257);
   if (bits) bytes.push(held & 255);
   const blocks = [8];
-  for (let at = 0; at < bytes.length; at += 255) blocks.push(Math.min(255, bytes.length - at), ...bytes.slice(at, at + 255));
+  for (let at = 0; at < bytes.length; at += 255) {
+    blocks.push(Math.min(255, bytes.length - at), ...bytes.slice(at, at + 255));
+  }
   return [...blocks, 0];
 }
 
+/** @param {number} value */
 const short = (value) => [value & 255, value >> 8];
 
-// `pictures`: pixels (RGBA) of equal size; colours are kept to 6 reds, 7 greens and 6 blues.
+/**
+ * `pictures`: pixels (RGBA) of equal size; colours are kept to 6 reds, 7 greens and 6 blues.
+ * @param {ArrayLike<number>[]} pictures
+ * @param {number} width
+ * @param {number} height
+ * @param {number} hundredths
+ */
 export function gif(pictures, width, height, hundredths) {
-  const palette = Array.from({ length: 256 }, (_, n) => [(n % 6) * 51, (Math.floor(n / 6) % 7) * 42.5, Math.floor(n / 42) * 51].map((v) => Math.min(255, Math.round(v))));
-  const parts = [[..."GIF89a"].map((c) => c.charCodeAt(0)), [...short(width), ...short(height), 0xf7, 0, 0], palette.flat(), [0x21, 0xff, 11, ...[..."NETSCAPE2.0"].map((c) => c.charCodeAt(0)), 3, 1, 0, 0, 0]];
+  const palette = Array.from({ length: 256 }, (_, n) =>
+    [(n % 6) * 51, (Math.floor(n / 6) % 7) * 42.5, Math.floor(n / 42) * 51].map((v) =>
+      Math.min(255, Math.round(v)),
+    ),
+  );
+  const parts = [
+    [..."GIF89a"].map((c) => c.charCodeAt(0)),
+    [...short(width), ...short(height), 0xf7, 0, 0],
+    palette.flat(),
+    [0x21, 0xff, 11, ...[..."NETSCAPE2.0"].map((c) => c.charCodeAt(0)), 3, 1, 0, 0, 0],
+  ];
   const grain = [0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5]; // ordered dots hide the steps between colours
   for (const picture of pictures) {
     const pixels = new Uint8Array(width * height);
     for (let i = 0; i < pixels.length; i++) {
-      const lift = (grain[(Math.floor(i / width) % 4) * 4 + (i % width % 4)] + 0.5) / 16, at = 4 * i;
-      pixels[i] = Math.min(5, Math.floor(picture[at] / 51 + lift)) + 6 * Math.min(6, Math.floor(picture[at + 1] / 42.5 + lift)) + 42 * Math.min(5, Math.floor(picture[at + 2] / 51 + lift));
+      const lift = (grain[(Math.floor(i / width) % 4) * 4 + ((i % width) % 4)] + 0.5) / 16;
+      const at = 4 * i;
+      pixels[i] =
+        Math.min(5, Math.floor(picture[at] / 51 + lift)) +
+        6 * Math.min(6, Math.floor(picture[at + 1] / 42.5 + lift)) +
+        42 * Math.min(5, Math.floor(picture[at + 2] / 51 + lift));
     }
-    parts.push([0x21, 0xf9, 4, 4, ...short(hundredths), 0, 0, 0x2c, 0, 0, 0, 0, ...short(width), ...short(height), 0], squeezed(pixels));
+    parts.push(
+      [0x21, 0xf9, 4, 4, ...short(hundredths), 0, 0, 0x2c, 0, 0, 0, 0, ...short(width), ...short(height), 0],
+      squeezed(pixels),
+    );
   }
   parts.push([0x3b]);
-  return new Blob(parts.map((part) => new Uint8Array(part)), { type: "image/gif" });
+  return new Blob(
+    parts.map((part) => new Uint8Array(part)),
+    { type: "image/gif" },
+  );
 }
 
+/**
+ * @param {string | Blob} content
+ * @param {string} name
+ */
 export function download(content, name) {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(content instanceof Blob ? content : new Blob([content]));
@@ -82,4 +169,3 @@ export function download(content, name) {
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
-

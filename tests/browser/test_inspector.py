@@ -110,6 +110,16 @@ def test_a_click_and_the_keys_choose_windows_and_minima(resting):
     wait_until(lambda: "Frames 120 to 129" in page.locator(".status").inner_text())
 
 
+def test_keys_move_the_view_of_the_bodies(resting):
+    page = resting(inspector(*WALKS, at=(56, 20)))
+    page.locator(".bodies").focus()
+    before = pixels(page, ".bodies")
+    page.keyboard.press("Alt+ArrowRight")
+    page.keyboard.press("l")  # marks a part of a player, which the inspector has not: nothing happens
+    wait_until(lambda: np.any(pixels(page, ".bodies") != before))
+    assert page.evaluate(f"{IT}.panned") != [0, 0]
+
+
 def test_the_turn_is_dragged_and_comes_back(resting):
     page = resting(inspector(*WALKS, at=(56, 20)))
     page.locator("[data-tab=turn]").click()

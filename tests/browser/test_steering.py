@@ -76,6 +76,14 @@ def test_keys_command_a_direction_on_the_picture(steering):
     assert command(steering)[1] == 1.6  # no faster than may be asked for
 
 
+def test_a_key_that_is_held_while_the_focus_leaves_is_let_go(steering):
+    steering.locator(".panels").focus()
+    steering.keyboard.down("w")
+    steering.evaluate("document.activeElement.blur()")
+    steering.keyboard.up("w")  # nothing of the widget hears that
+    assert close(press(steering, "a"), math.radians(90))  # and not 45
+
+
 def test_an_arrow_means_the_same_on_the_picture_from_every_side(steering):
     steering.locator("select.view").select_option("side")
     assert close(press(steering, "ArrowUp"), -math.pi / 2)

@@ -12,6 +12,7 @@ from PIL import Image
 import mocap
 from mocap import body, graphs, plain
 from mocap.body import rotations
+from mocap.widgets.embedding import joined
 from mocap.widgets.walking_page import HERE, STEPS, pack_graph, walk_page
 from tests.browser.conftest import drag, keep, shaded, watched_page
 from tests.bundled import WALKS, bundled
@@ -66,7 +67,7 @@ def scripts(browser):
     """Open an empty page that knows the search."""
     page = browser.new_page()
     page.set_content("<!doctype html>")
-    script = re.sub(r"^export ", "", (HERE / "walk_search.js").read_text(), flags=re.MULTILINE)
+    script = joined(HERE / "walk_search.js")
     page.add_script_tag(content=script + "\nObject.assign(window, { prepare, unpack, Search, edgesOf });")
     yield page
     page.close()

@@ -66,7 +66,7 @@ def shown(head: str, inside: str, spec: dict[str, Any], text: Iterable[str]) -> 
 def _packed(name: str) -> str:
     """Read a script or a style, without indents and comments, as each question of a page repeats it."""
     lines = map(str.strip, Path(__file__).with_name(name).read_text("utf-8").splitlines())
-    return "\n".join(line for line in lines if line and not line.startswith("//"))
+    return "\n".join(line for line in lines if line and not line.startswith(("//", "/*", "*")))
 
 
 def to_html(text: str) -> str:

@@ -1,78 +1,211 @@
 // What the inspector computes: bodies out of rotations, the best turn, the blend. `tests/browser/test_inspector.py`
 // holds each of these formulas against the package's function, which every comment names.
 
+import { summed } from "../../widgets/player_scene.js";
+
+/**
+ * A clip, as `packed_clip` in `showing.py` packs it: `plants` has a digit for each frame.
+ * @typedef {{
+ *   name: string, frames: number, channels: number, offset: number, origin: number[], plants: string,
+ * }} PackedClip
+ *
+ * What draws and measures a body, as `packed_skeleton` packs it: `bones` are [from, to, side], `feet` [ball, side].
+ * @typedef {{
+ *   parents: number[], offsets: number[][], points: number[], bones: number[][], head: number | null,
+ *   feet: number[][],
+ * }} Skeleton
+ *
+ * The root's place, and the joints' quaternions, one after the other.
+ * @typedef {{ root: number[], turns: Float64Array }} Pose
+ *
+ * The points of a window, frame by frame.
+ * @typedef {number[][][]} Cloud
+ *
+ * A turn about +y, then a shift over the ground; who knows its cosine and sine says them.
+ * @typedef {{ angle: number, x: number, z: number, cos?: number, sin?: number }} Transform
+ *
+ * @typedef {{ A: number, B: number, fixed: number, mx: number, mz: number, mu: number, mw: number }} Sums
+ *
+ * How two clips are mixed: frames of the window, before it and after it, and the weights of the first clip.
+ * @typedef {{ transform: Transform, window: number, before: number, after: number, kind: Weighting }} Mix
+ *
+ * @typedef {keyof typeof WEIGHTS} Weighting
+ *
+ * A frame of a seam: the weight of the first clip, where the joints are, and which feet stand, as bits.
+ * @typedef {{ alpha: number, places: number[][], plants: number }} SeamFrame
+ */
+
 const STEP = 5e-6; // metres, and parts of a quaternion: what one unit of a number means
 
-// Undo what `player.py` does: four planes of bytes make 32-bit numbers, which the player's `summed` sums up.
+/**
+ * Undo what `player.py` does: four planes of bytes make 32-bit numbers, which the player's `summed` sums up. They are
+ * given frame by frame: x, y, z of the root, then w, x, y, z of each joint.
+ * @param {ArrayBuffer} bytes
+ * @param {PackedClip} packed
+ */
 function unpacked(bytes, { offset, frames, channels }) {
-  const count = frames * channels, planes = new Uint8Array(bytes, offset, 4 * count);
-  const whole = (_, k) => planes[k] | (planes[count + k] << 8) | (planes[2 * count + k] << 16) | (planes[3 * count + k] << 24);
-  const sums = summed(Int32Array.from({ length: count }, whole), frames);
-  return Float64Array.from({ length: count }, (_, k) => STEP * sums[(k % channels) * frames + Math.floor(k / channels)]);
-} // frame by frame: x, y, z of the root, then w, x, y, z of each joint
+  const count = frames * channels;
+  const planes = new Uint8Array(bytes, offset, 4 * count);
+  /**
+   * @param {unknown} _
+   * @param {number} k
+   */
+  const whole = (_, k) =>
+    planes[k] | (planes[count + k] << 8) | (planes[2 * count + k] << 16) | (planes[3 * count + k] << 24);
+  const numbers = summed(Int32Array.from({ length: count }, whole), frames);
+  return Float64Array.from(
+    { length: count },
+    (_, k) => STEP * numbers[(k % channels) * frames + Math.floor(k / channels)],
+  );
+}
 
 // ---- quaternions: w, x, y, z; many of them in one array, so that a page can turn thousands in a few milliseconds ----
 
-const times = ([a, b, c, d], [e, f, g, h]) =>
-  [a * e - b * f - c * g - d * h, a * f + b * e + c * h - d * g, a * g - b * h + c * e + d * f, a * h + b * g - c * f + d * e];
+/**
+ * The product of quaternions.
+ * @param {ArrayLike<number> & Iterable<number>} p
+ * @param {ArrayLike<number> & Iterable<number>} q
+ */
+const times = ([a, b, c, d], [e, f, g, h]) => [
+  a * e - b * f - c * g - d * h,
+  a * f + b * e + c * h - d * g,
+  a * g - b * h + c * e + d * f,
+  a * h + b * g - c * f + d * e,
+];
 
-// `rotations.slerp`: the short way round, and on a straight line where both are almost equal.
+/**
+ * `rotations.slerp`: the short way round, and on a straight line where both are almost equal.
+ * @param {Float64Array} from
+ * @param {Float64Array} to
+ * @param {number} share
+ * @param {number} k
+ * @param {Float64Array} out
+ */
 function slerp(from, to, share, k, out) {
-  const dot = from[k] * to[k] + from[k + 1] * to[k + 1] + from[k + 2] * to[k + 2] + from[k + 3] * to[k + 3], sign = dot < 0 ? -1 : 1;
-  const angle = Math.acos(Math.min(1, Math.abs(dot))), sine = Math.sin(angle), near = sine < 1e-6;
-  const p = near ? 1 - share : Math.sin((1 - share) * angle) / sine, q = sign * (near ? share : Math.sin(share * angle) / sine);
+  const dot = from[k] * to[k] + from[k + 1] * to[k + 1] + from[k + 2] * to[k + 2] + from[k + 3] * to[k + 3];
+  const sign = dot < 0 ? -1 : 1;
+  const angle = Math.acos(Math.min(1, Math.abs(dot)));
+  const sine = Math.sin(angle);
+  const near = sine < 1e-6;
+  const p = near ? 1 - share : Math.sin((1 - share) * angle) / sine;
+  const q = sign * (near ? share : Math.sin(share * angle) / sine);
   for (let n = k; n < k + 4; n++) out[n] = p * from[n] + q * to[n];
 }
 
 // ---- poses: the root's place, and the joints' quaternions, one after the other ----
 
-class Clip {
+export class Clip {
+  /** @type {Map<number, number[][]>} the joints of frames */
+  known = new Map();
+
+  /**
+   * @param {PackedClip} packed
+   * @param {Skeleton} skeleton
+   * @param {ArrayBuffer} bytes
+   */
   constructor(packed, skeleton, bytes) {
-    Object.assign(this, packed);
+    this.name = packed.name;
+    this.frames = packed.frames;
+    this.channels = packed.channels;
+    this.origin = packed.origin;
+    this.plants = packed.plants;
     this.skeleton = skeleton;
     this.numbers = unpacked(bytes, packed);
-    this.known = new Map();
   }
 
+  /**
+   * @param {number} frame
+   * @returns {Pose}
+   */
   pose(frame) {
-    const at = frame * this.channels, [x0, z0] = this.origin, { numbers } = this;
-    return { root: [numbers[at] + x0, numbers[at + 1], numbers[at + 2] + z0], turns: numbers.subarray(at + 3, at + this.channels) };
+    const at = frame * this.channels;
+    const [x0, z0] = this.origin;
+    const { numbers } = this;
+    return {
+      root: [numbers[at] + x0, numbers[at + 1], numbers[at + 2] + z0],
+      turns: numbers.subarray(at + 3, at + this.channels),
+    };
   }
 
-  // The joints of a frame, which do not change: they are computed once.
+  /**
+   * The joints of a frame, which do not change: they are computed once.
+   * @param {number} frame
+   */
   joints(frame) {
-    let places = this.known.get(frame);
-    if (!places) this.known.set(frame, places = joints(this.skeleton, this.pose(frame)));
+    const known = this.known.get(frame);
+    if (known) return known;
+    const places = joints(this.skeleton, this.pose(frame));
+    this.known.set(frame, places);
     return places;
   }
 
-  // The points of a window, frame by frame: `matching.point_cloud`.
+  /**
+   * The points of a window, frame by frame: `matching.point_cloud`.
+   * @param {number} start
+   * @param {number} frames
+   * @returns {Cloud}
+   */
   cloud(start, frames) {
-    return Array.from({ length: frames }, (_, p) => this.skeleton.points.map((joint) => this.joints(start + p)[joint]));
+    return Array.from({ length: frames }, (_, p) =>
+      this.skeleton.points.map((joint) => this.joints(start + p)[joint]),
+    );
   }
 }
 
-// Where all joints of a pose are: `body.kinematics.joint_positions`. A parent comes before its children.
+/**
+ * Where all joints of a pose are: `body.kinematics.joint_positions`. A parent comes before its children.
+ * @param {Skeleton} skeleton
+ * @param {Pose} pose
+ */
 function joints({ parents, offsets }, { root, turns }) {
-  const places = [root], worlds = Float64Array.from(turns);
+  const places = [root];
+  const worlds = Float64Array.from(turns);
   for (let j = 1; j < parents.length; j++) {
-    const p = 4 * parents[j], w = worlds[p], x = worlds[p + 1], y = worlds[p + 2], z = worlds[p + 3], [a, b, c] = offsets[j];
-    const u = 2 * (y * c - z * b), v = 2 * (z * a - x * c), t = 2 * (x * b - y * a), from = places[parents[j]]; // the arm, turned by its parent
-    places.push([from[0] + a + w * u + y * t - z * v, from[1] + b + w * v + z * u - x * t, from[2] + c + w * t + x * v - y * u]);
-    const k = 4 * j, e = turns[k], f = turns[k + 1], g = turns[k + 2], h = turns[k + 3];
-    worlds[k] = w * e - x * f - y * g - z * h; worlds[k + 1] = w * f + x * e + y * h - z * g;
-    worlds[k + 2] = w * g - x * h + y * e + z * f; worlds[k + 3] = w * h + x * g - y * f + z * e;
+    const p = 4 * parents[j];
+    const w = worlds[p];
+    const x = worlds[p + 1];
+    const y = worlds[p + 2];
+    const z = worlds[p + 3];
+    const [a, b, c] = offsets[j];
+    const u = 2 * (y * c - z * b);
+    const v = 2 * (z * a - x * c);
+    const t = 2 * (x * b - y * a);
+    const from = places[parents[j]]; // the arm, turned by its parent
+    places.push([
+      from[0] + a + w * u + y * t - z * v,
+      from[1] + b + w * v + z * u - x * t,
+      from[2] + c + w * t + x * v - y * u,
+    ]);
+    const k = 4 * j;
+    const e = turns[k];
+    const f = turns[k + 1];
+    const g = turns[k + 2];
+    const h = turns[k + 3];
+    worlds[k] = w * e - x * f - y * g - z * h;
+    worlds[k + 1] = w * f + x * e + y * h - z * g;
+    worlds[k + 2] = w * g - x * h + y * e + z * f;
+    worlds[k + 3] = w * h + x * g - y * f + z * e;
   }
   return places;
 }
 
-// `PlanarTransform`: turn by an angle about +y, then shift over the ground.
-function moved({ angle, x, z, cos = Math.cos(angle), sin = Math.sin(angle) }, [a, b, c]) {
+/**
+ * `PlanarTransform`: turn by an angle about +y, then shift over the ground.
+ * @param {Transform} transform
+ * @param {number[]} place
+ */
+export function moved({ angle, x, z, cos = Math.cos(angle), sin = Math.sin(angle) }, [a, b, c]) {
   return [a * cos + c * sin + x, b, c * cos - a * sin + z];
 }
 
+/**
+ * @param {Transform} transform
+ * @param {Pose} pose
+ * @returns {Pose}
+ */
 function movedPose(transform, { root, turns }) {
-  const half = transform.angle / 2, about = [Math.cos(half), 0, Math.sin(half), 0];
+  const half = transform.angle / 2;
+  const about = [Math.cos(half), 0, Math.sin(half), 0];
   const all = Float64Array.from(turns);
   all.set(times(about, turns.subarray(0, 4)));
   return { root: moved(transform, root), turns: all };
@@ -80,81 +213,168 @@ function movedPose(transform, { root, turns }) {
 
 // ---- matching ----
 
-// The sums of [KGP02, Eqs. 2-4] over two clouds; from them come the best turn, and the distance at any turn.
-function sums(cloud, other) {
-  let n = 0, A = 0, B = 0, fixed = 0;
+/**
+ * The sums of [KGP02, Eqs. 2-4] over two clouds; from them come the best turn, and the distance at any turn.
+ * @param {Cloud} cloud
+ * @param {Cloud} other
+ */
+export function sums(cloud, other) {
+  let n = 0;
+  let A = 0;
+  let B = 0;
+  let fixed = 0;
   const mean = [0, 0, 0, 0];
-  for (let p = 0; p < cloud.length; p++) for (let k = 0; k < cloud[p].length; k++, n++) {
-    const [x, , z] = cloud[p][k], [u, , w] = other[p][k];
-    mean[0] += x; mean[1] += z; mean[2] += u; mean[3] += w;
+  for (let p = 0; p < cloud.length; p++) {
+    for (let k = 0; k < cloud[p].length; k++, n++) {
+      const [x, , z] = cloud[p][k];
+      const [u, , w] = other[p][k];
+      mean[0] += x;
+      mean[1] += z;
+      mean[2] += u;
+      mean[3] += w;
+    }
   }
   const [mx, mz, mu, mw] = mean.map((v) => v / n);
-  for (let p = 0; p < cloud.length; p++) for (let k = 0; k < cloud[p].length; k++) {
-    const [x, y, z] = cloud[p][k], [u, v, w] = other[p][k], X = x - mx, Z = z - mz, U = u - mu, W = w - mw;
-    A += X * U + Z * W; B += X * W - U * Z;
-    fixed += X * X + Z * Z + U * U + W * W + (y - v) * (y - v);
+  for (let p = 0; p < cloud.length; p++) {
+    for (let k = 0; k < cloud[p].length; k++) {
+      const [x, y, z] = cloud[p][k];
+      const [u, v, w] = other[p][k];
+      const X = x - mx;
+      const Z = z - mz;
+      const U = u - mu;
+      const W = w - mw;
+      A += X * U + Z * W;
+      B += X * W - U * Z;
+      fixed += X * X + Z * Z + U * U + W * W + (y - v) * (y - v);
+    }
   }
   return { A: A / n, B: B / n, fixed: fixed / n, mx, mz, mu, mw };
 }
 
-const bestAngle = ({ A, B }) => Math.atan2(B, A);
+/** @param {Sums} sums */
+export const bestAngle = ({ A, B }) => Math.atan2(B, A);
 
-// The root of the mean squared distance, metres, when the second cloud is turned by an angle and shifted best.
-const distanceAt = ({ A, B, fixed }, angle) => Math.sqrt(Math.max(0, fixed - 2 * (A * Math.cos(angle) + B * Math.sin(angle))));
+/**
+ * The root of the mean squared distance, metres, when the second cloud is turned by an angle and shifted best.
+ * @param {Sums} sums
+ * @param {number} angle
+ */
+export const distanceAt = ({ A, B, fixed }, angle) =>
+  Math.sqrt(Math.max(0, fixed - 2 * (A * Math.cos(angle) + B * Math.sin(angle))));
 
-function bestShift({ mx, mz, mu, mw }, angle) {
+/**
+ * @param {Sums} sums
+ * @param {number} angle
+ * @returns {Transform}
+ */
+export function bestShift({ mx, mz, mu, mw }, angle) {
   const [u, , w] = moved({ angle, x: 0, z: 0 }, [mu, 0, mw]);
   return { angle, x: mx - u, z: mz - w, cos: Math.cos(angle), sin: Math.sin(angle) };
 }
 
-// The distances, metres, around a pair of windows: rows and columns `every` frames apart, NaN where a clip ends.
-function gridAround(first, i, second, j, window, reach, every) {
-  const steps = 2 * reach + 1, values = new Float32Array(steps * steps).fill(NaN);
-  const clouds = (clip, at) => Array.from({ length: steps }, (_, k) => at + (k - reach) * every).map((start) =>
-    (start >= 0 && start + window <= clip.frames ? clip.cloud(start, window) : null));
-  const rows = clouds(first, i), columns = clouds(second, j);
-  rows.forEach((row, r) => columns.forEach((column, c) => {
-    if (!row || !column) return;
-    const all = sums(row, column);
-    values[r * steps + c] = distanceAt(all, bestAngle(all));
-  }));
+/**
+ * The distances, metres, around a pair of windows: rows and columns `every` frames apart, NaN where a clip ends.
+ * @param {Clip} first
+ * @param {number} i
+ * @param {Clip} second
+ * @param {number} j
+ * @param {number} window
+ * @param {number} reach
+ * @param {number} every
+ */
+export function gridAround(first, i, second, j, window, reach, every) {
+  const steps = 2 * reach + 1;
+  const values = new Float32Array(steps * steps).fill(NaN);
+  /**
+   * @param {Clip} clip
+   * @param {number} at
+   */
+  const clouds = (clip, at) =>
+    Array.from({ length: steps }, (_, k) => at + (k - reach) * every).map((start) =>
+      start >= 0 && start + window <= clip.frames ? clip.cloud(start, window) : null,
+    );
+  const rows = clouds(first, i);
+  const columns = clouds(second, j);
+  rows.forEach((row, r) =>
+    columns.forEach((column, c) => {
+      if (!row || !column) return;
+      const all = sums(row, column);
+      values[r * steps + c] = distanceAt(all, bestAngle(all));
+    }),
+  );
   return { values, rows: steps, columns: steps, every, from: [i - reach * every, j - reach * every] };
 }
 
 // ---- blending ----
 
 // The weights of the first clip: `blending.cubic_weights`, `linear_weights`, and those of a cut.
-const WEIGHTS = {
-  cubic: (t) => 2 * t ** 3 - 3 * t ** 2 + 1,
-  linear: (t) => 1 - t,
+export const WEIGHTS = {
+  cubic: (/** @type {number} */ t) => 2 * t ** 3 - 3 * t ** 2 + 1,
+  linear: (/** @type {number} */ t) => 1 - t,
   cut: () => 0,
 };
 
-function weightsOf(kind, window) { return Array.from({ length: window }, (_, p) => WEIGHTS[kind]((p + 1) / window)); }
+/**
+ * The weights of the first clip in each frame of a window.
+ * @param {Weighting} kind
+ * @param {number} window
+ */
+export function weightsOf(kind, window) {
+  return Array.from({ length: window }, (_, p) => WEIGHTS[kind]((p + 1) / window));
+}
 
+/**
+ * @param {Pose} a
+ * @param {Pose} b
+ * @param {number} alpha
+ * @returns {Pose}
+ */
 function blended(a, b, alpha) {
   const turns = new Float64Array(a.turns.length);
   for (let k = 0; k < turns.length; k += 4) slerp(b.turns, a.turns, alpha, k, turns);
   return { root: a.root.map((v, k) => alpha * v + (1 - alpha) * b.root[k]), turns };
 }
 
-// The seam with the frames around it: `blending.join`. `alpha` is 1 before the window and 0 after it.
-function seamOf(first, i, second, j, { transform, window, before, after, kind }) {
-  const weights = weightsOf(kind, window), frames = [];
-  for (let f = -before; f < window + after; f++) {
-    const alpha = f < 0 ? 1 : f < window ? weights[f] : 0;
-    const mix = () => joints(first.skeleton, blended(first.pose(i + f), movedPose(transform, second.pose(j + f)), alpha));
-    const places = alpha === 1 ? first.joints(i + f) : alpha === 0 ? second.joints(j + f).map((place) => moved(transform, place)) : mix();
-    frames.push({ alpha, places, plants: alpha >= 0.5 ? first.plants?.[i + f] : second.plants?.[j + f] });
-  }
-  return frames;
+/**
+ * The seam with the frames around it: `blending.join`. `alpha` is 1 before the window and 0 after it.
+ * @param {Clip} first
+ * @param {number} i
+ * @param {Clip} second
+ * @param {number} j
+ * @param {Mix} how
+ * @returns {SeamFrame[]}
+ */
+export function seamOf(first, i, second, j, { transform, window, before, after, kind }) {
+  const weights = weightsOf(kind, window);
+  const weightAt = (/** @type {number} */ f) => (f < window ? weights[f] : 0);
+  /**
+   * @param {number} f
+   * @param {number} alpha
+   */
+  const placesAt = (f, alpha) => {
+    if (alpha === 1) return first.joints(i + f);
+    if (alpha === 0) return second.joints(j + f).map((place) => moved(transform, place));
+    const pose = movedPose(transform, second.pose(j + f));
+    return joints(first.skeleton, blended(first.pose(i + f), pose, alpha));
+  };
+  return Array.from({ length: before + window + after }, (_, k) => {
+    const f = k - before;
+    const alpha = f < 0 ? 1 : weightAt(f);
+    const plants = Number(alpha >= 0.5 ? first.plants[i + f] : second.plants[j + f]);
+    return { alpha, places: placesAt(f, alpha), plants };
+  });
 }
 
-// How far the velocity jumps in each frame, m/s, the RMS over the points: `quality.jumps`; null at both ends.
-function jolts(frames, points, fps) {
+/**
+ * How far the velocity jumps in each frame, m/s, the RMS over the points: `quality.jumps`; null at both ends.
+ * @param {number[][][]} frames
+ * @param {number[]} points
+ * @param {number} fps
+ */
+export function jolts(frames, points, fps) {
   return frames.map((_, f) => {
     if (f === 0 || f === frames.length - 1) return null;
-    const [p, q, r] = [-1, 0, 1].map((step) => frames[f + step].places ?? frames[f + step]);
+    const [p, q, r] = [-1, 0, 1].map((step) => frames[f + step]);
     let sum = 0;
     for (const n of points) for (let k = 0; k < 3; k++) sum += (r[n][k] - 2 * q[n][k] + p[n][k]) ** 2;
     return Math.sqrt(sum / points.length) * fps;

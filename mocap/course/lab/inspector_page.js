@@ -1,12 +1,16 @@
 // The page around the inspector's canvases: its parts and their style.
 
-const NAMES = {
+import { WEIGHTS } from "./inspector_maths.js";
+import { VIEW_KEYS } from "../../widgets/player_page.js";
+
+export const NAMES = {
   grid: "Distances of all pairs of windows. A click or the arrow keys choose a pair, with shift ten frames at once.",
-  graph: "A motion graph along time. A click chooses a transition; left and right go along time, up and down by cost.",
+  graph:
+    "A motion graph along time. A click chooses a transition; left and right go along time, up and down by cost.",
   walk: "A walk from above. A click or the arrow keys choose a seam.",
 };
 
-const INSPECTOR_STYLE = `
+export const INSPECTOR_STYLE = `
 .mocap-inspector { container-type: inline-size; max-width: 1000px; background: #fff; color: #222; font: 13px/1.4 system-ui, sans-serif;
   color-scheme: light; forced-color-adjust: none; padding: 4px; box-sizing: border-box; }
 .mocap-inspector.dark { background: #1b1b1b; color: #ddd; color-scheme: dark; }
@@ -31,13 +35,15 @@ const INSPECTOR_STYLE = `
 .mocap-inspector [hidden] { display: none; }
 @media (pointer: coarse) { .mocap-inspector button, .mocap-inspector select, .mocap-inspector .scrub { min-height: 44px; min-width: 44px; } }`;
 
-const KINDS = Object.keys(WEIGHTS).map((kind) => `<option>${kind}</option>`).join("");
+const KINDS = Object.keys(WEIGHTS)
+  .map((kind) => `<option>${kind}</option>`)
+  .join("");
 
-const INSPECTOR_PARTS = `<div class="both"><div class="maps">
+export const INSPECTOR_PARTS = `<div class="both"><div class="maps">
     <canvas class="walk" tabindex="0" role="application"></canvas><canvas class="graph" tabindex="0" role="application"></canvas>
     <canvas class="grid" tabindex="0" role="application"></canvas></div>
   <div class="shown"><div class="bar tabs" role="group" aria-label="what to look at"></div>
-    <canvas class="bodies" tabindex="0" role="application" aria-label="The bodies. ${KEYS}"></canvas>
+    <canvas class="bodies" tabindex="0" role="application" aria-label="The bodies. ${VIEW_KEYS}."></canvas>
     <canvas class="chart" role="img" aria-label="The chart of what is looked at, on the same clock."></canvas>
     <div class="bar"><button class="play" aria-label="play">▶</button><input class="scrub" type="range"><button class="best">best turn</button>
       <label class="kind">weights <select class="kinds">${KINDS}</select></label><span class="now"></span></div></div></div>
