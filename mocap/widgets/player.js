@@ -253,13 +253,14 @@ class Player {
       this.update();
     });
     this.seen.observe(this.canvas);
-    if (this.model) this.link(this.model);
+    this.link();
   }
 
   // ---- Python ----
 
-  /** @param {Model} model */
-  link(model) {
+  link() {
+    const { model } = this;
+    if (!model) return;
     /** @param {number[]} move */
     const follow = ([number, frame]) => {
       if (this.scene !== this.latest || number !== this.scene.number || frame === this.frame()) return;
