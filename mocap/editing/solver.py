@@ -21,9 +21,10 @@ from scipy.linalg import solveh_banded
 from mocap._shared.arrays import Array
 from mocap.body.kinematics import forward_kinematics
 from mocap.body.motion import Motion
-from mocap.editing.bodies import ARM, Body, body_of, require_reachable, warn_of_gaps
+from mocap.editing.bodies import Body, body_of, require_reachable, warn_of_gaps
 from mocap.editing.displacements import displaced, right_jacobian, spline_basis
 from mocap.editing.pins import Pins, require_pins_of
+from mocap.editing.turns import ARM
 from mocap.errors import MocapError
 from mocap.feet.ankle_targets import smooth_fill
 
