@@ -404,13 +404,13 @@ def test_work_takes_a_few_times_the_bare_work(real_data, tmp_path, name, bound, 
     hold(name, ratio(*prepare(real_data, tmp_path), repeats=9), bound)
 
 
-def test_importing_takes_at_most_twice_the_time_of_importing_numpy():
+def test_importing_takes_a_fifth_of_the_time_of_importing_numpy():
     code = "import time, {}, sys; assert 'matplotlib' not in sys.modules; print(time.process_time())"
     seconds = {"mocap": [], "numpy": []}
     for module in 5 * list(seconds):
         command = [sys.executable, "-c", code.format(module)]
         seconds[module].append(float(subprocess.check_output(command, text=True)))
-    hold("import mocap, in importing NumPy", min(seconds["mocap"]) / min(seconds["numpy"]), 2)
+    hold("import mocap, in importing NumPy", min(seconds["mocap"]) / min(seconds["numpy"]), 0.2)
 
 
 def test_a_graph_of_the_walks_of_cmu_16_takes_a_few_distance_grids(real_data):
@@ -418,7 +418,7 @@ def test_a_graph_of_the_walks_of_cmu_16_takes_a_few_distance_grids(real_data):
     assert sum(map(len, clips)) == 2521
     points = np.concatenate([point_cloud(clip) for clip in clips])
     grid = partial(distance_grid, points, points, window=10)
-    hold("build and prune, in distance grids", ratio(lambda: build_and_prune(clips), grid, repeats=3), 4)
+    hold("build and prune, in distance grids", ratio(lambda: build_and_prune(clips), grid, repeats=3), 3)
 
 
 # Searches compared with distance grids and blends.
@@ -479,7 +479,7 @@ def test_a_step_takes_a_few_additions_and_to_turn_about_the_standing_foot_a_thir
     """250 additions of poses take 0.1 ms where 2500 take a millisecond, of the 33 that a frame lasts."""
     additions = 1000 * fastest(add_poses)[0]  # ms
     delay = measure_delay(Controller(walking()), turns=20)
-    hold("a step of a path, in 250 additions", delay.step / additions, 10)
+    hold("a step of a path, in 250 additions", delay.step / additions, 8)
     hold("the worst step of a path, in median steps", delay.worst / delay.step, 5)
     plain, turned = (
         min(measure_delay(make(), turns=20, seed=seed).step for seed in range(3))
