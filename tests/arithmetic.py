@@ -50,7 +50,6 @@ TESTS = [f"{folder}/{room}" for room in ROOMS for folder in ("mocap", "tests")] 
 OPTIONS = [
     "-oaddopts=",
     "--doctest-modules",
-    "--no-cov",
     "--tb=line",
     "--quiet",
     "-rfE",

@@ -57,7 +57,6 @@ OPTIONS = [
     "-q",
     "-n0",
     "-pno:cacheprovider",
-    "--no-cov",
     "--tb=line",
     "-oaddopts=",
     "--doctest-modules",

@@ -116,7 +116,7 @@ def test_each_command_of_a_step_has_its_options():
 
 
 DRY = {  # what is slow, or tested elsewhere, is tried in its shortest form
-    "python -m pytest": "python -m pytest -n0 --no-cov --collect-only -q tests/body",
+    "python -m pytest": "python -m pytest -n0 --collect-only -q tests/body",
     "bash .ci/run": "bash -n .ci/run",
     "mocap course site -o site": "python -m mocap course site --help",
 }

@@ -295,7 +295,6 @@ def test_the_tests_are_collected(tmp_path):
         "--collect-only",
         "-p",
         "no:cacheprovider",
-        "--no-cov",
         "-p",
         "no:nbval",
     ]
