@@ -30,8 +30,9 @@ class Turn(NamedTuple):
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_straight")[:2]
     >>> matrices = forward_kinematics(walk).matrices
-    >>> Turn(0, walk.rotations[:, 0], world=True).arm(walk, matrices).round(9).tolist()
-    [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]
+    >>> arm = Turn(0, walk.rotations[:, 0], world=True).arm(walk, matrices)
+    >>> float(abs(arm).max()) < 1e-12
+    True
     """
 
     joint: int

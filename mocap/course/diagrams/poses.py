@@ -147,7 +147,10 @@ def down_the_tree(motion: Motion, frame: int = 0) -> Callable[[int], list[Artist
     figure = Figure(figsize=(9.8, 4))
     code, ax = figure.add_axes((0.01, 0, 0.79, 0.9)), figure.add_axes((0.84, 0.15, 0.15, 0.83))
     program = re.sub(r"  #.*", "", shown_source("plain.joint_positions"))  # on a slide it would be too wide
-    marked = show_program(code, program.replace(" + rotate", f"\n{' ' * 12}+ rotate").splitlines(), 0)
+    lines = program.replace(" + rotate", f"\n{' ' * 12}+ rotate").splitlines()
+    marked = show_program(code, lines, 0)
+    loop = next(number for number, line in enumerate(lines) if line.lstrip().startswith("for "))
+    steps = len(lines) - loop - 2  # of the loop, without its head and the return
     starts, ends, sides = map(np.asarray, bones(motion.skeleton))
     limbs = strokes(ax, linewidth=2.4)
     (dots,) = ax.plot([], [], "o", color=QUIET, markersize=4)
@@ -160,7 +163,10 @@ def down_the_tree(motion: Motion, frame: int = 0) -> Callable[[int], list[Artist
 
     def placed(joint: int) -> list[Artist]:
         parent = parents[joint]
-        marked.set(y=2.5 if joint else 0.5, height=4 if joint else 1)
+        if joint:
+            marked.set(y=loop + 0.5, height=steps)
+        else:
+            marked.set(y=0.5, height=loop - 1)
         limbs.set_segments(points[np.stack([starts, ends], 1)[ends <= joint]])
         limbs.set_color([COLOURS[side] for side in sides[ends <= joint]])
         dots.set_data(points[: joint + 1].T)

@@ -196,9 +196,8 @@ test_what_cannot_be_shown_gets_one_sentence = refusals(
 
 
 def test_the_scripts_shades_are_those_of_the_pictures():
-    stops = (
-        re.search(r"CIVIDIS = \[(.*?)\]", joined(*Inspector.scripts)).group(1).replace('"', "").split(", ")
-    )
+    (listed,) = re.findall(r"CIVIDIS = \[(.*?)\]", joined(*Inspector.scripts), re.DOTALL)
+    stops = re.findall(r'"(.*?)"', listed)
     wanted = [to_hex(colormaps["cividis"](at)) for at in np.linspace(0, 1, len(stops))]
     for stop, exact in zip(stops, wanted, strict=True):
         apart = [int(stop[k : k + 2], 16) - int(exact[k : k + 2], 16) for k in (1, 3, 5)]
