@@ -70,8 +70,9 @@ def version_numbers(version: str) -> tuple[int, int, int]:
     >>> version_numbers("0.2"), version_numbers("1.10.3.dev1")
     ((0, 2, 0), (1, 10, 3))
     """
-    numbers = [*version.split("."), "0", "0"]
-    return int(numbers[0]), int(numbers[1]), int(numbers[2])
+    parts = [*version.split("."), "0", "0"]
+    major, minor, patch, *_ = parts
+    return int(major), int(minor), int(patch)
 
 
 def deprecated(

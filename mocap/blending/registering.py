@@ -1,12 +1,13 @@
 """Registration [KG03]: which frames of several clips belong together, and how they lie on one another."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from scipy.ndimage import map_coordinates
 
-from mocap._shared.arrays import Array, frozen
+from mocap._shared.arrays import Array, Indices, frozen
 from mocap.blending.clocks import Registration, match_contacts
 from mocap.blending.mixing import mix
 from mocap.blending.timewarps import Curve, fit_curve
@@ -18,23 +19,25 @@ from mocap.matching.distance_grids import Floats, check_window, distance_grid
 from mocap.matching.point_clouds import align, point_cloud
 from mocap.matching.time_paths import path_mean, time_path
 
-# Metres, the mean RMS distance along a path, and seconds of the root's speed: walks are 3 to 8 cm apart, runs
-# of one kind 4 to 18, which the roots go in 0.01 to 0.06 s, a walk and a run 24, in 0.1 s.
-UNLIKE, QUICK = 0.12, 0.06
+# A mean RMS distance along the path above both of these is reported. Walks have 3 to 8 cm; runs of one kind
+# 4 to 18 cm, which the roots go in 0.01 to 0.06 s; a walk and a run 24 cm, in 0.1 s.
+UNLIKE = 0.12  # metres
+QUICK = 0.06  # seconds, times the speed of the roots
 
-# A blend of clips that belong together skates like they do: x 0.7 to 1.2 for walks of one person. By more
-# than this, times and metres per second, a warning tells.
-SKATES, FASTER = 1.4, 0.01
+# A foot sliding speed of the even blend above both of these is reported. For walks of one person it is 0.7 to
+# 1.2 times that of the clips.
+SKATES = 1.4  # times that of the clips
+FASTER = 0.01  # metres per second above that of the clips
 
 RATE = 30.0  # frames per second that are compared, or the nearest rate that takes each n-th frame
 WINDOW = 5  # frames, at this rate
 SPACING = 0.3  # seconds between the knots of the curves; those of time may be farther apart
 
-# Spacings to try before this one, as multiples of it; the first is a straight line. The first is taken
-# whose mean distance is at most so many times that of the closest knots, with which the pace of two even
-# walks wobbles by a fifth. Clips that are cut alike take the closest: a straight line through nine punches
-# makes blends miss their targets by 8 mm, where these miss by 5.
-SPACINGS, AS_GOOD = (np.inf, 8.0, 4.0, 2.0), 1.06
+# Wider spacings are tried first, and the first is taken whose mean distance is as good as that of `SPACING`,
+# with which the pace of two even walks wobbles by a fifth. Clips that are cut alike take `SPACING`: a
+# straight line through nine punches makes blends miss their targets by 8 mm, where these knots miss by 5.
+SPACINGS = (np.inf, 8.0, 4.0, 2.0)  # times `SPACING`; the first is a straight line
+AS_GOOD = 1.06  # times the mean distance with `SPACING`
 AS_NEAR = 1e-9  # metres beyond that, so that rounding does not decide for clips that are the same
 
 _Pair = tuple[Curve, Curve, tuple[float, float], float]
@@ -98,24 +101,22 @@ def register(
     clouds = [point_cloud(clip[::step]) for clip in clips]
     shortest = min(clip.duration for clip in clips)
     frames = int(min(slack * rate, min(map(len, clouds)) // 2))
-    ours, *others = clouds.pop(reference), *clouds
-    h = clips[reference].duration
-    line, still = (frozen(knots, np.float64) for knots in ([-h / 2, h / 2, 3 * h / 2], np.zeros(3)))
+    reference_cloud = clouds.pop(reference)
+    identity = _registered_on_itself(clips[reference].duration)
     while True:
-        pairs = [_register_pair(ours, cloud, rate, slope, frames) for cloud in others]
-        pairs.insert(reference, (Curve(0.0, h, line), Curve(0.0, h, still), (0.0, h), 0.0))
-        times, angles, holds, costs = zip(*pairs, strict=True)
-        # All curves hold, and no clip is at its end yet.
-        limits = [*holds, *(t.inverse([0, clip.duration]) for t, clip in zip(times, clips, strict=True))]
-        span = max(float(low) for low, _ in limits), min(float(high) for _, high in limits)
-        if not frames or span[1] - span[0] >= shortest / 2:
+        pairs = [_register_pair(reference_cloud, cloud, rate, slope, frames) for cloud in clouds]
+        pairs.insert(reference, identity)
+        times, angles, spans, costs = zip(*pairs, strict=True)
+        start, end = _common_span(clips, times, spans)
+        if not frames or end - start >= shortest / 2:
             break
         frames //= 2
     centres = tuple(_window_centres(clip, WINDOW / rate) for clip in clips)
-    plants, means = match_contacts(clips, times, span), frozen(costs, np.float64)
-    found = Registration(clips, reference, times, angles, centres, span, means, plants)
-    _warn(found, rate, alike=slack == 0)
-    return found
+    plants = match_contacts(clips, times, (start, end))
+    means = frozen(costs, np.float64)
+    registration = Registration(clips, reference, times, angles, centres, (start, end), means, plants)
+    _warn(registration, rate, alike=slack == 0)
+    return registration
 
 
 def _checked(clips: Sequence[Motion], reference: int, slack: float) -> int:
@@ -132,30 +133,52 @@ def _checked(clips: Sequence[Motion], reference: int, slack: float) -> int:
     return step
 
 
-def _register_pair(ours: Array, theirs: Array, rate: float, slope: int, slack: int) -> _Pair:
+def _registered_on_itself(duration: float) -> _Pair:
+    """Return the curves of the reference: its own time, and no rotation."""
+    identity = frozen([-duration / 2, duration / 2, 3 * duration / 2], np.float64)
+    zero = frozen(np.zeros(3), np.float64)
+    return Curve(0.0, duration, identity), Curve(0.0, duration, zero), (0.0, duration), 0.0
+
+
+def _common_span(
+    clips: Sequence[Motion], times: Sequence[Curve], spans: Sequence[tuple[float, float]]
+) -> tuple[float, float]:
+    """Return the first and the last time at which all curves hold and all clips have a frame."""
+    of_clips = [curve.inverse([0, clip.duration]) for curve, clip in zip(times, clips, strict=True)]
+    limits: list[Any] = [*spans, *of_clips]
+    return max(float(start) for start, _ in limits), min(float(end) for _, end in limits)
+
+
+def _register_pair(reference: Array, clip: Array, rate: float, slope: int, slack: int) -> _Pair:
     """Register the points of a clip on those of the reference, both at the same rate."""
-    grid = np.sqrt(distance_grid(ours, theirs, window=WINDOW))
+    grid = np.sqrt(distance_grid(reference, clip, window=WINDOW))
     path = time_path(grid, slope=slope, slack=min(slack, min(grid.shape) - 1))
     half = (WINDOW - 1) / 2
-    u, own = (path.T + half) / rate
+    u, clip_times = (path.T + half) / rate
     bounds = {"least": 1 / (slope + 1), "most": slope + 1.0}
-    times = fit_curve(u, own, spacing=SPACING, **bounds)
-    enough = AS_GOOD * _mean_along(grid, times, rate, half) + AS_NEAR
-    wide = SPACINGS if slack else ()
-    fewer = (fit_curve(u, own, spacing=wider * SPACING, **bounds) for wider in wide)
-    times = next((curve for curve in fewer if _mean_along(grid, curve, rate, half) <= enough), times)
-    frames = np.arange(WINDOW)
-    clouds = zip((ours, theirs), path.T, strict=True)
-    a, b = (points[cells[:, None] + frames].reshape(len(path), -1, 3) for points, cells in clouds)
-    # The angle that lays each window on its partner, without jumps of whole turns.
-    angles = fit_curve(u, np.unwrap(np.asarray(align(a, b).angle)), spacing=SPACING)
+    times = fit_curve(u, clip_times, spacing=SPACING, **bounds)
+    largest_mean = AS_GOOD * _mean_along(grid, times, rate, half) + AS_NEAR
+    for multiple in SPACINGS if slack else ():
+        smoother = fit_curve(u, clip_times, spacing=multiple * SPACING, **bounds)
+        if _mean_along(grid, smoother, rate, half) <= largest_mean:
+            times = smoother
+            break
+    # The angle that aligns each window with its partner, without jumps of 2 π.
+    alignment = align(_windows(reference, path[:, 0]), _windows(clip, path[:, 1]))
+    angles = fit_curve(u, np.unwrap(np.asarray(alignment.angle)), spacing=SPACING)
     # Clips cut alike go on to their ends: the last half window, and the frames that the rate left out.
-    beyond = 0.0 if slack else (half + 1) / rate
-    return times, angles, (u[0] - beyond, u[-1] + beyond), path_mean(grid, path)
+    margin = 0.0 if slack else (half + 1) / rate
+    return times, angles, (u[0] - margin, u[-1] + margin), path_mean(grid, path)
+
+
+def _windows(points: Array, starts: Indices) -> Array:
+    """Return the points of the windows that start at N frames, shape (N, WINDOW · P, 3)."""
+    frames = starts[:, None] + np.arange(WINDOW)
+    return np.asarray(points[frames].reshape(len(starts), -1, 3))
 
 
 def _mean_along(grid: Floats, times: Curve, rate: float, half: float) -> float:
-    """Average a grid of windows along a curve of time, weighted by how far both clips advance."""
+    """Average a grid of windows along a curve of time, weighted by the time that both clips advance."""
     u = np.linspace(times.knots[0], times.knots[-1], 2 * len(grid))
     values = map_coordinates(grid, [u * rate - half, times(u) * rate - half], order=1, mode="nearest")
     return float(np.average(values, weights=1 + times.slope(u)))
@@ -165,27 +188,30 @@ def _window_centres(clip: Motion, seconds: float) -> Array:
     """Average the centroid of a clip's points over a window around each frame, (x, z), shape (F, 2)."""
     centres = from_ground(on_ground(point_cloud(clip)).mean(axis=1))
     half = min(round(seconds * clip.fps) // 2, len(clip) - 1)
-    around = np.pad(centres, ((half, half), (0, 0)), mode="reflect", reflect_type="odd")
-    return frozen(sliding_window_view(around, 2 * half + 1, axis=0).mean(axis=-1), np.float64)
+    padded = np.pad(centres, ((half, half), (0, 0)), mode="reflect", reflect_type="odd")
+    return frozen(sliding_window_view(padded, 2 * half + 1, axis=0).mean(axis=-1), np.float64)
 
 
-def _warn(found: Registration, rate: float, *, alike: bool) -> None:
+def _warn(registration: Registration, rate: float, *, alike: bool) -> None:
     """Warn of clips that do not fit; those that were cut `alike` are blended with some of them only."""
-    clips, worst = found.clips, int(np.argmax(found.costs))
-    names = f"'{shortened(clips[found.reference].name, 40)}' and '{shortened(clips[worst].name, 40)}'"
-    goes = np.mean([np.abs(np.diff(on_ground(clip.root_positions))).mean() * clip.fps for clip in clips])
-    if found.costs[worst] > max(UNLIKE, QUICK * goes):
-        apart = f"{100 * found.costs[worst]:.0f} cm along the path"
-        warn(f"{names} may not be the same kind of motion: {apart}.")
+    clips = registration.clips
+    worst = int(np.argmax(registration.costs))
+    distance = registration.costs[worst]
+    names = f"'{shortened(clips[registration.reference].name, 40)}' and '{shortened(clips[worst].name, 40)}'"
+    speed = np.mean([np.abs(np.diff(on_ground(clip.root_positions))).mean() * clip.fps for clip in clips])
+    if distance > max(UNLIKE, QUICK * speed):
+        warn(f"{names} may not be the same kind of motion: {100 * distance:.0f} cm along the path.")
     elif not alike:
-        skate = _skate(mix(found, np.full(len(clips), 1 / len(clips)), fps=rate, rounds=0))
-        own = float(np.mean([_skate(part[:: round(part.fps / rate)]) for part in found.parts]))
-        if skate > max(SKATES * own, own + FASTER):
-            speeds = f"{100 * skate:.1f} cm/s, in the clips at {100 * own:.1f}"
+        blend = mix(registration, np.full(len(clips), 1 / len(clips)), fps=rate, rounds=0)
+        of_blend = _sliding_speed(blend)
+        parts = [part[:: round(part.fps / rate)] for part in registration.parts]
+        of_clips = float(np.mean([_sliding_speed(part) for part in parts]))
+        if of_blend > max(SKATES * of_clips, of_clips + FASTER):
+            speeds = f"{100 * of_blend:.1f} cm/s, in the clips at {100 * of_clips:.1f}"
             warn(f"{names} may not belong together: in an even blend the slowest joint goes at {speeds}.")
 
 
-def _skate(motion: Motion) -> float:
-    """Give the mean speed over the ground of each frame's slowest joint, m/s: in walking one foot stands."""
+def _sliding_speed(motion: Motion) -> float:
+    """Return the mean ground speed of each frame's slowest joint, m/s: in walking one foot stands."""
     ground = on_ground(joint_positions(motion))
     return float(np.abs(np.diff(ground, axis=0)).min(axis=1).mean()) * motion.fps

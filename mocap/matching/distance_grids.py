@@ -66,8 +66,9 @@ class Cloud(NamedTuple):
     def part(self, windows: slice) -> "Cloud":
         """Take the windows that start at these frames, with all frames that they cover."""
         frames = slice(windows.start, windows.stop + self.window - 1)
-        parts: list[Any] = [*(array[frames] for array in self[:2]), *(array[windows] for array in self[2:])]
-        return Cloud(*parts)
+        heights = self.heights[frames]
+        ground = self.ground[frames]
+        return Cloud(heights, ground, self.paths[windows], self.sizes[windows], self.centres[windows])
 
 
 def cloud(points: Array, level: Array, weights: Array, window: int, dtype: type[np.floating[Any]]) -> Cloud:
@@ -81,22 +82,31 @@ def cloud(points: Array, level: Array, weights: Array, window: int, dtype: type[
     window : frames of a window, which count alike.
     dtype : the precision of the result; the work is done in 64 bits.
     """
-    root, each = np.sqrt(weights), np.full(window, 1 / window)
+    root_weights = np.sqrt(weights)
+    frame_weights = np.full(window, 1 / window)
+    heights = (points[..., 1] - level) * root_weights
     ground = on_ground(points)
     centroids = ground @ weights  # (F,)
-    heights, ground = (points[..., 1] - level) * root, (ground - centroids[:, None]) * root
+    ground = (ground - centroids[:, None]) * root_weights
     frame_sizes = (heights**2).sum(1) + (np.abs(ground) ** 2).sum(1)
-    paths = sliding_window_view(centroids, window)
-    centres = paths @ each
-    paths = (paths - centres[:, None]) * np.sqrt(each)  # (F - k + 1, k)
-    sizes = sliding_window_view(frame_sizes, window) @ each + (np.abs(paths) ** 2).sum(1)
-    off = (0, window - 1)
+
+    paths = sliding_window_view(centroids, window)  # (F - k + 1, k)
+    centres = paths @ frame_weights
+    paths = (paths - centres[:, None]) * np.sqrt(frame_weights)
+    path_sizes = (np.abs(paths) ** 2).sum(1)
+    sizes = sliding_window_view(frame_sizes, window) @ frame_weights + path_sizes
+
+    cut_off = (0, window - 1)  # windows that would run off the clip's end
+    paths = np.pad(paths, (cut_off, (0, 0)))
+    sizes = np.pad(sizes, cut_off, constant_values=np.inf)
+    centres = np.pad(centres, cut_off)
+    complex_dtype = np.result_type(dtype, np.complex64)
     return Cloud(
         heights.astype(dtype),
-        ground.astype(np.result_type(dtype, np.complex64)),
-        np.pad(paths, (off, (0, 0))).astype(np.result_type(dtype, np.complex64)),
-        np.pad(sizes, off, constant_values=np.inf).astype(dtype),
-        np.pad(centres, off),
+        ground.astype(complex_dtype),
+        paths.astype(complex_dtype),
+        sizes.astype(dtype),
+        centres,
     )
 
 
@@ -119,11 +129,11 @@ def cloud_distances(a: Cloud, b: Cloud) -> Floats:
     array([[0. , 0.5],
            [0.5, 0. ]])
     """
-    share = a.heights.dtype.type(1 / a.window)
-    ground = diagonal_sum(a.ground @ b.ground.conj().T, a.window) * share
+    frame_weight = a.heights.dtype.type(1 / a.window)
+    ground = diagonal_sum(a.ground @ b.ground.conj().T, a.window) * frame_weight
     ground += a.paths @ b.paths.conj().T
     grid: Floats = np.abs(ground)
-    grid += diagonal_sum(a.heights @ b.heights.T, a.window) * share
+    grid += diagonal_sum(a.heights @ b.heights.T, a.window) * frame_weight
     grid *= -2
     grid += a.sizes[:, None]
     grid += b.sizes
@@ -190,27 +200,43 @@ def distance_grid(
     """
     if isinstance(a, Motion) and isinstance(b, Motion):
         a, b = require_alike([a, b])
-    points: list[Floats] = []
-    for clip in (a, b):
-        name = f"'{clip.name}'" if isinstance(clip, Motion) else "the clip"
-        array = point_cloud(clip) if isinstance(clip, Motion) else np.asarray(clip)
-        array = array if array.dtype in (np.float32, np.float64) else array.astype(float)
-        if array.ndim != 3 or array.shape[1] == 0 or array.shape[2] != 3:
-            raise MocapError(f"Points need the shape (F, P, 3), got {array.shape}.")
-        check_window(window, len(array), name)
-        require_near(array, name)
-        points.append(array)
-    if points[0].shape[1] != points[1].shape[1]:
-        raise MocapError(f"Clouds of {points[0].shape[1]} and {points[1].shape[1]} points do not match.")
-    weights = unit_weights(joint_weights, points[0].shape[1])
-    dtype = np.result_type(*points).type
-    level = (points[0][..., 1].mean(0, float) + points[1][..., 1].mean(0, float)) / 2
-    same = np.array_equal(points[0], points[1])
-    clouds = (cloud(p.astype(float), level, weights, window, dtype) for p in points)
-    grid = tiled_distances(*(c.part(slice(len(c.sizes) - window + 1)) for c in clouds), upper=same)
+    points_a = _checked_points(a, window)
+    points_b = _checked_points(b, window)
+    count = points_a.shape[1]
+    if count != points_b.shape[1]:
+        raise MocapError(f"Clouds of {count} and {points_b.shape[1]} points do not match.")
+    weights = unit_weights(joint_weights, count)
+    dtype = np.result_type(points_a, points_b).type
+    level = (points_a[..., 1].mean(0, float) + points_b[..., 1].mean(0, float)) / 2
+
+    def whole_windows(points: Floats) -> Cloud:
+        prepared = cloud(points.astype(float), level, weights, window, dtype)
+        return prepared.part(slice(len(points) - window + 1))
+
+    is_symmetric = np.array_equal(points_a, points_b)
+    grid = tiled_distances(whole_windows(points_a), whole_windows(points_b), upper=is_symmetric)
     if dtype == np.float64:
         grid[grid < EQUAL] = 0.0
-    return np.triu(grid) + np.triu(grid, 1).T if same else grid
+    if is_symmetric:
+        return np.triu(grid) + np.triu(grid, 1).T
+    return grid
+
+
+def _checked_points(clip: Motion | ArrayLike, window: int) -> Floats:
+    """Return the points of a clip, shape (F, P, 3), in 32 or 64 bits; raise unless they can be compared."""
+    if isinstance(clip, Motion):
+        name = f"'{clip.name}'"
+        points: NDArray[Any] = point_cloud(clip)
+    else:
+        name = "the clip"
+        points = np.asarray(clip)
+    if points.dtype not in (np.float32, np.float64):
+        points = points.astype(float)
+    if points.ndim != 3 or points.shape[1] == 0 or points.shape[2] != 3:
+        raise MocapError(f"Points need the shape (F, P, 3), got {points.shape}.")
+    check_window(window, len(points), name)
+    require_near(points, name)
+    return points
 
 
 def tiled_distances(a: Cloud, b: Cloud, *, upper: bool = False) -> Floats:
@@ -223,12 +249,15 @@ def tiled_distances(a: Cloud, b: Cloud, *, upper: bool = False) -> Floats:
     >>> np.array_equal(tiled_distances(ready, ready), cloud_distances(ready, ready))
     True
     """
-    grid = np.full((len(a.sizes), len(b.sizes)), np.inf, a.heights.dtype)
-    for top in range(0, len(grid), TILE[0]):
-        rows = slice(top, min(top + TILE[0], grid.shape[0]))
-        for left in range(top if upper else 0, grid.shape[1], TILE[1]):
-            columns = slice(left, min(left + TILE[1], grid.shape[1]))
-            grid[rows, columns] = cloud_distances(a.part(rows), b.part(columns))
+    rows = len(a.sizes)
+    columns = len(b.sizes)
+    tile_rows, tile_columns = TILE
+    grid = np.full((rows, columns), np.inf, a.heights.dtype)
+    for row in range(0, rows, tile_rows):
+        part_of_a = slice(row, min(row + tile_rows, rows))
+        for column in range(row if upper else 0, columns, tile_columns):
+            part_of_b = slice(column, min(column + tile_columns, columns))
+            grid[part_of_a, part_of_b] = cloud_distances(a.part(part_of_a), b.part(part_of_b))
     return grid
 
 

@@ -4,19 +4,23 @@ A grid that is too large to hold is cut into blocks, one for a worker at a time.
 """
 
 from concurrent.futures import Executor
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array, Indices
 from mocap._shared.progress import Progress
 from mocap._shared.tasks import run_in_order
 from mocap.body.planar import from_ground
 from mocap.errors import MocapError
-from mocap.matching.distance_grids import EQUAL, Cloud, tiled_distances
+from mocap.matching.distance_grids import EQUAL, Cloud, Floats, tiled_distances
 
 AT_ONCE = 1024  # pairs measured together, to limit the memory
 BLOCK = 1280  # windows on a side of a block
+
+# Rows and columns from an entry to its eight neighbours, in reading order: the first four are before it.
+NEIGHBOURS = ((-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1))
 
 
 def local_minima(grid: ArrayLike, below: float = np.inf, *, equal: float = EQUAL) -> Indices:
@@ -54,16 +58,19 @@ def local_minima(grid: ArrayLike, below: float = np.inf, *, equal: float = EQUAL
         raise MocapError(f"The grid holds NaN at {np.argwhere(np.isnan(values))[0].tolist()}.")
     padded = np.pad(values.astype(np.result_type(values, np.float32), copy=False), 1, constant_values=np.inf)
     rows, columns = np.divmod(np.flatnonzero(values < below), values.shape[1])
-    for r, c in ((r, c) for r in (-1, 0, 1) for c in (-1, 0, 1) if (r, c) != (0, 0)):
-        own, beside = values[rows, columns], padded[rows + 1 + r, columns + 1 + c]
-        # Most are out after the first neighbour.
-        lower = own < beside - equal if (r, c) < (0, 0) else own <= beside + equal
-        rows, columns = rows[lower], columns[lower]
+    for down, right in NEIGHBOURS:
+        entries = values[rows, columns]
+        neighbours = padded[rows + 1 + down, columns + 1 + right]
+        is_earlier = (down, right) < (0, 0)
+        lower = entries < neighbours - equal if is_earlier else entries <= neighbours + equal
+        # The first neighbour already rules out most entries.
+        rows = rows[lower]
+        columns = columns[lower]
     return np.stack([rows, columns], axis=-1)
 
 
 def fit(a: Cloud, b: Cloud, i: Indices, j: Indices) -> Array:
-    """Lay windows j on windows i: the RMS distance that is left, and the transform's angle, x and z.
+    """Align windows j with windows i: the remaining RMS distance, and the transform's angle, x and z.
 
     In the grid D is a difference of larger numbers. Measured point by point, as here, it is right down to 0.
 
@@ -87,21 +94,35 @@ def fit(a: Cloud, b: Cloud, i: Indices, j: Indices) -> Array:
     if len(i) > AT_ONCE:
         parts = [slice(start, start + AT_ONCE) for start in range(0, len(i), AT_ONCE)]
         return np.concatenate([fit(a, b, i[part], j[part]) for part in parts], axis=1)
-    root, frames = a.heights.dtype.type(np.sqrt(1 / a.window)), np.arange(a.window)
-    ground, heights = [], []  # (N, k, P + 1) and (N, k, P) of each cloud
-    for cloud, starts in ((a, i), (b, j)):
-        each = starts[:, None] + frames
-        ground.append(np.concatenate([cloud.ground[each] * root, cloud.paths[starts][..., None]], axis=2))
-        heights.append(cloud.heights[each] * root)
-    angle = np.angle((ground[0] * ground[1].conj()).sum((1, 2)))
-    left = ground[0] - np.exp(1j * angle)[:, None, None] * ground[1]
-    square = (np.abs(left) ** 2).sum((1, 2)) + ((heights[0] - heights[1]) ** 2).sum((1, 2))
-    move = a.centres[i] - np.exp(1j * angle.astype(float)) * b.centres[j]
-    return np.stack([np.sqrt(square), angle, *from_ground(move).T])
+    ground_a, heights_a = _whole_windows(a, i)
+    ground_b, heights_b = _whole_windows(b, j)
+    angle = np.angle((ground_a * ground_b.conj()).sum((1, 2)))
+    residual = ground_a - np.exp(1j * angle)[:, None, None] * ground_b
+    square = (np.abs(residual) ** 2).sum((1, 2)) + ((heights_a - heights_b) ** 2).sum((1, 2))
+    translation = a.centres[i] - np.exp(1j * angle.astype(float)) * b.centres[j]
+    return np.stack([np.sqrt(square), angle, *from_ground(translation).T])
 
 
-Side = tuple[range, int, Cloud]
-"""The windows of a block's side; the first of the cloud, which has one more at each end; and the cloud."""
+def _whole_windows(cloud: Cloud, starts: Indices) -> tuple[NDArray[Any], Floats]:
+    """Return points on the ground and their frames' centroids, (N, k, P + 1), and heights, (N, k, P)."""
+    root_weight = cloud.heights.dtype.type(np.sqrt(1 / cloud.window))
+    frames = starts[:, None] + np.arange(cloud.window)
+    centroids = cloud.paths[starts][..., None]
+    ground = np.concatenate([cloud.ground[frames] * root_weight, centroids], axis=2)
+    return ground, cloud.heights[frames] * root_weight
+
+
+class Side(NamedTuple):
+    """One side of a block.
+
+    windows : the windows whose minima the block finds.
+    cloud : these, and one window more at each end if there is one: the neighbours of the outermost.
+    first : the first window of `cloud`.
+    """
+
+    windows: range
+    cloud: Cloud
+    first: int
 
 
 def find_minima(
@@ -135,8 +156,10 @@ def find_minima(
     count = len(cloud.sizes) - cloud.window + 1
 
     def side(start: int) -> Side:
-        own, first = range(start, min(start + BLOCK, count)), max(start - 1, 0)
-        return own, first, cloud.part(slice(first, min(own.stop + 1, count)))
+        windows = range(start, min(start + BLOCK, count))
+        first = max(windows.start - 1, 0)
+        stop = min(windows.stop + 1, count)
+        return Side(windows, cloud.part(slice(first, stop)), first)
 
     pairs = [(row, column) for row in range(0, count, BLOCK) for column in range(row, count, BLOCK)]
     tasks = ((side(row), side(column), below) for row, column in progress(pairs))
@@ -144,10 +167,13 @@ def find_minima(
 
 
 def _block_minima(a: Side, b: Side, below: float) -> Array:
-    """Find the minima of a block: what one worker does at a time."""
-    (rows, top, first), (columns, left, second) = a, b
-    i, j = local_minima(tiled_distances(first, second, upper=rows == columns), below**2).T
-    row, column = i + top, j + left
-    own = (row >= rows.start) & (row < rows.stop) & (column >= columns.start) & (column < columns.stop)
-    own &= column - row >= first.window  # no window overlaps itself, and each pair counts once
-    return np.concatenate([[row[own], column[own]], fit(first, second, i[own], j[own])])
+    """Find the minima of a block, the unit of work of one worker."""
+    grid = tiled_distances(a.cloud, b.cloud, upper=a.windows == b.windows)
+    i, j = local_minima(grid, below**2).T
+    rows = i + a.first
+    columns = j + b.first
+    kept = (rows >= a.windows.start) & (rows < a.windows.stop)
+    kept &= (columns >= b.windows.start) & (columns < b.windows.stop)
+    kept &= columns - rows >= a.cloud.window  # no window overlaps itself, and each pair counts once
+    fits = fit(a.cloud, b.cloud, i[kept], j[kept])
+    return np.concatenate([[rows[kept], columns[kept]], fits])

@@ -18,13 +18,14 @@ from mocap.body.motion import Motion
 from mocap.errors import MocapError, shortened
 from mocap.matching.distance_grids import diagonal_sum, distance_grid, require_windows
 
+_DIVISOR = 480  # of the weights
 _SIDED = {"femur": 50, "tibia": 30, "foot": 15, "toes": 5, "clavicle": 30, "humerus": 15, "radius": 5}
 _MIDDLE = {"lowerback": 50, "upperback": 40, "thorax": 30, "lowerneck": 20, "upperneck": 15, "head": 5}
+_BOTH_SIDES = {side + bone: weight for bone, weight in _SIDED.items() for side in "lr"}
 HOMEWORK_WEIGHTS: Mapping[str, float] = {
-    name: weight / 480
-    for name, weight in (_MIDDLE | {side + bone: w for bone, w in _SIDED.items() for side in "lr"}).items()
+    bone: weight / _DIVISOR for bone, weight in (_MIDDLE | _BOTH_SIDES).items()
 }
-"""How much each bone counts in the homework's metric; the other bones do not count."""
+"""The weight of each bone in the homework's metric; the other bones do not count."""
 
 
 Metric = Callable[..., NDArray[np.floating]]
@@ -59,13 +60,15 @@ def root_grid(a: Motion, b: Motion, *, window: int) -> Array:
     array([[3.]])
     """
     a, b = require_windows([a, b], window)
-    cosines = np.abs(a.rotations[:, 0] @ b.rotations[:, 0].T)  # of half the angle; q and -q are the same turn
-    turned = 2 * np.arccos(np.minimum(cosines, 1.0))
-    return diagonal_sum(cdist(a.root_positions, b.root_positions) + turned, window) / window
+    cosines = np.abs(
+        a.rotations[:, 0] @ b.rotations[:, 0].T
+    )  # of half the angle; q and -q are the same rotation
+    angles = 2 * np.arccos(np.minimum(cosines, 1.0))
+    return diagonal_sum(cdist(a.root_positions, b.root_positions) + angles, window) / window
 
 
 def euler_grid(a: Motion, b: Motion, *, window: int) -> Array:
-    """Measure the distance in the homework's program: how far apart the bones' Euler angles are.
+    """Measure the distance in the homework's program: the difference of the bones' Euler angles.
 
     It is the sum over the window, and over the bones, of w ‖Δ‖, with w of `HOMEWORK_WEIGHTS`. Δ are the
     differences in degrees of the angles that the file gives for the bone, each wrapped to [-180, 180]. The
@@ -101,15 +104,17 @@ def euler_grid(a: Motion, b: Motion, *, window: int) -> Array:
     array([[30.]])
     """
     a, b = require_windows([a, b], window)
-    skeleton, weights = a.skeleton, HOMEWORK_WEIGHTS
+    skeleton = a.skeleton
+    weights = HOMEWORK_WEIGHTS
     bones = [j for j, name in enumerate(skeleton.names) if j and name in weights and skeleton.dofs[j]]
     if not bones:
         raise MocapError(f"This skeleton has no bone with a weight: {shortened(', '.join(weights))}.")
     grid = np.zeros((len(a), len(b)))
     for bone in bones:
-        turns = (file_angles(clip, bone).T / 360 for clip in (a, b))  # (dofs, F)
-        gaps = (np.subtract.outer(*pair) for pair in zip(*turns, strict=True))
-        square = sum((gap - np.rint(gap)) ** 2 for gap in gaps)
+        # In whole circles, so that the nearest integer is what wraps a difference.
+        angles = (file_angles(clip, bone).T / 360 for clip in (a, b))  # (dofs, F)
+        differences = (np.subtract.outer(*pair) for pair in zip(*angles, strict=True))
+        square = sum((difference - np.rint(difference)) ** 2 for difference in differences)
         grid += 360 * weights[skeleton.names[bone]] * np.sqrt(square)
     return diagonal_sum(grid, window)
 
@@ -130,10 +135,12 @@ def file_angles(motion: Motion, joint: int) -> Array:
     >>> file_angles(Motion(knee, [[0, 1, 0]], [[bent, [1, 0, 0, 0]]], 30.0), 0).round(6)
     array([[30.]])
     """
-    axis, dofs = motion.skeleton.axes[joint], motion.skeleton.dofs[joint]
-    own = rotations.multiply(rotations.multiply(rotations.inverse(axis), motion.rotations[:, joint]), axis)
-    every = dofs + "".join(sorted(set("xyz") - set(dofs)))  # it does not turn about the axes that it lacks
-    return np.degrees(euler.to_euler(every, own)[:, : len(dofs)])
+    axes = motion.skeleton.axes[joint]
+    dofs = motion.skeleton.dofs[joint]
+    in_axes = rotations.multiply(rotations.inverse(axes), motion.rotations[:, joint])
+    in_axes = rotations.multiply(in_axes, axes)
+    sequence = dofs + "".join(sorted(set("xyz") - set(dofs)))  # about the axes without a dof the angle is 0
+    return np.degrees(euler.to_euler(sequence, in_axes)[:, : len(dofs)])
 
 
 METRICS: Mapping[str, Metric] = {

@@ -32,6 +32,7 @@ from mocap.errors import MocapError
 Floats = NDArray[np.floating[Any]]
 
 ROUNDS = 50  # of the search for the least mean, which takes two to four
+SETTLED = 1e-9  # of the mean: a round that changes it by no more is the last
 
 # Of the largest cost: sums of costs that differ by less are equal, and the earlier kind of step is taken.
 # Rounding of a sum is some 1e-13 of that cost.
@@ -39,7 +40,7 @@ EQUAL = 1e-9
 
 
 class PathSums(NamedTuple):
-    """What `path_sums` finds for each cell.
+    """The best path to each cell, by its sum and its last step.
 
     totals : (n, m), the least sum of a path that ends there; infinite where none does.
     steps : (n, m), how this path ends: 0 for a diagonal step, k for k steps down, W + k for k to the right.
@@ -77,23 +78,25 @@ def path_sums(costs: Floats, starts: Mask, *, slope: int) -> PathSums:
     array([[2., 7.],
            [7., 4.]])
     """
-    totals, steps = np.empty_like(costs), np.empty(costs.shape, np.int8)
-    begins, some = np.zeros(costs.shape, bool), np.asarray(starts.any(axis=1))
+    totals = np.empty_like(costs)
+    steps = np.empty(costs.shape, np.int8)
+    begins = np.zeros(costs.shape, bool)
+    has_start = np.asarray(starts.any(axis=1))
     # The states of a row and of the one above, shape (2 W + 1, m): A, V₁ … V_W, H₁ … H_W.
     row, above = np.full((2, 2 * slope + 1, costs.shape[1]), np.inf, costs.dtype)
-    least = np.full(costs.shape[1] + 1, np.inf, costs.dtype)  # M of the row above, one to the right
+    lowest = np.full(costs.shape[1] + 1, np.inf, costs.dtype)  # M of the row above, one to the right
     equal = EQUAL * float(np.abs(costs).max(initial=0.0, where=np.isfinite(costs)))
     for i, cost in enumerate(costs):
-        before, later = least[:-1], cost[1:]
-        if some[i]:
-            begins[i] = starts[i] & (before >= 0)
-            before = np.where(begins[i], 0, before)
-        np.add(before + cost, cost, out=row[0])
+        diagonal = lowest[:-1]  # the sums from which a diagonal step leads to this row
+        if has_start[i]:
+            begins[i] = starts[i] & (diagonal >= 0)
+            diagonal = np.where(begins[i], 0, diagonal)
+        np.add(diagonal + cost, cost, out=row[0])
         np.add(above[:slope], cost, out=row[1 : slope + 1])
-        np.add(row[0, :-1], later, out=row[slope + 1, 1:])
+        np.add(row[0, :-1], cost[1:], out=row[slope + 1, 1:])
         for k in range(slope + 2, 2 * slope + 1):
-            np.add(row[k - 1, :-1], later, out=row[k, 1:])
-        least[1:] = np.minimum.reduce(row, out=totals[i])
+            np.add(row[k - 1, :-1], cost[1:], out=row[k, 1:])
+        lowest[1:] = np.minimum.reduce(row, out=totals[i])
         steps[i] = (row <= totals[i] + equal).argmax(0)
         row, above = above, row
     return PathSums(totals, steps, begins, slope, equal)
@@ -117,12 +120,16 @@ def origins(sums: PathSums) -> Indices:
     [[0, 0], [0, 0]]
     """
     rows, columns = sums.steps.shape
-    own = np.arange(rows * columns).reshape(rows, columns)
-    straight = [*(columns * np.arange(sums.slope + 1)), *range(1, sums.slope + 1)]  # down, then to the right
-    corners = own - np.array(straight)[sums.steps]  # the last diagonal step on the best path to each cell
-    after_diagonal, best = np.empty_like(own), np.empty_like(own)  # where these two paths begin
+    numbers = np.arange(rows * columns).reshape(rows, columns)
+    runs_down = columns * np.arange(sums.slope + 1)
+    runs_right = np.arange(1, sums.slope + 1)
+    # For each cell the last one after a diagonal step on its best path: before its run of straight steps.
+    corners = numbers - np.concatenate([runs_down, runs_right])[sums.steps]
+    best = np.empty_like(numbers)  # the cell where the best path begins
+    after_diagonal = np.empty_like(numbers)  # and where the best one that ends with a diagonal step does
     for i in range(rows):
-        after_diagonal[i] = np.where(sums.begins[i], own[i], np.roll(best[i - 1], 1))
+        beside_diagonal = np.roll(best[i - 1], 1)
+        after_diagonal[i] = np.where(sums.begins[i], numbers[i], beside_diagonal)
         best[i] = after_diagonal.ravel()[corners[i]]
     return best
 
@@ -151,11 +158,15 @@ def trace(sums: PathSums, end: tuple[int, int]) -> Indices:
         step = int(sums.steps[i, j])
         down = step <= sums.slope
         for _ in range(step if down else step - sums.slope):
-            i, j = (i - 1, j) if down else (i, j - 1)
+            if down:
+                i -= 1
+            else:
+                j -= 1
             cells.append((i, j))
         if sums.begins[i, j]:
             return np.array(cells[::-1])
-        i, j = i - 1, j - 1
+        i -= 1
+        j -= 1
         cells.append((i, j))
 
 
@@ -200,7 +211,8 @@ def time_path(grid: ArrayLike, *, slope: int = 2, slack: int = 0) -> Indices:
         short = f"slack from 0 to less than the {min(costs.shape)} frames of a clip"
         raise MocapError(f"A path needs a slope from 1 to 63 and {short}, got {slope} and {slack}.")
     starts = np.zeros(costs.shape, bool)
-    starts[0, : slack + 1] = starts[: slack + 1, 0] = True
+    starts[0, : slack + 1] = True
+    starts[: slack + 1, 0] = True
     ends = np.argwhere(starts[::-1, ::-1])
     level = float(costs.min(axis=1).mean()) if slack else 0.0  # a mean that is nearly that of the path
     for _ in range(ROUNDS):
@@ -211,8 +223,9 @@ def time_path(grid: ArrayLike, *, slope: int = 2, slack: int = 0) -> Indices:
             raise MocapError(f"{frames} with slope {slope}: at most {slope + 1} to 1.")
         end = ends[first_least(totals, sums.equal)]
         path = trace(sums, (int(end[0]), int(end[1])))
-        level, before = path_mean(costs, path), level
-        if not slack or abs(level - before) <= 1e-9 * abs(level):
+        previous_level = level
+        level = path_mean(costs, path)
+        if not slack or abs(level - previous_level) <= SETTLED * abs(level):
             break
     return path
 
@@ -234,6 +247,7 @@ def path_mean(grid: ArrayLike, path: ArrayLike) -> float:
 
     Notebook: 15-registration
     """
-    values, cells = np.asarray(grid), np.asarray(path)
+    values = np.asarray(grid)
+    cells = np.asarray(path)
     advanced = np.append(2, np.abs(np.diff(cells, axis=0)).sum(axis=1))
     return float(np.average(values[cells[:, 0], cells[:, 1]], weights=advanced))
