@@ -148,21 +148,23 @@ def mark(
     For example: mocap course mark handed-in -o marks.csv --points points.toml --feedback feedback
     """
     marking.walls.require_sealing()  # before anything is read
-    worth, students = marking.grades.read_points(points), marking.grades.read_roster(roster)
+    worth = marking.grades.read_points(points)
+    students = marking.grades.read_roster(roster)
     require_writable(out)
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends it as Ctrl-C does
     marks: list[marking.grades.Mark] = []
     grades: list[marking.grades.Grade] = []
-    for some in marking.mark(folder, bar("marking"), partial(print, file=sys.stderr), jobs):
-        marks += some
+    for marks_of_notebook in marking.mark(folder, bar("marking"), partial(print, file=sys.stderr), jobs):
+        marks += marks_of_notebook
         grades = marking.grades.grade(marks, worth, students)
         for end, text in marking.grades.tables(marks, grades, worth, out.stem).items():
             write_file(out.with_stem(f"{out.stem}{end}"), text)  # before the next notebook runs
-    if unknown := [one.sent for one in grades if students and not one.listed]:
+    if unknown := [grade.sent for grade in grades if students and not grade.listed]:
         print(f"not in {roster}: {printable(', '.join(unknown))}", file=sys.stderr)
     if feedback:
         print(f"wrote {len(marking.grades.write_feedback(grades, worth, feedback))} pages to {feedback}")
-    print(f"wrote {out} and three more: {sum(one.right for one in marks)} of {len(marks)} are right")
+    right = sum(mark.right for mark in marks)
+    print(f"wrote {out} and three more: {right} of {len(marks)} are right")
 
 
 def run(notebooks: Sequence[Path] = ()) -> None:
@@ -180,18 +182,18 @@ def run(notebooks: Sequence[Path] = ()) -> None:
 def lab(
     folder: Path = Path("mocap-course"),
     *,
-    after: Annotated[Sequence[str], {"nargs": "...", "help": SUPPRESS}] = (),
+    jupyter: Annotated[Sequence[str], {"nargs": "...", "help": SUPPRESS}] = (),
 ) -> int:
     """Open the course in JupyterLab.
 
-    Open the course in JupyterLab. What stands after -- goes to JupyterLab: mocap lab -- --no-browser --port
-    8890.
+    Open the course in JupyterLab. The words after -- are options of JupyterLab: mocap lab -- --no-browser
+    --port 8890.
 
     Parameters
     ----------
     folder : folder for a copy of the notebooks; those that it holds already stay as they are.
     """
-    return int(open_course(folder, after))
+    return int(open_course(folder, jupyter))
 
 
 COURSE = Group(

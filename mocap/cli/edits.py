@@ -72,7 +72,7 @@ def warp(
     warped = warp_plans.warp(motion, plan, window=window, feet=not loose_feet)
     poses = sum(map(len, plan.wishes.values()))
     tell(keys=f"{poses} of poses, {len(plan.times)} of time")
-    write_out(warped, out, about=f": {len(warped)} frames, {warped.duration:.2f} s")
+    write_out(warped, out, details=f": {len(warped)} frames, {warped.duration:.2f} s")
 
 
 def bend(
@@ -145,19 +145,19 @@ def loop(
     from mocap.editing.cycles import find_loop, repeated  # the help needs no NumPy
 
     motion = reading.load(clip)
-    found = find_loop(motion, seconds=(shortest, longest))
-    seam, missed = (f"{100 * metres:.0f} cm" for metres in (found.seam, found.missed))
-    if found.seam > POOR:
+    best = find_loop(motion, seconds=(shortest, longest))
+    seam, missed = (f"{100 * metres:.0f} cm" for metres in (best.seam, best.missed))
+    if best.seam > POOR:
         warn(f"{clip}: the ends of the best cycle are {seam} apart: it may leap there.")
-    if found.missed > LITTLE:
+    if best.missed > LITTLE:
         warn(f"{clip}: the clip's other poses are {missed} away: it may hold no whole cycle.")
-    cycle = editing.loop(motion, found, straight=straight, clean=clean)
+    cycle = editing.loop(motion, best, straight=straight, clean=clean)
     turn = quality.inspect(cycle).turn
     step = math.hypot(*(cycle.root_positions[-1] - cycle.root_positions[0])[[0, 2]])
     side = "left" if turn > 0 else "right"
-    tell(cycle=f"frames {found.first} to {found.last}, {cycle.duration:.2f} s")
-    tell(seam=f"{100 * found.seam:.1f} cm RMS")
-    tell(misses=f"{100 * found.missed:.1f} cm of the clip's other poses, on average")
+    tell(cycle=f"frames {best.first} to {best.last}, {cycle.duration:.2f} s")
+    tell(seam=f"{100 * best.seam:.1f} cm RMS")
+    tell(misses=f"{100 * best.missed:.1f} cm of the clip's other poses, on average")
     tell(**{"a round": f"{step:.2f} m, turns {side} by {abs(math.degrees(turn)):.0f}°"})
     write_out(repeated(cycle, times), out)
 

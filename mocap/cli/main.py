@@ -45,18 +45,18 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _written_out(words: list[str]) -> list[str]:
-    """Write out what may be left out: `build` after `mocap graph`, and what `--` means after `mocap lab`.
+    """Write abbreviations in full: `build` after `mocap graph`, and the option that `--` of `mocap lab` is.
 
     Examples
     --------
     >>> _written_out(["graph", "clips/"]), _written_out(["graph", "info", "graph.npz"])
     (['graph', 'build', 'clips/'], ['graph', 'info', 'graph.npz'])
     >>> _written_out(["lab", "mine", "--", "--no-browser"])
-    ['lab', 'mine', '--after', '--no-browser']
+    ['lab', 'mine', '--jupyter', '--no-browser']
     """
     if words[:1] == ["graph"] and words[1:] and words[1] not in ACTIONS:
         return ["graph", "build", *words[1:]]
-    return ["--after" if word == "--" and words[0] == "lab" else word for word in words]
+    return ["--jupyter" if word == "--" and words[0] == "lab" else word for word in words]
 
 
 def _say(message: Warning | str, *_place: object, **_options: object) -> None:

@@ -32,7 +32,7 @@ def number(low: float, high: float, kind: Callable[[str], float] = float) -> Cal
     Traceback (most recent call last):
     argparse.ArgumentTypeError: 'nan' is not a whole number from 0 to 10
     """
-    what = f"a whole number from {low} to {high}" if kind is int else f"a number from {low:g} to {high:g}"
+    expected = f"a whole number from {low} to {high}" if kind is int else f"a number from {low:g} to {high:g}"
 
     def read(text: str) -> float:
         try:
@@ -40,13 +40,16 @@ def number(low: float, high: float, kind: Callable[[str], float] = float) -> Cal
         except ValueError:
             value = math.nan
         if not low <= value <= high:
-            raise argparse.ArgumentTypeError(f"{text[:40]!r} is not {what}")
+            raise argparse.ArgumentTypeError(f"{text[:40]!r} is not {expected}")
         return value
 
     return read
 
 
-LENGTH, CM, RATE, TURN = number(1e-6, 1e6), number(0.001, 1000), number(1, 1000), number(1, 3600)
+LENGTH = number(1e-6, 1e6)  # metres per unit
+CM = number(0.001, 1000)  # centimetres
+RATE = number(1, 1000)  # frames per second
+TURN = number(1, 3600)  # degrees per second
 Skeleton = Annotated[Path | None, "the .asf file of .amc clips (default: the one beside them that fits)"]
 Unit = Annotated[float | None, LENGTH, "metres per unit of length in the path (default: 1; for .svg 0.01)"]
 Clean = Annotated[bool, "clean up footskate: planted feet stand still"]
@@ -86,11 +89,11 @@ class Sources:
     skeleton: Skeleton = None
     scale: Annotated[float | None, LENGTH, "metres per unit of length in .bvh clips (default: 0.01)"] = None
 
-    def load(self, found: Sequence[Path]) -> "list[Motion]":
+    def load(self, paths: Sequence[Path]) -> "list[Motion]":
         """Read the clips that `find_files` found, and warn of bodies of other sizes than people's."""
         from mocap.quality.clip_flaws import warn_of_size
 
-        clips = [files.load(path, skeleton=self.skeleton, scale=self.scale) for path in bar("reading")(found)]
+        clips = [files.load(path, skeleton=self.skeleton, scale=self.scale) for path in bar("reading")(paths)]
         warn_of_size(clips)
         return clips
 
@@ -105,13 +108,14 @@ class Building(Sources):
 
     def build(self, clips: "Sequence[Motion]", progress: Progress = iter) -> "MotionGraph":
         """Build the graph of some clips, not pruned yet."""
-        if (frames := round(self.window * self.fps)) < 2:
+        frames = round(self.window * self.fps)
+        if frames < 2:
             raise MocapError(f"A window needs two frames or more, got {self.window:g} s at {self.fps:g} Hz.")
         clips = [body.resample(clip, self.fps) for clip in clips]
         return graphs.build(clips, window=frames, threshold=self.threshold / 100, progress=progress)
 
 
-def bar(what: str) -> Progress:
+def bar(label: str) -> Progress:
     """Show a progress bar on a terminal, for work that takes longer than a second; erase it at the end.
 
     Examples
@@ -121,7 +125,7 @@ def bar(what: str) -> Progress:
     """
     from tqdm import tqdm  # imported here, so that `mocap --help` stays quick
 
-    return partial(tqdm, desc=what, delay=1.0, leave=False, disable=None)
+    return partial(tqdm, desc=label, delay=1.0, leave=False, disable=None)
 
 
 def tell(**rows: object) -> None:
@@ -136,9 +140,9 @@ def tell(**rows: object) -> None:
 
 
 def check_out(
-    what: str, out: Path, read: Iterable[Path] = (), formats: Sequence[str] = (".bvh", ".glb")
+    thing: str, out: Path, read: Iterable[Path] = (), formats: Sequence[str] = (".bvh", ".glb")
 ) -> None:
-    """Raise, before any work is done, where a file cannot be written, or is one of those to read.
+    """Raise, before any work is done, if a file cannot be written, or is one of those to read.
 
     Examples
     --------
@@ -147,14 +151,14 @@ def check_out(
     mocap.errors.MocapError: A walk is written as .bvh or .glb, got 'walk.fbx'.
     """
     if out.suffix.lower() not in formats:
-        known = " or ".join(filter(None, [", ".join(formats[:-1]), formats[-1]]))
-        raise MocapError(f"A {what} is written as {known}, got '{out}'.")
+        allowed = " or ".join(filter(None, [", ".join(formats[:-1]), formats[-1]]))
+        raise MocapError(f"A {thing} is written as {allowed}, got '{out}'.")
     require_other(out, read)
     require_writable(out)
 
 
 def require_other(out: Path, read: Iterable[Path]) -> None:
-    """Raise where the file to write is one of those to read.
+    """Raise if the file to write is one of those to read.
 
     Examples
     --------
@@ -166,22 +170,22 @@ def require_other(out: Path, read: Iterable[Path]) -> None:
         raise MocapError(f"{out} is one of the files to read: choose another name with -o.")
 
 
-def write_out(motion: "Motion", out: Path, *, about: str = "") -> None:
-    """Write a motion, and say so."""
+def write_out(motion: "Motion", out: Path, *, details: str = "") -> None:
+    """Write a motion, and print its file and `details` of it."""
     files.save(motion, out)
-    tell(wrote=f"{out}{about}")
+    tell(wrote=f"{out}{details}")
 
 
-def tell_of_failures(done: str, count: int, problems: Sequence[str], where: str = "") -> int:
-    """Say how many files are done, and what failed: the end of a command for many files, and its status."""
-    tell(**{done: f"{count - len(problems)} of {count}{where}"})
+def tell_of_failures(verb: str, count: int, problems: Sequence[str], place: str = "") -> int:
+    """Print the count of files that succeeded, and each problem; return the exit status of the command."""
+    tell(**{verb: f"{count - len(problems)} of {count}{place}"})
     for problem in problems:
         tell(failed=as_options(problem))
     return 2 if problems else 0
 
 
 def as_options(message: str) -> str:
-    """Give the arguments that a message names the names that they have on a command line.
+    """Return a message with the names that its arguments have on a command line.
 
     Examples
     --------

@@ -109,7 +109,8 @@ def build_lite(notebooks: Path, out: Path) -> Path:
     if not (checkout / "pyproject.toml").exists():
         raise MocapError("A JupyterLite site is built from a checkout; this is an installed package.")
     with tempfile.TemporaryDirectory() as folder:
-        wheels, contents = Path(folder, "wheels"), Path(folder, "contents")
+        wheels = Path(folder, "wheels")
+        contents = Path(folder, "contents")
         _call(folder, ["pip", "wheel", "--no-deps", "--wheel-dir", wheels, checkout.resolve()])
         contents.mkdir()
         for file in notebooks_in(notebooks):
@@ -126,8 +127,8 @@ def build_lite(notebooks: Path, out: Path) -> Path:
 
 def _call(folder: str, command: list[str | Path]) -> None:
     """Run a Python module in a folder, where it may leave files."""
-    whole = [sys.executable, "-m", *map(str, command)]
-    done = subprocess.run(whole, cwd=folder, capture_output=True, check=False, **LOCAL)
-    if done.returncode:
-        last = (done.stderr or done.stdout).strip().splitlines()[-1:]
+    words = [sys.executable, "-m", *map(str, command)]
+    process = subprocess.run(words, cwd=folder, capture_output=True, check=False, **LOCAL)
+    if process.returncode:
+        last = (process.stderr or process.stdout).strip().splitlines()[-1:]
         raise MocapError(f"'{command[0]} {command[1]}' failed: {shortened(''.join(last), 120)}")

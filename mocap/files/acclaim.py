@@ -20,12 +20,14 @@ from mocap._shared.arrays import Array
 from mocap.body import euler, rotations
 from mocap.body.motion import Motion
 from mocap.errors import FormatError
-from mocap.files.asf import MOVES, TURNS, AcclaimSkeleton
+from mocap.files.asf import MOVES, TURNS, AcclaimSkeleton, Bone
 from mocap.files.recordings import Recording
 from mocap.files.text import check_room, lines, quick_numbers, read_text, to_numbers
 
 CMU_RATE = 120.0  # frames per second in most of the CMU database
-FIRST = re.compile(r"^[ \t]*\d+[ \t]*$", re.MULTILINE)  # the number of a frame
+FRAME_NUMBER = re.compile(r"^[ \t]*\d+[ \t]*$", re.MULTILINE)
+MOST_DIGITS = 9  # of the number of a frame
+NAMED = 3  # bones that an error names; it counts the others
 
 
 def read(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None) -> Recording:
@@ -48,26 +50,37 @@ def read(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None) ->
     frames = len(numbers["root"])
     check_room(path, frames * len(asf.skeleton), sum(block.size for block in numbers.values()))
     local = np.tile(rotations.IDENTITY, (frames, len(asf.skeleton), 1))
-    moves = np.zeros((frames, 3))
+    translations = np.zeros((frames, 3))  # T of the root, in units of the file
     for name, block in numbers.items():
         bone = asf.bones[name]
-        own = np.tile(rotations.IDENTITY, (frames, 1))
-        if bone.turns:
-            own = euler.from_euler(bone.order, np.radians(angles[name]))
-        turned = rotations.multiply(own, bone.axis)
-        if name != "root":  # L = C M C⁻¹
-            turned = rotations.multiply(bone.axis, rotations.multiply(own, rotations.inverse(bone.axis)))
-        local[:, asf.skeleton.index(name)] = turned
+        local[:, asf.skeleton.index(name)] = _local_rotations(bone, angles[name], is_root=name == "root")
         for dof, column in zip(bone.dofs, block.T, strict=True):
             if name == "root" and dof in MOVES:
-                moves[:, MOVES.index(dof)] = column
-            elif dof not in TURNS and column.any():
-                frame, expected = int((column != 0).argmax()), "since bones keep their lengths"
-                got = f"{column[frame]:g} in frame {frame}"
-                raise FormatError(path, None, f"0 for '{dof}' of '{name}', {expected}", got)
-    places = asf.bones["root"].vector + moves * asf.unit
-    motion = Motion(asf.skeleton, places, local, fps or rate or CMU_RATE, Path(path).stem)
+                translations[:, MOVES.index(dof)] = column
+            elif dof not in TURNS:
+                _require_zeros(path, name, dof, column)
+    positions = asf.bones["root"].vector + translations * asf.unit
+    motion = Motion(asf.skeleton, positions, local, fps or rate or CMU_RATE, Path(path).stem)
     return Recording(motion, angles, {})
+
+
+def _local_rotations(bone: Bone, angles: Array, *, is_root: bool) -> Array:
+    """Compute rotations in the parent's frame, (F, 4), from angles (F, dofs) in degrees of its bone."""
+    rotation = np.tile(rotations.IDENTITY, (len(angles), 1))  # M
+    if bone.turns:
+        rotation = euler.from_euler(bone.order, np.radians(angles))
+    if is_root:
+        return rotations.multiply(rotation, bone.axis)  # M O
+    in_axes = rotations.multiply(rotation, rotations.inverse(bone.axis))
+    return rotations.multiply(bone.axis, in_axes)  # L = C M C⁻¹
+
+
+def _require_zeros(path: str | Path, name: str, dof: str, column: Array) -> None:
+    """Raise if a bone is moved or stretched in any frame."""
+    if column.any():
+        frame = int((column != 0).argmax())
+        expected = f"0 for '{dof}' of '{name}', since bones keep their lengths"
+        raise FormatError(path, None, expected, f"{column[frame]:g} in frame {frame}")
 
 
 def first_frame(text: str) -> dict[str, int]:
@@ -85,42 +98,50 @@ def first_frame(text: str) -> dict[str, int]:
 
 def fits(counts: Mapping[str, int], asf: AcclaimSkeleton) -> bool:
     """Check whether a frame with these counts of numbers is one of this skeleton."""
-    known = {name: len(bone.dofs) for name, bone in asf.bones.items()}
-    return counts.items() <= known.items() and set(asf.needed()) <= set(counts)
+    dofs = {name: len(bone.dofs) for name, bone in asf.bones.items()}
+    return counts.items() <= dofs.items() and set(asf.needed()) <= set(counts)
 
 
 def _read_frames(path: str | Path, asf: AcclaimSkeleton) -> tuple[dict[str, Array], float, float | None]:
-    """Read the numbers (F, dofs) of each bone, the degrees that an angle of 1 has, and the rate, if told."""
+    """Read the numbers (F, dofs) of each bone, the unit of angles in degrees, and the frame rate, if any."""
     text = read_text(path)
-    start = FIRST.search(text)
+    start = FRAME_NUMBER.search(text)
     head, frames = (text[: start.start()], text[start.start() :]) if start else (text, "")
     keywords = {words[0].upper() for _, words in lines(head)}
     counts = first_frame(frames)
     usual = fits(counts, asf) and "#" not in frames and all(word[0] == ":" for word in keywords)
     numbers = (_by_columns(frames, counts) if usual else None) or _by_lines(path, text, asf)
     in_degrees = ":RADIANS" not in keywords and (asf.degrees or ":DEGREES" in keywords)
-    fps, words = None, text.partition("\n")[0].split()
-    if words[:2] == ["#", "fps"] and len(words) == 3:  # the format has no frame rate: a comment tells it
-        fps = float(to_numbers(path, 1, words[2:], "frames per second, above 0", 1)[0])
-        if fps <= 0:
-            raise FormatError(path, 1, "frames per second, above 0", words[2])
-    return {name: numbers[name] for name in asf.needed()}, 1.0 if in_degrees else np.degrees(1.0), fps
+    unit = 1.0 if in_degrees else np.degrees(1.0)
+    return {name: numbers[name] for name in asf.needed()}, unit, _frame_rate(path, text)
+
+
+def _frame_rate(path: str | Path, text: str) -> float | None:
+    """Read the frame rate from a first line "# fps 30": the format itself has none."""
+    match text.partition("\n")[0].split():
+        case ["#", "fps", word]:
+            fps = float(to_numbers(path, 1, [word], "frames per second, above 0", 1)[0])
+            if fps <= 0:
+                raise FormatError(path, 1, "frames per second, above 0", word)
+            return fps
+    return None
 
 
 def _by_columns(frames: str, counts: Mapping[str, int]) -> dict[str, Array] | None:
-    """Read whole columns of words, where all frames have the first one's pattern; None where not."""
-    words, pattern = frames.split(), [""]
+    """Read whole columns of words, or return None if a frame has another pattern than the first one."""
+    words = frames.split()
+    pattern = [""]  # of a frame: the name of a bone, and an empty text for each number
     for name, count in counts.items():
         pattern += [name, *[""] * count]
-    columns = [words[place :: len(pattern)] for place in range(len(pattern))]
+    columns = [words[start :: len(pattern)] for start in range(len(pattern))]
     alike = all(set(column) == {name} for name, column in zip(pattern, columns, strict=True) if name)
     if len(words) % len(pattern) or not alike or not all(map(str.isdecimal, columns[0])):
         return None
-    found = [column for name, column in zip(pattern, columns, strict=True) if not name]
-    numbers = quick_numbers([*chain.from_iterable(found)])
+    columns_of_numbers = [column for name, column in zip(pattern, columns, strict=True) if not name]
+    numbers = quick_numbers([*chain.from_iterable(columns_of_numbers)])
     if numbers is None or (np.diff(numbers[: len(columns[0])]) != 1).any():
         return None
-    table = numbers.reshape(len(found), -1)[1:].T
+    table = numbers.reshape(len(columns_of_numbers), -1)[1:].T  # without the numbers of the frames
     return dict(zip(counts, np.split(table, np.cumsum([*counts.values()])[:-1], axis=1), strict=True))
 
 
@@ -129,20 +150,14 @@ def _by_lines(path: str | Path, text: str, asf: AcclaimSkeleton) -> dict[str, Ar
     frames: list[dict[str, Array]] = []
     line = number = 0
     for line, (name, *words) in lines(text):
-        complete = f" after {len(frames) - 1} complete frames"
-        if not words and name.isdecimal() and len(name) < 10:
+        if not words and name.isdecimal() and len(name) <= MOST_DIGITS:
             if frames:
                 _require_whole(path, line, frames, asf)
-                if int(name) != number + 1:
-                    raise FormatError(path, line, f"frame {number + 1}", f"frame {name}")
+                _require_next(path, line, number, name)
             number = int(name)
             frames.append({})
         elif frames:
-            if name not in asf.bones or name in frames[-1]:
-                raise FormatError(path, line, "another bone of the skeleton", f"'{name}'{complete}")
-            dofs = asf.bones[name].dofs
-            expected = f"{len(dofs)} numbers for '{name}' ({' '.join(dofs)}){complete}"
-            frames[-1][name] = to_numbers(path, line, words, expected, len(dofs))
+            frames[-1][name] = _bone_numbers(path, line, [name, *words], frames, asf)
         elif not name.startswith(":"):
             raise FormatError(path, line, "the number of the first frame", f"'{' '.join([name, *words])}'")
     if not frames:
@@ -151,8 +166,28 @@ def _by_lines(path: str | Path, text: str, asf: AcclaimSkeleton) -> dict[str, Ar
     return {name: np.array([frame[name] for frame in frames]) for name in asf.needed()}
 
 
+def _bone_numbers(
+    path: str | Path, line: int, words: list[str], frames: list[dict[str, Array]], asf: AcclaimSkeleton
+) -> Array:
+    """Read the words of a bone's line: its name, and a number for each degree of freedom."""
+    name, *numbers = words
+    complete = f" after {len(frames) - 1} complete frames"
+    if name not in asf.bones or name in frames[-1]:
+        raise FormatError(path, line, "another bone of the skeleton", f"'{name}'{complete}")
+    dofs = asf.bones[name].dofs
+    expected = f"{len(dofs)} numbers for '{name}' ({' '.join(dofs)}){complete}"
+    return to_numbers(path, line, numbers, expected, len(dofs))
+
+
+def _require_next(path: str | Path, line: int, previous: int, number: str) -> None:
+    """Raise if the number of a frame does not follow the previous one."""
+    if int(number) != previous + 1:
+        raise FormatError(path, line, f"frame {previous + 1}", f"frame {number}")
+
+
 def _require_whole(path: str | Path, line: int, frames: list[dict[str, Array]], asf: AcclaimSkeleton) -> None:
+    """Raise if the last frame lacks a bone that the skeleton needs."""
     if missing := [name for name in asf.needed() if name not in frames[-1]]:
-        more = f" and {len(missing) - 3} more bones" if len(missing) > 3 else ""
+        remainder = f" and {len(missing) - NAMED} more bones" if len(missing) > NAMED else ""
         got = f"the end of the frame after {len(frames) - 1} complete frames"
-        raise FormatError(path, line, f"numbers for {', '.join(missing[:3])}{more}", got)
+        raise FormatError(path, line, f"numbers for {', '.join(missing[:NAMED])}{remainder}", got)

@@ -10,13 +10,17 @@ from typing import Any, ClassVar, Protocol
 
 from mocap.plotting.picture import Picture
 
-# Scripts of the player that others use as well.
-PARTS = ("scene", "picture", "page", "hand")
-SHARED = SCENE, PICTURE, PAGE, HAND = [Path(__file__).with_name(f"player_{part}.js") for part in PARTS]
-SHADED = [Path(__file__).with_name(f"{part}.js") for part in ("bodies", "player_body")]
-TOUCH = Path(__file__).with_name("touch.js")
-WHOLE = Path(__file__).with_name("page.html")
+FOLDER = Path(__file__).parent
 
+# Scripts of the player that others use as well.
+SCENE = FOLDER / "player_scene.js"
+PICTURE = FOLDER / "player_picture.js"
+PAGE = FOLDER / "player_page.js"
+HAND = FOLDER / "player_hand.js"
+SHARED = [SCENE, PICTURE, PAGE, HAND]
+SHADED = [FOLDER / "bodies.js", FOLDER / "player_body.js"]
+TOUCH = FOLDER / "touch.js"
+WHOLE = FOLDER / "page.html"
 
 # Lines of a script that are no part of the joined module. No line of a template may start like one of them:
 # eslint checks that.

@@ -22,6 +22,8 @@ from mocap.widgets.player import play
 SUFFIXES = (".gif", ".mp4", ".png", ".html")
 SIZES = {".gif": (640, 360), ".mp4": (848, 480)}  # pixels of a film
 COLOURS = 128  # of a .gif
+BACKGROUND = slice(8)  # columns of pixels at the left edge, for the colours of the background
+ROUNDING = 1e-9  # frames, by which seconds · fps may be below a whole number
 
 
 def save_animation(
@@ -68,30 +70,31 @@ def save_animation(
         raise MocapError("There is no motion to show.")
     if suffix == ".mp4":
         require_ffmpeg()
-    with replacing(path) as beside:
+    with replacing(path) as unfinished:
+        player = play(*motions, discs=discs)
         if suffix in (".html", ".png"):
-            player = play(*motions, discs=discs)
-            beside.write_bytes(player.page().encode() if suffix == ".html" else player.picture)
+            unfinished.write_bytes(player.page().encode() if suffix == ".html" else player.picture)
         else:
             write = write_mp4 if suffix == ".mp4" else _write_gif
-            shown = FilmedScene(play(*motions, discs=discs).scene)
-            times = progress(range(int(shown.seconds * fps + 1e-9) + 1))
-            write((shown.picture(time / fps, SIZES[suffix]) for time in times), beside, fps)
+            scene = FilmedScene(player.scene)
+            frames = progress(range(int(scene.seconds * fps + ROUNDING) + 1))
+            write((scene.picture(frame / fps, SIZES[suffix]) for frame in frames), unfinished, fps)
     return Path(path)
 
 
 def _write_gif(pictures: Iterator[NDArray[np.uint8]], path: Path, fps: float) -> None:
-    """Write all pictures with one palette, so that what stands still is written once."""
+    """Write all pictures with one palette, so that pixels that do not change are written once."""
     picture = next(pictures)
-    each = np.unique(picture.reshape(-1, 3) // 4 * 4, axis=0)  # a body has few pixels, but many colours
-    palette = Image.fromarray(np.concatenate([each, picture[:, :8].reshape(-1, 3)])[None]).quantize(COLOURS)
+    colours = np.unique(picture.reshape(-1, 3) // 4 * 4, axis=0)  # a body has few pixels, but many colours
+    background = picture[:, BACKGROUND].reshape(-1, 3)
+    palette = Image.fromarray(np.concatenate([colours, background])[None]).quantize(COLOURS)
     images = map(Image.fromarray, chain([picture], pictures))
     first, *rest = (image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images)
     first.save(path, save_all=True, append_images=rest, duration=round(1000 / fps), loop=0)
 
 
 def write_mp4(pictures: Iterator[NDArray[np.uint8]], path: Path, fps: float) -> None:
-    """Give ffmpeg the pictures, one after the other, and raise what it complains of.
+    """Send the pictures to ffmpeg, one after the other, and raise its error, if any.
 
     Parameters
     ----------
@@ -101,15 +104,15 @@ def write_mp4(pictures: Iterator[NDArray[np.uint8]], path: Path, fps: float) -> 
 
     Raises
     ------
-    MocapError : what ffmpeg says.
+    MocapError : with the last line that ffmpeg writes.
     """
     import imageio_ffmpeg
 
     first = next(pictures)
     size = f"{first.shape[1]}x{first.shape[0]}"
     raw = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size, "-r", f"{fps:g}", "-i", "-"]
-    made = ["-preset", "veryfast", "-pix_fmt", "yuv420p", str(path)]
-    command = [imageio_ffmpeg.get_ffmpeg_exe(), "-v", "error", "-y", *raw, *made]
+    encoded = ["-preset", "veryfast", "-pix_fmt", "yuv420p", str(path)]
+    command = [imageio_ffmpeg.get_ffmpeg_exe(), "-v", "error", "-y", *raw, *encoded]
     with TemporaryFile() as said:
         ffmpeg = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=said, stderr=said)
         assert ffmpeg.stdin
@@ -127,7 +130,7 @@ def write_mp4(pictures: Iterator[NDArray[np.uint8]], path: Path, fps: float) -> 
 
 
 def require_ffmpeg() -> None:
-    """Raise a sentence where imageio-ffmpeg is not installed."""
+    """Raise a sentence if imageio-ffmpeg is not installed."""
     try:
         import imageio_ffmpeg  # noqa: F401
     except ImportError as error:

@@ -11,7 +11,7 @@ from tests.browser.conftest import keep, wait_until, watched_page, without_scrip
 from tests.course.test_site import build_small
 
 START = """
-from mocap.course.lab.asking import asked, asked_before, summed_up
+from mocap.course.lab.asking import show_quiz, show_bets, show_outcomes
 
 share = {"ask": "Share of the walks", "came_out": "100 * died", "unit": "%", "low": 0, "high": 100}
 more = {"ask": "How many turn?", "came_out": "twice", "choices": ["as many", "twice"]}
@@ -25,13 +25,13 @@ CELLS = [
     "# Questions",
     START,
     "**Predict.** Which share dies, and how many turn?",
-    "asked_before({'99-share': share, '99-more': more}, {})",
+    "show_bets({'99-share': share, '99-more': more}, {})",
     ANSWER.format("Most of them do."),
     ANSWER.format("No bet guards this one."),
-    "asked_before({'99-off': off}, {})",
+    "show_bets({'99-off': off}, {})",
     ANSWER.format("A little."),
-    "asked('99-c', which, {})",
-    "summed_up({'99-share': share, '99-more': more, '99-off': off}, {'died': died})",
+    "show_quiz('99-c', which, {})",
+    "show_outcomes({'99-share': share, '99-more': more, '99-off': off}, {'died': died})",
 ]
 
 
@@ -47,7 +47,7 @@ def on_the_site(tmp_path, page):
         exec(START, space)
         for text in CELLS:
             outputs = []
-            if text.startswith(("asked", "summed")):
+            if text.startswith("show_"):
                 outputs = [new_output("execute_result", eval(text, space)._repr_mimebundle_())]
             cells.append(cell(text, outputs))
         nbformat.write(new_notebook(cells=cells), tmp_path / "00-one.ipynb")

@@ -24,9 +24,11 @@ from mocap.errors import MocapError
 
 CODE = re.compile(r"`([^`]+)`")
 STRESSED = re.compile(r"(?<![\w*])\*(\S(?:[^*]*\S)?)\*(?![\w*])")
+TAG = re.compile(r"<[^>]*>")
+LETTERS = "abcdefghij"  # of the choices of a quiz
 BLANK = "______"
 COLUMNS = ("", "you thought", "came out", "off by")
-# What a bet is where it says nothing.
+# The entries of a bet that its file leaves out.
 BET: dict[str, Any] = {"choices": [], "unit": "", "low": None, "high": None, "step": 1.0, "real": False}
 
 Bets = Mapping[str, dict[str, Any]]
@@ -91,7 +93,7 @@ def to_text(text: str) -> str:
     >>> to_text("Is `D < 4` *always* so?")
     'Is D < 4 always so?'
     """
-    return html.unescape(re.sub(r"<[^>]*>", "", to_html(text)))
+    return html.unescape(TAG.sub("", to_html(text)))
 
 
 def listed(items: Iterable[str], kind: str = "ul") -> str:
@@ -124,27 +126,28 @@ def quiz(key: str) -> Shown:
 
     Notebooks: 00-quickstart to 19-group-graphs
     """
-    return asked(key, question("quiz", key), sys._getframe(1).f_globals)
+    return show_quiz(key, question("quiz", key), sys._getframe(1).f_globals)
 
 
-def asked(key: str, quiz: dict[str, Any], names: Names) -> Shown:
-    """Show a quiz, with the numbers that a notebook computes; its key says where the right choice stands."""
+def show_quiz(key: str, quiz: dict[str, Any], names: Names) -> Shown:
+    """Show a quiz, with the numbers that a notebook computes.
+
+    The right choice is at the quiz's `place`, which counts from 1; by default its key decides.
+    """
     try:
         quiz = filled(quiz, names)
         require(quiz, names)
     except MocapError as error:
         raise MocapError(f"Quiz {key}: {error}") from error
-    choices, hints = list(quiz["wrong"]), [to_html(hint) for hint in quiz["wrong"].values()]
-    place = quiz.get("place", 0) - 1
-    place = crc32(key.encode()) % (1 + len(choices)) if place < 0 else place
-    choices.insert(place, quiz["right"])
-    hints.insert(place, "")
-    asks = f'<p class="asked">{to_html(quiz["question"])}</p>\n'
-    text = [f"{letter}) {to_text(choice)}" for letter, choice in zip("abcdefghij", choices, strict=False)]
+    choices = list(quiz["wrong"])
+    hints = [to_html(hint) for hint in quiz["wrong"].values()]
+    index = quiz["place"] - 1 if quiz.get("place") else crc32(key.encode()) % (1 + len(choices))
+    choices.insert(index, quiz["right"])
+    hints.insert(index, "")
+    inside = f'<p class="asked">{to_html(quiz["question"])}</p>\n' + listed(choices, 'ol type="a"')
     spec = {"kind": "choice", "hints": hints, "because": to_html(quiz["because"])}
-    return shown(
-        "Quiz: choose one", asks + listed(choices, 'ol type="a"'), spec, [to_text(quiz["question"]), *text]
-    )
+    lines = [f"{letter}) {to_text(choice)}" for letter, choice in zip(LETTERS, choices, strict=False)]
+    return shown("Quiz: choose one", inside, spec, [to_text(quiz["question"]), *lines])
 
 
 def bet(*keys: str) -> Shown:
@@ -171,15 +174,17 @@ def bet(*keys: str) -> Shown:
 
     Notebooks: 00-quickstart to 19-group-graphs
     """
-    return asked_before({key: question("bet", key) for key in keys}, sys._getframe(1).f_globals)
+    return show_bets({key: question("bet", key) for key in keys}, sys._getframe(1).f_globals)
 
 
-def asked_before(bets: Bets, names: Names) -> Shown:
+def show_bets(bets: Bets, names: Names) -> Shown:
     """Show bets, with their controls."""
-    specs, lines = [], []
+    specs = []
+    lines = []
     for key, table in bets.items():
         bet = BET | table
-        ask, choices = filled(bet["ask"], names), filled(bet["choices"], names)
+        ask = filled(bet["ask"], names)
+        choices = filled(bet["choices"], names)
         blank = " / ".join(choices) or f"{BLANK} {bet['unit']}".rstrip()
         lines.append(f"{_led(ask)} {blank}")
         spec = {"key": key, "choices": list(map(to_text, choices)), "ask": to_html(ask)}
@@ -213,24 +218,30 @@ def bets(notebook: str) -> Shown:
 
     Notebooks: 00-quickstart to 19-group-graphs
     """
-    found = read_questions(notebook)["bet"]
-    return summed_up({f"{notebook}-{name}": bet for name, bet in found.items()}, sys._getframe(1).f_globals)
+    questions = read_questions(notebook)["bet"]
+    with_keys = {f"{notebook}-{name}": bet for name, bet in questions.items()}
+    return show_outcomes(with_keys, sys._getframe(1).f_globals)
 
 
-def summed_up(bets: Bets, names: Names) -> Shown:
-    """Show what came out of bets, as a table."""
-    rows = [_came_out(key, BET | bet, names) for key, bet in bets.items()]
+def show_outcomes(bets: Bets, names: Names) -> Shown:
+    """Show a table of bets and their outcomes."""
+    rows = [_outcome(key, BET | bet, names) for key, bet in bets.items()]
     head = "".join(f"<th>{column}</th>" for column in COLUMNS)
     body = "".join(
         f'<tr><th scope="row">{row["ask"]}</th><td>–</td><td>{to_html(row["written"])}</td><td>–</td></tr>'
         for row in rows
     )
     inside = f'<table class="table"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
-    text = [f"{_led(html.unescape(re.sub(r'<[^>]*>', '', row['ask'])))} {row['written']}" for row in rows]
-    return shown("What you thought, and what came out", inside, {"kind": "summary", "rows": rows}, text)
+    asks = [html.unescape(TAG.sub("", row["ask"])) for row in rows]
+    lines = [f"{_led(ask)} {row['written']}" for ask, row in zip(asks, rows, strict=True)]
+    return shown("What you thought, and what came out", inside, {"kind": "summary", "rows": rows}, lines)
 
 
-def _came_out(key: str, bet: dict[str, Any], names: Names) -> dict[str, Any]:
+def _outcome(key: str, bet: dict[str, Any], names: Names) -> dict[str, Any]:
+    """Return a row of the table: the bet's question, the outcome as a number, and as it is written.
+
+    A bet on a captured clip, which a reader may lack, has no outcome where a name is unknown.
+    """
     row: dict[str, Any] = {"key": key, "unit": bet["unit"], "step": bet["step"]}
     try:
         row["ask"] = to_html(filled(bet["ask"], names))
@@ -247,5 +258,5 @@ def _came_out(key: str, bet: dict[str, Any], names: Names) -> dict[str, Any]:
 
 
 def _led(ask: str) -> str:
-    """Write what is asked as it leads to what follows; a question needs no colon."""
+    """Return an ask with a colon, which a question does not need."""
     return ask if ask.endswith("?") else f"{ask}:"

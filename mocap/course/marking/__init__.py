@@ -9,11 +9,12 @@ Reading order
 1. `cells`: what the course asks for, and the cells of a notebook that an exercise needs
 2. `plain_data`: answers as JSON, so that nothing in them can run
 3. `student`: the student's side: run cells, call functions
-4. `walls`: what the kernel keeps from that process
-5. `keeper`: the start of that process, and the end of all that it started
-6. `sealed`: the marker's side: start, ask, stop in time
-7. `grades`: points, tables for spreadsheets, Moodle and Canvas, and a page for each student
-8. `marks`: judge each exercise of each notebook
+4. `call_filter`: a program for the kernel that refuses system calls
+5. `walls`: what the kernel keeps from that process
+6. `keeper`: the start of that process, and the end of all that it started
+7. `sealed`: the marker's side: start, ask, stop in time
+8. `grades`: points, tables for spreadsheets, Moodle and Canvas, and a page for each student
+9. `marks`: judge each exercise of each notebook
 """
 
 import lazy_loader

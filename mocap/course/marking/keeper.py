@@ -29,13 +29,16 @@ from pathlib import Path
 from mocap.course.marking import walls
 
 MEMORY = 4 << 30  # bytes of all processes of a student
-PROCESSES = 16
+PROCESSES = 16  # of a student, at a time
+WATCHING = 0.1  # seconds between two looks at a student's processes
+KILLING = 20  # seconds after which processes that cannot be killed are left alone
+BLOCK = 512  # bytes, in which `os.stat` counts what a file takes
 COMMON = ("matplotlib.pyplot", "scipy.optimize", "networkx", "mocap.plotting", "mocap.widgets")
 OURS = ("marking.student", "checks", "diagrams", "lab.own")
 
 
 def keep(control: socket.socket) -> None:
-    """Read what walls to raise and what to hide; write which can be raised; run a process on each socket."""
+    """Read which walls to raise and what to hide; write which can be raised; run a process on each socket."""
     home = Path(os.environ["HOME"])
     wanted, hidden = json.loads(control.makefile().readline())
     walls.prctl(walls.ADOPT_ORPHANS, 1)
@@ -43,19 +46,22 @@ def keep(control: socket.socket) -> None:
     raised = [name for name, child in forked.items() if os.waitpid(child, 0)[1] == 0]
     control.sendall(f"{' '.join(raised)}\n".encode())
     try:
-        while (message := socket.recv_fds(control, 1, 1))[0]:
+        while True:
+            message, channels, _, _ = socket.recv_fds(control, 1, 1)
+            if not message:  # the marker has ended
+                break
             for module in (*COMMON, *(f"mocap.course.{name}" for name in OURS)):  # once, and if at all
                 import_module(module)
             gc.freeze()
-            for channel in message[1]:
+            for channel in channels:
                 # shutil.rmtree cannot delete folders in folders in ...
                 subprocess.run(["rm", "-rf", home], check=False)
                 home.mkdir(exist_ok=True)
                 student = walls.fork_behind(raised, home, hidden, partial(_serve, channel))
                 os.close(channel)
-                why = _watch(control, student, home)
+                reason = _watch(control, student, home)
                 _kill_all(student)
-                control.sendall(f"{why}\n".encode())
+                control.sendall(f"{reason}\n".encode())
     finally:
         subprocess.run(["rm", "-rf", home.parent], check=False)
 
@@ -64,11 +70,12 @@ def _serve(channel: int) -> None:
     """Hold nothing but the socket, print nowhere, and serve the marker."""
     from mocap.course.marking.student import serve
 
-    channel = os.dup2(channel, 3)
-    os.closerange(4, os.sysconf("SC_OPEN_MAX"))
-    nothing = os.open(os.devnull, os.O_RDWR)
-    for standard in (0, 1, 2):
-        os.dup2(nothing, standard)
+    standard_streams = (0, 1, 2)
+    channel = os.dup2(channel, len(standard_streams))
+    os.closerange(channel + 1, os.sysconf("SC_OPEN_MAX"))
+    null = os.open(os.devnull, os.O_RDWR)
+    for stream in standard_streams:
+        os.dup2(null, stream)
     os.chdir(os.environ["HOME"])
     sys.path.insert(0, os.environ["HOME"])
     with os.fdopen(channel, "rb") as requests, os.fdopen(os.dup(channel), "wb") as replies:
@@ -77,18 +84,32 @@ def _serve(channel: int) -> None:
 
 def _watch(control: socket.socket, student: int, home: Path) -> str:
     """Wait for the end of the student's process or of the marker; return why it has to be stopped, if so."""
-    while not select.select([control], [], [], 0.1)[0]:
-        while ended := os.waitpid(-1, os.WNOHANG)[0]:  # it, or an orphan
-            if ended == student:
-                return ""
-        family = [*_descendants(os.getpid())]
-        if len(family) > PROCESSES:
-            return f"starts more than {PROCESSES} processes"
-        if sum(family) > MEMORY:
-            return f"takes more than {MEMORY >> 30} GB of memory"
-        sizes = [*islice(_sizes(home), walls.INODES)]
-        if len(sizes) == walls.INODES or sum(sizes) > walls.FILES:
-            return f"writes {walls.INODES} files, or more than {walls.FILES >> 20} MB"
+    while not select.select([control], [], [], WATCHING)[0]:
+        if _has_ended(student):
+            return ""
+        if excess := _excess(home):
+            return excess
+    return ""
+
+
+def _has_ended(student: int) -> bool:
+    """Reap all children that have ended, orphans too; return whether the student's process is one of them."""
+    while ended := os.waitpid(-1, os.WNOHANG)[0]:
+        if ended == student:
+            return True
+    return False
+
+
+def _excess(home: Path) -> str:
+    """Return which limit the student's processes together exceed, if any."""
+    memory = [*_descendants(os.getpid())]
+    if len(memory) > PROCESSES:
+        return f"starts more than {PROCESSES} processes"
+    if sum(memory) > MEMORY:
+        return f"takes more than {MEMORY >> 30} GB of memory"
+    sizes = [*islice(_sizes(home), walls.INODES)]
+    if len(sizes) == walls.INODES or sum(sizes) > walls.FILES:
+        return f"writes {walls.INODES} files, or more than {walls.FILES >> 20} MB"
     return ""
 
 
@@ -110,20 +131,21 @@ def _descendants(pid: int) -> Iterator[int]:
 
 
 def _sizes(home: Path) -> Iterator[int]:
-    """Yield the bytes of all that a folder holds, however deep: `os.walk` calls itself at each level."""
+    """Yield the bytes of all files in a folder, however deep; `os.walk` calls itself at each level."""
     folders = [f"{home}"]
     while folders:
-        with suppress(OSError), os.scandir(folders.pop()) as found:  # it is gone
-            for one in found:
-                folders += [one.path] * one.is_dir(follow_symlinks=False)
-                yield 512 * one.stat(follow_symlinks=False).st_blocks
+        with suppress(OSError), os.scandir(folders.pop()) as entries:  # it is gone
+            for entry in entries:
+                if entry.is_dir(follow_symlinks=False):
+                    folders.append(entry.path)
+                yield BLOCK * entry.stat(follow_symlinks=False).st_blocks
 
 
 def _kill_all(student: int) -> None:
     """Kill the student's process group, and children until there are none: orphans become children."""
-    until = time.monotonic() + 20
+    deadline = time.monotonic() + KILLING
     with suppress(ChildProcessError):
-        while time.monotonic() < until:
+        while time.monotonic() < deadline:
             for kill, pid in [(os.killpg, student), *((os.kill, child) for child in _children(os.getpid()))]:
                 with suppress(OSError):
                     kill(pid, signal.SIGKILL)

@@ -35,9 +35,12 @@ from mocap.errors import MocapError
 
 SECONDS = 30  # time limit of an exercise
 STARTING = 120  # time limit of the first cell, which imports much
-LARGEST, MOST_PARTS, MOST_CODE = 100 << 20, 2_000_000, 1 << 20  # bytes, lists and texts, bytes of code
+LARGEST = 100 << 20  # bytes of a notebook's file
+MOST_PARTS = 2_000_000  # lists, dictionaries and texts in it
+MOST_CODE = 1 << 20  # letters of code in it
 MISSING = "its cell is missing."
-_own: list[Sealed] = []  # by which this process marks one notebook after another
+CHANGES_PACKAGE = "✗ changes the installed package."
+_students: list[Sealed] = []  # the single one by which this process marks notebook after notebook
 
 
 class _Handed(NamedTuple):
@@ -90,42 +93,50 @@ def mark(
     files = [file for file in sorted(folder.rglob("*.ipynb")) if ".ipynb_checkpoints" not in file.parts]
     if not files:
         raise MocapError(f"The folder {folder} holds no notebooks.")
-    sheets, marked = course_sheets(stored()), list[Mark]()
-    handed = [_read(file, file.relative_to(folder).as_posix(), sheets) for file in files]
+    sheets = course_sheets(stored())
+    marked: list[Mark] = []
+    handed_in = [_read(file, file.relative_to(folder).as_posix(), sheets) for file in files]
     seed = int(np.random.default_rng().integers(2**32))
-    hidden = [stored(), *{folder / one.path.split("/")[0] for one in handed}]
+    hidden = [stored(), *{folder / notebook.path.split("/")[0] for notebook in handed_in}]
     with closing(Sealed(hidden)) as student:
         tell(protection(student.walls))
-        before = _fingerprint(student.walls)
-        apart = jobs > 1 and not before
-        _own[:] = [student]
-        work = _together(handed, seed, hidden, jobs) if apart else (_marks(one, seed) for one in handed)
+        fingerprint = _fingerprint(student.walls)
+        _students[:] = [student]
+        work = (_marks(notebook, seed) for notebook in handed_in)
+        if jobs > 1 and not fingerprint:
+            work = _in_parallel(handed_in, seed, hidden, jobs)
         with closing(work):
-            for one, marks in zip(progress(handed), work, strict=False):
-                if changed := _fingerprint(student.walls) != before:
-                    marks = [m._replace(right=False, said="✗ changes the installed package.") for m in marks]
+            for notebook, marks in zip(progress(handed_in), work, strict=False):
+                if _fingerprint(student.walls) != fingerprint:
+                    yield [mark._replace(right=False, said=CHANGES_PACKAGE) for mark in marks]
+                    changer = f"{notebook.path} has changed the package"
+                    raise MocapError(f"{changer}: install it anew, use a container.")
                 yield marks
                 marked += marks
-                if changed:
-                    raise MocapError(f"{one.path} has changed the package: install it anew, use a container.")
-    yield from _missing(handed, marked)
+    yield from _missing(handed_in, marked)
 
 
-def _missing(handed: list[_Handed], marked: list[Mark]) -> Iterator[list[Mark]]:
-    """Mark as wrong what others handed in and a student did not."""
-    asked = [name for name in all_checks() if any(mark.exercise == name for mark in marked)]
-    for who, sent in {sent_by(one.path): one.path.split("/")[0] for one in handed}.items():
-        done = {mark.exercise for mark in marked if sent_by(mark.handed_in) == who}
-        if who[1] or sent == who[0]:  # no file without a folder
-            yield [Mark(f"{sent}/", n, False, f"✗ {n}: not handed in.") for n in asked if n not in done]
+def _missing(handed_in: list[_Handed], marked: list[Mark]) -> Iterator[list[Mark]]:
+    """Mark as wrong the exercises that others handed in and a student did not."""
+    exercises = [name for name in all_checks() if any(mark.exercise == name for mark in marked)]
+    places = {sent_by(notebook.path): notebook.path.split("/")[0] for notebook in handed_in}
+    for student, place in places.items():
+        submitted = {mark.exercise for mark in marked if sent_by(mark.handed_in) == student}
+        names = [name for name in exercises if name not in submitted]
+        _, number = student
+        is_folder = place == student[0]
+        if number or is_folder:  # a file without a folder names no student
+            yield [Mark(f"{place}/", name, False, f"✗ {name}: not handed in.") for name in names]
 
 
-def _together(handed: list[_Handed], seed: int, hidden: Sequence[Path], jobs: int) -> Generator[list[Mark]]:
+def _in_parallel(
+    handed_in: list[_Handed], seed: int, hidden: Sequence[Path], jobs: int
+) -> Generator[list[Mark]]:
     """Mark several notebooks at a time; at the end, also an early one, no process is left."""
     fork = multiprocessing.get_context("fork")
     with ProcessPoolExecutor(jobs, fork, _begin, (hidden,)) as pool:
         try:
-            yield from pool.map(_marks, handed, repeat(seed))
+            yield from pool.map(_marks, handed_in, repeat(seed))
         except BrokenExecutor as error:
             raise MocapError("A worker was ended from outside: is there enough memory?") from error
         finally:
@@ -135,13 +146,14 @@ def _together(handed: list[_Handed], seed: int, hidden: Sequence[Path], jobs: in
 
 
 def _begin(hidden: Sequence[Path]) -> None:
+    """Prepare a process of `_in_parallel`, with a student's process of its own."""
     serve()
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
-    _own[:] = [Sealed(hidden)]
+    _students[:] = [Sealed(hidden)]
 
 
 def _fingerprint(walls: Iterable[str]) -> bytes:
-    """Sum up all files of the package, where no wall keeps a notebook from changing them."""
+    """Compute a hash of the package's files if no wall keeps a notebook from changing them."""
     if "landlock" in walls:
         return b""
     sys.dont_write_bytecode = True
@@ -150,9 +162,10 @@ def _fingerprint(walls: Iterable[str]) -> bytes:
 
 
 def _read(file: Path, path: str, sheets: Sequence[Sheet]) -> _Handed:
+    """Read a notebook that was handed in; an error becomes its field `wrong`."""
     try:
-        about = file.lstat()
-        if not stat.S_ISREG(about.st_mode) or about.st_size > LARGEST:
+        status = file.lstat()
+        if not stat.S_ISREG(status.st_mode) or status.st_size > LARGEST:
             raise MocapError(f"is no plain file, or one of more than {LARGEST >> 20} MB.")
         text = file.read_bytes().decode("utf-8-sig", "replace")
         if sum(map(text.count, '[{"')) > MOST_PARTS:  # they would take a hundred times their place in memory
@@ -171,41 +184,45 @@ def _read(file: Path, path: str, sheets: Sequence[Sheet]) -> _Handed:
     return _Handed(path, [], wrong=wrong)
 
 
-def _marks(one: _Handed, seed: int) -> list[Mark]:
+def _marks(handed: _Handed, seed: int) -> list[Mark]:
     """Mark a notebook; an error costs this notebook only."""
     try:
-        return list(_marks_of(one, seed, _own[0]))
+        return list(_marks_of(handed, seed, _students[0]))
     except Exception as error:
-        return [Mark(one.path, "", False, f"cannot be marked: {type(error).__name__}.")]
+        return [Mark(handed.path, "", False, f"cannot be marked: {type(error).__name__}.")]
 
 
-def _marks_of(one: _Handed, seed: int, student: Sealed) -> Iterator[Mark]:
+def _marks_of(handed: _Handed, seed: int, student: Sealed) -> Iterator[Mark]:
     """Mark the exercises of the course's notebook, and those of others of which it has cells."""
-    asked, course = one.sheet
-    names = [*dict.fromkeys((*asked, *(name for cell in one.cells for name in cell.exercises)))]
+    exercises, course = handed.sheet
+    tags = [name for cell in handed.cells for name in cell.exercises]
+    names = list(dict.fromkeys([*exercises, *tags]))
     strange = [name for name in names if name not in all_checks()]
-    also = f" The course does not know the tag `{strange[0]}`." if strange else ""
+    note = f" The course does not know the tag `{strange[0]}`." if strange else ""
     names = [name for name in names if name not in strange]
     if not names:
-        yield Mark(one.path, "", False, one.wrong or f"holds no exercise of the course.{also}")
-    for name, verdict in _judge_all(one.cells, names, seed, student).items():
-        said, right = str(verdict).replace(MISSING, MISSING + also), verdict.right
-        if right and (word := named_oracle(one.cells, all_checks()[name], course)):
-            right = word in all_checks()[name].oracles  # the package's own function may be called, perhaps
-            said = f"{'✓' if right else '✗'}{said[1:]} Look at its cells: they name `{word}`, which knows it."
-        yield Mark(one.path, name, right, said)
+        yield Mark(handed.path, "", False, handed.wrong or f"holds no exercise of the course.{note}")
+    for name, verdict in _judge_all(handed.cells, names, seed, student).items():
+        said = str(verdict).replace(MISSING, MISSING + note)
+        right = verdict.right
+        oracle = named_oracle(handed.cells, all_checks()[name], course) if right else ""
+        if oracle:
+            right = oracle in all_checks()[name].oracles  # the package's own function may be called, perhaps
+            sign = "✓" if right else "✗"
+            said = f"{sign}{said[1:]} Look at its cells: they name `{oracle}`, which knows it."
+        yield Mark(handed.path, name, right, said)
 
 
 def _judge_all(cells: list[Cell], names: list[str], seed: int, student: Sealed) -> dict[str, Verdict]:
     """Judge exercises in one process, and in a new one after an exercise that ends it."""
     judged: dict[str, Verdict] = {}
-    while left := [name for name in names if name not in judged]:
+    while remaining := [name for name in names if name not in judged]:
         student.renew()
-        at_fault = left
+        at_fault = remaining
         try:
             student.allow(STARTING)
             student.ask("begin", [tuple(cell) for cell in cells])
-            for name in left:
+            for name in remaining:
                 at_fault = [name]
                 student.allow(SECONDS)
                 judged[name] = _judge(student, name, seed)
@@ -215,11 +232,14 @@ def _judge_all(cells: list[Cell], names: list[str], seed: int, student: Sealed) 
 
 
 def _judge(student: Sealed, name: str, seed: int) -> Verdict:
-    rng, known = np.random.default_rng(seed), all_checks()[name]
-    check = copy.copy(known)
-    check.draw, check.seconds = lambda _: known.draw(rng), 2 * SECONDS  # later than the limit of `allow`
-    found, error = student.ask("prepare", name)
-    if not found:
+    """Judge an exercise by its check of the course, on input drawn from this seed."""
+    rng = np.random.default_rng(seed)
+    course_check = all_checks()[name]
+    check = copy.copy(course_check)
+    check.draw = lambda _: course_check.draw(rng)
+    check.seconds = 2 * SECONDS  # later than the limit of `allow`
+    has_cell, error = student.ask("prepare", name)
+    if not has_cell:
         return Verdict(False, f"{name}: {MISSING}")
     try:
         with np.errstate(all="ignore"):
@@ -233,9 +253,9 @@ def _judge(student: Sealed, name: str, seed: int) -> Verdict:
 
 def call(student: Sealed, name: str, *arguments: Any) -> Any:  # noqa: ANN401
     """Call a student's function as a check calls it: the call happens in the student's process."""
-    given, changes, raised, said = student.ask("call", name, arguments)
+    result, changes, raised, said = student.ask("call", name, arguments)
     if raised:
         raise NotImplementedError if raised == "NotImplementedError" else type(raised, (Exception,), {})(said)
     for number, changed in changes:
         np.copyto(arguments[number], unpack(changed))
-    return unpack(given)
+    return unpack(result)

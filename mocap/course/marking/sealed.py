@@ -20,7 +20,11 @@ import mocap
 from mocap.course.marking import walls
 
 REPLY = 1 << 20  # bytes of an answer, of which the course's have some thousands
-REPLIES: dict[str, tuple[type, ...]] = {"begin": (), "prepare": (bool, str), "call": (object, list, str, str)}
+# The types of a reply, by the method of `student.Student` that is called.
+REPLIES: dict[str, tuple[type, ...]] = {"begin": (), "prepare": (bool, str)}
+REPLIES["call"] = (object, list, str, str)
+CHUNK = 1 << 16  # bytes that are received at a time
+ANSWERING = 30  # seconds in which the keeper must answer
 WANTED = walls.ALL
 KEPT = ("PATH", "LANG", "LC_ALL", "LC_CTYPE", "LD_LIBRARY_PATH", "PYTHONHOME", "TZ")
 FIXED = {f"{library}_NUM_THREADS": "1" for library in ("OPENBLAS", "OMP", "MKL")}
@@ -65,24 +69,33 @@ class Sealed:
     def __init__(self, hidden: Iterable[Path] = ()) -> None:
         walls.require_sealing()
         self.hidden = [str(place.resolve()) for place in hidden]
-        self.folder, self.running = Path(tempfile.mkdtemp(prefix="marking-")).resolve(), False
+        self.folder = Path(tempfile.mkdtemp(prefix="marking-")).resolve()
+        self.running = False
         self._start()
 
     def _start(self) -> None:
         """Start the keeper, in a folder and with few variables in its environment."""
         (self.folder / "home").mkdir(parents=True, exist_ok=True)  # a keeper that ends removes them
-        more = filter(None, os.environ.get("PYTHONPATH", "").split(os.pathsep))
-        path = [Path(mocap.__file__).parents[1], *(Path(place).resolve() for place in more)]
-        kept = {name: os.environ[name] for name in KEPT if name in os.environ}
-        kept |= dict.fromkeys(("HOME", "TMPDIR"), str(self.folder / "home"))
-        kept["PYTHONPATH"] = os.pathsep.join(map(str, path))
+        inherited = filter(None, os.environ.get("PYTHONPATH", "").split(os.pathsep))
+        path = [Path(mocap.__file__).parents[1], *(Path(place).resolve() for place in inherited)]
+        environment = {name: os.environ[name] for name in KEPT if name in os.environ}
+        environment |= dict.fromkeys(("HOME", "TMPDIR"), str(self.folder / "home"))
+        environment["PYTHONPATH"] = os.pathsep.join(map(str, path))
+        environment |= FIXED
+        keeper = [sys.executable, "-m", "mocap.course.marking.keeper"]
         self.control, theirs = socket.socketpair()
-        self.control.settimeout(30)
+        self.control.settimeout(ANSWERING)
         self.lines = self.control.makefile()
-        keeper, null = [sys.executable, "-m", "mocap.course.marking.keeper"], subprocess.DEVNULL
-        place: dict[str, Any] = {"cwd": self.folder, "env": kept | FIXED, "start_new_session": True}
         with theirs:
-            self.process = subprocess.Popen(keeper, stdin=theirs.fileno(), stdout=null, stderr=null, **place)
+            self.process = subprocess.Popen(
+                keeper,
+                stdin=theirs.fileno(),
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                cwd=self.folder,
+                env=environment,
+                start_new_session=True,
+            )
         self.control.sendall(f"{json.dumps([WANTED, self.hidden])}\n".encode())
         self.walls = self._answer().split()
 
@@ -91,7 +104,8 @@ class Sealed:
         self._end()
         if self.process.poll() is not None:  # a notebook killed the keeper, behind no walls
             self._start()
-        self.read, self.running = bytearray(), True
+        self.received = bytearray()
+        self.running = True
         self.channel, theirs = socket.socketpair()
         with theirs:
             socket.send_fds(self.control, [b"s"], [theirs.fileno()])
@@ -104,7 +118,7 @@ class Sealed:
         self.process.wait()
 
     def _end(self) -> str:
-        """Have all killed that the process started; return why it had been stopped before, if it had."""
+        """Let the keeper kill all that the process started; return why it was stopped before, if it was."""
         if not self.running:
             return ""
         self.running = False
@@ -125,10 +139,11 @@ class Sealed:
 
     def allow(self, seconds: float) -> None:
         """Set the deadline, this many seconds from now."""
-        self.seconds, self.deadline = seconds, time.monotonic() + seconds
+        self.seconds = seconds
+        self.deadline = time.monotonic() + seconds
 
     def ask(self, method: str, *arguments: object) -> Any:  # noqa: ANN401
-        """Call a method of `student.Student` in the process, and return what it gives.
+        """Call a method of `student.Student` in the process, and return its reply.
 
         Raises
         ------
@@ -137,18 +152,9 @@ class Sealed:
         try:
             self._wait()
             self.channel.sendall(pickle.dumps((method, *arguments)))
-            while b"\n" not in self.read:
-                self._wait()
-                more = self.channel.recv(1 << 16)
-                self.read += more
-                if not more:
-                    raise OSError
-                if len(self.read) > REPLY:
-                    raise Ended(f"gives an answer of more than {REPLY >> 20} MB")
-            line, _, self.read = self.read.partition(b"\n")
-            reply = json.loads(line)
-            for one, kind in zip(reply, REPLIES[method], strict=True):  # a notebook may have forged it
-                if not isinstance(one, kind):
+            reply = json.loads(self._receive_line())
+            for value, kind in zip(reply, REPLIES[method], strict=True):  # a notebook may have forged it
+                if not isinstance(value, kind):
                     raise TypeError
             return reply
         except TimeoutError:
@@ -158,15 +164,29 @@ class Sealed:
         except (ValueError, TypeError, RecursionError):
             raise Ended("gives an answer that cannot be read") from None
 
+    def _receive_line(self) -> bytearray:
+        """Receive the process's answer up to the end of its line."""
+        while b"\n" not in self.received:
+            self._wait()
+            chunk = self.channel.recv(CHUNK)
+            self.received += chunk
+            if not chunk:
+                raise OSError
+            if len(self.received) > REPLY:
+                raise Ended(f"gives an answer of more than {REPLY >> 20} MB")
+        line, _, self.received = self.received.partition(b"\n")
+        return line
+
     def _wait(self) -> None:
-        left = self.deadline - time.monotonic()
-        if left <= 0:
+        """Let the next call of the socket wait until the deadline; raise TimeoutError if that has passed."""
+        remaining = self.deadline - time.monotonic()
+        if remaining <= 0:
             raise TimeoutError
-        self.channel.settimeout(left)
+        self.channel.settimeout(remaining)
 
 
 def protection(raised: Sequence[str]) -> str:
-    """Say what walls keep a notebook from, as the first line that `mocap course mark` prints.
+    """Describe what the walls keep a notebook from, as the first line that `mocap course mark` prints.
 
     Examples
     --------

@@ -10,7 +10,6 @@ Both work without an administrator's rights, in containers as well, and each may
 from __future__ import annotations
 
 import ctypes
-import errno
 import os
 import platform
 import signal
@@ -23,38 +22,65 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import mocap
+from mocap.course.marking.call_filter import MACHINES, STEP, call_filter
 from mocap.errors import MocapError
 
 ALL = ("landlock", "filter")
-FILES, INODES = 500 << 20, 2000  # bytes and number of files in the home
-LIMITS = {"AS": 2 << 30, "FSIZE": 50 << 20, "NOFILE": 256, "CORE": 0}  # bytes of memory, of a file; files
-DIE_WITH_PARENT, SET_FILTER, ADOPT_ORPHANS, NO_NEW_RIGHTS = 1, 22, 36, 38  # of prctl(2)
-RULESET, RULE, RESTRICT = 444, 445, 446  # numbers of system calls
-READ, USE = 0b1101, 0b100000000000110  # of Landlock: execute, read and list; read, write and cut a file
+FILES = 500 << 20  # bytes of all files in the home
+INODES = 2000  # files and folders in the home
+LIMITS = {
+    "AS": 2 << 30,  # bytes of memory
+    "FSIZE": 50 << 20,  # bytes of a file
+    "NOFILE": 256,  # open files
+    "CORE": 0,  # bytes of memory that are written when the process crashes
+}
+
+# <linux/prctl.h>: options of a process.
+DIE_WITH_PARENT = 1
+SET_FILTER = 22
+ADOPT_ORPHANS = 36
+NO_NEW_RIGHTS = 38
+BY_PROGRAM = 2  # for SET_FILTER: a filter in BPF
+CAPABILITIES_VERSION = 0x20080522  # <linux/capability.h>
+
+# Numbers of Landlock's system calls, on all machines.
+RULESET = 444
+RULE = 445
+RESTRICT = 446
+
+# <linux/landlock.h>
+ASK_VERSION = 1
+BENEATH_PATH = 1  # the kind of a rule for a folder or file
+
+EXECUTE = 1 << 0
+WRITE_FILE = 1 << 1
+READ_FILE = 1 << 2
+READ_FOLDER = 1 << 3
+MAKE_CHARACTER_DEVICE = 1 << 6
+MAKE_BLOCK_DEVICE = 1 << 11
+FIRST_RIGHTS = (1 << 13) - 1  # those of version 1
+REFER = 1 << 13  # move or link a file to another folder
+TRUNCATE = 1 << 14
+CONTROL_DEVICE = 1 << 15
+RIGHTS_SINCE = {1: FIRST_RIGHTS, 2: REFER, 3: TRUNCATE, 5: CONTROL_DEVICE}  # by version
+
+TCP = 0b11  # bind and connect
+SCOPES = 0b11  # abstract Unix sockets, and signals
+TRUNCATE_SINCE = 3  # version of Landlock, in Linux 6.2
+TCP_SINCE = 4
+SCOPES_SINCE = 6
+
+READ = EXECUTE | READ_FILE | READ_FOLDER
+USE = READ_FILE | WRITE_FILE | TRUNCATE
+OF_A_FILE = USE | EXECUTE  # other rights are those of folders
+
 SYSTEM = [f"/{name}" for name in ("usr", "lib", "lib32", "lib64", "bin", "sbin", "nix/store", "etc/fonts")]
 SYSTEM += [f"/etc/{name}" for name in ("localtime", "ld.so.cache", "passwd", "group", "nsswitch.conf")]
 DEVICES = ("/dev/null", "/dev/zero", "/dev/full", "/dev/random", "/dev/urandom")
-# kill, tkill, tgkill, rt_sigqueueinfo, rt_tgsigqueueinfo, prlimit64, ptrace, process_vm_readv and _writev;
-# socket, memfd_create, shmget, mq_open, truncate; unshare, setns, mount, umount2, pivot_root, chroot;
-# add_key, request_key, keyctl, bpf, perf_event_open
-X86 = [62, 200, 234, 129, 297, 302, 101, 310, 311, 41, 319, 29, 240, 76, 272, 308, 165, 166, 155, 161]
-ARM = [129, 130, 131, 138, 240, 261, 117, 270, 271, 198, 279, 194, 180, 45, 97, 268, 40, 39, 41, 51]
-# pidfd_send_signal, io_uring_setup, open_tree, move_mount, fsopen, openat2, pidfd_getfd, mount_setattr
-BOTH = [424, 425, 428, 429, 430, 437, 438, 442]
-# chmod, chown, utime and setxattr, and their kin: they seem to succeed, because much copies a file by them
-DENIED = {
-    "x86_64": (
-        0xC000003E,
-        [*X86, 248, 249, 250, 321, 298, *BOTH],
-        [*range(90, 95), 260, 268, 452, 132, 235, 261, 280, *range(188, 191)],
-    ),
-    "aarch64": (0xC00000B7, [*ARM, 217, 218, 219, 280, 241, *BOTH], [*range(52, 56), 88, *range(5, 8), 452]),
-}
-FLAGS = {"x86_64": ((257, 32), (2, 24)), "aarch64": ((56, 32),)}  # of openat and open: where they stand
 
 
 def require_sealing() -> None:
-    """Raise where a student's code cannot run in a process that has limits and can be ended as a whole.
+    """Raise if a student's code cannot run in a process that has limits and can be ended as a whole.
 
     The limits are those of `resource`, the process starts by `fork`, and its socket is sent to it. Windows
     and the Python of a browser have none of the three.
@@ -99,7 +125,7 @@ def fork_behind(walls: Sequence[str], home: Path, hidden: Sequence[str], work: C
             Path("/proc/self/oom_score_adj").write_text("1000")
         prctl(DIE_WITH_PARENT, signal.SIGKILL)
         prctl(NO_NEW_RIGHTS, 1)
-        _call("capset", struct.pack("II", 0x20080522, 0), bytes(24))  # not even root's
+        _call("capset", struct.pack("II", CAPABILITIES_VERSION, 0), bytes(24))  # no rights, not even root's
         for name, limit in LIMITS.items():
             with suppress(OSError, ValueError):  # not every system has all of them
                 resource.setrlimit(getattr(resource, f"RLIMIT_{name}"), (limit, limit))
@@ -119,9 +145,11 @@ def prctl(option: int, *values: int | bytes) -> None:
 
 
 def _call(name: str, *arguments: int | bytes | None) -> int:
-    """Call a function of the C library that Python has no name for; where it is not Linux, give 0."""
-    given = [ctypes.c_long(one) if isinstance(one, int) else one for one in arguments]
-    result = int(ctypes.CDLL(None, use_errno=True)[name](*given)) if sys.platform == "linux" else 0
+    """Call a function of the C library that Python has no name for; return 0 if the system is not Linux."""
+    if sys.platform != "linux":
+        return 0
+    passed = [ctypes.c_long(value) if isinstance(value, int) else value for value in arguments]
+    result = int(ctypes.CDLL(None, use_errno=True)[name](*passed))
     if result < 0:
         raise OSError(ctypes.get_errno(), name)
     return result
@@ -134,26 +162,37 @@ def _lock(home: Path, places: Iterable[Path]) -> None:
     ------
     OSError : where there is no Landlock, or one before Linux 6.2, but no filter to keep files from being cut.
     """
-    version = _call("syscall", RULESET, None, 0, 1)
-    if version < 3:
+    version = _call("syscall", RULESET, None, 0, ASK_VERSION)
+    if version < TRUNCATE_SINCE:
         _filter()
-    rights = (1 << (min(version + 12, 15) + (version >= 5))) - 1
-    made = struct.pack("QQQ", rights, 0b11, 0b11)[: 8 * (1 + (version >= 4) + (version >= 6))]
-    rules = _call("syscall", RULESET, made, len(made), 0)
+    rights = sum(right for since, right in RIGHTS_SINCE.items() if since <= version)
+    handled = [rights]  # `struct landlock_ruleset_attr`: all that is forbidden where no rule allows it
+    if version >= TCP_SINCE:
+        handled.append(TCP)
+    if version >= SCOPES_SINCE:
+        handled.append(SCOPES)
+    attributes = struct.pack(f"{len(handled)}Q", *handled)
+    rules = _call("syscall", RULESET, attributes, len(attributes), 0)
     allowed = dict.fromkeys(places, READ) | dict.fromkeys(map(Path, DEVICES), USE)
-    allowed[home] = rights & ~0b100001000000  # but make no devices
+    allowed[home] = rights & ~(MAKE_CHARACTER_DEVICE | MAKE_BLOCK_DEVICE)
     for place, right in allowed.items():
         with suppress(FileNotFoundError):
-            at = os.open(place, os.O_PATH)
-            own = struct.pack("=Qi", rights & (right if place.is_dir() else right & (USE | 1)), at)
-            _call("syscall", RULE, rules, 1, own, 0)
-            os.close(at)
+            _allow(rules, place, rights & right)
     _call("syscall", RESTRICT, rules, 0)
     os.close(rules)
 
 
+def _allow(rules: int, place: Path, rights: int) -> None:
+    """Add a rule of Landlock: these rights for a folder and all that is in it, or for a file."""
+    descriptor = os.open(place, os.O_PATH)
+    applicable = rights if place.is_dir() else rights & OF_A_FILE
+    rule = struct.pack("=Qi", applicable, descriptor)  # `struct landlock_path_beneath_attr`
+    _call("syscall", RULE, rules, BENEATH_PATH, rule, 0)
+    os.close(descriptor)
+
+
 def readable(hidden: Sequence[str]) -> list[Path]:
-    """List what a student's process may read: Python, this package, programs and libraries.
+    """List the places that a student's process may read: Python, this package, programs and libraries.
 
     A checkout of this package is on Python's path for the package's sake; the rest of it is left out.
 
@@ -162,15 +201,17 @@ def readable(hidden: Sequence[str]) -> list[Path]:
     >>> Path("/dev") in readable([])
     False
     """
-    package, kept_out = Path(mocap.__file__).parent, [Path(place).resolve() for place in hidden]
+    package = Path(mocap.__file__).parent
+    kept_out = [Path(place).resolve() for place in hidden]
     path = [place for place in map(Path, sys.path) if place != package.parent or "-packages" in place.name]
-    places = {Path(f"{each}").resolve() for each in (sys.prefix, sys.base_prefix, *path, package, *SYSTEM)}
+    needed = [sys.prefix, sys.base_prefix, *path, package, *SYSTEM]
+    places = {Path(place).resolve() for place in needed}
     return [part for place in places for part in _without(place, kept_out)]
 
 
 def _without(place: Path, hidden: Sequence[Path]) -> Iterable[Path]:
     """Yield the largest folders at and below a place that hold none of the hidden ones."""
-    if not any(other.is_relative_to(place) for other in hidden):
+    if not any(hidden_place.is_relative_to(place) for hidden_place in hidden):
         yield place
     elif place not in hidden:
         for part in place.iterdir():
@@ -179,23 +220,15 @@ def _without(place: Path, hidden: Sequence[Path]) -> Iterable[Path]:
 
 
 def _filter() -> None:
-    """Refuse the system calls `DENIED` to this process and what it starts, and to cut a file opened to read.
+    """Raise `call_filter` around this process and what it starts.
 
     Raises
     ------
     OSError : where the kernel has no filters, or their numbers are unknown.
     """
-    if sys.platform != "linux" or platform.machine() not in DENIED:
+    if sys.platform != "linux" or platform.machine() not in MACHINES:
         raise OSError("no filter for this machine")
-    machine, numbers, without_effect = DENIED[platform.machine()]
-    allow, fail, pretend = 0x7FFF0000, 0x50000 | errno.EPERM, 0x50000
-    program = [(0x20, 0, 0, 4), (0x15, 1, 0, machine), (0x06, 0, 0, fail)]  # fail, if for another machine
-    program += [(0x20, 0, 0, 0), (0x35, 0, 1, 1 << 30), (0x06, 0, 0, fail)]
-    for answer, group in ((fail, numbers), (pretend, without_effect)):
-        program += [step for one in group for step in ((0x15, 0, 1, one), (0x06, 0, 0, answer))]
-    for one, flags in FLAGS[platform.machine()]:  # O_TRUNC may not go with O_RDONLY, nor 3, which is neither
-        cut = [(0x20, 0, 0, flags), (0x54, 0, 0, 0o1003), (0x15, 1, 0, 0o1000), (0x15, 0, 1, 0o1003)]
-        program += [(0x15, 0, 6, one), *cut, (0x06, 0, 0, fail), (0x06, 0, 0, allow)]
-    program += [(0x06, 0, 0, allow)]
-    code = ctypes.create_string_buffer(b"".join(struct.pack("HBBI", *step) for step in program))
-    prctl(SET_FILTER, 2, struct.pack("HxxxxxxQ", len(program), ctypes.addressof(code)))
+    program = call_filter(platform.machine())
+    memory = ctypes.create_string_buffer(program)
+    steps = len(program) // STEP
+    prctl(SET_FILTER, BY_PROGRAM, struct.pack("HxxxxxxQ", steps, ctypes.addressof(memory)))

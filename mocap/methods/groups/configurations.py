@@ -28,9 +28,11 @@ SLOWEST = 0.2  # m/s; the mean velocity of a slower group has no direction
 EQUAL_COSTS = 1e-6
 EQUAL = 1e-9
 
+TINY = 1e-12  # m²; groups whose places and velocities correlate by less have no best rotation
+
 
 class Match(NamedTuple):
-    """How one configuration lies on another: p ↦ turn · p[order] + move, and the RMS distance left, metres.
+    """A match of two configurations: p ↦ turn · p[order] + move, and the RMS residual, metres.
 
     `order` (..., N): which member of the second stands for each of the first.
 
@@ -47,7 +49,7 @@ class Match(NamedTuple):
 
 
 def seen_from_itself(group: Configuration) -> tuple[Configuration, Points, Points]:
-    """See a group from its middle, along its mean velocity: the configuration, the turn and the move back.
+    """See a group from its middle, along its mean velocity, and return the rotation and translation back.
 
     Raises
     ------
@@ -66,22 +68,25 @@ def seen_from_itself(group: Configuration) -> tuple[Configuration, Points, Point
 
     Notebook: 19-group-graphs
     """
-    middle, way = group.places.mean(axis=-1), group.velocities.mean(axis=-1)
-    if not (np.abs(way) >= SLOWEST).all():
-        slow = f"A group that moves by {np.abs(way).min():.2f} m/s on average has no direction"
+    middle = group.places.mean(axis=-1)
+    velocity = group.velocities.mean(axis=-1)
+    speed = np.abs(velocity)
+    if not (speed >= SLOWEST).all():
+        slow = f"A group that moves by {speed.min():.2f} m/s on average has no direction"
         raise MocapError(f"{slow}; {SLOWEST:g} m/s is the least.")
-    turn = way / np.abs(way)
-    places = (group.places - middle[..., None]) * turn[..., None].conj()
-    return Configuration(places, group.velocities * turn[..., None].conj()), turn, middle
+    rotation = velocity / speed
+    inverse = rotation[..., None].conj()
+    places = (group.places - middle[..., None]) * inverse
+    return Configuration(places, group.velocities * inverse), rotation, middle
 
 
 def compare(
     first: Configuration, second: Configuration, *, starts: tuple[float, ...] = STARTS, rounds: int = ROUNDS
 ) -> Match:
-    """Match the members of two groups, and lay the second on the first [ours].
+    """Match the members of two groups, and align the second with the first [ours].
 
-    The RMS over members of |p - T p'|² + τ² |v - e^{iθ} v'|² is made small, τ = 0.7 s, by turns: for a given
-    T = (θ, move) the best order is an assignment; for a given order the best T has a closed form,
+    The RMS over members of |p - T p'|² + τ² |v - e^{iθ} v'|² is reduced, τ = 0.7 s, in alternation. For a
+    given T = (θ, move) the best order is an assignment; for a given order the best T has a closed form,
     θ = arg(Σ (p - p̄)(p' - p̄')* + τ² Σ v v'*), move = p̄ - e^{iθ} p̄'. Both lower the same sum, so it ends. It
     starts where the mean velocities point, and half a radian to either side.
 
@@ -107,44 +112,60 @@ def compare(
 
     Notebook: 19-group-graphs
     """
-    sizes = first.places.shape[-1], second.places.shape[-1]
-    if sizes[0] != sizes[1]:
-        raise MocapError(f"Groups of {sizes[0]} and {sizes[1]} members cannot be matched.")
-    parts = np.broadcast_arrays(*first, *second)
-    rows = [part.reshape(-1, sizes[0]) for part in parts]
-    one, other = Configuration(*rows[:2]), Configuration(*rows[2:])
-    tried = [_by_turns(one, other, start, rounds) for start in starts]
-    best = first_least([match.rms for match in tried], EQUAL, axis=0)
-    found = (np.stack(part)[best, np.arange(len(best))] for part in zip(*tried, strict=True))
-    return Match._make(part.reshape((*parts[0].shape[:-1], *part.shape[1:])) for part in found)
+    members = first.places.shape[-1]
+    if second.places.shape[-1] != members:
+        raise MocapError(f"Groups of {members} and {second.places.shape[-1]} members cannot be matched.")
+    fields = np.broadcast_arrays(*first, *second)
+    leading = fields[0].shape[:-1]
+    rows = [field.reshape(-1, members) for field in fields]
+    first_rows = Configuration(*rows[:2])
+    second_rows = Configuration(*rows[2:])
+    trials = [_alternate(first_rows, second_rows, start, rounds) for start in starts]
+    best = first_least([match.rms for match in trials], EQUAL, axis=0)
+    best_fields = [np.stack(field)[best, np.arange(len(best))] for field in zip(*trials, strict=True)]
+    return Match._make(field.reshape((*leading, *field.shape[1:])) for field in best_fields)
 
 
-def _by_turns(one: Configuration, other: Configuration, start: float, rounds: int) -> Match:
-    """Assign and lay M pairs on by turns, (M, N) each, from one turn, until no pair gets nearer."""
-    way, other_way = one.velocities.mean(axis=1), other.velocities.mean(axis=1)
-    turn = np.exp(1j * (np.angle(way * other_way.conj()) + start))
-    move = one.places.mean(axis=1) - turn * other.places.mean(axis=1)
+def _alternate(first: Configuration, second: Configuration, start: float, rounds: int) -> Match:
+    """Alternate between assignment and alignment of M pairs, (M, N) each, until no pair improves.
+
+    The first rotation is from one mean velocity to the other, and `start` radians more.
+    """
+    direction = first.velocities.mean(axis=1)
+    second_direction = second.velocities.mean(axis=1)
+    turn = np.exp(1j * (np.angle(direction * second_direction.conj()) + start))
+    move = first.places.mean(axis=1) - turn * second.places.mean(axis=1)
     match = Match(np.full(len(turn), np.inf), np.zeros(0, int), turn, move)
     for _ in range(rounds):
-        before, square = match.rms, assignment_costs(one, other, match.turn, match.move)
+        previous = match.rms
+        squares = assignment_costs(first, second, match.turn, match.move)
         # Whole numbers have no rounding, so equal orders stay equal.
-        order = np.array([linear_sum_assignment(costs)[1] for costs in whole_steps(square, EQUAL_COSTS)])
-        there, going = (np.take_along_axis(part, order, axis=1) for part in other)
-        middle, centre = one.places.mean(axis=1), there.mean(axis=1)
-        cross = ((one.places - middle[:, None]) * (there - centre[:, None]).conj()).sum(axis=1)
-        cross = cross + SECONDS**2 * (one.velocities * going.conj()).sum(axis=1)
-        turn = cross / np.maximum(np.abs(cross), 1e-12)
-        move = middle - turn * centre
-        gap = np.abs(one.places - turn[:, None] * there - move[:, None])
-        change = np.abs(one.velocities - turn[:, None] * going)
-        match = Match(np.sqrt((gap**2 + SECONDS**2 * change**2).mean(axis=1)), order, turn, move)
-        if (match.rms > before - 1e-9).all():
+        order = np.array([linear_sum_assignment(costs)[1] for costs in whole_steps(squares, EQUAL_COSTS)])
+        match = _align(first, second, order)
+        if (match.rms > previous - EQUAL).all():
             break
     return match
 
 
-def assignment_costs(one: Configuration, other: Configuration, turn: Points, move: Points) -> Array:
-    """Say what it costs to take member j of the second for member i of the first, (M, N, N) m².
+def _align(first: Configuration, second: Configuration, order: Indices) -> Match:
+    """Compute the best rotation and translation for an order of the second's members: the closed form."""
+    places, velocities = (np.take_along_axis(field, order, axis=1) for field in second)
+    middle = first.places.mean(axis=1)
+    second_middle = places.mean(axis=1)
+    offsets = first.places - middle[:, None]
+    second_offsets = places - second_middle[:, None]
+    correlation = (offsets * second_offsets.conj()).sum(axis=1)
+    correlation = correlation + SECONDS**2 * (first.velocities * velocities.conj()).sum(axis=1)
+    turn = correlation / np.maximum(np.abs(correlation), TINY)
+    move = middle - turn * second_middle
+    residual = np.abs(first.places - turn[:, None] * places - move[:, None])
+    change = np.abs(first.velocities - turn[:, None] * velocities)
+    squares = residual**2 + SECONDS**2 * change**2
+    return Match(np.sqrt(squares.mean(axis=1)), order, turn, move)
+
+
+def assignment_costs(first: Configuration, second: Configuration, turn: Points, move: Points) -> Array:
+    """Compute the cost of matching member i of the first with member j of the second, (M, N, N) m².
 
     Examples
     --------
@@ -155,9 +176,12 @@ def assignment_costs(one: Configuration, other: Configuration, turn: Points, mov
     >>> assignment_costs(one, other, np.array([-1j]), np.array([-5 + 0j])).round(2).tolist()
     [[[0.49, 1.49], [1.49, 0.49]]]
     """
-    gap = one.places[:, :, None] - (turn[:, None] * other.places + move[:, None])[:, None]
-    change = one.velocities[:, :, None] - (turn[:, None] * other.velocities)[:, None]
-    return np.asarray(gap.real**2 + gap.imag**2 + SECONDS**2 * (change.real**2 + change.imag**2))
+    aligned_places = turn[:, None] * second.places + move[:, None]
+    aligned_velocities = turn[:, None] * second.velocities
+    residual = first.places[:, :, None] - aligned_places[:, None]
+    change = first.velocities[:, :, None] - aligned_velocities[:, None]
+    squared_change = change.real**2 + change.imag**2
+    return np.asarray(residual.real**2 + residual.imag**2 + SECONDS**2 * squared_change)
 
 
 class Clusters(NamedTuple):
@@ -173,10 +197,10 @@ class Clusters(NamedTuple):
 
 
 def cluster(flock: Configuration, *, nodes: int = 8, reach: float = 0.5) -> Clusters:
-    """Choose configurations that come again [LCF05, nodes]; how is ours.
+    """Choose configurations that recur [LCF05, nodes]; the rule is ours.
 
-    Each time the one with the most others within `reach` that no node has yet. Comparing is O(S² N³) for S
-    frames of N members: this is the longest part of building a graph.
+    Each node is the frame with the most frames within `reach` that are near no node yet. Comparing is
+    O(S² N³) for S frames of N members: this is the longest part of building a graph.
 
     Parameters
     ----------
@@ -206,12 +230,12 @@ def cluster(flock: Configuration, *, nodes: int = 8, reach: float = 0.5) -> Clus
     Notebook: 19-group-graphs
     """
     step = round(EVERY * RATE)
-    seen, _, _ = seen_from_itself(Configuration(*(part[::step] for part in flock)))
+    seen, _, _ = seen_from_itself(Configuration(*(field[::step] for field in flock)))
     rows = list(map(Configuration, *seen))
     distances = np.zeros((len(rows),) * 2)
-    for row in range(1, len(rows)):  # with all before it, from the direction of the velocities alone
-        before = Configuration(*(part[:row] for part in seen))
-        rms = compare(rows[row], before, starts=(0.0,), rounds=2).rms
+    for row in range(1, len(rows)):  # with all earlier ones, from the direction of the velocities alone
+        earlier = Configuration(*(field[:row] for field in seen))
+        rms = compare(rows[row], earlier, starts=(0.0,), rounds=2).rms
         distances[row, :row] = distances[:row, row] = rms
     free: Mask = np.ones(len(distances), bool)
     chosen: list[int] = []
@@ -221,6 +245,6 @@ def cluster(flock: Configuration, *, nodes: int = 8, reach: float = 0.5) -> Clus
         free &= distances[best] >= reach
     covered = 1 - float(free.mean())
     if covered < COVERED:
-        near = f"{len(chosen)} nodes are within {reach:g} m of {covered:.0%} of what was simulated"
-        warn(f"{near}: take more nodes, or a larger reach.")
+        coverage = f"{len(chosen)} nodes are within {reach:g} m of {covered:.0%} of what was simulated"
+        warn(f"{coverage}: take more nodes, or a larger reach.")
     return Clusters(tuple(rows[row] for row in chosen), np.array(chosen) * step, covered, distances)

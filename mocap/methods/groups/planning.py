@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Indices, Points
+from mocap._shared.arrays import Array, Indices, Mask, Points
 from mocap._shared.ties import whole_steps
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import MocapError, NoWalk
@@ -22,7 +22,8 @@ from mocap.methods.groups.group_graphs import GroupGraph
 
 PACE = 1.05  # m/s, at which a group is expected to go on
 TURNING = 1.3  # seconds per radian still to turn
-CELL, SECTOR = 0.7, 0.3  # metres and radians: groups that stand nearer than this are one state
+CELL = 0.7  # metres; groups in one cell and one sector are one state
+SECTOR = 0.3  # radians
 MOST = 4000  # states to expand
 
 EQUAL = 1e-6  # seconds: ways that promise to take as long; the first one found goes on first
@@ -43,9 +44,9 @@ class Scene(NamedTuple):
 
     points: tuple[complex, ...]
     discs: tuple[Disc, ...] = ()
-    near: float = 1.0
+    near: float = 1.0  # reads: name: users give it as a keyword
     body: float = 0.3
-    others: tuple[Points, ...] = ()
+    others: tuple[Points, ...] = ()  # reads: name: users give it as a keyword
 
     def check(self, start: complex, members: Sequence[complex] | Points = ()) -> None:
         """Raise MocapError for what makes no sense, and a start in a disc; NoWalk for members near one.
@@ -57,22 +58,31 @@ class Scene(NamedTuple):
         >>> scene = Scene((8 + 0j,), ((4 + 0j, 0.5),), body=0.25)
         >>> scene.check(3.5 + 0j, [3.25 + 0j])
         """
-        if not self.points or np.ndim(self.points) != 1 or not np.isfinite([start, *self.points]).all():
+        is_list = bool(self.points) and np.ndim(self.points) == 1
+        if not is_list or not np.isfinite([start, *self.points]).all():
             says = f"A scene has finite points z + ix to pass, one or more, from a start; got {self.points}"
             raise MocapError(f"{says[:160]} from {start}.")
-        for centre, radius in self.discs:
-            if not (np.isfinite(centre) and 0 < radius < np.inf):
-                raise MocapError(f"An obstacle has a centre and a radius above 0, got {centre}, {radius}.")
-            at = f"obstacle at x={centre.imag:g}, z={centre.real:g}"
-            if abs(start - centre) < radius:
-                raise MocapError(f"The group starts inside the {at}.")
-            if len(members) and (gap := np.abs(np.subtract(members, centre)) - radius).min() < self.body:
-                far = f"Member {gap.argmin() + 1} starts {gap.min():.2f} m from the rim of the {at}"
-                raise NoWalk(f"{far}: {self.body:g} m is the least.")
+        for disc in self.discs:
+            self._check_disc(disc, start, members)
+
+    def _check_disc(self, disc: Disc, start: complex, members: Sequence[complex] | Points) -> None:
+        """Raise for a disc that is none, that holds the start, or whose rim is near a member."""
+        centre, radius = disc
+        if not (np.isfinite(centre) and 0 < radius < np.inf):
+            raise MocapError(f"An obstacle has a centre and a radius above 0, got {centre}, {radius}.")
+        obstacle = f"obstacle at x={centre.imag:g}, z={centre.real:g}"
+        if abs(start - centre) < radius:
+            raise MocapError(f"The group starts inside the {obstacle}.")
+        if not len(members):
+            return
+        distances = np.abs(np.subtract(members, centre)) - radius  # to the rim
+        if distances.min() < self.body:
+            member = f"Member {distances.argmin() + 1} starts {distances.min():.2f} m from the rim"
+            raise NoWalk(f"{member} of the {obstacle}: {self.body:g} m is the least.")
 
 
 class Search:
-    """All clips of a graph side by side, what they may run into, and how often bounds alone were enough.
+    """All clips of a graph side by side, their obstacles, and how often bounds alone were enough.
 
     Parameters
     ----------
@@ -82,66 +92,101 @@ class Search:
 
     def __init__(self, graph: GroupGraph, scene: Scene) -> None:
         clips = graph.clips
-        self.graph, self.scene, self.places = graph, scene, np.array([clip.places for clip in clips])
-        self.middles, self.turns = self.places.mean(axis=2), np.array([clip.turn for clip in clips])
-        self.centres, self.radii = (
-            np.array(part) for part in zip(*(clip.disc for clip in clips), strict=True)
-        )
+        centres, radii = zip(*(clip.disc for clip in clips), strict=True)
+        self.graph = graph
+        self.scene = scene
+        self.places = np.array([clip.places for clip in clips])  # (clips, frames, members)
+        self.middles = self.places.mean(axis=2)
+        self.turns = np.array([clip.turn for clip in clips])
+        self.centres = np.array(centres)  # discs that hold all places of a clip
+        self.radii = np.array(radii)
         self.leaving = [np.array(graph.leaving(node), int) for node in range(len(graph.nodes))]
         self.spots = np.array([spot for spot, _ in scene.discs], dtype=np.complex128)
         self.sizes = np.array([radius + scene.body for _, radius in scene.discs])
-        self.tested = self.spared = 0
+        self.tested = 0  # pairs of a clip and an obstacle, frame by frame
+        self.spared = 0  # pairs for which the bounds were enough
 
     def free(self, node: int, turn: complex, move: complex, frame: int) -> Indices:
         """List the clips that leave a node, turned and moved, and keep clear of all, from a frame on."""
-        clips, spots = self.leaving[node], (self.spots - move) / turn  # as the group sees them
-        near = np.abs(self.centres[clips, None] - spots) <= self.radii[clips, None] + self.sizes
-        self.spared += near.size - int(near.sum())
-        free = np.ones(len(clips), bool)
-        for disc in np.flatnonzero(near.any(axis=0)):
-            rows = np.flatnonzero(near[:, disc] & free)  # a clip that hits one disc is not tested again
-            self.tested += len(rows)
-            apart = np.abs(self.places[clips[rows]] - spots[disc]).min(axis=(1, 2))
-            free[rows] = apart >= self.sizes[disc]
+        clips = self.leaving[node]
+        free = self._clear_of_discs(clips, (self.spots - move) / turn)  # as the group sees them
         frames = frame + np.arange(self.places.shape[1])
-        for other in self.scene.others:
-            members = (other[np.minimum(frames, len(other) - 1)] - move) / turn
+        for group in self.scene.others:
+            members = (group[np.minimum(frames, len(group) - 1)] - move) / turn
             for row in np.flatnonzero(free):
-                clip = clips[row]
-                if np.abs(members - self.centres[clip]).min() > self.radii[clip] + APART:
-                    self.spared += 1
-                    continue
-                self.tested += 1
-                free[row] = np.abs(self.places[clip][:, :, None] - members[:, None]).min() >= APART
+                free[row] = self._is_clear_of(members, clips[row])
         return clips[free]
 
+    def _clear_of_discs(self, clips: Indices, spots: Points) -> Mask:
+        """Mark the clips whose members keep clear of all discs, with centres at these spots."""
+        distances = np.abs(self.centres[clips, None] - spots)
+        bounds_meet = distances <= self.radii[clips, None] + self.sizes
+        self.spared += bounds_meet.size - int(bounds_meet.sum())
+        free = np.ones(len(clips), bool)
+        for disc in np.flatnonzero(bounds_meet.any(axis=0)):
+            rows = np.flatnonzero(
+                bounds_meet[:, disc] & free
+            )  # a clip that hits one disc is not tested again
+            self.tested += len(rows)
+            nearest = np.abs(self.places[clips[rows]] - spots[disc]).min(axis=(1, 2))
+            free[rows] = nearest >= self.sizes[disc]
+        return free
+
+    def _is_clear_of(self, members: Points, clip: int) -> bool:
+        """Check whether a clip keeps 0.60 m away from members of another group, (frames, members)."""
+        from_centre = np.abs(members - self.centres[clip]).min()
+        if from_centre > self.radii[clip] + APART:
+            self.spared += 1
+            return True
+        self.tested += 1
+        distances = np.abs(self.places[clip][:, :, None] - members[:, None])
+        return bool(distances.min() >= APART)
+
     def go_on(self, state: "State") -> Iterator[tuple[float, "State"]]:
-        """Walk the clips that are free: the seconds expected from each one's end on, and the state there."""
-        node, turn, move, passed, start, _, walked = state
-        clips, near = self.free(node, turn, move, start), self.scene.near
-        points, ways = (np.array(self.scene.points) - move) / turn, self.middles[clips]
-        goals, frames = np.full(len(clips), passed), np.zeros(len(clips), int)
-        for row in np.flatnonzero((np.abs(ways - points[passed]) < near).any(axis=1)):
-            for point in points[passed:]:
-                if not (close := np.abs(ways[row, frames[row] :] - point) < near).any():
-                    break
-                goals[row], frames[row] = goals[row] + 1, frames[row] + close.argmax()
-        legs = np.abs(np.diff(self.scene.points))
-        goal = np.minimum(goals, len(legs))
-        ahead = points[goal] - ways[:, -1]
-        metres = np.maximum(np.abs(ahead) - near, 0.0) + np.append(np.cumsum(legs[::-1])[::-1], 0.0)[goal]
-        left = metres / PACE + TURNING * np.abs(np.angle(ahead / self.turns[clips]))
-        last = start + ways.shape[1] - 1
-        seconds = np.where(goals == len(points), start + frames, last) / RATE
-        rows = (part.tolist() for part in (clips, goals, seconds, left))
-        for number, goal, until, more in zip(*rows, strict=True):
+        """Extend a state by each free clip: yield the seconds expected after it, and the new state."""
+        clips = self.free(state.node, state.turn, state.move, state.frames)
+        points = (np.array(self.scene.points) - state.move) / state.turn  # as the group sees them
+        paths = self.middles[clips]
+        goals, passed_at = self._pass_points(paths, points, state.goal)
+        remaining = self._expected_seconds(paths[:, -1], self.turns[clips], points, goals)
+        last = state.frames + paths.shape[1] - 1
+        seconds = np.where(goals == len(points), state.frames + passed_at, last) / RATE
+        rows = (column.tolist() for column in (clips, goals, seconds, remaining))
+        for number, goal, elapsed, expected in zip(*rows, strict=True):
             clip = self.graph.clips[number]
-            at = turn * clip.turn, turn * clip.move + move
-            yield more, State(clip.end, *at, goal, last, until, (*walked, number))
+            turn = state.turn * clip.turn
+            move = state.turn * clip.move + state.move
+            yield expected, State(clip.end, turn, move, goal, last, elapsed, (*state.clips, number))
+
+    def _pass_points(self, paths: Points, points: Points, goal: int) -> tuple[Indices, Indices]:
+        """Count the points that have been passed after each path, of which `goal` had been passed before it.
+
+        Also return the frame of the path in which it passed its last point.
+        """
+        goals = np.full(len(paths), goal)
+        frames = np.zeros(len(paths), int)
+        passes_any = (np.abs(paths - points[goal]) < self.scene.near).any(axis=1)
+        for row in np.flatnonzero(passes_any):
+            for point in points[goal:]:
+                is_near = np.abs(paths[row, frames[row] :] - point) < self.scene.near
+                if not is_near.any():
+                    break
+                goals[row] += 1
+                frames[row] += is_near.argmax()
+        return goals, frames
+
+    def _expected_seconds(self, ends: Points, turns: Points, points: Points, goals: Indices) -> Array:
+        """Estimate the time from the ends of clips to the last point, at `PACE`, and for the first turn."""
+        legs = np.abs(np.diff(self.scene.points))
+        after_point = np.append(np.cumsum(legs[::-1])[::-1], 0.0)  # metres from each point to the last one
+        goal = np.minimum(goals, len(points) - 1)
+        ahead = points[goal] - ends
+        metres = np.maximum(np.abs(ahead) - self.scene.near, 0.0) + after_point[goal]
+        return np.asarray(metres / PACE + TURNING * np.abs(np.angle(ahead / turns)))
 
 
 class GroupWalk(NamedTuple):
-    """A planned way: numbers of clips, its seconds, and what the search took.
+    """A planned path: numbers of clips, its seconds, and the effort of the search.
 
     `expanded` states; `tested` pairs of clip and obstacle frame by frame, `spared` by their bounds.
 
@@ -180,7 +225,7 @@ def plan_group(
     *,
     start: PlanarTransform = IDENTITY,
     weight: float = 1.5,
-    most: int = MOST,
+    most: int = MOST,  # reads: name: users give it as a keyword
 ) -> GroupWalk:
     """Find clips that lead a group past all points and clear of all obstacles [LCF05, search].
 
@@ -217,27 +262,48 @@ def plan_group(
     Notebook: 19-group-graphs
     """
     scene.check(complex(start.move), start.turn * graph.nodes[0].places + start.move)
-    search, points = Search(graph, scene), len(scene.points)
-    begin = State(0, complex(start.turn), complex(start.move))
-    waiting, count, farthest = [(0.0, 0, begin)], 0, 0
+    search = Search(graph, scene)
+    waiting = [(0.0, 0, State(0, complex(start.turn), complex(start.move)))]  # promise, count, state
+    count = 0
+    farthest = 0  # points passed
     seen: set[tuple[float, ...]] = set()
     while waiting and len(seen) < most:
-        state = heappop(waiting)[2]
+        _, _, state = heappop(waiting)
         farthest = max(farthest, state.goal)
-        if state.goal == points:
+        if state.goal == len(scene.points):
             return GroupWalk(list(state.clips), state.seconds, len(seen), search.tested, search.spared)
-        # States that stand alike are one, with other groups about only at the same time.
-        cell = (state.move.real / CELL, state.move.imag / CELL, phase(state.turn) / SECTOR)
-        key = (state.node, state.goal, *map(round, cell), state.frames if scene.others else 0)
-        if key in seen:
+        cell = _cell(state, with_others=bool(scene.others))
+        if cell in seen:
             continue
-        seen.add(key)
-        for left, after in search.go_on(state):
+        seen.add(cell)
+        for expected, successor in search.go_on(state):
             count += 1
-            promise = after.seconds + (0.0 if after.goal == points else weight * left)
-            heappush(waiting, (float(whole_steps(promise, EQUAL)), count, after))
-    why = f"the limit of {most} states ended the search" if waiting else "obstacles closed every way"
-    helps = "Set a point on the way, allow more states" if waiting else "Start farther off or turned"
-    wide = min(np.ptp(node.places.imag) for node in graph.nodes) + 2 * scene.body + SHIFTS[-1]
-    helps += f", take fewer members, or leave gaps of {wide:.1f} m"  # which let the narrowest node through
-    raise NoWalk(f"No way past point {farthest + 1} of {points} was found: {why}. {helps}.")
+            remaining = 0.0 if successor.goal == len(scene.points) else weight * expected
+            promise = float(whole_steps(successor.seconds + remaining, EQUAL))
+            heappush(waiting, (promise, count, successor))
+    raise _no_way(graph, scene, farthest, limit=most if waiting else None)
+
+
+def _cell(state: State, *, with_others: bool) -> tuple[float, ...]:
+    """Return the same numbers for similar states, which count as one.
+
+    With other groups about, states are similar only at the same time.
+    """
+    row = round(state.move.real / CELL)
+    column = round(state.move.imag / CELL)
+    sector = round(phase(state.turn) / SECTOR)
+    return state.node, state.goal, row, column, sector, state.frames if with_others else 0
+
+
+def _no_way(graph: GroupGraph, scene: Scene, farthest: int, limit: int | None) -> NoWalk:
+    """Describe a search without success: the points passed, what ended it, and what would help."""
+    if limit is not None:
+        reason = f"the limit of {limit} states ended the search"
+        advice = "Set a point on the way, allow more states"
+    else:
+        reason = "obstacles closed every way"
+        advice = "Start farther off or turned"
+    narrowest = min(np.ptp(node.places.imag) for node in graph.nodes)
+    gap = narrowest + 2 * scene.body + SHIFTS[-1]
+    failure = f"No way past point {farthest + 1} of {len(scene.points)} was found: {reason}"
+    return NoWalk(f"{failure}. {advice}, take fewer members, or leave gaps of {gap:.1f} m.")

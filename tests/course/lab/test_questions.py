@@ -10,7 +10,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from mocap.course import lab
-from mocap.course.lab.asking import BET, asked, asked_before, summed_up, to_html, to_text
+from mocap.course.lab.asking import BET, show_bets, show_outcomes, show_quiz, to_html, to_text
 from mocap.course.lab.questions import TEXTS, computed, filled, read_questions
 from tests.course.stored_notebooks import FOLDER, every_notebook, read
 from tests.course.test_prose import PER, UNUSUAL
@@ -57,7 +57,7 @@ def seen(shown):
 
 
 def test_a_choice_shows_its_choices_and_hides_which_is_right():
-    shown = asked("99-more", QUIZZES["more"], {"limit": 4.2})
+    shown = show_quiz("99-more", QUIZZES["more"], {"limit": 4.2})
     spec = data(shown)
     choices = re.findall(r"^[a-z]\) (.*)$", shown.text, re.MULTILINE)
     assert sorted(choices) == ["at times", "no", "yes"]
@@ -73,35 +73,37 @@ def test_a_choice_shows_its_choices_and_hides_which_is_right():
 
 def test_the_right_choice_stands_where_it_is_asked_to_and_else_not_always_at_one_place():
     for place in (1, 2, 3):
-        assert data(asked("99-more", YES | {"place": place}, {}))["hints"].index("") == place - 1
-    places = [data(asked(f"99-{number}", YES, {}))["hints"].index("") for number in range(30)]
+        assert data(show_quiz("99-more", YES | {"place": place}, {}))["hints"].index("") == place - 1
+    places = [data(show_quiz(f"99-{number}", YES, {}))["hints"].index("") for number in range(30)]
     assert set(places) == {0, 1, 2}
 
 
 def test_a_bet_asks_and_the_summary_says_what_came_out():
     bets = {f"99-{name}": bet for name, bet in BETS.items()}
-    shown = asked_before(bets, {})
+    shown = show_bets(bets, {})
     assert shown.text == "Share: ______ %\nWhich? this / that"
     assert [one["key"] for one in data(shown)["bets"]] == ["99-share", "99-which"]
     assert "25" not in seen(shown) and "<li>Which? this / that</li>" in shown.html
-    summary = summed_up(bets, {"limit": 4})
+    summary = show_outcomes(bets, {"limit": 4})
     assert summary.text == "Share: 25 %\nWhich? that"
     assert [row["value"] for row in data(summary)["rows"]] == [25, None]
-    refused("99-which: the answer is no longer right: 'limit > 3' is false", summed_up, bets, {"limit": 2})
+    refused(
+        "99-which: the answer is no longer right: 'limit > 3' is false", show_outcomes, bets, {"limit": 2}
+    )
 
 
 def test_what_needs_captured_clips_is_left_open_without_them():
     bets = {"99-share": BETS["share"] | {"real": True}}
-    assert summed_up(bets, {}).text == "Share: "
-    assert data(summed_up(bets, {}))["rows"][0]["value"] is None
-    refused("Bet 99-share: '100 / limit' fails with ZeroDivisionError", summed_up, bets, {"limit": 0})
+    assert show_outcomes(bets, {}).text == "Share: "
+    assert data(show_outcomes(bets, {}))["rows"][0]["value"] is None
+    refused("Bet 99-share: '100 / limit' fails with ZeroDivisionError", show_outcomes, bets, {"limit": 0})
 
 
 def test_an_answer_that_is_no_longer_right_is_an_error():
     quiz = QUIZZES["more"] | {"holds": "limit > 3"}
-    assert asked("99-more", quiz, {"limit": np.float64(4)})
+    assert show_quiz("99-more", quiz, {"limit": np.float64(4)})
     for names, said in [({"limit": 2}, "no longer right"), ({}, "name 'limit' is not defined")]:
-        refused(said, asked, "99-more", quiz, names)
+        refused(said, show_quiz, "99-more", quiz, names)
 
 
 def test_marks_of_text():
