@@ -50,7 +50,7 @@ class Problem:
 
     graph: nx.MultiDiGraph
     step: Step
-    done: Callable[[State], bool]
+    done: Callable[[State], bool]  # reads: name: notebooks give it by keyword
 
 
 class SearchResult(NamedTuple):
@@ -71,7 +71,7 @@ class SearchResult(NamedTuple):
 
 
 class Branch(NamedTuple):
-    """A walk in the search tree: its last edge, and the branch `before` that edge.
+    """A walk in the search tree: its last edge, and its `parent`, the branch without that edge.
 
     Examples
     --------
@@ -85,14 +85,15 @@ class Branch(NamedTuple):
     state: State
     frames: int = 0
     edge: SearchEdge | None = None
-    before: "Branch | None" = None
+    parent: "Branch | None" = None
 
     def walk(self) -> list[SearchEdge]:
         """List the walk's edges in order."""
-        edges, branch = [], self
-        while branch.edge is not None and branch.before is not None:
+        edges = []
+        branch = self
+        while branch.edge is not None and branch.parent is not None:
             edges.append(branch.edge)
-            branch = branch.before
+            branch = branch.parent
         return edges[::-1]
 
 
@@ -133,15 +134,19 @@ def branch_and_bound(
     """
     if node not in problem.graph:
         raise NoWalk(f"The graph has no node {node}.")
-    stack, best = [Branch(0.0, node, state)], None
-    furthest, expanded, cut, stopped = stack[0], 0, 0, ""
+    longest = Branch(0.0, node, state)
+    best: Branch | None = None
+    stack = [longest]
+    expanded = 0
+    cut = 0
+    stopped = ""
     try:
         while stack and not stopped:
             branch = stack.pop()
-            furthest = max(furthest, branch, key=lambda b: b.frames)
-            if best and branch.cost >= best.cost - EQUAL:
+            longest = max(longest, branch, key=lambda branch: branch.frames)
+            if _is_cut(branch, best):
                 cut += 1
-            elif problem.done(branch.state) or branch.frames >= horizon:
+            elif _is_complete(problem, branch, horizon):
                 best = branch
             elif expanded >= budget:
                 stopped = "out of nodes"
@@ -152,8 +157,18 @@ def branch_and_bound(
         stopped = "interrupted"
     if not (best or stopped):
         raise NoWalk(f"Every walk from node {node} ends too early: prune the graph first.")
-    last = best or furthest
+    last = best or longest
     return SearchResult(last.walk(), last.cost, last.state, best is not None, expanded, cut, stopped)
+
+
+def _is_cut(branch: Branch, best: Branch | None) -> bool:
+    """Check the bound: whether a walk costs as much as the best complete one."""
+    return best is not None and branch.cost >= best.cost - EQUAL
+
+
+def _is_complete(problem: Problem, branch: Branch, horizon: float) -> bool:
+    """Check whether a walk meets the halting rule or the horizon."""
+    return problem.done(branch.state) or branch.frames >= horizon
 
 
 def children(problem: Problem, branch: Branch) -> list[Branch]:
@@ -169,14 +184,14 @@ def children(problem: Problem, branch: Branch) -> list[Branch]:
     >>> [(child.node, child.cost) for child in children(problem, Branch(0.0, 1, None))]
     [(3, 3.0), (2, 2.0)]
     """
-    found = []
+    branches = []
     for start, end, key, frames in problem.graph.out_edges(branch.node, keys=True, data="frames"):
         edge = (start, end, key)
         cost, state = problem.step(branch.state, edge)
         if not cost >= 0:
             raise MocapError(f"A cost must be 0 or more, got {cost} for the edge {edge}.")
-        found.append(Branch(branch.cost + cost, end, state, branch.frames + frames, edge, branch))
-    return [found[number] for number in in_order([-child.cost for child in found], EQUAL)]
+        branches.append(Branch(branch.cost + cost, end, state, branch.frames + frames, edge, branch))
+    return [branches[number] for number in in_order([-child.cost for child in branches], EQUAL)]
 
 
 def search_ahead(
@@ -223,16 +238,23 @@ def search_ahead(
     if not 1 <= keep <= ahead:
         raise MocapError(f"Of the frames looked ahead some must be kept, got n = {ahead} and m = {keep}.")
     walk: list[SearchEdge] = []
-    cost, expanded, cut, stopped = 0.0, 0, 0, ""
+    cost = 0.0
+    expanded = cut = 0
+    stopped = ""
     while not problem.done(state) and stopped != "interrupted":
-        found = branch_and_bound(problem, node, state, horizon=ahead, budget=budget)
-        frames, kept = 0, 0
-        while kept < len(found.walk) and frames < keep and not problem.done(state):
-            edge = found.walk[kept]
-            more, state = problem.step(state, edge)
-            cost, frames, kept = cost + more, frames + problem.graph.edges[edge]["frames"], kept + 1
-        expanded, cut, stopped = expanded + found.expanded, cut + found.cut, found.stopped or stopped
-        if not kept:
+        best = branch_and_bound(problem, node, state, horizon=ahead, budget=budget)
+        expanded += best.expanded
+        cut += best.cut
+        stopped = best.stopped or stopped
+        if not best.walk:
             break
-        walk, node = walk + found.walk[:kept], found.walk[kept - 1][1]
+        frames = 0
+        for edge in best.walk:
+            if frames >= keep or problem.done(state):
+                break
+            edge_cost, state = problem.step(state, edge)
+            cost += edge_cost
+            frames += problem.graph.edges[edge]["frames"]
+            walk.append(edge)
+        node = walk[-1][1]
     return SearchResult(walk, cost, state, problem.done(state), expanded, cut, stopped)
