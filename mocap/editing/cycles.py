@@ -31,6 +31,7 @@ LONGEST = 300.0  # seconds of a clip: the grid of all its windows takes 0.3 GB
 ROWS = 600  # frames of the clip, evenly chosen, that a cycle may cover
 MOSTLY = 90  # percent of the frames: where the data leap, a frame counts no more than these
 ENOUGH = 1.1  # times the least cost: two strides are hardly better than one
+TINY = 1e-9  # metres, and of the clip's motion: no weight is 0, and no average of nothing is 0 / 0
 
 # m² and metres. In 32 bits D is right to some 4e-7 m², so a D of less than `NOTHING` is 0. Costs are then
 # right to some 1e-5 m, and the first of equal cycles is taken: a clip that repeats itself has one a round.
@@ -86,22 +87,22 @@ def find_loop(motion: Motion, *, seconds: tuple[float, float] = (0.4, 3.0)) -> L
     slow = resample(motion, COARSE) if motion.fps > COARSE else motion
     if not SEAM <= seconds[0] <= seconds[1] < np.inf:
         raise MocapError(f"A cycle lasts {SEAM:g} s or more, from one bound to a larger one; got {seconds}.")
-    window, least = (max(2, round(length * slow.fps)) for length in (SEAM, seconds[0]))
-    most = min(round(seconds[1] * slow.fps), len(slow) - window)
-    if least > most or slow.duration > LONGEST:
+    window, shortest = (max(2, round(length * slow.fps)) for length in (SEAM, seconds[0]))
+    longest = min(round(seconds[1] * slow.fps), len(slow) - window)
+    if shortest > longest or slow.duration > LONGEST:
         lasts = f"'{shortened(motion.name)}' lasts {motion.duration:.3g} s"
         raise MocapError(f"{lasts}: to find a cycle takes {seconds[0] + SEAM:g} to {LONGEST:g} s.")
     points = point_cloud(slow)
     points = (points - points.mean(axis=(0, 1))).astype(np.float32)  # kilometres away 32 bits are too few
     grid = distance_grid(points, points, window=window)
     np.sqrt(np.where(grid < NOTHING, np.float32(0.0), grid), out=grid)
-    first, length, missed = _best(grid, least, most)
+    first, length, missed = _best(grid, shortest, longest)
     ends = (first / slow.fps, (first + length) / slow.fps)
     return _refined(motion, ends, seconds[0], missed)
 
 
-def _best(grid: Floats, least: int, most: int) -> tuple[int, int, float]:
-    """Find the first frame and the length of the best cycle, and what it misses.
+def _best(grid: Floats, shortest: int, longest: int) -> tuple[int, int, float]:
+    """Find the first frame and the length of the best cycle, and its `missed`.
 
     Examples
     --------
@@ -112,41 +113,48 @@ def _best(grid: Floats, least: int, most: int) -> tuple[int, int, float]:
     """
     count = len(grid)
     chosen = np.unique(np.linspace(0, count - 1, min(count, ROWS)).astype(int))
-    moved = np.append(np.diagonal(grid, 1), 0.0)[chosen]  # how far the body moves from each to the next frame
-    moved = np.minimum(moved, np.percentile(moved, MOSTLY)) + 1e-9
-    share = moved / moved.sum()
-    before = np.concatenate([[0.0], np.cumsum(np.bincount(chosen, share, count))])
+    displacements = np.append(np.diagonal(grid, 1), 0.0)[chosen]  # of the body, to the next frame
+    displacements = np.minimum(displacements, np.percentile(displacements, MOSTLY)) + TINY
+    weights = displacements / displacements.sum()
+    cumulated = np.concatenate([[0.0], np.cumsum(np.bincount(chosen, weights, count))])
     rows = grid[chosen]
     nearest = rows.copy()  # [f, i]: from frame f to the nearest of the cycle that starts at i
-    found = []
-    for length in range(1, most + 1):
+    cycles = []
+    for length in range(1, longest + 1):
         starts = count - length
-        if length >= least:
-            outside = 1 - (before[length:-1] - before[:starts])
-            missed = share @ nearest[:, :starts] / np.maximum(outside, 1e-9)
+        if length >= shortest:
+            weight_outside = 1 - (cumulated[length:-1] - cumulated[:starts])
+            missed = weights @ nearest[:, :starts] / np.maximum(weight_outside, TINY)
             costs = np.diagonal(grid, length) + missed
             start = int(first_least(costs, EQUAL))
-            found.append((float(costs[start]), start, length, float(missed[start])))
+            cycles.append((float(costs[start]), start, length, float(missed[start])))
         np.minimum(nearest[:, :starts], rows[:, length:], out=nearest[:, :starts])
-    enough = ENOUGH * min(cost for cost, *_ in found) + EQUAL
-    return next(row[1:] for row in found if row[0] <= enough)
+    largest_cost = ENOUGH * min(cost for cost, *_ in cycles) + EQUAL
+    return next((start, length, missed) for cost, start, length, missed in cycles if cost <= largest_cost)
 
 
 def _refined(motion: Motion, ends: tuple[float, float], shortest: float, missed: float) -> Loop:
     """Move both ends by less than a coarse frame to where they are closest."""
-    window, reach = max(2, round(SEAM * motion.fps)), int(np.ceil(motion.fps / COARSE))
-    around = []
+    window = max(2, round(SEAM * motion.fps))
+    reach = int(np.ceil(motion.fps / COARSE))  # frames
+    latest = len(motion) - window - 1  # a frame must follow the window
+    candidates = []
     for time in ends:
-        middle = min(round(time * motion.fps), len(motion) - window - 1)  # a frame must follow the window
-        around.append(range(max(0, middle - reach), min(middle + reach, len(motion) - window - 1) + 1))
-    parts = [motion[places[0] : places[-1] + window] for places in around]
+        middle = min(round(time * motion.fps), latest)
+        candidates.append(range(max(0, middle - reach), min(middle + reach, latest) + 1))
+    firsts, lasts = candidates
+    parts = [motion[frames[0] : frames[-1] + window] for frames in candidates]
     grid = distance_grid(*parts, window=window)
-    grid[np.subtract.outer(*around) > -shortest * motion.fps] = np.inf
-    i, j = np.unravel_index(int(first_least(grid, distance_grids.EQUAL)), grid.shape)
-    return Loop(around[0][int(i)], around[1][int(j)], float(np.sqrt(max(grid[i, j], 0.0))), missed)
+    grid[np.subtract.outer(firsts, lasts) > -shortest * motion.fps] = np.inf
+    nearest = int(first_least(grid, distance_grids.EQUAL))
+    i, j = divmod(nearest, len(lasts))
+    seam = float(np.sqrt(max(grid[i, j], 0.0)))
+    return Loop(firsts[i], lasts[j], seam, missed)
 
 
-def loop(motion: Motion, found: Loop | None = None, *, straight: bool = False, clean: bool = False) -> Motion:
+def loop(  # reads: name: `found` is a parameter that users may give by its name
+    motion: Motion, found: Loop | None = None, *, straight: bool = False, clean: bool = False
+) -> Motion:
     """Cut a cycle out of a clip and close it.
 
     What follows the cycle in the clip passes into its beginning, within 0.2 s, as a transition of a motion
@@ -184,40 +192,45 @@ def loop(motion: Motion, found: Loop | None = None, *, straight: bool = False, c
     >>> len(loop(walk, Loop(0, 24, 0, 0))), len(loop(walk, Loop(400, 455, 0, 0)))  # the seam takes 24 frames
     (25, 56)
     """
-    found, window = found or find_loop(motion), max(2, round(SEAM * motion.fps))
-    if not 0 <= found.first < found.last < len(motion) - window or found.last - found.first < window:
-        asked = f"A cycle from frame {found.first} to {found.last} of {len(motion)}"
-        raise MocapError(f"{asked} leaves no room for a seam of {window} frames.")
-    joined = join(motion, found.last, motion, found.first, window)
-    cycle = joined[found.first + window : found.last + window + 1]
+    first, last, *_ = found or find_loop(motion)
+    window = max(2, round(SEAM * motion.fps))
+    if not 0 <= first < last < len(motion) - window or last - first < window:
+        frames = f"from frame {first} to {last} of {len(motion)}"
+        raise MocapError(f"A cycle {frames} leaves no room for a seam of {window} frames.")
+    joined = join(motion, last, motion, first, window)
+    cycle = joined[first + window : last + window + 1]
     cycle = replace(cycle, name=f"{motion.name}_loop")
-    cycle = _straightened(cycle) if straight else cycle
-    return _cleaned(cycle) if clean else cycle
+    if straight:
+        cycle = _straightened(cycle)
+    if clean:
+        cycle = _cleaned(cycle)
+    return cycle
 
 
 def _straightened(cycle: Motion) -> Motion:
-    """Turn each step a little more than the one before, until both ends face the same way."""
-    facing = np.unwrap(heading(cycle.rotations[:, 0]))
-    back = -(facing[-1] - facing[0]) * np.linspace(0, 1, len(cycle))
-    middle = (back[1:] + back[:-1]) / 2
-    steps = PlanarTransform(middle, 0.0, 0.0).apply_points(np.diff(cycle.root_positions, axis=0))
+    """Turn each step a little more than the previous one, until both ends have the same heading."""
+    headings = np.unwrap(heading(cycle.rotations[:, 0]))
+    corrections = -(headings[-1] - headings[0]) * np.linspace(0, 1, len(cycle))
+    between_frames = (corrections[1:] + corrections[:-1]) / 2
+    steps = PlanarTransform(between_frames, 0.0, 0.0).apply_points(np.diff(cycle.root_positions, axis=0))
     roots = cycle.root_positions[:1] + np.concatenate([np.zeros((1, 3)), np.cumsum(steps, axis=0)])
     local = cycle.rotations.copy()
-    local[:, 0] = rotations.multiply(rotations.about_y(back), local[:, 0])
+    local[:, 0] = rotations.multiply(rotations.about_y(corrections), local[:, 0])
     return replace(cycle, root_positions=roots, rotations=local)
 
 
 def _cleaned(cycle: Motion) -> Motion:
     """Clean up many rounds, of which the middle one has neighbours as far as any correction reaches."""
-    around = int(np.ceil(MARGIN / cycle.duration))
-    rounds = mark_plants(repeated(replace(cycle, contacts={}), 2 * around + 1))
-    start = around * (len(cycle) - 1)
+    neighbours = int(np.ceil(MARGIN / cycle.duration))  # rounds on each side
+    rounds = mark_plants(repeated(replace(cycle, contacts={}), 2 * neighbours + 1))
+    start = neighbours * (len(cycle) - 1)
     middle = slice(start, start + len(cycle))
     with warnings.catch_warnings(action="ignore", category=MocapWarning):  # of frames in all rounds
         cleaned = clean_up(rounds)[middle]
-    if (kept := plants_kept(cleaned, rounds[middle])) < 1:
-        why = "to hold them would move the root by more than 2 cm, stretch a leg or jolt a knee"
-        warn(f"'{shortened(cycle.name)}': {1 - kept:.0%} of the planted frames are let go: {why}.")
+    kept = plants_kept(cleaned, rounds[middle])
+    if kept < 1:
+        released = f"'{shortened(cycle.name)}': {1 - kept:.0%} of the planted frames are let go"
+        warn(f"{released}: to hold them would move the root by more than 2 cm, stretch a leg or jolt a knee.")
     return lay_on(cleaned, cycle).apply_motion(cleaned)
 
 
