@@ -70,7 +70,8 @@ def version_numbers(version: str) -> tuple[int, int, int]:
     >>> version_numbers("0.2"), version_numbers("1.10.3.dev1")
     ((0, 2, 0), (1, 10, 3))
     """
-    major, minor, patch, *_ = [*version.split("."), "0", "0"]
+    parts = [*version.split("."), "0", "0"]
+    major, minor, patch, *_ = parts
     return int(major), int(minor), int(patch)
 
 

@@ -70,7 +70,8 @@ def _alarm(seconds: float) -> Iterator[None]:
 def _watching_thread(seconds: float) -> Iterator[None]:
     """Have a second thread raise `Overdue` in this one, unless the code inside has ended by then."""
     limited = threading.get_ident()
-    ended, raising = threading.Event(), threading.Lock()
+    ended = threading.Event()
+    raising = threading.Lock()
 
     def watch() -> None:
         if ended.wait(seconds):

@@ -23,8 +23,8 @@ def first_least(values: ArrayLike, equal: float, axis: int | None = None) -> NDA
     (2, 1)
     """
     numbers = np.asarray(values)
-    least = numbers.min(axis=axis, keepdims=True)
-    return np.asarray((numbers <= least + equal).argmax(axis=axis))
+    minimum = numbers.min(axis=axis, keepdims=True)
+    return np.asarray((numbers <= minimum + equal).argmax(axis=axis))
 
 
 def ranks(values: ArrayLike, equal: float) -> Indices:
