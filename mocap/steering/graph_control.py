@@ -27,7 +27,8 @@ from mocap.steering.layered_search import EQUAL, States, hop_states, start_state
 
 SEAM = 0.1  # m²/s, as all costs here
 LABEL = 4.0  # m²/s per second
-AHEAD, WIDTH = 3.0, 64  # seconds to look ahead, walks that stay in each round
+AHEAD = 3.0  # seconds to look ahead
+WIDTH = 64  # walks that stay in each round
 
 
 class Controller:
@@ -62,23 +63,21 @@ class Controller:
 
     def __init__(self, graph: MotionGraph | CompiledGraph, *, start: Node | None = None) -> None:
         self.graph = compile_graph(graph)
-        self.skeleton, self.fps = self.graph.source.clips[0].skeleton, self.graph.fps
-        # The root's way on the ground over each hop (H,), in the coordinates of the clip that it leaves.
-        hops, last = self.graph.hops, self.graph.hops.last
-        leaves = np.repeat(np.arange(len(self.graph.nodes)), np.diff(hops.first))
-        end = self.graph.turn[last] * self.graph.at[self.graph.target[last]] + self.graph.move[last]
-        self.moved = end - self.graph.at[leaves]
-        self.hops = hop_states(self.graph, np.abs(self.moved), np.where(self.graph.blended, SEAM, 0.0))
-        # Seconds of each hop without each of the L labels, (L, H).
-        without = np.pad(np.cumsum(~self.graph.bears, axis=1), ((0, 0), (1, 0)))  # (L, T + 1), frames
-        played: Indices = without[:, hops.starts + hops.counts] - without[:, hops.starts]  # (L, H, 2)
-        self.lacks: Array = played.sum(axis=-1) / self.graph.fps
+        self.skeleton = self.graph.source.clips[0].skeleton
+        self.fps = self.graph.fps
+        self.displacements = _displacements(self.graph)
+        seams = np.where(self.graph.blended, SEAM, 0.0)
+        self.hops = hop_states(self.graph, np.abs(self.displacements), seams)
+        self.seconds_without = _seconds_without(self.graph)
         self.edges: list[int] = []  # of the hop under way, still to be played; the first one is being played
         self.frame = 0  # of the first edge
-        self.turn, self.move = 1 + 0j, 0j  # place its clip: p ↦ turn · p + move
-        # The node where the hop under way ends, and how its clip is turned there.
-        self.node, self.end_turn = 0 if start is None else self.graph.index(start), self.turn
-        self.command = 0j, -1
+        # The transform of its clip: p ↦ turn · p + move.
+        self.turn = 1 + 0j
+        self.move = 0j
+        # The node where the hop under way ends, and the rotation of its clip there.
+        self.node = 0 if start is None else self.graph.index(start)
+        self.end_turn = self.turn
+        self.command = (0j, -1)  # velocity, label
         self._restart()
 
     def step(self, heading: float, speed: float, label: str = "") -> Pose:
@@ -96,12 +95,13 @@ class Controller:
         NoWalk : for a label that no clip of the graph has.
         """
         require_command(heading, speed)
-        command = speed * complex(np.exp(1j * heading)), self.graph.label_number(label)
+        velocity = speed * complex(np.exp(1j * heading))
+        command = (velocity, self.graph.label_number(label))
         if command != self.command:
             self.command = command
             self._restart()
         if self.edges and self.frame == self.graph.frames[self.edges[0]]:
-            self.turn, self.move = self._after()
+            self.turn, self.move = self._next_transform()
             self.turn /= abs(self.turn)  # stays of length 1 on walks of any length
             self.frame = 0
             del self.edges[0]
@@ -110,22 +110,26 @@ class Controller:
         elif not self.decided:
             self._look()
         self.frame += 1
-        here, there, alpha = self._played()
-        root, turns = self._placed(here, self.turn, self.move)
-        if blending := here != there:
-            other, turned = self._placed(there, *self._after())
-            root, turns = alpha * root + (1 - alpha) * other, rotations.slerp(turned, turns, np.array(alpha))
-        clip, frame = here if alpha >= 0.5 else there
+        source, target, alpha = self._blended_frames()
+        root, local = self._placed(source, self.turn, self.move)
+        blending = source != target
+        if blending:
+            target_root, target_local = self._placed(target, *self._next_transform())
+            root = alpha * root + (1 - alpha) * target_root
+            local = rotations.slerp(target_local, local, np.array(alpha))
+        clip, frame = source if alpha >= 0.5 else target
         marks = self.graph.source.clips[clip].contacts.items()
-        return Pose(root, turns, blending, {name: bool(mark[frame]) for name, mark in marks})
+        return Pose(root, local, blending, {name: bool(mark[frame]) for name, mark in marks})
 
     @property
     def frames_left(self) -> int:
         """The frames until the next choice: the rest of the hop under way."""
-        return int(self.graph.frames[self.edges].sum()) - self.frame * bool(self.edges)
+        if not self.edges:
+            return 0
+        return int(self.graph.frames[self.edges].sum()) - self.frame
 
     def feet(self) -> Points:
-        """Give where ankles and balls are on the ground in the last pose, left before right, (4,).
+        """Return the ground positions of ankles and balls in the last pose, left before right, (4,).
 
         In a transition the feet of both clips are blended as the root is; those of the blended pose are some
         millimetres from there.
@@ -134,20 +138,23 @@ class Controller:
         ------
         MocapError : for legs that cannot be found.
         """
-        (clip, frame), (other, then), alpha = self._played()
+        (source, source_frame), (target, target_frame), alpha = self._blended_frames()
         edge = self.edges[0]
-        laid = self.graph.turn[edge] * self._feet[other][then] + self.graph.move[edge]
-        return np.asarray(self.turn * (alpha * self._feet[clip][frame] + (1 - alpha) * laid) + self.move)
+        source_feet = self._feet[source][source_frame]
+        target_feet = self.graph.turn[edge] * self._feet[target][target_frame] + self.graph.move[edge]
+        feet = alpha * source_feet + (1 - alpha) * target_feet
+        return np.asarray(self.turn * feet + self.move)
 
     def turn_about(self, point: complex, angle: float) -> None:
         """Turn what comes from now on about a point on the ground, z + ix, by an angle in radians.
 
         The walks ahead turn along; what their first hops cost stays, as good as the angle is small.
         """
-        more = cmath.exp(1j * angle)
-        self.turn, self.move = more * self.turn, more * (self.move - point) + point
-        self.end_turn *= more
-        self.walks = self.walks._replace(turn=more * self.walks.turn)
+        rotation = cmath.exp(1j * angle)
+        self.turn = rotation * self.turn
+        self.move = rotation * (self.move - point) + point
+        self.end_turn *= rotation
+        self.walks = self.walks._replace(turn=rotation * self.walks.turn)
 
     @cached_property
     def _feet(self) -> list[Points]:
@@ -155,22 +162,26 @@ class Controller:
         joints = [joint for leg in find_legs(self.skeleton) for joint in (leg.ankle, leg.ball)]
         return [on_ground(joint_positions(clip)[:, joints]) for clip in self.graph.source.clips]
 
-    def _played(self) -> tuple[Node, Node, float]:
-        """Give the two clip frames, and the weight of the first one, that the last frame is made of."""
+    def _blended_frames(self) -> tuple[Node, Node, float]:
+        """Return the two clip frames that the last pose is blended from, and the weight of the first one."""
         row = self.graph.first[self.edges[0]] + self.frame - 1
-        here, there = self.graph.here[row].tolist(), self.graph.there[row].tolist()
-        return here, there, float(self.graph.alpha[row])
+        source = self.graph.here[row].tolist()
+        target = self.graph.there[row].tolist()
+        return source, target, float(self.graph.alpha[row])
 
-    def _after(self) -> tuple[complex, complex]:
-        """Place the clip that the edge under way leads to."""
-        turn, move = (complex(some[self.edges[0]]) for some in (self.graph.turn, self.graph.move))
+    def _next_transform(self) -> tuple[complex, complex]:
+        """Return the transform of the clip that the edge under way leads to."""
+        edge = self.edges[0]
+        turn = complex(self.graph.turn[edge])
+        move = complex(self.graph.move[edge])
         return self.turn * turn, self.move + self.turn * move
 
-    def _placed(self, at: Node, turn: complex, move: complex) -> tuple[Array, Array]:
+    def _placed(self, node: Node, turn: complex, move: complex) -> tuple[Array, Array]:
         """Place one frame of a clip: root position and rotations."""
-        clip, frame = self.graph.source.clips[at[0]], at[1]
-        place = PlanarTransform.from_complex(turn, move)
-        return place.apply_frames(clip.root_positions[frame], clip.rotations[frame])
+        number, frame = node
+        clip = self.graph.source.clips[number]
+        transform = PlanarTransform.from_complex(turn, move)
+        return transform.apply_frames(clip.root_positions[frame], clip.rotations[frame])
 
     def _restart(self) -> None:
         """Look ahead anew, from the end of the hop under way, with one walk without hops."""
@@ -182,21 +193,22 @@ class Controller:
 
         The best are the `WIDTH` with the lowest cost per frame. Without longer walks the choice is clear.
         """
-        (velocity, label), short = self.command, self.walks.frames < AHEAD * self.fps
-        going = self.walks.take(short)
-        of, hop = self.graph.hops.leaving(going.node)
+        velocity, label = self.command
+        is_short = self.walks.frames < AHEAD * self.fps
+        short = self.walks.take(is_short)
+        row, hop = self.graph.hops.leaving(short.node)
         self.decided = not len(hop)
         if self.decided:
             return
         steps = self.hops.take(hop)
         seconds = steps.frames / self.fps
-        off = going.turn[of] * self.moved[hop] - velocity * seconds
-        cost = (off.real**2 + off.imag**2) / seconds + steps.cost
+        error = short.turn[row] * self.displacements[hop] - velocity * seconds
+        cost = (error.real**2 + error.imag**2) / seconds + steps.cost
         if label >= 0:
-            cost += LABEL * self.lacks[label, hop]
-        longer = going.then(of, steps._replace(cost=cost))
-        first = np.where(going.hop[of] < 0, hop, going.hop[of])
-        walks = States.join([self.walks.take(~short), longer._replace(hop=first)])
+            cost += LABEL * self.seconds_without[label, hop]
+        longer = short.then(row, steps._replace(cost=cost))
+        first_hop = np.where(short.hop[row] < 0, hop, short.hop[row])
+        walks = States.join([self.walks.take(~is_short), longer._replace(hop=first_hop)])
         self.walks = walks.take(in_order(walks.cost / walks.frames, EQUAL)[:WIDTH])
 
     def _choose(self) -> None:
@@ -208,6 +220,25 @@ class Controller:
             raise NoWalk(f"The walk ends at node {self.graph.nodes[self.node]}: prune the graph first.")
         self.edges = self.graph.hops.edges(np.array([hop])).tolist()
         last = self.edges[-1]
-        self.frame, self.node = 0, int(self.graph.target[last])
+        self.frame = 0
+        self.node = int(self.graph.target[last])
         self.end_turn = self.turn * complex(self.graph.turn[last])
         self._restart()
+
+
+def _displacements(graph: CompiledGraph) -> Points:
+    """Compute the root's displacement over each hop (H,), in the coordinates of the clip that it leaves."""
+    hops = graph.hops
+    starts = np.repeat(graph.at, np.diff(hops.first))
+    targets = graph.target[hops.last]
+    ends = graph.turn[hops.last] * graph.at[targets] + graph.move[hops.last]
+    return ends - starts
+
+
+def _seconds_without(graph: CompiledGraph) -> Array:
+    """Compute the seconds of each of H hops without each of L labels, (L, H)."""
+    hops = graph.hops
+    frames = np.pad(np.cumsum(~graph.bears, axis=1), ((0, 0), (1, 0)))  # without the label so far, (L, T + 1)
+    stops = hops.starts + hops.counts
+    of_edges: Indices = frames[:, stops] - frames[:, hops.starts]  # (L, H, 2)
+    return np.asarray(of_edges.sum(axis=-1) / graph.fps)

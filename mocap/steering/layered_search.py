@@ -53,14 +53,17 @@ class States(NamedTuple):
         """Take some of the walks."""
         return States._make(values[chosen] for values in self)
 
-    def then(self, of: Indices, steps: States) -> States:
-        """Lengthen walks by steps, each a walk from where its node's clip lies; step n goes on from `of[n]`.
+    def then(self, rows: Indices, steps: States) -> States:
+        """Lengthen walks by steps, each a walk in its first clip's coordinates; step n continues `rows[n]`.
 
-        The longer walks' `trail` are the rows of those that they go on from, their `hop` is the step's.
+        The longer walks' `trail` are the rows of those that they continue, their `hop` is the step's.
         """
-        turn, move = self.turn[of] * steps.turn, self.move[of] + self.turn[of] * steps.move
-        along, frames = self.along[of] + steps.along, self.frames[of] + steps.frames
-        return States(steps.node, turn, move, along, frames, self.cost[of] + steps.cost, of, steps.hop)
+        turn = self.turn[rows] * steps.turn
+        move = self.move[rows] + self.turn[rows] * steps.move
+        along = self.along[rows] + steps.along
+        frames = self.frames[rows] + steps.frames
+        cost = self.cost[rows] + steps.cost
+        return States(steps.node, turn, move, along, frames, cost, trail=rows, hop=steps.hop)
 
     @staticmethod
     def join(parts: Sequence[States]) -> States:
@@ -69,9 +72,11 @@ class States(NamedTuple):
 
 
 def start_states(nodes: Indices, turn: Points, move: Points) -> States:
-    """Start a walk at each of some nodes, whose clips are laid by p ↦ turn · p + move."""
-    none, zero = np.zeros(len(nodes), np.intp), np.zeros(len(nodes))
-    return States(nodes, turn, move, zero, none, zero, none - 1, none - 1)
+    """Start a walk at each of some nodes, whose clips are placed by p ↦ turn · p + move."""
+    zero = np.zeros(len(nodes))
+    no_frames = np.zeros(len(nodes), np.intp)
+    start = np.full(len(nodes), -1, np.intp)  # no state and no hop leads here
+    return States(nodes, turn, move, along=zero, frames=no_frames, cost=zero, trail=start, hop=start)
 
 
 def hop_states(graph: CompiledGraph, along: Array, price: Array) -> States:
@@ -83,17 +88,19 @@ def hop_states(graph: CompiledGraph, along: Array, price: Array) -> States:
     along : metres of each hop (H,).
     price : of each edge (E,); a hop costs what the edge costs by which it leaves its clip.
     """
-    last, every = graph.hops.last, np.arange(len(along))
-    place = graph.turn[last], graph.move[last]
-    return States(graph.target[last], *place, along, graph.hops.frames, price[last], every, every)
+    last = graph.hops.last
+    frames = graph.hops.frames
+    numbers = np.arange(len(along))
+    transform = (graph.turn[last], graph.move[last])
+    return States(graph.target[last], *transform, along, frames, price[last], numbers, numbers)
 
 
-def standing(states: States, at: Points, place: float, turn: float) -> Indices:
+def standing(states: States, roots: Points, place: float, turn: float) -> Indices:
     """Round the state of walks to whole numbers (4, N): node, and cells of `place` metres and `turn` radians.
 
-    `at`, shape (nodes,), is where the root is at each node, in the coordinates of its clip.
+    `roots`, shape (nodes,), are the root's positions at the nodes, in the coordinates of their clips.
     """
-    body = (states.move + states.turn * at[states.node]) / place
+    body = (states.move + states.turn * roots[states.node]) / place
     cells = np.floor(np.array([body.real, body.imag, np.angle(states.turn) / turn]) + ON_BORDER)
     return np.concatenate([states.node[None], cells.astype(np.intp)])
 
@@ -125,8 +132,8 @@ def select(scores: Array, cells: Indices, width: int) -> Indices:
 class LayeredSearch:
     """A search in layers; iterate over it, and each round gives the walks that stayed.
 
-    The caller drives it, so that a clock, a bar, a key press or a picture can come between two rounds. A kind
-    of search says in its own `expand`, `score`, `cells`, `layers` and `done` what it looks for.
+    The caller drives it, so that a clock, a bar, a key press or a picture can come between two rounds. A
+    subclass defines in `expand`, `score`, `cells`, `layers` and `done` what it searches for.
 
     Parameters
     ----------
@@ -138,6 +145,7 @@ class LayeredSearch:
     score: Callable[[States], Array]  # (N,), small is good: the cost, and what is expected to come
     cells: Callable[[States], Indices]  # columns of whole numbers (C, N), equal where walks stand alike
     layers: Callable[[States], Indices]  # (N,)
+    # reads: name: all kinds of search define it
     done: Callable[[States], Mask]  # (N,), which have arrived
 
     def __init__(self, starts: States, width: int) -> None:
@@ -170,17 +178,19 @@ class LayeredSearch:
 
     def still_going(self, states: States) -> States:
         """Put aside the walks that have arrived, and drop those that cannot become the best one."""
-        done = self.done(states)
-        if not done.any():
+        has_arrived = self.done(states)
+        if not has_arrived.any():
             return states
-        self.arrived.append(states.take(done))
+        self.arrived.append(states.take(has_arrived))
         # No cost is below 0, so a walk that costs as much as the best one cannot become better.
         best = min(arrived.cost.min() for arrived in self.arrived)
-        return states.take(~done & (states.cost < best - EQUAL))
+        return states.take(~has_arrived & (states.cost < best - EQUAL))
 
     def trace(self, states: States, row: int) -> States:
-        """Give the states of one walk, from its start over all rounds to this row of some states."""
-        history, rows = States.join(self.history), [int(states.trail[row])]
+        """Return the states of one walk, from its start over all rounds to this row of some states."""
+        history = States.join(self.history)
+        rows = [int(states.trail[row])]
         while rows[-1] >= 0:
             rows.append(int(history.trail[rows[-1]]))
-        return States.join([history.take(np.array(rows[-2::-1], int)), states.take(slice(row, row + 1))])
+        earlier = history.take(np.array(rows[-2::-1], int))  # without the -1 of the start
+        return States.join([earlier, states.take(slice(row, row + 1))])

@@ -23,14 +23,17 @@ from mocap.steering.path_objective import Route, Settings
 
 LAYER = 0.15  # metres of path
 IDLE = 0.1  # m²: the price of a frame of a bent walk that moves on by less than the least progress
-SLOWEST, GRACE = 0.3, 4.0  # metres per second, seconds: a bent walk that falls behind is dropped
+SLOWEST = 0.3  # metres per second: a bent walk that falls behind this speed is dropped,
+GRACE = 4.0  # seconds: if it is later than this
 QUICK = 0.5  # metres per second: clips that walk
 CREEP = 0.05  # metres per second: the least progress of a walk that is laid on the path, so that searches end
+CLOCK = 4  # per second: the cells of time in which walks that give way to others stand alike
+GIVING_WAY = np.array([0, 1, 2])  # times the distance ahead: how much farther walks that give way look
 
 
 Watch = Callable[["PathSearch", States], None]
 watching: ContextVar[Watch] = ContextVar("watching", default=lambda search, states: None)
-"""Called in each round with a search under way and its walks, the best first: whoever draws them sets it."""
+"""A function that is called in each round with a search and its walks, the best first, to draw them."""
 
 
 class Found(NamedTuple):
@@ -66,8 +69,8 @@ def find_walk(graph: CompiledGraph, route: Route, starts: States, settings: Sett
             for walks in search.rounds(layer):
                 watching.get()(search, walks)
     except KeyboardInterrupt:
-        return search.found("interrupted")
-    return search.found("")
+        return search.best_walk("interrupted")
+    return search.best_walk("")
 
 
 class PathSearch(LayeredSearch):
@@ -82,21 +85,25 @@ class PathSearch(LayeredSearch):
 
     def __init__(self, graph: CompiledGraph, route: Route, starts: States, settings: Settings) -> None:
         super().__init__(starts, settings.width_on(route))
-        self.graph, self.route, self.settings = graph, route, settings
-        hops, own = graph.hops, route.own
-        if own:
+        self.graph = graph
+        self.route = route
+        self.settings = settings
+        # Metres by which each frame of all edges moves on (T,).
+        if route.own:
             self.first = len(starts.node)  # all cost the same before they turn
-        # Metres by which each frame of all edges moves on (T,), and each hop (H,).
-        self.progress = np.maximum(own.step, CREEP / graph.fps) if own else graph.progress
-        before = np.concatenate([[0.0], np.cumsum(self.progress)])
-        length = (before[hops.starts + hops.counts] - before[hops.starts]).sum(axis=1)
+            self.progress = np.maximum(route.own.step, CREEP / graph.fps)
+        else:
+            self.progress = graph.progress
+        hops = graph.hops
+        cumulated = np.concatenate([[0.0], np.cumsum(self.progress)])
+        length = (cumulated[hops.starts + hops.counts] - cumulated[hops.starts]).sum(axis=1)  # (H,)
         price = np.where(graph.blended, settings.seam + settings.match * graph.cost**2, 0.0)
         self.hops = hop_states(graph, length, price)
         # Metres from each node in the next `AHEAD` seconds (N, 3).
         self.ahead = np.cumsum(np.abs(np.diff(graph.ahead, axis=1, prepend=graph.at[:, None])), axis=1)
 
     def line(self, states: States) -> Points:
-        """Give where the first of some walks has come from, a point for each hop."""
+        """Return the positions on the ground that the first of some walks has passed, one for each hop."""
         steps = self.trace(states, 0)
         return np.asarray(steps.move + steps.turn * self.graph.at[steps.node])
 
@@ -109,67 +116,84 @@ class PathSearch(LayeredSearch):
         it moves on by γ in each frame, unless times are asked for. `Wishes.slide` is the share of that
         distance. Walks that are laid on the path stay on it.
         """
-        of, hop = self.graph.hops.leaving(states.node)
-        hops, route = self.hops.take(hop), self.route
-        new = states.then(of, hops._replace(cost=hops.cost + self.hop_costs(states, of, hop)))
-        at, point = self.graph.at[new.node], route.point(new.along)
+        route = self.route
+        row, hop = self.graph.hops.leaving(states.node)
+        hops = self.hops.take(hop)
+        cost = hops.cost + self.hop_costs(states, row, hop)
+        longer = states.then(row, hops._replace(cost=cost))
+        root = self.graph.at[longer.node]
+        point = route.point(longer.along)
+        direction = route.ways[point]
+        is_timed = np.isfinite(route.clock).any()
         if route.own:
-            turn = np.exp(-1j * route.own.going[new.node]) * route.ways[point]
-            new = new._replace(turn=turn, move=route.at(new.along) - turn * at)
-            in_time = new.frames <= (new.along / SLOWEST + GRACE) * self.graph.fps
-            return new.take(in_time | np.isfinite(route.clock).any())
-        off = new.move + new.turn * at - route.points[point]
-        abreast = np.clip((off * route.ways[point].conj()).real, -hops.along, hops.along)
-        least = LEAST / self.graph.fps * hops.frames * ~np.isfinite(route.clock).any()
-        moved = np.maximum(hops.along + route.wishes.slide * abreast, least)
-        return new._replace(along=states.along[of] + moved)
+            turn = np.exp(-1j * route.own.going[longer.node]) * direction
+            longer = longer._replace(turn=turn, move=route.at(longer.along) - turn * root)
+            in_time = longer.frames <= (longer.along / SLOWEST + GRACE) * self.graph.fps
+            return longer.take(in_time | is_timed)
+        error = longer.move + longer.turn * root - route.points[point]
+        abreast = np.clip((error * direction.conj()).real, -hops.along, hops.along)
+        least_progress = np.where(is_timed, 0.0, LEAST / self.graph.fps * hops.frames)
+        progress = np.maximum(hops.along + route.wishes.slide * abreast, least_progress)
+        return longer._replace(along=states.along[row] + progress)
 
     def frames_along(self, hop: Indices, start: Array) -> tuple[Indices, Indices, Array]:
         """List the frames that n hops play: their rows, which hop each belongs to, and metres along the path.
 
         `start` (n,) are the metres along the path at which each of the hops begins.
         """
-        row, of = self.graph.hops.rows(hop)
+        row, number = self.graph.hops.rows(hop)
         along = np.cumsum(self.progress[row])
         ends = along[np.cumsum(self.graph.hops.frames[hop]) - 1]
-        return row, of, along + (start - ends + self.hops.along[hop])[of]
+        return row, number, along + (start - ends + self.hops.along[hop])[number]
 
     def hop_costs(self, states: States, chosen: Indices, hop: Indices) -> Array:
         """Sum the costs of the frames of n hops (n,), which the walks `states.take(chosen)` take.
 
         They are the distance from the path, or what it costs to bend the walk, and missed wishes.
         """
-        graph, route, prices = self.graph, self.route, self.settings
+        graph = self.graph
+        route = self.route
+        prices = self.settings
         if not len(hop):
             return np.empty(0)
         row, number, along = self.frames_along(hop, states.along[chosen])
-        of = chosen[number]
+        walk = chosen[number]
         first = np.cumsum(graph.hops.frames[hop]) - graph.hops.frames[hop]
-        body = states.move[of] + states.turn[of] * graph.ground[row]
-        if own := route.own:  # radians that a frame is turned beyond what it turns itself
-            turned = route.curvature[route.point(along)] * own.step[row] - route.turns[row]
-            off = prices.bend * (turned * graph.fps) ** 2
-            off += IDLE * (own.step[row] < LEAST / graph.fps)
+        body = states.move[walk] + states.turn[walk] * graph.ground[row]
+        if route.own:
+            costs = self._bending_costs(route.own, row, along)
         else:
-            off = _square(body - route.at(along))
-            off += prices.stray * off**2
+            costs = _square(body - route.at(along))
+            costs += prices.stray * costs**2
         if route.bare:
-            return np.asarray(np.add.reduceat(off, first))
-        point, frame = route.point(along), states.frames[of] + np.arange(len(of)) - first[number]
-        label, late = route.label[point], frame / graph.fps - route.clock[point]
+            return np.asarray(np.add.reduceat(costs, first))
+        point = route.point(along)
         if graph.label_names:
-            off += prices.label * ((label >= 0) & ~graph.bears[label, row])
-        off += prices.late * np.where(np.isnan(late), 0.0, late) ** 2
-        off += self.crowding(body, frame)
-        return np.asarray(np.add.reduceat(off, first))
+            label = route.label[point]
+            is_missed = (label >= 0) & ~graph.bears[label, row]
+            costs += np.where(is_missed, prices.label, 0.0)
+        frame = states.frames[walk] + np.arange(len(walk)) - first[number]
+        delay = frame / graph.fps - route.clock[point]  # seconds; nan for any time
+        costs += prices.late * np.where(np.isnan(delay), 0.0, delay) ** 2
+        costs += self.crowding(body, frame)
+        return np.asarray(np.add.reduceat(costs, first))
+
+    def _bending_costs(self, unbent: CompiledGraph, row: Indices, along: Array) -> Array:
+        """Compute the costs of frames that are turned beyond what they turn themselves, or hardly move on."""
+        step = unbent.step[row]
+        bend = self.route.curvature[self.route.point(along)] * step - self.route.turns[row]  # radians
+        costs = self.settings.bend * (bend * self.graph.fps) ** 2
+        costs += np.where(step < LEAST / self.graph.fps, IDLE, 0.0)
+        return costs
 
     def crowding(self, body: Points, frame: Indices) -> Array:
         """Compute the cost of bodies that are too near to others, of the shape of `body`."""
-        price = np.zeros(body.shape)
-        for other in self.route.others:
-            near = self.route.wishes.apart - np.abs(body - other[np.minimum(frame, len(other) - 1)])
-            price += self.settings.crowding * np.maximum(near, 0.0) ** 2
-        return price
+        cost = np.zeros(body.shape)
+        for track in self.route.others:
+            distance = np.abs(body - track[np.minimum(frame, len(track) - 1)])
+            shortfall = self.route.wishes.apart - distance
+            cost += self.settings.crowding * np.maximum(shortfall, 0.0) ** 2
+        return cost
 
     def score(self, states: States) -> Array:
         """Rate walks by their cost plus the expected cost if their clips play on; small is good.
@@ -177,34 +201,41 @@ class PathSearch(LayeredSearch):
         Without the second term a walk that has just paid for a turn looks worse than one about to leave the
         path. The second term is at most `Settings.rescue` (m²), because a transition can still save the walk.
         """
-        graph, node, route = self.graph, states.node, self.route
+        graph = self.graph
+        route = self.route
+        node = states.node
         line = route.points[route.point(states.along[:, None] + self.ahead[node])]
-        ahead = line if route.own else states.move[:, None] + states.turn[:, None] * graph.ahead[node]
-        off = _square(ahead - line)
+        if_played = states.move[:, None] + states.turn[:, None] * graph.ahead[node]
+        ahead = line if route.own else if_played
+        costs = _square(ahead - line)
         if len(route.others):  # to give way takes longer: look up to three times as far
             body = states.move + states.turn * graph.at[node]
-            further = ahead[:, -1:] + (ahead[:, -1:] - body[:, None]) * [0, 1, 2]
-            then = np.arange(1, 4) * round(graph.fps * AHEAD[-1])
-            off += self.crowding(further, states.frames[:, None] + then)
-        loss = off.sum(axis=1) * graph.fps * AHEAD[0]  # each point ahead stands for the frames up to it
+            last = ahead[:, -1:]
+            farther = last + (last - body[:, None]) * GIVING_WAY
+            frames = (GIVING_WAY + 1) * round(graph.fps * AHEAD[-1])
+            costs += self.crowding(farther, states.frames[:, None] + frames)
+        loss = costs.sum(axis=1) * graph.fps * AHEAD[0]  # each point ahead stands for the frames up to it
         return np.asarray(states.cost + np.minimum(loss, self.settings.rescue))
 
     def cells(self, states: States) -> Indices:
-        """Give the node, cells of the ground and of directions and, among others, the time."""
+        """Return the node, cells of the ground and of directions and, among others, the time."""
         alike = standing(states, self.graph.at, self.settings.alike, self.settings.alike)
-        clock = states.frames * (4 / self.graph.fps) * bool(len(self.route.others))
-        return np.concatenate([alike, clock.astype(np.intp)[None]])
+        time = np.zeros(len(states.node), np.intp)
+        if len(self.route.others):
+            time = (states.frames * (CLOCK / self.graph.fps)).astype(np.intp)
+        return np.concatenate([alike, time[None]])
 
     def layers(self, states: States) -> Indices:
         """Count layers of `LAYER` metres along the path."""
         return (states.along / LAYER).astype(np.intp)
 
+    # reads: name: all kinds of search define it
     def done(self, states: States) -> Mask:
-        """Say which walks are at the end of the route."""
+        """Check which walks are at the end of the route."""
         return states.along >= self.route.length
 
-    def found(self, stopped: str) -> Found:
-        """Give the best walk; where none has arrived, the cheapest of the last layer."""
+    def best_walk(self, stopped: str) -> Found:
+        """Return the best walk; if none has arrived, the one of the last layer with the lowest cost."""
         if not self.arrived and not stopped:
             if self.route.own:
                 raise too_slow(self.graph)
@@ -215,21 +246,28 @@ class PathSearch(LayeredSearch):
         last = States.join(self.arrived or self.history[-1:])
         walk = self.trace(last, int(first_least(last.cost, EQUAL)))
         hops = walk.hop[1:]
-        along, edges = self.frames_along(hops, walk.along[:-1])[2], self.graph.hops.edges(hops)
-        turn, move, cost = complex(walk.turn[0]), complex(walk.move[0]), float(walk.cost[-1])
+        edges = self.graph.hops.edges(hops)
+        _, _, along = self.frames_along(hops, walk.along[:-1])
+        turn = complex(walk.turn[0])
+        move = complex(walk.move[0])
+        cost = float(walk.cost[-1])
         return Found(edges, turn, move, along, cost, self.expanded, self.cut, stopped)
 
 
 def too_slow(graph: CompiledGraph, nearest: str = "") -> NoWalk:
-    """Say that no walk goes on along a line as people walk, or how the `nearest` unbent one does, and why."""
+    """Return the error that no walk follows a line, or what the `nearest` unbent walk does, with a reason."""
     fault = nearest or f"No walk goes along the line at {SLOWEST:g} m/s"
     clips = [on_ground(clip.root_positions) for clip in graph.source.clips]
     quick = [clip for clip in clips if np.percentile(np.abs(np.diff(clip)), 90) * graph.fps > QUICK]
-    some = f"{len(quick)} of {len(clips)} clips go faster than {QUICK:g} m/s"
-    helps = f"{some}, but few transitions join their steps: try a larger threshold, "
-    helps += "more walks, or `bend`" if nearest else "or more walks"
-    slow = f"no clip goes faster than {QUICK:g} m/s: add some that walk"
-    return NoWalk(f"{fault}; {helps if quick else slow}.")
+    if not quick:
+        return NoWalk(f"{fault}; no clip goes faster than {QUICK:g} m/s: add some that walk.")
+    reason = f"{len(quick)} of {len(clips)} clips go faster than {QUICK:g} m/s"
+    remedy = (
+        "try a larger threshold, more walks, or `bend`"
+        if nearest
+        else "try a larger threshold, or more walks"
+    )
+    return NoWalk(f"{fault}; {reason}, but few transitions join their steps: {remedy}.")
 
 
 def _square(numbers: Points) -> Array:

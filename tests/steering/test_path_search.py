@@ -159,7 +159,7 @@ def test_a_search_is_driven_from_outside_a_round_at_a_time():
     rounds = list(search)
     assert [len(states.node) for states in rounds] == [len(states.node) for states in search.history]
     assert max(len(states.node) for states in rounds) == search.width == 50
-    found = search.found("")
+    found = search.best_walk("")
     assert np.array_equal(found.edges, path_search.find_walk(GRAPH, route, starts, settings).edges)
     last = States.join(search.arrived)
     walk = search.trace(last, int(last.cost.argmin()))
