@@ -239,24 +239,22 @@ def search_ahead(
         raise MocapError(f"Of the frames looked ahead some must be kept, got n = {ahead} and m = {keep}.")
     walk: list[SearchEdge] = []
     cost = 0.0
-    expanded = 0
-    cut = 0
+    expanded = cut = 0
     stopped = ""
     while not problem.done(state) and stopped != "interrupted":
         best = branch_and_bound(problem, node, state, horizon=ahead, budget=budget)
         expanded += best.expanded
         cut += best.cut
         stopped = best.stopped or stopped
+        if not best.walk:
+            break
         frames = 0
-        kept = 0
-        while kept < len(best.walk) and frames < keep and not problem.done(state):
-            edge = best.walk[kept]
+        for edge in best.walk:
+            if frames >= keep or problem.done(state):
+                break
             edge_cost, state = problem.step(state, edge)
             cost += edge_cost
             frames += problem.graph.edges[edge]["frames"]
-            kept += 1
-        if not kept:
-            break
-        walk += best.walk[:kept]
+            walk.append(edge)
         node = walk[-1][1]
     return SearchResult(walk, cost, state, problem.done(state), expanded, cut, stopped)
