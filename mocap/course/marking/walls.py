@@ -204,7 +204,7 @@ def readable(hidden: Sequence[str]) -> list[Path]:
     package = Path(mocap.__file__).parent
     kept_out = [Path(place).resolve() for place in hidden]
     path = [place for place in map(Path, sys.path) if place != package.parent or "-packages" in place.name]
-    needed = [sys.prefix, sys.base_prefix, *path, package, *SYSTEM]
+    needed: list[str | Path] = [sys.prefix, sys.base_prefix, *path, package, *SYSTEM]
     places = {Path(place).resolve() for place in needed}
     return [part for place in places for part in _without(place, kept_out)]
 

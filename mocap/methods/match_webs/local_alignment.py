@@ -57,13 +57,14 @@ def minima_1d(grid: ArrayLike) -> Mask:
     Notebook: 16-match-webs
     """
     cells = np.asarray(grid)
-    around = np.pad(cells.astype(np.result_type(cells, np.float32), copy=False), 1, mode="edge")
-    around += EQUAL
-    in_row = (cells <= around[1:-1, :-2]) & (cells <= around[1:-1, 2:])
-    in_column = (cells <= around[:-2, 1:-1]) & (cells <= around[2:, 1:-1])
+    padded = np.pad(cells.astype(np.result_type(cells, np.float32), copy=False), 1, mode="edge")
+    padded += EQUAL
+    in_row = (cells <= padded[1:-1, :-2]) & (cells <= padded[1:-1, 2:])
+    in_column = (cells <= padded[:-2, 1:-1]) & (cells <= padded[2:, 1:-1])
     return np.asarray((in_row | in_column) & (cells < np.inf))
 
 
+# reads: name: users give `least` as a keyword
 def local_paths(costs: ArrayLike, *, slope: int = 2, least: int = 1) -> Iterator[Indices]:
     """Find paths of low cost that may begin and end anywhere in a grid [KG04, chains and bridges].
 
@@ -80,7 +81,7 @@ def local_paths(costs: ArrayLike, *, slope: int = 2, least: int = 1) -> Iterator
     Yields
     ------
     Paths of cells, shape (N, 2), lowest sum first; of those that begin in one cell, only the best. They may
-    run side by side: `apart` keeps those that say something new.
+    run side by side: `apart` keeps the distinct ones.
 
     Examples
     --------
@@ -101,21 +102,26 @@ def local_paths(costs: ArrayLike, *, slope: int = 2, least: int = 1) -> Iterator
     Notebook: 16-match-webs
     """
     grid = np.asarray(costs)
+    columns = grid.shape[1]
     sums = path_sums(grid, np.ones(grid.shape, bool), slope=slope)
-    totals, begun = sums.totals.ravel(), origins(sums).ravel()
+    totals = sums.totals.ravel()
+    beginnings = origins(sums).ravel()
     cells = np.flatnonzero(totals < 0)
-    best = np.zeros(len(totals), totals.dtype)
-    np.minimum.at(best, begun[cells], totals[cells])
-    ends = cells[totals[cells] <= best[begun[cells]] + sums.equal]  # the best of each beginning
-    ends = ends[np.unique(begun[ends], return_index=True)[1]]  # of equal ones, the first
-    advance = np.array(np.divmod(ends, grid.shape[1])) - np.divmod(begun[ends], grid.shape[1])
+    best = np.zeros(len(totals), totals.dtype)  # the lowest sum of all paths that begin in a cell
+    np.minimum.at(best, beginnings[cells], totals[cells])
+    is_best = totals[cells] <= best[beginnings[cells]] + sums.equal
+    ends = cells[is_best]
+    _, firsts = np.unique(beginnings[ends], return_index=True)
+    ends = ends[firsts]  # of equal ones, the first
+    advance = np.array(np.divmod(ends, columns)) - np.divmod(beginnings[ends], columns)
     ends = ends[advance.min(axis=0) >= least]
     for end in ends[in_order(totals[ends], RANKS)]:
-        yield trace(sums, divmod(int(end), grid.shape[1]))
+        yield trace(sums, divmod(int(end), columns))
 
 
+# reads: name: notebook 16 shows this function, and calls it
 def apart(paths: Iterable[NDArray[Any]], *, near: int) -> list[NDArray[Any]]:
-    """Keep the paths that say something new: at most half of each lies near those kept before it.
+    """Keep distinct paths: at most half of each is near those kept before it.
 
     Parameters
     ----------
@@ -129,7 +135,7 @@ def apart(paths: Iterable[NDArray[Any]], *, near: int) -> list[NDArray[Any]]:
     >>> [path[0].tolist() for path in kept]
     [[0, 0], [0, 2], [0, -2]]
 
-    A path of which half has been said is kept:
+    A path of which half is near another one is kept:
 
     >>> half = np.array([[0, 0], [1, 1], [2, 7], [3, 8]])
     >>> len(apart([down, half], near=1)), len(apart([down, half[:3]], near=1))
@@ -137,23 +143,25 @@ def apart(paths: Iterable[NDArray[Any]], *, near: int) -> list[NDArray[Any]]:
 
     Notebook: 16-match-webs
     """
-    taken = set[int]()
-    beside = np.arange(-near, near + 1)
+    covered = set[int]()
+    offsets = np.arange(-near, near + 1)
     kept = []
     for path in paths:
         cells = (path[:, :2] @ [1 << 32, 1]).astype(np.int64)  # one number for each cell
-        if 2 * len(taken.intersection(cells.tolist())) <= len(cells):
+        if 2 * len(covered.intersection(cells.tolist())) <= len(cells):
             kept.append(path)
-            taken.update((cells[:, None] + beside).ravel().tolist())
+            covered.update((cells[:, None] + offsets).ravel().tolist())
     return kept
 
 
-ROWS, COLUMNS = 600, 4000  # windows on the sides of the part of the grid that is worked on at a time
+ROWS = 600  # windows; with COLUMNS, the sides of the part of the grid that is worked on at a time
+COLUMNS = 4000  # windows
 OVERLAP = 300  # windows that two parts of a long clip share, 10 s: no query is longer
 SLOPE = 2  # frames of one clip at most in a row that lie on one frame of the other
 LEAST = 9  # frames that a path advances in each clip, 0.3 s
 NEAR = 3  # frames; a path of which more than half lies so close to a better one is left out
 OFF_MINIMUM = 0.5  # by how much a cell that is no one-dimensional minimum costs more, in units of `below`
+DISTANCE = 2  # column of a path with the RMS distances; 0 and 1 are its windows
 
 
 def find_paths(cloud: Cloud, starts: Indices, below: float, progress: Progress) -> list[Array]:
@@ -166,54 +174,60 @@ def find_paths(cloud: Cloud, starts: Indices, below: float, progress: Progress) 
     below : the mean distance that a path may have, metres.
     progress : as for `build_web`.
     """
-    rows, columns = (pieces(starts.tolist(), most, OVERLAP) for most in (ROWS, COLUMNS))
-    pairs = [
-        (row, slice(max(row.start, column.start), column.stop))  # nothing lies below the diagonal
-        for row in rows
-        for column in columns
-        if column.stop > row.start
-    ]
-    last = len(cloud.sizes) - cloud.window + 1
-    found = []
-    for pair in progress(pairs):
-        squares = tiled_distances(*(cloud.part(slice(s.start, min(s.stop, last))) for s in pair))
-        grid: Floats = np.sqrt(np.where(squares < distance_grids.EQUAL, 0.0, squares))
-        corner = [part.start for part in pair]
-        first = corner[0] - corner[1] + LEAST  # the second window is at least so much later
-        if first + len(grid) > 0:
-            grid[np.tri(len(grid), grid.shape[1], first - 1, dtype=bool)] = np.inf
-        costs = grid - below + np.where(minima_1d(grid), 0.0, OFF_MINIMUM * below)
-        paths = apart(local_paths(costs, slope=SLOPE, least=LEAST), near=NEAR)
-        found += [np.column_stack([path + corner, grid[tuple(path.T)]]) for path in paths]
+    rows = pieces(starts.tolist(), ROWS, OVERLAP)
+    columns = pieces(starts.tolist(), COLUMNS, OVERLAP)
+    # No path is below the diagonal.
+    pairs = [(row, column) for row in rows for column in columns if column.stop > row.start]
+    tiles = [(row, slice(max(row.start, column.start), column.stop)) for row, column in pairs]
+    paths: list[Array] = []
+    for tile in progress(tiles):
+        paths += _paths_in_tile(cloud, tile, below)
     if np.diff(starts).max() > ROWS:  # then parts of a clip may have found the same
-        sums = [float((path[:, 2] - below).sum()) for path in found]
-        found = apart((found[number] for number in in_order(sums, RANKS)), near=NEAR)
-    return found
+        sums = [float((path[:, DISTANCE] - below).sum()) for path in paths]
+        paths = apart((paths[number] for number in in_order(sums, RANKS)), near=NEAR)
+    return paths
 
 
-def pieces(starts: Sequence[int], most: int, overlap: int) -> list[slice]:
+def _paths_in_tile(cloud: Cloud, tile: tuple[slice, slice], below: float) -> list[Array]:
+    """Find the paths in a part of the grid: windows along its rows, and along its columns."""
+    windows = len(cloud.sizes) - cloud.window + 1
+    sides = [cloud.part(slice(side.start, min(side.stop, windows))) for side in tile]
+    squares = tiled_distances(*sides)
+    grid: Floats = np.sqrt(np.where(squares < distance_grids.EQUAL, 0.0, squares))
+    corner = [side.start for side in tile]
+    diagonal = corner[0] - corner[1] + LEAST  # the second window is at least so much later
+    if diagonal + len(grid) > 0:
+        is_early = np.tri(len(grid), grid.shape[1], diagonal - 1, dtype=bool)
+        grid[is_early] = np.inf
+    penalties = np.where(minima_1d(grid), 0.0, OFF_MINIMUM * below)
+    costs = grid - below + penalties
+    paths = apart(local_paths(costs, slope=SLOPE, least=LEAST), near=NEAR)
+    return [np.column_stack([path + corner, grid[tuple(path.T)]]) for path in paths]
+
+
+def pieces(starts: Sequence[int], size: int, overlap: int) -> list[slice]:
     """Cut clips in a row into pieces: whole clips together, or overlapping parts of a long one.
 
     Parameters
     ----------
     starts : where each clip begins, and where the last one ends.
-    most : windows in a piece.
+    size : windows in a piece, at most.
     overlap : windows that two parts of a clip share.
 
     Examples
     --------
-    >>> [(p.start, p.stop) for p in pieces([0, 40, 70, 100, 350], most=100, overlap=20)]
+    >>> [(p.start, p.stop) for p in pieces([0, 40, 70, 100, 350], size=100, overlap=20)]
     [(0, 100), (100, 200), (180, 280), (260, 350)]
-    >>> [(p.start, p.stop) for p in pieces([0, 60, 120, 180, 240], most=120, overlap=20)]
+    >>> [(p.start, p.stop) for p in pieces([0, 60, 120, 180, 240], size=120, overlap=20)]
     [(0, 120), (120, 240)]
     """
-    found: list[slice] = []
+    cut: list[slice] = []
     begin = starts[0]
     for start, stop in pairwise(starts):
-        if stop - begin > most and begin < start:
-            found.append(slice(begin, start))
+        if stop - begin > size and begin < start:
+            cut.append(slice(begin, start))
             begin = start
-        while stop - begin > most:
-            found.append(slice(begin, begin + most))
-            begin += most - overlap
-    return [*found, slice(begin, starts[-1])]
+        while stop - begin > size:
+            cut.append(slice(begin, begin + size))
+            begin += size - overlap
+    return [*cut, slice(begin, starts[-1])]

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array
 from mocap._shared.ties import in_order
@@ -17,7 +18,8 @@ from mocap.methods.match_webs.webs import MatchWeb
 
 SAME = 0.5  # share of the union of two stretches above which they are one match
 COVER = 0.9  # share of the stretch that a path must cover; over the rest it is carried on straight
-LEAK, FEW = 5, 20  # a step with so many times the matches of the step before leaks, unless they are few
+LEAK = 5  # a step leaks if it finds more than so many times the matches of the previous step
+FEW = 20  # matches; a step that finds no more does not leak
 
 
 class Match(NamedTuple):
@@ -108,30 +110,35 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
     if limit > web.below:
         raise MocapError(f"This web goes up to {100 * web.below:g} cm: build another for {100 * limit:g} cm.")
     shortest, longest = (share * (query.stop - query.start) for share in lengths)
-    found, asking, left_out, places = [query], [0], 0, np.array([query[1:3]])
-    while asking and (steps is None or found[-1].generation < steps):
-        moving = [number for number in asking if _spread(web, found[number]) >= still]
-        left_out += len(asking) - len(moving)
-        new = [
-            other
-            for number in moving
-            for other in crossings(web, found[number], number, limit)
-            if shortest <= other.stop - other.start <= longest
-        ]
-        before = len(found)
-        for match in (new[number] for number in in_order([other.cost for other in new], RANKS)):
-            common = np.minimum(places[:, 1], match.stop) - np.maximum(places[:, 0], match.start)
-            union = np.maximum(places[:, 1], match.stop) - np.minimum(places[:, 0], match.start)
-            fresh = (common <= SAME * union).all()  # it is none of those that were found
-            if fresh and (not keep or keep(cut_out(web, _in_own_frames(web, clip, match)))):
-                found.append(match)
-                places = np.append(places, [match[1:3]], axis=0)
-        asking = list(range(before, len(found)))
-    _warn(found, left_out)
-    own = [_in_own_frames(web, clip, one) for one in found]
+    matches = [query]
+    spans = np.array([query[1:3]])  # start and stop of each match
+    newest = [0]  # numbers of the matches that the last step found
+    still_count = 0  # matches that nothing is searched from
+    while newest and (steps is None or matches[-1].generation < steps):
+        moving = [number for number in newest if _spread(web, matches[number]) >= still]
+        still_count += len(newest) - len(moving)
+        hits = [hit for number in moving for hit in crossings(web, matches[number], number, limit)]
+        candidates = [hit for hit in hits if shortest <= hit.stop - hit.start <= longest]
+        count = len(matches)
+        for rank in in_order([candidate.cost for candidate in candidates], RANKS):
+            match = candidates[rank]
+            if _is_new(match, spans) and (not keep or keep(cut_out(web, _in_own_frames(web, clip, match)))):
+                matches.append(match)
+                spans = np.append(spans, [match[1:3]], axis=0)
+        newest = list(range(count, len(matches)))
+    _warn(matches, still_count)
+    in_own_frames = [_in_own_frames(web, clip, match) for match in matches]
     first, last, _ = frames.indices(len(web.clips[clip]))
-    own[0] = own[0]._replace(start=first, stop=last)
-    return own
+    in_own_frames[0] = in_own_frames[0]._replace(start=first, stop=last)
+    return in_own_frames
+
+
+def _is_new(match: Match, spans: NDArray[Any]) -> bool:
+    """Check whether a stretch overlaps each of the spans (N, 2) by no more than half of their union."""
+    starts, stops = spans.T
+    common = np.minimum(stops, match.stop) - np.maximum(starts, match.start)
+    union = np.maximum(stops, match.stop) - np.minimum(starts, match.start)
+    return bool((common <= SAME * union).all())
 
 
 def _query(web: MatchWeb, clip: int, frames: slice) -> Match:
@@ -147,20 +154,21 @@ def _query(web: MatchWeb, clip: int, frames: slice) -> Match:
     ((0, 0, 9), (0, 291, 300))
     """
     motion = web.clips[clip]
-    first, last = frames.start or 0, len(motion) if frames.stop is None else frames.stop
+    first = frames.start or 0
+    last = len(motion) if frames.stop is None else frames.stop
     if not 0 <= first < last <= len(motion):
         raise MocapError(f"'{motion.name}' has frames 0 to {len(motion) - 1}, got {first}:{last}.")
     start, stop = np.round(web.number(clip, [first, last])).astype(int).tolist()
     stop = min(stop, int(web.starts[clip + 1]))
     if stop - start < LEAST:
-        given = f"{first}:{last} of '{motion.name}' is {(last - first) / motion.fps:.2g} s"
-        raise MocapError(f"A query must last {LEAST / web.rate:g} s or more, as paths do; {given}.")
+        length = f"{first}:{last} of '{motion.name}' is {(last - first) / motion.fps:.2g} s"
+        raise MocapError(f"A query must last {LEAST / web.rate:g} s or more, as paths do; {length}.")
     rows = np.arange(start, stop, dtype=float)
     return Match(clip, start, stop, 0.0, -1, 0, rows, rows)
 
 
-def _spread(web: MatchWeb, found: Match) -> float:
-    """Measure how far the points of a match are from their mean place, RMS in metres.
+def _spread(web: MatchWeb, match: Match) -> float:
+    """Compute the RMS distance of the points of a match from their mean places, metres.
 
     Examples
     --------
@@ -172,43 +180,52 @@ def _spread(web: MatchWeb, found: Match) -> float:
     >>> [round(_spread(web, _query(web, 0, slice(240, stop))), 3) for stop in (276, 370)]
     [0.135, 0.385]
     """
-    every = max(1, round(web.clips[0].fps / web.rate))
-    points = point_cloud(cut_out(web, _in_own_frames(web, found.clip, found))[::every])
-    return float(np.sqrt(((points - points.mean(axis=0)) ** 2).sum(-1).mean()))
+    step = max(1, round(web.clips[0].fps / web.rate))
+    motion = cut_out(web, _in_own_frames(web, match.clip, match))
+    points = point_cloud(motion[::step])
+    deviations = points - points.mean(axis=0)
+    return float(np.sqrt((deviations**2).sum(-1).mean()))
 
 
 def _in_own_frames(web: MatchWeb, query: int, match: Match) -> Match:
     """Count a match in the own frames of its clip and of the query's clip."""
     start, stop = np.round(web.own_frame(match.clip, match[1:3])).astype(int).tolist()
     stop = min(stop, len(web.clips[match.clip]))
-    rows, frames = web.own_frame(query, match.rows), web.own_frame(match.clip, match.frames)
+    rows = web.own_frame(query, match.rows)
+    frames = web.own_frame(match.clip, match.frames)
     return match._replace(start=start, stop=stop, rows=rows, frames=frames)
 
 
-def _warn(found: Sequence[Match], left_out: int) -> None:
+def _warn(matches: Sequence[Match], still_count: int) -> None:
+    """Warn of a search with still matches, without matches, and with a step that leaks."""
     messages = []
-    if left_out:
-        still = f"{left_out} of {len(found)} matches hardly move, so nothing was searched from them"
+    if still_count:
+        still = f"{still_count} of {len(matches)} matches hardly move, so nothing was searched from them"
         messages.append(f"{still}: to stand still is like itself at any time.")
-    if len(found) == 1:
+    if len(matches) == 1:
         messages.append("The query found only itself: raise the limit, or take another query.")
-    counts = np.bincount([one.generation for one in found])
-    if (leaks := counts[2:][counts[2:] > np.maximum(LEAK * counts[1:-1], FEW)]).size:
-        many = f"One step found {leaks[0]} matches, more than {LEAK} times the step before"
-        messages.append(f"{many}: one wrong match may have led to others; lower the limit.")
+    counts = np.bincount([match.generation for match in matches])
+    previous = counts[1:-1]
+    following = counts[2:]
+    leaks = following[following > np.maximum(LEAK * previous, FEW)]
+    if leaks.size:
+        leak = f"One step found {leaks[0]} matches, more than {LEAK} times the step before"
+        messages.append(f"{leak}: one wrong match may have led to others; lower the limit.")
     for message in messages:
         warn(message)
 
 
-def crossings(web: MatchWeb, found: Match, number: int, below: float) -> Iterator[Match]:
-    """List what the paths of a web lay on a match, and through it on the query, in the numbering of all.
+def crossings(web: MatchWeb, match: Match, number: int, below: float) -> Iterator[Match]:
+    """Find the stretches that the paths of a web align with a match, and through it with the query.
+
+    All frames are counted in the numbering of all.
 
     A web is symmetric: a path serves a stretch in either of its clips.
 
     Parameters
     ----------
     web : as from `build_web`.
-    found, number : the match, and which of those found it is.
+    match, number : the match, and its number among all.
     below : the mean RMS distance of a path inside the match, metres.
 
     Examples
@@ -228,25 +245,44 @@ def crossings(web: MatchWeb, found: Match, number: int, below: float) -> Iterato
     >>> hit.rows[[0, 1, -1]].tolist(), hit.frames[[0, 1, -1]].tolist()
     ([11.0, 12.0, 28.0], [50.5, 52.0, 68.0])
     """
-    start, stop = found.start, found.stop
-    first, last = web.cells[web.offsets[:-1]], web.cells[web.offsets[1:] - 1]
-    needed = COVER * (stop - start)
+    first = web.cells[web.offsets[:-1]]  # of each path
+    last = web.cells[web.offsets[1:] - 1]
+    needed = COVER * (match.stop - match.start)
+    generation = match.generation + 1
     for side in (0, 1):
-        covered = np.minimum(last[:, side], stop - 1) - np.maximum(first[:, side], start) + 1
+        begin = np.maximum(first[:, side], match.start)
+        end = np.minimum(last[:, side], match.stop - 1)
+        covered = end - begin + 1
         for path in np.flatnonzero(covered >= needed).tolist():
             cells, costs = web.path(path)
-            part = slice(*np.searchsorted(cells[:, side], [start, stop]))
+            part = slice(*np.searchsorted(cells[:, side], [match.start, match.stop]))
             cost = float(costs[part].mean())
             if cost <= below:
-                own, other = cells[part, side].astype(float), cells[part, 1 - side].astype(float)
-                clip = web.clip_at(int(other[0]))  # straight on to the stretch's ends, but not beyond it
-                begin = max(int(other[0] - (own[0] - start)), int(web.starts[clip]))
-                end = min(int(other[-1] + (stop - own[-1])), int(web.starts[clip + 1]))
-                frames, at, count = np.unique(own, return_index=True, return_counts=True)
-                inside = (found.frames >= frames[0]) & (found.frames <= frames[-1])
-                laid = np.interp(found.frames[inside], frames, np.add.reduceat(other, at) / count)
-                rows, steps = found.rows[inside], found.generation + 1
-                yield Match(web.clip_at(begin), begin, end, cost, number, steps, rows, laid)
+                inside = cells[part].astype(float)
+                start, stop, rows, frames = _carry(web, match, inside[:, side], inside[:, 1 - side])
+                clip = web.clip_at(start)
+                yield Match(clip, start, stop, cost, number, generation, rows, frames)
+
+
+def _carry(web: MatchWeb, match: Match, source: Array, target: Array) -> tuple[int, int, Array, Array]:
+    """Carry a match over to a path's other clip: frames `source` (K,) of the match are like `target` (K,).
+
+    The path goes straight on to the ends of the match, but not beyond the other clip.
+
+    Returns
+    -------
+    The start and stop of the new stretch, the frames of the query that the path covers, and the frames that
+    are like them. A frame that is like several gets their mean.
+    """
+    clip = web.clip_at(int(target[0]))
+    extended_start = int(target[0] - (source[0] - match.start))
+    extended_stop = int(target[-1] + (match.stop - source[-1]))
+    start = max(extended_start, int(web.starts[clip]))
+    stop = min(extended_stop, int(web.starts[clip + 1]))
+    frames, firsts, counts = np.unique(source, return_index=True, return_counts=True)
+    means = np.add.reduceat(target, firsts) / counts
+    is_covered = (match.frames >= frames[0]) & (match.frames <= frames[-1])
+    return start, stop, match.rows[is_covered], np.interp(match.frames[is_covered], frames, means)
 
 
 def cut_out(web: MatchWeb, match: Match) -> Motion:

@@ -14,9 +14,11 @@ from mocap._shared.progress import Progress
 from mocap.body.motion import Motion, require_alike, resample
 from mocap.errors import MocapError, warn
 from mocap.matching.transitions import join_clouds
-from mocap.methods.match_webs.local_alignment import LEAST, find_paths
+from mocap.methods.match_webs.local_alignment import DISTANCE, LEAST, find_paths
 
 WINDOW = 5  # frames in a window, at the web's rate
+SHORTEST = WINDOW + LEAST  # frames of a clip that can hold a path, at the web's rate
+NAMED = 4  # clips that a warning names; it counts the others
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -54,21 +56,23 @@ class MatchWeb:
         return f"MatchWeb({len(self.clips)} clips, {len(self)} paths, below {100 * self.below:g} cm)"
 
     def path(self, number: int) -> tuple[NDArray[np.integer[Any]], NDArray[np.floating[Any]]]:
-        """Give the cells of a path, shape (K, 2), and their costs, shape (K,)."""
+        """Return the cells of a path, shape (K, 2), and their costs, shape (K,)."""
         part = slice(self.offsets[number], self.offsets[number + 1])
         return self.cells[part], self.costs[part]
 
     def clip_at(self, frame: int) -> int:
-        """Say in which clip a frame of the numbering of all lies."""
+        """Return the number of the clip that holds a frame in the numbering of all."""
         return int(np.searchsorted(self.starts, frame, side="right")) - 1
 
     def number(self, clip: int, frame: ArrayLike) -> Array:
-        """Give a clip's own frames in the numbering of all, which counts at the web's rate."""
-        return np.asarray(self.starts[clip] + np.asarray(frame) * (self.rate / self.clips[clip].fps))
+        """Return a clip's own frames in the numbering of all, which counts at the web's rate."""
+        ratio = self.rate / self.clips[clip].fps
+        return np.asarray(self.starts[clip] + np.asarray(frame) * ratio)
 
     def own_frame(self, clip: int, number: ArrayLike) -> Array:
-        """Give frames in the numbering of all as frames of a clip: the inverse of `number`."""
-        return np.asarray((np.asarray(number) - self.starts[clip]) * (self.clips[clip].fps / self.rate))
+        """Return frames in the numbering of all as frames of a clip: the inverse of `number`."""
+        ratio = self.clips[clip].fps / self.rate
+        return np.asarray((np.asarray(number) - self.starts[clip]) * ratio)
 
 
 def build_web(clips: Sequence[Motion], *, below: float = 0.12, progress: Progress = iter) -> MatchWeb:
@@ -111,18 +115,21 @@ def build_web(clips: Sequence[Motion], *, below: float = 0.12, progress: Progres
     Notebook: 16-match-webs
     """
     clips = require_alike(clips)
-    low = [resample(clip, MatchWeb.rate) for clip in clips]
-    long = [len(clip) >= WINDOW + LEAST for clip in low]
-    lasts = f"{(WINDOW + LEAST) / MatchWeb.rate:.2g} s"
-    if not any(long):
-        raise MocapError(f"No clip is long enough for a path: that takes {lasts}.")
-    if short := [f"'{clip.name}'" for clip, use in zip(low, long, strict=True) if not use]:
-        names = ", ".join(short[:4]) + (f" and {len(short) - 4} more" if len(short) > 4 else "")
-        warn(f"Too short to hold a path of {lasts}, and left out: {names}.")
-    used = [clip for clip, use in zip(low, long, strict=True) if use]
-    ready = join_clouds(used, None, WINDOW, 0, np.float64)  # in 32 bits paths would hang on rounding
-    starts = np.cumsum([0, *(len(clip) * use for clip, use in zip(low, long, strict=True))])
-    paths = find_paths(ready, np.unique(starts), below, progress)
-    cells = np.concatenate([np.empty((0, 3)), *paths])
+    resampled = [resample(clip, MatchWeb.rate) for clip in clips]
+    shortest = f"{SHORTEST / MatchWeb.rate:.2g} s"
+    long = [clip for clip in resampled if len(clip) >= SHORTEST]
+    if not long:
+        raise MocapError(f"No clip is long enough for a path: that takes {shortest}.")
+    if short := [f"'{clip.name}'" for clip in resampled if len(clip) < SHORTEST]:
+        names = ", ".join(short[:NAMED])
+        if len(short) > NAMED:
+            names += f" and {len(short) - NAMED} more"
+        warn(f"Too short to hold a path of {shortest}, and left out: {names}.")
+    cloud = join_clouds(long, None, WINDOW, 0, np.float64)  # in 32 bits paths would hang on rounding
+    lengths = [len(clip) if len(clip) >= SHORTEST else 0 for clip in resampled]
+    starts = np.cumsum([0, *lengths])
+    paths = find_paths(cloud, np.unique(starts), below, progress)
+    rows = np.concatenate([np.empty((0, 3)), *paths])
+    cells = rows[:, :DISTANCE] + WINDOW // 2  # the middles of the windows
     offsets = np.cumsum([0, *map(len, paths)])
-    return MatchWeb(clips, starts, float(below), cells[:, :2] + WINDOW // 2, cells[:, 2], offsets)
+    return MatchWeb(clips, starts, float(below), cells, rows[:, DISTANCE], offsets)

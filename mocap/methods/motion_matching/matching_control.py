@@ -1,4 +1,4 @@
-"""A character by motion matching: search, cut, and let what differs die away [Cla16, Hol20]."""
+"""A character by motion matching: search, cut, and let the difference die away [Cla16, Hol20]."""
 
 import numpy as np
 
@@ -46,17 +46,20 @@ class MotionMatcher:
     frames_left = 0  # it can choose in every frame
 
     def __init__(self, database: PoseDatabase, wants: Wants = USUAL, *, start: int | None = None) -> None:
-        self.database, self.wants = database, wants
-        self.skeleton, self.fps = database.motion.skeleton, database.motion.fps
+        self.database = database
+        self.wants = wants
+        self.skeleton = database.motion.skeleton
+        self.fps = database.motion.fps
         self.frame = int(np.argmax(database.usable)) if start is None else start
         self._searches: dict[str, FrameSearch] = {}  # by label
         turn = complex(np.exp(-1j * database.heading[self.frame]))
         self.place = PlanarTransform.from_complex(turn, -turn * complex(database.ground[self.frame]))
-        # What differs after a cut, (J + 1, 3): the root, metres, and a rotation vector for each joint.
+        # The difference after a cut, (J + 1, 3): the root, metres, and a rotation vector for each joint.
         self.offset = np.zeros(database.speeds.shape[1:])
         self.offset_speed = np.zeros_like(self.offset)
         self.cuts: list[int] = []  # at which steps it cut
-        self._steps = self._wait = 0
+        self._steps = 0
+        self._wait = 0  # steps until the next search
         self._command: tuple[float, float, str] | None = None
 
     def step(self, heading: float, speed: float, label: str = "") -> Pose:
@@ -77,62 +80,80 @@ class MotionMatcher:
         -----
         MocapWarning : for a new speed outside what 98 % of the clips' frames have.
         """
-        table, command = self.database, (heading, speed, label)
+        table = self.database
+        command = (heading, speed, label)
         if command != self._command:
             require_command(heading, speed)
-            slow, fast = np.percentile(np.abs(table.drift), [1, 99])
-            if (self._command is None or speed != self._command[1]) and not slow <= speed <= fast:
-                clips = f"the clips' {slow:.1f} to {fast:.1f} m/s"
-                warn(f"{speed:g} m/s is outside {clips}: the nearest is walked.")
+            self._warn_of_speed(speed)
             if label not in self._searches:
                 self._searches[label] = FrameSearch(table, future=self.wants.future, label=label)
-            self._command, self._wait = command, 0  # what is new is searched for at once
+            self._command = command
+            self._wait = 0  # a new command is searched for at once
         if self._wait <= 0 or self.frame >= table.last[self.frame]:
             self._wait = max(1, round(self.wants.every * self.fps))
-            self._look(heading, speed, label)
+            self._cut_if_better(heading, speed, label)
         root, turns = self._placed(self.place, self.frame)
-        blending = bool(self.cuts) and self._steps - self.cuts[-1] < 2 * self.wants.fade * self.fps
+        blending_steps = 2 * self.wants.fade * self.fps
+        is_blending = bool(self.cuts) and self._steps - self.cuts[-1] < blending_steps
         contacts = {name: bool(mark[self.frame]) for name, mark in table.motion.contacts.items()}
         self.frame = min(self.frame + 1, int(table.last[self.frame]))
-        self._steps, self._wait = self._steps + 1, self._wait - 1
+        self._steps += 1
+        self._wait -= 1
         self.offset, self.offset_speed = fade(self.offset, self.offset_speed, self.wants.fade, 1 / self.fps)
-        return Pose(root, turns, blending, contacts)
+        return Pose(root, turns, is_blending, contacts)
 
-    def _look(self, heading: float, speed: float, label: str) -> None:
-        """Search, and cut where another frame is better than to play on.
-
-        The pose asked for is that of now, so that to play on costs only what the future asks.
-        """
-        table, now, search = self.database, self.frame, self._searches[label]
-        goal = speed * complex(np.exp(1j * (heading - self.place.angle - table.heading[now])))
-        query = table.values[now].copy()
-        query[FUTURE] = foresee(table, now, goal, self.wants.halflife)
-        stay = now < table.last[now] and (not label or bool(table.motion.labels[label][now]))
-        staying = search.cost(query, now) - self.wants.bonus if stay else np.inf
-        new, cost = search.nearest(query, now, round(self.wants.near * self.fps))
-        if cost >= staying - EQUAL:
+    def _warn_of_speed(self, speed: float) -> None:
+        """Warn of a new speed outside those of 98 % of the frames."""
+        if self._command is not None and speed == self._command[1]:
             return
-        # The new frame's track is put on the old one's; what differs becomes the offset.
-        turn = complex(self.place.turn * np.exp(1j * (table.heading[now] - table.heading[new])))
+        slow, fast = np.percentile(np.abs(self.database.drift), [1, 99])
+        if not slow <= speed <= fast:
+            clips = f"the clips' {slow:.1f} to {fast:.1f} m/s"
+            warn(f"{speed:g} m/s is outside {clips}: the nearest is walked.")
+
+    def _cut_if_better(self, heading: float, speed: float, label: str) -> None:
+        """Search, and cut if another frame is better than to play on.
+
+        The pose of the query is that of the frame that plays, so that to play on costs only the difference
+        of the futures.
+        """
+        table = self.database
+        frame = self.frame
+        search = self._searches[label]
+        goal = speed * complex(np.exp(1j * (heading - self.place.angle - table.heading[frame])))
+        query = table.values[frame].copy()
+        query[FUTURE] = foresee(table, frame, goal, self.wants.halflife)
+        can_stay = frame < table.last[frame] and (not label or bool(table.motion.labels[label][frame]))
+        cost_of_staying = search.cost(query, frame) - self.wants.bonus if can_stay else np.inf
+        new, cost = search.nearest(query, frame, round(self.wants.near * self.fps))
+        if cost < cost_of_staying - EQUAL:
+            self._cut_to(new)
+
+    def _cut_to(self, new: int) -> None:
+        """Play another frame: align its track with that of the current one; the residual is the offset."""
+        table = self.database
+        frame = self.frame
+        turn = complex(self.place.turn * np.exp(1j * (table.heading[frame] - table.heading[new])))
         turn /= abs(turn)
-        move = complex(self.place.turn * table.ground[now] + self.place.move - turn * table.ground[new])
-        place = PlanarTransform.from_complex(turn, move)
-        root, shown = self._placed(self.place, now)
+        target = self.place.turn * table.ground[frame] + self.place.move
+        place = PlanarTransform.from_complex(turn, complex(target - turn * table.ground[new]))
+        root, turns = self._placed(self.place, frame)
         motion = table.motion
         new_root, new_turns = place.apply_frames(motion.root_positions[new], motion.rotations[new])
-        self.offset = np.concatenate([[root - new_root], rotations.difference(new_turns, shown)])
-        self.offset_speed = self.offset_speed + self._speeds(self.place, now) - self._speeds(place, new)
-        self.frame, self.place = new, place
+        self.offset = np.concatenate([[root - new_root], rotations.difference(new_turns, turns)])
+        self.offset_speed = self.offset_speed + self._speeds(self.place, frame) - self._speeds(place, new)
+        self.frame = new
+        self.place = place
         self.cuts.append(self._steps)
 
     def _placed(self, place: PlanarTransform, frame: int) -> tuple[Array, Array]:
-        """Place a frame, with the offset: root (3,) and turns (J, 4)."""
+        """Return the pose of a frame with the offset: root position (3,) and rotations (J, 4)."""
         motion = self.database.motion
         root, turns = place.apply_frames(motion.root_positions[frame], motion.rotations[frame])
         return root + self.offset[0], rotations.multiply(turns, rotations.from_rotvec(self.offset[1:]))
 
     def _speeds(self, place: PlanarTransform, frame: int) -> Array:
-        """Give a frame's speeds (J + 1, 3), the root's turned as its place is."""
+        """Return the velocities of a frame, (J + 1, 3), the root's rotated as its place is."""
         speeds: Array = self.database.speeds[frame].copy()
         speeds[0] = rotations.rotate(rotations.about_y(place.angle), speeds[0])
         return speeds

@@ -52,11 +52,11 @@ def spring(start: Value, speed: Value, goal: Value, halflife: float, seconds: Ar
 
 
 def spring_way(speed: Value, goal: Value, halflife: float, seconds: ArrayLike) -> NDArray[Any]:
-    """Integrate a velocity that a spring draws to a goal: how far one comes [ours: the integral of `spring`].
+    """Compute the path of a velocity that a spring draws to a goal [ours: the integral of `spring`].
 
     Parameters
     ----------
-    speed, goal : the velocity now, which does not accelerate yet, and the velocity that is wished for.
+    speed, goal : the velocity now, which does not accelerate yet, and the requested velocity.
     halflife, seconds : as for `spring`.
 
     Examples
@@ -68,15 +68,17 @@ def spring_way(speed: Value, goal: Value, halflife: float, seconds: ArrayLike) -
 
     Notebook: 18-motion-matching
     """
-    pull, t = PULL / halflife, np.asarray(seconds)
-    gap = speed - goal
-    return np.asarray(2 * gap / pull - np.exp(-pull * t) * (2 * gap / pull + gap * t) + goal * t)
+    pull = PULL / halflife
+    t = np.asarray(seconds)
+    error = speed - goal
+    decaying = np.exp(-pull * t) * (2 * error / pull + error * t)
+    return np.asarray(2 * error / pull - decaying + goal * t)
 
 
 def fade(
     offset: Value, speed: Value, halflife: float, seconds: ArrayLike
 ) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Let an offset and its velocity die away by a spring towards 0: both as they are after some seconds.
+    """Compute an offset and its velocity after some seconds, while a spring draws the offset to 0.
 
     Examples
     --------
@@ -84,10 +86,11 @@ def fade(
     >>> offset.round(3), speed.round(2)
     (array([0.597]), array([-4.8]))
     """
-    pull, t = PULL / halflife, np.asarray(seconds)
-    drift = speed + offset * pull
-    left = np.exp(-pull * t)
-    return left * (offset + drift * t), left * (speed - drift * pull * t)
+    pull = PULL / halflife
+    t = np.asarray(seconds)
+    drift = speed + offset * pull  # j₁
+    decay = np.exp(-pull * t)
+    return decay * (offset + drift * t), decay * (speed - drift * pull * t)
 
 
 class Wants(NamedTuple):
@@ -108,12 +111,12 @@ class Wants(NamedTuple):
     Notebook: 18-motion-matching
     """
 
-    every: float = 0.1
+    every: float = 0.1  # reads: name: users give it as a keyword
     halflife: float = 0.27
     fade: float = 0.1
     future: float = 1.0
     bonus: float = 0.0
-    near: float = 0.2
+    near: float = 0.2  # reads: name: users give it as a keyword
 
 
 class FrameSearch:
@@ -137,7 +140,7 @@ class FrameSearch:
     >>> from mocap import body, datasets
     >>> from mocap.methods.motion_matching.pose_database import tabulate
     >>> table = tabulate([body.resample(datasets.sample("walk_curve_1"), 30)])
-    >>> [FrameSearch(table).nearest(table.values[100], now=now, near=6)[0] for now in (0, 94, 95)]
+    >>> [FrameSearch(table).nearest(table.values[100], frame, margin=6)[0] for frame in (0, 94, 95)]
     [100, 100, 101]
     >>> FrameSearch(table).scale.max(), FrameSearch(table, future=3.0).scale.max()
     (np.float64(1.0), np.float64(3.0))
@@ -146,8 +149,8 @@ class FrameSearch:
     def __init__(self, database: PoseDatabase, *, future: float = 1.0, label: str = "") -> None:
         labels = database.motion.labels
         if label and label not in labels:
-            known = ", ".join(labels) or "none"
-            raise NoWalk(f"No clip has the label '{label}'; there are: {known}.")
+            available = ", ".join(labels) or "none"
+            raise NoWalk(f"No clip has the label '{label}'; there are: {available}.")
         self.frames = np.flatnonzero(database.usable & labels[label] if label else database.usable)
         if not len(self.frames):
             raise MocapError(f"No frame '{label}' can be found: all are too near the end of their clip.")
@@ -158,25 +161,29 @@ class FrameSearch:
         self.sizes = (self.bank**2).sum(axis=1)
 
     def cost(self, query: Array, frame: int) -> float:
-        """Measure the squared distance of a frame from a query, (27,)."""
-        gap = query * self.scale - self.values[frame]
-        return float(gap @ gap)
+        """Compute the squared distance of a frame from a query, (27,)."""
+        difference = query * self.scale - self.values[frame]
+        return float(difference @ difference)
 
-    def nearest(self, query: Array, now: int, near: int) -> tuple[int, float]:
-        """Find the frame nearest to a query, not within `near` frames of now, and its squared distance."""
+    def nearest(self, query: Array, playing: int, margin: int) -> tuple[int, float]:
+        """Find the frame nearest to a query, and its squared distance.
+
+        Frames within `margin` of the frame that is playing are left out. If no other is usable, return that
+        frame, at an infinite distance.
+        """
         costs = self.sizes - 2 * (self.bank @ (query * self.scale).astype(np.float32))
-        costs[np.abs(self.frames - now) < near] = np.inf
-        least = costs.min()
-        if not np.isfinite(least):
-            return now, np.inf
-        near_least = self.frames[costs <= least + NEARLY]
-        exact = [self.cost(query, frame) for frame in near_least.tolist()]
+        costs[np.abs(self.frames - playing) < margin] = np.inf
+        lowest = costs.min()
+        if not np.isfinite(lowest):
+            return playing, np.inf
+        candidates = self.frames[costs <= lowest + NEARLY]
+        exact = [self.cost(query, frame) for frame in candidates.tolist()]
         best = int(first_least(exact, EQUAL))
-        return int(near_least[best]), exact[best]
+        return int(candidates[best]), exact[best]
 
 
-def foresee(database: PoseDatabase, now: int, goal: complex, halflife: float) -> Array:
-    """Describe the future asked for, (12,) standardised, as the body at frame `now` sees it.
+def foresee(database: PoseDatabase, frame: int, goal: complex, halflife: float) -> Array:
+    """Compute the requested future, (12,) standardised, as the body sees it in a frame.
 
     Springs draw its velocity to `goal` and its facing to the goal's direction; their places and directions
     after 1/3, 2/3 and 1 s are the last twelve features.
@@ -184,8 +191,8 @@ def foresee(database: PoseDatabase, now: int, goal: complex, halflife: float) ->
     Parameters
     ----------
     database : T frames.
-    now : the frame that is playing.
-    goal : the velocity asked for, seen from the body: complex z + ix, metres per second; 0 keeps the facing.
+    frame : the frame that is playing.
+    goal : the requested velocity, seen from the body: complex z + ix, metres per second; 0 keeps the facing.
     halflife : seconds, of both springs.
 
     Examples
@@ -206,10 +213,23 @@ def foresee(database: PoseDatabase, now: int, goal: complex, halflife: float) ->
 
     Notebook: 18-motion-matching
     """
-    seen = complex(database.drift[now] * np.exp(-1j * database.heading[now]))
-    way = spring_way(seen, goal, halflife, AHEAD)
+    velocity = complex(database.drift[frame] * np.exp(-1j * database.heading[frame]))
+    positions = spring_way(velocity, goal, halflife, AHEAD)
+    facing = spring(0.0, float(database.spin[frame]), bearing_of(goal), halflife, AHEAD)
+    ahead = np.concatenate([ahead_columns(positions), ahead_columns(np.exp(1j * facing))])
+    return np.asarray((ahead - database.mean[FUTURE]) / database.scale[FUTURE])
+
+
+def bearing_of(goal: complex) -> float:
+    """Return the direction of a velocity seen from the body, radians; 0 for a body that should stand.
+
+    Examples
+    --------
+    To the right, and straight behind, which is reached by a turn to the left:
+
+    >>> round(bearing_of(-1j), 2), round(bearing_of(-1 + 0j), 2), round(bearing_of(-1 - 1e-12j), 2)
+    (-1.57, 3.14, 3.14)
+    """
     bearing = float(np.angle(goal)) if goal else 0.0
     bearing += 2 * np.pi if bearing < BEHIND - np.pi else 0.0
-    facing = spring(0.0, float(database.spin[now]), bearing, halflife, AHEAD)
-    ahead = np.concatenate([ahead_columns(way), ahead_columns(np.exp(1j * facing))])
-    return np.asarray((ahead - database.mean[FUTURE]) / database.scale[FUTURE])
+    return bearing

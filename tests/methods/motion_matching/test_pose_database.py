@@ -125,9 +125,9 @@ def test_the_product_finds_what_a_loop_finds(future):
 def test_frames_near_now_are_not_found_and_where_all_are_near_none_is():
     table = walks()
     few = replace(table, usable=np.isin(np.arange(len(table)), range(100, 104)))
-    assert FrameSearch(table).nearest(table.values[200], now=200, near=0)[0] == 200
-    assert abs(FrameSearch(table).nearest(table.values[200], now=200, near=6)[0] - 200) >= 6
-    assert FrameSearch(few).nearest(table.values[50], now=102, near=6) == (102, np.inf)
+    assert FrameSearch(table).nearest(table.values[200], 200, margin=0)[0] == 200
+    assert abs(FrameSearch(table).nearest(table.values[200], 200, margin=6)[0] - 200) >= 6
+    assert FrameSearch(few).nearest(table.values[50], 102, margin=6) == (102, np.inf)
 
 
 def test_to_go_on_as_the_clip_does_is_to_foresee_its_future():
