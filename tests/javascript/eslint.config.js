@@ -58,6 +58,11 @@ export default [
     rules: { "joined/same-name": "error", "no-restricted-syntax": ["error", ...JOINED] },
   },
   {
+    // Node runs these.
+    files: ["**/*.cjs"],
+    languageOptions: { globals: globals.node },
+  },
+  {
     // These run as they are, not as modules; Sphinx has two names ready for its search.
     files: ["mocap/course/*.js", "mocap/course/lab/questions.js"],
     languageOptions: { sourceType: "script", globals: { Search: "readonly", Stemmer: "readonly" } },
