@@ -62,6 +62,8 @@ def test_the_first_cell_installs_only_where_the_package_is_missing(copies, monke
 
 @pytest.mark.parametrize("command", ["handout", "site"])
 def test_a_folder_that_cannot_be_made_is_told(command, tmp_path, run):
+    if command == "site":
+        pytest.importorskip("myst_nb", reason="pip install '.[site]'")
     (tmp_path / "file").write_text("")
     said = run(f"course {command} -o {tmp_path / 'file'}", 2).err
     assert f"Cannot make the folder {tmp_path / 'file'}: File exists." in said

@@ -229,6 +229,8 @@ def bearing_of(goal: complex) -> float:
 
     >>> round(bearing_of(-1j), 2), round(bearing_of(-1 + 0j), 2), round(bearing_of(-1 - 1e-12j), 2)
     (-1.57, 3.14, 3.14)
+
+    Notebook: 18-motion-matching
     """
     bearing = float(np.angle(goal)) if goal else 0.0
     bearing += 2 * np.pi if bearing < BEHIND - np.pi else 0.0

@@ -246,6 +246,7 @@ def test_the_command_writes_an_mp4(notebook, tmp_path, capsys, run):
 
 
 def test_what_cannot_be_is_one_sentence(notebook, tmp_path, monkeypatch):
+    pytest.importorskip("imageio_ffmpeg", reason="pip install '.[video]'")
     shutil.copy(notebook, tmp_path / "other.ipynb")
     refused(
         "There is no deck", films.render_film, tmp_path / "other.ipynb", tmp_path / "film.mp4", moving=False
