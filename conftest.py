@@ -42,8 +42,8 @@ MISSING = None if THERE else f"no real clips at {REAL}; name their folder in MOC
 os.environ["MOCAP_MINE"] = ""  # nobody has solved anything: no test reads a file beside the notebooks
 for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(threads, "1")  # workers and kernels share the cores: threads of each would wait
-if not MISSING:
-    os.environ["MOCAP_DATA"] = str(REAL / "cmu")  # for the kernels of the notebooks, which inherit it
+# For the kernels of the notebooks, which inherit it: the clips, or no download of them.
+os.environ.update({"MOCAP_OFFLINE": "1"} if MISSING else {"MOCAP_DATA": str(REAL / "cmu")})
 
 
 def pytest_xdist_auto_num_workers(config: pytest.Config) -> int:

@@ -1,7 +1,7 @@
 """Files from the network, fetched once and kept, each whole or refused.
 
 They are kept in the platform's cache folder, or in the one that the environment variable `MOCAP_DATA`
-names. A file that is there needs no network.
+names. A file that is there needs no network; with `MOCAP_OFFLINE` nothing else is asked for.
 """
 
 import hashlib
@@ -37,9 +37,14 @@ def fetch(name: str, url: str, sha256: str | None, terms: str) -> Path:
     Raises
     ------
     MocapError : when it cannot be had, is not the file listed, or cannot be kept; part of a file never is.
+        If the environment variable `MOCAP_OFFLINE` is set: for each file that is not there.
     """
     import pooch
     from requests import RequestException
+
+    hint = f"put a copy of {name} into a folder that MOCAP_DATA names"
+    if os.environ.get("MOCAP_OFFLINE") and not (kept_in() / name).exists():
+        raise MocapError(f"{name} is not here, and MOCAP_OFFLINE forbids downloads: unset it, or {hint}.")
 
     def download(url: str, output_file: str, store: pooch.Pooch) -> None:
         pooch.HTTPDownloader(progressbar=sys.stderr.isatty(), timeout=TIMEOUT)(url, output_file, store)
@@ -48,7 +53,6 @@ def fetch(name: str, url: str, sha256: str | None, terms: str) -> Path:
             _restore_line_ends(Path(output_file), sha256)
 
     place = f"{urlsplit(url).netloc}/.../{url.rpartition('/')[2]}"
-    hint = f"put a copy of {name} into a folder that MOCAP_DATA names"
     pooch.get_logger().setLevel("WARNING")
     listing = {"registry": {name: sha256}, "urls": {name: url}}
     store = pooch.create(kept_in(), base_url="", **listing, retry_if_failed=RETRIES)

@@ -33,6 +33,7 @@ def server(monkeypatch):
         thread = threading.Thread(target=server.serve_forever, args=(0.01,))
         thread.start()
         monkeypatch.setattr("pooch.core.time.sleep", lambda seconds: None)
+        monkeypatch.delenv("MOCAP_OFFLINE", raising=False)
         yield server
         server.shutdown()
         thread.join()

@@ -236,6 +236,15 @@ def test_a_server_that_is_gone(database, tmp_path, monkeypatch):
     assert kept(tmp_path) == ["07/07.asf", "07/07_01.amc"]
 
 
+def test_without_leave_nothing_is_downloaded_and_what_is_kept_is_read(database, monkeypatch):
+    cmu_database.cmu("07_01")
+    requests = dict(database.asked)
+    monkeypatch.setenv("MOCAP_OFFLINE", "1")
+    assert len(cmu_database.cmu("07_01")) == 2
+    refused("07/07_02.amc is not here, and MOCAP_OFFLINE forbids downloads", cmu_database.cmu, "07_02")
+    assert database.asked == requests
+
+
 def test_a_file_that_broke_in_the_cache_is_fetched_again(database, tmp_path):
     cmu_database.cmu("07_01")
     (tmp_path / "cache/07/07_01.amc").write_text(AMC[:20])
