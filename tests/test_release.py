@@ -46,7 +46,7 @@ from mocap.errors import missing
 from nbformat.v4 import new_code_cell
 
 assert mocap.__file__.startswith(sys.prefix)
-assert "'motion-graphs[video]'" in str(missing("Films need it", "video"))
+assert '"motion-graphs[video]"' in str(missing("Films need it", "video"))
 notebook = read(Path("course/00-quickstart.ipynb"))
 ours = "import sys, mocap; assert mocap.__file__.startswith(sys.prefix)"
 notebook.cells[27:] = [new_code_cell(ours)]  # after the first canvas; the rest measures

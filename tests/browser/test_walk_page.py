@@ -84,9 +84,9 @@ def test_it_finds_the_walk_of_the_plain_pages(scripts, seed):
     clips, rounded, order = as_packed(graph)
     *_, (_, best) = plain.Search(clips, rounded, line).layers()
     edges, cost = [], best.cost
-    while best.before:
+    while best.previous:
         edges.append(order[best.edge])
-        best = best.before
+        best = best.previous
     assert found["edges"] == edges[::-1]
     assert "transition" in {rounded.edges[edge]["kind"] for edge in order if order[edge] in edges}
     assert found["cost"] == pytest.approx(cost, abs=1e-6)
