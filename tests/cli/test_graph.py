@@ -83,13 +83,15 @@ def test_a_graph_with_mirror_images_finds_its_clips_again(tmp_path, monkeypatch,
 
 
 def lopsided(name, rate):
-    """Swing both legs, `rate` radians a frame; of two equal clips, all windows would be equally near."""
+    """Swing both legs, `rate` radians a frame."""
     names = ["root", "lfemur", "ltibia", "rfemur", "rtibia"]
     places = [[0, 0.9, 0], [0.1, 0, 0], [0, -0.4, 0], [-0.1, 0, 0], [0, -0.45, 0]]
     body = Skeleton(names, [-1, 0, 1, 0, 3], places)
     angles = 0.5 * np.sin(rate * np.arange(60))
     turned = np.tile(rotations.IDENTITY, (60, 5, 1))
-    turned[:, 1], turned[:, 3] = rotations.about_y(angles), rotations.about_y(-angles)
+    swing = angles[:, None] * [1, 0, 0]
+    turned[:, 1] = rotations.from_rotvec(swing)
+    turned[:, 3] = rotations.from_rotvec(-swing)
     roots = np.stack([0 * angles, 0 * angles + 0.9, np.arange(60) / 60], axis=1)
     return Motion(body, roots, turned, 30.0, name)
 
