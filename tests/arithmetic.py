@@ -4,10 +4,11 @@
     python tests/arithmetic.py --quick
     python tests/arithmetic.py --legs "two threads" lowest -- tests/feet
 
-A leg is one run of the tests: as this machine computes, with other last bits (tests/rounding.py), without the
-vector instructions that NumPy chooses, with each kernel of OpenBLAS, with two threads, beside four busy
-processes, with the lowest and the newest NumPy and SciPy that pyproject.toml allows (in a temporary folder).
-A leg that this machine cannot run is skipped, with the reason. The exit code is 1 if a test fails.
+A leg is one run of the tests, in two processes of one thread each: as this machine computes, with other last
+bits (tests/rounding.py), without the vector instructions that NumPy chooses, with each kernel of OpenBLAS,
+with two threads, beside four busy processes, with the lowest and the newest NumPy and SciPy that
+pyproject.toml allows (in a temporary folder). A leg that this machine cannot run is skipped, with the reason.
+The exit code is 1 if a test fails.
 """
 
 import argparse
@@ -49,6 +50,8 @@ TESTS = [f"{folder}/{room}" for room in ROOMS for folder in ("mocap", "tests")] 
 # No plots, notebooks or coverage; the same few examples of each property in all legs.
 OPTIONS = [
     "-oaddopts=",
+    "--numprocesses=2",
+    "--dist=loadfile",
     "--doctest-modules",
     "--tb=line",
     "--quiet",
@@ -143,7 +146,7 @@ def version_legs() -> Iterator[Leg]:
 
 def all_legs() -> Iterator[Leg]:
     """Yield the legs; the first is the arithmetic that users of this machine have."""
-    yield Leg("as it is", {"OPENBLAS_NUM_THREADS": "1"})
+    yield Leg("as it is")
     yield Leg("other last bits", {"MOCAP_ROUNDING": "1"})
     yield feature_leg()
     yield from kernel_legs()
@@ -185,7 +188,7 @@ def run_leg(leg: Leg, tests: list[str]) -> tuple[str, bool]:
     if leg.skipped:
         return f"skipped: {leg.skipped}", True
     with tempfile.TemporaryDirectory() as folder, busy_processes(leg.busy):
-        environment = os.environ | leg.environment
+        environment = {"OPENBLAS_NUM_THREADS": "1"} | os.environ | leg.environment
         if leg.libraries:
             if reason := install(leg.libraries, folder):
                 return f"not installed: {reason}", False

@@ -15,7 +15,7 @@ from mocap.errors import MocapError, requirement
 
 PAGES = ("GLOSSARY.md", "FORMULAS.md")  # the README is for teachers
 TELLING = re.compile(r"checks\.|lab\.(bets?|quiz)\(")  # how cells begin whose outputs hold hints or outcomes
-INSTALL = "try:\n    import mocap\nexcept ImportError:  # as in Colab\n    %pip install -q '{}'"
+INSTALL = 'try:\n    import mocap\nexcept ImportError:  # as in Colab\n    %pip install -q "{}"'
 MARKS = (
     "### BEGIN HIDDEN TESTS\nfrom mocap.course.checks import {0} as c\nc.require({0})\n### END HIDDEN TESTS"
 )

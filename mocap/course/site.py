@@ -41,8 +41,8 @@ HEAVY = re.compile(r'(?s)<script type="module">(.*?)</script>|src="data:image/pn
 AGAIN = re.compile(r"<p><small>Run this cell[^<]*</small></p>")
 ABOVE = NOTE.format(
     "Players, recorded sliders, quizzes, bets and the blind test answer you on these pages; code and other "
-    "controls are still. To run it live: <code>pip install 'motion-graphs[notebooks]'</code>, in a checkout "
-    "<code>pip install '.[notebooks]'</code>, then <code>mocap lab</code>."
+    'controls are still. To run it live: <code>pip install "motion-graphs[notebooks]"</code>, in a checkout '
+    '<code>pip install ".[notebooks]"</code>, then <code>mocap lab</code>.'
 )
 ABOVE += '<script>document.body.classList.add("mocap-page")</script>'  # players are dark where the page is
 REFERENCE = "{0}\n{1}\n\n.. automodule:: {0}\n   :members:\n   :imported-members:\n"

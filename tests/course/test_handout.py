@@ -16,7 +16,7 @@ from mocap.course.opening import stored
 from tests.refusals import refused
 
 COURSE = {file.stem: read(file) for file in notebooks_in(stored())}
-INSTALLS = "'.[notebooks]'"
+INSTALLS = '".[notebooks]"'
 
 
 @pytest.fixture(scope="module")

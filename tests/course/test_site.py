@@ -107,7 +107,7 @@ def test_the_menu_lists_the_pages_and_the_sections_of_its_own(site):
 def test_each_page_says_what_is_live_and_how_to_run_it(site):
     for name in NAMES:
         note = re.search(r'<p class="note">(.*?)</p>', (site / f"{name}.html").read_text("utf-8"))[1]
-        assert "pip install '.[notebooks]'" in note and "mocap lab" in note
+        assert 'pip install ".[notebooks]"' in note and "mocap lab" in note
         assert len(re.findall(r"[.] ", note)) == 1
     text = (site / "00-quickstart.html").read_text("utf-8")
     assert "answer you on these pages; code and other controls are still." in text
