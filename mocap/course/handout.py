@@ -56,30 +56,44 @@ def hand_out(
     Traceback (most recent call last):
     mocap.errors.MocapError: nowhere.ipynb: No such file or directory.
     """
-    nbformat, new, course = library(), dict[Path, str](), stored()
-    copies, needs = [], requirement("notebooks")
+    course = stored()
+    need = requirement("notebooks")
+    copies = []
+    files: dict[Path, str] = {}  # what is to be written, and where
     for file in notebooks or notebooks_in(course):
-        notebook, folder = read(file), out / "source" / file.stem if nbgrader else out
-        answers = list(tagged(notebook, "solution"))
-        notebook.cells = [cell for cell in notebook.cells if cell not in [cell for _, cell in answers]]
-        for cell in notebook.cells:
-            if cell.cell_type == "code" and TELLING.match(cell.source):
-                cell.outputs, cell.execution_count = [], None
-        if nbgrader:
-            _prepare(notebook, {name: solution(cell) for name, cell in answers}, points or {})
-        notebook.cells.insert(0, nbformat.v4.new_code_cell(INSTALL.format(needs), id="install"))
+        folder = out / "source" / file.stem if nbgrader else out
+        files[folder / file.name] = _without_solutions(file, need, points or {}, nbgrader=nbgrader)
         copies.append(folder / file.name)
-        new[copies[-1]] = nbformat.writes(notebook) + "\n"
-        new |= {folder / page: (course / page).read_text("utf-8") for page in PAGES}
-        new |= {folder / "requirements.txt": f"{needs}\n", folder / "runtime.txt": "python-3.11\n"}
+        for page in PAGES:
+            files[folder / page] = (course / page).read_text("utf-8")
+        files[folder / "requirements.txt"] = f"{need}\n"
+        files[folder / "runtime.txt"] = "python-3.11\n"
     if nbgrader:
-        new[out / "nbgrader_config.py"] = CONFIG
-    if there := [file for file in new if file.exists()]:
-        raise MocapError(f"{there[0]} exists already; choose another folder.")
-    for file, text in new.items():
-        make_folder(file.parent)
-        write_file(file, text)
+        files[out / "nbgrader_config.py"] = CONFIG
+    for path in files:
+        if path.exists():
+            raise MocapError(f"{path} exists already; choose another folder.")
+    for path, text in files.items():
+        make_folder(path.parent)
+        write_file(path, text)
     return copies
+
+
+def _without_solutions(file: Path, need: str, points: Mapping[str, float], *, nbgrader: bool) -> str:
+    """Return a notebook for students: no solutions, no outputs that tell them, and a cell that installs."""
+    notebook = read(file)
+    solutions = list(tagged(notebook, "solution"))
+    cells_with_solutions = [cell for _, cell in solutions]
+    notebook.cells = [cell for cell in notebook.cells if cell not in cells_with_solutions]
+    for cell in notebook.cells:
+        if cell.cell_type == "code" and TELLING.match(cell.source):
+            cell.outputs = []
+            cell.execution_count = None
+    if nbgrader:
+        _prepare(notebook, {name: solution(cell) for name, cell in solutions}, points)
+    nbformat = library()
+    notebook.cells.insert(0, nbformat.v4.new_code_cell(INSTALL.format(need), id="install"))
+    return str(nbformat.writes(notebook)) + "\n"
 
 
 def _prepare(notebook: Any, solutions: Mapping[str, str], points: Mapping[str, float]) -> None:  # noqa: ANN401
@@ -97,10 +111,10 @@ def _prepare(notebook: Any, solutions: Mapping[str, str], points: Mapping[str, f
         notebook.cells.insert(notebook.cells.index(cell) + 1, marks)
 
 
-def _role(name: str, **given: float) -> dict[str, Any]:
-    """Say what a cell is to nbgrader."""
+def _role(name: str, **fields: float) -> dict[str, Any]:
+    """Return what nbgrader reads about a cell."""
     plain = {"schema_version": 3, "grade": False, "locked": False, "solution": False, "task": False}
-    return plain | {"grade_id": name} | given
+    return plain | {"grade_id": name} | fields
 
 
 def _merged(stub: str, right: str) -> str:
@@ -108,11 +122,14 @@ def _merged(stub: str, right: str) -> str:
     head = stub[: stub.index("...")].rpartition("\n")[0] + "\n"  # with the docstring
     if not right.startswith(head):
         right = head + right.partition("\n")[2]
-    old, new, merged = stub.splitlines(), right.strip().splitlines(), list[str]()
-    for kind, *_, start, stop in SequenceMatcher(None, old, new, autojunk=False).get_opcodes():
+    solution_lines = right.strip().splitlines()
+    matcher = SequenceMatcher(None, stub.splitlines(), solution_lines, autojunk=False)
+    merged: list[str] = []
+    for kind, *_, start, stop in matcher.get_opcodes():
+        lines = solution_lines[start:stop]
         if kind == "equal":
-            merged += new[start:stop]
-        elif lines := new[start:stop]:
+            merged += lines
+        elif lines:
             indent = " " * min(len(line) - len(line.lstrip()) for line in lines if line)
             merged += [f"{indent}### BEGIN SOLUTION", *lines, f"{indent}### END SOLUTION"]
     return "\n".join(merged)

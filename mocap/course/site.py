@@ -73,7 +73,8 @@ def build_site(notebooks: Path, out: Path, progress: Progress = iter, *, moving:
     Traceback (most recent call last):
     mocap.errors.MocapError: The folder nowhere holds no notebooks.
     """
-    nbformat, files = library(), notebooks_in(notebooks)
+    nbformat = library()
+    files = notebooks_in(notebooks)
     if not all(map(find_spec, ("furo", "myst_nb", "sphinx"))):
         raise missing("The site needs Sphinx, MyST-NB and Furo", "site")
     from sphinx.application import Sphinx
@@ -85,10 +86,7 @@ def build_site(notebooks: Path, out: Path, progress: Progress = iter, *, moving:
         for file in progress(files):
             title, notebook = prepared(file, moving=moving)
             titles.append(f"{title} <{file.stem}>")
-            for cell in notebook.cells:  # attached pictures become files, which Sphinx finds
-                for name, data in cell.pop("attachments", {}).items():
-                    Path(folder, f"{file.stem}-{name}").write_bytes(base64.b64decode(data["image/png"]))
-                    cell.source = cell.source.replace(f"attachment:{name}", f"{file.stem}-{name}")
+            _detach(notebook, Path(folder), file.stem)
             _share(notebook, out)
             notebook.cells.insert(1, nbformat.v4.new_markdown_cell(ABOVE, id="note"))
             write_file(Path(folder, file.name), nbformat.writes(notebook))
@@ -106,80 +104,118 @@ def build_site(notebooks: Path, out: Path, progress: Progress = iter, *, moving:
 
 
 def prepared(file: Path, *, moving: bool) -> tuple[str, Any]:
-    """Read a notebook for readers without Python; give its number with its heading, and the notebook."""
+    """Read a notebook for readers without Python; return its number with its heading, and the notebook."""
     notebook = read(file)
     fill_in(notebook, recorded_of(file, notebook) if moving else {})
-    return f"{file.name.partition('-')[0]} {notebook.cells[0].source.splitlines()[0].lstrip('# ')}", notebook
+    number = file.name.partition("-")[0]
+    heading = notebook.cells[0].source.splitlines()[0].lstrip("# ")
+    return f"{number} {heading}", notebook
 
 
 def recorded_of(file: Path, notebook: Any) -> dict[str, Any]:  # noqa: ANN401
-    """Run a copy of a notebook, and give the recording of each experiment by the source of its cell."""
+    """Run a copy of a notebook, and return the recording of each experiment by the source of its cell."""
     with tempfile.TemporaryDirectory() as folder:
-        again = copy.deepcopy(notebook)
+        recording = copy.deepcopy(notebook)
         watching = f"from mocap.course import recording\nrecording.watch({folder!r})"
-        again.cells[0] = library().v4.new_code_cell(watching)  # in place of the heading
-        execute(again, file, 600)
-        recorded = [json.loads(kept.read_text("utf-8")) for kept in sorted(Path(folder).iterdir())]
-    for one in recorded:
-        if "error" in one:
-            raise MocapError(f"{file}: an experiment cannot be recorded: {one['error']:.99}")
-    return {one["source"]: one for one in recorded}
+        recording.cells[0] = library().v4.new_code_cell(watching)  # in place of the heading
+        execute(recording, file, 600)
+        recordings = [json.loads(path.read_text("utf-8")) for path in sorted(Path(folder).iterdir())]
+    for experiment in recordings:
+        if "error" in experiment:
+            raise MocapError(f"{file}: an experiment cannot be recorded: {experiment['error']:.99}")
+    return {experiment["source"]: experiment for experiment in recordings}
 
 
 def fill_in(notebook: Any, recorded: dict[str, Any]) -> None:  # noqa: ANN401
     """Put recordings in the place of experiments, and a sentence above what stays still."""
-    opening, scripts = f'<div class="{STILL}">', set[str]()
+    scripts: set[str] = set()  # those that the page has already
     for cell in notebook.cells:
         tags = cell.metadata.get("tags", ())
         address = next((tag.replace(":", "-") for tag in tags if ":" in tag), "")
         for output in cell.get("outputs", ()):
-            page = output.get("data", {}).get("text/html", "")
-            for script in SCRIPT.findall(page):  # it starts all that there is on the page, so one is enough
-                page = page if script not in scripts else page.replace(script, "")
-                scripts.add(script)
-            if opening in page:
-                note = NOTE.format(STILL_NOTES["mocap-player" in page])
-                page = AGAIN.sub("", page).replace(opening, f'<div class="{STILL}" id="{address}">{note}', 1)
-                if cell.source in recorded:
-                    page = f'<div id="{address}">{_moving(recorded[cell.source])}</div>'
-            if page:
-                output["data"]["text/html"] = page
+            data = output.get("data", {})
+            if "text/html" in data:
+                page = _without_scripts(data["text/html"], scripts)
+                data["text/html"] = _filled_in(page, address, recorded.get(cell.source))
+
+
+def _without_scripts(page: str, scripts: set[str]) -> str:
+    """Take out the scripts that the page of the site has already, and add the others to them.
+
+    One is enough: it starts all that there is on the page.
+    """
+    for script in SCRIPT.findall(page):
+        if script in scripts:
+            page = page.replace(script, "")
+        scripts.add(script)
+    return page
+
+
+def _filled_in(page: str, address: str, recording: dict[str, Any] | None) -> str:
+    """Replace what stays still by its recording; without one, put a sentence above it. Add an address."""
+    opening = f'<div class="{STILL}">'
+    if opening not in page:
+        return page
+    if recording:
+        return f'<div id="{address}">{_moving(recording)}</div>'
+    note = NOTE.format(STILL_NOTES["mocap-player" in page])
+    return AGAIN.sub("", page).replace(opening, f'<div class="{STILL}" id="{address}">{note}', 1)
 
 
 def _moving(recorded: dict[str, Any]) -> str:
     """Write a recording as a slider and a picture; `moving.js` moves them."""
-    at, labels = recorded["at"], recorded["labels"]
+    labels = recorded["labels"]
+    position = recorded["at"]
+    label = html.escape(labels[position])
+    name = html.escape(recorded["name"])
     data = json.dumps({key: recorded[key] for key in ("labels", "pictures")}).replace("<", "\\u003c")
-    label = html.escape(labels[at])
+    slider = (
+        f'<input type="range" min="0" max="{len(labels) - 1}" value="{position}" aria-valuetext="{label}">'
+    )
+    source = f"data:image/png;base64,{recorded['pictures'][position]}"
     return (
-        f'<div class="moving"><label>{html.escape(recorded["name"])} <input type="range" min="0" '
-        f'max="{len(labels) - 1}" value="{at}" aria-valuetext="{label}"><output>{label}</output></label>'
-        f'<img alt="{html.escape(recorded["alt"])}" src="data:image/png;base64,{recorded["pictures"][at]}">'
+        f'<div class="moving"><label>{name} {slider}<output>{label}</output></label>'
+        f'<img alt="{html.escape(recorded["alt"])}" src="{source}">'
         f'<script type="application/json">{data}</script></div>'
     )
+
+
+def _detach(notebook: Any, folder: Path, stem: str) -> None:  # noqa: ANN401
+    """Write attached pictures as files, which Sphinx finds."""
+    for cell in notebook.cells:
+        for name, data in cell.pop("attachments", {}).items():
+            (folder / f"{stem}-{name}").write_bytes(base64.b64decode(data["image/png"]))
+            cell.source = cell.source.replace(f"attachment:{name}", f"{stem}-{name}")
 
 
 def _share(notebook: Any, out: Path) -> None:  # noqa: ANN401
     """Move scripts and pictures of outputs to files that all pages share, each once."""
 
-    def shared(found: re.Match[str]) -> str:
-        script, picture = found.groups()  # no module: a browser does not load it where a page is a file
-        text = f"(() => {{{(script or '').replace('export default', 'void')}}})();"
-        content, suffix = (text.encode(), "js") if script else (base64.b64decode(picture), "png")
+    def write(content: bytes, suffix: str) -> str:
         name = f"_shared/{hashlib.sha256(content).hexdigest()[:12]}.{suffix}"
         (out / name).write_bytes(content)
-        return f'<script defer src="{name}"></script>' if script else f'loading="lazy" src="{name}"'
+        return name
 
-    for output in (output for cell in notebook.cells for output in cell.get("outputs", ())):
-        if "text/html" in (data := output.get("data", {})):
-            data["text/html"] = HEAVY.sub(shared, data["text/html"])
+    def shared(match: re.Match[str]) -> str:
+        script, picture = match.groups()
+        if not script:
+            return f'loading="lazy" src="{write(base64.b64decode(picture), "png")}"'
+        # No module: a browser does not load one where the page is a file.
+        text = f"(() => {{{script.replace('export default', 'void')}}})();"
+        return f'<script defer src="{write(text.encode(), "js")}"></script>'
+
+    for cell in notebook.cells:
+        for output in cell.get("outputs", ()):
+            data = output.get("data", {})
+            if "text/html" in data:
+                data["text/html"] = HEAVY.sub(shared, data["text/html"])
 
 
 def _write_reference(folder: Path) -> list[str]:
     """Write a page for the face of each room, and list them."""
     make_folder(folder / "reference")
-    found = pkgutil.walk_packages(mocap.__path__, "mocap.")
-    rooms = [room.name for room in found if room.ispkg and "._" not in room.name]
+    packages = pkgutil.walk_packages(mocap.__path__, "mocap.")
+    rooms = [package.name for package in packages if package.ispkg and "._" not in package.name]
     for room in rooms:
         write_file(folder / "reference" / f"{room}.rst", REFERENCE.format(room, "=" * len(room)))
     return [f"reference/{room}" for room in rooms]
