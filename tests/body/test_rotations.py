@@ -30,6 +30,11 @@ def turned(start: np.ndarray, axis: np.ndarray, angle: float) -> np.ndarray:
     return (scipys(start) * Rotation.from_rotvec(vector)).as_quat(scalar_first=True)[0]
 
 
+def test_z_up_turns_z_upwards_and_y_backwards():
+    turned_axes = rotations.rotate(rotations.Z_UP, np.eye(3))
+    assert turned_axes == pytest.approx(np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]]), abs=1e-15)
+
+
 @given(seeds)
 def test_multiply_is_scipys_product_broadcasts_and_has_inverses_and_an_identity(seed):
     a, b = units(seed, 2, 7)

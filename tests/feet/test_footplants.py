@@ -81,6 +81,12 @@ def test_hysteresis_is_what_a_loop_over_the_runs_finds(values, seed):
     )
 
 
+def test_a_value_at_a_threshold_is_not_below_it():
+    everywhere = np.ones(2, bool)
+    assert not hysteresis(np.array([1.0, 2.0]), everywhere, 1.0, 3.0).any()
+    assert hysteresis(np.array([1.0, 2.0]), everywhere, 1.5, 2.0).tolist() == [True, False]
+
+
 def test_too_short_a_clip_and_legs_without_names_are_errors():
     refused("more than 12 frames; 'jog' has 12", mark_plants, sample("jog")[:12])
     assert len(mark_plants(sample("jog")[:13])) == 13

@@ -199,6 +199,13 @@ def test_a_plant_that_stays_out_of_reach_is_let_go_with_a_warning():
     assert 0.65 * planted(clip) < planted(cleaned)
 
 
+def test_two_plants_that_are_let_go_are_both_named():
+    clip = sample("walk_straight")[:30]
+    marks = np.zeros(30, bool)
+    marks[[3, 4, 5, 20]] = True
+    told(r"let go: lfoot 3-5, lfoot 20-20\.$", footskate._warn_of_plants_let_go, clip, {"lfoot": marks}, 0.02)
+
+
 @given(seeds, st.integers(1, 9), st.floats(0, 1))
 def test_each_round_unmarks_a_planted_frame_so_the_rounds_end(seed, span, share):
     random = np.random.default_rng(seed)

@@ -30,6 +30,12 @@ def test_the_hinge_says_how_far_a_leg_reaches():
     assert np.all(TRACK.own > 0)
 
 
+def test_where_a_leg_is_too_short_or_too_long_its_knee_is_straight_or_folded():
+    reach = TRACK.long(0.0)
+    assert np.array_equal(TRACK.bend(1.1 * reach), np.zeros(len(CLIP)))
+    assert np.array_equal(TRACK.bend(0.0 * reach), np.full(len(CLIP), np.pi))
+
+
 def test_no_knee_becomes_straighter_than_eight_degrees_or_than_it_is():
     thigh, shank, _ = LEFT.lengths(CLIP.skeleton)
     bent = np.sqrt(thigh**2 + shank**2 + 2 * thigh * shank * np.cos(BENT))

@@ -5,11 +5,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mocap.body import resample
 from mocap.body.ground_path import GroundPath, s_curve
+from mocap.datasets.samples import sample
+from mocap.editing import LIMIT
 from mocap.errors import NoWalk
+from mocap.graphs import build
 from mocap.graphs.compiled_graph import AHEAD, compile_graph
 from mocap.graphs.motion_graph import from_transitions
 from mocap.steering import path_search
+from mocap.steering.followed import plan_bending
 from mocap.steering.layered_search import LayeredSearch, States, select, standing, start_states
 from mocap.steering.path_following import follow_path, path_problem, start_of
 from mocap.steering.path_objective import Route, Settings, Wishes, make_route
@@ -231,6 +236,18 @@ def test_a_hop_costs_what_its_frames_are_off():
             cost += 0.1 * (route.label[point] >= 0 and not sneaks)
             cost += 0.2 * ((start.frames[walk] + count) / 30 - route.clock[point]) ** 2
         assert costs[number] == pytest.approx(cost, rel=1e-6)
+
+
+def test_a_bent_walk_pays_for_turning_the_clips_and_for_standing():
+    """Frame by frame, on a straight line, where a clip that walks a bend has to be turned."""
+    graph = compile_graph(build([resample(sample("stop_and_go"), 30)], window=10, threshold=0.04))
+    route, _ = plan_bending(graph, GroundPath([[0, 0], [0, 9]]), Wishes(), LIMIT)
+    search = PathSearch(graph, route, at_nodes(graph, [0]), Settings(bend=0.5))
+    rows = np.arange(len(route.own.step))
+    costs = search._bending_costs(route.own, rows, np.full(len(rows), 1.0))
+    stands = route.own.step < 0.3 / 30
+    assert 0.2 < stands.mean() < 0.8
+    assert costs == pytest.approx(0.5 * (route.turns * 30) ** 2 + 0.1 * stands)
 
 
 def test_the_promise_of_a_walk_is_bounded_by_what_a_transition_could_save():
