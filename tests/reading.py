@@ -21,6 +21,7 @@ import hashlib
 import io
 import json
 import re
+import signal
 import sys
 import tokenize
 import tomllib
@@ -599,6 +600,17 @@ def add(names: list[str], reason: str) -> None:
     write(rooms)
 
 
+def files_below(paths: list[str]) -> list[str]:
+    """Return files as they are named, and for a folder all Python files in it."""
+    names = []
+    for path in paths:
+        if (ROOT / path).is_dir():
+            names += sorted(file.relative_to(ROOT).as_posix() for file in (ROOT / path).rglob("*.py"))
+        else:
+            names.append(path)
+    return names
+
+
 def report(names: list[str], *, everything: bool) -> int:
     """Print what is found in files, and the numbers in each room; return the number of all."""
     counts: Counter[tuple[str, str]] = Counter()
@@ -617,17 +629,22 @@ def report(names: list[str], *, everything: bool) -> int:
 def main() -> int:
     """List findings, or change the record."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("files", nargs="*", help="paths from the root; all by default")
+    parser.add_argument("files", nargs="*", help="files or folders, from the root; all by default")
     parser.add_argument("--all", action="store_true", help="also list what is found in exempt files")
     parser.add_argument("--exempt", action="store_true", help="shorten the record")
     parser.add_argument("--add", metavar="REASON", help="record the files as they are")
     options = parser.parse_args()
+    for path in options.files:
+        if not (ROOT / path).exists():
+            parser.error(f"there is no {path} in {ROOT}")
     if options.add:
         add(options.files, options.add)
     if options.exempt:
         shorten()
-    return min(1, report(options.files or list(files()), everything=options.all))
+    return min(1, report(files_below(options.files) or list(files()), everything=options.all))
 
 
 if __name__ == "__main__":
+    if hasattr(signal, "SIGPIPE"):  # Windows has none
+        signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # end quietly where `| head` has seen enough
     sys.exit(main())
