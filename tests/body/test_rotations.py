@@ -60,6 +60,16 @@ def test_to_matrix_does_what_two_products_do(seed, length):
 
 
 @given(seeds)
+def test_continuous_quaternions_follow_two_whole_turns(seed):
+    """After one whole turn a quaternion is -q: neighbours are compared, not all frames with the first."""
+    halves = np.linspace(0, 2 * np.pi, 30)
+    followed = np.stack([np.cos(halves), np.sin(halves), 0 * halves, 0 * halves], axis=-1)
+    signs = np.random.default_rng(seed).choice([-1.0, 1.0], (30, 1))
+    signs[0] = 1.0
+    assert np.array_equal(rotations.continuous(signs * followed), followed)
+
+
+@given(seeds)
 def test_rotation_vectors_are_scipys(seed):
     q = units(seed, 9)
     assert rotations.to_rotvec(q) == pytest.approx(scipys(q).as_rotvec(), abs=1e-14)
