@@ -63,8 +63,9 @@ def test_to_matrix_does_what_two_products_do(seed, length):
 def test_continuous_quaternions_follow_two_whole_turns(seed):
     """After one whole turn a quaternion is -q: neighbours are compared, not all frames with the first."""
     halves = np.linspace(0, 2 * np.pi, 30)
-    followed = np.stack([np.cos(halves), np.sin(halves), 0 * halves, 0 * halves], axis=-1)
-    signs = np.random.default_rng(seed).choice([-1.0, 1.0], (30, 1))
+    about_x = np.stack([np.cos(halves), np.sin(halves), 0 * halves, 0 * halves], axis=-1)
+    followed = np.stack([about_x, about_x[::-1]], axis=1)  # two joints
+    signs = np.random.default_rng(seed).choice([-1.0, 1.0], (30, 2, 1))
     signs[0] = 1.0
     assert np.array_equal(rotations.continuous(signs * followed), followed)
 
