@@ -70,6 +70,11 @@ def test_continuous_quaternions_follow_two_whole_turns(seed):
     assert np.array_equal(rotations.continuous(signs * followed), followed)
 
 
+def test_a_quaternion_half_a_turn_away_keeps_its_sign():
+    half_a_turn = np.eye(4)[:2]
+    assert np.array_equal(rotations.continuous(half_a_turn), half_a_turn)
+
+
 @given(seeds)
 def test_rotation_vectors_are_scipys(seed):
     q = units(seed, 9)

@@ -12,7 +12,7 @@ from mocap.body.kinematics import GlobalPoses, forward_kinematics
 from mocap.body.limbs import find_legs
 from mocap.datasets.samples import sample
 from mocap.feet import ankle_targets, least_bending
-from mocap.feet.ankle_targets import band_product, bending_bands, foot_target, place_plants, smooth_fill
+from mocap.feet.ankle_targets import FLAT, band_product, bending_bands, foot_target, place_plants, smooth_fill
 from mocap.feet.least_bending import MOST, UNSEEN, hold_plants
 from mocap.feet.leg_track import UP, track_leg
 from tests.strategies import seeds
@@ -139,6 +139,17 @@ def test_the_places_say_where_an_ankle_is(faster):
     moved, turned = (np.abs(values).max() for values in (target.ankle - track.ankle, target.turn))
     assert (moved < 1e-7 and turned < 1e-6) if faster == 1 else moved > 0.02
     assert np.array_equal(target.planted, MARKS[0].any(axis=0))
+
+
+def test_a_foot_rolls_no_further_than_hip_ankle_and_ball_make_a_triangle():
+    target = TARGETS[0]
+    hip = TRACKS[0].hip[target.rolls]
+    ball = target.places[1, target.rolls]
+    foot = np.linalg.norm(ball - target.ankle[target.rolls], axis=1)
+    far = np.linalg.norm(ball - hip, axis=1)
+    for asked, kept in ((9.0, far + foot - FLAT), (0.0, far - foot + FLAT)):
+        ways = target.rolled(hip, np.full(len(hip), asked))
+        assert np.linalg.norm(ways, axis=1) == pytest.approx(kept, abs=1e-9)
 
 
 def test_plants_of_a_leg_that_lies_are_drawn_within_its_reach():

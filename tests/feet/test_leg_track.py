@@ -30,6 +30,18 @@ def test_the_hinge_says_how_far_a_leg_reaches():
     assert np.all(TRACK.own > 0)
 
 
+@given(seeds)
+def test_a_captured_knee_that_is_no_pure_hinge_is_as_long_as_it_is(seed):
+    turned = CLIP.rotations.copy()
+    tilt = rotations.from_rotvec(np.random.default_rng(seed).normal(size=(len(CLIP), 3)) * 0.2)
+    turned[:, LEFT.knee] = rotations.multiply(tilt, turned[:, LEFT.knee])
+    motion = replace(CLIP, rotations=turned)
+    track = track_leg(motion, LEFT, forward_kinematics(motion))
+    assert track.folded(track.own) == pytest.approx(track.ankle - track.hip, abs=1e-12)
+    distance = np.linalg.norm(track.ankle - track.hip, axis=-1)
+    assert track.long(track.own) == pytest.approx(distance, abs=1e-12)
+
+
 def test_where_a_leg_is_too_short_or_too_long_its_knee_is_straight_or_folded():
     reach = TRACK.long(0.0)
     assert np.array_equal(TRACK.bend(1.1 * reach), np.zeros(len(CLIP)))

@@ -194,6 +194,12 @@ def test_a_graph_that_ends_is_told():
         follow_path(line, GroundPath([[0, 0], [0, 50]]))
 
 
+def test_it_is_told_how_far_the_farthest_walk_came():
+    search = search_on()
+    search.history = [at_nodes(GRAPH, [3, 4])._replace(along=np.array([2.5, 1.0]))]
+    refused("ends after 2.5 m", search.best_walk, "", kind=NoWalk)
+
+
 def test_walks_stand_alike_by_node_place_turn_and_where_others_walk_by_time():
     apart = {"node": 1, "move": 0.2, "turn": np.exp(0.2j), "frames": 30}
     one = start_states(np.array([7]), np.ones(1, complex), np.zeros(1, complex))
