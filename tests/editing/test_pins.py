@@ -11,6 +11,7 @@ from mocap.body.kinematics import forward_kinematics, hinge_of, joint_positions
 from mocap.datasets.samples import sample
 from mocap.editing import Pins, body_of, difference, edit, hierarchy, join_pins, pin, pin_errors, plant_pins
 from mocap.editing.bodies import keep_turned, limit_turns, require_reachable
+from mocap.editing.pins import with_plants
 from mocap.files.load_save import load
 from tests.editing.wishes import bar, captured, far_hand, hand, shakes, smoothness, walk
 from tests.refusals import refusals, refused
@@ -54,6 +55,20 @@ def test_a_pin_asks_in_its_frames_only():
     assert pin(clip, 2, [3, 4], path).low[[3, 4], 0].tolist() == path.tolist()
     assert np.flatnonzero(pin(clip, 2, slice(0, 9), [0, 0, 0]).only([2]).asked).tolist() == [2]
     assert len(pin(clip, 2, slice(0, 9), [0, 0, 0]).at(slice(2, 4))) == 2
+
+
+def test_pins_that_are_joined_with_no_others_stay_as_they_are():
+    hold = box([1, 2, 3])
+    joined = join_pins(hold)
+    assert joined.joints == hold.joints
+    assert np.array_equal(joined.low, hold.low)
+    assert np.array_equal(joined.high, hold.high)
+
+
+def test_a_clip_is_marked_only_where_it_is_not():
+    clip = sample("walk_straight")[:60]
+    assert with_plants(clip) is clip
+    assert with_plants(replace(clip, contacts={})).contacts.keys() == clip.contacts.keys()
 
 
 def test_of_two_holds_the_later_goes_before_and_a_hold_goes_before_a_box():

@@ -13,7 +13,14 @@ from mocap.body import joint_positions, resample
 from mocap.errors import MocapError, NoWalk, SkeletonMismatch
 from mocap.matching.distance_grids import distance_grid
 from mocap.methods.match_webs import weights_for
-from mocap.methods.parametric_graphs import build_parametric, cut_strides, made_motions, make_space
+from mocap.methods.parametric_graphs import (
+    build_parametric,
+    cut_strides,
+    made_motions,
+    make_space,
+    parametric_edges,
+)
+from mocap.methods.parametric_graphs.examples import on_one_clock
 from mocap.methods.parametric_graphs.made_motions import make_motion, near_end, optimal_transitions
 from mocap.methods.parametric_graphs.parametric_edges import BAD, build_edge, shrink_box
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, measure_mixes, place_evenly
@@ -251,3 +258,33 @@ def test_by_default_all_edges_that_can_be_had_are_there():
     some = {name: built.walk_and_jog().nodes[name]["space"] for name in ("walk", "jog to walk")}
     graph = build_parametric(some, good=0.05, sampling=built.SMALL)
     assert set(graph.edges) == {("walk", "walk"), ("jog to walk", "walk")}
+
+
+def test_the_example_that_sets_the_clock_keeps_its_frames():
+    walks = [resample(generate_walk([[0, 0], [x, 2.5], [2 * x, 4]]), 30) for x in (0.0, 0.5, 1.0)]
+    cuts = [(walk, np.linspace(10, 60, 11)) for walk in walks]
+    clocked = on_one_clock(cuts, (2, 8))
+    _, frames = clocked[1]  # its turn is the median
+    assert frames == pytest.approx(cuts[1][1], abs=1e-6)
+
+
+def test_where_bad_targets_are_all_around_the_best_target_is_the_whole_box(monkeypatch):
+    space = built.space()
+    count = 5
+    leave = np.linspace(0.9, 1.1, count)
+    enter = np.linspace(-0.1, 0.1, count)
+    best = 3
+    costs = np.full(count, 0.2)
+    costs[best] = 0.01
+    crowded = np.linspace(0.3, 0.3 + 1e-3 * space.scale[0], count)[:, None]
+    monkeypatch.setattr(parametric_edges, "draw_parameters", lambda *_: crowded)
+    monkeypatch.setattr(
+        parametric_edges,
+        "optimal_transitions",
+        lambda _, __, at, ___: [np.tile(row, (len(at), 1)) for row in (costs, leave, enter)],
+    )
+    edge = build_edge(space, space, good=0.02, sampling=(6, count))
+    assert np.array_equal(edge.low, np.tile(crowded[best], (len(edge.at), 1)))
+    assert np.array_equal(edge.high, edge.low)
+    assert edge.leave == pytest.approx(leave[best])
+    assert edge.enter == pytest.approx(enter[best])
