@@ -31,18 +31,18 @@ def check_floor(motion, heel):
         assert heels[:, 1].min() > -heel
 
 
-def check_limits(motion, hip, ankle):
-    """Knees and elbows are hinges; hips and ankles turn within the limits given, degrees."""
+def check_limits(motion, hip, ankle, knee=(4, 125), toes=(-65, 1e-6)):
+    """Knees and elbows are hinges; joints turn within the limits given, degrees."""
     for side in "lr":
         turn = {
             bone: np.degrees(rotations.to_rotvec(motion.rotations[:, SKELETON.index(side + bone)]))
             for bone in ("femur", "tibia", "foot", "toes", "radius")
         }
         for bone, (least, most) in {
-            "tibia": (4, 125),
+            "tibia": knee,
             "femur": hip,
             "foot": ankle,
-            "toes": (-65, 1e-6),
+            "toes": toes,
         }.items():
             assert least < turn[bone][:, 0].min() < turn[bone][:, 0].max() < most, bone
         assert np.abs(turn["tibia"][:, 1:]).max() < 1e-6
