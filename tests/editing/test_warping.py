@@ -15,7 +15,7 @@ from mocap.editing.keys import Key, cardinal, keys_around, offsets, scaled
 from mocap.editing.retiming import at_frames, retime
 from mocap.errors import SkeletonMismatch
 from tests.editing.wishes import accelerations, body
-from tests.refusals import refusals
+from tests.refusals import refusals, refused
 from tests.strategies import random_motion, seeds, wave
 
 WALK = sample("walk_straight")[240:481]
@@ -147,6 +147,15 @@ def test_one_pace_is_the_clip_itself_and_back_again_is_where_it_began():
     gap = joint_positions(back)[:, body(FOUR_SECONDS)] - joint_positions(FOUR_SECONDS)[:, body(FOUR_SECONDS)]
     assert len(back) == len(FOUR_SECONDS)
     assert np.linalg.norm(gap, axis=-1).max() < 0.003  # metres
+
+
+def test_a_retimed_clip_has_the_most_frames_at_most(monkeypatch):
+    frames = round(FOUR_SECONDS.duration * FOUR_SECONDS.fps) + 1
+    keys = [(0, 0), (FOUR_SECONDS.duration, FOUR_SECONDS.duration)]
+    monkeypatch.setattr("mocap.editing.retiming.MOST", frames)
+    assert len(retime(FOUR_SECONDS, keys)) == frames
+    monkeypatch.setattr("mocap.editing.retiming.MOST", frames - 1)
+    refused(f"ask for {frames} frames; at most {frames - 1}", retime, FOUR_SECONDS, keys)
 
 
 def test_the_marks_come_from_the_nearest_frame():
