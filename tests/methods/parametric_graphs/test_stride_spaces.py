@@ -1,5 +1,6 @@
 """What is asked is got; what is near in parameters is near in motion; boxes hold good targets."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -23,11 +24,11 @@ from mocap.methods.parametric_graphs import (
 from mocap.methods.parametric_graphs.examples import on_one_clock
 from mocap.methods.parametric_graphs.made_motions import make_motion, near_end, optimal_transitions
 from mocap.methods.parametric_graphs.parametric_edges import BAD, build_edge, shrink_box
-from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, measure_mixes, place_evenly
+from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, measure_mixes, place_evenly, said
 from tests.bundled import clips
 from tests.editing.wishes import bones
 from tests.methods.parametric_graphs import built
-from tests.refusals import refusals
+from tests.refusals import refusals, refused
 
 HALF, SPAN, WINDOW = made_motions.HALF, made_motions.SPAN, made_motions.WINDOW
 
@@ -288,3 +289,20 @@ def test_where_bad_targets_are_all_around_the_best_target_is_the_whole_box(monke
     assert np.array_equal(edge.high, edge.low)
     assert edge.leave == pytest.approx(leave[best])
     assert edge.enter == pytest.approx(enter[best])
+
+
+def test_the_source_that_nothing_follows_is_named(monkeypatch):
+    space = built.space()
+
+    def costs_that_rise(_source, _target, at, to):
+        costs = np.repeat(np.linspace(0.01, 0.03, len(at))[:, None], len(to), axis=1)
+        return costs, costs, costs
+
+    monkeypatch.setattr(parametric_edges, "optimal_transitions", costs_that_rise)
+    name = space.parameters[0]
+    worst = said(name, place_evenly(space, 6)[-1, 0])
+    refused(
+        f"Nothing follows {name} {re.escape(worst)} below 2.0 cm",
+        lambda: build_edge(space, space, good=0.02, sampling=(6, 5)),
+        kind=NoWalk,
+    )
