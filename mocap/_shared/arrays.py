@@ -1,5 +1,6 @@
 """Names for kinds of arrays, and three small functions that many modules use."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,8 @@ Mask = NDArray[np.bool_]
 Indices = NDArray[np.intp]
 Points = NDArray[np.complex128]
 """Points on the ground, as complex numbers z + ix."""
+VectorsLike = NDArray[Any] | Sequence[Sequence[float] | NDArray[Any]]
+"""N vectors as callers may pass them: an array of shape (N, K), or N lists or arrays of K numbers each."""
 
 
 def frozen(values: ArrayLike, dtype: type[np.generic]) -> NDArray[Any]:
