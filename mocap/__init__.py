@@ -48,7 +48,8 @@ Where something new goes
   reacts frame by frame: a class that fits `steering.Character`, in a file of `steering`.
 - A method of its own kind: a room of its own in `methods`.
 
-A room's `__init__.py` lists its files and exports its public names; the tests of a room are in `tests/ROOM`.
+A room's `__init__.py` lists its files, and its `__init__.pyi` the names that it exports. Its tests are in
+`tests/ROOM`.
 """
 
 import lazy_loader
