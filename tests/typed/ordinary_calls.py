@@ -61,6 +61,7 @@ walked = synthesis.to_motion(graph, edges, name="walked", clean=True)
 followed = steering.follow_path(graph, line, settings=steering.Settings(width=100))
 waypoint = steering.Waypoint(1, 2.5, label="walk")
 steered = steering.steer(steering.Controller(graph), [0.0] * 30, speed=1.2)
+headed = steering.steer(steering.Controller(graph), steering.command_headings(1.0, 30))
 
 # Feet, blends, edits and judgements
 cleaned = feet.clean_up(feet.mark_plants(walk))
@@ -69,6 +70,7 @@ mixed = blending.mix(blending.register([walk[:60], walk[2:62]]), [0.5, 0.5])
 mirrored = editing.mirror(walk)
 pinned = editing.pin(walk, "rhand", [10, 11], [0.1, 1.2, 0.3])
 worst = max(quality.judge(walk).measures, key=lambda measure: measure.ratio)
+plan = plotting.draw_group_plan(np.arange(5)[:, None] * 1j + [0.0, 1.0], [0j, 4j])
 wants = motion_matching.Wants(future=0.5)
 scene = groups.Scene((0j, 8 + 0j), near=1.5)
 
