@@ -48,38 +48,13 @@ Where something new goes
   reacts frame by frame: a class that fits `steering.Character`, in a file of `steering`.
 - A method of its own kind: a room of its own in `methods`.
 
-A room's `__init__.py` lists its files and exports its public names; the tests of a room are in `tests/ROOM`.
+A room's `__init__.py` lists its files, and its `__init__.pyi` the names that it exports. Its tests are in
+`tests/ROOM`.
 """
 
 import lazy_loader
 
 __version__ = "0.1.0"
 
-# Each name is imported at its first use, so that `import mocap` is quick.
-__getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__,
-    submodules=[
-        "blending",
-        "body",
-        "course",
-        "datasets",
-        "editing",
-        "feet",
-        "files",
-        "graphs",
-        "matching",
-        "methods",
-        "plotting",
-        "quality",
-        "steering",
-        "synthesis",
-        "widgets",
-    ],
-    submod_attrs={
-        "errors": ["FormatError", "MocapError", "MocapWarning", "NoWalk", "SkeletonMismatch"],
-        "body.skeleton": ["Skeleton"],
-        "body.motion": ["Motion", "concatenate", "resample"],
-        "body.planar": ["PlanarTransform"],
-        "files.load_save": ["load", "save"],
-    },
-)
+# Each name is imported at its first use, so that `import mocap` is quick; `__init__.pyi` lists them.
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

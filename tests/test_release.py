@@ -1,8 +1,6 @@
 """What is published: the names at the top, two archives, their numbers, and what they promise."""
 
-import os
 import re
-import subprocess
 import sys
 import tarfile
 import tomllib
@@ -14,7 +12,7 @@ import pytest
 import mocap
 from mocap import datasets
 from mocap.cli.main import COMMANDS
-from tests.test_house import ROOT
+from tests.wheels import ROOT, build, call, install
 
 
 def test_every_name_is_there():
@@ -166,21 +164,11 @@ def test_the_page_lists_what_is_stable():
     assert "twine upload dist/*" in STABLE
 
 
-def call(*command, folder, **environment):
-    kept = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "PYTEST_ADDOPTS")}
-    done = subprocess.run(
-        [*map(str, command)], cwd=folder, env=kept | environment, capture_output=True, text=True, check=False
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
-
-
 @pytest.fixture(scope="module")
 def archives(tmp_path_factory):
-    for tool in ("build", "hatchling", "twine"):
-        pytest.importorskip(tool, reason="pip install '.[ci]'")
+    pytest.importorskip("twine", reason="pip install '.[ci]'")
     out = tmp_path_factory.mktemp("dist")
-    call(sys.executable, "-m", "build", "--no-isolation", "--outdir", out, ROOT, folder=out)
+    build(out)
     return next(out.glob("*.tar.gz")), next(out.glob("*.whl"))
 
 
@@ -199,20 +187,17 @@ def test_the_archives_hold_what_they_should_and_nothing_else(archives):
         name for name in source if name.endswith(".ipynb")
     }
     assert not any(name.startswith(("tests", "figures")) or "answers" in name for name in held)
+    typed = {str(path.relative_to(ROOT)) for path in (ROOT / "mocap").rglob("__init__.pyi")}
+    assert typed | {"mocap/py.typed"} <= source & held
     assert not [name for name in source | held if Path(name).suffix.lower() in (".amc", ".asf", ".c3d")]
 
 
 @pytest.mark.sweep
 def test_the_wheel_alone_makes_a_walk_and_runs_a_notebook(archives, tmp_path):
-    env, empty = tmp_path / "env", tmp_path / "empty"
+    empty = tmp_path / "empty"
     empty.mkdir()
-    call(sys.executable, "-m", "venv", "--without-pip", env, folder=empty)
+    env = install(archives[1], tmp_path)
     python = env / "bin" / "python"
-    install = ("install", "--quiet", "--no-deps", "--no-index", archives[1])
-    call(sys.executable, "-m", "pip", "--python", python, *install, folder=empty)
-    (site,) = env.glob("lib/*/site-packages")
-    libraries = [path for path in sys.path if path.endswith(("site-packages", "dist-packages"))]
-    (site / "libraries.pth").write_text("\n".join(libraries))
     call(env / "bin" / "mocap", "demo", "--seconds", "2", folder=empty)
     assert {path.name for path in (empty / "mocap-demo").iterdir()} >= {"walk.bvh", "walk.gif"}
     call(env / "bin" / "mocap", "course", "handout", "-o", "course", folder=empty)

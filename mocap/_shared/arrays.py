@@ -1,5 +1,6 @@
 """Names for kinds of arrays, and three small functions that many modules use."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -8,8 +9,10 @@ from numpy.typing import ArrayLike, NDArray
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 Indices = NDArray[np.intp]
-Points = NDArray[np.complex128]
+Points = NDArray[np.complexfloating[Any, Any]]
 """Points on the ground, as complex numbers z + ix."""
+VectorsLike = NDArray[Any] | Sequence[Sequence[float] | NDArray[Any]]
+"""N vectors as callers may pass them: an array of shape (N, K), or N lists or arrays of K numbers each."""
 
 
 def frozen(values: ArrayLike, dtype: type[np.generic]) -> NDArray[Any]:

@@ -24,11 +24,4 @@ References
 
 import lazy_loader
 
-_names = {
-    "weights": ["cubic_weights", "linear_weights", "sine_weights"],
-    "joining": ["blend", "inertialize", "join", "lay_window_on"],
-    "clocks": ["frame_times"],
-    "mixing": ["crossfade", "ground_course", "mix"],
-    "registering": ["register"],
-}
-__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=_names)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -22,14 +22,4 @@ References
 
 import lazy_loader
 
-_names = {
-    "skeleton": ["Skeleton"],
-    "motion": ["Motion", "concatenate", "resample"],
-    "kinematics": ["joint_positions", "velocities"],
-    "planar": ["PlanarTransform", "heading", "on_ground", "place"],
-    "ground_path": ["GroundPath", "SHAPES", "arcs", "circle", "s_curve", "spline"],
-    "limbs": ["find_legs"],
-}
-__getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__, submodules=["rotations", "euler", "kinematics"], submod_attrs=_names
-)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline
 
-from mocap._shared.arrays import Array, frozen
+from mocap._shared.arrays import Array, VectorsLike, frozen
 from mocap.errors import MocapError
 
 FINE = 0.02  # metres between the points of a curve
@@ -40,6 +41,10 @@ class GroundPath:
 
     points: Array
 
+    if TYPE_CHECKING:  # what a caller may pass: `__post_init__` makes an array of it
+
+        def __init__(self, points: VectorsLike) -> None: ...
+
     def __post_init__(self) -> None:
         points = np.asarray(self.points, float)
         if points.ndim != 2 or points.shape[1] != 2 or len(points) < 2:
@@ -67,10 +72,12 @@ class GroundPath:
         """Metres from the first point to the last."""
         return float(self.along[-1])
 
+    # reads: name: public, and promised to those who call it
     def at(self, along: ArrayLike) -> Array:
-        """Give the points (..., 2) that lie `along` metres from the start; past either end, that end."""
-        along, places = np.asarray(along, float), self.along
-        return np.stack([np.interp(along, places, axis) for axis in self.points.T], axis=-1)
+        """Return the points (..., 2) that are `along` metres from the start; past either end, that end."""
+        distances = np.asarray(along, float)
+        knots = self.along
+        return np.stack([np.interp(distances, knots, axis) for axis in self.points.T], axis=-1)
 
     def resampled(self, spacing: float) -> GroundPath:
         """Space the points evenly, at most `spacing` metres apart; sharp corners are cut by as much."""
@@ -80,7 +87,7 @@ class GroundPath:
         return GroundPath(self.at(np.linspace(0, self.length, max(pieces, 1) + 1)))
 
 
-def spline(points: ArrayLike) -> GroundPath:
+def spline(points: VectorsLike) -> GroundPath:
     """Draw a smooth curve through some points, C² where it passes them.
 
     It is a cubic spline over the square roots of the chords, which neither overshoots nor loops where points
@@ -108,7 +115,7 @@ def spline(points: ArrayLike) -> GroundPath:
     return GroundPath(curve(between)).resampled(FINE)
 
 
-def arcs(start: tuple[float, float], heading: float, pieces: list[tuple[float, float]]) -> GroundPath:
+def arcs(start: tuple[float, float], heading: float, pieces: Sequence[tuple[float, float]]) -> GroundPath:
     """Draw a line of arcs; each goes on from the place and direction where the one before ends.
 
     Parameters
@@ -124,15 +131,17 @@ def arcs(start: tuple[float, float], heading: float, pieces: list[tuple[float, f
 
     Notebook: 08-path-synthesis
     """
-    steps, turns = [], []
+    steps: list[Array] = []
+    rotations: list[Array] = []
     for length, turn in pieces:
         count = max(2, int(np.ceil(length / FINE)))
         steps.append(np.full(count, length / count))
-        turns.append(np.full(count, turn / count))
-    each = np.concatenate(turns)
-    facing = heading + np.cumsum(each) - each / 2  # half-way through each step
-    move = np.concatenate(steps)[:, None] * np.stack([np.sin(facing), np.cos(facing)], axis=1)
-    return GroundPath(np.vstack([start, np.asarray(start) + np.cumsum(move, axis=0)]))
+        rotations.append(np.full(count, turn / count))
+    angles = np.concatenate(rotations)
+    headings = heading + np.cumsum(angles) - angles / 2  # half-way through each step
+    directions = np.stack([np.sin(headings), np.cos(headings)], axis=1)
+    offsets = np.cumsum(np.concatenate(steps)[:, None] * directions, axis=0)
+    return GroundPath(np.vstack([start, np.asarray(start) + offsets]))
 
 
 def circle(radius: float = 3.0) -> GroundPath:
@@ -162,14 +171,52 @@ def s_curve(length: float = 20.0) -> GroundPath:
     return arcs((0, 0), bend / 2, [(length / 2, -bend), (length / 2, bend)])
 
 
-_SQUARE = [(1.5, 0.0), *[(0.75 * np.pi, np.pi / 2), (3.0, 0.0)] * 3, (0.75 * np.pi, np.pi / 2), (1.5, 0.0)]
-_LEFT, _RIGHT = (3.75 * np.pi, 1.5 * np.pi), (3.75 * np.pi, -1.5 * np.pi)  # the loops of the eight
-_BEND = 1.25 * np.pi  # of the letter S
+def square() -> GroundPath:
+    """Draw a square to the left, 6 m wide, whose corners are quarter circles of 1.5 m.
+
+    Examples
+    --------
+    >>> square()
+    GroundPath(1073 points, 21.4 m)
+    """
+    corner = (0.75 * np.pi, np.pi / 2)
+    half_side = (1.5, 0.0)
+    side = (3.0, 0.0)
+    return arcs((0, 0), 0.0, [half_side, corner, side, corner, side, corner, side, corner, half_side])
+
+
+def figure_of_eight() -> GroundPath:
+    """Draw two loops of 2.5 m radius, the first to the left and the second to the right, and lines between.
+
+    Examples
+    --------
+    >>> figure_of_eight()
+    GroundPath(1681 points, 33.6 m)
+    """
+    half_line = (2.5, 0.0)
+    line = (5.0, 0.0)
+    loop = 3.75 * np.pi  # metres: three quarters of a circle
+    angle = 1.5 * np.pi
+    return arcs((0, 0), -np.pi / 4, [half_line, (loop, angle), line, (loop, -angle), half_line])
+
+
+def letter_s(radius: float = 1.5) -> GroundPath:
+    """Draw two bends of five eighths of a circle, the first to the left and the second to the right.
+
+    Examples
+    --------
+    >>> letter_s(1.0)
+    GroundPath(395 points, 7.9 m)
+    """
+    bend = 1.25 * np.pi
+    return arcs((0, 0), 0.0, [(radius * bend, bend), (radius * bend, -bend)])
+
+
 SHAPES: dict[str, Callable[..., GroundPath]] = {
     "S-curve": s_curve,
     "circle": circle,
-    "square": lambda: arcs((0, 0), 0.0, _SQUARE),
-    "figure of eight": lambda: arcs((0, 0), -np.pi / 4, [(2.5, 0.0), _LEFT, (5.0, 0.0), _RIGHT, (2.5, 0.0)]),
-    "letter S": lambda radius=1.5: arcs((0, 0), 0.0, [(radius * _BEND, _BEND), (radius * _BEND, -_BEND)]),
+    "square": square,
+    "figure of eight": figure_of_eight,
+    "letter S": letter_s,
 }
 """The shapes by name; each can be called without arguments."""

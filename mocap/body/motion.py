@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mocap._shared.arrays import Array, Indices, Mask, frozen, ranges
+from mocap._shared.arrays import Array, Indices, Mask, VectorsLike, frozen, ranges
 from mocap.body import rotations
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, SkeletonMismatch
@@ -53,6 +54,19 @@ class Motion:
     labels: Marks = field(default_factory=dict)
     contacts: Marks = field(default_factory=dict)
 
+    if TYPE_CHECKING:  # what a caller may pass: `__post_init__` makes arrays of it
+
+        def __init__(  # noqa: PLR0913 (the fields)
+            self,
+            skeleton: Skeleton,
+            root_positions: VectorsLike,
+            rotations: ArrayLike,
+            fps: float,
+            name: str = ...,
+            labels: Mapping[str, ArrayLike] = ...,
+            contacts: Mapping[str, ArrayLike] = ...,
+        ) -> None: ...
+
     def __post_init__(self) -> None:
         for key in ("root_positions", "rotations"):
             object.__setattr__(self, key, frozen(getattr(self, key), np.float64))
@@ -70,7 +84,8 @@ class Motion:
             self.skeleton.index(joint)
 
     def _check_numbers(self) -> None:
-        frames, joints = len(self.root_positions), len(self.skeleton)
+        frames = len(self.root_positions)
+        joints = len(self.skeleton)
         if frames == 0:
             raise MocapError(f"Motion '{self.name}' has no frames.")
         if self.root_positions.shape != (frames, 3) or self.rotations.shape != (frames, joints, 4):
@@ -94,18 +109,21 @@ class Motion:
     def __repr__(self) -> str:
         return f"Motion('{self.name}', {len(self)} frames at {self.fps:g} Hz, {len(self.skeleton)} joints)"
 
-    def __getitem__(self, frames: slice | Indices) -> Motion:
-        """Take a stretch of frames, a step of n divides the frame rate by n; or frames by number."""
+    def __getitem__(self, frames: slice | Sequence[int] | NDArray[np.integer[Any]] | Mask) -> Motion:
+        """Take a stretch of frames, a step of n divides the frame rate by n; or frames by number or mask."""
         step = (frames.step or 1) if isinstance(frames, slice) else 1
         if step < 1:
             raise MocapError(f"Frames run forwards only; got a step of {step}.")
-        return replace(
-            self,
-            root_positions=self.root_positions[frames],
-            rotations=self.rotations[frames],
-            fps=self.fps / step,
-            labels={name: mark[frames] for name, mark in self.labels.items()},
-            contacts={name: mark[frames] for name, mark in self.contacts.items()},
+        labels = {name: mark[frames] for name, mark in self.labels.items()}
+        contacts = {name: mark[frames] for name, mark in self.contacts.items()}
+        return Motion(
+            self.skeleton,
+            self.root_positions[frames],
+            self.rotations[frames],
+            self.fps / step,
+            self.name,
+            labels,
+            contacts,
         )
 
     @property
@@ -113,6 +131,7 @@ class Motion:
         """Seconds from the first frame to the last."""
         return (len(self) - 1) / self.fps
 
+    # reads: name: public, and promised to those who call it
     def at(self, frames: ArrayLike) -> Motion:
         """Sample the motion at frames (N,), such as 2.5: roots on straight lines, rotations by slerp.
 
@@ -126,13 +145,14 @@ class Motion:
         array([0.  , 0.25, 1.  ])
         """
         frames = np.clip(frames, 0, len(self) - 1)
-        before = frames.astype(int)
-        after = np.minimum(before + 1, len(self) - 1)
-        share = (frames - before)[:, None]
-        nearest = np.where(share[:, 0] < 0.5, before, after)
-        start, end = self.root_positions[before], self.root_positions[after]
-        turns = rotations.slerp(self.rotations[before], self.rotations[after], share)
-        return replace(self[nearest], root_positions=start + share * (end - start), rotations=turns)
+        floor = frames.astype(int)
+        ceiling = np.minimum(floor + 1, len(self) - 1)
+        fraction = (frames - floor)[:, None]
+        nearest = np.where(fraction[:, 0] < 0.5, floor, ceiling)
+        start = self.root_positions[floor]
+        end = self.root_positions[ceiling]
+        sampled = rotations.slerp(self.rotations[floor], self.rotations[ceiling], fraction)
+        return replace(self[nearest], root_positions=start + fraction * (end - start), rotations=sampled)
 
 
 def turning(motion: Motion) -> NDArray[np.bool_]:
@@ -202,14 +222,12 @@ def concatenate(motions: Sequence[Motion], name: str | None = None) -> Motion:
     first = motions[0]
     counts = np.array([len(motion) for motion in motions])
     frames = np.stack([np.repeat(np.arange(len(motions)), counts), ranges(0 * counts, counts)], axis=1)
-    return replace(
-        first,
-        root_positions=np.concatenate([m.root_positions for m in motions]),
-        rotations=np.concatenate([m.rotations for m in motions]),
-        name=name or first.name,
-        labels=gather_marks([m.labels for m in motions], frames),
-        contacts=gather_marks([m.contacts for m in motions], frames),
-    )
+    root_positions = np.concatenate([motion.root_positions for motion in motions])
+    rotations = np.concatenate([motion.rotations for motion in motions])
+    labels = gather_marks([motion.labels for motion in motions], frames)
+    contacts = gather_marks([motion.contacts for motion in motions], frames)
+    name = name or first.name
+    return Motion(first.skeleton, root_positions, rotations, first.fps, name, labels, contacts)
 
 
 def require_alike(motions: Sequence[Motion]) -> tuple[Motion, ...]:
@@ -232,12 +250,13 @@ def require_alike(motions: Sequence[Motion]) -> tuple[Motion, ...]:
     """
     if not motions:
         raise MocapError("This takes one clip or more, got none.")
-    most, alike = max(motions, key=lambda motion: len(motion.skeleton)), []
+    fullest = max(motions, key=lambda motion: len(motion.skeleton))
+    alike = []
     for motion in motions:
         try:
-            alike.append(_with_ends(motion, most.skeleton))
+            alike.append(_with_ends(motion, fullest.skeleton))
         except SkeletonMismatch as error:
-            raise SkeletonMismatch(f"'{most.name}' and '{motion.name}': {error}") from None
+            raise SkeletonMismatch(f"'{fullest.name}' and '{motion.name}': {error}") from None
         if motion.fps != motions[0].fps:
             rates = f"'{motions[0].name}' runs at {motions[0].fps:g} Hz, '{motion.name}' at {motion.fps:g} Hz"
             raise MocapError(f"{rates}: resample one first.")
@@ -246,11 +265,11 @@ def require_alike(motions: Sequence[Motion]) -> tuple[Motion, ...]:
 
 def _with_ends(motion: Motion, skeleton: Skeleton) -> Motion:
     """Put a motion on a skeleton that is the same but for end sites; those that it lacked do not turn."""
-    own = motion.skeleton
-    if own is skeleton:
+    worn = motion.skeleton
+    if worn is skeleton:
         return motion
-    joints = skeleton.joints_in(own)
-    if own.names == skeleton.names and np.allclose(own.offsets, skeleton.offsets, rtol=0, atol=1e-6):
+    joints = skeleton.joints_in(worn)
+    if worn.names == skeleton.names and np.allclose(worn.offsets, skeleton.offsets, rtol=0, atol=1e-6):
         return motion
     rotations = np.where((joints < 0)[:, None], [1.0, 0, 0, 0], motion.rotations[:, joints])
     contacts = {joint: mark for joint, mark in motion.contacts.items() if joint in skeleton.names}

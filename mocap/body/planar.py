@@ -10,15 +10,17 @@ it by exp(iθ), and a planar transform is p ↦ turn · p + move. Only this modu
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array, Points
 from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
+
+Numbers = float | NDArray[np.floating[Any]]
 
 
 def on_ground(points: ArrayLike) -> Points:
@@ -62,9 +64,9 @@ class PlanarTransform(NamedTuple):
     Notebook: 03-transforms
     """
 
-    angle: float | Array
-    x: float | Array
-    z: float | Array
+    angle: Numbers
+    x: Numbers
+    z: Numbers
 
     @classmethod
     def from_complex(cls, turn: complex | Points, move: complex | Points) -> PlanarTransform:
@@ -84,8 +86,11 @@ class PlanarTransform(NamedTuple):
     def apply_points(self, points: ArrayLike) -> Array:
         """Move points, shape (..., 3): x' = x cos θ + z sin θ + x₀, z' = z cos θ - x sin θ + z₀."""
         x, y, z = np.moveaxis(np.asarray(points, float), -1, 0)
-        cos, sin = np.cos(self.angle), np.sin(self.angle)
-        return np.stack(np.broadcast_arrays(x * cos + z * sin + self.x, y, z * cos - x * sin + self.z), -1)
+        cos = np.cos(self.angle)
+        sin = np.sin(self.angle)
+        moved_x = x * cos + z * sin + self.x
+        moved_z = z * cos - x * sin + self.z
+        return np.stack(np.broadcast_arrays(moved_x, y, moved_z), -1)
 
     def apply_frames(self, roots: ArrayLike, turns: Array) -> tuple[Array, Array]:
         """Move frames of root positions (..., 3) and rotations (..., J, 4); only roots change."""

@@ -6,14 +6,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from textwrap import shorten
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mocap._shared.arrays import Array, Indices, frozen
+from mocap._shared.arrays import Array, Indices, VectorsLike, frozen
 from mocap.errors import MocapError, SkeletonMismatch
 
-_LEFT, _RIGHT = ("left", "Left", "_l", "_L", "l", "L"), ("right", "Right", "_r", "_R", "r", "R")
+_LEFT = ("left", "Left", "_l", "_L", "l", "L")
+_RIGHT = ("right", "Right", "_r", "_R", "r", "R")
 _SIDES = [pair for left, right in zip(_LEFT, _RIGHT, strict=True) for pair in ((left, right), (right, left))]
 
 
@@ -51,6 +53,17 @@ class Skeleton:
     offsets: Array
     axes: Array = field(default_factory=lambda: np.empty((0, 4)))
     dofs: Sequence[str] = ()
+
+    if TYPE_CHECKING:  # what a caller may pass: `__post_init__` makes arrays of it
+
+        def __init__(
+            self,
+            names: Sequence[str],
+            parents: ArrayLike,
+            offsets: VectorsLike,
+            axes: VectorsLike = ...,
+            dofs: Sequence[str] = ...,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "names", tuple(self.names))
@@ -95,8 +108,9 @@ class Skeleton:
             raise MocapError(f"{needs}, got {self.parents.shape} and {self.offsets.shape}.")
         if self.parents[0] != -1 or np.any(self.parents[1:] < 0):
             raise MocapError("Joint 0, and no other, is the root with parent -1.")
-        if np.any(late := self.parents >= np.arange(count)):
-            raise MocapError(f"Joint '{self.names[int(late.argmax())]}' stands before its parent.")
+        early = self.parents >= np.arange(count)
+        if early.any():
+            raise MocapError(f"Joint '{self.names[int(early.argmax())]}' stands before its parent.")
         if not np.isfinite(self.offsets).all():
             joint = self.names[int(np.argwhere(~np.isfinite(self.offsets))[0, 0])]
             raise MocapError(f"The offset of joint '{joint}' is not a finite number.")
@@ -126,8 +140,8 @@ class Skeleton:
         [2, 1, 0]
         """
         path = [int(joint)]
-        while (parent := int(self.parents[path[-1]])) >= 0:
-            path.append(parent)
+        while path[-1] != 0:
+            path.append(int(self.parents[path[-1]]))
         return path
 
     @cached_property
@@ -153,8 +167,11 @@ class Skeleton:
         >>> [body.side(joint) for joint in range(3)]
         ['middle', 'left', 'right']
         """
-        own, image = self.names[joint], self.names[self.partner(joint)]
-        return "middle" if own == image else "left" if own < image else "right"  # an l comes before an r
+        name = self.names[joint]
+        image = self.names[self.partner(joint)]
+        if name == image:
+            return "middle"
+        return "left" if name < image else "right"  # an l comes before an r
 
     def partner(self, joint: int) -> int:
         """Find a joint's mirror image by its name; a joint in the middle is its own.
@@ -166,11 +183,13 @@ class Skeleton:
         [0, 2, 1]
         """
         name = self.names[joint]
-        for own, other in _SIDES:
-            if own in name and (image := name.replace(own, other, 1)) in self.names:
+        for side, opposite in _SIDES:
+            image = name.replace(side, opposite, 1)
+            if side in name and image in self.names:
                 return self.names.index(image)
         return joint
 
+    # reads: name: the other skeleton, as in `__eq__`
     def require_same(self, other: Skeleton) -> None:
         """Raise `SkeletonMismatch` unless `other` has the same joints, the same tree and the same offsets."""
         if self is other:
@@ -182,9 +201,10 @@ class Skeleton:
             raise SkeletonMismatch("The skeletons have the same joints in another order or tree.")
         gaps = np.linalg.norm(self.offsets - other.offsets, axis=-1)
         if gaps.max() > 1e-6:
-            apart = f"'{self.names[gaps.argmax()]}' sits {100 * gaps.max():.2g} cm apart"
-            raise SkeletonMismatch(f"The skeletons' bones differ: {apart}.")
+            worst = f"'{self.names[gaps.argmax()]}' sits {100 * gaps.max():.2g} cm apart"
+            raise SkeletonMismatch(f"The skeletons' bones differ: {worst}.")
 
+    # reads: name: the other skeleton, as in `__eq__`
     def joints_in(self, other: Skeleton) -> Indices:
         """Find each joint in a skeleton that may have other end sites: its number there, -1 for none, (J,).
 

@@ -31,6 +31,4 @@ References
 
 import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__, submodules=["checks", "diagrams", "lab"], submod_attrs={"real_clips": ["collections", "people"]}
-)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -11,5 +11,4 @@ Reading order (notebooks 01, 10, 11)
 
 import lazy_loader
 
-_names = {"samples": ["SAMPLES", "sample"], "named_sets": ["from_set"], "cmu_database": ["cmu", "trials"]}
-__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=_names)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -10,7 +10,7 @@ import csv
 import re
 from functools import cache
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, overload
 
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
@@ -80,6 +80,16 @@ def trials(subject: int | None = None, kind: str | None = None) -> list[Trial]:
     return listed
 
 
+@overload
+def cmu(clip: str, *, skeleton: Skeleton | Stance | None = None) -> Motion: ...
+@overload
+def cmu(
+    clip: None = None,
+    *,
+    subject: int | None = None,
+    kind: str | None = None,
+    skeleton: Skeleton | Stance | None = None,
+) -> list[Motion]: ...
 def cmu(
     clip: str | None = None,
     *,

@@ -37,19 +37,4 @@ References
 
 import lazy_loader
 
-_names = {
-    "displacements": ["Displacement", "difference", "displaced", "spline_basis"],
-    "pins": ["Pins", "join_pins", "pin", "pin_errors", "plant_pins"],
-    "bodies": ["body_of", "keep_turned", "limit_turns"],
-    "solver": ["Basis", "REACH", "solve"],
-    "edits": ["edit", "hierarchy", "posed", "scattered_fit"],
-    "bending": ["LIMIT", "bend"],
-    "path_editing": ["moving_frames", "on_path", "plants_kept", "ride_of", "start_at"],
-    "stances": ["proportioned", "stance_of"],
-    "retargeting": ["copied", "floor_pins", "retarget"],
-    "keys": ["Key", "cardinal", "keys_around", "offsets", "scaled"],
-    "retiming": ["retime"],
-    "mirroring": ["mirror"],
-    "cycles": ["loop"],
-}
-__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=_names)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -8,6 +8,7 @@ to close, clip(p, low, high) - p. How a joint is turned is such a p as well: a r
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -55,6 +56,12 @@ class Pins:
     low: Array
     high: Array
     turns: tuple[Turn, ...] = ()
+
+    if TYPE_CHECKING:  # what a caller may pass: `__post_init__` makes arrays of it
+
+        def __init__(
+            self, joints: Sequence[int], low: ArrayLike, high: ArrayLike, turns: tuple[Turn, ...] = ...
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "joints", tuple(int(joint) for joint in self.joints))

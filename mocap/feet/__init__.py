@@ -27,9 +27,4 @@ References
 
 import lazy_loader
 
-_names = {
-    "footplants": ["find_footprints", "mark_plants", "runs", "standing_tracks"],
-    "ankle_targets": ["place_plants"],
-    "footskate": ["clean_up"],
-}
-__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=_names)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

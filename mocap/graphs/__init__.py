@@ -22,14 +22,4 @@ References
 
 import lazy_loader
 
-_names = {
-    "motion_graph": ["MotionGraph", "build", "from_transitions"],
-    "pruning": ["prune", "prune_graph", "notes_example"],
-    "thresholds": ["threshold_curve"],
-    "graph_summary": ["summary"],
-    "storage": ["load", "save"],
-    "compiled_graph": ["compile_graph"],
-}
-__getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__, submodules=["homework_graph"], submod_attrs=_names
-)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

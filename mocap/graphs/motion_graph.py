@@ -6,14 +6,16 @@ each edge plays some frames, and the frames of a walk are those of its edges in 
 """
 
 from collections.abc import Iterator, Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
 
 import networkx as nx
 import numpy as np
+from numpy.typing import ArrayLike
 
 from mocap._shared.collector import uncollected
+from mocap._shared.progress import Progress
 from mocap.body.motion import Motion, require_alike
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError
@@ -67,12 +69,14 @@ class MotionGraph:
         return sum(edge_kind == kind for _, _, edge_kind in self.graph.edges(data="kind"))
 
 
-def build(
+def build(  # noqa: PLR0913 (the parameters of `find_transitions`)
     clips: Sequence[Motion],
     *,
     window: int,
     threshold: Thresholds,
-    **search: Any,  # noqa: ANN401 (as `find_transitions` has them)
+    joint_weights: ArrayLike | None = None,
+    progress: Progress = iter,
+    executor: Executor | None = None,
 ) -> MotionGraph:
     """Build the motion graph of some clips: find the transitions, and cut the clips where they touch.
 
@@ -84,8 +88,7 @@ def build(
     window : frames in a transition, about a third of a second.
     threshold : every transition has an RMS distance of the points below this, metres; or one threshold for
         each pair of labels, as for `matching.find_transitions`.
-    **search : joint_weights, progress and executor, as for
-        `matching.find_transitions`.
+    joint_weights, progress, executor : as for `matching.find_transitions`.
 
     Raises
     ------
@@ -105,8 +108,15 @@ def build(
     Notebook: 00-quickstart
     """
     _require_names(clips)
-    found = find_transitions(clips, window=window, below=threshold, **search)
-    return from_transitions(clips, found, window=window)
+    transitions = find_transitions(
+        clips,
+        window=window,
+        below=threshold,
+        joint_weights=joint_weights,
+        progress=progress,
+        executor=executor,
+    )
+    return from_transitions(clips, transitions, window=window)
 
 
 def labels_between(motion: Motion, start: int, end: int) -> Labels:
@@ -184,14 +194,15 @@ def cut_and_join(clips: Sequence[Motion], transitions: Sequence[Transition], win
     for clip, motion in enumerate(clips):
         graph.add_nodes_from([(clip, 0), (clip, len(motion))])
     for t in transitions:
-        leave, enter = (t.source, t.leave), (t.target, t.enter + window)
-        here = labels_between(clips[t.source], t.leave, t.leave + window)
-        there = labels_between(clips[t.target], t.enter, t.enter + window)
-        edge = {"kind": "transition", "frames": window, "labels": here | there}
+        leave = (t.source, t.leave)
+        enter = (t.target, t.enter + window)
+        source_labels = labels_between(clips[t.source], t.leave, t.leave + window)
+        target_labels = labels_between(clips[t.target], t.enter, t.enter + window)
+        edge = {"kind": "transition", "frames": window, "labels": source_labels | target_labels}
         graph.add_edge(leave, enter, **edge, cost=t.cost, transform=t.transform)
-    # Within a clip the nodes stand in the order of time, so each is joined to the one after it.
-    for (clip, start), (same, end) in pairwise(sorted(graph)):
-        if clip == same:
+    # Within a clip the nodes are in the order of time, therefore each is joined to its successor.
+    for (clip, start), (next_clip, end) in pairwise(sorted(graph)):
+        if clip == next_clip:
             labels = labels_between(clips[clip], start, end)
             graph.add_edge((clip, start), (clip, end), kind="clip", frames=end - start, labels=labels)
     return graph
@@ -241,19 +252,19 @@ def merge_choice_points(motion_graph: MotionGraph, *, within: int, threshold: fl
     """
     if not threshold > 0:
         raise MocapError(f"The threshold must be above 0 m, got {threshold} m.")
-    clips, window = motion_graph.clips, motion_graph.window
-    measured = {
-        (a, b): Transition(a[0], a[1], b[0], b[1] - window, edge["cost"], edge["transform"])
-        for a, b, edge in motion_graph.graph.edges(data=True)
-        if edge["kind"] == "transition"
-    }
+    clips = motion_graph.clips
+    window = motion_graph.window
+    measured: dict[Ends, Transition] = {}
+    for a, b, edge in motion_graph.graph.edges(data=True):
+        if edge["kind"] == "transition":
+            measured[a, b] = _transition(a, b, window, edge["cost"], edge["transform"])
     old = list(measured)
     goals = _goals(old, within)
     while True:  # each round sends at least one point back, or is the last
         new = [(goals[a], goals[b]) for a, b in old]
         fresh = [ends for ends in dict.fromkeys(new) if ends not in measured]
         measured.update(_measured(clips, window, fresh))
-        fine = {ends for ends, way in measured.items() if way.cost < threshold}
+        fine = {ends for ends, transition in measured.items() if transition.cost < threshold}
         bad = [a for a, b in zip(old, new, strict=True) if a != b and b not in fine]
         if not bad:
             return from_transitions(clips, [measured[ends] for ends in dict.fromkeys(new)], window=window)
@@ -261,32 +272,50 @@ def merge_choice_points(motion_graph: MotionGraph, *, within: int, threshold: fl
             goals[back] = back
 
 
-def _goals(ways: Sequence[Ends], within: int) -> dict[Node, Node]:
+def _transition(a: Node, b: Node, window: int, cost: float, transform: PlanarTransform) -> Transition:
+    """Return the transition between two nodes; it enters its clip `window` frames before the second."""
+    source, leave = a
+    target, end = b
+    return Transition(source, leave, target, end - window, cost, transform)
+
+
+def _goals(transitions: Sequence[Ends], within: int) -> dict[Node, Node]:
     """Map each choice point to that of its group where the last transition leaves, else to the first one."""
-    left, entered = ({ends[side] for ends in ways} for side in (0, 1))
+    exits = {leave for leave, _ in transitions}
+    entries = {enter for _, enter in transitions}
     groups: list[list[Node]] = []
-    for node in sorted(left | entered):
+    for node in sorted(exits | entries):
         last = groups[-1] if groups else [(-1, 0)]
-        together = last[0][0] == node[0] and node[1] - last[0][1] <= within
-        if together and not (node in left and any(before in entered for before in last)):
+        is_near = last[0][0] == node[0] and node[1] - last[0][1] <= within
+        if is_near and not (node in exits and any(member in entries for member in last)):
             last.append(node)
         else:
             groups.append([node])
-    return {node: max((n for n in g if n in left), default=g[0]) for g in groups for node in g}
+    goals: dict[Node, Node] = {}
+    for group in groups:
+        goal = max((node for node in group if node in exits), default=group[0])
+        goals.update(dict.fromkeys(group, goal))
+    return goals
 
 
 def _measured(
     clips: Sequence[Motion], window: int, ends: Sequence[Ends]
 ) -> Iterator[tuple[Ends, Transition]]:
     """Align windows from node to node, where they lie inside their clips apart, and measure what remains."""
-    ends = [
-        (a, b)
-        for a, b in ends
-        if a[1] + window <= len(clips[a[0]]) and b[1] >= window
-        if a[0] != b[0] or abs(b[1] - window - a[1]) >= window
-    ]
-    cloud, starts = join_clouds(clips, None, window, 0, np.float64), np.cumsum([0, *map(len, clips)])
+    ends = [(a, b) for a, b in ends if _has_windows(clips, window, a, b)]
+    cloud = join_clouds(clips, None, window, 0, np.float64)
+    starts = np.cumsum([0, *map(len, clips)])
     clip, frame = np.moveaxis(np.array(ends, np.intp).reshape(-1, 2, 2), -1, 0)  # (N, 2) each
     leave, enter = (starts[clip] + frame - [0, window]).T
-    for (a, b), (cost, *way) in zip(ends, fit(cloud, cloud, leave, enter).T.tolist(), strict=True):
-        yield (a, b), Transition(*a, b[0], b[1] - window, cost, PlanarTransform(*way))
+    fits = fit(cloud, cloud, leave, enter).T.tolist()
+    for (a, b), (cost, angle, x, z) in zip(ends, fits, strict=True):
+        yield (a, b), _transition(a, b, window, cost, PlanarTransform(angle, x, z))
+
+
+def _has_windows(clips: Sequence[Motion], window: int, a: Node, b: Node) -> bool:
+    """Check that the windows of a transition from a to b are inside their clips, and do not overlap."""
+    source, leave = a
+    target, end = b
+    enter = end - window
+    is_inside = leave + window <= len(clips[source]) and enter >= 0
+    return is_inside and (source != target or abs(enter - leave) >= window)

@@ -26,11 +26,4 @@ References
 
 import lazy_loader
 
-_names = {
-    "point_clouds": ["align", "distinct_joints", "point_cloud"],
-    "distance_grids": ["distance_grid"],
-    "minima": ["local_minima"],
-    "transitions": ["Transition", "find_transitions"],
-    "time_paths": ["time_path"],
-}
-__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=_names)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

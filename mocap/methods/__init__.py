@@ -10,6 +10,4 @@ Reading order (notebooks 16 to 19)
 
 import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__, submodules=["groups", "match_webs", "motion_matching", "parametric_graphs"]
-)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -20,13 +20,4 @@ References
 
 import lazy_loader
 
-_names = {
-    "style": ["ASKED", "COLOURS", "CURVES", "FLOOR", "MARK", "PATH", "QUIET", "SOURCES"],
-    "bodies": ["bones", "flat_bodies"],
-    "stick_figures": ["StickFigure", "ground_axes"],
-    "grids": ["distance_image", "walk_rows"],
-    "charts": ["draw_group_plan", "joint_curve", "path_from_above", "quartile_band"],
-    "graph_drawing": ["node_link", "timeline"],
-    "picture": ["show"],
-}
-__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=_names)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

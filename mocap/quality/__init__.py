@@ -20,10 +20,4 @@ References
 
 import lazy_loader
 
-_names = {
-    "clip_flaws": ["inspect"],
-    "falling": ["centre_of_mass", "gravity"],
-    "judging": ["judge"],
-    "seam_measures": ["jumps", "knee_turns", "plant_slides", "seam_quality", "spread"],
-}
-__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=_names)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

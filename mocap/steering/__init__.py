@@ -30,13 +30,4 @@ References
 
 import lazy_loader
 
-_names = {
-    "path_objective": ["Settings", "Wishes"],
-    "path_following": ["follow_as_2002", "follow_path"],
-    "waypoints_and_crowds": ["Waypoint", "through_waypoints", "walk_crowd"],
-    "characters": ["Character", "measure_delay", "steer"],
-    "graph_control": ["Controller"],
-    "foot_turning": ["FootTurner"],
-    "judged_control": ["command_headings", "judge_control"],
-}
-__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=_names)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

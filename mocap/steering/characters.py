@@ -100,9 +100,11 @@ class Steered(NamedTuple):
         -------
         Three numbers; nan where the command is not obeyed, as `measure_delay` defines it.
         """
-        fps, track = self.motion.fps, on_ground(self.motion.root_positions) * np.exp(-1j * heading)
+        fps = self.motion.fps
+        track = on_ground(self.motion.root_positions) * np.exp(-1j * heading)
         back = round(fps / 3)
-        obeys = np.abs(np.angle(track[frame:] - track[frame - back : -back])) < OBEYS
+        directions = np.angle(track[frame:] - track[frame - back : -back])
+        obeys = np.abs(directions) < OBEYS
         if not obeys.any():
             return np.full(3, np.nan)
         took = int(obeys.argmax()) + 1
@@ -111,7 +113,7 @@ class Steered(NamedTuple):
         return np.array([wait, blends, took - wait - blends]) / fps
 
 
-def steer(character: Character, headings: Sequence[float], speed: float = 1.1) -> Steered:
+def steer(character: Character, headings: Sequence[float] | Array, speed: float = 1.1) -> Steered:
     """Steer a character by one heading per frame, and record what it does.
 
     Parameters
@@ -134,11 +136,13 @@ def steer(character: Character, headings: Sequence[float], speed: float = 1.1) -
 
     Notebook: 08b-steering
     """
-    poses, left = [], []
+    poses: list[Pose] = []
+    frames_left: list[int] = []
     for heading in headings:
-        left.append(character.frames_left)
+        frames_left.append(character.frames_left)
         poses.append(character.step(float(heading), speed))
-    return Steered(as_motion(character, poses), np.array([pose.blending for pose in poses]), np.array(left))
+    blending = np.array([pose.blending for pose in poses])
+    return Steered(as_motion(character, poses), blending, np.array(frames_left))
 
 
 def as_motion(character: Character, poses: Sequence[Pose], name: str = "steered") -> Motion:
@@ -154,18 +158,14 @@ def as_motion(character: Character, poses: Sequence[Pose], name: str = "steered"
     >>> walked, sorted(walked.contacts)
     (Motion('steered', 9 frames at 30 Hz, 38 joints), ['lfoot', 'ltoes', 'rfoot', 'rtoes'])
     """
+    root_positions = np.array([pose.root_position for pose in poses])
+    rotations = np.array([pose.rotations for pose in poses])
     marks = [mark for mark in poses[0].contacts if all(mark in pose.contacts for pose in poses)]
-    return Motion(
-        character.skeleton,
-        np.array([pose.root_position for pose in poses]),
-        np.array([pose.rotations for pose in poses]),
-        character.fps,
-        name,
-        contacts={mark: np.array([pose.contacts[mark] for pose in poses]) for mark in marks},
-    )
+    contacts = {mark: np.array([pose.contacts[mark] for pose in poses]) for mark in marks}
+    return Motion(character.skeleton, root_positions, rotations, character.fps, name, contacts=contacts)
 
 
-def between(heading: float, other: float) -> float:
+def between(first: float, second: float) -> float:
     """Give the angle between two headings, radians from 0 to π.
 
     Examples
@@ -173,7 +173,7 @@ def between(heading: float, other: float) -> float:
     >>> round(between(3.0, -3.0), 3)
     0.283
     """
-    return abs(cmath.phase(cmath.exp(1j * (heading - other))))
+    return abs(cmath.phase(cmath.exp(1j * (first - second))))
 
 
 class CommandClock:
@@ -201,7 +201,8 @@ class CommandClock:
     """
 
     def __init__(self, fps: float) -> None:
-        self.fps, self.back = fps, round(fps / 3)
+        self.fps = fps
+        self.back = round(fps / 3)
         self.track: deque[complex] = deque(maxlen=self.back + 1)
         self.heading = self.started = 0.0  # the command's, now and when the clock started; radians
         self.frames = 0
@@ -217,8 +218,10 @@ class CommandClock:
         """Take the heading of the next step."""
         self.heading = heading
         if between(heading, self.started) > AGAIN:
-            self.started, self.frames, self.obeyed = heading, 0, False
-            self.counts = len(self.track) > self.back and self._off() >= OBEYS
+            self.started = heading
+            self.frames = 0
+            self.obeyed = False
+            self.counts = len(self.track) > self.back and self._error() >= OBEYS
 
     def step(self, place: complex) -> None:
         """Take where the root is on the ground after a step, z + ix."""
@@ -226,11 +229,11 @@ class CommandClock:
         if self.obeyed:
             return
         self.frames += 1
-        self.obeyed = self.frames > self.back and len(self.track) > self.back and self._off() < OBEYS
+        self.obeyed = self.frames > self.back and len(self.track) > self.back and self._error() < OBEYS
         if self.obeyed and self.counts:
             self.delays.append(self.waited)
 
-    def _off(self) -> float:
+    def _error(self) -> float:
         return between(cmath.phase(self.track[-1] - self.track[0]), self.heading)
 
 
@@ -276,11 +279,17 @@ def measure_delay(character: Character, *, turns: int = 60, speed: float = 1.1, 
 
     Notebook: 08b-steering
     """
-    random, fps, clock = np.random.default_rng(seed), character.fps, CommandClock(character.fps)
-    heading, costs, delays, never = 0.0, [], [], 0
+    random = np.random.default_rng(seed)
+    fps = character.fps
+    clock = CommandClock(fps)
+    heading = 0.0
+    costs: list[float] = []  # CPU seconds of each step
+    delays: list[tuple[int, int, int]] = []  # frames: of the whole delay, waiting, blending
+    never = 0
     for _ in range(turns):
         heading += random.choice([-1, 1]) * random.uniform(np.pi / 6, 2 * np.pi / 3)
-        wait, blends = character.frames_left, 0
+        wait = character.frames_left
+        blends = 0
         clock.command(heading)
         while not clock.obeyed and clock.frames < round(LONGEST * fps):
             start = time.thread_time()
@@ -293,6 +302,6 @@ def measure_delay(character: Character, *, turns: int = 60, speed: float = 1.1, 
     took, waited, blended = np.transpose(delays) / fps
     # The first step looks ahead from the start without any frame to do so before; games do it while loading.
     cost = 1e3 * np.array(costs[1:])
-    mean, step, waiting, blending = (float(some.mean()) for some in (took, cost, waited, blended))
-    slowest, worst = float(np.percentile(took, 95)), float(cost.max())
-    return Delay(mean, slowest, step, worst, waiting, blending, never)
+    mean, step, waiting, blending = (float(values.mean()) for values in (took, cost, waited, blended))
+    slowest = float(np.percentile(took, 95))
+    return Delay(mean, slowest, step, float(cost.max()), waiting, blending, never)

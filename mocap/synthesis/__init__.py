@@ -17,9 +17,4 @@ References
 
 import lazy_loader
 
-_names = {
-    "walk_to_motion": ["seams", "sources", "to_motion"],
-    "random_walks": ["random_walk"],
-    "bounded_search": ["Problem", "branch_and_bound", "search_ahead"],
-}
-__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=_names)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

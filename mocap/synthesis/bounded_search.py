@@ -22,7 +22,8 @@ from mocap.errors import MocapError, NoWalk
 EQUAL = 1e-9
 
 State = Any
-SearchEdge = tuple[Hashable, Hashable, int]
+SearchEdge = tuple[Any, Any, int]
+"""The two nodes of an edge, of the kind that the graph has, and its key."""
 Step = Callable[[State, SearchEdge], tuple[float, State]]
 """g(w, e): from a walk's state and the next edge to the cost that the edge adds, and the next state."""
 

@@ -28,12 +28,4 @@ References
 
 import lazy_loader
 
-_names = {
-    "player": ["play"],
-    "live_player": ["Mixer", "draw_path"],
-    "experiments": ["explore", "step_aside"],
-    "pointing": ["handles"],
-    "film": ["save_animation"],
-    "steered_widget": ["steered"],
-}
-__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=_names)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -167,8 +167,8 @@ def down_the_tree(motion: Motion, frame: int = 0) -> Callable[[int], list[Artist
             marked.set(y=loop + 0.5, height=steps)
         else:
             marked.set(y=0.5, height=loop - 1)
-        limbs.set_segments(points[np.stack([starts, ends], 1)[ends <= joint]])
-        limbs.set_color([COLOURS[side] for side in sides[ends <= joint]])
+        limbs.set_segments(points[np.stack([starts, ends], 1)[ends <= joint]])  # type: ignore[operator]
+        limbs.set_color([COLOURS[side] for side in sides[ends <= joint]])  # type: ignore[operator]
         dots.set_data(points[: joint + 1].T)
         last.set_data(points[[joint]].T)
         bone.xy, bone.xyann = points[joint], points[parent]

@@ -114,7 +114,7 @@ def turning_paths(ways: Mapping[str, Array], share: float = 0.25) -> Figure:
         tips = to_picture(rotations.rotate(way, [0.0, 0.0, 1.0]))
         turned = np.degrees(rotations.angle_between(way[0], way))
         ball.plot(*tips.T, "o-", **look)
-        graph.plot(np.linspace(0, 1, len(way)), turned, "o-", label=name, **look)
+        graph.plot(np.linspace(0, 1, len(way)), turned, "o-", label=name, **look)  # type: ignore[arg-type]
     graph.set(xlabel="share of the way", ylabel="turned from the start (degrees)")
     graph.legend(frameon=False)
     return figure

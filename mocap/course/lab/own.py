@@ -24,7 +24,9 @@ from mocap._shared.arrays import Array
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion, require_alike
 from mocap.body.skeleton import Skeleton
-from mocap.course.lab.adopting import NAMES, Tools, tools, whose
+from mocap.course.lab.adopting import NAMES as NAMES
+from mocap.course.lab.adopting import Tools, whose
+from mocap.course.lab.adopting import tools as tools
 from mocap.errors import MocapError
 from mocap.plain import Edge, Found, Ground, Lay, Node, Walk
 

@@ -13,4 +13,4 @@ Reading order
 import lazy_loader
 
 # The command is the face of this room.
-__getattr__, __dir__, __all__ = lazy_loader.attach(__name__)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

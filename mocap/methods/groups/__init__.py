@@ -30,13 +30,4 @@ References
 
 import lazy_loader
 
-_names = {
-    "flocking": ["RATE", "Configuration", "Flock", "nearest_two", "simulate"],
-    "configurations": ["cluster", "compare", "seen_from_itself"],
-    "group_clips": ["bend_to"],
-    "group_graphs": ["GroupGraph", "build_group", "make_clips", "play_group", "random_group_walk"],
-    "planning": ["Scene", "plan_group"],
-    "group_steering": ["clearances", "lead_group", "steer_group"],
-    "group_walkers": ["walk_group"],
-}
-__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=_names)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -29,11 +29,4 @@ References
 
 import lazy_loader
 
-_names = {
-    "local_alignment": ["local_paths", "minima_1d"],
-    "webs": ["build_web"],
-    "match_search": ["cut_out", "search"],
-    "motion_spaces": ["MotionSpace", "blend_of", "hand_target", "mean_speed", "sample_space", "turn"],
-    "wishes": ["weights_for"],
-}
-__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=_names)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -19,9 +19,4 @@ References
 
 import lazy_loader
 
-_names = {
-    "pose_database": ["GROUPS", "features", "tabulate"],
-    "nearest_frames": ["Wants"],
-    "matching_control": ["MotionMatcher"],
-}
-__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=_names)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -46,8 +46,8 @@ def body_track(motion: Motion) -> tuple[Points, Array]:
     ground = on_ground(motion.root_positions)
     facing = np.unwrap(heading(motion.rotations[:, 0]))
     rows = np.stack([ground.real, ground.imag, facing])
-    ahead, left, facing = gaussian_filter1d(rows, SMOOTH * motion.fps, mode="nearest")
-    return ahead + 1j * left, facing
+    z, x, facing = gaussian_filter1d(rows, SMOOTH * motion.fps, mode="nearest")
+    return z + 1j * x, facing
 
 
 def features(motion: Motion) -> Array:
@@ -80,16 +80,18 @@ def features(motion: Motion) -> Array:
 
     Notebook: 18-motion-matching
     """
-    (ground, facing), positions = body_track(motion), joint_positions(motion)
-    speeds, back = velocities(positions, motion.fps), np.exp(-1j * facing)
+    ground, facing = body_track(motion)
+    positions = joint_positions(motion)
+    speeds = velocities(positions, motion.fps)
+    back = np.exp(-1j * facing)
     ankles = [leg.ankle for leg in find_legs(motion.skeleton)]
     columns = [_seen(positions[:, ankle], back, ground) for ankle in ankles]
     columns += [_seen(speeds[:, joint], back) for joint in (*ankles, 0)]
     frames = np.arange(len(motion))[:, None]
     then = np.minimum(frames + np.round(AHEAD * motion.fps).astype(int), len(motion) - 1)
-    way = (ground[then] - ground[:, None]) * back[:, None]
+    translations = (ground[then] - ground[:, None]) * back[:, None]
     turned = np.exp(1j * (facing[then] - facing[:, None]))
-    return np.hstack([*columns, ahead_columns(way), ahead_columns(turned)])
+    return np.hstack([*columns, ahead_columns(translations), ahead_columns(turned)])
 
 
 def ahead_columns(ahead: Points) -> Array:
@@ -102,7 +104,8 @@ def ahead_columns(ahead: Points) -> Array:
 
     Notebook: 18-motion-matching
     """
-    return np.stack([ahead.imag, ahead.real], axis=-1).reshape(*ahead.shape[:-1], -1)
+    columns = np.stack([ahead.imag, ahead.real], axis=-1, dtype=float)
+    return columns.reshape(*ahead.shape[:-1], -1)
 
 
 def _seen(vectors: Array, back: Points, origin: Points | float = 0.0) -> Array:
@@ -201,23 +204,18 @@ def tabulate(clips: Sequence[Motion]) -> PoseDatabase:
     Notebook: 18-motion-matching
     """
     clips = require_alike(clips)
-    rate, longest = clips[0].fps, max(clips, key=len)
+    rate = clips[0].fps
+    longest = max(clips, key=len)
     if len(longest) <= END * rate + 1:
         lasts = f"the longest, '{longest.name}', lasts {longest.duration:.2f} s"
         raise MocapError(f"A search leaves out the last {END:g} s of each clip; {lasts}.")
     frames = [len(clip) for clip in clips]
     values, mean, scale = standardise(np.concatenate([features(clip) for clip in clips]))
+    values = frozen(values, np.float64)
+    usable = np.concatenate([np.arange(count)[::-1] >= END * rate for count in frames])
+    last = np.repeat(np.cumsum(frames) - 1, frames)
     tracks: Any = (np.concatenate(part) for part in zip(*map(_tracks, clips), strict=True))
-    return PoseDatabase(
-        clips,
-        concatenate(clips),
-        frozen(values, np.float64),
-        mean,
-        scale,
-        np.concatenate([np.arange(count)[::-1] >= END * rate for count in frames]),
-        np.repeat(np.cumsum(frames) - 1, frames),
-        *tracks,
-    )
+    return PoseDatabase(clips, concatenate(clips), values, mean, scale, usable, last, *tracks)
 
 
 def _tracks(clip: Motion) -> tuple[Any, ...]:

@@ -26,12 +26,4 @@ References
 
 import lazy_loader
 
-_names = {
-    "examples": ["cut_actions", "mixed_way"],
-    "strides": ["cut_strides"],
-    "stride_spaces": ["bell_weights", "make_space", "measure_mixes"],
-    "made_motions": ["optimal_transitions"],
-    "parametric_edges": ["build_edge", "build_parametric"],
-    "parametric_control": ["ParametricController"],
-}
-__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs=_names)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,0 +1,29 @@
+from . import blending as blending
+from . import body as body
+from . import course as course
+from . import datasets as datasets
+from . import editing as editing
+from . import feet as feet
+from . import files as files
+from . import graphs as graphs
+from . import matching as matching
+from . import methods as methods
+from . import plotting as plotting
+from . import quality as quality
+from . import steering as steering
+from . import synthesis as synthesis
+from . import widgets as widgets
+from .body.motion import Motion as Motion
+from .body.motion import concatenate as concatenate
+from .body.motion import resample as resample
+from .body.planar import PlanarTransform as PlanarTransform
+from .body.skeleton import Skeleton as Skeleton
+from .errors import FormatError as FormatError
+from .errors import MocapError as MocapError
+from .errors import MocapWarning as MocapWarning
+from .errors import NoWalk as NoWalk
+from .errors import SkeletonMismatch as SkeletonMismatch
+from .files.load_save import load as load
+from .files.load_save import save as save
+
+__version__: str

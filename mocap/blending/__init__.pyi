@@ -1,0 +1,12 @@
+from .clocks import frame_times as frame_times
+from .joining import blend as blend
+from .joining import inertialize as inertialize
+from .joining import join as join
+from .joining import lay_window_on as lay_window_on
+from .mixing import crossfade as crossfade
+from .mixing import ground_course as ground_course
+from .mixing import mix as mix
+from .registering import register as register
+from .weights import cubic_weights as cubic_weights
+from .weights import linear_weights as linear_weights
+from .weights import sine_weights as sine_weights

@@ -1,0 +1,12 @@
+from . import homework_graph as homework_graph
+from .compiled_graph import compile_graph as compile_graph
+from .graph_summary import summary as summary
+from .motion_graph import MotionGraph as MotionGraph
+from .motion_graph import build as build
+from .motion_graph import from_transitions as from_transitions
+from .pruning import notes_example as notes_example
+from .pruning import prune as prune
+from .pruning import prune_graph as prune_graph
+from .storage import load as load
+from .storage import save as save
+from .thresholds import threshold_curve as threshold_curve

@@ -1,0 +1,12 @@
+from .local_alignment import local_paths as local_paths
+from .local_alignment import minima_1d as minima_1d
+from .match_search import cut_out as cut_out
+from .match_search import search as search
+from .motion_spaces import MotionSpace as MotionSpace
+from .motion_spaces import blend_of as blend_of
+from .motion_spaces import hand_target as hand_target
+from .motion_spaces import mean_speed as mean_speed
+from .motion_spaces import sample_space as sample_space
+from .motion_spaces import turn as turn
+from .webs import build_web as build_web
+from .wishes import weights_for as weights_for

@@ -1,0 +1,9 @@
+from .clip_flaws import inspect as inspect
+from .falling import centre_of_mass as centre_of_mass
+from .falling import gravity as gravity
+from .judging import judge as judge
+from .seam_measures import jumps as jumps
+from .seam_measures import knee_turns as knee_turns
+from .seam_measures import plant_slides as plant_slides
+from .seam_measures import seam_quality as seam_quality
+from .seam_measures import spread as spread

@@ -1,0 +1,14 @@
+from .characters import Character as Character
+from .characters import measure_delay as measure_delay
+from .characters import steer as steer
+from .foot_turning import FootTurner as FootTurner
+from .graph_control import Controller as Controller
+from .judged_control import command_headings as command_headings
+from .judged_control import judge_control as judge_control
+from .path_following import follow_as_2002 as follow_as_2002
+from .path_following import follow_path as follow_path
+from .path_objective import Settings as Settings
+from .path_objective import Wishes as Wishes
+from .waypoints_and_crowds import Waypoint as Waypoint
+from .waypoints_and_crowds import through_waypoints as through_waypoints
+from .waypoints_and_crowds import walk_crowd as walk_crowd
