@@ -1,0 +1,440 @@
+"""Downloads of large files that continue where they broke off, each whole or refused.
+
+`NAME.part` beside the target holds the bytes that have been received. `NAME.part.json` says which file they
+belong to: its address, its length, and its validator, which is the server's ETag or date of change. The next
+call asks for the rest (`Range`), on the condition that the validator is still the same (`If-Range`; RFC 9110,
+sections 13.1.5 and 14). If the file has changed, or the server knows no ranges, the download starts again.
+The record is written before the bytes that it describes, so that the process may end at any moment.
+"""
+
+from __future__ import annotations
+
+import errno
+import hashlib
+import json
+import os
+import re
+import shutil
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, BinaryIO, NamedTuple
+from urllib.parse import urlsplit
+
+from mocap._shared.progress import Progress
+from mocap.errors import MocapError, shortened
+
+if TYPE_CHECKING:
+    from requests import RequestException, Response
+
+MEGABYTE = 10**6  # bytes
+PIECE = 2**18  # bytes received at once; a connection that breaks off loses at most these
+PAUSES = (1.0, 2.0, 3.0)  # seconds before each further try, as long as no new bytes come
+TIMEOUT = 30.0  # seconds without an answer
+LARGEST = 4000  # MB of a file whose size is not listed: 2.7 times the largest named set
+ROUNDING = 1  # MB: listed sizes are whole ones
+
+# The status of an answer (RFC 9110, section 15):
+WHOLE = 200
+PARTIAL = 206  # with the range that was asked for
+FINAL = (401, 403, 404, 410)  # the next try would get the same
+BEYOND_END = 416  # no byte of the range exists
+
+FULL_DISK = (errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC))
+
+
+class Listing(NamedTuple):
+    """What is known of a file before it is downloaded.
+
+    Parameters
+    ----------
+    url : its address.
+    megabytes : its size, rounded; None if it is not known.
+    sha256 : its checksum; None if it is not known.
+    """
+
+    url: str
+    megabytes: int | None = None
+    sha256: str | None = None
+
+    def place(self) -> str:
+        """Return the server and the name of the file, for messages.
+
+        Examples
+        --------
+        >>> Listing("https://example.org/sets/2022/walks.zip").place()
+        'example.org/.../walks.zip'
+        """
+        parts = urlsplit(self.url)
+        return shortened(f"{parts.netloc}/.../{parts.path.rpartition('/')[2]}", 60)
+
+
+class Record(NamedTuple):
+    """The file on the server to which received bytes belong."""
+
+    url: str
+    validator: str | None  # an ETag or a date; without it a download cannot continue
+    length: int | None  # bytes; None as long as the server has not said it
+
+
+class Part:
+    """The received bytes of a file, beside the place where the whole file will be.
+
+    Parameters
+    ----------
+    target : that place.
+    url : the file's address. Bytes from another address are not continued.
+    """
+
+    def __init__(self, target: Path, url: str) -> None:
+        self.target = target
+        self.url = url
+        self.path = target.with_name(f"{target.name}.part")
+        self.record_path = target.with_name(f"{target.name}.part.json")
+
+    def size(self) -> int:
+        """Return the number of received bytes."""
+        return self.path.stat().st_size if self.path.exists() else 0
+
+    def record(self) -> Record | None:
+        """Read to which file the bytes belong; None if that is not known, or not the file asked for."""
+        try:
+            stored = json.loads(self.record_path.read_text("utf-8"))
+        except (FileNotFoundError, ValueError):
+            return None
+        match stored:
+            case {"url": self.url, "validator": str() | None, "length": int() | None}:
+                return Record(self.url, stored["validator"], stored["length"])
+        return None
+
+    def is_whole(self) -> bool:
+        """Return whether all bytes have been received."""
+        record = self.record()
+        return record is not None and record.length == self.size()
+
+    def continuable(self) -> Record | None:
+        """Return the record if the rest of the file can be asked for, else None."""
+        record = self.record()
+        if record is None or record.validator is None:
+            return None
+        end = record.length or self.size() + 1
+        return record if 0 < self.size() < end else None
+
+    def advice(self) -> str:
+        """Say how much is kept, and how to continue."""
+        record = self.record()
+        if self.is_whole():
+            return "The whole file is here: fetch again to unpack it."
+        if record is None or not self.continuable():
+            return "No part of it can be continued: fetch again to start anew."
+        total = f" of {record.length / MEGABYTE:.0f}" if record.length else ""
+        return f"{self.size() / MEGABYTE:.0f}{total} MB are kept: fetch again to continue from there."
+
+    def start(self, record: Record) -> None:
+        """Forget what has been received, and record which file comes now."""
+        self.record_path.unlink(missing_ok=True)
+        self.path.write_bytes(b"")
+        self.write(record)
+
+    def write(self, record: Record) -> None:
+        """Record to which file the bytes belong."""
+        self.record_path.write_text(json.dumps(record._asdict()), "utf-8")
+
+    def drop(self) -> None:
+        """Remove the bytes and their record."""
+        self.record_path.unlink(missing_ok=True)
+        self.path.unlink(missing_ok=True)
+
+    def finish(self) -> None:
+        """Move the whole file to its place, once the disk holds it."""
+        with self.path.open("rb+") as file:
+            os.fsync(file.fileno())
+        self.path.replace(self.target)
+        self.record_path.unlink(missing_ok=True)
+
+
+def download(listing: Listing, target: Path, progress: Progress = iter) -> str:
+    """Download a file, or what is missing of it since an earlier call.
+
+    Parameters
+    ----------
+    listing : where it is, and what is known of it.
+    target : the file to make, in a folder that exists. It appears when it is whole and has the listed
+        checksum.
+    progress : shows how much has been received, as `tqdm.tqdm` does.
+
+    Returns
+    -------
+    The SHA-256 of the file.
+
+    Raises
+    ------
+    MocapError : if the server does not send it, with how to continue; if it is not the file listed, and then
+        nothing is kept; if it cannot be kept, for lack of permission or of space.
+
+    Examples
+    --------
+    >>> download(Listing("https://example.org/walks.zip"), Path("nowhere/walks.zip"))
+    Traceback (most recent call last):
+    mocap.errors.MocapError: Cannot keep walks.zip in nowhere (No such file or directory): let MOCAP_DATA ...
+    """
+    part = Part(target, listing.url)
+    with keeping(target):
+        part.path.touch()  # raises before the server is asked
+        try:
+            _receive(listing, part, progress)
+        except KeyboardInterrupt as interruption:
+            interruption.add_note(part.advice())
+            raise
+        digest = sha256_of(part.path)
+        if listing.sha256 not in (None, digest):
+            part.drop()
+            raise MocapError(
+                f"{listing.place()} is not the file listed: its checksum differs. Nothing of it is kept; "
+                f"try again later, or get the set from its authors."
+            )
+        part.finish()
+    return digest
+
+
+@contextmanager
+def keeping(target: Path) -> Iterator[None]:
+    """Explain errors of the system that prevent a file from being kept.
+
+    Examples
+    --------
+    >>> with keeping(Path("sets/walks.zip")):
+    ...     raise OSError(errno.ENOSPC, "No space left on device")
+    Traceback (most recent call last):
+    mocap.errors.MocapError: Cannot keep walks.zip in sets (No space left on device): free some space, and ...
+    """
+    try:
+        yield
+    except OSError as error:
+        remedy = "let MOCAP_DATA name a folder you may write to"
+        if error.errno in FULL_DISK:
+            remedy = "free some space, and fetch again to continue"
+        problem = f"Cannot keep {target.name} in {target.parent} ({error.strerror or error})"
+        raise MocapError(f"{problem}: {remedy}.") from error
+
+
+def require_space(target: Path, size: int) -> None:
+    """Refuse a file, before it is written, for which the disk has no space.
+
+    Parameters
+    ----------
+    target : the file, or one of several in the same folder.
+    size : bytes that will be written.
+
+    Raises
+    ------
+    MocapError : with the megabytes that are needed, and those that are free.
+
+    Examples
+    --------
+    >>> require_space(Path("walks.zip"), 10**18)
+    Traceback (most recent call last):
+    mocap.errors.MocapError: walks.zip needs 1000000000000 MB in ., and ... MB are free: free some ...
+    """
+    free = shutil.disk_usage(target.parent).free
+    if size > free:
+        raise MocapError(
+            f"{target.name} needs {size / MEGABYTE:.0f} MB in {target.parent}, and {free / MEGABYTE:.0f} MB "
+            f"are free: free some space, or let MOCAP_DATA name another folder."
+        )
+
+
+def sha256_of(path: Path) -> str:
+    """Compute the SHA-256 of a file, in hexadecimal digits.
+
+    Examples
+    --------
+    >>> sha256_of(Path(os.devnull))[:8]
+    'e3b0c442'
+    """
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+@contextmanager
+def alone_in(folder: Path) -> Iterator[None]:
+    """Refuse to work in a folder where another process fetches.
+
+    The system opens the lock again however this process ends. On Windows, and on file systems without locks,
+    nothing is locked.
+
+    Raises
+    ------
+    MocapError : if another process, or another thread, fetches into the folder.
+    """
+    try:
+        import fcntl
+    except ImportError:
+        yield
+        return
+    number = os.open(folder, os.O_RDONLY)
+    try:
+        fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError as error:
+        os.close(number)
+        raise MocapError(f"Another process fetches into {folder}: wait until it has ended.") from error
+    except OSError:  # no locks here
+        pass
+    try:
+        yield
+    finally:
+        os.close(number)
+
+
+def _receive(listing: Listing, part: Part, progress: Progress) -> None:
+    """Ask for the file, or the rest of it, until all of it is here."""
+    furthest = part.size()
+    failures = 0
+    while not part.is_whole():
+        error = _try_request(listing, part, progress)
+        if error is None:
+            continue
+        if part.size() >= furthest + PIECE:
+            failures = 0  # a line that often breaks off gets there all the same
+            furthest = part.size()
+        status = getattr(error.response, "status_code", None)
+        if failures == len(PAUSES) or status in FINAL:
+            happened = f"answers {status}" if status else "breaks off or does not answer"
+            raise MocapError(f"{listing.place()} {happened}. {part.advice()}") from error
+        time.sleep(PAUSES[failures])
+        failures += 1
+
+
+def _try_request(listing: Listing, part: Part, progress: Progress) -> RequestException | None:
+    """Ask once for what is missing; return the error after which another try may succeed."""
+    from requests import RequestException
+    from requests.exceptions import InvalidSchema, InvalidURL, TooManyRedirects
+
+    try:
+        _request(listing, part, progress)
+    except (InvalidSchema, InvalidURL, TooManyRedirects) as error:
+        raise MocapError(
+            f"{listing.place()} leads to an address that is not safe to download from: get the set from its "
+            f"authors."
+        ) from error
+    except RequestException as error:
+        return error
+    return None
+
+
+def _request(listing: Listing, part: Part, progress: Progress) -> None:
+    """Ask once for what is missing, and add what comes to the part.
+
+    Raises
+    ------
+    RequestException : if the answer is no answer, or not all that is missing.
+    """
+    import requests
+
+    headers = {"Accept-Encoding": "identity"}  # ranges count the bytes of the file itself
+    earlier = part.continuable()
+    if earlier and earlier.validator:
+        headers |= {"Range": f"bytes={part.size()}-", "If-Range": earlier.validator}
+    with requests.get(listing.url, headers=headers, stream=True, timeout=TIMEOUT) as answer:
+        _require_safe(answer)
+        if earlier and answer.status_code != WHOLE and not _continues(answer, part, earlier):
+            part.drop()  # the next request is for the whole file
+            return
+        answer.raise_for_status()
+        if answer.status_code == WHOLE:
+            offered = _describe(answer, listing.url)
+            _require_size(listing, part, offered.length, 0)
+            part.start(offered)
+        elif earlier is None or answer.status_code != PARTIAL:
+            raise requests.RequestException(f"unexpected status {answer.status_code}", response=answer)
+        else:
+            _require_size(listing, part, earlier.length, part.size())
+        _append(listing, part, answer, progress)
+    if not part.is_whole():
+        raise requests.RequestException("less was sent than announced")
+
+
+def _require_safe(answer: Response) -> None:
+    """Refuse redirections from https to http; `requests` refuses those to `file:` and the like."""
+    from requests.exceptions import InvalidSchema
+
+    schemes = [urlsplit(step.url).scheme for step in (*answer.history, answer)]
+    if "https" in schemes and "http" in schemes[schemes.index("https") :]:
+        raise InvalidSchema("from https to http")
+
+
+def _continues(answer: Response, part: Part, earlier: Record) -> bool:
+    """Return whether an answer is the rest of the same file, or an error that says nothing of the file."""
+    if answer.status_code == BEYOND_END:
+        return False
+    if answer.status_code != PARTIAL:
+        return True
+    offered = _describe(answer, part.url)
+    if offered.validator not in (None, earlier.validator) or offered.length not in (None, earlier.length):
+        return False
+    return answer.headers.get("Content-Range", "").startswith(f"bytes {part.size()}-")
+
+
+def _describe(answer: Response, url: str) -> Record:
+    """Read from the head of an answer which file it is from.
+
+    A weak ETag (`W/`) may stay the same although bytes change, and the length of an encoded answer is not
+    that of the file.
+    """
+    headers = answer.headers
+    if headers.get("Content-Encoding", "identity") != "identity":
+        return Record(url, None, None)
+    tag = headers.get("ETag", "W/")
+    validator = headers.get("Last-Modified") if tag.startswith("W/") else tag
+    length = headers.get("Content-Length", "")
+    if answer.status_code == PARTIAL:
+        length = headers.get("Content-Range", "").rpartition("/")[2]
+    return Record(url, validator, int(length) if re.fullmatch(r"\d{1,18}", length) else None)
+
+
+def _require_size(listing: Listing, part: Part, length: int | None, size: int) -> None:
+    """Refuse a file that is not as large as listed, or for which the disk has no space, before it comes."""
+    if length is None:
+        return
+    if listing.megabytes is not None and abs(length - listing.megabytes * MEGABYTE) > ROUNDING * MEGABYTE:
+        raise MocapError(
+            f"{listing.place()} has {length / MEGABYTE:.0f} MB, and {listing.megabytes} MB are listed: it is "
+            f"another file. Try again later, or get the set from its authors."
+        )
+    _require_bound(listing, part, length)
+    require_space(part.target, length - size)
+
+
+def _require_bound(listing: Listing, part: Part, size: int) -> None:
+    """Refuse a file that is larger than it may be, and what has been received of it."""
+    bound = LARGEST if listing.megabytes is None else listing.megabytes + ROUNDING
+    if size > bound * MEGABYTE:
+        part.drop()
+        raise MocapError(
+            f"{listing.place()} has more than {bound} MB, so it is another file, and nothing of it is kept: "
+            f"get the set from its authors."
+        )
+
+
+def _append(listing: Listing, part: Part, answer: Response, progress: Progress) -> None:
+    """Add what an answer brings to the part, piece by piece."""
+    record = part.record()
+    missing = record.length - part.size() if record and record.length else 0
+    shown = iter(progress(range(-(-missing // PIECE))))
+    with part.path.open("ab", buffering=0) as file:  # a kill loses no piece that has been written
+        for piece in answer.iter_content(PIECE):
+            _require_bound(listing, part, file.tell() + len(piece))
+            _write_all(file, piece)
+            next(shown, None)
+    for _ in shown:  # lets a bar end
+        pass
+    if record and record.length is None:
+        part.write(record._replace(length=part.size()))
+
+
+def _write_all(file: BinaryIO, data: bytes) -> None:
+    """Write to an unbuffered file, which may take less at once than it is given."""
+    remaining = memoryview(data)
+    while remaining:
+        remaining = remaining[file.write(remaining) :]
