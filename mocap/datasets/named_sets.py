@@ -142,6 +142,9 @@ def _fetch_and_unpack(name: str, packed: Path, progress: Progress) -> None:
         if not at_hand:  # the next call downloads it again
             packed.unlink()
         raise
+    except KeyboardInterrupt as interruption:
+        interruption.add_note("The archive is kept: fetch again to unpack it.")
+        raise
     if named_set.sha256 is None:
         _note_checksum(packed, digest)
     write_file(packed.parent / WHOLE, f"{named_set.terms()}\n")

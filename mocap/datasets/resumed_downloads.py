@@ -180,21 +180,21 @@ def download(listing: Listing, target: Path, progress: Progress = iter) -> str:
     mocap.errors.MocapError: Cannot keep walks.zip in nowhere (No such file or directory): let MOCAP_DATA ...
     """
     part = Part(target, listing.url)
-    with keeping(target):
-        part.path.touch()  # raises before the server is asked
-        try:
+    try:
+        with keeping(target):
+            part.path.touch()  # raises before the server is asked
             _receive(listing, part, progress)
-        except KeyboardInterrupt as interruption:
-            interruption.add_note(part.advice())
-            raise
-        digest = sha256_of(part.path)
-        if listing.sha256 not in (None, digest):
-            part.drop()
-            raise MocapError(
-                f"{listing.place()} is not the file listed: its checksum differs. Nothing of it is kept; "
-                f"try again later, or get the set from its authors."
-            )
-        part.finish()
+            digest = sha256_of(part.path)
+            if listing.sha256 not in (None, digest):
+                part.drop()
+                raise MocapError(
+                    f"{listing.place()} is not the file listed: its checksum differs. Nothing of it is kept; "
+                    f"try again later, or get the set from its authors."
+                )
+            part.finish()
+    except KeyboardInterrupt as interruption:
+        interruption.add_note(part.advice())
+        raise
     return digest
 
 

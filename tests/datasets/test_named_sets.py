@@ -187,8 +187,9 @@ def test_an_interrupted_unpacking_needs_no_second_download(sets, data):
             raise KeyboardInterrupt
         return items
 
-    with pytest.raises(KeyboardInterrupt):
+    with pytest.raises(KeyboardInterrupt) as interruption:
         fetch_set("lafan1", progress=interrupt)
+    assert interruption.value.__notes__ == ["The archive is kept: fetch again to unpack it."]
     assert files_of(data, "lafan1") == ["lafan1.zip"]
     assert len(fetch_set("lafan1")) == 4
     assert sum(sets.asked.values()) == 1

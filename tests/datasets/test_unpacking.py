@@ -159,6 +159,16 @@ def test_too_many_members_are_refused_before_the_directory_is_read(archive, monk
     refused_archive("has more than 5 files", archive, crowded)
 
 
+@pytest.mark.parametrize("piece", [4, 5, 7, 2**20])
+def test_members_are_counted_in_pieces(archive, monkeypatch, piece):
+    monkeypatch.setattr(unpacking, "PIECE", piece)
+    archive.write_bytes(zipped(*((f"{number}.bvh", CLIP[:30]) for number in range(9))))
+    monkeypatch.setattr(unpacking, "MEMBERS", 9)
+    unpacking._require_few_members(archive)
+    monkeypatch.setattr(unpacking, "MEMBERS", 8)
+    refused("has more than 8 files", unpacking._require_few_members, archive)
+
+
 def test_two_clips_of_one_name_are_refused_if_they_differ(archive):
     for name in ("b/walk.bvh", "b/WALK.bvh"):
         data = zipped(("a/walk.bvh", CLIP), (name, CLIP[:-1]))
