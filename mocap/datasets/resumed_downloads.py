@@ -17,7 +17,7 @@ import re
 import shutil
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO, NamedTuple
 from urllib.parse import urlsplit
@@ -146,6 +146,11 @@ class Part:
         self.record_path.unlink(missing_ok=True)
         self.path.unlink(missing_ok=True)
 
+    def tidy(self) -> None:
+        """Remove bytes that no later call can continue."""
+        if not self.continuable() and not self.is_whole():
+            self.drop()
+
     def finish(self) -> None:
         """Move the whole file to its place, once the disk holds it."""
         with self.path.open("rb+") as file:
@@ -195,6 +200,9 @@ def download(listing: Listing, target: Path, progress: Progress = iter) -> str:
     except KeyboardInterrupt as interruption:
         interruption.add_note(part.advice())
         raise
+    finally:
+        with suppress(OSError):  # of a folder that cannot be written into
+            part.tidy()
     return digest
 
 
