@@ -75,7 +75,7 @@ class Record(NamedTuple):
 
     url: str
     validator: str | None  # an ETag or a date; without it a download cannot continue
-    length: int | None  # bytes; None as long as the server has not said it
+    length: int | None  # bytes; None, and no continuing, as long as the server has not said it
 
 
 class Part:
@@ -116,26 +116,19 @@ class Part:
     def continuable(self) -> Record | None:
         """Return the record if the rest of the file can be asked for, else None."""
         record = self.record()
-        if record is None or record.validator is None:
+        if record is None or record.validator is None or record.length is None:
             return None
-        end = record.length or self.size() + 1
-        return record if 0 < self.size() < end else None
+        return record if 0 < self.size() < record.length else None
 
     def advice(self) -> str:
         """Say how much is kept, and how to continue."""
         record = self.record()
         if self.is_whole():
             return "The whole file is here: fetch again to unpack it."
-        if record is None or not self.continuable():
+        if record is None or record.length is None or not self.continuable():
             return "No part of it can be continued: fetch again to start anew."
-        total = f" of {record.length / MEGABYTE:.0f}" if record.length else ""
-        return f"{self.size() / MEGABYTE:.0f}{total} MB are kept: fetch again to continue from there."
-
-    def start(self, record: Record) -> None:
-        """Forget what has been received, and record which file comes now."""
-        self.record_path.unlink(missing_ok=True)
-        self.path.write_bytes(b"")
-        self.write(record)
+        kept = f"{self.size() / MEGABYTE:.0f} of {record.length / MEGABYTE:.0f} MB are kept"
+        return f"{kept}: fetch again to continue from there."
 
     def write(self, record: Record) -> None:
         """Record to which file the bytes belong."""
@@ -352,8 +345,9 @@ def _request(listing: Listing, part: Part, progress: Progress) -> None:
         answer.raise_for_status()
         if answer.status_code == WHOLE:
             offered = _describe(answer, listing.url)
+            part.drop()
             _require_size(listing, part, offered.length, 0)
-            part.start(offered)
+            part.write(offered)
         elif earlier is None or answer.status_code != PARTIAL:
             raise requests.RequestException(f"unexpected status {answer.status_code}", response=answer)
         else:
@@ -378,10 +372,17 @@ def _continues(answer: Response, part: Part, earlier: Record) -> bool:
         return False
     if answer.status_code != PARTIAL:
         return True
+    if _is_encoded(answer):
+        return False
     offered = _describe(answer, part.url)
     if offered.validator not in (None, earlier.validator) or offered.length not in (None, earlier.length):
         return False
     return answer.headers.get("Content-Range", "").startswith(f"bytes {part.size()}-")
+
+
+def _is_encoded(answer: Response) -> bool:
+    """Return whether an answer is compressed, although none was asked for; `requests` unpacks it."""
+    return str(answer.headers.get("Content-Encoding", "identity")) != "identity"
 
 
 def _describe(answer: Response, url: str) -> Record:
@@ -391,7 +392,7 @@ def _describe(answer: Response, url: str) -> Record:
     that of the file.
     """
     headers = answer.headers
-    if headers.get("Content-Encoding", "identity") != "identity":
+    if _is_encoded(answer):
         return Record(url, None, None)
     tag = headers.get("ETag", "W/")
     validator = headers.get("Last-Modified") if tag.startswith("W/") else tag
@@ -410,15 +411,14 @@ def _require_size(listing: Listing, part: Part, length: int | None, size: int) -
             f"{listing.place()} has {length / MEGABYTE:.0f} MB, and {listing.megabytes} MB are listed: it is "
             f"another file. Try again later, or get the set from its authors."
         )
-    _require_bound(listing, part, length)
+    _require_bound(listing, length)
     require_space(part.target, length - size)
 
 
-def _require_bound(listing: Listing, part: Part, size: int) -> None:
-    """Refuse a file that is larger than it may be, and what has been received of it."""
+def _require_bound(listing: Listing, size: int) -> None:
+    """Refuse a file that is larger than it may be."""
     bound = LARGEST if listing.megabytes is None else listing.megabytes + ROUNDING
     if size > bound * MEGABYTE:
-        part.drop()
         raise MocapError(
             f"{listing.place()} has more than {bound} MB, so it is another file, and nothing of it is kept: "
             f"get the set from its authors."
@@ -432,7 +432,7 @@ def _append(listing: Listing, part: Part, answer: Response, progress: Progress) 
     shown = iter(progress(range(-(-missing // PIECE))))
     with part.path.open("ab", buffering=0) as file:  # a kill loses no piece that has been written
         for piece in answer.iter_content(PIECE):
-            _require_bound(listing, part, file.tell() + len(piece))
+            _require_bound(listing, file.tell() + len(piece))
             _write_all(file, piece)
             next(shown, None)
     for _ in shown:  # lets a bar end

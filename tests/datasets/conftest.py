@@ -1,5 +1,6 @@
 """Servers of our own that do all the things servers do."""
 
+import gzip
 import random
 import threading
 from collections import Counter
@@ -88,6 +89,9 @@ class RangeHandler(BaseHTTPRequestHandler):
             self.send_header("ETag", self.server.etag)
         if self.server.modified:
             self.send_header("Last-Modified", self.server.modified)
+        if fault == "encodes":
+            rest = gzip.compress(rest)
+            self.send_header("Content-Encoding", "gzip")
         if fault != "gives no length":
             self.send_header("Content-Length", str(len(rest)))
         self.end_headers()

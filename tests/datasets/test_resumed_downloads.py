@@ -102,12 +102,13 @@ def test_a_server_without_ranges_starts_again(ranges, target):
     assert len(ranges.requests) == 1
 
 
-def test_another_range_than_asked_for_is_not_added(ranges, target):
+@pytest.mark.parametrize("fault", ["shifts the range", "encodes"])
+def test_another_range_than_asked_for_is_not_added(ranges, target, fault):
     break_off(ranges, target)
-    ranges.faults = ["shifts the range"]
+    ranges.faults = [fault]
     download(Listing(ranges.url), target)
     assert target.read_bytes() == ranges.body
-    assert ranges.requests[1] == (None, None)
+    assert ranges.requests[1:] == [(None, None)]
 
 
 def test_bytes_of_another_address_are_not_continued(ranges, target):
@@ -227,6 +228,33 @@ def test_a_file_whose_length_the_server_does_not_say_is_downloaded(ranges, targe
     assert left_over(target) == ["walks.zip"]
 
 
+def test_a_file_that_comes_compressed_is_kept_as_it_was(ranges, target):
+    ranges.faults = ["encodes"]
+    download(Listing(ranges.url), target)
+    assert target.read_bytes() == ranges.body
+    assert left_over(target) == ["walks.zip"]
+
+
+def test_an_interruption_before_the_length_is_known_starts_again(ranges, target):
+    def interrupt(pieces):
+        raise KeyboardInterrupt
+
+    ranges.faults = ["gives no length"]
+    with pytest.raises(KeyboardInterrupt) as interruption:
+        download(Listing(ranges.url), target, progress=interrupt)
+    assert interruption.value.__notes__ == ["No part of it can be continued: fetch again to start anew."]
+    assert left_over(target) == []
+
+
+def test_a_changed_file_of_another_size_than_listed_replaces_nothing(ranges, target, monkeypatch):
+    monkeypatch.setattr(resumed_downloads, "MEGABYTE", 100)
+    break_off(ranges, target)
+    ranges.body *= 2
+    ranges.etag = '"second"'
+    refused("has 40 MB, and 20 MB are listed", download, Listing(ranges.url, 20), target)
+    assert left_over(target) == []
+
+
 def test_a_file_for_which_the_disk_has_no_space_is_refused_before_it_comes(ranges, target, monkeypatch):
     free = SimpleNamespace(free=1999)
     monkeypatch.setattr(resumed_downloads.shutil, "disk_usage", lambda folder: free)
@@ -306,6 +334,7 @@ def test_two_may_not_fetch_into_one_folder(tmp_path):
 FAULTS = [
     None,
     "breaks off",
+    "encodes",
     "forbids",
     "gives no length",
     "ignores ranges",

@@ -182,6 +182,14 @@ def test_an_archive_that_is_none_is_refused(archive):
     refused_archive(r"set\.zip holds no \.bvh file", archive, zipped(("README.txt", b"read me")))
 
 
+def test_a_directory_that_leads_before_the_beginning_of_the_file_is_refused(archive):
+    data = zipped(("walk.bvh", CLIP))
+    end = data.rindex(b"PK\x05\x06")
+    offset = struct.unpack_from("<I", data, end + 16)[0]
+    forged_end = data[: end + 16] + struct.pack("<I", offset + 100) + data[end + 20 :]
+    refused_archive("is damaged", archive, forged_end)
+
+
 def test_an_archive_whose_last_clip_is_damaged_is_refused(archive):
     data = zipped(("run.bvh", CLIP), (member("walk.bvh", method=zipfile.ZIP_STORED), CLIP))
     place = data.rindex(CLIP)
