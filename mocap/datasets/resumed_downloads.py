@@ -125,6 +125,9 @@ class Part:
         record = self.record()
         if self.is_whole():
             return "The whole file is here: fetch again to unpack it."
+        if not self.size():
+            copy = f"a copy of {self.target.parent.name}/{self.target.name}"
+            return f"Nothing has come: try again later, or put {copy} into a folder that MOCAP_DATA names."
         if record is None or record.length is None or not self.continuable():
             return "No part of it can be continued: fetch again to start anew."
         kept = f"{self.size() / MEGABYTE:.0f} of {record.length / MEGABYTE:.0f} MB are kept"
