@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from mocap._shared.atomic import UNFINISHED, write_file
 from mocap._shared.progress import Progress
 from mocap.datasets.downloads import kept_in, show_once
-from mocap.datasets.resumed_downloads import Listing, alone_in, download, keeping, sha256_of
+from mocap.datasets.partial_files import alone_in, keeping, sha256_of
+from mocap.datasets.resumed_downloads import Listing, download
 from mocap.datasets.unpacking import BadArchive, unpack
 from mocap.errors import MocapError, shortened, warn
 

@@ -20,7 +20,7 @@ from pathlib import Path
 
 from mocap._shared.atomic import UNFINISHED
 from mocap._shared.progress import Progress
-from mocap.datasets.resumed_downloads import MEGABYTE, keeping, require_space
+from mocap.datasets.partial_files import MEGABYTE, keeping, require_space
 from mocap.errors import MocapError, shortened
 
 # Twice the ratio of the BVH file that shrinks most of 18 from seven sources (2.3 to 4.9, all together 2.8).

@@ -10,8 +10,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from requests.exceptions import InvalidSchema
 
-from mocap.datasets import resumed_downloads
-from mocap.datasets.resumed_downloads import Listing, alone_in, download
+from mocap.datasets import partial_files, resumed_downloads
+from mocap.datasets.partial_files import alone_in
+from mocap.datasets.resumed_downloads import Listing, download
 from mocap.errors import MocapError
 from tests.refusals import refused
 
@@ -56,6 +57,7 @@ def test_a_download_continues_where_it_broke_off(ranges, target, validator):
 
 def test_what_is_kept_and_how_to_continue_is_one_sentence(ranges, target, monkeypatch):
     monkeypatch.setattr(resumed_downloads, "MEGABYTE", 100)
+    monkeypatch.setattr(partial_files, "MEGABYTE", 100)
     ranges.faults = ["breaks off", *["is busy"] * 4]
     kept = r"answers 503\. (9|10) of 20 MB are kept: fetch again to continue from there\.$"
     refused(kept, download, Listing(ranges.url), target)
@@ -137,7 +139,7 @@ def test_more_bytes_than_the_file_has_are_not_continued(ranges, target):
 
 def test_a_process_that_ends_after_the_last_byte_needs_no_request(ranges, target, monkeypatch):
     with monkeypatch.context() as patch:
-        patch.setattr(resumed_downloads.Part, "finish", lambda part: os.close(-1))
+        patch.setattr(partial_files.Part, "finish", lambda part: os.close(-1))
         refused("Bad file descriptor", download, Listing(ranges.url), target, most=400)
     ranges.requests.clear()
     download(Listing(ranges.url), target)
@@ -211,6 +213,7 @@ def test_a_file_of_another_size_is_refused_before_it_comes(ranges, target):
 
 def test_listed_sizes_are_rounded(ranges, target, monkeypatch):
     monkeypatch.setattr(resumed_downloads, "MEGABYTE", 100)
+    monkeypatch.setattr(partial_files, "MEGABYTE", 100)
     for megabytes in (19, 20, 21):
         download(Listing(ranges.url, megabytes), target)
     for megabytes in (18, 22):
@@ -220,6 +223,7 @@ def test_listed_sizes_are_rounded(ranges, target, monkeypatch):
 @pytest.mark.parametrize("fault", [None, "gives no length"])
 def test_a_file_without_a_listed_size_is_bounded(ranges, target, monkeypatch, fault):
     monkeypatch.setattr(resumed_downloads, "MEGABYTE", 100)
+    monkeypatch.setattr(partial_files, "MEGABYTE", 100)
     monkeypatch.setattr(resumed_downloads, "LARGEST", 19)
     ranges.faults = [fault]
     refused("has more than 19 MB, so it is another file", download, Listing(ranges.url), target)
@@ -253,6 +257,7 @@ def test_an_interruption_before_the_length_is_known_starts_again(ranges, target)
 
 def test_a_changed_file_of_another_size_than_listed_replaces_nothing(ranges, target, monkeypatch):
     monkeypatch.setattr(resumed_downloads, "MEGABYTE", 100)
+    monkeypatch.setattr(partial_files, "MEGABYTE", 100)
     break_off(ranges, target)
     ranges.body *= 2
     ranges.etag = '"second"'
@@ -262,7 +267,7 @@ def test_a_changed_file_of_another_size_than_listed_replaces_nothing(ranges, tar
 
 def test_a_file_for_which_the_disk_has_no_space_is_refused_before_it_comes(ranges, target, monkeypatch):
     free = SimpleNamespace(free=1999)
-    monkeypatch.setattr(resumed_downloads.shutil, "disk_usage", lambda folder: free)
+    monkeypatch.setattr(partial_files.shutil, "disk_usage", lambda folder: free)
     refused(r"walks\.zip needs 0 MB in .* MB are free", download, Listing(ranges.url), target, most=400)
     assert left_over(target) == []
     free.free = 2000
@@ -272,7 +277,7 @@ def test_a_file_for_which_the_disk_has_no_space_is_refused_before_it_comes(range
 def test_the_rest_of_a_file_needs_space_only_for_itself(ranges, target, monkeypatch):
     size = break_off(ranges, target)
     free = SimpleNamespace(free=len(ranges.body) - size)
-    monkeypatch.setattr(resumed_downloads.shutil, "disk_usage", lambda folder: free)
+    monkeypatch.setattr(partial_files.shutil, "disk_usage", lambda folder: free)
     download(Listing(ranges.url), target)
     assert target.read_bytes() == ranges.body
 

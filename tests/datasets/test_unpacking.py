@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import mocap
-from mocap.datasets import resumed_downloads, unpacking
+from mocap.datasets import partial_files, unpacking
 from mocap.datasets.unpacking import BadArchive, unpack
 from mocap.errors import MocapError
 from tests.refusals import refused
@@ -198,7 +198,7 @@ def test_an_archive_whose_last_clip_is_damaged_is_refused(archive):
 
 def test_clips_for_which_the_disk_has_no_space_are_refused(archive, monkeypatch):
     free = SimpleNamespace(free=len(CLIP) - 1)
-    monkeypatch.setattr(resumed_downloads.shutil, "disk_usage", lambda folder: free)
+    monkeypatch.setattr(partial_files.shutil, "disk_usage", lambda folder: free)
     with pytest.raises(MocapError, match="and 0 MB are free"):
         archive.write_bytes(zipped(("walk.bvh", CLIP)))
         unpack(archive, archive.parent / "clips")
