@@ -6,8 +6,9 @@ Reading order
 2. `options`: what the commands share: options, clips that are read, files to write
 3. `graph`: `mocap demo`, and motion graphs that are built, saved and described
 4. `walk`: characters that walk through a graph, one or a crowd
-5. `clips`: `mocap info`, `view`, `judge`, `convert`, `find` and `data`
-6. `edits`: `mocap warp`, `bend`, `loop`, `blend` and `retarget`
-7. `course`: `mocap course` hands out, marks, publishes and runs the notebooks; `mocap lab` opens them
-8. `main`: all of them under one name
+5. `clips`: `mocap info`, `view`, `judge`, `convert` and `find`
+6. `data`: `mocap data` lists and downloads clips of other labs
+7. `edits`: `mocap warp`, `bend`, `loop`, `blend` and `retarget`
+8. `course`: `mocap course` hands out, marks, publishes and runs the notebooks; `mocap lab` opens them
+9. `main`: all of them under one name
 """

@@ -1,4 +1,4 @@
-"""The commands for clip files: `mocap info`, `view`, `judge`, `convert`, `find` and `data`."""
+"""The commands for clip files: `mocap info`, `view`, `judge`, `convert` and `find`."""
 
 import math
 import re
@@ -12,11 +12,9 @@ from json import dumps
 from pathlib import Path
 from typing import Annotated, Literal
 
-from mocap import datasets, files, quality, widgets
+from mocap import files, quality, widgets
 from mocap._shared.atomic import make_folder, require_folder, require_writable
-from mocap.cli.options import CM, Reading, Sources, Unit, as_options, bar, number, tell, tell_of_failures
-from mocap.cli.typed_commands import Group
-from mocap.datasets.named_sets import SETS, clips_of, fetch_set
+from mocap.cli.options import CM, Reading, Sources, Unit, as_options, bar, tell, tell_of_failures
 from mocap.errors import MocapError, printable
 from mocap.files import conversion
 from mocap.files.conversion import find_files
@@ -64,7 +62,7 @@ def view(clip: Path, *, out: Path | None = None, reading: Reading) -> None:
 
 
 def judge(
-    made: Sequence[Path],
+    motions: Sequence[Path],
     *,
     reading: Reading,
     against: Sequence[Path] = (),
@@ -82,7 +80,7 @@ def judge(
 
     Parameters
     ----------
-    made (FILE) : motion files, or folders of them, and the folders inside.
+    motions (FILE) : motion files, or folders of them, and the folders inside.
     against (CLIP) : the clips that they are made of.
     path : the path that they should follow, .csv or .svg.
     json : print all numbers as JSON.
@@ -97,18 +95,20 @@ def judge(
 
     clips = [files.load(clip, **asdict(reading)) for clip in find_files(against)]
     line = load_path(path, scale=unit) if path else None
-    judged, problems = [], []
-    for file in bar("judging")(find_files(made, deep=True)):
+    judgements = []
+    problems = []
+    for file in bar("judging")(find_files(motions, deep=True)):
         try:
             motion, _, stretch = read(file, reading.skeleton, reading.fps, reading.scale, math.inf)
-            judged.append(quality.judge(motion, against=clips, path=line, stretch=stretch))
+            judgements.append(quality.judge(motion, against=clips, path=line, stretch=stretch))
         except MocapError as error:
             problems.append(str(error))
     if json:
-        print(dumps([one.as_dict() for one in judged], indent=1))
-    elif judged:
-        print(judgement_table(judged))
-    for problem in dict.fromkeys([*(text for one in judged for text in one.left_out), *problems]):
+        print(dumps([judgement.as_dict() for judgement in judgements], indent=1))
+    elif judgements:
+        print(judgement_table(judgements))
+    omissions = [text for judgement in judgements for text in judgement.left_out]
+    for problem in dict.fromkeys([*omissions, *problems]):
         print(f"mocap: {printable(as_options(problem))}", file=sys.stderr)
     return 2 if problems else 0
 
@@ -163,24 +163,25 @@ def find(
     if out:
         require_folder(out)
     example, frames = _query(query)
-    found = find_files(clips)
-    places = [*(path.resolve() for path in found), example.resolve()]
-    asked = places.index(example.resolve())  # the example comes last, where it is not among the clips
-    motions = sources.load(found if asked < len(found) else [*found, example])
+    paths = find_files(clips)
+    places = [*(path.resolve() for path in paths), example.resolve()]
+    query_clip = places.index(example.resolve())  # the last one if the example is not among the clips
+    motions = sources.load(paths if query_clip < len(paths) else [*paths, example])
     web = match_webs.build_web(motions, below=ROOM * below / 100, progress=bar("comparing"))
-    matches = match_webs.search(web, asked, frames, below=below / 100)
-    shown = [match for match in matches[1:] if match.clip < len(found)]
+    matches = match_webs.search(web, query_clip, frames, below=below / 100)
+    shown = [match for match in matches[1:] if match.clip < len(paths)]
     print(f"{'clip':<20} {'frames':>13} {'seconds':>8} {'cm':>5} {'step':>5}")
-    for one in shown:
-        name, at = motions[one.clip].name, f"{one.start}-{one.stop}"
-        seconds = (one.stop - one.start) / motions[one.clip].fps
-        print(f"{printable(name):<20} {at:>13} {seconds:>8.2f} {100 * one.cost:>5.1f} {one.generation:>5}")
+    for match in shown:
+        clip = motions[match.clip]
+        seconds = (match.stop - match.start) / clip.fps
+        place = f"{printable(clip.name):<20} {f'{match.start}-{match.stop}':>13}"
+        print(f"{place} {seconds:>8.2f} {100 * match.cost:>5.1f} {match.generation:>5}")
     tell(found=f"{len(shown)} in {len({match.clip for match in shown})} clips")
     if out:
         make_folder(out)
-        for one in bar("writing")(shown):
-            name = f"{motions[one.clip].name}_{one.start}-{one.stop}.bvh"
-            files.save(match_webs.cut_out(web, one), out / name)
+        for match in bar("writing")(shown):
+            name = f"{motions[match.clip].name}_{match.start}-{match.stop}.bvh"
+            files.save(match_webs.cut_out(web, match), out / name)
         tell(wrote=f"{len(shown)} files to {out}")
 
 
@@ -199,54 +200,3 @@ def _query(text: str) -> tuple[Path, slice]:
         raise MocapError(f"Which frames are '{text[-60:]}'? Write CLIP:FROM-TO, as in walk.amc:120-250.")
     first, last = (None if part is None else int(part) for part in parts.groups()[1:])
     return Path(parts[1]), slice(first, last)
-
-
-def list_trials(
-    *, subject: Annotated[int | None, number(1, 999, int)] = None, kind: str | None = None
-) -> None:
-    """List the trials of the CMU database that datasets.cmu fetches.
-
-    List the trials of the CMU database that datasets.cmu fetches by name.
-
-    Parameters
-    ----------
-    subject : only this person's trials.
-    kind : only trials with this word in their description.
-    """
-    from mocap.datasets.cmu_database import TERMS  # the help needs no NumPy
-
-    print(f"{'trial':<8} {'frames':>6}  description")
-    for trial in datasets.trials(subject, kind):
-        print(f"{trial.name:<8} {trial.frames:>6}  {trial.description}")
-    print(f"\n{TERMS}")
-
-
-def list_sets() -> None:
-    """List the named sets that datasets.from_set reads, with their licences and joints."""
-    for name, known in SETS.items():
-        print(f"{name:<12} {known.title}")
-        rows = {"licence": known.licence, "allows": known.allows, "address": known.address}
-        rows |= {"download": known.size(), "rate": f"{known.fps:g} Hz", "hips": known.hips}
-        rows |= {"left leg": ", ".join(known.legs), "at hand": f"{len(clips_of(name))} clips"}
-        print("\n".join(f"{'':<12} {key:<8} {value}" for key, value in rows.items()))
-
-
-def fetch(set: Annotated[str, {"choices": list(SETS)}], *, accept: bool = False) -> None:
-    """Download all clips of a named set, once.
-
-    Parameters
-    ----------
-    set : its name.
-    accept : accept the licence that the set is under.
-    """
-    known = SETS[set]
-    if not accept:
-        print(known.terms())
-        raise MocapError(f"If you accept this licence, add --accept: {known.size()} to download.")
-    print(f"{len(fetch_set(set, bar('fetching')))} clips are at hand")
-
-
-DATA = Group(
-    "List clips to download, and download whole sets.",
-    {"list": list_trials, "sets": list_sets, "fetch": fetch},
-)

@@ -10,8 +10,9 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 import mocap
-from mocap.cli.clips import DATA, convert, find, info, judge, view
+from mocap.cli.clips import convert, find, info, judge, view
 from mocap.cli.course import COURSE, lab
+from mocap.cli.data import DATA
 from mocap.cli.edits import bend, blend, loop, retarget, warp
 from mocap.cli.graph import GRAPH, demo
 from mocap.cli.options import as_options
@@ -103,6 +104,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return 141
         _say(str(error))
         return 2
-    except KeyboardInterrupt:
-        _say("interrupted; no half-written file is left.")
+    except KeyboardInterrupt as interruption:
+        advice = getattr(interruption, "__notes__", [])
+        _say(" ".join(["interrupted; no half-written file is left.", *advice]))
         return 130

@@ -1,7 +1,8 @@
-"""Files from the network, fetched once and kept, each whole or refused.
+"""Small files from the network, fetched once and kept, each whole or refused.
 
-They are kept in the platform's cache folder, or in the one that the environment variable `MOCAP_DATA`
-names. A file that is there needs no network; with `MOCAP_OFFLINE` nothing else is asked for.
+`resumed_downloads` is for large ones. All are kept in the platform's cache folder, or in the one that the
+environment variable `MOCAP_DATA` names. A file that is there needs no network; with `MOCAP_OFFLINE` nothing
+else is asked for.
 """
 
 import hashlib

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import hashlib
+import os
 import tomllib
-import zipfile
-import zlib
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from mocap._shared.atomic import UNFINISHED, write_file
 from mocap._shared.progress import Progress
-from mocap.datasets.downloads import fetch, kept_in, show_once
-from mocap.errors import MocapError, shortened
+from mocap.datasets.downloads import kept_in, show_once
+from mocap.datasets.partial_files import alone_in, keeping, sha256_of
+from mocap.datasets.resumed_downloads import Listing, download
+from mocap.datasets.unpacking import BadArchive, unpack
+from mocap.errors import MocapError, shortened, warn
 
 if TYPE_CHECKING:
     from mocap.body.motion import Motion
@@ -82,12 +84,13 @@ def clips_of(name: str) -> dict[str, Path]:
 def fetch_set(name: str, progress: Progress = iter) -> list[str]:
     """Download all clips of a named set, unless they are at hand; its terms are printed first.
 
-    Where the checksum of the whole is known, it is checked.
+    A download that broke off continues at the next call. The archive is removed once all of its clips are
+    unpacked. Without a listed checksum, that of each archive is noted in `<set>.zip.sha256`.
 
     Parameters
     ----------
-    name : the set, one of `SETS`; `SETS[name].size()` says how large it is.
-    progress : shows how far the unpacking is, as `tqdm.tqdm` does.
+    name : the set, one of `SETS`; `SETS[name].size()` is the size of its archive.
+    progress : shows how much of the archive has been received, and then unpacked, as `tqdm.tqdm` does.
 
     Returns
     -------
@@ -95,7 +98,13 @@ def fetch_set(name: str, progress: Progress = iter) -> list[str]:
 
     Raises
     ------
-    MocapError : for an unknown set, without a network, and for an archive that is not the one listed.
+    MocapError : for an unknown set; without a network, or if the environment variable `MOCAP_OFFLINE` is set;
+        for an archive that is not the one listed, or that no set of clips can be; without permission to write
+        or space on the disk.
+
+    Warns
+    -----
+    MocapWarning : if an archive without a listed checksum is not one that was downloaded before.
 
     Examples
     --------
@@ -105,27 +114,70 @@ def fetch_set(name: str, progress: Progress = iter) -> list[str]:
     """
     folder = folder_of(name)
     if not (folder / WHOLE).exists():
-        named_set = SETS[name]
-        show_once(named_set.terms())
-        packed = fetch(f"{name}/{name}.zip", named_set.archive, named_set.sha256, named_set.terms())
-        _unpack(packed, folder, progress)
-        write_file(folder / WHOLE, f"{named_set.terms()}\n")
-        packed.unlink()
+        show_once(SETS[name].terms())
+        packed = folder / f"{name}.zip"
+        with keeping(packed):
+            folder.mkdir(parents=True, exist_ok=True)
+        with alone_in(folder):
+            _fetch_and_unpack(name, packed, progress)
     return sorted(clips_of(name))
 
 
-def _unpack(archive: Path, folder: Path, progress: Progress) -> None:
-    """Write all .bvh files of an archive into a folder, without the archive's own folders."""
+def _fetch_and_unpack(name: str, packed: Path, progress: Progress) -> None:
+    """Download the archive of a set, unless it is there, unpack it beside itself, and remove it."""
+    named_set = SETS[name]
+    listing = Listing(named_set.archive, named_set.megabytes, named_set.sha256)
+    at_hand = packed.exists()
+    if at_hand:
+        digest = _require_listed(packed, named_set)
+    elif os.environ.get("MOCAP_OFFLINE"):
+        raise MocapError(
+            f"{name}/{packed.name} is not here, and MOCAP_OFFLINE forbids downloads: unset it, or put a copy "
+            f"of {name}/{packed.name} into a folder that MOCAP_DATA names."
+        )
+    else:
+        digest = download(listing, packed, progress)
     try:
-        with zipfile.ZipFile(archive) as files:
-            names = [name for name in files.namelist() if name.lower().endswith(".bvh")]
-            clips = [name for name in names if not PurePosixPath(name).name.startswith("._")]  # of macOS
-            for name in progress(clips):
-                write_file(folder / PurePosixPath(name).name, files.read(name))
-    except (zipfile.BadZipFile, zlib.error, NotImplementedError, EOFError) as error:
-        raise MocapError(f"{archive} is damaged, or no .zip file: delete it, and try again.") from error
-    if not clips:
-        raise MocapError(f"{archive} holds no .bvh file.")
+        unpack(packed, packed.parent, progress)
+    except BadArchive:
+        if not at_hand:  # the next call downloads it again
+            packed.unlink()
+        raise
+    except KeyboardInterrupt as interruption:
+        interruption.add_note("The archive is kept: fetch again to unpack it.")
+        raise
+    if named_set.sha256 is None:
+        _note_checksum(packed, digest)
+    write_file(packed.parent / WHOLE, f"{named_set.terms()}\n")
+    packed.unlink()
+
+
+def _require_listed(packed: Path, named_set: NamedSet) -> str:
+    """Refuse an archive that is not the one listed. Return its checksum."""
+    with keeping(packed):
+        digest = sha256_of(packed)
+    if named_set.sha256 not in (None, digest):
+        raise MocapError(
+            f"{packed} is not the file listed: its checksum differs. Delete it, and fetch again."
+        )
+    return digest
+
+
+def _note_checksum(packed: Path, digest: str) -> None:
+    """Add a checksum to those of the archives downloaded before, and warn if it differs from them.
+
+    The lines are those of `sha256sum`. A host may pack the same clips anew, so that this is no error.
+    """
+    notes = packed.with_name(f"{packed.name}.sha256")
+    earlier = notes.read_text("utf-8") if notes.exists() else ""
+    if digest in earlier:
+        return
+    write_file(notes, f"{earlier}{digest}  {packed.name}\n")
+    if earlier:
+        warn(
+            f"{packed.name} is not the file downloaded before: its host changed it, or packed it anew. "
+            f"{notes.name} lists both checksums."
+        )
 
 
 def from_set(name: str, clip: str) -> Motion:

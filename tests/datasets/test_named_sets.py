@@ -2,20 +2,27 @@
 
 import hashlib
 import io
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
 import zipfile
+from contextlib import contextmanager
 
 import numpy as np
 import pytest
 
 from mocap.body import Motion, Skeleton, find_legs, joint_positions, resample
-from mocap.datasets import cmu_database, downloads, named_sets
+from mocap.datasets import cmu_database, downloads, named_sets, resumed_downloads
 from mocap.datasets.named_sets import HASHES, SETS, clips_of, fetch_set, from_set
 from mocap.editing.stances import stance_of
 from mocap.errors import SkeletonMismatch
 from mocap.files import load_save
 from mocap.graphs.motion_graph import build
 from tests.files.acclaim_clips import SPINE
-from tests.refusals import refused
+from tests.refusals import refused, told, unwarned
 
 
 def body_of(known):
@@ -113,23 +120,188 @@ def test_a_set_is_fetched_once_with_its_terms(sets, data, capsys):
     assert from_set("lafan1", "run2").root_positions[0, 0] == pytest.approx(2)
 
 
+def files_of(data, name):
+    """Return the names of all files that are kept of a set."""
+    return sorted(path.name for path in (data / name).rglob("*"))
+
+
 def test_another_archive_a_damaged_one_and_an_empty_one_are_refused(sets, data):
     sets.files["set.zip"] = b"a page that says sorry"
     refused(r"set\.zip is not the file listed: its checksum differs", fetch_set, "lafan1")
-    assert list((data / "lafan1").iterdir()) == []
-    refused(r"bandai_namco\.zip is damaged, or no \.zip file: delete it", fetch_set, "bandai_namco")
-    (data / "bandai_namco" / "bandai_namco.zip").unlink()
+    assert files_of(data, "lafan1") == []
+    refused(r"bandai_namco\.zip is damaged, or no \.zip file: get it anew", fetch_set, "bandai_namco")
     sets.files["set.zip"] = packed({})
     refused(r"bandai_namco\.zip holds no \.bvh file", fetch_set, "bandai_namco")
-    assert clips_of("bandai_namco") == {}
+    assert files_of(data, "bandai_namco") == []
+    sets.files["set.zip"] = packed({"walk": b"HIERARCHY"})
+    assert fetch_set("bandai_namco") == ["walk"]
+
+
+def test_an_archive_that_claims_gigabytes_is_refused_by_the_command(sets, data, run):
+    bomb = io.BytesIO()
+    with zipfile.ZipFile(bomb, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("walk.bvh", bytes(20_000_000))
+    sets.files["set.zip"] = bomb.getvalue()
+    said = run("data fetch bandai_namco --accept", 2).err.splitlines()[-1]
+    assert said.startswith(
+        "mocap: bandai_namco.zip claims to unpack to 20 MB, but clips of its size unpack to 1"
+    )
+    assert files_of(data, "bandai_namco") == []
+
+
+def test_without_a_listed_checksum_those_of_all_downloads_are_noted(sets, data):
+    digests = []
+    for pose, says in enumerate([unwarned, told, unwarned]):
+        sets.files["set.zip"] = packed({"walk": f"HIERARCHY {pose % 2}".encode()})
+        sentence = [r"bandai_namco\.zip is not the file downloaded before: its host"] * (says is told)
+        assert says(*sentence, fetch_set, "bandai_namco") == ["walk"]
+        digests.append(hashlib.sha256(sets.files["set.zip"]).hexdigest())
+        assert files_of(data, "bandai_namco") == ["TERMS.txt", "bandai_namco.zip.sha256", "walk.bvh"]
+        (data / "bandai_namco" / "TERMS.txt").unlink()
+    noted = (data / "bandai_namco" / "bandai_namco.zip.sha256").read_text("utf-8")
+    assert noted == "".join(f"{digest}  bandai_namco.zip\n" for digest in digests[:2])
+    assert digests[0] == digests[2] != digests[1]
+
+
+def test_a_copy_of_ones_own_is_unpacked_without_a_network(sets, data, monkeypatch):
+    monkeypatch.setenv("MOCAP_OFFLINE", "1")
+    missing = r"lafan1/lafan1\.zip is not here, and MOCAP_OFFLINE forbids downloads: unset it, or put a copy"
+    refused(missing, fetch_set, "lafan1")
+    copy = data / "lafan1" / "lafan1.zip"
+    copy.write_bytes(packed({"walk": b"HIERARCHY"}))
+    differs = r"lafan1\.zip is not the file listed: its checksum differs\. Delete it, and fetch again"
+    refused(differs, fetch_set, "lafan1", most=400)
+    assert files_of(data, "lafan1") == ["lafan1.zip"]
+    (data / "bandai_namco").mkdir()
+    (data / "bandai_namco" / "bandai_namco.zip").write_bytes(b"rubbish")
+    refused("is damaged", fetch_set, "bandai_namco")
+    assert files_of(data, "bandai_namco") == ["bandai_namco.zip"]  # it is not ours to remove
+    copy.write_bytes(sets.files["set.zip"])
+    assert fetch_set("lafan1") == ["run1", "run2", "walk1", "walk2"]
+    assert not sets.asked
+
+
+def test_an_interrupted_unpacking_needs_no_second_download(sets, data):
+    def interrupt(items):
+        if isinstance(items, list):  # of clips, not a range of pieces
+            raise KeyboardInterrupt
+        return items
+
+    with pytest.raises(KeyboardInterrupt) as interruption:
+        fetch_set("lafan1", progress=interrupt)
+    assert interruption.value.__notes__ == ["The archive is kept: fetch again to unpack it."]
+    assert files_of(data, "lafan1") == ["lafan1.zip"]
+    assert len(fetch_set("lafan1")) == 4
+    assert sum(sets.asked.values()) == 1
 
 
 def test_what_cannot_be_fetched_or_kept_is_one_sentence(sets, data, monkeypatch, run):
+    monkeypatch.setattr(resumed_downloads, "PAUSES", ())
     monkeypatch.setitem(SETS, "lafan1", SETS["lafan1"]._replace(archive="http://127.0.0.1:9/set.zip"))
     said = run("data fetch lafan1 --accept", 2).err.splitlines()[-1]
     assert said.startswith("mocap: 127.0.0.1:9/.../set.zip breaks off or does not answer") and len(said) < 200
     (data / "100style").write_text("a file")
-    refused(r"Cannot keep 100style/100style\.zip in .*: let MOCAP_DATA name", fetch_set, "100style")
+    refused(r"Cannot keep 100style\.zip in .*: let MOCAP_DATA name", fetch_set, "100style", most=400)
+
+
+NOBODY = 65534  # a user without rights
+
+
+@pytest.fixture
+def ordinary_user(sets, data):
+    """Give a block in which the folder of all sets cannot be written into, even if root runs the tests."""
+    import requests.exceptions  # noqa: F401 (an ordinary user may not read root's Python)
+
+    if os.name == "nt":
+        pytest.skip("Windows has no such permissions")
+    root = os.geteuid() == 0
+    closed = {
+        folder: folder.stat().st_mode for folder in data.parents if root and not folder.stat().st_mode & 1
+    }
+    for folder, mode in closed.items():
+        folder.chmod(mode | 0o055)
+    data.mkdir()
+
+    @contextmanager
+    def block():
+        data.chmod(0o555)
+        if root:
+            os.seteuid(NOBODY)
+        try:
+            yield
+        finally:
+            if root:
+                os.seteuid(0)
+            data.chmod(0o755)
+
+    yield block
+    for folder, mode in closed.items():
+        folder.chmod(mode)
+
+
+def test_without_permission_to_write_nothing_is_asked_for(sets, data, ordinary_user, run):
+    permission = (
+        r"Cannot keep lafan1\.zip in .*lafan1 \(Permission denied\): let MOCAP_DATA name a folder you may"
+    )
+    with ordinary_user():
+        refused(permission, fetch_set, "lafan1", most=400)
+        said = run("data fetch lafan1 --accept", 2).err
+    assert re.search(permission, said)
+    (data / "lafan1").mkdir()
+    (data / "lafan1").chmod(0o555)
+    with ordinary_user():
+        refused(permission, fetch_set, "lafan1", most=400)
+    assert not sets.asked
+
+
+def test_without_permission_to_write_a_whole_set_is_read(sets, data, ordinary_user, run):
+    fetch_set("lafan1")
+    (data / "lafan1").chmod(0o555)
+    with ordinary_user():
+        assert len(fetch_set("lafan1")) == 4
+        assert "4 clips are at hand" in run("data fetch lafan1 --accept").out
+        assert len(from_set("lafan1", "run2")) == 3
+
+
+FETCH = """
+import sys
+from mocap.cli.main import main
+from mocap.datasets import resumed_downloads
+from mocap.datasets.named_sets import SETS
+resumed_downloads.PIECE = 100
+SETS["lafan1"] = SETS["lafan1"]._replace(archive=sys.argv[1], megabytes=None, sha256=sys.argv[2])
+sys.exit(main(["data", "fetch", "lafan1", "--accept"]))
+"""
+KEPT = "0 of 0 MB are kept: fetch again to continue from there."
+INTERRUPTED = f"mocap: interrupted; no half-written file is left. {KEPT}"
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows sends no such signals")
+@pytest.mark.parametrize(
+    ("ending", "status", "said"),
+    [("SIGINT", 130, INTERRUPTED), ("SIGTERM", 130, INTERRUPTED), ("SIGKILL", -signal.SIGKILL, None)],
+)
+def test_a_process_that_is_ended_continues_at_the_next_call(ranges, data, ending, status, said):
+    ranges.body = packed({"walk": bytes(range(200)) * 30})
+    command = [sys.executable, "-c", FETCH, ranges.url, hashlib.sha256(ranges.body).hexdigest()]
+    ranges.faults = ["waits"]
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+        part = data / "lafan1" / "lafan1.zip.part"
+        while not part.exists() or part.stat().st_size < len(ranges.body) // 2 - 100:
+            assert process.poll() is None
+            time.sleep(0.01)
+        process.send_signal(getattr(signal, ending))
+        last_line = process.communicate()[1].splitlines()[-1:]
+    assert process.returncode == status
+    if said:
+        assert last_line == [said]
+    assert files_of(data, "lafan1") == ["lafan1.zip.part", "lafan1.zip.part.json"]
+    size = part.stat().st_size
+    ranges.requests.clear()
+    again = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert again.stdout == "1 clips are at hand\n"
+    assert ranges.requests == [(f"bytes={size}-", ranges.etag)]
+    assert files_of(data, "lafan1") == ["TERMS.txt", "walk.bvh"]
 
 
 def test_the_command_shows_the_licence_before_it_fetches(sets, data, run):
