@@ -171,6 +171,10 @@ def play_walk():
     return partial(to_motion, walking().source, edges), to_motion(walking().source, edges).duration
 
 
+# Yardsticks for each second of motion. Few walks turn the corners of a square, so it is searched for again.
+FOLLOWING = dict.fromkeys(SHAPES, 3.0) | {"square": 6.0}
+
+
 def follow(graph, path, **settings):
     work = partial(quietly, follow_path, graph(), path(), **settings)
     return work, work().seconds
@@ -189,8 +193,10 @@ BESIDE_DURATION = [
     ("mark_plants", 0.4, lambda: (partial(mark_plants, minutes()[1]), 60)),
     ("clean_up", 1, lambda: (partial(clean_up, minutes()[1]), 60)),
     ("to_motion", 0.08, play_walk),
-    *((f"follow a {name}", 3, partial(follow, walking, line)) for name, line in SHAPES.items() if name != "square"),
-    ("follow a square", 6, partial(follow, walking, SHAPES["square"])),  # few walks turn its corners: a wider beam
+    *(
+        (f"follow a {name}", bound, partial(follow, walking, SHAPES[name]))
+        for name, bound in FOLLOWING.items()
+    ),
     *(
         (f"bend {name} to a {line.__name__}", 1.7, partial(follow, graph, line, bend=editing.LIMIT))
         for line in (sine, spiral, heart)
