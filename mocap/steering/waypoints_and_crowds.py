@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mocap._shared.arrays import Array
+from mocap._shared.ties import first_least
 from mocap.body.ground_path import GroundPath, spline
 from mocap.errors import warn
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
@@ -20,6 +21,10 @@ from mocap.steering.path_objective import Settings, Wishes
 
 WAITS = (0.0, 1.0, 2.0, 4.0)  # seconds, tried in this order
 WIDTH = 100  # walks that stay in each layer; of who gives way three times as many
+PASSING = (
+    0.02  # metres farther than the nearest point of the path: a waypoint is passed there, the first time
+)
+EQUAL = 1e-6  # metres: distances that differ by less are equal; the shortest wait is taken
 
 
 class Waypoint(NamedTuple):
@@ -44,7 +49,7 @@ class Waypoint(NamedTuple):
 class Arrival(NamedTuple):
     """How a waypoint was met: metres `off`, the time, and how many seconds `late` (nan without a time)."""
 
-    off: float
+    off: float  # reads: name: users read it
     seconds: float
     late: float
 
@@ -86,8 +91,8 @@ def through_waypoints(
     path = spline(points)
     passed = [0]  # the point of the path where it first passes each waypoint, in their order
     for point in points[1:-1]:
-        off = np.hypot(*(path.points[passed[-1] :] - point).T)
-        passed.append(passed[-1] + int(np.flatnonzero(off < off.min() + 0.02)[0]))
+        distances = np.hypot(*(path.points[passed[-1] :] - point).T)
+        passed.append(passed[-1] + int(first_least(distances, PASSING)))
     places = [*path.along[passed].tolist(), path.length]
     placed = list(zip(places, waypoints, strict=True))
     labels = [(along, point.label) for along, point in placed]
@@ -98,8 +103,10 @@ def through_waypoints(
     arrivals = []
     for along, point in placed:
         frame = min(int(np.searchsorted(followed.along, along)), len(followed.along) - 1)
-        off, seconds = float(np.hypot(*(followed.track[frame] - point[:2]))), frame / followed.graph.fps
-        arrivals.append(Arrival(off, seconds, np.nan if point.seconds is None else seconds - point.seconds))
+        distance = float(np.hypot(*(followed.track[frame] - (point.x, point.z))))
+        seconds = frame / followed.graph.fps
+        late = np.nan if point.seconds is None else seconds - point.seconds
+        arrivals.append(Arrival(distance, seconds, late))
     return followed, arrivals
 
 
@@ -115,7 +122,10 @@ class Crowd(NamedTuple):
 
 
 def walk_crowd(
-    graph: MotionGraph | CompiledGraph, paths: Sequence[GroundPath], *, apart: float = 0.8
+    graph: MotionGraph | CompiledGraph,
+    paths: Sequence[GroundPath],
+    *,
+    apart: float = 0.8,  # reads: name: users give it as a keyword
 ) -> Crowd:
     """Find a walk along each path, so that the characters keep apart [KGP02, 5.3].
 
@@ -152,43 +162,56 @@ def walk_crowd(
     """
     compiled = compile_graph(graph)
     walks = [follow_path(compiled, path, settings=Settings(width=WIDTH)) for path in paths]
-    waits, tracks = [0.0] * len(walks), [walk.track for walk in walks]
-    for one, path in enumerate(paths):
-        if _nearest(tracks[one], tracks[:one]) < apart:
-            walks[one], waits[one], tracks[one] = _give_way(compiled, path, tracks[:one], apart)
-    nearest = np.array([[_nearest(a, [b]) if a is not b else np.inf for b in tracks] for a in tracks])
-    if nearest.min(initial=np.inf) < apart:
-        a, b = np.unravel_index(nearest.argmin(), nearest.shape)
-        near = f"come as near as {nearest[a, b]:.2f} m, though {apart:.2f} m were asked for"
-        warn(f"Characters {a} and {b} {near}: their paths leave them no room.")
+    waits = [0.0] * len(walks)
+    tracks = [walk.track for walk in walks]
+    for number, path in enumerate(paths):
+        if _too_near(_distance(tracks[number], tracks[:number]), apart):
+            given_way = _give_way(compiled, path, tracks[:number], apart)
+            walks[number], waits[number], tracks[number] = given_way
+    nearest = np.array([[_distance(a, [b]) if a is not b else np.inf for b in tracks] for a in tracks])
+    if _too_near(nearest.min(initial=np.inf), apart):
+        a, b = np.unravel_index(first_least(nearest, EQUAL), nearest.shape)
+        distance = f"come as near as {nearest[a, b]:.2f} m, though {apart:.2f} m were asked for"
+        warn(f"Characters {a} and {b} {distance}: their paths leave them no room.")
     return Crowd(walks, waits, nearest)
 
 
 def _give_way(
-    graph: CompiledGraph, path: GroundPath, before: Sequence[Array], apart: float
+    graph: CompiledGraph, path: GroundPath, earlier: Sequence[Array], least_distance: float
 ) -> tuple[Followed, float, Array]:
-    """Find a walk that keeps away from the tracks `before`, with the shortest wait that is enough.
+    """Find a walk that keeps away from the tracks of `earlier` characters, with the shortest wait for it.
 
-    Who gives way is free to leave the path or to slow down. Returns the walk, its wait in seconds, and its
-    track with the wait.
+    Who gives way is free to leave the path or to slow down. If no wait is long enough, the walk is taken that
+    keeps the largest distance; of equals the one with the shortest wait. Returns the walk, its wait in
+    seconds, and its track with the wait.
     """
     free = Settings(rescue=30.0, crowding=60.0, stray=0.0, tries=1, width=3 * WIDTH)
-    found: list[tuple[Followed, float, Array]] = []
+    candidates: list[tuple[Followed, float, Array]] = []
+    distances: list[float] = []
     for wait in WAITS:
         frames = round(wait * graph.fps)
-        others = [track[min(frames, len(track) - 1) :] for track in before]
-        walk = follow_path(graph, path, Wishes(others=others, apart=1.1 * apart), settings=free)
-        found.append((walk, wait, np.concatenate([np.repeat(walk.track[:1], frames, axis=0), walk.track])))
-        if _nearest(found[-1][2], before) >= apart:
-            return found[-1]
-    return max(found, key=lambda way: _nearest(way[2], before))
+        tracks = [track[min(frames, len(track) - 1) :] for track in earlier]
+        wishes = Wishes(others=tracks, apart=1.1 * least_distance)
+        walk = follow_path(graph, path, wishes, settings=free)
+        waiting = np.repeat(walk.track[:1], frames, axis=0)
+        candidates.append((walk, wait, np.concatenate([waiting, walk.track])))
+        distances.append(_distance(candidates[-1][2], earlier))
+        if not _too_near(distances[-1], least_distance):
+            return candidates[-1]
+    return candidates[int(first_least(-np.array(distances), EQUAL))]
 
 
-def _nearest(track: Array, others: Sequence[Array]) -> float:
-    """Measure the smallest distance of a track from others, metres; who has arrived stays at the end."""
-    least = np.inf
-    for other in others:
-        frames = np.arange(max(len(track), len(other)))
-        a, b = (some[np.minimum(frames, len(some) - 1)] for some in (track, other))
-        least = min(least, float(np.hypot(*(a - b).T).min()))
-    return least
+def _too_near(distance: float, least_distance: float) -> bool:
+    """Check whether a distance is below the least one, by more than what counts as equal."""
+    return distance < least_distance - EQUAL
+
+
+def _distance(track: Array, others: Sequence[Array]) -> float:  # reads: name: the tracks of others
+    """Return the smallest distance of a track from others, metres; who has arrived stays at the end."""
+    distances = [np.inf]
+    for other_track in others:
+        frames = np.arange(max(len(track), len(other_track)))
+        place = track[np.minimum(frames, len(track) - 1)]
+        other_place = other_track[np.minimum(frames, len(other_track) - 1)]
+        distances.append(float(np.hypot(*(place - other_place).T).min()))
+    return min(distances)

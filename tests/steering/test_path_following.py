@@ -318,6 +318,23 @@ def test_who_meets_head_on_steps_aside_or_waits():
     assert crowd.waits[0] == 0.0
 
 
+def test_of_waits_that_keep_as_far_apart_the_shortest_is_taken(monkeypatch):
+    """Who starts too near is as near after each wait, but for rounding."""
+    distances = iter([0.6, 0.6 + 1e-12, 0.6 + 2e-12, 0.6 - 1e-12])
+    monkeypatch.setattr(waypoints_and_crowds, "_distance", lambda *_: next(distances))
+    path = GroundPath([[0, 0], [0, 1]])
+    _, wait, _ = quietly(waypoints_and_crowds._give_way, GRAPH, path, [np.zeros((5, 2))], 0.8)
+    assert wait == 0
+    assert not list(distances)
+
+
+def test_who_is_as_far_apart_as_asked_but_for_rounding_gives_no_way(monkeypatch):
+    monkeypatch.setattr(waypoints_and_crowds, "_distance", lambda *_: 0.8 - 1e-12)
+    monkeypatch.setattr(waypoints_and_crowds, "_give_way", None)  # it is not called
+    crowd = walk_crowd(GRAPH, [GroundPath([[0, 0], [0, 1]])] * 2)
+    assert crowd.waits == [0.0, 0.0]
+
+
 @pytest.mark.filterwarnings("ignore:The walk leaves")
 def test_what_falls_short_is_told(monkeypatch):
     """Two who start in one place cannot keep apart, whoever waits; it says which, and how near they come."""

@@ -72,11 +72,6 @@ def straight_jog():
     return cleaned(unbent(datasets.sample("jog")[:200], 8))
 
 
-@case("held out of reach")
-def held_out_of_reach():
-    return held_in_first_plant("rfoot", ALL_THE_TIME, [0, 0, 0.2])
-
-
 @case("ankle held")
 def ankle_held():
     return held_in_first_plant("lfoot", [0.2, 0.6], [[0.01, 0, 0], [0, 0, 0.02]])
