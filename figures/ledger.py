@@ -12,6 +12,7 @@ import ast
 import re
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import product
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -24,7 +25,7 @@ SHORT = 5  # letters: such a name without a call may be another word
 OTHERS = ("plotting", "diagrams", "widgets", "lab", "course", "cli")  # rooms that use what others compute
 CITATION = re.compile(r"\[([A-Z][A-Za-z]+\d\d), ([^\]]+)\]")
 OWN = re.compile(r"\A(?:.+\n?)+|^In the paper: .+$", re.MULTILINE)  # what a docstring says first
-EQUATIONS = re.compile(r"Eqs?\. (\d+)(?:(-| and |, )(\d+))?")
+EQUATIONS = re.compile(r"Eqs?\. (?P<first>\d+)(?:(?P<between>-| and |, )(?P<last>\d+))?")
 
 
 class Function(NamedTuple):
@@ -73,38 +74,59 @@ def cited(text: str) -> frozenset[tuple[str, str]]:
     >>> sorted(cited("As in [KGP02, Eqs. 5 and 6] and [KGP02, 3.1]."))
     [('KGP02', '3.1'), ('KGP02', 'Eq. 5'), ('KGP02', 'Eq. 6')]
     """
-    found = set()
+    citations = set()
     for key, places in CITATION.findall(" ".join(text.split())):
         for place in places.partition(", after")[0].split("; "):
-            found |= {(key, one) for one in _one_by_one(place)}
-    return frozenset(found)
+            citations |= {(key, single) for single in _one_by_one(place)}
+    return frozenset(citations)
 
 
 def _one_by_one(place: str) -> set[str]:
-    """Give the equations of "Eqs. 2-4" or "Eqs. 5 and 6" one by one; other places as they are."""
-    if not (equations := EQUATIONS.fullmatch(place)):
+    """Return the equations of "Eqs. 2-4" or "Eqs. 5 and 6" one by one; other places as they are."""
+    equations = EQUATIONS.fullmatch(place)
+    if not equations:
         return {place}
-    first, last = int(equations[1]), int(equations[3] or equations[1])
-    return {f"Eq. {number}" for number in (range(first, last + 1) if equations[2] == "-" else (first, last))}
+    first = int(equations["first"])
+    last = int(equations["last"] or first)
+    numbers = range(first, last + 1) if equations["between"] == "-" else (first, last)
+    return {f"Eq. {number}" for number in numbers}
 
 
 def functions(package: Path) -> list[Function]:
     """List the public functions and classes whose docstrings cite a paper, by the order of their files."""
-    faces = {face.parent: face.read_text("utf-8") for face in package.rglob("__init__.py")}
-    found = []
+    faces = {stub.parent: _exported(stub) for stub in package.rglob("__init__.pyi")}
+    listed = []
     for path in sorted(package.glob("*/**/*.py")):
-        parts = path.relative_to(package).with_suffix("").parts
-        if parts[0] in OTHERS or parts[-1] == "__init__":
+        room, *_ = parts = path.relative_to(package).with_suffix("").parts
+        if room in OTHERS or path.stem == "__init__":
             continue
-        for node, name in _defined(ast.parse(path.read_text("utf-8")).body):
-            text = ast.get_docstring(node) or ""
-            if not node.name.startswith("_") and (cites := cited(text)):
-                taught = (re.findall(r"^Notebook: (\S+)$", text, re.MULTILINE) or [""])[0]
-                first, module = cited("".join(OWN.findall(text))), ".".join(parts)
-                exported = f'"{name.partition(".")[0]}"' in faces[path.parent]
-                public = f"{'.'.join(parts[:-1]) if exported else module}.{name}"
-                found.append(Function(module, name, public, taught, cites, first))
-    return found
+        for name, docstring in _documented(path):
+            is_exported = name.partition(".")[0] in faces[path.parent]
+            public = f"{'.'.join(parts[:-1] if is_exported else parts)}.{name}"
+            first = cited("".join(OWN.findall(docstring)))
+            notebook = _taught_in(docstring)
+            listed.append(Function(".".join(parts), name, public, notebook, cited(docstring), first))
+    return listed
+
+
+def _documented(path: Path) -> Iterator[tuple[str, str]]:
+    """Yield the name and the docstring of each public function and class of a file that cites a paper."""
+    for node, name in _defined(ast.parse(path.read_text("utf-8")).body):
+        docstring = ast.get_docstring(node) or ""
+        if cited(docstring) and not node.name.startswith("_"):
+            yield name, docstring
+
+
+def _exported(stub: Path) -> set[str]:
+    """List the names that the face of a room exports."""
+    imports = (node for node in ast.parse(stub.read_text("utf-8")).body if isinstance(node, ast.ImportFrom))
+    return {alias.asname or alias.name for node in imports for alias in node.names}
+
+
+def _taught_in(docstring: str) -> str:
+    """Find the notebook that a docstring names, or ""."""
+    notebook = re.search(r"^Notebook: (\S+)$", docstring, re.MULTILINE)
+    return notebook[1] if notebook else ""
 
 
 def _defined(body: Iterable[ast.stmt], above: str = "") -> Iterator[tuple[Any, str]]:
@@ -123,22 +145,25 @@ def ledger(root: Path) -> list[Row]:
     ----------
     root : a checkout: the folder with the folders mocap, tests and notebooks.
     """
-    known, tests = functions(root / "mocap"), list(_tests(root / "tests"))
+    all_functions = functions(root / "mocap")
+    tests = list(_tests(root / "tests"))
     cells = _cells(root / "notebooks")
     rows = []
     for key, paper in papers().items():
         for row in paper["rows"]:
             notebook = row.get("notebook", paper["notebook"])
             places = {(key, place) for place in _one_by_one(row["place"])}
-            first = [one for one in known if one.first & places]  # their own, else all that cite it
-            chosen = (first or [one for one in known if one.cites & places])[:SHOWN]
-            held = [said for said, cites in tests if cites & places]
-            shown = [cell for one in chosen if (cell := _cell_of(one, notebook, cells))]
-            if not shown and "through" in row:
-                shown = [_calling(row["through"], [notebook], cells)]
-            lists = ([one.public for one in chosen], held, shown)
-            found = (tuple(dict.fromkeys(filter(None, some))) for some in lists)
-            rows.append(Row(key, row["place"], row["says"], row["departs"], *found))
+            # The functions that cite a place as their own, else all that cite it.
+            first = [function for function in all_functions if function.first & places]
+            citing = [function for function in all_functions if function.cites & places]
+            chosen = (first or citing)[:SHOWN]
+            sentences = [sentence for sentence, citations in tests if citations & places]
+            links = [_cell_of(function, notebook, cells) for function in chosen]
+            if not any(links) and "through" in row:
+                links = [_calling(row["through"], [notebook], cells)]
+            lists = ([function.public for function in chosen], sentences, links)
+            columns = (tuple(dict.fromkeys(filter(None, column))) for column in lists)
+            rows.append(Row(key, row["place"], row["says"], row["departs"], *columns))
     return rows
 
 
@@ -146,9 +171,12 @@ def _tests(folder: Path) -> Iterator[tuple[str, frozenset[tuple[str, str]]]]:
     """Yield each test as a sentence, with what its docstring cites."""
     for path in sorted(folder.rglob("test_*.py")):
         for node in ast.parse(path.read_text("utf-8")).body:
-            if isinstance(node, ast.FunctionDef) and (cites := cited(ast.get_docstring(node) or "")):
-                said = node.name.removeprefix("test_").replace("_", " ")
-                yield f"{said} (`{path.relative_to(folder).as_posix()}`)", cites
+            if not isinstance(node, ast.FunctionDef):
+                continue
+            citations = cited(ast.get_docstring(node) or "")
+            if citations:
+                sentence = node.name.removeprefix("test_").replace("_", " ")
+                yield f"{sentence} (`{path.relative_to(folder).as_posix()}`)", citations
 
 
 class _Cell(NamedTuple):
@@ -161,9 +189,10 @@ class _Cell(NamedTuple):
 
 
 def _cells(folder: Path) -> list[_Cell]:
-    found = []
+    cells = []
     for path in sorted(folder.glob("*.ipynb")):
-        notebook, heading = read(path), path.stem
+        notebook = read(path)
+        heading = path.stem
         shown = {cell.id: name for name, cell in tagged(notebook, "source")}
         for cell in notebook.cells:
             if cell.cell_type == "markdown":
@@ -172,8 +201,8 @@ def _cells(folder: Path) -> list[_Cell]:
                 code = re.sub(r"^(?:from|import) .*$|#.*$", "", cell.source, flags=re.MULTILINE)
                 link = f"[{path.stem.partition('-')[0]}]({path.name}) {heading}"
                 shows = shown.get(cell.id, "")
-                found.append(_Cell(path.stem, link, "" if shows else code, shows))
-    return found
+                cells.append(_Cell(path.stem, link, "" if shows else code, shows))
+    return cells
 
 
 def _cell_of(function: Function, notebook: str, cells: Sequence[_Cell]) -> str:
@@ -190,11 +219,13 @@ def _cell_of(function: Function, notebook: str, cells: Sequence[_Cell]) -> str:
 
 def _calling(name: str, notebooks: Sequence[str], cells: Sequence[_Cell]) -> str:
     """Link the first cell that calls a function, or else names it, in the first notebook that does."""
-    for own in notebooks:
-        for use in (rf"\b{name}\(", rf"\b{name}\b")[: 2 if len(name) > SHORT else 1]:
-            for cell in cells:
-                if cell.notebook == own and re.search(use, cell.code):
-                    return cell.link
+    uses = [rf"\b{name}\("]
+    if len(name) > SHORT:
+        uses.append(rf"\b{name}\b")
+    for notebook, use in product(notebooks, uses):
+        for cell in cells:
+            if cell.notebook == notebook and re.search(use, cell.code):
+                return cell.link
     return ""
 
 
@@ -203,16 +234,20 @@ def page(rows: Sequence[Row]) -> str:
     head = "| paper | how we know it | rows | as the paper says | missing | held by a test |"
     tables = [head + "\n" + "|---" * 6 + "|"]
     for key, paper in papers().items():
-        own = [row for row in rows if row.key == key]
-        same, missing = (sum(row.departs.startswith(word) for row in own) for word in ("nothing", "missing"))
-        counts = f"{len(own)} | {same} | {missing} | {sum(bool(row.tests) for row in own)}"
+        rows_of_paper = [row for row in rows if row.key == key]
+        exact = sum(row.departs.startswith("nothing") for row in rows_of_paper)
+        missing = sum(row.departs.startswith("missing") for row in rows_of_paper)
+        tested = sum(bool(row.tests) for row in rows_of_paper)
+        counts = f"{len(rows_of_paper)} | {exact} | {missing} | {tested}"
         tables[0] += f"\n| [{paper['title']}](#{_slug(key, paper)}) | {paper['read']} | {counts} |"
         lines = ["| in the paper | here | test | what departs, and why |", "|---|---|---|---|"]
-        for row in own:
-            code = [f"`{name}`" for name in row.functions]
-            lists = ["<br>".join(some) for some in ([*code, *row.cells], row.tests or ["untested"])]
-            lists = ["", ""] if row.departs.startswith("missing") else lists
-            lines.append("| " + " | ".join([f"**{row.place}** {row.says}", *lists, row.departs]) + " |")
+        for row in rows_of_paper:
+            code = "<br>".join([*(f"`{name}`" for name in row.functions), *row.cells])
+            tests = "<br>".join(row.tests or ["untested"])
+            if row.departs.startswith("missing"):
+                code = ""
+                tests = ""
+            lines.append(f"| **{row.place}** {row.says} | {code} | {tests} | {row.departs} |")
         tables.append(f"## {key} {paper['title']}\n\n{paper['cite']}.\n\n" + "\n".join(lines))
     return "\n\n".join([PAPERS.with_suffix(".md").read_text("utf-8").rstrip(), *tables]) + "\n"
 

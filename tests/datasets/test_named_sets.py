@@ -264,10 +264,12 @@ def test_without_permission_to_write_a_whole_set_is_read(sets, data, ordinary_us
 
 
 FETCH = """
+import signal
 import sys
 from mocap.cli.main import main
 from mocap.datasets import resumed_downloads
 from mocap.datasets.named_sets import SETS
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell lets its background jobs ignore it
 resumed_downloads.PIECE = 100
 SETS["lafan1"] = SETS["lafan1"]._replace(archive=sys.argv[1], megabytes=None, sha256=sys.argv[2])
 sys.exit(main(["data", "fetch", "lafan1", "--accept"]))
