@@ -9,10 +9,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
-collect_ignore = [
-    "windows/sitecustomize.py",  # it changes the Python that imports it
-    "typed",  # programs for `test_types.py`
-]
+collect_ignore = ["windows/sitecustomize.py"]  # it changes the Python that imports it
 SWEEP = bool(os.environ.get("MOCAP_SWEEP"))  # .ci/run tries more of everything
 
 # Gates try the same examples on every machine and in every run. `--hypothesis-profile=random` tries others,
