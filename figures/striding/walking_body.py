@@ -9,13 +9,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
+from walking.two_bone_ik import two_bone
 
 from mocap._shared.arrays import Array
 from mocap.body import euler, rotations
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
 from striding.footsteps import Foot, FootPath
-from striding.two_bone_ik import two_bone
 
 STATURE = 1.75  # metres
 FPS = 120.0

@@ -97,7 +97,7 @@ def cmu(
     kind: str | None = None,
     skeleton: Skeleton | Stance | None = None,
 ) -> Motion | list[Motion]:
-    """Give a trial of the CMU database, or all trials of a person or a kind, at 120 Hz.
+    """Return a trial of the CMU database, or all trials of a person or a kind, at 120 Hz.
 
     Each person has a skeleton of their own, and a motion graph needs one for all clips: `skeleton` lets one
     body wear them.

@@ -19,7 +19,7 @@ TIMEOUT = 30.0  # seconds without an answer
 
 
 def kept_in() -> Path:
-    """Give the folder of all fetched files."""
+    """Return the folder of all fetched files."""
     import pooch
 
     return Path(os.environ.get("MOCAP_DATA") or pooch.os_cache("mocap"))

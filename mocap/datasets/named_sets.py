@@ -38,11 +38,11 @@ class NamedSet(NamedTuple):
     sha256: str | None = None
 
     def terms(self) -> str:
-        """Say whose clips they are, under which licence, and what that allows."""
+        """Describe the owner, the licence, and the use that it allows."""
         return f"These clips come from {self.title} ({self.address}), under {self.licence}: {self.allows}."
 
     def size(self) -> str:
-        """Say how large the archive is."""
+        """Return the size of the archive in words."""
         return f"{self.megabytes} MB" if self.megabytes else "some hundred MB"
 
 
@@ -53,7 +53,7 @@ HASHES: dict[str, str] = _TABLES["clips"]
 
 
 def folder_of(name: str) -> Path:
-    """Give the folder in which a set is looked for, and into which it is fetched.
+    """Return the folder in which a set is looked for, and into which it is fetched.
 
     Raises
     ------

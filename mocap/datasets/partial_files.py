@@ -74,7 +74,7 @@ class Part:
         return record if 0 < self.size() < record.length else None
 
     def advice(self) -> str:
-        """Say how much is kept, and how to continue."""
+        """Return a sentence with the megabytes that are kept, and how to continue."""
         record = self.record()
         if self.is_whole():
             return "The whole file is here: fetch again to unpack it."

@@ -35,7 +35,7 @@ BEYOND_END = 416  # no byte of the range exists
 
 
 class Listing(NamedTuple):
-    """What is known of a file before it is downloaded.
+    """The properties of a file that are known before it is downloaded.
 
     Parameters
     ----------

@@ -83,7 +83,7 @@ def unpack(archive: Path, folder: Path, progress: Progress = iter) -> list[str]:
 
 @contextmanager
 def _explained(archive: Path) -> Iterator[None]:
-    """Say that an archive is damaged, whatever `zipfile` and zlib raise."""
+    """Report a damaged archive in one sentence, whatever `zipfile` and zlib raise."""
     problem = f"{archive.name} is damaged, or no .zip file: get it anew."
     try:
         yield
@@ -132,7 +132,7 @@ def _check_members(archive: Path, members: list[zipfile.ZipInfo]) -> dict[str, z
 
 
 def _problem_of(member: zipfile.ZipInfo) -> str | None:
-    """Say why no honest set has such a member; None if one may have it."""
+    """Return the reason why no honest set has such a member; None if one may have it."""
     folder, *folders = re.split(r"[/\\]", member.orig_filename)
     kind = stat.S_IFMT(member.external_attr >> MODE)
     if folder == "" or ".." in (folder, *folders) or set(":\0") & set(member.orig_filename):
