@@ -12,14 +12,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from jumping import generate_jump
 from walking.generated import CLIPS, generate, generate_walk
+from walking.jumping import generate_jump
 from walking.walking_body import SKELETON
 
 from mocap.body.ground_path import arcs
 from mocap.body.motion import Motion
 from mocap.datasets import samples
 
+BYTES = 8  # of a number
 BEND = [[0, 0], [0, 2], [-1.2, 3.6], [-3, 4]]  # points on the ground, metres
 WALKS = {
     "walk_5m": (5, (0.8, 1.1, 1.4), (-120, 0, 120), 20),
@@ -34,9 +35,9 @@ def bundled_clips() -> Iterator[tuple[str, Motion]]:
     yield "jump", generate_jump()
     yield "bend_sneak", generate_walk(BEND, style="sneak", seed=1)
     yield "bend_walk", generate_walk(BEND, style="walk", speed=1.3)
-    for kind, (metres, speeds, turns, every) in WALKS.items():
+    for kind, (metres, speeds, turns, spacing) in WALKS.items():
         for seed, (speed, turn) in enumerate(product(speeds, turns)):
-            path = arcs((0.0, 0.0), 0.0, [(metres, np.radians(turn))]).points[::every]
+            path = arcs((0.0, 0.0), 0.0, [(metres, np.radians(turn))]).points[::spacing]
             yield f"{kind}_{speed}_{turn}", generate_walk(path, speed=speed, seed=seed)
 
 
@@ -54,16 +55,12 @@ def pack(motion: Motion) -> dict[str, Any]:
     moving = whole.any(axis=1)
     steps = np.diff(whole[moving], samples.ORDER, prepend=np.zeros((moving.sum(), samples.ORDER), int))
     folded = np.ascontiguousarray((steps << 1) ^ (steps >> 63))  # 0, -1, 1, -2, ... become 0, 1, 2, 3, ...
-    digits = np.moveaxis(folded.view(np.uint8).reshape(*folded.shape, 8), -1, 0)
+    digits = np.moveaxis(folded.view(np.uint8).reshape(*folded.shape, BYTES), -1, 0)
+    last = np.flatnonzero(digits.any(axis=(1, 2)))[-1]
     assert (np.sum(list(motion.labels.values()), axis=0) == 1).all(), "one label for each frame"
-    return {
-        "digits": digits[: 1 + np.flatnonzero(digits.any(axis=(1, 2)))[-1]],
-        "moving": moving,
-        "flipped": flipped.T,
-        "labels": list(motion.labels),
-        "kind": np.argmax(list(motion.labels.values()), axis=0).astype(np.uint8),
-        "contacts": list(motion.contacts.values()),
-    }
+    kind = np.argmax(list(motion.labels.values()), axis=0).astype(np.uint8)
+    marks = {"labels": list(motion.labels), "kind": kind, "contacts": list(motion.contacts.values())}
+    return {"digits": digits[: last + 1], "moving": moving, "flipped": flipped.T, **marks}
 
 
 def save(path: Path) -> None:

@@ -8,8 +8,10 @@ import gc
 import sys
 import time
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from pathlib import Path
+from typing import Any, NamedTuple
 
 import networkx as nx
 import numpy as np
@@ -21,25 +23,28 @@ from mocap.body import SHAPES, GroundPath, heading, on_ground
 from mocap.errors import MocapError, MocapWarning
 from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.methods import motion_matching, parametric_graphs
+from mocap.methods.motion_matching.pose_database import PoseDatabase
 from mocap.quality.seam_measures import Spread
-from mocap.steering.characters import Character
+from mocap.steering.characters import Character, Pose
+from mocap.steering.judged_control import ControlReport
 
 FOLDER = Path(__file__).parent
 WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
 CMU = (*range(11, 35), 47, 58)
 SHARE = {"lrl": 1.0, "lr": 0.55, "rl": 0.55}  # a step turns by half of what a stride does, or little more
 SEEDS = range(4)  # of the commands
-AHEAD, NEAR = (
-    0.8,
-    1.5,
-)  # metres along a path: to where a character is led, and where its nearest point is looked for
+SPACING = 0.02  # metres between the points of a path
+AHEAD = 0.8  # metres along a path: a character is led to the point that far ahead of it
+SEARCH_BACK = 0.2  # metres along a path: its nearest point is looked for that far behind the last one
+SEARCH_FORWARD = 1.5  # metres along a path: and that far ahead of the last one
+END = 0.1  # metres along a path: as near its end a character has arrived
 LONGEST = 3.0  # times the seconds that a path takes, after which it ends
 LIMITS = {"bundled clips": 75, "homework's clips": 120, "CMU 16, walks": 75}  # degrees per stride
 
 
 def clip_sets() -> dict[str, tuple[list[mocap.Motion], float]]:
     """Load the clips, at 30 Hz with their plants marked, and the speed they are asked for."""
-    sets = {"bundled clips": ([datasets.sample(name) for name in WALKS], 0.8)}
+    sets = {"bundled clips": ([datasets.sample(name) for name in WALKS], 1.0)}
     if len(sys.argv) > 1:
         folder = Path(sys.argv[1])
         sets["homework's clips"] = (
@@ -72,41 +77,63 @@ def strides(clips: list[mocap.Motion], kinds: tuple[str, ...], limit: float) -> 
     raise refusal
 
 
-def ways(
-    name: str, clips: list[mocap.Motion]
-) -> tuple[dict[str, tuple[Callable[[], Character], float]], dict[str, str]]:
-    """Prepare every way of control: how to make its character, what that took, s; and why some cannot be."""
-    made: dict[str, tuple[Callable[[], Character], float]] = {}
-    refused: dict[str, str] = {}
+Makers = Mapping[str, Callable[[Any], Character]]  # by what they add to a label, of what is prepared
 
-    def add(
-        label: str,
-        prepare: Callable[[], tuple[object, str]],
-        *characters: tuple[str, Callable[[object], object]],
-    ) -> None:
+
+class Preparation(NamedTuple):
+    """Something to prepare from clips, such as a graph, and the functions that make characters of it.
+
+    `prepare` returns what it has made, and what the label says of it.
+    """
+
+    label: str
+    prepare: Callable[[], tuple[Any, str]]
+    characters: Makers
+
+
+class Ready(NamedTuple):
+    """A way of control: how to make its character, and the CPU time of its preparation."""
+
+    make: Callable[[], Character]
+    seconds: float
+
+
+def prepare_ways(name: str, clips: list[mocap.Motion]) -> tuple[dict[str, Ready], dict[str, str]]:
+    """Prepare every way of control, by its label; and return why some cannot be, by theirs."""
+    prepared: dict[str, Ready] = {}
+    refused: dict[str, str] = {}
+    for label, prepare, characters in preparations(clips, LIMITS[name]):
         begun = time.process_time()
         try:
-            ready, by = prepare()
+            source, detail = prepare()
         except MocapError as error:
             refused[label] = str(error)
-            return
-        took = time.process_time() - begun
-        for more, character in characters:
-            made[label + by + more] = (lambda character=character: character(ready), took)
+            continue
+        seconds = time.process_time() - begun
+        for ending, character in characters.items():
+            prepared[label + detail + ending] = Ready(partial(character, source), seconds)
+    return prepared, refused
 
-    parametric = ("", parametric_graphs.ParametricController)
-    add("motion graph", lambda: graph(clips, 0.04), ("", steering.Controller), (", turned by 40°/s", turned))
-    add("motion graph", lambda: graph(clips, 0.08), ("", steering.Controller))
-    add("strides", lambda: strides(clips, ("lrl",), LIMITS[name]), parametric)
-    add("steps", lambda: strides(clips, ("lr", "rl"), LIMITS[name]), parametric)
-    add("matching", lambda: (motion_matching.tabulate(clips), ""), *map(_matcher, (1.0, 0.25)))
-    return made, refused
+
+def preparations(clips: list[mocap.Motion], limit: float) -> Iterator[Preparation]:
+    """Yield all that is prepared from clips; strides turn by up to `limit` degrees."""
+    as_it_is: Makers = {"": steering.Controller}
+    as_it_is_and_turned: Makers = {"": steering.Controller, ", turned by 40°/s": turned}
+    yield Preparation("motion graph", partial(graph, clips, 0.04), as_it_is_and_turned)
+    yield Preparation("motion graph", partial(graph, clips, 0.08), as_it_is)
+
+    by_strides = {"": parametric_graphs.ParametricController}
+    yield Preparation("strides", partial(strides, clips, ("lrl",), limit), by_strides)
+    yield Preparation("steps", partial(strides, clips, ("lr", "rl"), limit), by_strides)
+
+    by_matching = {f", future × {future:g}": partial(matcher, future) for future in (1.0, 0.25)}
+    yield Preparation("matching", partial(pose_table, clips), by_matching)
 
 
 def graph(clips: list[mocap.Motion], threshold: float) -> tuple[CompiledGraph, str]:
     """Build a motion graph."""
-    found = graphs.prune(graphs.build(clips, window=10, threshold=threshold))
-    return graphs.compile_graph(found), f", {100 * threshold:g} cm"
+    pruned = graphs.prune(graphs.build(clips, window=10, threshold=threshold))
+    return graphs.compile_graph(pruned), f", {100 * threshold:g} cm"
 
 
 def turned(compiled: CompiledGraph) -> steering.FootTurner:
@@ -114,9 +141,14 @@ def turned(compiled: CompiledGraph) -> steering.FootTurner:
     return steering.FootTurner(steering.Controller(compiled), np.radians(40))
 
 
-def _matcher(future: float) -> tuple[str, Callable[[object], object]]:
-    wants = motion_matching.Wants(future=future)
-    return f", future × {future:g}", lambda table: motion_matching.MotionMatcher(table, wants)
+def pose_table(clips: list[mocap.Motion]) -> tuple[PoseDatabase, str]:
+    """Tabulate the poses of clips, for motion matching."""
+    return motion_matching.tabulate(clips), ""
+
+
+def matcher(future: float, table: PoseDatabase) -> motion_matching.MotionMatcher:
+    """Make a character of motion matching, to which the path ahead is worth `future` times the usual."""
+    return motion_matching.MotionMatcher(table, motion_matching.Wants(future=future))
 
 
 def main() -> None:
@@ -146,67 +178,139 @@ COLUMNS = (
 
 
 def _table(name: str, clips: list[mocap.Motion], speed: float) -> list[str]:
+    """Write two tables, with a row for each way: how it is judged, and how it is led along paths."""
     usual = quality.spread(clips)
-    rows, led = (
-        [COLUMNS, "|---" * 13 + "|"],
-        [f"| way | {' | '.join(SHAPES)} |", "|---" * (len(SHAPES) + 1) + "|"],
-    )
-    made, refused = ways(name, clips)
-    for label, (make, took) in made.items():
+    judged = _head(COLUMNS)
+    led = _head(f"| way | {' | '.join(SHAPES)} |")
+    prepared, refused = prepare_ways(name, clips)
+    for label, (make, seconds) in prepared.items():
         gc.collect()
         gc.freeze()
-        rows.append(f"| {label} | {_judged(make, usual, speed)} | {took:.2f} |")
-        cells = []
-        for shape in SHAPES.values():
-            off, walked = lead(make(), shape(), speed)
-            cells.append(f"{off.mean():.2f}, {off.max():.2f}" + ("" if walked == 1 else f" ({walked:.0%})"))
-        led.append(f"| {label} | {' | '.join(cells)} |")
-        print(rows[-1])
-    reasons = [
-        line for label, reason in refused.items() for line in ("", f"No {label} from these clips: {reason}")
-    ]
-    return [*rows, *reasons, "", *led]
+        judged.append(f"| {label} | {_judged(make, usual, speed)} | {seconds:.2f} |")
+        led.append(f"| {label} | {_led(make, speed)} |")
+        print(judged[-1])
+    return [*judged, *_reasons(refused), "", *led]
+
+
+def _head(columns: str) -> list[str]:
+    """Write the head of a table: its columns, and the line below them."""
+    count = columns.count("|") - 1
+    return [columns, "|---" * count + "|"]
+
+
+def _reasons(refused: dict[str, str]) -> list[str]:
+    """Write a paragraph for each way that cannot be prepared."""
+    lines = []
+    for label, reason in refused.items():
+        lines += ["", f"No {label} from these clips: {reason}"]
+    return lines
+
+
+def _led(make: Callable[[], Character], speed: float) -> str:
+    """Write the cells of a character that is led along each path: mean and largest distance from it, m.
+
+    The share of a path that was walked is added where it is not all of it.
+    """
+    cells = []
+    for shape in SHAPES.values():
+        distances, share = lead(make(), shape(), speed)
+        cell = f"{distances.mean():.2f}, {distances.max():.2f}"
+        cells.append(cell if share == 1 else f"{cell} ({share:.0%})")
+    return " | ".join(cells)
 
 
 def lead(character: Character, path: GroundPath, speed: float) -> tuple[Array, float]:
     """Lead a character along a path by commands: to a point that is carried ahead of it, by pure pursuit.
 
-    Gives how far it is off in each frame (F,), metres, and how much of the path was walked, 1 for all.
+    Returns its distance from the path in each frame (F,), metres, and the share of the path that it walked,
+    1 for all.
     """
-    fine = path.resampled(0.02)
-    line, along = on_ground(fine.points), fine.along
+    fine = path.resampled(SPACING)
+    line = on_ground(fine.points)
+    line_along = fine.along  # metres, of each of its points
     pose = character.step(0.0, speed)
-    # It is laid so that it faces along the path where both start.
-    turn = np.exp(1j * (np.angle(on_ground(fine.at(0.1)) - line[0]) - heading(pose.rotations[0])))
-    start, off, now = complex(on_ground(pose.root_position)), [0.0], 0.0
+    start = _position(pose)
+    turn = _turn_onto(fine, pose)
+    along = 0.0  # metres along the path, of the point that is nearest to the character
+    distances = []
     for _ in range(round(LONGEST * path.length / speed * character.fps)):
-        here = line[0] + turn * (complex(on_ground(pose.root_position)) - start)
-        near = np.flatnonzero((along >= now - 0.2) & (along <= now + NEAR))
-        gaps = np.abs(line[near] - here)
-        now, off[-1] = float(along[near[gaps.argmin()]]), float(gaps.min())
-        if now >= path.length - 0.1:
+        position = line[0] + turn * (_position(pose) - start)
+        along, distance = _nearest(line_along, np.abs(line - position), along)
+        distances.append(distance)
+        if along >= path.length - END:
             break
-        goal = complex(on_ground(fine.at(now + AHEAD)))
-        pose = character.step(float(np.angle((goal - here) / turn)), speed)
-        off.append(off[-1])
-    return np.array(off), min(1.0, (now + 0.1) / path.length)
+        goal = complex(on_ground(fine.at(along + AHEAD)))
+        direction = float(np.angle((goal - position) / turn))
+        pose = character.step(direction, speed)
+    else:
+        distances.append(distances[-1])  # out of time: the last pose counts as the one before it
+    return np.array(distances), min(1.0, (along + END) / path.length)
+
+
+def _position(pose: Pose) -> complex:
+    """Return where a pose is on the ground."""
+    return complex(on_ground(pose.root_position))
+
+
+def _turn_onto(path: GroundPath, pose: Pose) -> np.complex128:
+    """Return the rotation, as a complex number, after which a pose faces along the first 10 cm of a path."""
+    first_bit = on_ground(path.at(0.1)) - on_ground(path.points[0])
+    angle = np.angle(first_bit) - heading(pose.rotations[0])
+    return np.complex128(np.exp(1j * angle))
+
+
+def _nearest(along: Array, distances: Array, previous: float) -> tuple[float, float]:
+    """Find a path's nearest point, not far from the previous one: its metres along the path, its distance."""
+    candidates = np.flatnonzero((along >= previous - SEARCH_BACK) & (along <= previous + SEARCH_FORWARD))
+    nearest = candidates[distances[candidates].argmin()]
+    return float(along[nearest]), float(distances[nearest])
 
 
 def _judged(make: Callable[[], Character], usual: Spread, speed: float) -> str:
     """Write the cells of a character: means of four runs, and of the times the least."""
     reports = [steering.judge_control(make, usual, speed=speed, seed=seed) for seed in SEEDS]
-    delays = [report.delay for report in reports]
-
-    def mean(name: str, form: str) -> str:
-        return format(float(np.mean([getattr(report, name) for report in reports])), form)
-
-    soon, slides = [delay.mean for delay in delays], [report.slide for report in reports]
-    cells = [f"{np.mean(soon):.2f} ± {np.std(soon):.2f}", f"{np.mean([d.slowest for d in delays]):.2f}"]
-    cells += [f"{np.mean(slides):.1f} ± {np.std(slides):.1f}", mean("cleaned", ".1f")]
-    cells += [f"{min(report.kept for report in reports):.1%}", mean("jolting", ".1%")]
-    cells += [mean("wags", ".1f") + "°", mean("pivots", ".1f") + "°", mean("pace", ".2f")]
-    cells += [f"{min(delay.step for delay in delays):.2f}", f"{min(delay.worst for delay in delays):.1f}"]
+    cells = [*_obeying(reports), *_feet(reports), *_moving(reports), *_step_times(reports)]
     return " | ".join(cells)
+
+
+def _obeying(reports: list[ControlReport]) -> list[str]:
+    """Write the seconds until a command is obeyed: on average, and for 95 %."""
+    delays = [report.delay.mean for report in reports]
+    slowest = [report.delay.slowest for report in reports]
+    return [_mean_and_deviation(delays, ".2f"), _mean(slowest, ".2f")]
+
+
+def _feet(reports: list[ControlReport]) -> list[str]:
+    """Write how far planted feet slide, cm, as they are and cleaned, and the plants that cleaning keeps."""
+    slides = [report.slide for report in reports]
+    cleaned = [report.cleaned for report in reports]
+    least_kept = min(report.kept for report in reports)
+    return [_mean_and_deviation(slides, ".1f"), _mean(cleaned, ".1f"), f"{least_kept:.1%}"]
+
+
+def _moving(reports: list[ControlReport]) -> list[str]:
+    """Write the frames that jolt, degrees of wagging and of pivoting, and the speed, m/s."""
+    jolting = _mean([report.jolting for report in reports], ".1%")
+    wags = _mean([report.wags for report in reports], ".1f")
+    pivots = _mean([report.pivots for report in reports], ".1f")
+    pace = _mean([report.pace for report in reports], ".2f")
+    return [jolting, f"{wags}°", f"{pivots}°", pace]
+
+
+def _step_times(reports: list[ControlReport]) -> list[str]:
+    """Write the CPU time of a step, ms: on average and at worst, each in the quickest run."""
+    step = min(report.delay.step for report in reports)
+    worst = min(report.delay.worst for report in reports)
+    return [f"{step:.2f}", f"{worst:.1f}"]
+
+
+def _mean(values: list[float], form: str) -> str:
+    return format(float(np.mean(values)), form)
+
+
+def _mean_and_deviation(values: list[float], form: str) -> str:
+    deviation = format(float(np.std(values)), form)
+    return f"{_mean(values, form)} ± {deviation}"
 
 
 if __name__ == "__main__":

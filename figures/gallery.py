@@ -15,11 +15,12 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import Any, NamedTuple
 
 import matplotlib.pyplot as plt
 import networkx as nx
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
@@ -59,18 +60,32 @@ from mocap.graphs import homework_graph
 from mocap.methods import groups, match_webs, motion_matching, parametric_graphs
 from mocap.methods.match_webs.local_alignment import apart
 from mocap.methods.motion_matching.nearest_frames import foresee
-from mocap.methods.motion_matching.pose_database import PoseDatabase
+from mocap.methods.motion_matching.pose_database import FUTURE, GROUPS, PoseDatabase
+from mocap.methods.parametric_graphs.parametric_edges import ParametricEdge
+from mocap.methods.parametric_graphs.stride_spaces import Space
 from mocap.plotting import ASKED, COLOURS, CURVES, MARK, SOURCES
 from mocap.plotting.bodies import bodies_along
 from mocap.plotting.picture import legible, small_png
+from mocap.synthesis.bounded_search import SearchResult
 
 Array = NDArray[np.float64]
+Indices = NDArray[np.intp]
+Points = NDArray[np.complex128]  # z + ix, metres
 Edge = tuple[Hashable, Hashable, int]
+Place = tuple[float, float]
 
 DENSE = ("skeleton", "segments", "motion_file", "components")  # with no room for larger names: on no slide
 TITLE = (1168, 400)  # pixels of a picture on the first slide of a deck
 WINDOW = 10  # frames at 30 Hz
 WARPED = 238  # frame at 120 Hz: the key of the picture of warping
+GOAL = -2 + 2j  # of the search with and without a lower bound, metres z + ix
+STEPS = 6  # that it may take
+STRIDE = 0.7  # metres
+WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
+SPEED = 1.0  # m/s, asked of motion matching
+SEGMENT = 15  # whose transitions are drawn
+BOX = 0.9  # width of the box of a segment; they are 1 apart
+HALF_BOX = 0.42  # half its height
 
 
 @cache
@@ -82,7 +97,7 @@ def _graph() -> graphs.MotionGraph:
 def draw_walk() -> Figure:
     """Draw a new walk as bodies along its path, in the colours of the clips that it comes from."""
     graph = _graph()
-    edges = synthesis.random_walk(graph, seconds=9, seed=3515)
+    edges = synthesis.random_walk(graph, seconds=9, seed=1578)
     walk = synthesis.to_motion(graph, edges)
     seams = [seam.frame for seam in synthesis.seams(graph, edges)]
     return bodies_along(walk, sources=synthesis.sources(graph, edges), seams=seams)
@@ -91,41 +106,55 @@ def draw_walk() -> Figure:
 def draw_skeleton() -> Figure:
     """Draw the bundled clips' body from the front, arms and toes spread, with the names of its joints."""
     body = datasets.sample("walk_straight").skeleton
-    turns = np.tile(rotations.IDENTITY, (1, len(body), 1))
-    for side, sign in (("l", 1), ("r", -1)):
-        turns[0, body.index(f"{side}humerus")] = rotations.from_rotvec([0, 0, 1.75 * sign])
-        turns[0, body.index(f"{side}femur")] = rotations.about_y(1.2 * sign)
-        turns[0, body.index(f"{side}thumb")] = rotations.from_rotvec([0, 0, -0.8 * sign])
-    points = joint_positions(Motion(body, np.array([[0, 0.96, 0]]), turns, 1.0))[0, :, :2]
+    points = _spread_body(body)
     figure = plt.figure(figsize=(8, 6.4), layout="constrained")
     ax = figure.add_subplot()
     for start, end, side in zip(*plotting.bones(body), strict=True):
         ax.plot(*points[[start, end]].T, "o-", color=COLOURS[side], linewidth=3, markersize=5)
-    for place in np.unique(points.round(6), axis=0):
-        here = np.flatnonzero(np.abs(points - place).max(axis=1) < 1e-5)
-        _name_joints(ax, place, ", ".join(body.names[int(joint)] for joint in here))
+    for position in np.unique(points.round(6), axis=0):
+        distances = np.abs(points - position).max(axis=1)
+        names = [body.names[int(joint)] for joint in np.flatnonzero(distances < 1e-5)]
+        _name_joints(ax, position, ", ".join(names))
     ax.set(aspect="equal", xlim=(-1.2, 1.2))
     ax.set_axis_off()
     return figure
 
 
-def _name_joints(ax: Axes, place: Array, names: str) -> None:
-    """Write names beside a place: slanted above the arms and below the toes, level elsewhere."""
-    x, y = place
-    away = 1 if x > -0.01 else -1
-    up, slant = -9 * names.startswith("lowerneck"), 0
+def _spread_body(body: Skeleton) -> Array:
+    """Compute where the joints are from the front, shape (J, 2), with arms and toes spread."""
+    turns = np.tile(rotations.IDENTITY, (1, len(body), 1))
+    for side, sign in (("l", 1), ("r", -1)):
+        turns[0, body.index(f"{side}humerus")] = rotations.from_rotvec([0, 0, 1.75 * sign])
+        turns[0, body.index(f"{side}femur")] = rotations.about_y(1.2 * sign)
+        turns[0, body.index(f"{side}thumb")] = rotations.from_rotvec([0, 0, -0.8 * sign])
+    pose = Motion(body, np.array([[0, 0.96, 0]]), turns, 1.0)
+    return joint_positions(pose)[0, :, :2]
+
+
+def _name_joints(ax: Axes, position: Array, names: str) -> None:
+    """Write names beside a position: slanted above the arms and below the toes, level elsewhere."""
+    x, y = position
+    outward = 1 if x > -0.01 else -1
+    across = 9  # points outwards
+    lift = 0  # points upwards
+    slant = 0  # degrees
     if names.endswith("humerus"):
-        up = -8
+        lift = -8
     elif abs(x) > 0.15:
-        above = 1 if y > 1 and not names.endswith("thumb_end") else -1
-        up, slant = 8 * above, 60 * above * away
+        upward = 1 if y > 1 and not names.endswith("thumb_end") else -1
+        across = 4
+        lift = 8 * upward
+        slant = 60 * upward * outward
+    elif names.startswith("lowerneck"):
+        lift = -9
+    offset = (across * outward, lift)
     ax.annotate(
         names,
         (x, y),
-        (4 * away if slant else 9 * away, up),
+        offset,
         textcoords="offset points",
         fontsize=9,
-        ha="left" if away > 0 else "right",
+        ha="left" if outward > 0 else "right",
         va="center",
         rotation=slant,
         rotation_mode="anchor",
@@ -139,31 +168,58 @@ def draw_segments() -> Figure:
     """
     clips = [datasets.sample(name) for name in datasets.SAMPLES[:3]]
     graph = homework_graph.segment_graph(clips, threshold=250)
-    nodes, wide, high = dict(graph.nodes(data=True)), 0.9, 0.42
-    firsts = {part["clip"]: node for node, part in reversed(nodes.items())}
-    at = {node: (node - firsts[part["clip"]], -2 * part["clip"]) for node, part in nodes.items()}
+    clip_of = dict(graph.nodes(data="clip"))
+    firsts = {clip: segment for segment, clip in reversed(clip_of.items())}
+    places = {segment: (segment - firsts[clip], -2 * clip) for segment, clip in clip_of.items()}
     figure, ax = plt.subplots(figsize=(9, 4), layout="constrained")
-    for node, (x, y) in at.items():
-        colour = SOURCES[nodes[node]["clip"]]
-        ax.add_patch(Rectangle((x, y - high), wide, 2 * high, facecolor=colour, edgecolor="white", lw=0.5))
-        ax.text(x + wide / 2, y, str(node), ha="center", va="center", fontsize=7, color="white", zorder=4)
-    for _, there, kind in graph.out_edges(15, data="kind"):
+    for segment, place in places.items():
+        _draw_box(ax, place, str(segment), SOURCES[clip_of[segment]])
+    for _, target, kind in graph.out_edges(SEGMENT, data="kind"):
         if kind == "transition":
-            (x, y), (to, below) = at[15], at[there]
-            down = 1 if below < y else -1
-            ends = [(x + wide, y - down * high), (to + 0.1, below + down * high)]
-            ax.plot(*zip(*ends, strict=True), color=MARK, linewidth=1.8, zorder=0.5)
-            ax.plot(*ends[1], "v" if down > 0 else "^", color=MARK, markersize=6, zorder=3)
+            _draw_transition(ax, places[SEGMENT], places[target])
     ax.set_yticks([0, -2, -4], [clip.name for clip in clips])
-    ax.set(xlim=(-0.5, max(x for x, _ in at.values()) + 1.5), ylim=(-5, 1))
+    ax.set(xlim=(-0.5, max(x for x, _ in places.values()) + 1.5), ylim=(-5, 1))
     ax.set(xlabel="segment of the clip, in order")
     ax.spines[["top", "right", "left"]].set_visible(False)
     ax.tick_params(left=False)
     return figure
 
 
+def _draw_box(ax: Axes, place: Place, number: str, colour: str) -> None:
+    """Draw a numbered box; its place is the middle of its left side."""
+    x, y = place
+    corner = (x, y - HALF_BOX)
+    box = Rectangle(corner, BOX, 2 * HALF_BOX, facecolor=colour, edgecolor="white", lw=0.5)
+    ax.add_patch(box)
+    ax.text(x + BOX / 2, y, number, ha="center", va="center", fontsize=7, color="white", zorder=4)
+
+
+def _draw_transition(ax: Axes, source: Place, target: Place) -> None:
+    """Draw an arrow from the end of a box to the start of another one above or below it."""
+    x, y = source
+    target_x, target_y = target
+    down = 1 if target_y < y else -1
+    tail = (x + BOX, y - down * HALF_BOX)
+    tip = (target_x + 0.1, target_y + down * HALF_BOX)
+    ax.plot(*zip(tail, tip, strict=True), color=MARK, linewidth=1.8, zorder=0.5)
+    ax.plot(*tip, "v" if down > 0 else "^", color=MARK, markersize=6, zorder=3)
+
+
 def draw_motion_file() -> Figure:
     """Draw a small BVH file, coloured by its parts, beside the leg that it describes."""
+    leg = _swinging_leg()
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "leg.bvh"
+        save(leg, path, precision=0)
+        lines = path.read_text().splitlines()
+    figure = plt.figure(figsize=(9.5, 4.2))
+    _write_lines(figure.add_axes((0.01, 0, 0.55, 1)), lines)
+    _draw_leg(figure.add_axes((0.64, 0.12, 0.35, 0.82)), leg)
+    return figure
+
+
+def _swinging_leg() -> Motion:
+    """Make a leg of two bones that swings for three frames."""
     skeleton = Skeleton(
         ["hip", "knee", "knee_end"],
         [-1, 0, 1],
@@ -173,43 +229,49 @@ def draw_motion_file() -> Figure:
     turns = np.tile(rotations.IDENTITY, (3, 3, 1))
     turns[:, 0] = from_euler("x", np.radians([[-15], [-25], [-35]]))
     turns[:, 1] = from_euler("x", np.radians([[0], [30], [60]]))
-    leg = Motion(skeleton, np.array([[0, 0.9, 0], [0, 0.9, 0.3], [0, 0.89, 0.6]]), turns, 30.0, "leg")
-    with TemporaryDirectory() as folder:
-        save(leg, Path(folder) / "leg.bvh", precision=0)
-        lines = (Path(folder) / "leg.bvh").read_text().splitlines()
-    figure = plt.figure(figsize=(9.5, 4.2))
-    text, ax = figure.add_axes((0.01, 0, 0.55, 1)), figure.add_axes((0.64, 0.12, 0.35, 0.82))
-    text.set_axis_off()
+    hips = np.array([[0, 0.9, 0], [0, 0.9, 0.3], [0, 0.89, 0.6]])
+    return Motion(skeleton, hips, turns, 30.0, "leg")
+
+
+def _write_lines(ax: Axes, lines: list[str]) -> None:
+    """Write the lines of a BVH file from top to bottom, channels and numbers in colours."""
+    ax.set_axis_off()
     for number, line in enumerate(lines):
         colour = CURVES[1] if number > lines.index("MOTION") else COLOURS["middle"]
         colour = CURVES[0] if "CHANNELS" in line else colour
-        place = (0, 0.95 - 0.9 * number / (len(lines) - 1))
-        text.text(
-            *place, line.replace("\t", "   "), family="monospace", fontsize=8.5, color=colour, va="center"
-        )
-    for number, points in enumerate(joint_positions(leg)):
-        ax.plot(points[:, 2], points[:, 1], "o-", color=CURVES[1], alpha=(0.35, 0.6, 1)[number], linewidth=3)
-        ax.text(points[0, 2], points[0, 1] + 0.05, f"frame {number + 1}", ha="center", fontsize=10)
-    for name, (z, y) in zip(skeleton.names, joint_positions(leg)[-1][:, [2, 1]], strict=True):
+        height = 0.95 - 0.9 * number / (len(lines) - 1)
+        spaced = line.replace("\t", "   ")
+        ax.text(0, height, spaced, family="monospace", fontsize=8.5, color=colour, va="center")
+
+
+def _draw_leg(ax: Axes, leg: Motion) -> None:
+    """Draw the three frames of the leg from the side, and name its joints in the last one."""
+    frames = joint_positions(leg)
+    for number, (points, alpha) in enumerate(zip(frames, (0.35, 0.6, 1), strict=True), start=1):
+        _, y, z = points.T
+        ax.plot(z, y, "o-", color=CURVES[1], alpha=alpha, linewidth=3)
+        ax.text(z[0], y[0] + 0.05, f"frame {number}", ha="center", fontsize=10)
+    for name, (_, y, z) in zip(leg.skeleton.names, frames[-1], strict=True):
         ax.text(z + 0.06, y, name, va="center", fontsize=10)
     ax.set(aspect="equal", xlabel="z (m)", ylabel="y (m)", xlim=(-0.15, 1.15), ylim=(0, 1.05))
     ax.spines[["top", "right"]].set_visible(False)
-    return figure
 
 
 def draw_nodes() -> Figure:
     """Draw two clips with nodes inserted where transitions leave and enter."""
     clips = [resample(datasets.sample(name), 30)[:240] for name in ("walk_circle", "walk_curve_1")]
-    found = matching.find_transitions(clips, window=WINDOW, below=0.04)
-    best = sorted((t for t in found if t.source != t.target), key=lambda t: t.cost)[:8]
+    transitions = matching.find_transitions(clips, window=WINDOW, below=0.04)
+    between_clips = [transition for transition in transitions if transition.source != transition.target]
+    best = sorted(between_clips, key=lambda transition: transition.cost)[:8]
     figure = plt.figure(figsize=(8, 2.4), layout="constrained")
+    ax = figure.add_subplot()
     graph = graphs.from_transitions(clips, best, window=WINDOW)
-    arcs = plotting.timeline(graph, ax=figure.add_subplot())
-    arcs.set(alpha=1, linewidths=1.6)
-    for t in best:  # a transition enters after its window
-        marker = "v" if t.source < t.target else "^"
-        height = -t.target + (0.13 if t.source < t.target else -0.13)
-        arcs.axes.plot((t.enter + WINDOW) / 30, height, marker, color=MARK, markersize=8)
+    plotting.timeline(graph, ax=ax).set(alpha=1, linewidths=1.6)
+    for transition in best:
+        goes_down = transition.source < transition.target
+        seconds = (transition.enter + WINDOW) / 30  # it enters after its window
+        height = -transition.target + (0.13 if goes_down else -0.13)
+        ax.plot(seconds, height, "v" if goes_down else "^", color=MARK, markersize=8)
     return figure
 
 
@@ -234,20 +296,14 @@ def draw_distances() -> Figure:
 def draw_most_pairs() -> Figure:
     """Draw the lower bound of pairs of windows against their RMS distance, and the few below 4 cm."""
     clips = [resample(datasets.sample(name), 30)[:300] for name in ("walk_curve_1", "walk_curve_2")]
-    points = [matching.point_cloud(clip) for clip in clips]
-    rows = []
-    for each in points:
-        windows = sliding_window_view(each, WINDOW, axis=0)[::8].transpose(0, 3, 1, 2)
-        ground = windows[..., [0, 2]]
-        radii = np.linalg.norm(ground - ground.mean(axis=(1, 2), keepdims=True), axis=-1)
-        numbers = np.stack([windows[..., 1], radii]).reshape(2, len(windows), -1)
-        rows.append(np.hstack([*numbers]) / np.sqrt(radii[0].size))
-    bound = 100 * np.linalg.norm(rows[0][:, None] - rows[1], axis=-1)
-    rms = 100 * np.sqrt(matching.distance_grid(*points, window=WINDOW)[::8, ::8])
+    clouds = [matching.point_cloud(clip) for clip in clips]
+    first, second = (_heights_and_radii(cloud) for cloud in clouds)
+    bound = 100 * np.linalg.norm(first[:, None] - second, axis=-1)
+    rms = 100 * np.sqrt(matching.distance_grid(*clouds, window=WINDOW)[::8, ::8])
     figure = plt.figure(figsize=(6, 4), layout="constrained")
     ax = figure.add_subplot()
-    for looked_at, colour in ((bound > 4, plotting.QUIET), (bound <= 4, CURVES[0])):
-        ax.plot(rms[looked_at], bound[looked_at], ".", color=colour, markersize=4)
+    for pairs, colour in ((bound > 4, plotting.QUIET), (bound <= 4, CURVES[0])):
+        ax.plot(rms[pairs], bound[pairs], ".", color=colour, markersize=4)
     ax.axline((0, 0), slope=1, color=ASKED, linewidth=1)
     ax.axhline(4, color=CURVES[1])
     ax.axvline(4, color=CURVES[1], linestyle=":")
@@ -255,26 +311,42 @@ def draw_most_pairs() -> Figure:
     return figure
 
 
+def _heights_and_radii(cloud: Array) -> Array:
+    """List what no rigid transform of the ground changes, a row for every eighth window of a clip's points.
+
+    These are the points' heights and their distances from the vertical axis through their mean, divided so
+    that the distance between two rows is a lower bound of the windows' RMS distance.
+    """
+    windows = sliding_window_view(cloud, WINDOW, axis=0)[::8].transpose(0, 3, 1, 2)
+    ground = windows[..., [0, 2]]
+    radii = np.linalg.norm(ground - ground.mean(axis=(1, 2), keepdims=True), axis=-1)
+    heights = windows[..., 1]
+    heights, radii = np.stack([heights, radii]).reshape(2, len(windows), -1)
+    return np.hstack([heights, radii]) / np.sqrt(radii.shape[1])
+
+
 def draw_pruning() -> Figure:
     """Draw the graph of eight nodes before and after pruning."""
-    graph, places = graphs.notes_example(), EIGHT_PLACES
+    graph = graphs.notes_example()
+    pruned = graphs.prune_graph(graph).graph
     figure = plt.figure(figsize=(8, 3.4), layout="constrained")
-    before, after = figure.subplots(1, 2)
-    plotting.node_link(graph, places=places, ax=before)
-    plotting.node_link(graph, places=places, kept=graphs.prune_graph(graph).graph, ax=after)
-    before.set_title("before pruning", y=0.94)
-    after.set_title("after: 4 is a sink, 5 a dead end", y=0.94)
+    whole_axes, pruned_axes = figure.subplots(1, 2)
+    plotting.node_link(graph, places=EIGHT_PLACES, ax=whole_axes)
+    plotting.node_link(graph, places=EIGHT_PLACES, kept=pruned, ax=pruned_axes)
+    whole_axes.set_title("before pruning", y=0.94)
+    pruned_axes.set_title("after: 4 is a sink, 5 a dead end", y=0.94)
     return figure
 
 
 def draw_components() -> Figure:
     """Draw a graph of four clips before and after pruning, where the threshold is low."""
     clips = [resample(datasets.sample(name), 30) for name in datasets.SAMPLES[3:]]
-    whole = graphs.build(clips, window=WINDOW, threshold=0.018)
+    whole = graphs.build(clips, window=WINDOW, threshold=0.012)
+    stages = {"before": whole, "after": graphs.prune(whole)}
     figure, axes = plt.subplots(2, 1, figsize=(7, 7.2), sharex=True, layout="constrained")
-    for ax, graph, when in zip(axes, (whole, graphs.prune(whole)), ("before", "after"), strict=True):
+    for ax, (stage, graph) in zip(axes, stages.items(), strict=True):
         plotting.timeline(graph, ax=ax).set(alpha=0.8, linewidths=1.0)
-        ax.set_title(f"{when}: {len(graph.graph)} nodes, {graph.count('transition')} transitions")
+        ax.set_title(f"{stage}: {len(graph.graph)} nodes, {graph.count('transition')} transitions")
     return figure
 
 
@@ -314,8 +386,8 @@ def draw_seam() -> Figure:
 
 def draw_feet() -> Figure:
     """Draw the toes across a seam, blended and cleaned up: over the ground, and their speed."""
-    first, second = (datasets.sample(name)[:720] for name in ("walk_curve_1", "walk_curve_2"))
-    joined = blending.join(first, 553, second, 407, 40)[393:813]
+    first, second = (datasets.sample(name) for name in ("walk_curve_1", "walk_curve_2"))
+    joined = blending.join(first, 1908, second, 874, 40)[1748:2168]
     toes = joined.skeleton.index("rtoes")
     figure = plt.figure(figsize=(9, 3.2), layout="constrained")
     ground, speed = figure.subplots(1, 2, width_ratios=[1, 1.6])
@@ -332,8 +404,8 @@ def draw_feet() -> Figure:
         ground.plot(*(places[standing] - centre).T, ".-", color=colour, label=name)
         speed.plot(seconds, np.linalg.norm(velocities(places, 120), axis=1), color=colour, label=name)
     ground.set(xlabel="x (cm)", ylabel="z (cm)", aspect="equal", title="the standing toes, from above")
-    ground.xaxis.set_inverted(True)
     ground.margins(0.15)
+    ground.set_xlim(2, -2)
     speed.set(xlim=(-0.8, 1.2), ylim=(0, 80), xlabel="seconds from the start of the seam")
     speed.set(ylabel="speed (cm/s)", title="the toes over time")
     speed.legend(frameon=False, loc="upper left")
@@ -342,46 +414,58 @@ def draw_feet() -> Figure:
 
 def draw_match() -> Figure:
     """Draw one pose of two clips: as they are, and the second aligned with the first."""
-    clips = [resample(datasets.sample(name), 30) for name in ("walk_circle", "walk_curve_1")]
-    first, second = clips[0][300:450], clips[1][450:600]
+    circle, curve = (resample(datasets.sample(name), 30) for name in ("walk_circle", "walk_curve_1"))
+    first = circle[300:450]
+    second = curve[450:600]
     grid = matching.distance_grid(first, second, window=WINDOW)
-    i, j = np.unravel_index(grid.argmin(), grid.shape)
-    windows = first[int(i) : int(i) + WINDOW], second[int(j) : int(j) + WINDOW]
-    fit = matching.align(*(joint_positions(window).reshape(-1, 3) for window in windows))
+    i, j = (int(start) for start in np.unravel_index(grid.argmin(), grid.shape))
+    still = first[i : i + WINDOW]
+    moving = second[j : j + WINDOW]
+    fit = matching.align(*(joint_positions(window).reshape(-1, 3) for window in (still, moving)))
     figure = plt.figure(figsize=(8, 4.2))
-    for panel, moving in enumerate((windows[1], fit.apply_motion(windows[1]))):
-        poses = [joint_positions(motion)[WINDOW // 2] for motion in (windows[0], moving)]
-        ax: Axes3D = figure.add_axes((panel / 2, 0, 0.5, 0.92), projection="3d")
-        reach = 2.6 - 1.7 * panel
-        plotting.ground_axes(np.mean([pose[0, [0, 2]] for pose in poses], axis=0), reach, ax=ax)
-        ax.set_box_aspect((2 * reach, 2 * reach, 1.9), zoom=1.3)
-        for pose, colour in zip(poses, SOURCES, strict=False):
-            plotting.StickFigure(first.skeleton, ax, 0.8, colour).pose(pose)
-        ax.set_title(("as the clips are", "aligned")[panel])
+    _draw_two_poses(figure, 0, (still, moving), 2.6).set_title("as the clips are")
+    _draw_two_poses(figure, 1, (still, fit.apply_motion(moving)), 0.9).set_title("aligned")
     return figure
+
+
+def _draw_two_poses(figure: Figure, panel: int, windows: tuple[Motion, Motion], reach: float) -> Axes3D:
+    """Draw the middle poses of two windows in panel 0 or 1, with the ground `reach` metres around them."""
+    poses = [joint_positions(window)[WINDOW // 2] for window in windows]
+    ax: Axes3D = figure.add_axes((panel / 2, 0, 0.5, 0.92), projection="3d")
+    middle = np.mean([pose[0, [0, 2]] for pose in poses], axis=0)
+    plotting.ground_axes(middle, reach, ax=ax)
+    ax.set_box_aspect((2 * reach, 2 * reach, 1.9), zoom=1.3)
+    for window, pose, colour in zip(windows, poses, SOURCES, strict=False):
+        plotting.StickFigure(window.skeleton, ax, 0.8, colour).pose(pose)
+    return ax
 
 
 def draw_angles() -> Figure:
     """Draw the short turn between two headings, and the turn by the means of their angles."""
     figure = Figure(figsize=(7, 3.7), layout="constrained")
-    ways = {"slerp": (20.0, CURVES[0]), "mean of the angles": (-340.0, CURVES[1])}
-    for (name, (turn, colour)), ax in zip(ways.items(), figure.subplots(1, 2), strict=True):
-        for share in np.linspace(0, 1, 11):
-            tip = 1j * np.exp(1j * np.radians(170 + share * turn))
-            pens.arrow(ax, 0j, tip, COLOURS["middle"] if share in (0, 1) else colour)
-        for place, word in ((1.2j, "0°"), (-1.2j, "±180°"), (-1.25 + 0j, "90°"), (1.25 + 0j, "−90°")):
-            pens.say(ax, place, word, color=COLOURS["middle"], fontsize=9)
-        ax.set(xlim=(-1.5, 1.5), ylim=(-1.4, 1.4), aspect="equal")
-        ax.set_axis_off()
-        ax.set_title(f"{name}: {abs(turn):.0f}° to the {'left' if turn >= 0 else 'right'}", fontsize=11)
+    slerp_axes, mean_axes = figure.subplots(1, 2)
+    _draw_turn(slerp_axes, 20.0, CURVES[0])
+    _draw_turn(mean_axes, -340.0, CURVES[1])
+    slerp_axes.set_title("slerp: 20° to the left", fontsize=11)
+    mean_axes.set_title("mean of the angles: 340° to the right", fontsize=11)
     return figure
 
 
+def _draw_turn(ax: Axes, turn: float, colour: str) -> None:
+    """Draw arrows that turn from the heading 170° by some degrees, in ten steps."""
+    for share in np.linspace(0, 1, 11):
+        tip = 1j * np.exp(1j * np.radians(170 + share * turn))
+        pens.arrow(ax, 0j, tip, COLOURS["middle"] if share in (0, 1) else colour)
+    for place, heading in ((1.2j, "0°"), (-1.2j, "±180°"), (-1.25 + 0j, "90°"), (1.25 + 0j, "−90°")):
+        pens.say(ax, place, heading, color=COLOURS["middle"], fontsize=9)
+    ax.set(xlim=(-1.5, 1.5), ylim=(-1.4, 1.4), aspect="equal")
+    ax.set_axis_off()
+
+
 def draw_dying_walks() -> Figure:
-    """Draw random walks on the homework's graph as rows; at the threshold 185, more than half of them die."""
-    graph = homework_graph.segment_graph(
-        [datasets.sample(name) for name in datasets.SAMPLES[:3]], threshold=185
-    )
+    """Draw random walks on the homework's graph as rows; at the threshold 185, most of them die."""
+    clips = [datasets.sample(name) for name in datasets.SAMPLES[3:]]
+    graph = homework_graph.segment_graph(clips, threshold=185)
     odds = nx.to_numpy_array(graph, weight="probability")
     costs = np.zeros_like(odds)
     for leave, enter, cost in graph.edges(data="cost", default=0):
@@ -396,23 +480,9 @@ def draw_dying_walks() -> Figure:
 def draw_added() -> Figure:
     """Draw what a short blend of two windows that hardly match adds to the jolts of their clips."""
     clips = [resample(datasets.sample(name), 30) for name in ("sneak", "stop_and_go")]
-    found = matching.find_transitions(clips, window=WINDOW, below=0.09)
-    (match,) = choose_matches(clips, found, (0.08, 0.09), count=1)
+    transitions = matching.find_transitions(clips, window=WINDOW, below=0.09)
+    (match,) = choose_matches(clips, transitions, (0.08, 0.09), count=1)
     return diagrams.added_by_blend()(passage(clips, match, 6))[0].figure
-
-
-def _steps(*, price: Callable[[complex, int, int], float], count: int) -> synthesis.Problem:
-    """Make a search for steps that turn by -30°, 0° or 30°; `price` gets the place, steps made, and turn."""
-    graph = nx.MultiDiGraph([("left", "right")] * 3 + [("right", "left")] * 3)
-    nx.set_edge_attributes(graph, 18, "frames")
-
-    def step(state: tuple[complex, float, int], edge: Edge) -> tuple[float, Any]:
-        at, heading, made = state
-        heading += np.pi / 6 * (edge[2] - 1)
-        at += 0.7 * np.exp(1j * heading)
-        return price(at, made + 1, edge[2] - 1), (at, heading, made + 1)
-
-    return synthesis.Problem(graph, step, lambda state: state[2] == count)
 
 
 def draw_search() -> Figure:
@@ -422,37 +492,66 @@ def draw_search() -> Figure:
 
 def draw_bound() -> Figure:
     """Draw a search for a goal behind the start, without a lower bound and with one."""
-    goal, count = -2 + 2j, 6
-    plain = _steps(price=lambda *_: 0.0, count=count)
-
-    def draw(bounded: bool, ax: Axes) -> None:
-        tried: list[Any] = []
-
-        def ahead(at: complex, made: int) -> float:
-            return max(0.0, abs(at - goal) - 0.7 * (count - made)) ** 2 * (bounded and made < count)
-
-        def step(state: tuple[complex, float, int], edge: Edge) -> tuple[float, Any]:
-            _, after = plain.step(state, edge)
-            left = abs(after[0] - goal) ** 2 if after[2] == count else 0.0
-            turning = 0.02 * abs(edge[2] - 1)
-            tried.append(np.array([state[0], after[0]]))
-            return turning + left + ahead(after[0], after[2]) - ahead(state[0], state[2]), after
-
-        start = (0j, 0.0, 0)
-        found = synthesis.branch_and_bound(synthesis.Problem(plain.graph, step, plain.done), "left", start)
-        states = [start]
-        for edge in found.walk:
-            states.append(plain.step(states[-1], edge)[1])
-        diagrams.from_above([np.array([at for at, *_ in states])], tried=tried, goal=goal, ax=ax)
-        how = "with a lower bound" if bounded else "without a lower bound"
-        ax.set_title(f"{how}:\n{found.expanded} walks expanded", fontsize=11)
-
     figure = plt.figure(figsize=(10, 4.6), layout="constrained")
-    axes = figure.subplots(1, 2)
-    for ax, bounded in zip(axes, (False, True), strict=True):
-        draw(bounded, ax)
-    figure.legend(*axes[1].get_legend_handles_labels(), loc="outside lower center", ncols=3, frameon=False)
+    plain_axes, bounded_axes = figure.subplots(1, 2)
+    plain = _draw_goal_search(plain_axes, lambda walker: 0.0)
+    bounded = _draw_goal_search(bounded_axes, _least_residual)
+    plain_axes.set_title(f"without a lower bound:\n{plain.expanded} walks expanded", fontsize=11)
+    bounded_axes.set_title(f"with a lower bound:\n{bounded.expanded} walks expanded", fontsize=11)
+    handles, labels = bounded_axes.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False)
     return figure
+
+
+class Walker(NamedTuple):
+    """A walker's position z + ix, heading in radians, and number of steps so far."""
+
+    position: complex
+    heading: float
+    steps: int
+
+
+def _take_step(walker: Walker, edge: Edge) -> Walker:
+    """Turn by -30°, 0° or 30°, for the edge's key 0, 1 or 2, and make a step."""
+    heading = walker.heading + np.pi / 6 * (edge[2] - 1)
+    position = walker.position + STRIDE * np.exp(1j * heading)
+    return Walker(position, heading, walker.steps + 1)
+
+
+def _step_cost(edge: Edge, walker: Walker) -> float:
+    """Compute the cost of a step that ends here: for a turn, and after the last step for the residual."""
+    turning = 0.02 * abs(edge[2] - 1)
+    residual = abs(walker.position - GOAL) ** 2 if walker.steps == STEPS else 0.0
+    return turning + residual
+
+
+def _least_residual(walker: Walker) -> float:
+    """Bound the last step's residual from below: all steps that remain go straight to the goal."""
+    remaining = STEPS - walker.steps
+    if not remaining:
+        return 0.0
+    return max(0.0, abs(walker.position - GOAL) - STRIDE * remaining) ** 2
+
+
+def _draw_goal_search(ax: Axes, bound: Callable[[Walker], float]) -> SearchResult:
+    """Search for the best walk to the goal; draw it from above, and all steps that were tried."""
+    tried: list[Any] = []
+
+    def step(walker: Walker, edge: Edge) -> tuple[float, Walker]:
+        stepped = _take_step(walker, edge)
+        tried.append(np.array([walker.position, stepped.position]))
+        cost = _step_cost(edge, stepped) + bound(stepped) - bound(walker)
+        return cost, stepped
+
+    graph = nx.MultiDiGraph([("left", "right")] * 3 + [("right", "left")] * 3)
+    nx.set_edge_attributes(graph, 18, "frames")
+    problem = synthesis.Problem(graph, step, lambda walker: walker.steps == STEPS)
+    start = Walker(0j, 0.0, 0)
+    result = synthesis.branch_and_bound(problem, "left", start)
+    walkers = itertools.accumulate(result.walk, _take_step, initial=start)
+    walk = np.array([walker.position for walker in walkers])
+    diagrams.from_above([walk], tried=tried, goal=GOAL, ax=ax)
+    return result
 
 
 def draw_steered() -> Figure:
@@ -462,12 +561,19 @@ def draw_steered() -> Figure:
     figure = plt.figure(figsize=(8, 4.2), layout="constrained")
     ax = figure.add_subplot()
     plotting.path_from_above(steered, ax=ax)
+    arrow = {"color": ASKED, "width": 2, "headwidth": 9}
     for frame in range(0, len(headings), 105):
         x, _, z = steered.root_positions[frame]
-        way = np.array([np.sin(headings[frame]), np.cos(headings[frame])])
-        ax.annotate("", (x, z) + 0.9 * way, (x, z), arrowprops={"color": ASKED, "width": 2, "headwidth": 9})
-        ax.plot(*np.array([(x, z), (x, z) + 0.9 * way]).T, color=ASKED, linewidth=0)
+        tip = _ahead((x, z), headings[frame], 0.9)
+        ax.annotate("", tip, (x, z), arrowprops=arrow)
+        ax.plot(*zip((x, z), tip, strict=True), color=ASKED, linewidth=0)  # the axes make room for lines only
     return figure
+
+
+def _ahead(start: Place, heading: float, metres: float) -> Place:
+    """Go straight from a place (x, z) in the direction of a heading, and return where that ends."""
+    x, z = start
+    return x + metres * np.sin(heading), z + metres * np.cos(heading)
 
 
 def draw_bent() -> Figure:
@@ -481,171 +587,239 @@ def draw_levels() -> Figure:
     """Draw a walk over a stone, before and after the edit, and what each level of splines leaves."""
     walk = datasets.sample("walk_straight")[100:600]
     start, stop = feet.runs(walk.contacts["ltoes"])[1].tolist()
-    names, pins = walk.skeleton.names, editing.plant_pins(walk)
-    left = np.array([names[joint] in ("lfoot", "ltoes") for joint in pins.joints])
-    up = np.zeros(pins.low.shape)
-    up[start:stop, left, 1] = 0.3
-    pins = editing.Pins(pins.joints, pins.low + up, pins.high + up)
+    pins = _raised_step(walk, start, stop)
     figure = plt.figure(figsize=(9, 3.2), layout="constrained")
     side, curve = figure.subplots(1, 2, width_ratios=[1.6, 1])
     frames = range(start - 80, stop + 90, 60)
     plotting.flat_bodies(walk, frames, alpha=0.25, ax=side)
     plotting.flat_bodies(editing.edit(walk, pins), frames, ax=side)
-    toes = joint_positions(walk)[start:stop, names.index("ltoes"), 2].mean()
+    toes = joint_positions(walk)[start:stop, walk.skeleton.index("ltoes"), 2].mean()
     side.add_patch(Rectangle((toes - 0.22, 0), 0.36, 0.3, color=plotting.FLOOR, zorder=0))
     _, levels = editing.hierarchy(walk, pins)
-    curve.semilogy(range(1, 1 + len(levels)), [1000 * level.rms for level in levels], "o-", color=CURVES[0])
+    numbers = range(1, 1 + len(levels))
+    curve.semilogy(numbers, [1000 * level.rms for level in levels], "o-", color=CURVES[0])
     curve.set(xlabel="level", ylabel="left to the pins (mm)", title="from coarse to fine")
-    curve.set_xticks(range(1, 1 + len(levels)))
+    curve.set_xticks(numbers)
     return figure
+
+
+def _raised_step(walk: Motion, start: int, stop: int) -> editing.Pins:
+    """Hold the planted feet of a walk, the left one in the frames [start, stop) 30 cm higher."""
+    pins = editing.plant_pins(walk)
+    names = [walk.skeleton.names[joint] for joint in pins.joints]
+    is_left = np.isin(names, ("lfoot", "ltoes"))
+    up = np.zeros(pins.low.shape)
+    up[start:stop, is_left, 1] = 0.3
+    return editing.Pins(pins.joints, pins.low + up, pins.high + up)
 
 
 def draw_registration() -> Figure:
     """Draw the path of time through a grid, and a walk to the left and one to the right with their blend."""
     figure = plt.figure(figsize=(9, 3.9), layout="constrained")
     grid_axes, ground = figure.subplots(1, 2)
+    _draw_time_path(grid_axes)
+    _draw_blends(ground)
+    return figure
+
+
+def _draw_time_path(ax: Axes) -> None:
+    """Draw how the frames of a slow and a brisk walk belong together, over the grid of their distances."""
     slow, brisk = (generate_walk([[0, 0], [0, 5]], speed=speed, seed=1) for speed in (0.8, 1.4))
     grid = np.sqrt(matching.distance_grid(resample(slow, 30), resample(brisk, 30), window=5))
-    found, names = blending.register([slow, brisk]), ("slow walk", "brisk walk")
-    path, moments = matching.time_path(grid, slack=36), np.linspace(*found.span, 200)
-    plotting.distance_image(grid**2, fps=30, minima=path, names=names, ax=grid_axes)
-    for colour, wide in (
-        ("black", 4),
-        ("white", 2),
-    ):  # 0.05 s: the axes show starts of windows, S their middles
-        grid_axes.plot(found.times[1](moments) - 0.05, moments - 0.05, color=colour, linewidth=wide)
-    grid_axes.set_title("which frame belongs to which")
-    turns = [arcs((0.0, 0.0), 0.0, [(5.0, np.radians(turn))]).points[::20] for turn in (120, -120)]
-    both = blending.register([generate_walk(path, speed=1.1, seed=1) for path in turns])
-    blends = [blending.mix(both, [1 - share, share]) for share in np.linspace(0, 1, 5)]
-    placed = [planar.place(blend, 0.0, [0, 0]) for blend in blends]
-    for way, colour in zip(placed, [SOURCES[0], *[plotting.PATH] * 3, SOURCES[1]], strict=True):
-        plotting.path_from_above(way, colour=colour, ax=ground)
-    ground.set(title="left, right, and three blends of them")
-    return figure
+    path = matching.time_path(grid, slack=36)
+    plotting.distance_image(grid**2, fps=30, minima=path, names=("slow walk", "brisk walk"), ax=ax)
+    registered = blending.register([slow, brisk])
+    moments = np.linspace(*registered.span, 200)
+    half_window = 0.05  # seconds: the axes show starts of windows, the curve their middles
+    slow_times = moments - half_window
+    brisk_times = registered.times[1](moments) - half_window
+    ax.plot(brisk_times, slow_times, color="black", linewidth=4)
+    ax.plot(brisk_times, slow_times, color="white", linewidth=2)
+    ax.set_title("which frame belongs to which")
+
+
+def _draw_blends(ax: Axes) -> None:
+    """Draw from above a walk to the left, one to the right, and three blends of them."""
+    lines = [arcs((0.0, 0.0), 0.0, [(5.0, np.radians(turn))]).points[::20] for turn in (120, -120)]
+    registered = blending.register([generate_walk(line, speed=1.1, seed=1) for line in lines])
+    colours = [SOURCES[0], *[plotting.PATH] * 3, SOURCES[1]]
+    for share, colour in zip(np.linspace(0, 1, 5), colours, strict=True):
+        blend = blending.mix(registered, [1 - share, share])
+        plotting.path_from_above(planar.place(blend, 0.0, [0, 0]), colour=colour, ax=ax)
+    ax.set(title="left, right, and three blends of them")
 
 
 def draw_match_webs() -> Figure:
     """Draw paths along the valleys of two walks, and a space of walking cycles with three wishes."""
     figure = plt.figure(figsize=(9.4, 3.9), layout="constrained")
-    left, right = figure.subplots(1, 2)
-    walks = [
-        generate_walk(arcs((0, 0), 0, [(6, np.radians(turn))]).points, speed=speed, seed=seed)
-        for seed, (speed, turn) in enumerate(itertools.product((0.8, 1.1, 1.4), (-150, 0, 150)))
-    ]
-    slow, brisk = (resample(walks[n], 30)[:130] for n in (1, 8))
-    grid = np.sqrt(matching.distance_grid(slow, brisk, window=5))
+    valleys, cycles = figure.subplots(1, 2)
+    walks = []
+    for speed, turn in itertools.product((0.8, 1.1, 1.4), (-150, 0, 150)):
+        line = arcs((0, 0), 0, [(6, np.radians(turn))]).points
+        walks.append(generate_walk(line, speed=speed, seed=len(walks)))
+    _draw_valleys(valleys, slow=walks[1], brisk=walks[-1])
+    _draw_cycles(cycles, walks)
+    return figure
+
+
+def _draw_valleys(ax: Axes, *, slow: Motion, brisk: Motion) -> None:
+    """Draw the grid of two walks with the paths along its valleys."""
+    slow_start, brisk_start = (resample(walk, 30)[:130] for walk in (slow, brisk))
+    grid = np.sqrt(matching.distance_grid(slow_start, brisk_start, window=5))
     costs = grid - 0.12 + np.where(match_webs.minima_1d(grid), 0, 0.06)
     paths = apart(match_webs.local_paths(costs, least=9), near=3)
-    plotting.distance_image(grid**2, fps=30, ax=left)
-    for way in paths:
-        left.plot(*(way[:, ::-1].T + 0.5) / 30, color=plotting.PATH, linewidth=2)
-    left.set(xlabel="brisk walk (s)", ylabel="slow walk (s)", title="paths of similar frames")
+    plotting.distance_image(grid**2, fps=30, ax=ax)
+    for path in paths:
+        rows, columns = path.T
+        ax.plot((columns + 0.5) / 30, (rows + 0.5) / 30, color=plotting.PATH, linewidth=2)
+    ax.set(xlabel="brisk walk (s)", ylabel="slow walk (s)", title="paths of similar frames")
+
+
+def _draw_cycles(ax: Axes, walks: list[Motion]) -> None:
+    """Draw the turns and speeds of walking cycles and of their blends, and three wishes with what they got.
+
+    The cycles are the matches of one from the middle walk.
+    """
+    middle = len(walks) // 2
     web = match_webs.build_web(walks, below=0.08)
-    start, stop = feet.runs(walks[4].contacts["lfoot"])[1:3, 0].tolist()
-    found = match_webs.search(web, 4, slice(start, stop), lengths=(0.6, 1.6))
-    cycles = blending.register([match_webs.cut_out(web, match) for match in found], slack=0)
-
-    def gait(motion: Motion) -> tuple[float, float]:
-        return np.degrees(match_webs.turn(motion)), match_webs.mean_speed(motion)
-
-    space = match_webs.sample_space(cycles, gait, scale=(10, 0.1))
+    start, stop = feet.runs(walks[middle].contacts["lfoot"])[1:3, 0].tolist()
+    matches = match_webs.search(web, middle, slice(start, stop), lengths=(0.6, 1.6))
+    cycles = blending.register([match_webs.cut_out(web, match) for match in matches], slack=0)
+    space = match_webs.sample_space(cycles, _turn_and_speed, scale=(10, 0.1))
+    examples, blends = np.split(np.asarray(space.values), [len(matches)])
+    ax.scatter(*blends.T, s=8, color=plotting.QUIET)
+    ax.scatter(*examples.T, s=42, color=plotting.COLOURS["middle"])
     wishes = [(20, 1.0), (-25, 1.3), (60, 1.5)]
-    got = [gait(match_webs.blend_of(cycles, match_webs.weights_for(space, wish))) for wish in wishes]
-    across, up = np.asarray(space.values).T
-    right.scatter(across[len(found) :], up[len(found) :], s=8, color=plotting.QUIET)
-    right.scatter(across[: len(found)], up[: len(found)], s=42, color=plotting.COLOURS["middle"])
-    asked, given = np.transpose(wishes), np.transpose(got)
-    right.scatter(*asked, s=70, color=plotting.ASKED, marker="+", zorder=3)
-    right.quiver(
-        *asked, *(given - asked), color=plotting.PATH, angles="xy", scale_units="xy", scale=1, width=0.008
-    )
-    right.scatter(*given, s=26, color=plotting.PATH, zorder=3)
-    right.set(xlabel="turn of a cycle (degrees)", ylabel="speed (m/s)", title="asked and got")
-    return figure
+    weights = [match_webs.weights_for(space, wish) for wish in wishes]
+    results = [_turn_and_speed(match_webs.blend_of(cycles, row)) for row in weights]
+    _draw_errors(ax, np.array(wishes), np.array(results))
+    ax.set(xlabel="turn of a cycle (degrees)", ylabel="speed (m/s)", title="asked and got")
+
+
+def _turn_and_speed(cycle: Motion) -> tuple[float, float]:
+    """Measure by how many degrees a cycle turns to the left, and its mean speed in m/s."""
+    return np.degrees(match_webs.turn(cycle)), match_webs.mean_speed(cycle)
+
+
+def _draw_errors(ax: Axes, wishes: Array, results: Array) -> None:
+    """Draw wishes as crosses, results as dots, both shape (N, 2), and arrows from wishes to results."""
+    ax.scatter(*wishes.T, s=70, color=plotting.ASKED, marker="+", zorder=3)
+    units = {"angles": "xy", "scale_units": "xy", "scale": 1}  # arrows end where they point to
+    ax.quiver(*wishes.T, *(results - wishes).T, color=plotting.PATH, width=0.008, **units)
+    ax.scatter(*results.T, s=26, color=plotting.PATH, zorder=3)
 
 
 def draw_parametric_graph() -> Figure:
     """Draw the costs of one stride after another, the boxes, and what may follow a straight stride."""
-    names = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
-    strides = parametric_graphs.cut_strides([resample(datasets.sample(name), 30) for name in names])
+    clips = [resample(datasets.sample(name), 30) for name in WALKS]
+    strides = parametric_graphs.cut_strides(clips)
     space = parametric_graphs.make_space(strides, np.radians(14), -np.radians(75), np.radians(75))
     edge = parametric_graphs.build_edge(space, space, good=0.03)
+    figure, (costs, ground) = plt.subplots(1, 2, figsize=(9.4, 3.9), layout="constrained")
+    _draw_stride_costs(costs, space, edge)
+    _draw_next_strides(ground, space, edge)
+    return figure
+
+
+def _draw_stride_costs(ax: Axes, space: Space, edge: ParametricEdge) -> None:
+    """Draw the cost of each stride after each other one, by their turns, and the boxes of an edge."""
     turns = np.radians(np.linspace(-75, 75, 61))[:, None]
     costs = 100 * parametric_graphs.optimal_transitions(space, space, turns, turns)[0]
-    ways = [edge.look_up(turn) for turn in turns]
-    boxes = np.degrees([(way.low[0], way.high[0]) for way in ways])
-    figure, (left, right) = plt.subplots(1, 2, figsize=(9.4, 3.9), layout="constrained")
     look = {"cmap": "cividis", "interpolation": "nearest", "aspect": "auto", "origin": "lower"}
-    image = left.imshow(costs.T, extent=(-75, 75, -75, 75), **look)
-    left.plot(np.degrees(turns), boxes, color=MARK, linewidth=2)
-    figure.colorbar(image, ax=left, label="cost (cm)", shrink=0.9)
-    left.set(xlabel="turn of a stride (degrees)", ylabel="turn of the next one (degrees)")
-    straight = edge.look_up(np.zeros(1))
-    first, last = strides.ends
-    follow = np.linspace(straight.low[0], straight.high[0], 7)[:, None]
-    ground, _ = parametric_graphs.mixed_way(
-        strides, match_webs.weights_for(space, np.concatenate([[[0.0]], follow]))
-    )
-    ground = ground[:, first : last + 1]
-    right.plot(-ground[0].imag, ground[0].real, color=ASKED, linewidth=3, label="a straight stride")
-    for number, way in enumerate(ground[1:] + ground[0, -1]):
-        label = "may follow it" if not number else None
-        right.plot(-way.imag, way.real, color=CURVES[0], linewidth=2, label=label)
-    right.set(aspect="equal", xlabel="to the right (m)", ylabel="ahead (m)", xlim=(-1.3, 1.1))
-    right.legend(frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1))
-    return figure
+    image = ax.imshow(costs.T, extent=(-75, 75, -75, 75), **look)
+    boxes = [edge.look_up(turn) for turn in turns]
+    sides = np.degrees([(box.low[0], box.high[0]) for box in boxes])
+    ax.plot(np.degrees(turns), sides, color=MARK, linewidth=2)
+    ax.figure.colorbar(image, ax=ax, label="cost (cm)", shrink=0.9)
+    ax.set(xlabel="turn of a stride (degrees)", ylabel="turn of the next one (degrees)")
+
+
+def _draw_next_strides(ax: Axes, space: Space, edge: ParametricEdge) -> None:
+    """Draw from above a straight stride, and seven that may follow it."""
+    box = edge.look_up(np.zeros(1))
+    turns = np.array([0.0, *np.linspace(box.low[0], box.high[0], 7)])
+    weights = match_webs.weights_for(space, turns[:, None])
+    ground, _ = parametric_graphs.mixed_way(space.examples, weights)
+    first, last = space.examples.ends
+    straight, *followers = ground[:, first : last + 1]
+    ax.plot(-straight.imag, straight.real, color=ASKED, linewidth=3, label="a straight stride")
+    for number, follower in enumerate(followers):
+        path = follower + straight[-1]
+        label = None if number else "may follow it"
+        ax.plot(-path.imag, path.real, color=CURVES[0], linewidth=2, label=label)
+    ax.set(aspect="equal", xlabel="to the right (m)", ylabel="ahead (m)", xlim=(-1.3, 1.1))
+    ax.legend(frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1))
 
 
 def draw_motion_matching() -> Figure:
     """Draw the futures of the frames that fit best, and a walk in the colours of its clips, with its cuts."""
-    names = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
-    clips = [resample(datasets.sample(name), 30) for name in names]
+    clips = [resample(datasets.sample(name), 30) for name in WALKS]
     table = motion_matching.tabulate(clips)
     clip_of = np.repeat(np.arange(len(clips)), [len(clip) for clip in clips])
-    figure, (ahead, ground) = plt.subplots(
-        1, 2, figsize=(9, 3.6), width_ratios=(1, 1.8), layout="constrained"
-    )
-    _draw_futures(ahead, table, clip_of)
-    headings = np.repeat([-1.6, -0.5, -2.6, -0.6, -2.0], 75)
-    character, frames = motion_matching.MotionMatcher(table), []
-    for heading in headings:
-        pose = character.step(heading, 0.8)
-        frames.append((*pose.root_position[[0, 2]], character.frame))
-    x, z, played = np.array(frames).T
-    for number, name in enumerate(names):
-        for first, stop in feet.runs(clip_of[played.astype(int)] == number):
-            ground.plot(x[first : stop + 1], z[first : stop + 1], color=SOURCES[number], linewidth=3)
-        ground.plot([], [], color=SOURCES[number], linewidth=3, label=name)
-    ground.plot(x[character.cuts], z[character.cuts], "D", color=MARK, markersize=4, label="cuts")
-    for frame in range(0, len(headings), 75):
-        tip = (x[frame] + 0.8 * np.sin(headings[frame]), z[frame] + 0.8 * np.cos(headings[frame]))
-        arrow = {"color": ASKED, "width": 1.5, "headwidth": 8}
-        ground.annotate("", tip, (x[frame], z[frame]), arrowprops=arrow)
-    ground.set(aspect="equal", xlabel="x (m)", ylabel="z (m)")
-    ground.xaxis.set_inverted(True)
-    ground.legend(frameon=False, fontsize=8, loc="upper center", bbox_to_anchor=(0.5, 1.5), ncols=3)
+    figure = plt.figure(figsize=(9, 3.6), layout="constrained")
+    futures, ground = figure.subplots(1, 2, width_ratios=(1, 1.8))
+    _draw_futures(futures, table, clip_of)
+    _draw_matched_walk(ground, table, clip_of)
     return figure
 
 
-def _draw_futures(ax: Axes, table: PoseDatabase, clip_of: Array) -> None:
+def _draw_matched_walk(ax: Axes, table: PoseDatabase, clip_of: Indices) -> None:
+    """Draw from above a walk with five commanded headings, in the colours of its clips, with its cuts."""
+    headings = np.repeat([-1.6, -0.5, -2.6, -0.6, -2.0], 75)
+    matcher = motion_matching.MotionMatcher(table)
+    roots = []
+    clips_played = []
+    for heading in headings:
+        pose = matcher.step(heading, SPEED)
+        roots.append(pose.root_position)
+        clips_played.append(clip_of[matcher.frame])
+    x, _, z = np.array(roots).T
+    for clip, name in enumerate(WALKS):
+        for first, stop in feet.runs(np.array(clips_played) == clip):
+            stretch = slice(first, stop + 1)
+            ax.plot(x[stretch], z[stretch], color=SOURCES[clip], linewidth=3)
+        ax.plot([], [], color=SOURCES[clip], linewidth=3, label=name)
+    ax.plot(x[matcher.cuts], z[matcher.cuts], "D", color=MARK, markersize=4, label="cuts")
+    arrow = {"color": ASKED, "width": 1.5, "headwidth": 8}
+    for frame in range(0, len(headings), 75):
+        start = (x[frame], z[frame])
+        ax.annotate("", _ahead(start, headings[frame], 0.8), start, arrowprops=arrow)
+    ax.set(aspect="equal", xlabel="x (m)", ylabel="z (m)")
+    ax.xaxis.set_inverted(True)
+    ax.legend(frameon=False, fontsize=8, loc="upper center", bbox_to_anchor=(0.5, 1.5), ncols=3)
+
+
+def _draw_futures(ax: Axes, table: PoseDatabase, clip_of: Indices) -> None:
     """Draw the future asked for, a turn to the left, and those of the five frames that fit best."""
-    now, future = 600, slice(15, 27)
-    query = table.values[now].copy()
-    query[future] = foresee(table, now, 0.8 * np.exp(1j * np.pi / 3), 0.27)
-    costs = np.where(table.usable, ((table.values - query) ** 2).sum(axis=1), np.inf)
-    rows = [(now, plotting.QUIET, "--")]
-    costs[now - 5 : now + 6] = np.inf
-    for _ in range(5):
-        best = int(costs.argmin())
-        rows.append((best, SOURCES[clip_of[best]], "o-"))
-        costs[max(best - 5, 0) : best + 6] = np.inf
-    for row, colour, style in rows:
-        places = (table.values[row] * table.scale + table.mean)[15:21].reshape(3, 2)
-        ax.plot(*np.vstack([[0, 0], places]).T, style, color=colour, markersize=4)
-    ax.plot(*((query * table.scale + table.mean)[15:21].reshape(3, 2)).T, "o", color=ASKED, label="asked for")
+    playing = 600  # a frame
+    query = table.values[playing].copy()
+    query[FUTURE] = foresee(table, playing, SPEED * np.exp(1j * np.pi / 3), 0.27)
+    ax.plot(*_path_ahead(table, table.values[playing]).T, "--", color=plotting.QUIET, markersize=4)
+    for frame in _nearest_frames(table, query, playing):
+        path = _path_ahead(table, table.values[frame])
+        ax.plot(*path.T, "o-", color=SOURCES[clip_of[frame]], markersize=4)
+    ax.plot(*_path_ahead(table, query)[1:].T, "o", color=ASKED, label="asked for")
     ax.set(aspect="equal", xlabel="to the left (m)", ylabel="ahead (m)", xlim=(0.7, -0.5), ylim=(-0.1, 0.95))
     ax.legend(frameon=False, fontsize=8)
+
+
+def _nearest_frames(table: PoseDatabase, query: Array, playing: int) -> list[int]:
+    """Find the five frames nearest to a query, more than five frames from each other and from `playing`."""
+    distances = ((table.values - query) ** 2).sum(axis=1)
+    costs = np.where(table.usable, distances, np.inf)
+    frames = [playing]
+    for _ in range(5):
+        neighbours = slice(max(frames[-1] - 5, 0), frames[-1] + 6)
+        costs[neighbours] = np.inf
+        frames.append(int(costs.argmin()))
+    return frames[1:]
+
+
+def _path_ahead(table: PoseDatabase, row: Array) -> Array:
+    """Compute from a row of features where the body is now and after 1/3, 2/3 and 1 s, shape (4, 2)."""
+    metres = row * table.scale + table.mean
+    places = metres[GROUPS["places ahead"]].reshape(-1, 2)
+    return np.vstack([[0, 0], places])
 
 
 def draw_groups() -> Figure:
@@ -653,52 +827,75 @@ def draw_groups() -> Figure:
     figure, (match, plan, steered) = plt.subplots(1, 3, figsize=(10, 4.4), width_ratios=(1.2, 1, 1))
     figure.set_layout_engine("constrained")
     graph = groups.build_group(12)
-    one, other = (graph.nodes[node].places[:7] for node in (0, 3))
-    order = groups.compare(*(groups.Configuration(some, np.ones(7, complex)) for some in (one, other))).order
-    for a, b in zip(one, other[order], strict=True):
-        match.plot([a.imag, b.imag], [a.real, b.real], color=SOURCES[0], linewidth=2, zorder=1)
-    match.plot(one.imag, one.real, "o", color=SOURCES[0], markersize=10)
-    match.plot(other.imag, other.real, "o", color=ASKED, markerfacecolor="white", markersize=10)
+    first, second = (graph.nodes[node].places[:7] for node in (0, 3))
+    _draw_group_match(match, first, second)
     rocks = [(rock, 1.3) for rock in (12 - 2.5j, 12, 12 + 2.5j, 9.5 - 3.6j, 9.5 + 3.6j)]
     scene = groups.Scene((20 + 0j,), tuple(rocks))
-    found = groups.plan_group(graph, scene)
-    way = groups.play_group(graph, found.clips).places[: round(found.seconds * groups.RATE) + 1]
-    stays = groups.steer_group(graph.nodes[0], scene, limit=20)[0].places
-    for ax, places in ((plan, way), (steered, stays)):
-        plotting.draw_group_plan(places, scene.points, scene.discs, ax=ax)
+    walk = groups.plan_group(graph, scene)
+    frames = round(walk.seconds * groups.RATE) + 1
+    planned_paths = groups.play_group(graph, walk.clips).places[:frames]
+    steered_paths = groups.steer_group(graph.nodes[0], scene, limit=20)[0].places
+    for ax, paths in ((plan, planned_paths), (steered, steered_paths)):
+        plotting.draw_group_plan(paths, scene.points, scene.discs, ax=ax)
         ax.set(xlim=(10, -10), ylim=(-3, 23), ylabel="")
-    match.set(aspect="equal", xlabel="x (m)", ylabel="z (m)", title="who stands for whom?")
-    match.xaxis.set_inverted(True)
     plan.set_title("planned")
     steered.set_title("steered")
     return figure
 
 
+def _draw_group_match(ax: Axes, first: Points, second: Points) -> None:
+    """Draw two groups of members at z + ix, with a line between any two that match."""
+    velocities = np.ones(len(first), complex)
+    pair = [groups.Configuration(places, velocities) for places in (first, second)]
+    order = groups.compare(*pair).order
+    for member, partner in zip(first, second[order], strict=True):
+        x = [member.imag, partner.imag]
+        z = [member.real, partner.real]
+        ax.plot(x, z, color=SOURCES[0], linewidth=2, zorder=1)
+    ax.plot(first.imag, first.real, "o", color=SOURCES[0], markersize=10)
+    ax.plot(second.imag, second.real, "o", color=ASKED, markerfacecolor="white", markersize=10)
+    ax.set(aspect="equal", xlabel="x (m)", ylabel="z (m)", title="who stands for whom?")
+    ax.xaxis.set_inverted(True)
+
+
 def draw_warping() -> Figure:
     """Draw a hand that reaches for a post by one key, and a jump that is 20 cm higher."""
-    walk, jump = datasets.sample("walk_straight")[:480], datasets.sample("jump")
-    place = joint_positions(walk)[WARPED, walk.skeleton.index("rhand")] + [-0.15, 0.30, 0.15]
-    pose = editing.posed(walk, WARPED, {"rhand": place})
-    keys = editing.keys_around(walk, [editing.Key(WARPED, pose)])
-    reaching = editing.displaced(walk, editing.offsets(walk, keys))
-    apex = int(jump.root_positions[:, 1].argmax())
-    lifted = replace(
-        jump[apex : apex + 1], root_positions=jump.root_positions[apex] + np.array([[0, 0.2, 0]])
-    )
-    keys = [editing.Key(208, flat=True), editing.Key(apex, lifted), editing.Key(267, flat=True)]
-    higher = editing.displaced(jump, editing.offsets(jump, keys))
-    figure, axes = plt.subplots(2, 1, figsize=(8.4, 5.2), layout="constrained")
-    for ax, pair, frames in (
-        (axes[0], (walk, reaching), range(WARPED - 80, WARPED + 81, 20)),
-        (axes[1], (jump, higher), (60, 150, 190, 208, 222, 238, 253, 267, 290, 400)),
-    ):
-        for motion, alpha in zip(pair, (0.25, 1.0), strict=True):
-            plotting.flat_bodies(_side_by_side(motion, frames, 0.9), range(len(frames)), alpha=alpha, ax=ax)
-        ax.axhline(0, color=plotting.QUIET, linewidth=1)
-        ax.set_axis_off()
-    middle = 0.9 * 4 + place[2] - walk.root_positions[WARPED, 2]  # of the fifth body
-    axes[0].plot(middle, place[1], "o", color=ASKED, markersize=8)
+    walk = datasets.sample("walk_straight")[:480]
+    jump = datasets.sample("jump")
+    post = joint_positions(walk)[WARPED, walk.skeleton.index("rhand")] + [-0.15, 0.30, 0.15]
+    figure, (walk_axes, jump_axes) = plt.subplots(2, 1, figsize=(8.4, 5.2), layout="constrained")
+    walk_frames = range(WARPED - 80, WARPED + 81, 20)
+    _draw_edit(walk_axes, walk, _reaching(walk, post), walk_frames)
+    _draw_edit(jump_axes, jump, _higher(jump), (60, 150, 190, 208, 222, 238, 253, 267, 290, 400))
+    column = walk_frames.index(WARPED)
+    across = 0.9 * column + post[2] - walk.root_positions[WARPED, 2]
+    walk_axes.plot(across, post[1], "o", color=ASKED, markersize=8)
     return figure
+
+
+def _reaching(walk: Motion, post: Array) -> Motion:
+    """Edit a walk so that its right hand reaches a post, shape (3,)."""
+    pose = editing.posed(walk, WARPED, {"rhand": post})
+    keys = editing.keys_around(walk, [editing.Key(WARPED, pose)])
+    return editing.displaced(walk, editing.offsets(walk, keys))
+
+
+def _higher(jump: Motion) -> Motion:
+    """Raise a jump's highest frame by 20 cm, and keep the frames before take-off and after landing."""
+    apex = int(jump.root_positions[:, 1].argmax())
+    pose = jump[apex : apex + 1]
+    raised = replace(pose, root_positions=pose.root_positions + np.array([[0, 0.2, 0]]))
+    keys = [editing.Key(208, flat=True), editing.Key(apex, raised), editing.Key(267, flat=True)]
+    return editing.displaced(jump, editing.offsets(jump, keys))
+
+
+def _draw_edit(ax: Axes, motion: Motion, edited: Motion, frames: Sequence[int]) -> None:
+    """Draw frames of a motion as ghosts behind those of the edited motion, in a row."""
+    columns = range(len(frames))
+    plotting.flat_bodies(_side_by_side(motion, frames, 0.9), columns, alpha=0.25, ax=ax)
+    plotting.flat_bodies(_side_by_side(edited, frames, 0.9), columns, alpha=1.0, ax=ax)
+    ax.axhline(0, color=plotting.QUIET, linewidth=1)
+    ax.set_axis_off()
 
 
 def _side_by_side(motion: Motion, frames: Sequence[int], metres: float) -> Motion:
@@ -714,28 +911,32 @@ def draw_retargeted() -> Figure:
     walk = datasets.sample("walk_straight")[:360]
     adult = editing.stance_of(walk)
     child = editing.proportioned(adult, legs=0.55, trunk=0.62, arms=0.58, head=0.85)
-    worn = editing.retarget(walk, child, adult)
+    retargeted = editing.retarget(walk, child, adult)
     naive = replace(walk, skeleton=child.skeleton)
     figure = plt.figure(figsize=(9, 3.6), layout="constrained")
-    bodies, strays = figure.subplots(1, 2, width_ratios=[1.5, 1])
-    for motion, up in ((walk, 0.0), (worn, -1.35)):
+    bodies, errors = figure.subplots(1, 2, width_ratios=[1.5, 1])
+    for motion, up in ((walk, 0.0), (retargeted, -1.35)):
         lifted = replace(motion, root_positions=motion.root_positions + np.array([0, up, 0]))
         plotting.flat_bodies(lifted, range(20, 360, 45), ax=bodies)
         bodies.axhline(up, color=plotting.QUIET, linewidth=1)
-    bodies.set(xlim=(-0.5, 3.7), ylim=(-1.45, 1.8), yticks=[], ylabel="", title="one walk, two bodies")
-    ball = child.skeleton.index("ltoes")
-    first, last = feet.runs(walk.contacts["ltoes"])[1]
-    seconds = np.arange(first, last) / walk.fps
-    for motion, name, colour in ((worn, "retargeted", CURVES[0]), (naive, "the same numbers", CURVES[1])):
-        places = joint_positions(motion)[first:last, ball]
-        away = 100 * np.linalg.norm(places - places.mean(axis=0), axis=1)
-        strays.plot(seconds, away, color=colour, label=name)
-    strays.set(xlabel="seconds", ylabel="cm from its mean place", title="the child's standing left ball")
-    strays.set_ylim(-1, 16)
-    strays.legend(frameon=False)
+    bodies.set(xlim=(-0.5, 4.4), ylim=(-1.45, 1.8), yticks=[], ylabel="", title="one walk, two bodies")
+    first, stop = feet.runs(walk.contacts["ltoes"])[1]
+    seconds = np.arange(first, stop) / walk.fps
+    errors.plot(seconds, _strays(retargeted[first:stop]), color=CURVES[0], label="retargeted")
+    errors.plot(seconds, _strays(naive[first:stop]), color=CURVES[1], label="the same numbers")
+    errors.set(xlabel="seconds", ylabel="cm from its mean place", title="the child's standing left ball")
+    errors.set_ylim(-1, 16)
+    errors.legend(frameon=False)
     return figure
 
 
+def _strays(motion: Motion) -> Array:
+    """Measure in each frame how far the left ball is from its mean place, in cm."""
+    positions = joint_positions(motion)[:, motion.skeleton.index("ltoes")]
+    return 100 * np.linalg.norm(positions - positions.mean(axis=0), axis=1)
+
+
+# reads: statement: a table of the pictures' names and functions
 PICTURES: dict[str, Callable[[], Figure]] = {
     "walk": draw_walk,
     "skeleton": draw_skeleton,
@@ -792,20 +993,29 @@ def draw_all(folder: Path) -> list[Path]:
 
 def fingerprint(figure: Figure) -> dict[str, list[float]]:
     """Sum up what a figure's lines and images show: how many numbers, their mean, their deviation."""
-    readings: dict[type, Callable[[Any], Any]] = {
-        Line2D: lambda line: [line.get_xydata()],
-        LineCollection: lambda lines: lines.get_segments(),
-        Line3DCollection: lambda lines: lines._segments3d,
-        AxesImage: lambda image: [image.get_array()],
-    }
     sums = {}
     artists = [artist for axes in figure.axes for artist in axes.get_children()]
-    for kind, read in readings.items():
-        drawn = [np.ravel(part) for artist in artists if type(artist) is kind for part in read(artist)]
+    for kind in (Line2D, LineCollection, Line3DCollection, AxesImage):
+        drawn = [np.ravel(part) for artist in artists if type(artist) is kind for part in _parts(artist)]
         numbers = np.concatenate([*drawn, np.zeros(0)])
         if numbers.size:
-            sums[kind.__name__] = [len(numbers), *np.round([numbers.mean(), numbers.std()], 4).tolist()]
+            mean_and_deviation = np.round([numbers.mean(), numbers.std()], 4)
+            sums[kind.__name__] = [len(numbers), *mean_and_deviation.tolist()]
     return sums
+
+
+def _parts(artist: Artist) -> Sequence[Any]:
+    """List the arrays that a line, a collection of lines, or an image draws."""
+    match artist:
+        case Line2D():
+            return [artist.get_xydata()]
+        case Line3DCollection():
+            return artist._segments3d
+        case LineCollection():
+            return artist.get_segments()
+        case AxesImage():
+            return [artist.get_array()]
+    return []
 
 
 def drawn_in(path: Path) -> dict[str, list[float]]:

@@ -20,6 +20,7 @@ from mocap import body, datasets, graphs
 from mocap.widgets.walking_page import walk_page
 
 RATE = 25  # pictures per second
+PROGRAMS = ("chromium", "chromium-browser", "chromium-headless-shell")
 SIZE = {"width": 640, "height": 360}
 STROKE = [
     (96, 262),
@@ -31,7 +32,9 @@ STROKE = [
     (430, 150),
     (560, 186),
 ]  # pixels
-COME, DRAW, WALK = 0.4, 1.8, 8.6  # seconds: until the hand draws, that it draws, and that is walked then
+COME = 0.4  # seconds until the hand draws
+DRAW = 1.8  # seconds
+WALK = 8.6  # seconds that the figure walks
 COLOURS = 96
 HAND = """document.body.insertAdjacentHTML("beforeend", `<svg id="hand" width="34" height="38"
 viewBox="0 0 30 34"><path d="M9 2c2 0 3 1 3 3v9l9 2c3 1 4 3 4 6l-1 10H11L3 20c-1-2 1-4 3-3l1 1V5c0-2 1-3 2-3z"
@@ -46,9 +49,9 @@ def pictures(page: Page) -> Iterator[Image.Image]:
     line = body.spline(STROKE).points
     come, draw, walk = (round(RATE * seconds) for seconds in (COME, DRAW, WALK))
     stroke = line[np.linspace(0, len(line) - 1, draw).astype(int)]
-    way = [*np.linspace((400, 400), stroke[0], come), *stroke, *np.linspace(stroke[-1], (700, 300), 8)]
+    course = [*np.linspace((400, 400), stroke[0], come), *stroke, *np.linspace(stroke[-1], (700, 300), 8)]
     for number in range(come + draw + walk):
-        x, y = way[min(number, len(way) - 1)]
+        x, y = course[min(number, len(course) - 1)]
         page.mouse.move(x, y)
         page.evaluate(MOVE, [x, y])
         if number == come:
@@ -65,7 +68,8 @@ def write(path: Path) -> None:
     with TemporaryDirectory() as folder, sync_playwright() as playwright:
         file = Path(folder, "walk.html")
         file.write_text(walk_page(graphs.prune(graphs.build(clips, window=10, threshold=0.04))), "utf-8")
-        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
+        program = next(filter(None, map(shutil.which, PROGRAMS)), None)
+        browser = playwright.chromium.launch(executable_path=program, args=["--no-sandbox"])
         page = browser.new_page(viewport=SIZE)
         page.clock.install(time=0)
         page.goto(file.as_uri())

@@ -26,10 +26,13 @@ from mocap.widgets.film import write_mp4
 from mocap.widgets.filmed_scene import FilmedScene
 
 FOLDER = Path(__file__).parents[1] / "notebooks" / "teaching"
-FPS, SIZE, INK = 20.0, (640, 480), "#2B2F3D"  # pictures per second; pixels; of the words
+FPS = 20.0  # pictures per second
+SIZE = (640, 480)  # pixels
+INK = "#2B2F3D"  # of the words
 DOG = [[1.3, 11.0, 0.35]]  # x, z and radius
 HOME = [[0, 0], [0, 8], [2, 14], [6, 19], [6, 25], [2, 31], [-2, 33]]  # x and z of the line, metres
 RUN = [[-2, 33], [-8, 36], [-12, 31], [-8, 26], [-14, 22], [-10, 16], [-15, 12], [-12, 6]]
+PICTURES = (3, 9, 15, 30, 44, 52)  # seconds of the film, on the strip
 SAID = {  # from these seconds on
     "home": {0: "It is late. The dog sleeps.", 6: "Quiet now.", 23: "Past it. Home is not far.", 40: ""},
     "run": {
@@ -45,12 +48,14 @@ def scenes() -> dict[str, tuple[Motion, body.GroundPath]]:
     """Make the motions: what plays, and the line that was asked for."""
     clips = [resample(datasets.sample(name), 30) for name in datasets.SAMPLES]
     graph = compile_graph(graphs.prune(graphs.build(clips, window=10, threshold=0.05)))
-    home, run = body.spline(HOME), body.spline(RUN)
+    home = body.spline(HOME)
+    run = body.spline(RUN)
     quiet = Wishes(labels=[(0, "walk"), (7, "sneak"), (16, "walk")])
     hasty = Wishes(labels=[(0, ""), (3, "jog")])
-    walked, bent = follow_path(graph, home, quiet), follow_path(graph, run, hasty, bend=editing.LIMIT)
-    for name, found in (("home", walked), ("run", bent)):
-        print(f"{name}: {found.report()}")
+    walked = follow_path(graph, home, quiet)
+    bent = follow_path(graph, run, hasty, bend=editing.LIMIT)
+    print(f"home: {walked.report()}")
+    print(f"run: {bent.report()}")
     return {"home": (walked.motion(clean=True), home), "run": (bent.motion(), run)}
 
 
@@ -81,16 +86,16 @@ def write_small(shown: list[NDArray[np.uint8]], path: Path) -> None:
     """Write a film in half the bytes that the package takes, at ten times the time."""
     with TemporaryDirectory() as folder:
         write_mp4(iter(shown), Path(folder, "film.mp4"), FPS)
-        how = ["-preset", "veryslow", "-crf", "28", "-pix_fmt", "yuv420p", "-movflags", "+faststart"]
-        given = ["-v", "error", "-y", "-i", str(Path(folder, "film.mp4")), *how, str(path)]
-        subprocess.run([imageio_ffmpeg.get_ffmpeg_exe(), *given], check=True)
+        smaller = ["-preset", "veryslow", "-crf", "28", "-pix_fmt", "yuv420p", "-movflags", "+faststart"]
+        files = ["-v", "error", "-y", "-i", str(Path(folder, "film.mp4"))]
+        subprocess.run([imageio_ffmpeg.get_ffmpeg_exe(), *files, *smaller, str(path)], check=True)
 
 
 if __name__ == "__main__":
     warnings.simplefilter("ignore", MocapWarning)
     shown = list(film())
     write_small(shown, FOLDER / "sample-film.mp4")
-    strip = [shown[round(second * FPS)] for second in (3, 14, 18, 38, 54, 61)]
+    strip = [shown[round(second * FPS)] for second in PICTURES]
     image = Image.fromarray(np.concatenate(strip, axis=1)).resize((1440, 180))
     image.save(FOLDER / "sample-film.png", optimize=True)
     print(f"{len(shown) / FPS:.0f} s, {(FOLDER / 'sample-film.mp4').stat().st_size / 1e6:.2f} MB")

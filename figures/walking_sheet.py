@@ -33,7 +33,7 @@ from stride_measures import (
     median_curve,
     see_from_hips,
 )
-from striding import generate, generate_walk
+from walking import generate_walk
 
 import mocap
 from mocap import datasets, plotting
@@ -108,13 +108,13 @@ def select(people: Mapping[str, Sequence[Captured]], *, curved: bool) -> dict[st
 
 
 def generated_gaits() -> dict[str, list[Stride]]:
-    """Measure the stored straight walk, and new walks on straight lines and circles."""
-    gaits = {"stored": find_strides(datasets.sample("walk_straight"))}
+    """Measure the bundled straight walk, and new walks on straight lines and circles."""
+    gaits = {"walk_straight": find_strides(datasets.sample("walk_straight"))}
     for pace in PACES:
         walk = generate_walk([[0, 0], [0, 8], [0, 16]], speed=pace)
-        gaits[f"generated, {pace} m/s"] = find_strides(walk)
+        gaits[f"{pace} m/s"] = find_strides(walk)
     for radius in RADII:
-        gaits[f"generated, circle of {radius:g} m"] = find_strides(generate_walk(circle(radius).points))
+        gaits[f"circle of {radius:g} m"] = find_strides(generate_walk(circle(radius).points))
     return gaits
 
 
@@ -215,12 +215,11 @@ def smoothness_row(name: str, motion: Motion) -> str:
 
 
 def table_of_smoothness(people: Mapping[str, Sequence[Captured]]) -> Iterator[str]:
-    """Table of foot sliding, judgement and accelerations, of stored, generated and captured clips."""
+    """Table of foot sliding, judgement and accelerations, of bundled and captured clips."""
     yield "| clip | m/s | slide, mm | judge's worst | knee, °/s² | ankle, °/s² |"
     yield "|---" * 6 + "|"
     for name in datasets.SAMPLES:
-        yield smoothness_row(f"{name}, stored", datasets.sample(name))
-        yield smoothness_row(f"{name}, generated", generate(name))
+        yield smoothness_row(f"{name}, bundled", datasets.sample(name))
     for capture in shown(people):
         yield smoothness_row(f"{capture.motion.name}, captured", capture.motion)
 
@@ -275,11 +274,8 @@ def left_stride(motion: Motion, number: int) -> Captured:
 
 
 def rows_of_sheets(people: Mapping[str, Sequence[Captured]]) -> dict[str, Captured]:
-    """Choose the strides that are drawn: the stored one, the generated one, and captured ones."""
-    rows = {
-        "stored: walk_straight": left_stride(datasets.sample("walk_straight"), 2),
-        "generated: walk_straight": left_stride(generate("walk_straight"), 3),
-    }
+    """Choose the strides that are drawn: a bundled one, and captured ones."""
+    rows = {"bundled: walk_straight": left_stride(datasets.sample("walk_straight"), 3)}
     return rows | {f"captured: {capture.motion.name}": capture for capture in shown(people)}
 
 

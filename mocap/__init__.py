@@ -54,7 +54,7 @@ A room's `__init__.py` lists its files, and its `__init__.pyi` the names that it
 
 import lazy_loader
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 # Each name is imported at its first use, so that `import mocap` is quick; `__init__.pyi` lists them.
 __getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -313,7 +313,7 @@ CASES = {
     "marking a pause": lambda noise: marked(noise, PAUSED),
     "marking a statue": lambda noise: marked(noise, concatenate([WALK[100:101]] * 60)),
     "marking rounds": lambda noise: marked(noise, rounds(30)),
-    "clean-up of a seam": lambda noise: cleaned(noise, blending.join(WALK, 500, WALK, 233, 40)[440:600]),
+    "clean-up of a seam": lambda noise: cleaned(noise, blending.join(WALK, 500, WALK, 242, 40)[440:600]),
     "clean-up of straight legs": lambda noise: cleaned(noise, unbent(CURVE[:120], 4)),
     **{
         f"transitions of {name}": partial(found, name=name)

@@ -41,7 +41,8 @@ TRIED = 24  # walks that are bent, of all that were found
 POSE = 0.1  # metres by which joints may be moved where ends fade into the poses, the root mean square
 
 # Times that feet are cleaned up and ends brought to the poses. The clean-up may let go what it should hold at
-# the ends, by up to 1° of a joint; feet then slide by up to 0.3 mm. After the second round they do not.
+# the ends, by up to 1° of a joint; feet then slide by up to 0.3 mm. After the second round most do not. Where
+# a straight leg makes the clean-up lower the root near an end, 1 mm is left; more rounds do not help.
 ROUNDS = 2
 FADE = 0.5  # seconds over which a difference fades, at most; half of a walk that is shorter than two of it
 NEAR = 0.3  # seconds from an end: a plant so near to it stands where it stands at its frame next to the end

@@ -3,7 +3,7 @@
 Speed: in the turn over that straight on, off the captured turn's, %; lean: of the mass over the
 lower foot where the way bends most, off the captured turn's; off: the root's mean distance from the way;
 acc: the 99th percentile of accelerations over the straight walk's. Laid: put on the way and cleaned up.
-The bundled clips are generated and turn as fast as they go straight on; the others are captured.
+The bundled clips are generated, and slow down in curves as people do; the others are captured.
 """
 
 from collections.abc import Iterator

@@ -1,9 +1,8 @@
-"""Where the feet go: each foot's way from footplant to footplant.
+"""Footplants along a path, and how a foot rolls over each of them.
 
-A planted foot does not slide. It strikes with its heel and rolls about it until the sole lies flat. It
-stands, then rolls about its ball while the heel rises, and lifts. In the air it follows a quintic curve that
-fits place, speed and acceleration at both ends. One clock drives all of this, the phase: it counts strides,
-and a foot strikes at whole numbers (the other foot at halves).
+A planted foot does not slide. The heel strikes, and the foot rolls about it until the sole is flat. It stands
+flat until the heel rises, then rolls about its ball until that leaves the ground. All of it is driven by one
+clock, the phase, which counts strides: a foot strikes at whole numbers, the other foot at halves.
 """
 
 from __future__ import annotations
@@ -16,9 +15,12 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline
 from scipy.ndimage import gaussian_filter1d
 
-from mocap._shared.arrays import Array, Indices, Mask
-from mocap._shared.easing import quintic_step
+from mocap._shared.arrays import Array, Mask
 from mocap.body.ground_path import GroundPath
+
+GRID = 0.02  # metres between the points of a path that `winding` lays out
+SOFT = 0.25  # metres over which `winding` smooths the turning
+PIVOT = 0.3  # metres: a shorter stretch is a turn on the spot, whose turning stays where it is
 
 
 def winding(stretches: Sequence[tuple[float, float]]) -> Array:
@@ -26,23 +28,25 @@ def winding(stretches: Sequence[tuple[float, float]]) -> Array:
 
     Parameters
     ----------
-    stretches : pairs of metres and degrees to the left; the turning is smoothed between stretches.
+    stretches : pairs of metres and degrees to the left; the turning is smoothed between stretches. One of
+        less than 0.3 m is a turn on the spot.
 
     Returns
     -------
-    Points (N, 2), metres, 5 cm apart; the first is the origin, and the path starts along +z.
+    Points (N, 2), metres, 2 cm apart; the first is the origin, and the path starts along +z.
 
     Examples
     --------
     >>> winding([(2.0, 0.0), (1.0, 90.0)])[-1].round(1)
     array([0.7, 2.6])
     """
-    step = 0.05
-    counts = [max(1, round(metres / step)) for metres, _ in stretches]
-    turns = [np.radians(degrees) / n for (_, degrees), n in zip(stretches, counts, strict=True)]
-    heading = np.cumsum(gaussian_filter1d(np.repeat(turns, counts), 0.25 / step))
-    strides = step * np.stack([np.sin(heading), np.cos(heading)], axis=-1)
-    return np.concatenate([np.zeros((1, 2)), np.cumsum(strides, axis=0)])
+    counts = [max(1, round(metres / GRID)) for metres, _ in stretches]
+    turns = np.radians([degrees for _, degrees in stretches]) / counts
+    spots = np.array([metres < PIVOT for metres, _ in stretches])
+    soft = gaussian_filter1d(np.repeat(np.where(spots, 0, turns), counts), SOFT / GRID)
+    heading = np.cumsum(soft + np.repeat(np.where(spots, turns, 0), counts))
+    pieces = GRID * np.stack([np.sin(heading), np.cos(heading)], axis=-1)
+    return np.concatenate([np.zeros((1, 2)), np.cumsum(pieces, axis=0)])
 
 
 class SmoothPath(NamedTuple):
@@ -51,19 +55,19 @@ class SmoothPath(NamedTuple):
     curve: CubicSpline
     length: float
 
-    def at(self, along: Array) -> Array:
-        """Give the points (..., 2), (x, z), that lie `along` metres from the start."""
+    def point(self, along: Array) -> Array:
+        """Points (..., 2), (x, z), that lie `along` metres from the start."""
         inside = np.clip(along, 0, self.length)
         return np.asarray(self.curve(inside) + (along - inside)[..., None] * self.curve(inside, 1))
 
     def heading(self, along: Array) -> Array:
-        """Give the directions of the curve, radians about +y from +z; they do not jump."""
+        """Directions of the curve, radians about +y from +z; they do not jump if `along` is dense."""
         x, z = np.moveaxis(self.curve(np.clip(along, 0, self.length), 1), -1, 0)
         return np.asarray(np.unwrap(np.arctan2(x, z)))
 
 
 def smooth_path(points: ArrayLike) -> SmoothPath:
-    """Draw a curve through points (N, 2) on the ground, metres, along which `at` moves a metre per metre.
+    """Draw a curve through points (N, 2) on the ground, metres, along which `point` moves a metre per metre.
 
     A natural cubic spline c(u) passes through the points, C²; its parameter u is the length of the chords.
     A second spline fits points of the first one at even arc lengths s(u) = ∫ |c'| du. The length is right
@@ -76,7 +80,7 @@ def smooth_path(points: ArrayLike) -> SmoothPath:
     Examples
     --------
     >>> ahead = smooth_path([[0, 0], [0, 2], [0, 4]])
-    >>> ahead.at(np.array([1.0, 5.0])).round(6).tolist(), round(ahead.length, 6)
+    >>> ahead.point(np.array([1.0, 5.0])).round(6).tolist(), round(ahead.length, 6)
     ([[0.0, 1.0], [0.0, 5.0]], 4.0)
     """
     points = GroundPath(np.asarray(points, float)).points
@@ -84,7 +88,8 @@ def smooth_path(points: ArrayLike) -> SmoothPath:
     curve = CubicSpline(knots, points, bc_type="natural")
     fine = np.linspace(0, knots[-1], 20 * len(points) + 1)
     speed = np.linalg.norm(curve(fine, 1), axis=-1)
-    lengths = np.concatenate([[0.0], np.cumsum((speed[1:] + speed[:-1]) / 2 * np.diff(fine))])
+    pieces = (speed[1:] + speed[:-1]) / 2 * np.diff(fine)
+    lengths = np.concatenate([[0.0], np.cumsum(pieces)])
     even = np.linspace(0, float(lengths[-1]), len(fine))
     by_length = CubicSpline(even, curve(np.interp(even, lengths, fine)), bc_type="natural")
     return SmoothPath(by_length, float(lengths[-1]))
@@ -105,42 +110,53 @@ class Foot(NamedTuple):
 
 
 class Roll(NamedTuple):
-    """How a foot rolls and swings.
+    """How a foot rolls.
 
-    Phases after the strike: at `flat` the sole lies flat, at `heel_off` the heel rises, at `lift` the ball
-    leaves the ground. `pitch` lists the degrees by which the toes point up, at even steps from `heel_off` to
-    `1 + flat`. `swing` changes the curve of the ankle in the air: (metres up in the middle, metres more in
-    the first half than in the second; the same two forwards, as shares of the step).
+    Phases after the strike: at `flat` the sole is flat, at `heel_off` the heel rises, from `let_go` the leg
+    carries nothing, at `lift` the ball leaves the ground. At the strike the toes point up by `strike`
+    degrees; `heel_rise` lists the degrees by which they point down at even steps from `heel_off` to `lift`.
     """
 
     flat: float
     heel_off: float
+    let_go: float
     lift: float
-    pitch: tuple[float, ...]
-    swing: tuple[float, float, float, float]
+    strike: float
+    heel_rise: tuple[float, ...]
 
 
-class Steps(NamedTuple):
-    """One foot's N footplants, in order.
+class Footplant(NamedTuple):
+    """A foot on the ground: from its strike to its lift, and how it swings to the next footplant.
 
-    `strikes` (N,) are phases, `places` (N, 2) the ankle's x and z in metres, `yaws` (N,) the directions in
-    which the foot points, radians. For the swing after each footplant, `vigour` (N - 1,) scales the pitch and
-    the lift, and `rolls`, N - 1 of them, say how the foot lifts, swings and lands.
+    `strike` and `next_strike` are phases; `position` (2,) is the ankle's x and z in metres; `yaw` is the
+    direction of the foot, radians. `vigour` scales pitch and swing until the next strike. `weights` mix the
+    gaits, as everywhere.
     """
 
-    strikes: Array
-    places: Array
-    yaws: Array
-    vigour: Array
-    rolls: Sequence[Roll]
+    strike: float
+    next_strike: float
+    position: Array
+    yaw: float
+    vigour: float
+    roll: Roll
+    weights: Array
+
+    @property
+    def lift(self) -> float:
+        """Phase at which the ball leaves the ground."""
+        return self.next_strike - 1 + self.roll.lift
+
+    @property
+    def heel_off(self) -> float:
+        """Phase at which the heel rises."""
+        return self.next_strike - 1 + self.roll.heel_off
 
 
 class FootPath(NamedTuple):
     """One foot, frame by frame.
 
     `ankle` (F, 3) in metres; `pitch`, `yaw`, `toe` (F,) in radians, toes up positive. `flat` and `planted`
-    (F,) mark where the ankle and the ball stand still. `stance` (F,) is the phase since the strike; it rests
-    while the foot stands longer than usual. `load` (F,) is 1 while the foot carries the body, 0 in the air.
+    (F,) mark where the ankle and the ball stand still.
     """
 
     ankle: Array
@@ -149,137 +165,108 @@ class FootPath(NamedTuple):
     toe: Array
     flat: Mask
     planted: Mask
-    stance: Array
-    load: Array
+
+    def cut(self, inside: slice) -> FootPath:
+        """Cut out some of the frames."""
+        ankle, pitch, yaw, toe = (values[inside] for values in self[:4])
+        return FootPath(ankle, pitch, yaw, toe, self.flat[inside], self.planted[inside])
 
 
-def foot_pitch(roll: Roll, phase: ArrayLike) -> Array:
-    """Look up how far the toes point up, at a phase since the foot's last strike.
+def landing_pitch(roll: Roll, phase: ArrayLike) -> Array:
+    """Angle by which the toes point up after the strike, radians: strike · (1 - u)³ (1 + u).
 
-    Parameters
-    ----------
-    roll : the table, from `heel_off` to `1 + flat`; before and after the foot lies flat.
-    phase : shape (...), cycles.
-
-    Returns
-    -------
-    Radians, shape (...).
+    The time u = phase / flat goes from 0 to 1, when the sole is flat.
 
     Examples
     --------
-    >>> roll = Roll(0.0, 0.5, 0.6, (0, -60, 0), (0, 0, 0, 0))
-    >>> np.degrees(foot_pitch(roll, [0.3, 0.75])).round(6)
-    array([  0., -60.])
+    >>> roll = Roll(0.1, 0.3, 0.5, 0.6, 20.0, (0, 10, 40))
+    >>> np.degrees(landing_pitch(roll, [0.0, 0.05, 0.2])).round(2)
+    array([20.  ,  3.75,  0.  ])
     """
-    knots = np.linspace(roll.heel_off, 1 + roll.flat, len(roll.pitch))
-    curve = CubicSpline(knots, np.radians(roll.pitch), bc_type="clamped")
+    u = np.clip(np.asarray(phase) / roll.flat, 0, 1)
+    return np.asarray(np.radians(roll.strike) * (1 - u) ** 3 * (1 + u))
+
+
+def rising_pitch(roll: Roll, phase: ArrayLike) -> Array:
+    """Angle by which the toes point up from heel off to lift, radians (below 0), by a cubic spline.
+
+    Examples
+    --------
+    >>> roll = Roll(0.1, 0.3, 0.5, 0.6, 20.0, (0, 10, 40))
+    >>> np.degrees(rising_pitch(roll, [0.2, 0.6])).round(2) + 0.0
+    array([  0., -40.])
+    """
+    knots = np.linspace(roll.heel_off, roll.lift, len(roll.heel_rise))
+    curve = CubicSpline(knots, -np.radians(roll.heel_rise), bc_type=((1, 0.0), (2, 0.0)))
     return np.asarray(curve(np.clip(phase, knots[0], knots[-1])))
 
 
-def foot_path(steps: Steps, phase: Array, foot: Foot) -> FootPath:
-    """Move one foot through its footplants.
-
-    Parameters
-    ----------
-    steps : the footplants; the first strike is at least one cycle before the first frame, the last one after
-        the last frame.
-    phase : shape (F,), cycles, never falling.
-    foot : its shape.
-
-    Returns
-    -------
-    The foot's path over the F frames. It does not move, up to rounding, where `flat` and `planted` are set;
-    it is never below the floor; place, speed and acceleration do not jump where it lifts or strikes.
-    """
-    rolls = steps.rolls
-    changes = [k for k in range(1, len(rolls)) if rolls[k] != rolls[k - 1]]
-    # One roll passes to the next in the middle of the time when the sole lies flat in both.
-    both = [(steps.strikes[k], rolls[k - 1], rolls[k]) for k in changes]
-    middles = [s + (max(a.flat, b.flat) + min(a.heel_off, b.heel_off)) / 2 for s, a, b in both]
-    parts = np.split(phase, np.searchsorted(phase, middles))
-    pieces = [_roll_on(steps, part, rolls[k], foot) for k, part in zip([0, *changes], parts, strict=True)]
-    return FootPath(*map(np.concatenate, zip(*pieces, strict=True)))
-
-
-def _roll_on(steps: Steps, phase: Array, roll: Roll, foot: Foot) -> FootPath:
-    """Move the foot through some frames that share one roll."""
-    last = np.searchsorted(steps.strikes + roll.flat, phase, side="right") - 1
-    local = phase - steps.strikes[last + 1] + 1  # lift .. 1 in the air, 1 .. 1 + flat on the heel
-    pitch = steps.vigour[last] * foot_pitch(roll, local)
-    turn = quintic_step((local - roll.lift) / (1 - roll.lift))
-    yaw = steps.yaws[last] + turn * (steps.yaws[last + 1] - steps.yaws[last])
-    on_ball, on_heel = local < roll.lift, local >= 1
-    rolling = about_ball(steps.places[last], yaw, pitch, foot)
-    landing = _about_heel(steps.places[last + 1], yaw, pitch, foot)
-    swinging = _swing(steps, roll, foot, last, local)
-    ankle = np.where(on_ball[:, None], rolling, np.where(on_heel[:, None], landing, swinging))
-    since = np.where(on_heel, local - 1, phase - steps.strikes[last])
-    until = np.where(on_heel, np.inf, roll.lift - local)
-    load = np.where(
-        on_ball | on_heel, quintic_step(5 * since / roll.lift) * quintic_step(4 * until / roll.lift), 0.0
-    )
-    stance = np.where(since < roll.lift / 2, since, np.maximum(roll.lift / 2, roll.lift - until))
-    flat = local <= roll.heel_off
-    return FootPath(ankle, pitch, yaw, toe_angle(ankle, pitch, foot), flat, on_ball, stance, load)
-
-
 def _sole(yaw: Array, pitch: ArrayLike, ahead: float, up: float) -> Array:
-    """Give the vector that is `ahead` and `up` in a foot turned by `yaw`, its toes raised by `pitch`."""
+    """Vector that is `ahead` and `up` in a foot turned by `yaw`, its toes raised by `pitch`."""
     level = ahead * np.cos(pitch) - up * np.sin(pitch)
-    rise = ahead * np.sin(pitch) + up * np.cos(pitch) + 0 * yaw
+    rise = ahead * np.sin(pitch) + up * np.cos(pitch) + np.zeros_like(yaw)
     return np.stack([level * np.sin(yaw), rise, level * np.cos(yaw)], axis=-1)
 
 
 def about_ball(place: Array, yaw: Array, pitch: Array, foot: Foot) -> Array:
-    """Place the ankle while the ball stands still; with the sole flat it is above `place`."""
+    """Position of the ankle while the ball stands still; if the sole is flat it is above `place`."""
     ball = _sole(yaw, 0.0, foot.instep, foot.ball)
     ball[:, [0, 2]] += place
     return np.asarray(ball + _sole(yaw, pitch, -foot.instep, foot.ankle - foot.ball))
 
 
-def _about_heel(place: Array, yaw: Array, pitch: Array, foot: Foot) -> Array:
-    """Place the ankle while the heel stands still; with the sole flat it is above `place`."""
+def about_heel(place: Array, yaw: Array, pitch: Array, foot: Foot) -> Array:
+    """Position of the ankle while the heel stands still; if the sole is flat it is above `place`."""
     heel = _sole(yaw, 0.0, -foot.heel, 0.0)
     heel[:, [0, 2]] += place
     return np.asarray(heel + _sole(yaw, pitch, foot.heel, foot.ankle))
 
 
-def _swing(steps: Steps, roll: Roll, foot: Foot, last: Indices, local: Array) -> Array:
-    """Move the ankle through the air, from lift to strike."""
-    width = 1 - roll.lift
-    ends = []
-    for moment, turn, place in (
-        (roll.lift, about_ball, slice(None, -1)),
-        (1.0, _about_heel, slice(1, None)),
-    ):
-        step = 1e-3  # of a cycle: differences give the speed and the acceleration at the end
-        before, at, after = (
-            turn(steps.places[place], steps.yaws[place], steps.vigour * foot_pitch(roll, moment + d), foot)
-            for d in (-step, 0.0, step)
-        )
-        speed, push = (after - before) / (2 * step), (after - 2 * at + before) / step**2
-        ends.append((at[last], speed[last] * width, push[last] * width**2))
-    u = np.clip((local - roll.lift) / width, 0, 1)[:, None]
-    curve = _quintic_hermite(ends[0], ends[1], u)
-    chord = (ends[1][0] - ends[0][0])[:, [0, 2]]
-    round_turn = np.tan((steps.yaws[last + 1] - steps.yaws[last]) / 4)[:, None] / 2  # sagitta over chord
-    up, early_up, on, early_on = roll.swing
-    bump = 64 * (u * (1 - u)) ** 3
-    curve[:, [1]] += bump * (up + early_up * (1 - 2 * u)) * steps.vigour[last][:, None]
-    curve[:, [0, 2]] += bump * ((on + early_on * (1 - 2 * u)) * chord + round_turn * chord[:, ::-1] * [-1, 1])
-    return curve
+def ball_of(plant: Footplant, foot: Foot) -> Array:
+    """Position (3,) of the ball of a planted foot, metres."""
+    toes = np.array([np.sin(plant.yaw), np.cos(plant.yaw)])
+    x, z = plant.position + foot.instep * toes
+    return np.array([x, foot.ball, z])
 
 
-def _quintic_hermite(start: Sequence[Array], end: Sequence[Array], u: Array) -> Array:
-    """Join two ends by the quintic that has their places, speeds and accelerations, u from 0 to 1."""
-    (p0, v0, a0), (p1, v1, a1) = start, end
-    gap, speed, push = p1 - p0 - v0 - a0 / 2, v1 - v0 - a0, a1 - a0
-    curve = p0 + v0 * u + a0 / 2 * u**2 + (10 * gap - 4 * speed + push / 2) * u**3
-    return np.asarray(curve + (-15 * gap + 7 * speed - push) * u**4 + (6 * gap - 3 * speed + push / 2) * u**5)
+def pitch_for_leg(hip: Array, plant: Footplant, length: ArrayLike, foot: Foot) -> Array:
+    """Pitch at which a foot on its ball leaves a leg its length.
+
+    The ankle moves on a circle of radius r about the ball. Seen from the ball, the hip is X ahead, Y up and Z
+    to the side, D = √(X² + Y² + Z²), and the ankle is in the direction φ from the toes, so that
+
+        ℓ² = r² + D² - 2 r (X cos φ + Y sin φ).
+
+    Parameters
+    ----------
+    hip : shape (F, 3), metres.
+    plant : the footplant.
+    length : ℓ, from hip to ankle, metres, a number or (F,).
+    foot : its shape.
+
+    Returns
+    -------
+    Radians, (F,), below 0 with the heel up; the nearest possible if there is none.
+    """
+    toes = np.array([np.sin(plant.yaw), np.cos(plant.yaw)])
+    from_ball = hip - ball_of(plant, foot)
+    ahead = from_ball[:, [0, 2]] @ toes
+    up = from_ball[:, 1]
+    squares = (from_ball**2).sum(axis=-1)
+    radius = np.hypot(foot.instep, foot.ankle - foot.ball)
+    cosine = (radius**2 + squares - np.square(length)) / (2 * radius * np.hypot(ahead, up))
+    direction = np.arctan2(up, ahead) + np.arccos(np.clip(cosine, -1, 1))
+    return np.asarray(direction - np.arctan2(foot.ankle - foot.ball, -foot.instep))
 
 
-def toe_angle(ankle: Array, pitch: Array, foot: Foot) -> Array:
-    """Let the toes follow the foot where the floor does not stop them."""
-    ball = ankle[:, 1] + foot.instep * np.sin(pitch) - (foot.ankle - foot.ball) * np.cos(pitch)
-    floor = np.arcsin(np.clip((foot.ball - ball) / foot.toe, -1, 1))
+def ball_height(ankle: Array, pitch: Array, foot: Foot) -> Array:
+    """Height of the ball of a foot, metres, (F,), from its ankle (F, 3) and pitch (F,)."""
+    down = (foot.ankle - foot.ball) * np.cos(pitch)
+    return np.asarray(ankle[:, 1] + foot.instep * np.sin(pitch) - down)
+
+
+def toe_angle(ankle: Array, pitch: Array, foot: Foot, clearance: ArrayLike = 0.0) -> Array:
+    """Angle of the toes, radians: as the foot's, unless their tip would be lower than `clearance` metres."""
+    missing = foot.ball - ball_height(ankle, pitch, foot) + np.asarray(clearance)
+    floor = np.arcsin(np.clip(missing / foot.toe, -1, 1))
     return np.asarray(np.maximum(pitch, floor))

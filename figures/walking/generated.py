@@ -1,32 +1,47 @@
 """Walks generated from tables of figures: the clips that come with the package.
 
-How a walk is made: a timing says for every frame how far the walker has come, in which phase of the cycle and
-in which gait (`gait_timing`). The feet are planted along a path (`footsteps`). The gait's tables swing the
-trunk and the arms (`gait`). The legs join the pelvis and the feet (`walking_body`). Small random differences
-from step to step make every frame different.
+A timing says for every frame the distance, the phase and the gait (`gait_timing`). The feet are planted along
+a path (`footplanning`). The gait's harmonics swing trunk and arms (`gait`). The standing legs carry the
+pelvis, and the swinging ones follow it (`leg_motion`). Small random differences from step to step make every
+frame different.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.ndimage import gaussian_filter1d
 
 from mocap._shared.arrays import Array, Mask
-from mocap.body import rotations
+from mocap.body import euler, rotations
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
-from walking.footsteps import FootPath, SmoothPath, Steps, foot_path, smooth_path, winding
-from walking.gait import GAITS, WALK, joint_angles, knee_flexion, mix, mix_rolls, pelvis_drift
+from walking.footplanning import OUTWARDS, Travel, follow, plan_footplants
+from walking.footsteps import SmoothPath, smooth_path, winding
+from walking.gait import GAITS, WALK, arm_angles, mix, pelvis_drift, trunk_angles
 from walking.gait_timing import Timing, changing, drift, halting, steady
-from walking.walking_body import FIGURES, FOOT, FPS, HIPS, SKELETON, leg, pelvis_height
+from walking.leg_motion import Stance, pelvis_height, push_off, stand, swing, target_knee
+from walking.walking_body import FIGURES, FOOT, FPS, HIPS, SKELETON, TOO_LONG, leg
 
-GRAVITY = 9.81
-STANDING_KNEE = np.radians(18.0)
 CLIPS = FIGURES["clips"]
+ELBOW = np.array(FIGURES["arms"]["hinge"])  # the left elbow's axis
+STILL = {name: np.radians(row) for name, row in FIGURES["arms"]["still"].items()}
+SPINE = ("lowerback", "upperback", "thorax")
+NECK = ("lowerneck", "upperneck", "head")
+MIRRORED = {"l": np.array([1.0, 1.0, 1.0]), "r": np.array([1.0, -1.0, -1.0])}
+ZXY = [2, 0, 1]  # axes in the order in which an arm turns about them
+WOBBLE = np.radians(0.8)  # of trunk and arms
+CHEST_LEADS = 0.12  # seconds: the chest turns into a bend before the pelvis does
+HEAD_LEADS = 0.35
+PELVIS_BANKS = 0.6  # share of the lean in a curve, measured on CMU 16 and others: 0.5 to 0.7
+CHEST_BANKS = (
+    0.15  # so that the trunk has a third of the lean, as theirs (0.3 to 0.4); the head stays upright
+)
+SWAY = 0.003  # metres: also of one who stands
+LOWEST = 0.8  # metres: a pelvis sinks so low only for steps that are longer than the legs
+STANDING_VIGOUR = 0.3  # a walker who moves less, with both soles flat, stands
 
 
 def generate(name: str) -> Motion:
@@ -46,38 +61,40 @@ def generate(name: str) -> Motion:
 
     Examples
     --------
-    >>> generate("walk_straight")
-    Motion('walk_straight', 1201 frames at 120 Hz, 38 joints)
+    >>> generate("walk_straight").fps
+    120.0
     """
     if name not in CLIPS:
         raise MocapError(f"No bundled clip '{name}'; there are: {', '.join(CLIPS)}, jump.")
-    clip, seed = CLIPS[name], list(CLIPS).index(name)
-    path, rng = smooth_path(winding(clip["path"])), np.random.default_rng(seed)
-    if "speed" in clip:
-        timing = steady(WALK, clip["speed"], path.length / clip["speed"], rng)
-    elif "into" in clip:
-        timing = changing((WALK, GAITS[clip["into"]]), clip["stages"], rng)
+    clip = CLIPS[name]
+    rng = np.random.default_rng(list(CLIPS).index(name))
+    path = smooth_path(winding(clip["path"]))
+    if "into" in clip:
+        timing = changing((WALK, GAITS[clip["into"]]), path, clip["stages"], rng)
+    elif "rests" in clip:
+        timing = halting(WALK, path, clip["strides"], clip["rests"])
     else:
-        timing = halting(WALK, clip["strides"], clip["rests"])
+        timing = steady(WALK, path, None, rng)
     return replace(_perform(path, timing, rng), name=name)
 
 
 def generate_walk(
     path: ArrayLike, *, style: str = "walk", speed: float | None = None, seed: int = 0
 ) -> Motion:
-    """Walk along a path on the ground, from its start to its end, at a steady speed.
+    """Walk along a path on the ground, from its start to its end.
 
     Parameters
     ----------
     path : shape (N, 2), metres: points (x, z); a smooth curve passes through them.
     style : one of "walk", "sneak", "jog".
-    speed : metres per second; by default the style's own.
+    speed : metres per second, kept also in curves. By default the style's own on straight lines; in curves
+        the walker slows down as people do (`gait_timing`).
     seed : another number gives other small differences from step to step.
 
     Returns
     -------
     A motion of `walking_body.SKELETON` at 120 Hz, labelled `style`, with the footplants as `contacts`: the
-    ankle (`lfoot`, `rfoot`) while the sole lies flat, the ball (`ltoes`, `rtoes`) until it leaves the ground.
+    ankle (`lfoot`, `rfoot`) while the sole is flat, the ball (`ltoes`, `rtoes`) until it leaves the ground.
 
     Raises
     ------
@@ -86,126 +103,123 @@ def generate_walk(
 
     Examples
     --------
-    >>> generate_walk([[0, 0], [0, 2], [1, 4]], speed=1.2)
-    Motion('walk', 427 frames at 120 Hz, 38 joints)
+    >>> walk = generate_walk([[0, 0], [0, 2], [1, 4]], speed=1.2)
+    >>> walk.name, round(float(walk.root_positions[-1, 2]), 1)
+    ('walk', 4.0)
 
     Notebook: 01b-motion-files
     """
     if style not in GAITS:
         raise MocapError(f"No style '{style}'; there are: {', '.join(GAITS)}.")
-    gait = GAITS[style]
-    speed = gait.speed if speed is None else speed
-    if not (np.isfinite(speed) and speed > 0):
+    if speed is not None and not (np.isfinite(speed) and speed > 0):
         raise MocapError(f"A walk needs a speed above 0, got {speed}.")
-    curve, rng = smooth_path(path), np.random.default_rng(seed)
-    return _perform(curve, steady(gait, speed, curve.length / speed, rng), rng)
-
-
-class Travel(NamedTuple):
-    """Where the body faces: `heading`, `bank` to the left (F,), radians; vectors `ahead`, `left` (F, 3)."""
-
-    heading: Array
-    bank: Array
-    ahead: Array
-    left: Array
-
-
-def _travel(path: SmoothPath, timing: Timing) -> Travel:
-    """Face along the path and lean into its turns: tan(bank) = v · dθ/dt / g."""
-    heading = gaussian_filter1d(path.heading(timing.distance), 0.1 * FPS)
-    push = np.gradient(timing.distance) * np.gradient(heading) * FPS**2
-    bank = gaussian_filter1d(np.arctan(push / GRAVITY), 0.15 * FPS)
-    level = np.zeros_like(heading)
-    ahead = np.stack([np.sin(heading), level, np.cos(heading)], axis=-1)
-    return Travel(heading, bank, ahead, np.stack([np.cos(heading), level, -np.sin(heading)], axis=-1))
-
-
-def _plan(path: SmoothPath, timing: Timing, bank: Array, rng: np.random.Generator) -> dict[str, Steps]:
-    """Plant each foot where the pelvis passes over it later, half a step's width to the side."""
-    plans = {}
-    for side, first, outwards in (("l", 0.0, 1), ("r", 0.5, -1)):
-        strikes = np.arange(np.floor(timing.phase[0]) - 2, timing.phase[-1] + 2) + first
-        strikes = strikes[~np.isin(strikes, timing.skipped)]
-        weights = np.stack([np.interp(strikes, timing.phase, weight) for weight in timing.weights])
-        under, width, toe_out = (
-            mix([getattr(gait, name) for gait in timing.gaits], weights)
-            for name in ("under", "step_width", "toe_out")
-        )
-        distance, lean = (
-            np.interp(strikes + under, timing.phase, values) for values in (timing.distance, bank)
-        )
-        luck = rng.standard_normal((4, len(strikes)))
-        yaws = path.heading(distance)
-        left = outwards * (width / 2 + 0.009 * luck[0]) - 0.9 * np.tan(lean)
-        places = path.at(distance + 0.012 * luck[1])
-        places += left[:, None] * np.stack([np.cos(yaws), -np.sin(yaws)], axis=-1)
-        yaws = yaws + outwards * np.radians(toe_out + 1.5 * luck[2])
-        vigour = np.maximum(0.5, np.interp(strikes[1:] - 0.25, timing.phase, timing.vigour))
-        rolls = [mix_rolls([gait.roll for gait in timing.gaits], weight) for weight in weights.T[:-1]]
-        plans[side] = Steps(strikes, places, yaws, vigour * (1 + 0.03 * luck[3, 1:]), rolls)
-    return plans
-
-
-def _upper_body(timing: Timing, travel: Travel, rng: np.random.Generator) -> dict[str, Array]:
-    """Swing the trunk and the arms, with noise; chest and head turn into a bend before the pelvis does."""
-    amplitude = timing.vigour * (1 + 0.1 * drift(rng, timing.times, 1)[:, 0])
-    swings = [joint_angles(gait, timing.phase, amplitude) for gait in timing.gaits]
-    angles = {joint: mix([swing[joint] for swing in swings], timing.weights) for joint in swings[0]}
-    for joint in ("lowerback", "upperback", "thorax", "upperneck", "lhumerus", "rhumerus"):
-        angles[joint] += np.radians(1.3) * drift(rng, timing.times, 3)
-    for joint in ("lradius", "rradius"):  # an elbow is a hinge: noise changes the angle, not the axis
-        usual = np.linalg.norm(angles[joint], axis=-1).mean()
-        angles[joint] *= 1 + np.radians(3.0) / usual * drift(rng, timing.times, 1)
-    soon, later = (np.interp(timing.times + s, timing.times, travel.heading) for s in (0.12, 0.35))
-    for joints, lead in (
-        (("upperback", "thorax"), soon - travel.heading),
-        (("upperneck", "head"), later - soon),
-    ):
-        for joint in joints:
-            angles[joint][:, 1] += lead / 2
-    angles["root"][:, 2] -= travel.bank
-    return angles
+    rng = np.random.default_rng(seed)
+    curve = smooth_path(path)
+    return _perform(curve, steady(GAITS[style], curve, speed, rng), rng)
 
 
 def _perform(path: SmoothPath, timing: Timing, rng: np.random.Generator) -> Motion:
-    """Plan with the seconds before the first and after the last frame, cut them off, and pose the body."""
-    travel = _travel(path, timing)
-    plans = _plan(path, timing, travel.bank, rng)
-    angles = _upper_body(timing, travel, rng)
-    turns = {joint: rotations.from_rotvec(turn[timing.inside]) for joint, turn in angles.items()}
-    heading, bank, ahead, left = (values[timing.inside] for values in travel)
-    timing = timing.cut()
-    turns["root"] = rotations.multiply(rotations.about_y(heading), turns["root"])
-    feet = {side: foot_path(steps, timing.phase, FOOT) for side, steps in plans.items()}
-    swing = mix([pelvis_drift(gait, timing.phase, timing.vigour) for gait in timing.gaits], timing.weights)
-    swing[:, [0, 2]] += 0.003 * drift(rng, timing.times, 2)
-    x, z = path.at(timing.distance).T
-    root = np.stack([x, swing[:, 1] * np.cos(bank), z], axis=-1)
-    root += swing[:, :1] * left + swing[:, 2:] * ahead
-    root[:, 1] = _ride(root, turns["root"], feet, timing)
-    for side, foot in feet.items():
-        turns |= leg(side, turns["root"], root, foot, ahead)
-    still = np.broadcast_to(rotations.IDENTITY, (len(root), 4))
-    pose = np.stack([turns.get(joint, still) for joint in SKELETON.names], axis=1)
-    contacts = {side + "foot": foot.flat for side, foot in feet.items()}
-    contacts |= {side + "toes": foot.planted for side, foot in feet.items()}
-    return Motion(SKELETON, root, pose, FPS, timing.gaits[0].name, _labels(timing, feet), contacts)
+    """Pose the body in all planned frames, and cut off the seconds before the first and after the last."""
+    travel = follow(path, timing)
+    plants = {side: plan_footplants(path, timing, travel, side, rng) for side in OUTWARDS}
+    turns = _upper_body(timing, travel, rng)
+    root = _ground_track(path, timing, travel, rng)
+    hips = {side: rotations.rotate(turns["root"], HIPS[side]) for side in OUTWARDS}
+    stances = {side: stand(plants[side], timing.phase, FOOT) for side in OUTWARDS}
+    root[:, 1] = pelvis_height(root, hips, stances, timing)
+    inside = timing.inside
+    if root[inside, 1].min() < LOWEST:
+        raise MocapError(TOO_LONG)
+    shown = {joint: turn[inside] for joint, turn in turns.items()}
+    for side, stance in stances.items():
+        hip = root + hips[side]
+        standing = push_off(plants[side], stance, hip, target_knee(stance, timing), FOOT)
+        foot = swing(plants[side], standing, hip, travel.heading, timing)
+        shown |= leg(side, shown["root"], root[inside], foot.cut(inside), travel.ahead[inside])
+    still = np.broadcast_to(rotations.IDENTITY, shown["root"].shape)
+    pose = np.stack([shown.get(joint, still) for joint in SKELETON.names], axis=1)
+    contacts = {side + "foot": stance.flat[inside] for side, stance in stances.items()}
+    contacts |= {side + "toes": stance.planted[inside] for side, stance in stances.items()}
+    labels = _labels(timing, stances)
+    return Motion(SKELETON, root[inside], pose, FPS, timing.gaits[-1].name, labels, contacts)
 
 
-def _ride(root: Array, pelvis: Array, feet: dict[str, FootPath], timing: Timing) -> Array:
-    """Find the height of the pelvis; the less the walker moves, the straighter the knees."""
-    hips = {side: rotations.rotate(pelvis, HIPS[side]) for side in feet}
-    bends = {}
-    for side, foot in feet.items():
-        knee = mix([knee_flexion(gait, foot.stance) for gait in timing.gaits], timing.weights)
-        bends[side] = STANDING_KNEE + timing.vigour * (knee - STANDING_KNEE)
-    height_weight = mix([gait.height_weight for gait in timing.gaits], timing.weights)
-    return pelvis_height(root, hips, feet, bends, height_weight)
+def _ground_track(path: SmoothPath, timing: Timing, travel: Travel, rng: np.random.Generator) -> Array:
+    """Put the pelvis above the path, at the gait's own height, and let it sway and surge: (F, 3), metres."""
+    drifts = [pelvis_drift(gait, timing.phase, timing.vigour) for gait in timing.gaits]
+    sway, height, surge = mix(drifts, timing.weights).T
+    x, z = path.point(timing.distance).T
+    root = np.stack([x, height, z], axis=-1)
+    root += sway[:, None] * travel.leftwards + surge[:, None] * travel.ahead
+    root[:, [0, 2]] += SWAY * drift(rng, timing.times, 2)
+    return np.asarray(root)
 
 
-def _labels(timing: Timing, feet: dict[str, FootPath]) -> dict[str, Mask]:
-    """Label each frame with the gait that has the largest weight; "stand" where both soles lie flat."""
-    standing = feet["l"].flat & feet["r"].flat
-    most = timing.weights.argmax(axis=0)
-    labels = {gait.name: (most == number) & ~standing for number, gait in enumerate(timing.gaits)}
-    return labels | ({"stand": standing} if standing.any() else {})
+def _upper_body(timing: Timing, travel: Travel, rng: np.random.Generator) -> dict[str, Array]:
+    """Swing pelvis, spine, head and arms: {joint: rotations (F, 4)}, the root's in the world."""
+    vigour = timing.vigour * (1 + 0.06 * drift(rng, timing.times, 1)[:, 0])
+    pelvis, thorax, head = (_trunk(part, timing, vigour) for part in ("pelvis", "thorax", "head"))
+    soon = np.interp(timing.times + CHEST_LEADS, timing.times, travel.heading)
+    later = np.interp(timing.times + HEAD_LEADS, timing.times, travel.heading)
+    pelvis[:, 2] -= PELVIS_BANKS * travel.bank
+    thorax[:, 1] += soon - travel.heading
+    thorax[:, 2] -= CHEST_BANKS * travel.bank
+    thorax += WOBBLE * drift(rng, timing.times, 3)
+    head[:, 1] += later - travel.heading
+    head += WOBBLE * drift(rng, timing.times, 3)
+    angles = {"root": pelvis}
+    angles |= {joint: (thorax - pelvis) / len(SPINE) for joint in SPINE}
+    angles |= {joint: (head - thorax) / len(NECK) for joint in NECK}
+    turns = {joint: rotations.from_rotvec(angle) for joint, angle in angles.items()}
+    turns["root"] = rotations.multiply(rotations.about_y(travel.heading), turns["root"])
+    for side in OUTWARDS:
+        turns |= _arm(side, timing, vigour, thorax[:, 0], rng)
+    return turns
+
+
+def _trunk(part: str, timing: Timing, vigour: Array) -> Array:
+    """Swing a middle part of the body: rotation vectors (F, 3) relative to the heading."""
+    angles = [trunk_angles(getattr(gait, part), timing.phase, vigour) for gait in timing.gaits]
+    return mix(angles, timing.weights)
+
+
+def _arm(side: str, timing: Timing, vigour: Array, nod: Array, rng: np.random.Generator) -> dict[str, Array]:
+    """Swing an arm: {joint: rotations (F, 4) relative to the parent}.
+
+    `nod` (F,), radians, is the lean of the thorax, against which the arm hangs down.
+    """
+    phase = timing.phase - (0.5 if side == "r" else 0.0)
+    swings = [arm_angles(gait.arm, phase, vigour) for gait in timing.gaits]
+    angles = {name: mix([swing[name] for swing in swings], timing.weights) for name in swings[0]}
+    noise = WOBBLE * drift(rng, timing.times, 3)
+    mirror = MIRRORED[side]
+    upper = np.stack([angles["out"], -angles["swing"] - nod, angles["twist"]], axis=-1) + noise
+    hinge = ELBOW / np.linalg.norm(ELBOW) * mirror
+    bend = np.outer(angles["elbow"] + noise[:, 0], hinge)
+    hand = np.outer(angles["hand"], [1.0, 0.0, 0.0]) + STILL["hand"] * mirror
+    turns = {
+        "humerus": euler.from_euler("ZXY", upper * mirror[ZXY]),
+        "radius": rotations.from_rotvec(bend),
+        "hand": rotations.from_rotvec(hand),
+    }
+    for joint in ("wrist", "fingers"):
+        still = np.tile(STILL[joint] * mirror, (len(phase), 1))
+        turns[joint] = rotations.from_rotvec(still)
+    return {side + joint: turn for joint, turn in turns.items()}
+
+
+def _labels(timing: Timing, stances: Mapping[str, Stance]) -> dict[str, Mask]:
+    """Label each frame: "stand" with both soles flat and hardly a movement, else the gait.
+
+    Of two gaits the second one has the frames in which its weight is `labelled_from` or more. For a sneak
+    this is 0.1: no frame that is visibly crouched is labelled "walk".
+    """
+    inside = timing.inside
+    standing = stances["l"].flat & stances["r"].flat & (timing.vigour < STANDING_VIGOUR)
+    walking = ~standing[inside]
+    first = timing.gaits[0]
+    labels = {first.name: walking}
+    for second, weight in zip(timing.gaits[1:], timing.weights[1:], strict=True):
+        changed = weight[inside] >= second.labelled_from
+        labels = {first.name: walking & ~changed, second.name: walking & changed}
+    return labels | ({"stand": standing[inside]} if standing[inside].any() else {})

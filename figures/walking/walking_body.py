@@ -1,20 +1,14 @@
-"""The body that walks, and its legs: from the planted feet up to the pelvis, and down again.
-
-The path of the pelvis over the ground and the paths of both feet are given. The pelvis gets the height at
-which the loaded knees bend as their gait says; then `two_bone_ik` bends both legs down to the feet.
-"""
+"""The body that walks: its skeleton, its measures, and its legs, bent down to given feet."""
 
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
 from mocap._shared.arrays import Array
 from mocap.body import euler, rotations
@@ -25,60 +19,106 @@ from walking.two_bone_ik import two_bone
 
 STATURE = 1.75  # metres
 FPS = 120.0
-LEAST_KNEE = np.radians(6.0)  # a knee never straightens further
+TOO_LONG = "The steps are longer than the legs: walk slower, or take a wider turn."
 
 FIGURES: dict[str, Any] = tomllib.loads(Path(__file__).with_name("walker.toml").read_text("utf-8"))
 """All figures of the bundled clips; the file says what they are, and where they come from."""
 
 SKELETON = Skeleton.from_table(FIGURES["body"], scale=STATURE)
 HIPS = {side: SKELETON.offsets[SKELETON.index(f"{side}femur")] for side in "lr"}
-THIGH, SHANK = 0.245 * STATURE, 0.246 * STATURE
-FOOT = Foot(0.039 * STATURE, 0.015 * STATURE, 0.029 * STATURE, 0.074 * STATURE, 0.040 * STATURE)
+THIGH = 0.245 * STATURE
+SHANK = 0.246 * STATURE
+FOOT = Foot(
+    ankle=0.039 * STATURE,
+    ball=0.015 * STATURE,
+    heel=0.029 * STATURE,
+    instep=0.074 * STATURE,
+    toe=0.040 * STATURE,
+)
 
 
-def pelvis_height(
-    root: Array,
-    hips: Mapping[str, Array],
-    feet: Mapping[str, FootPath],
-    bends: Mapping[str, Array],
-    weight: ArrayLike,
-) -> Array:
-    """Find the height of the pelvis at which each loaded knee bends as it should.
+class LegAngles(NamedTuple):
+    """A leg as seen from the pelvis, which faces along the path: angles of shape (F,), radians.
 
-    With knee angle κ a leg is ℓ long, ℓ² = a² + b² + 2 a b cos κ, and its hip is √(ℓ² - d²) above the ankle,
-    where d is their horizontal distance. The heights for both legs are averaged, weighted by load.
+    `thigh` is the angle of the thigh ahead of hanging straight down, `knee` the flexion, and `splay` the
+    angle by which the line from hip to ankle leads to the left.
+    """
+
+    thigh: Array
+    knee: Array
+    splay: Array
+
+
+def leg_length(knee: ArrayLike) -> Array:
+    """Distance from hip to ankle, metres, for a knee's flexion in radians.
+
+    It is √(a² + b² + 2 a b cos κ) with the lengths a, b of thigh and shank, by the law of cosines.
+
+    Examples
+    --------
+    >>> float(leg_length(0.0).round(6))
+    0.85925
+    """
+    squares = THIGH**2 + SHANK**2 + 2 * THIGH * SHANK * np.cos(knee)
+    return np.asarray(np.sqrt(squares))
+
+
+def knee_of(length: ArrayLike) -> Array:
+    """Flexion of the knee, radians, for a distance from hip to ankle: the inverse of `leg_length`.
+
+    A leg that is longer than its bones is straight.
+    """
+    squares = np.square(length) - THIGH**2 - SHANK**2
+    return np.asarray(np.arccos(np.clip(squares / (2 * THIGH * SHANK), -1, 1)))
+
+
+def hip_above_ankle(reach: Array, knee: ArrayLike) -> Array:
+    """Height of a hip above its ankle, metres.
 
     Parameters
     ----------
-    root : shape (F, 3), metres: the pelvis at its usual height.
-    hips : {side: (F, 3)}: from the root to the hip joints, metres.
-    feet : {side: the foot's path}.
-    bends : {side: (F,)}: how far each knee should bend, radians.
-    weight : number or shape (F,): the weight of the usual height; a leg that carries the body has weight 1.
+    reach : shape (F, 3): from the hip to the ankle, metres; its height is not used.
+    knee : flexion, radians.
 
     Returns
     -------
-    Shape (F,), metres; smooth, and low enough for both legs to reach their feet with bent knees.
+    √(ℓ² - x² - z²), with the leg's length ℓ; shape (F,). 0.1 m where the ankle is too far away.
     """
-    wishes, weights = np.multiply(weight, root[:, 1]), np.full(len(root), weight)
-    limit = np.full(len(root), np.inf)
-    for side, foot in feet.items():
-        apart = foot.ankle - root - hips[side]
-        floor = foot.ankle[:, 1] - hips[side][:, 1]
-        wishes = wishes + foot.load * (floor + _rise(apart, bends[side]))
-        weights = weights + foot.load
-        limit = np.minimum(limit, floor + _rise(apart, LEAST_KNEE))
-    height = gaussian_filter1d(wishes / weights, 0.03 * FPS)
-    # The drop is widened by the radius of the filter that smooths it, so it is large enough everywhere.
-    around = round(0.1 * FPS)
-    drop = maximum_filter1d(np.maximum(height - limit, 0), 1 + 2 * around)
-    return np.asarray(height - gaussian_filter1d(drop, 0.04 * FPS, radius=around))
+    squares = leg_length(knee) ** 2 - reach[:, 0] ** 2 - reach[:, 2] ** 2
+    return np.asarray(np.sqrt(np.maximum(squares, 0.01)))
 
 
-def _rise(apart: Array, knee: ArrayLike) -> Array:
-    """Find how far a hip is above its ankle, from the vector between them and the angle of the knee."""
-    length2 = THIGH**2 + SHANK**2 + 2 * THIGH * SHANK * np.cos(knee)
-    return np.asarray(np.sqrt(np.maximum(length2 - apart[:, 0] ** 2 - apart[:, 2] ** 2, 0)))
+def _thigh_ahead_of_leg(knee: Array) -> Array:
+    """Angle between the thigh and the line from hip to ankle, radians."""
+    return np.asarray(np.arctan2(SHANK * np.sin(knee), THIGH + SHANK * np.cos(knee)))
+
+
+def to_leg_angles(reach: Array) -> LegAngles:
+    """Read the angles of legs off the vectors from hip to ankle.
+
+    Parameters
+    ----------
+    reach : shape (F, 3): to the left, up and ahead, metres.
+
+    Examples
+    --------
+    >>> angles = to_leg_angles(np.array([[0.0, -0.8, 0.0]]))
+    >>> np.degrees(angles.knee).round(1)
+    array([42.8])
+    """
+    length = np.linalg.norm(reach, axis=-1)
+    knee = knee_of(length)
+    thigh = np.arctan2(reach[:, 2], -reach[:, 1]) + _thigh_ahead_of_leg(knee)
+    return LegAngles(thigh, knee, np.arcsin(reach[:, 0] / length))
+
+
+def from_leg_angles(angles: LegAngles) -> Array:
+    """Vectors (F, 3) from hip to ankle, to the left, up and ahead: the inverse of `to_leg_angles`."""
+    length = leg_length(angles.knee)
+    ahead = angles.thigh - _thigh_ahead_of_leg(angles.knee)
+    level = length * np.cos(angles.splay)
+    across = length * np.sin(angles.splay)
+    return np.stack([across, -level * np.cos(ahead), level * np.sin(ahead)], axis=-1)
 
 
 def leg(side: str, pelvis: Array, root: Array, foot: FootPath, ahead: Array) -> dict[str, Array]:
@@ -88,7 +128,7 @@ def leg(side: str, pelvis: Array, root: Array, foot: FootPath, ahead: Array) -> 
     ----------
     side : "l" or "r".
     pelvis : shape (F, 4), the root's orientation.
-    root : shape (F, 3), its place, metres.
+    root : shape (F, 3), its position, metres.
     foot : the foot's path.
     ahead : shape (F, 3), unit vectors: where the pelvis faces.
 
@@ -104,11 +144,10 @@ def leg(side: str, pelvis: Array, root: Array, foot: FootPath, ahead: Array) -> 
     hip = root + rotations.rotate(pelvis, HIPS[side])
     limb = two_bone(hip, foot.ankle, (THIGH, SHANK), ahead + toes)
     if not limb.reached.all():
-        raise MocapError("The steps are longer than the legs: walk slower, or take a wider turn.")
+        raise MocapError(TOO_LONG)
     sole = rotations.multiply(rotations.about_y(foot.yaw), euler.from_euler("x", -foot.pitch[:, None]))
     turns = [pelvis, limb.upper, limb.lower, sole]
-    local = {
-        side + joint: rotations.multiply(rotations.inverse(above), turn)
-        for joint, (above, turn) in zip(("femur", "tibia", "foot"), pairwise(turns), strict=True)
-    }
+    local = {}
+    for joint, (above, turn) in zip(("femur", "tibia", "foot"), pairwise(turns), strict=True):
+        local[side + joint] = rotations.multiply(rotations.inverse(above), turn)
     return local | {side + "toes": euler.from_euler("x", (foot.pitch - foot.toe)[:, None])}

@@ -54,7 +54,7 @@ def match_contacts(
     >>> walk, same_clock = sample("walk_straight"), Curve(0.0, 1.0, np.array([-0.5, 0.5, 1.5]))
     >>> joint, (starts, stops) = match_contacts([walk, walk[12:]], [same_clock, same_clock], (1.0, 3.0))[1]
     >>> joint, starts.round(1)
-    ('lfoot', array([2.5, 2.4]))
+    ('lfoot', array([2.3, 2.2]))
     """
     joints = [joint for joint in clips[0].contacts if all(joint in clip.contacts for clip in clips)]
     matches = []

@@ -73,7 +73,7 @@ def mix(
     >>> walks = [sample(name) for name in ("walk_5m_0.8_0", "walk_5m_1.1_0")]
     >>> walking = register(walks)
     >>> walking.durations.round(2), round(mix(walking, [0.5, 0.5]).duration, 2)
-    (array([4.67, 4.26]), 4.46)
+    (array([4.97, 4.14]), 4.55)
 
     Notebook: 15-registration
     """
@@ -196,7 +196,7 @@ def crossfade(registration: Registration, *, seconds: float = 1.0) -> Motion:
     >>> from mocap.datasets.samples import sample
     >>> slow, brisk = (sample(name) for name in ("walk_5m_0.8_0", "walk_5m_1.4_0"))
     >>> faster = crossfade(register([slow, brisk]), seconds=2.0)
-    >>> faster.name, bool(3.3 < faster.duration < 5.0)
+    >>> faster.name, bool(brisk.duration < faster.duration < slow.duration)
     ('walk to walk', True)
 
     Notebook: 15-registration

@@ -91,7 +91,7 @@ def register(
     >>> walks = [sample(name) for name in ("walk_5m_0.8_0", "walk_5m_1.1_0")]
     >>> walking = register(walks)
     >>> walking.durations.round(1), bool(walking.costs[1] < 0.1)
-    (array([4.7, 4.3]), True)
+    (array([5. , 4.1]), True)
 
     Notebook: 15-registration
     """

@@ -27,6 +27,17 @@ STORE = Path(__file__).with_name("clips.npz")  # from `figures/bundled_clips.py`
 SAMPLES = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight", "sneak", "jog", "stop_and_go")
 """The names of the bundled clips from which motion graphs are built; `sample` has some more."""
 
+FRAMES_IN_0_1 = {
+    "walk_circle": 4711,
+    "walk_curve_1": 4883,
+    "walk_curve_2": 4954,
+    "walk_straight": 1201,
+    "sneak": 4021,
+    "jog": 3853,
+    "stop_and_go": 2932,
+}
+"""Lengths of the clips that had these names in mocap 0.1, which walked otherwise."""
+
 OURS = "the clips that come with mocap"
 
 with open_archive(STORE, OURS) as _store:
@@ -51,7 +62,7 @@ def sample(name: str = "walk_circle") -> Motion:
     Examples
     --------
     >>> sample("walk_straight")
-    Motion('walk_straight', 1201 frames at 120 Hz, 38 joints)
+    Motion('walk_straight', 1158 frames at 120 Hz, 38 joints)
 
     Notebook: 01-skeletons-and-clips
     """

@@ -117,12 +117,12 @@ def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT, ride: Ride |
     >>> from mocap.datasets import sample
     >>> bent = bend(sample("walk_straight")[:600], GroundPath([[0, 0], [0, 2], [2, 4]]))
     >>> print(bent.report())  # doctest: +ELLIPSIS
-    4.5 s along 100% of 4.8 m, 1.4 cm off on average, 2.7 cm at worst; turned by up to 80° per second, ...
+    3.9 s along 100% of 4.8 m, 1.5 cm off on average, 2.7 cm at worst; turned by up to 91° per second, ...
     >>> zigzag = GroundPath([[0, 0], [2, 0.5], [0, 1], [2, 1.5], [0, 2], [2, 2.5]])
     >>> print(bend(sample("walk_straight")[:600], zigzag).report())
-    6.5 s along 40% of 10.3 m, 1.3 cm off on average, 2.6 cm at worst elsewhere, rounded at 1.9 to 2.8 m by up
-    to 36 cm, 4.0 to 4.8 m by up to 37 cm, 6.0 to 6.9 m by up to 35 cm and 2 more; turned by up to 97° per
-    second, 100% of the plants kept
+    7.2 s along 42% of 10.3 m, 1.5 cm off on average, 3.1 cm at worst elsewhere, rounded at 1.9 to 2.8 m by
+    up to 36 cm, 4.0 to 4.8 m by up to 37 cm, 6.0 to 6.9 m by up to 35 cm and 2 more; turned by up to 100°
+    per second, 100% of the plants kept
 
     Notebook: 12-path-editing
     """

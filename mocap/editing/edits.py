@@ -95,7 +95,7 @@ def mark_met(motion: Motion, pins: Pins, plants: Pins) -> Motion:
     ...     for up in ([0, 0.00009, 0], [0, 0.00015, 0]):  # metres
     ...         higher = Pins(plants.joints, plants.low + up, plants.high + up)
     ...         print(mark_met(walk, higher, plants).contacts["lfoot"].sum())
-    71
+    52
     0
     """
     warn_of_gaps(motion, pins, CLOSED)

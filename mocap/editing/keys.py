@@ -116,8 +116,8 @@ def keys_around(motion: Motion, keys: Sequence[Key], seconds: float = HALF_SECON
     [40, 100, 160]
     >>> [key.frame for key in keys_around(walk, [Key(20, walk[20:21])])]  # from the clip's start on
     [20, 80]
-    >>> [key.frame for key in keys_around(walk, [Key(60, walk[60:61]), Key(1140, walk[1140:1141])])]
-    [0, 60, 1140, 1200]
+    >>> [key.frame for key in keys_around(walk, [Key(60, walk[60:61]), Key(1097, walk[1097:1098])])]
+    [0, 60, 1097, 1157]
     >>> [key.frame for key in keys_around(walk, [Key(40), Key(60, walk[60:61])], seconds=1 / 120)]
     [40, 60, 61]
 

@@ -91,7 +91,7 @@ def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> Rounde
     >>> line = round_line(corner, ride_of(walk), walk.fps, np.radians(60))
     >>> start, end, worst = line.roundings[0]
     >>> round(start), round(end), round(worst, 1)
-    (5, 6, 0.4)
+    (5, 6, 0.5)
     """
     even = path.resampled(SPACING)
     asked, spacing = even.points, path.length / (len(even.points) - 1)

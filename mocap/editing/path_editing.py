@@ -13,16 +13,17 @@ from numpy.typing import ArrayLike
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Points
 from mocap.body.ground_path import CLOSEST, GroundPath
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform, from_ground, on_ground
 from mocap.editing.displacements import spline_basis
 from mocap.errors import MocapError, warn
 
-# Seconds between knots: too slow for the sway, of which 4.9 to 5.1 cm stay in the motion. With 0.4 the path
-# takes half of the sway, and its heading wags by 13°; 0.9, near a stride, aliases.
-STRIDE = 1.2
+# Seconds between knots: too slow for the sway, of which 5 cm stay in the motion, as with 1.2. But with 1.2
+# clips that turn as people do are up to 17 cm off their paths, and with 1.0 up to 9 cm. With 0.4 the path
+# takes half of the sway, and its heading wags by 13°.
+STRIDE = 1.0
 
 # Metres before and after a place between which its heading is measured. With 0.02 the body turns at 3000° per
 # second at a corner, and by more than 100° while it stands; with 0.5 bends are cut.
@@ -96,13 +97,14 @@ def ride_of(motion: Motion, *, stride: float = STRIDE) -> Ride:
     >>> from mocap.datasets import sample
     >>> ride = ride_of(sample("walk_straight"))
     >>> ride.path, ride.handles.shape
-    (GroundPath(1201 points, 10.9 m), (11, 2))
+    (GroundPath(1158 points, 12.5 m), (13, 2))
 
     Notebook: 12-path-editing
     """
     basis = spline_basis(len(motion), stride * motion.fps)
     track = motion.root_positions[:, [0, 2]]
-    middle, normal = track.mean(axis=0), (basis.T @ basis).tocsc()
+    middle = track.mean(axis=0)
+    normal = (basis.T @ basis).tocsc()
     ridge = RIDGE * normal.diagonal().max() * sparse.eye_array(normal.shape[0])
     handles = spsolve(normal + ridge, basis.T @ (track - middle)) + middle
     smooth = basis @ handles
@@ -151,23 +153,34 @@ def moving_frames(path: GroundPath, along: ArrayLike, *, chord: float = CHORD) -
     """
     if not (np.isfinite(chord) and chord > 0):
         raise MocapError(f"A chord reaches more than 0 m before and after, got chord={chord}.")
-    along, length = np.asarray(along, float), path.length
-    start, end = (float(np.clip(at, 0, length)) for at in (chord, length - chord))
-    knots = on_ground(np.concatenate([path.points[[0, -1, 1, -2]], path.at([start, end])]))
-    # Which way the path goes on beyond its ends: as the chord there, or as its first and last step.
-    ways = np.array([[knots[4] - knots[0], knots[2] - knots[0]], [knots[1] - knots[5], knots[1] - knots[3]]])
-    ways = np.where(np.abs(ways[:, 0]) > CLOSEST, ways[:, 0], ways[:, 1])
-    ways /= np.abs(ways)
-    moments = along + chord * AROUND[:, None]
-    beyond = np.minimum(moments, 0) * ways[0] + np.maximum(moments - length, 0) * ways[1]
-    points = on_ground(path.at(moments)) + beyond
-    place, across = WEIGHTS @ points, points[-1] - points[0]
+    along = np.asarray(along, float)
+    first, last = _end_directions(path, chord)
+    places = along + chord * AROUND[:, None]
+    before_start = np.minimum(places, 0)
+    after_end = np.maximum(places - path.length, 0)
+    points = on_ground(path.at(places)) + (before_start * first + after_end * last)
+    place = WEIGHTS @ points
+    across = points[-1] - points[0]
     defined = np.abs(across) > CLOSEST  # not where the path comes back on itself
     angle = np.zeros(len(along))
     if defined.any():
         frames = np.arange(len(along))
         angle = np.interp(frames, frames[defined], np.unwrap(np.angle(across[defined])))
     return PlanarTransform(angle, place.imag, place.real)
+
+
+def _end_directions(path: GroundPath, chord: float) -> Points:
+    """Directions in which a path goes on before its start and beyond its end, on the unit circle (2,).
+
+    They are those of the chords there, or of the first and the last step where a chord has no length.
+    """
+    chord_ends = np.clip([chord, path.length - chord], 0, path.length)
+    after_start, before_end = on_ground(path.at(chord_ends))
+    start, second, next_to_last, end = on_ground(path.points[[0, 1, -2, -1]])
+    chords = np.array([after_start - start, end - before_end])
+    steps = np.array([second - start, end - next_to_last])
+    directions = np.where(np.abs(chords) > CLOSEST, chords, steps)
+    return np.asarray(directions / np.abs(directions))
 
 
 def start_at(path: GroundPath, ride: Ride) -> GroundPath:
@@ -231,9 +244,9 @@ def on_path(
     >>> bent = on_path(walk, start_at(circle(2.0), ride), ride)
     >>> bool(np.ptp(bent.root_positions[:, 0]) > 3.8)
     True
-    >>> shorter = on_path(walk, GroundPath([[0, 0], [0, 6]]), ride, keep="ends").root_positions
-    >>> float((shorter[-1, 2] - shorter[0, 2]).round(1))  # metres, in steps a bit more than half as long
-    6.0
+    >>> shorter = on_path(walk, GroundPath([[0, 0], [0, 8]]), ride, keep="ends").root_positions
+    >>> float((shorter[-1, 2] - shorter[0, 2]).round(1))  # metres, in steps two thirds as long
+    8.0
 
     Notebook: 12-path-editing
     """
@@ -243,7 +256,8 @@ def on_path(
     if keep not in ("speed", "ends"):
         raise MocapError(f"A motion keeps its 'speed' or the path's 'ends', got keep={keep!r}.")
     longer = path.length / ride.path.length if keep == "ends" else 1.0
-    old, new = moving_frames(ride.path, ride.along), moving_frames(path, longer * ride.along)
+    old = moving_frames(ride.path, ride.along)
+    new = moving_frames(path, longer * ride.along)
     if not 0.5 <= longer <= 2:
         warn(f"'{motion.name}' takes steps {longer:.2f} times as long on this path: plants are let go.")
     return (new @ old.inverse()).apply_motion(motion)
@@ -264,5 +278,6 @@ def plants_kept(cleaned: Motion, bent: Motion) -> float:
 
     Notebook: 12-path-editing
     """
-    after, before = (sum(int(mark.sum()) for mark in m.contacts.values()) for m in (cleaned, bent))
-    return after / before if before else 1.0
+    planted = sum(int(mark.sum()) for mark in bent.contacts.values())
+    kept = sum(int(mark.sum()) for mark in cleaned.contacts.values())
+    return kept / planted if planted else 1.0

@@ -123,7 +123,7 @@ def slow_down(
     >>> round(slow.duration / walk.duration, 2), round(float(along[-1] / own[-1]), 2)
     (1.11, 0.9)
     >>> round(float(np.degrees(leaning[200])), 2)
-    4.23
+    6.16
     """
     (places, ratio), numbers = places_on(path, ride, motion.fps, limit), np.arange(len(motion))
     clock = ratio**-0.5  # new frames per old frame
@@ -162,9 +162,9 @@ def lean(motion: Motion, way: Array, angle: Array) -> tuple[Motion, dict[int, Ar
     >>> leaning, held = lean(walk, np.zeros(240), np.full(240, 0.1))
     >>> moved = dict(zip(walk.skeleton.names, (joint_positions(leaning) - joint_positions(walk))[0, :, 0]))
     >>> [round(float(moved[name]), 3) for name in ("head", "root", "ltibia", "lfoot")]  # metres
-    [0.014, 0.0, -0.042, -0.085]
+    [0.014, 0.0, -0.043, -0.084]
     >>> round(float(np.nanmean(held[4] - joint_positions(walk)[:, 4], axis=0)[0]), 3)  # of the left ankle
-    -0.099
+    -0.1
     """
     height, ahead = motion.root_positions[:, 1], np.stack([np.sin(way), 0 * way, np.cos(way)], axis=1)
     left = np.stack([np.cos(way), 0 * way, -np.sin(way)], axis=1)

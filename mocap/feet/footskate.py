@@ -67,7 +67,7 @@ def clean_up(
     >>> from mocap.blending.joining import join
     >>> from mocap.datasets.samples import sample
     >>> walk = sample("walk_straight")
-    >>> skating = join(walk, 500, walk, 233, 40)
+    >>> skating = join(walk, 500, walk, 242, 40)
     >>> rise = (clean_up(skating).root_positions - skating.root_positions)[:, 1]
     >>> bool(0.002 < abs(rise).max() < 0.01)
     True

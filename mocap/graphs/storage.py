@@ -4,7 +4,7 @@ The file holds no frames of the clips and no code: it is safe to read a file fro
 """
 
 import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -13,21 +13,28 @@ import networkx as nx
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mocap._shared.archives import Arrays, open_archive, pack
+from mocap._shared.archives import Arrays, Member, open_archive, pack
 from mocap._shared.progress import Progress
 from mocap.body.fingerprints import fingerprint
 from mocap.body.motion import Motion, require_alike, resample
 from mocap.body.planar import PlanarTransform
 from mocap.datasets.clip_origins import Origin, find_again, is_origin
-from mocap.datasets.samples import SAMPLES, sample
+from mocap.datasets.samples import FPS, FRAMES_IN_0_1, SAMPLES, sample
 from mocap.editing.mirroring import mirror
 from mocap.errors import FormatError, MocapError, shortened, warn
 from mocap.files.conversion import is_clip
 from mocap.files.load_save import load as load_motion
 from mocap.graphs.motion_graph import MotionGraph
 
-KIND, OURS = "mocap: a motion graph", "a motion graph saved by mocap, version 1 or 2"
+KIND = "mocap: a motion graph"
+FIRST_KIND = "mocap motion graph"  # as the first files say
+VERSION = 2  # in version 1 fingerprints were of all digits
+OURS = "a motion graph saved by mocap, version 1 or 2"
+FRAMES = 3  # column of `edges`
+MOST = 2**31  # frames
+FASTEST = 1e6  # frames per second
 # The arrays of the file, with C clips, O origins, N nodes, E edges, T transitions and L labels.
+# reads: statement: a table
 ARRAYS: dict[str, tuple[type, tuple[int | str, ...]]] = {
     "fps": (float, ()),
     "window": (int, ()),
@@ -85,30 +92,48 @@ def save(motion_graph: MotionGraph, path: str | Path, origins: Sequence[Origin] 
     """
     if Path(path).suffix.lower() != ".npz":
         raise MocapError(f"This is written as .npz, got '{path}'.")
-    clips, graph = motion_graph.clips, motion_graph.graph
-    number = {node: row for row, node in enumerate(graph)}
-    edges = list(graph.edges(keys=True, data=True))
-    transitions = [edge for *_, edge in edges if edge["kind"] == "transition"]
-    labels = sorted({label for *_, edge in edges for label in edge["labels"]})
-    rows = [(number[a], number[b], key, edge["frames"]) for a, b, key, edge in edges]
-    labelled = [label in edge["labels"] for *_, edge in edges for label in labels]
-    arrays: dict[str, Any] = {
+    arrays = {
         "fps": motion_graph.fps,
         "window": motion_graph.window,
+        "origins": [origin.text(Path(path).parent) for origin in origins],
+    }
+    arrays |= _arrays_of_clips(motion_graph.clips)
+    arrays |= _arrays_of_graph(motion_graph.graph)
+    whole: Arrays = {key: np.asarray(arrays[key], kind) for key, (kind, _) in ARRAYS.items()}
+    pack(path, {"format": np.array(KIND), "version": np.array(VERSION), **whole})
+
+
+def _arrays_of_clips(clips: Sequence[Motion]) -> dict[str, Any]:
+    """Arrays by which the clips are known again."""
+    return {
         "names": [clip.name for clip in clips],
         "frames": [len(clip) for clip in clips],
         "fingerprints": [fingerprint(clip) for clip in clips],
-        "origins": [origin.text(Path(path).parent) for origin in origins],
-        "nodes": np.reshape(list(graph), (-1, 2)),
+    }
+
+
+def _arrays_of_graph(graph: nx.MultiDiGraph) -> dict[str, Any]:
+    """Arrays of nodes, edges, transitions and labels."""
+    number = {node: row for row, node in enumerate(graph)}
+    edges = list(graph.edges(keys=True, data=True))
+    attributes = [edge for *_, edge in edges]
+    transitions = [edge for edge in attributes if edge["kind"] == "transition"]
+    labels = sorted({label for edge in attributes for label in edge["labels"]})
+    rows = [(number[start], number[end], key, edge["frames"]) for start, end, key, edge in edges]
+    labelled = [label in edge["labels"] for edge in attributes for label in labels]
+    transforms = [edge["transform"] for edge in transitions]
+    is_transition = [edge["kind"] == "transition" for edge in attributes]
+    of_edges = {
         "edges": np.reshape(rows, (-1, 4)),
-        "is_transition": [edge["kind"] == "transition" for *_, edge in edges],
-        "costs": [edge["cost"] for edge in transitions],
-        "transforms": np.reshape([edge["transform"] for edge in transitions], (-1, 3)),
-        "labels": labels,
+        "is_transition": is_transition,
         "labelled": np.reshape(labelled, (len(edges), len(labels))),
     }
-    whole: Arrays = {key: np.asarray(arrays[key], kind) for key, (kind, _) in ARRAYS.items()}
-    pack(path, {"format": np.array(KIND), "version": np.array(2), **whole})
+    of_transitions = {
+        "costs": [edge["cost"] for edge in transitions],
+        "transforms": np.reshape(transforms, (-1, 3)),
+    }
+    of_nodes = {"nodes": np.reshape(list(graph), (-1, 2)), "labels": labels}
+    return of_nodes | of_edges | of_transitions
 
 
 def load(
@@ -144,27 +169,57 @@ def load(
 
     Notebook: 05b-choice-points
     """
-    found = read(path)
+    content = read(path)
     if clips is None:
-        clips = [] if (placed := find_origins(path)) else [sample(name) for name in found.names]
-        for origin in progress(placed):
-            clip = load_motion(origin.path, skeleton=skeleton or origin.skeleton, scale=origin.scale)
-            clips.append(mirror(clip) if origin.mirrored else clip)
-    by_name = {clip.name: resample(clip, found.fps) for clip in clips}
+        clips = _load_clips(path, content, skeleton, progress)
+    by_name = {clip.name: resample(clip, content.fps) for clip in clips}
     with suppress(KeyError, MocapError):  # one end sites for all; what does not go together is named below
-        by_name.update(zip(found.names, require_alike([by_name[name] for name in found.names]), strict=True))
-    for name, frames, known in zip(found.names, found.frames, found.fingerprints, strict=True):
+        alike = require_alike([by_name[name] for name in content.names])
+        by_name.update(zip(content.names, alike, strict=True))
+    for name, length, digest in zip(content.names, content.frames, content.fingerprints, strict=True):
         if name not in by_name:
-            given = shortened(", ".join(by_name) or "none")
-            raise MocapError(f"{path} needs the clip '{shortened(name)}'; given are: {given}.")
-        now = len(by_name[name])
-        if now != frames or (known and fingerprint(by_name[name]) != known):
-            other = f"{frames} frames then, {now} now" if now != frames else "other poses, bones or units"
-            named = f"another '{shortened(name)}'"
-            raise MocapError(f"{path} was built of {named}: {other}. Take that clip, or build anew.")
-    if not any(found.fingerprints):
+            names = shortened(", ".join(by_name) or "none")
+            raise MocapError(f"{path} needs the clip '{shortened(name)}'; given are: {names}.")
+        _require_same(path, by_name[name], length, digest)
+    if not any(content.fingerprints):
         warn(f"An older mocap saved {path}: it cannot tell whether its clips have changed; save it anew.")
-    return MotionGraph(tuple(by_name[name] for name in found.names), found.window, found.graph)
+    return MotionGraph(tuple(by_name[name] for name in content.names), content.window, content.graph)
+
+
+def _load_clips(
+    path: str | Path, content: GraphFile, skeleton: Path | None, progress: Progress
+) -> list[Motion]:
+    """Load the clips of a file from where they were, or take the bundled ones."""
+    origins = find_origins(path)
+    if not origins:
+        return [sample(name) for name in content.names]
+    clips = []
+    for origin in progress(origins):
+        clip = load_motion(origin.path, skeleton=skeleton or origin.skeleton, scale=origin.scale)
+        clips.append(mirror(clip) if origin.mirrored else clip)
+    return clips
+
+
+def _require_same(path: str | Path, clip: Motion, length: int, digest: str) -> None:
+    """Refuse a clip that has not the length, in frames, or the fingerprint of the one in the file."""
+    if len(clip) == length and (not digest or fingerprint(clip) == digest):
+        return
+    if _was_bundled_in_0_1(clip.name, length, clip.fps):
+        raise MocapError(
+            f"{path} was built of the clips of mocap 0.1, which later versions do not have. "
+            "Build it anew, or load it with mocap 0.1."
+        )
+    difference = "other poses, bones or units"
+    if len(clip) != length:
+        difference = f"{length} frames then, {len(clip)} now"
+    named = f"another '{shortened(clip.name)}'"
+    raise MocapError(f"{path} was built of {named}: {difference}. Take that clip, or build anew.")
+
+
+def _was_bundled_in_0_1(name: str, length: int, fps: float) -> bool:
+    """Tell whether a clip of so many frames is one that came with mocap 0.1."""
+    intervals = FRAMES_IN_0_1.get(name, 0) - 1
+    return length == int(intervals * fps / FPS) + 1
 
 
 def read(path: str | Path) -> GraphFile:
@@ -175,81 +230,106 @@ def read(path: str | Path) -> GraphFile:
     FormatError, MocapError : as for `load`.
     """
     arrays = _unpack(path)
+    return GraphFile(**{key: arrays[key].tolist() for key in GraphFile._fields[:-1]}, graph=_graph(arrays))
+
+
+def _graph(arrays: Arrays) -> nx.MultiDiGraph:
+    """Build the graph of the arrays of a file."""
     nodes = [(clip, frame) for clip, frame in arrays["nodes"].tolist()]
     labels = np.array(arrays["labels"], object)
-    ways = zip(arrays["costs"].tolist(), arrays["transforms"].tolist(), strict=True)
+    transitions = zip(arrays["costs"].tolist(), arrays["transforms"].tolist(), strict=True)
     graph = nx.MultiDiGraph()
     graph.add_nodes_from(nodes)
-    for (start, end, key, length), is_transition, marks in zip(
-        arrays["edges"].tolist(), arrays["is_transition"].tolist(), arrays["labelled"], strict=True
-    ):
+    rows = zip(arrays["edges"].tolist(), arrays["is_transition"].tolist(), arrays["labelled"], strict=True)
+    for (start, end, key, length), is_transition, marks in rows:
         edge: dict[str, Any] = {"kind": "clip", "frames": length, "labels": frozenset(labels[marks])}
         if is_transition:
-            cost, transform = next(ways)
+            cost, transform = next(transitions)
             edge |= {"kind": "transition", "cost": cost, "transform": PlanarTransform(*transform)}
         graph.add_edge(nodes[start], nodes[end], key, **edge)
-    return GraphFile(**{key: arrays[key].tolist() for key in GraphFile._fields[:-1]}, graph=graph)
+    return graph
 
 
 def _unpack(path: str | Path) -> Arrays:
     """Unpack the arrays of a file, where they are those of a graph, and fit each other."""
     with open_archive(path, OURS) as members:
-        if str(members["format"].read()) not in (KIND, "mocap motion graph"):  # as the first files say
+        if str(members["format"].read()) not in (KIND, FIRST_KIND):
             raise FormatError(path, None, OURS, "an .npz of another kind")
-        if (version := int(members["version"].read())) > 2:
+        version = int(members["version"].read())
+        if version > VERSION:
             raise FormatError(path, None, OURS, f"version {version}, which a newer mocap wrote")
-        sizes: dict[int | str, int] = {2: 2, 3: 3, 4: 4}
-        for key, (kind, shape) in ARRAYS.items():
-            if key not in members:
-                raise FormatError(path, None, OURS, f"one without {key}")
-            own = members[key]
-            fits = len(own.shape) == len(shape) and own.dtype.kind == np.dtype(kind).kind
-            if not fits or any(
-                sizes.setdefault(n, size) != size for n, size in zip(shape, own.shape, strict=True)
-            ):
-                raise FormatError(path, None, f"'{key}' to fit the other arrays", str(own))
+        _require_shapes(path, members)
         arrays = {key: members[key].read() for key in ARRAYS}
-        if version == 1:  # its fingerprints are of all digits
+        if version < VERSION:
             arrays["fingerprints"] = np.zeros_like(arrays["fingerprints"])
-        for what, holds in _rules(arrays):
+        for rule, holds in _rules(arrays):
             if not np.all(holds):
-                raise FormatError(path, None, f"that {what}", "a damaged file")
+                raise FormatError(path, None, f"that {rule}", "a damaged file")
     return arrays
+
+
+def _require_shapes(path: str | Path, members: Mapping[str, Member]) -> None:
+    """Refuse arrays that are missing, or of another kind or shape than `ARRAYS` says."""
+    sizes: dict[int | str, int] = {2: 2, 3: 3, 4: 4}
+    for key, (kind, shape) in ARRAYS.items():
+        if key not in members:
+            raise FormatError(path, None, OURS, f"one without {key}")
+        member = members[key]
+        fits = len(member.shape) == len(shape) and member.dtype.kind == np.dtype(kind).kind
+        if fits:
+            expected = [sizes.setdefault(*pair) for pair in zip(shape, member.shape, strict=True)]
+            fits = expected == list(member.shape)
+        if not fits:
+            raise FormatError(path, None, f"'{key}' to fit the other arrays", str(member))
 
 
 def find_origins(path: str | Path) -> list[Origin]:
     """Find the files of a saved graph's clips, as `load` reads them; none for bundled samples."""
-    found, folder = read(path), Path(path).parent
-    if set(found.names) <= set(SAMPLES) and not found.origins:
+    content = read(path)
+    folder = Path(path).parent
+    if set(content.names) <= set(SAMPLES) and not content.origins:
         return []
-    beside = {file.stem: file for file in sorted(folder.iterdir()) if is_clip(file)}
-    placed: list[Origin] = []
-    for name, text in itertools.zip_longest(found.names, found.origins):
+    neighbours = {file.stem: file for file in sorted(folder.iterdir()) if is_clip(file)}
+    places: list[Origin] = []
+    for name, text in itertools.zip_longest(content.names, content.origins):
         origin = find_again(text, folder) if text else None
-        if origin is None and name not in beside:
+        if origin is None and name not in neighbours:
             raise MocapError(f"The clip '{shortened(name)}' is no longer where {path} found it: give clips=.")
-        placed.append(origin or Origin(beside[name]))
-    return placed
+        places.append(origin or Origin(neighbours[name]))
+    return places
 
 
 def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
     """Yield what must hold; each rule needs those before it."""
-    window, lengths, nodes = arrays["window"], arrays["frames"], arrays["nodes"]
-    edges, is_transition = arrays["edges"], arrays["is_transition"]
+    window = arrays["window"]
+    lengths = arrays["frames"]
+    nodes = arrays["nodes"]
+    names = arrays["names"].tolist()
     yield "origins are one for each clip, or none", len(arrays["origins"]) in (0, len(lengths))
     yield "origins are places of files", [is_origin(text) for text in arrays["origins"].tolist()]
-    yield "window and rate are above 0", 0 < window < 2**31 and 0 < arrays["fps"] < 1e6
-    yield "clips have frames", (lengths > 0) & (lengths < 2**31)
-    yield "there are clips with names of their own", 0 < len(set(arrays["names"].tolist())) == len(lengths)
+    yield "window and rate are above 0", 0 < window < MOST and 0 < arrays["fps"] < FASTEST
+    yield "clips have frames", (lengths > 0) & (lengths < MOST)
+    yield "there are clips with names of their own", 0 < len(set(names)) == len(lengths)
     yield "nodes lie in clips", (nodes[:, 0] >= 0) & (nodes[:, 0] < len(lengths))
     yield "nodes lie in their clips", (nodes[:, 1] >= 0) & (nodes[:, 1] <= lengths[nodes[:, 0]])
     yield "no node comes twice", len(np.unique(nodes, axis=0)) == len(nodes)
-    yield "edges join nodes", (edges >= 0).all() and (edges[:, :2] < len(nodes)).all()
-    yield "no edge comes twice", len(np.unique(edges[:, :3], axis=0)) == len(edges)
-    (clip, leave), (other, enter) = nodes[edges[:, 0]].T, nodes[edges[:, 1]].T
-    stretch = (clip == other) & (leave < enter) & (edges[:, 3] == enter - leave)
-    inside = (leave + window <= lengths[clip]) & (enter >= window) & (edges[:, 3] == window)
-    yield "edges play what lies between their ends", np.where(is_transition, inside, stretch)
-    yield "each transition has a cost", is_transition.sum() == len(arrays["costs"])
+    yield from _rules_of_edges(arrays)
+    yield "each transition has a cost", arrays["is_transition"].sum() == len(arrays["costs"])
     yield "costs are distances", (arrays["costs"] >= 0) & (arrays["costs"] < np.inf)
     yield "transforms are finite", np.isfinite(arrays["transforms"])
+
+
+def _rules_of_edges(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
+    """Yield what must hold of edges, where clips and nodes are right."""
+    window = arrays["window"]
+    edges = arrays["edges"]
+    nodes = arrays["nodes"]
+    yield "edges join nodes", (edges >= 0).all() and (edges[:, :2] < len(nodes)).all()
+    yield "no edge comes twice", len(np.unique(edges[:, :FRAMES], axis=0)) == len(edges)
+    start_clip, start = nodes[edges[:, 0]].T
+    end_clip, end = nodes[edges[:, 1]].T
+    frames = edges[:, FRAMES]
+    plays_on = (start_clip == end_clip) & (start < end) & (frames == end - start)
+    fits = (start + window <= arrays["frames"][start_clip]) & (end >= window)
+    blends = fits & (frames == window)
+    yield "edges play what lies between their ends", np.where(arrays["is_transition"], blends, plays_on)

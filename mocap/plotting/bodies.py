@@ -134,7 +134,7 @@ def film_strip(motions: Sequence[Motion], *, count: int = 6) -> Figure:
     >>> from mocap import datasets
     >>> strip = film_strip([datasets.sample("walk_straight")], count=3)
     >>> [ax.get_title() for ax in strip.axes]
-    ['0.00 s', '5.00 s', '10.00 s']
+    ['0.00 s', '4.82 s', '9.64 s']
     """
     first, clouds = motions[0], [joint_positions(motion) for motion in motions]
     frames = np.unique(np.linspace(0, len(first) - 1, count).round().astype(int))

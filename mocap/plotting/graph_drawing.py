@@ -50,7 +50,7 @@ def timeline(
     >>> clips = [resample(datasets.sample("walk_circle"), 30)]
     >>> arcs = timeline(graphs.build(clips, window=10, threshold=0.03), most=200)
     >>> len(arcs.get_segments()), arcs.axes.texts[0].get_text()
-    (200, 'drawn: the cheapest, 200 of 336 transitions')
+    (200, 'drawn: the cheapest, 200 of 1044 transitions')
     >>> plotting.show(arcs, alt="A clip with arcs from each moment to moments like it.")
     Picture('A clip with arcs from each moment to moments like it.')
 

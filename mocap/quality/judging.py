@@ -257,7 +257,7 @@ def judgement_table(judgements: Sequence[Judgement]) -> str:
     >>> for line in judgement_table([judge(sample("walk_straight"))]).splitlines():
     ...     print(line[:60])
     name          score  height    jolt tremble    sunk    turn
-    walk_straight   0.0  1.69 m    0.38    0.05    0.00    0.23
+    walk_straight   0.0  1.71 m    0.34    0.06    0.00    0.25
     """
     names = list(dict.fromkeys(measure.name for judged in judgements for measure in judged.measures))
     width = max([4, *(len(shortened(judged.name, 40)) for judged in judgements)])

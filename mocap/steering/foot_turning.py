@@ -62,7 +62,7 @@ class FootTurner:
     --------
     >>> from mocap import body, datasets, graphs
     >>> from mocap.steering import Controller, measure_delay
-    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
+    >>> clips = [body.resample(datasets.sample("walk_circle"), 30)]
     >>> graph = graphs.compile_graph(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
     >>> alone = measure_delay(Controller(graph), turns=10).mean
     >>> alone - measure_delay(FootTurner(Controller(graph)), turns=10).mean > 0.3

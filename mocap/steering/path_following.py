@@ -45,7 +45,7 @@ def follow_path(
 
     Seams cost, so a walk can be nearer: the paper's own search, `follow_as_2002`, takes two to three times as
     many, and is nearer to 23 of the 40 lines of `figures/BENCHMARK.md`, mostly by a centimetre. With
-    `Settings(seam=0, match=0, width=200, tries=1)`, where seams are free here, too, it is nearer to 2 of the
+    `Settings(seam=0, match=0, width=200, tries=1)`, where seams are free here, too, it is nearer to 4 of the
     20 of `figures/following.md`. Where a walk leaves its path, the warning says that it may come nearer.
 
     With `bend`, any walk follows any path: the search prices by how much a walk must be turned beyond what

@@ -89,8 +89,9 @@ class PathSearch(LayeredSearch):
         self.route = route
         self.settings = settings
         # Metres by which each frame of all edges moves on (T,).
+        if route.own or route.label[0] >= 0:
+            self.first = len(starts.node)  # all cost the same before they turn, or miss a label
         if route.own:
-            self.first = len(starts.node)  # all cost the same before they turn
             self.progress = np.maximum(route.own.step, CREEP / graph.fps)
         else:
             self.progress = graph.progress

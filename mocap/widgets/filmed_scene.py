@@ -42,7 +42,7 @@ class FilmedScene:
     >>> from mocap.widgets import play
     >>> film = FilmedScene(play(datasets.sample("walk_straight")).scene)
     >>> film.seconds, film.picture(1.0, (320, 200)).shape
-    (10.0, (200, 320, 3))
+    (9.641666666666667, (200, 320, 3))
     """
 
     def __init__(self, scene: dict[str, Any]) -> None:

@@ -98,7 +98,7 @@ def packed_character(
     >>> from mocap.datasets.samples import sample
     >>> character, data = packed_character(sample("walk_straight"), "#000000")
     >>> character["fps"], character["frames"], len(data) == 2 * 3 * character["joints"] * character["frames"]
-    (60.0, 601, True)
+    (60.0, 579, True)
     """
     joints, body = packed_body(motion.skeleton)
     stride = max(1, int(motion.fps / SCREEN))
@@ -197,7 +197,7 @@ class Player(Embedded):
     >>> from mocap import datasets
     >>> player = play(datasets.sample("walk_straight"))
     >>> player.scene["fps"], player.scene["frames"]
-    (120.0, 1201)
+    (120.0, 1158)
     >>> player.page()[:15]
     '<!doctype html>'
     """

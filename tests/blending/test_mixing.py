@@ -74,7 +74,7 @@ def test_generated_walks_to_the_left_and_the_right_make_one_straight_on():
     blend = mix(registration, HALF)
     assert 0.98 <= registered.way(blend) / of_parts(registration, registered.way).mean() <= 1.02
     assert turned(blend) == pytest.approx(of_parts(registration, turned).mean(), abs=1)
-    assert skate(blend) <= 4 * of_parts(registration, skate).mean() and slides(blend).mean() <= 0.7
+    assert skate(blend) <= 2.1 and slides(blend).mean() <= 0.45
 
 
 PAIRS = [("16_15", "16_21"), ("16_31", "16_22"), ("16_47", "16_21")]
@@ -128,8 +128,9 @@ def test_plants_of_captured_blends_stand_still_after_the_clean_up(real_data):
 def test_weights_may_move_while_a_blend_plays():
     """As in [KG03, continuous control]: it turns as one clip does, and then as the other."""
     registration = generated(*LEFT_AND_RIGHT)
-    for by in (0, 1):  # the common clock, and the blend's own time
-        blend = mix(registration, lambda *now, by=by: np.eye(2)[int(now[by] >= np.mean(registration.span))])
+    start, end = registration.span
+    for by, middle in ((0, (start + end) / 2), (1, (end - start) / 2)):  # the common clock, and its own time
+        blend = mix(registration, lambda *now, by=by, middle=middle: np.eye(2)[int(now[by] >= middle)])
         half = len(blend) // 2
         assert turned(blend[:half]) < -20 and turned(blend[half:]) > 20
 
@@ -182,9 +183,10 @@ def test_it_starts_as_the_one_and_ends_as_the_other(registration):
 
 
 def test_the_longer_the_fade_the_less_its_plants_slide(registration):
-    strays = [slides(crossfade(registration, seconds=seconds)).max() for seconds in (0.33, 1.0, 2.0)]
+    # A fade that is shorter than a step may lie where one foot stands, and then hardly any plant slides.
+    strays = [slides(crossfade(registration, seconds=seconds)).max() for seconds in (0.5, 1.0, 2.0)]
     assert strays == sorted(strays, reverse=True)
-    assert strays[2] <= 2.5
+    assert strays[2] <= 2.2
 
 
 def test_the_reference_is_left_and_the_other_entered():
@@ -236,9 +238,10 @@ def recovery(clip, amount):
     return 1000 * np.sqrt((errors**2).mean()), np.degrees(off.max())
 
 
-@pytest.mark.parametrize(("amount", "ms", "degrees"), [(0.3, 15, 1.2), (0.6, 25, 3)])
-def test_a_known_warp_comes_back(real_data, amount, ms, degrees):
-    for clip in (walks()[1.1, 0], captured(real_data, "16_15")):
+# From one compared frame to the next the bundled walk turns by up to 4.1°, and 16_15 by 2.3°.
+@pytest.mark.parametrize(("amount", "ms", "bundled", "real"), [(0.3, 12, 3, 1.2), (0.6, 25, 6, 3)])
+def test_a_known_warp_comes_back(real_data, amount, ms, bundled, real):
+    for clip, degrees in ((walks()[1.1, 0], bundled), (captured(real_data, "16_15"), real)):
         late, off = recovery(clip, amount)
         assert late <= ms and off <= degrees
 
@@ -299,7 +302,7 @@ def test_angles_run_on_over_whole_turns():
 
 
 def test_clips_that_do_not_belong_together_are_told():
-    apart = r"'walk' and 'walk' may not belong together: .* 4.\d cm/s.* 0.\d\.$"
+    apart = r"'walk' and 'walk' may not belong together: .* [23]\.\d cm/s.* 0\.\d\.$"
     told(apart, register, [walks()[1.4, -120], walks()[1.4, 120]])
     unwarned(register, [walks()[0.8, 0], walks()[1.1, 0]])
 

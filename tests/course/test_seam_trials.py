@@ -52,10 +52,10 @@ def test_a_passage_is_the_join_at_the_middle_of_the_match(window):
 
 def walked(window, weights=cubic_weights):
     """Blend two moments of a walk; the window starts at frame 10 of 100."""
-    second = lay_window_on(WALK, 500, WALK, 233, window)
-    mixed = blend(WALK[500 : 500 + window], second[233 : 233 + window], weights(window))
-    joined = splice(WALK, 500, mixed, second, 233 + window)
-    return Passage(joined[490:590], WALK[490:590], second[223:323], 10, weights(window))
+    second = lay_window_on(WALK, 500, WALK, 242, window)
+    mixed = blend(WALK[500 : 500 + window], second[242 : 242 + window], weights(window))
+    joined = splice(WALK, 500, mixed, second, 242 + window)
+    return Passage(joined[490:590], WALK[490:590], second[232:332], 10, weights(window))
 
 
 def test_two_straight_lines_give_the_jolt_of_the_weights():
@@ -95,6 +95,6 @@ def test_longer_blends_add_less_and_linear_weights_add_more():
 
 def test_inertialization_is_measured_against_the_second_clip():
     first, second = walked(40)[1:3]
-    result = inertialize(WALK, 500, WALK, 233, 40)[490:590]
+    result = inertialize(WALK, 500, WALK, 242, 40)[490:590]
     assert Passage(result, first, second, 10, np.zeros(40)).jolts[3].max() < 0.2
     assert Passage(second, second, second, 10, np.zeros(40)).jolts[3] == pytest.approx(0)

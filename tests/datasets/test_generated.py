@@ -1,4 +1,4 @@
-"""The bundled clips: real walks bound them, the jump falls freely, feet stand and joints keep limits."""
+"""The bundled clips: captured people bound them, the jump falls freely, feet stand and joints keep limits."""
 
 from functools import cache
 from itertools import pairwise
@@ -6,14 +6,14 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from bundled_clips import bundled_clips
-from jumping import generate_jump, plan_jump
 from scipy.signal import find_peaks
-from walking import generate_walk
+from walking import generate, generate_walk
+from walking.jumping import generate_jump, plan_jump
 from walking.walking_body import FOOT, SKELETON
 
 import mocap
 from mocap._shared.arrays import runs
-from mocap.body import Motion, rotations
+from mocap.body import Motion, circle, rotations
 from mocap.body.kinematics import forward_kinematics, joint_positions
 from mocap.datasets import SAMPLES, sample, samples
 from mocap.graphs import motion_graph, pruning
@@ -31,7 +31,7 @@ def check_floor(motion, heel):
         assert heels[:, 1].min() > -heel
 
 
-def check_limits(motion, hip, ankle, knee=(4, 125), toes=(-65, 1e-6)):
+def check_limits(motion, hip, ankle):
     """Knees and elbows are hinges; joints turn within the limits given, degrees."""
     for side in "lr":
         turn = {
@@ -39,10 +39,10 @@ def check_limits(motion, hip, ankle, knee=(4, 125), toes=(-65, 1e-6)):
             for bone in ("femur", "tibia", "foot", "toes", "radius")
         }
         for bone, (least, most) in {
-            "tibia": knee,
+            "tibia": (0.5, 125),
             "femur": hip,
             "foot": ankle,
-            "toes": toes,
+            "toes": (-70, 1e-6),
         }.items():
             assert least < turn[bone][:, 0].min() < turn[bone][:, 0].max() < most, bone
         assert np.abs(turn["tibia"][:, 1:]).max() < 1e-6
@@ -132,53 +132,79 @@ def measure(motion: Motion) -> dict[str, float]:
     }
 
 
-# The least and the most that `measure` finds in real clips: subject 16 of the CMU Graphics Lab Motion
-# Capture Database, and for the winding walks also the homework's three clips.
-REAL = {  # of winding walks, straight ones, and runs
-    "speed": ((0.61, 1.05), (0.93, 1.32), (2.3, 4.2)),
-    "cadence": ((80, 106), (99, 110), (149, 178)),
-    "stride": ((0.84, 1.22), (1.02, 1.47), (1.8, 2.9)),
-    "bob": ((2.1, 2.9), (2.9, 3.9), (7.4, 11.6)),
-    "sway": (None, (4.5, 5.1), None),
-    "knee": ((52, 66), (56, 62), (70, 93)),
-    "hip": ((42, 51), (46, 56), (51, 76)),
-    "ankle": ((32, 39), (33, 44), (48, 62)),
-    "elbow straightest": ((17, 27), (16, 20), (87, 106)),
-    "elbow most bent": ((37, 48), (36, 43), (116, 144)),
-    "stance": ((50, 63), (46, 60), None),
-    "double support": ((4, 26), (1, 22), (0, 0)),
+# The least and the most that `measure` finds in clips of the CMU Graphics Lab Motion Capture Database: walks
+# of subjects 02, 16 and 49, runs of subject 16; for the winding walks also the homework's three clips.
+WINDING = {
+    "speed": (0.61, 1.65),
+    "cadence": (80, 136),
+    "stride": (0.84, 1.53),
+    "bob": (2.1, 5.9),
+    "knee": (52, 71),
+    "hip": (42, 62),
+    "ankle": (29, 50),
+    "elbow straightest": (6, 27),
+    "elbow most bent": (37, 64),
+    "stance": (38, 63),
+    "double support": (0, 26),
 }
-WINDING, STRAIGHT, RUNNING = range(3)
-KINDS = {"walk_circle": WINDING, "walk_curve_1": WINDING, "walk_curve_2": WINDING}
-KINDS |= {"walk_straight": STRAIGHT, "jog": RUNNING}
+STRAIGHT = {
+    "speed": (0.88, 1.70),
+    "cadence": (87, 125),
+    "stride": (1.02, 1.64),
+    "bob": (1.8, 5.7),
+    "sway": (2.9, 5.5),
+    "knee": (56, 73),
+    "hip": (46, 64),
+    "ankle": (29, 51),
+    "elbow straightest": (8, 29),
+    "elbow most bent": (36, 89),
+    "stance": (42, 60),
+    "double support": (0, 22),
+}
+RUNNING = {
+    "speed": (2.3, 4.2),
+    "cadence": (149, 178),
+    "stride": (1.8, 2.9),
+    "bob": (7.4, 11.6),
+    "knee": (70, 93),
+    "hip": (51, 76),
+    "ankle": (48, 62),
+    "elbow straightest": (87, 106),
+    "elbow most bent": (116, 144),
+    "double support": (0, 0),
+}
+KINDS = {
+    "walk_circle": WINDING,
+    "walk_curve_1": WINDING,
+    "walk_curve_2": WINDING,
+    "walk_straight": STRAIGHT,
+    "jog": RUNNING,
+}
+# The 99th percentile of accelerations, m/s²: the median over walks 15, 16, 31, 32, 47, 58 and runs 35, 36, 45
+# of CMU's subject 16. A walk at 1.3 m/s, where those are at 1.1, may push its feet a tenth more.
+WALK_PUSH = {"root": 25, "head": 51, "foot": 56, "tibia": 47, "wrist": 71}
+JOG_PUSH = {"root": 88, "head": 68, "foot": 130, "tibia": 115, "wrist": 184}
 
 
-@pytest.mark.parametrize(("name", "kind"), KINDS.items())
-def test_a_clip_moves_as_real_people_do(name, kind):
+@pytest.mark.parametrize(("name", "limits"), KINDS.items())
+def test_a_clip_moves_as_captured_people_do(name, limits):
     for motion in parts(sample("jog"), "jog") if name == "jog" else [sample(name)]:
         measured = measure(motion)
-        limits = {key: row[kind] for key, row in REAL.items() if row[kind]}
-        outside = {k: measured[k] for k, (low, high) in limits.items() if not low <= measured[k] <= high}
+        outside = {
+            key: measured[key] for key, (low, high) in limits.items() if not low <= measured[key] <= high
+        }
         assert outside == {}
 
 
-# The 99th percentile of accelerations in m/s²: the median over CMU's walks 15, 16, 31, 32, 47, 58 and
-# its runs 35, 36, 45. What noise there is in captured data adds to these, so they bound from above only.
-PUSH = {
-    "walk": {"root": 25, "head": 51, "foot": 51, "tibia": 47, "wrist": 71},
-    "run": {"root": 88, "head": 68, "foot": 130, "tibia": 115, "wrist": 184},
-}
-
-
 @every_clip
-def test_a_clip_is_as_smooth_as_real_ones_and_its_frames_and_feet_keep_apart(name):
+def test_a_clip_is_as_smooth_as_captured_ones_and_its_frames_and_feet_keep_apart(name):
     motion, at = sample(name), places(name)
     push = np.linalg.norm(np.diff(at, 2, axis=0), axis=-1) * motion.fps**2
-    for bone, most in PUSH["run" if name == "jog" else "walk"].items():
+    for bone, most in (JOG_PUSH if name == "jog" else WALK_PUSH).items():
         for joint in {bone, "l" + bone, "r" + bone} & set(SKELETON.names):
             assert np.percentile(push[:, SKELETON.index(joint)], 99) < most, joint
-    check_floor(motion, heel=1e-3)
-    check_limits(motion, hip=(-70, 35), ankle=(-45, 45))
+    check_floor(motion, heel=8e-3 if name == "jog" else 5e-3)
+    check_limits(motion, hip=(-70, 35), ankle=(-45, 50))
     left, right = at[:, SKELETON.index("lfoot")], at[:, SKELETON.index("rfoot")]
     assert np.linalg.norm(left - right, axis=-1).min() > 0.04
     frames = motion.rotations.reshape(len(motion), -1)
@@ -218,6 +244,33 @@ def test_a_clip_walks_into_its_style_and_out_again_twice(name):
     assert motion.labels[name].mean() > 0.5
 
 
+def knee_bends(motion: Motion) -> np.ndarray:
+    """Return how far the left knee is bent in each frame, degrees."""
+    turns = rotations.to_rotvec(motion.rotations[:, SKELETON.index("ltibia")])
+    return np.degrees(np.linalg.norm(turns, axis=-1))
+
+
+def test_legs_swing_bent_and_stand_nearly_straight():
+    walk = generate_walk([[0, 0], [0, 9]])
+    bends = knee_bends(walk)
+    standing = bends[walk.contacts["lfoot"]]  # the sole is flat
+    assert 57 < bends.max() < 67
+    assert 10 < np.median(standing) < 17
+    assert 4 < bends.min() < 9
+
+
+def test_people_slow_down_in_curves_unless_the_speed_is_given():
+    def speed(motion: Motion) -> float:
+        return float(np.linalg.norm(np.diff(motion.root_positions[:, [0, 2]], axis=0), axis=1).mean() * 120)
+
+    straight = speed(generate_walk([[0, 0], [0, 9]]))
+    wide = speed(generate_walk(circle(2.0).points))
+    narrow = speed(generate_walk(circle(1.0).points))
+    assert 1.2 < straight < 1.4
+    assert 0.9 < narrow < wide - 0.05 < straight - 0.1
+    assert speed(generate_walk(circle(1.0).points, speed=1.3)) > narrow + 0.15
+
+
 def test_at_4_cm_the_graph_leads_into_every_style_and_out_again():
     clips = [mocap.resample(sample(name), 15) for name in SAMPLES]  # at 30 Hz it is the same, and takes 6 s
     graph = pruning.prune(motion_graph.build(clips, window=5, threshold=0.04))
@@ -229,12 +282,15 @@ def test_at_4_cm_the_graph_leads_into_every_style_and_out_again():
         leaving[clip] += kind == "transition" and clip != other
     assert min(leaving) > 50
     for clip, frames in zip(clips, kept, strict=True):
-        assert all(frames[mask].mean() > 0.9 for mask in clip.labels.values()), clip.name
+        assert all(frames[mask].mean() > 0.85 for mask in clip.labels.values()), clip.name
+    assert np.concatenate(kept).mean() > 0.95
 
 
 test_bad_wishes_are_told = refusals(
     ("No bundled clip 'waltz'; there are walk_circle, .*, bend_walk and 24 walks", sample, "waltz"),
     ("there are: walk, sneak, jog", lambda: generate_walk([[0, 0], [0, 5]], style="hop")),
+    ("a speed above 0, got -1", lambda: generate_walk([[0, 0], [0, 5]], speed=-1)),
+    ("No bundled clip 'waltz'; there are: walk_circle", generate, "waltz"),
     ("longer than the legs", lambda: generate_walk([[0, 0], [0, 50]], speed=6)),
 )
 

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap._shared.arrays import runs
-from mocap.body import concatenate, joint_positions, resample
+from mocap.body import concatenate, heading, joint_positions, resample
 from mocap.datasets.samples import SAMPLES, sample
 from mocap.feet.footplants import find_footprints, hysteresis, mark_plants, settle, standing_tracks
 from tests.refusals import refused
@@ -35,7 +35,10 @@ def test_the_plants_of_the_bundled_clips_are_found(name, fps):
 def test_noise_of_half_a_millimetre_does_not_hide_the_plants():
     clip = sample("walk_straight")
     noise = np.random.default_rng(0).normal(size=clip.root_positions.shape) * 5e-4
-    assert f1(mark_plants(replace(clip, root_positions=clip.root_positions + noise)), clip) > 0.85
+    found = mark_plants(replace(clip, root_positions=clip.root_positions + noise))
+    # None is hidden; but feet that roll over heel and toes are slow before they stand and after.
+    assert all(found.contacts[joint][clip.contacts[joint]].mean() > 0.97 for joint in JOINTS)
+    assert f1(found, clip) > 0.8
 
 
 def test_one_who_stands_still_stands_on_both_feet_all_the_time():
@@ -48,7 +51,9 @@ def test_one_who_stands_still_stands_on_both_feet_all_the_time():
 
 def test_feet_that_are_never_slow_have_no_plants():
     jog = sample("jog")
-    ride = jog.root_positions + np.arange(len(jog))[:, None] / jog.fps * [0.0, 1.5, 3.0]
+    way = heading(jog.rotations[:, 0])  # on a cart that goes where the jog does: none comes towards the other
+    cart = np.stack([np.sin(way), np.full(len(jog), 1.5), np.cos(way)], axis=1)
+    ride = jog.root_positions + np.cumsum(cart, axis=0) / jog.fps
     assert not any(mark_plants(replace(jog, root_positions=ride)).contacts[joint].any() for joint in JOINTS)
 
 

@@ -32,7 +32,7 @@ from tests.strategies import planar, random_motion, seeds
 WALK = sample("walk_straight")
 LEGS = find_legs(WALK.skeleton)
 KNEES = [leg.knee for leg in LEGS]
-SEAM = (500, 233)  # a good one: the same moment of two steps
+SEAM = (500, 242)  # a good one: the same moment of two steps, but for a frame or two
 JOINED = {way: way(WALK, *(SEAM[0], WALK, SEAM[1]), 40) for way in (join, inertialize)}
 
 
@@ -167,11 +167,11 @@ def test_plants_stand_where_they_are_held():
     assert np.abs(moved[cleaned.contacts["rtoes"], LEGS[1].ball]).max() < 1e-9
 
 
-def lingering(name, width, last):
-    """A clip whose feet are marked as planted half a width before they stand and after."""
+def lingering(name):
+    """Three seconds of a clip whose left foot is marked as planted 0.23 s before it stands and after."""
     clip = sample(name)
-    late = {joint: maximum_filter1d(marks, width) for joint, marks in clip.contacts.items()}
-    return replace(clip, contacts=late, name="n" * 300)[:last]
+    late = {joint: maximum_filter1d(clip.contacts[joint], 57) for joint in ("lfoot", "ltoes")}
+    return replace(clip, contacts=clip.contacts | late, name="n" * 300)[:360]
 
 
 def planted(motion):
@@ -180,23 +180,23 @@ def planted(motion):
 
 @pytest.mark.filterwarnings("ignore:.*let go")
 def test_a_plant_out_of_reach_is_moved_and_then_held(monkeypatch):
-    clip = lingering("jog", 65, 240)
+    clip = lingering("sneak")
     moved = clean_up(clip)
     monkeypatch.setattr(footskate, "FALLS", 0.0)  # no move is good enough
     unmoved = clean_up(clip)
-    # Room for other arithmetic, under which other frames may be let go: all 775 are kept, and 686 unmoved.
+    # Room for other arithmetic, under which other frames may be let go: all 735 are kept, and 476 unmoved.
     assert planted(moved) > 0.96 * planted(clip)
-    assert planted(unmoved) < 0.94 * planted(clip)
+    assert planted(unmoved) < 0.8 * planted(clip)
 
 
 def test_a_plant_that_stays_out_of_reach_is_let_go_with_a_warning():
-    clip = lingering("walk_straight", 61, 360)
+    clip = lingering("walk_straight")
     gone = r"so they are let go: \w+ \d+-\d+, \w+ \d+-\d+ and \d+ more\.$"
     cleaned = told(gone, clean_up, clip)
     assert slides(cleaned).max() < 1e-9
     assert np.abs(cleaned.root_positions - clip.root_positions).max() <= 0.0205
-    # Room for other arithmetic, under which other frames are let go: from 838 to 901 of 1121 are kept.
-    assert 0.65 * planted(clip) < planted(cleaned)
+    # Room for other arithmetic, under which other frames are let go: from 643 to 677 of 762 are kept.
+    assert 0.75 * planted(clip) < planted(cleaned)
 
 
 def test_two_plants_that_are_let_go_are_both_named():

@@ -144,7 +144,7 @@ def test_matching_follows_a_circle_as_the_table_says(clips):
 @pytest.mark.exhaustive
 def test_every_way_is_worth_what_the_table_says(clips):
     some, speed = clips
-    made, refused = compare_control.ways(NAME, some)
+    made, refused = compare_control.prepare_ways(NAME, some)
     assert not refused
     for label, (make, _) in made.items():
         judged, off = rows(label)

@@ -59,7 +59,7 @@ def asked_anywhere(seed):
 
 
 def test_what_no_walk_gives_is_bent_and_still_met():
-    for seed in range(6 if SWEEP else 2):
+    for seed in range(1, 7 if SWEEP else 3):
         met(*asked_anywhere(seed))
 
 
@@ -71,7 +71,7 @@ def test_a_clip_is_its_own_in_between():
 
 def test_poses_of_a_clip_that_is_not_in_the_graph_are_met_at_its_own_rate():
     clip = samples.sample("walk_straight")
-    met(clip[120:], clip[:601], 5.0)
+    met(clip[140:], clip[:601], 5.0)
 
 
 def test_what_cannot_be_met_is_refused(monkeypatch):

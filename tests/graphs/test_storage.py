@@ -9,9 +9,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from mocap.body import Skeleton
+from mocap.body import Skeleton, resample
 from mocap.body.planar import IDENTITY
 from mocap.datasets.clip_origins import Origin
+from mocap.datasets.samples import FRAMES_IN_0_1, sample
 from mocap.errors import FormatError, MocapError, MocapWarning
 from mocap.files import load_save
 from mocap.graphs import build, from_transitions, prune, storage, summary
@@ -90,6 +91,21 @@ def test_clips_that_changed_are_named(saved):
     refused("needs the clip 'b ü'; given are: a", storage.load, saved, [a])
     same = replace(a, contacts={}, name="a")
     assert storage.load(saved, [same, b]).clips[0] is same
+
+
+@pytest.mark.parametrize("fps", [30, 60, 120])
+def test_a_graph_of_the_clips_of_mocap_0_1_is_refused_by_that_name(tmp_path, fps):
+    straight = resample(sample("walk_straight"), fps)
+    graph = build([straight], window=8, threshold=1e-9)
+    storage.save(graph, tmp_path / "graph.npz")
+    assert storage.load(tmp_path / "graph.npz").clips[0].name == "walk_straight"
+    frames = (FRAMES_IN_0_1["walk_straight"] - 1) * fps // 120 + 1
+    nodes = np.array([[0, 0], [0, frames]])
+    edges = np.array([[0, 1, 0, frames]])
+    older = changed(tmp_path / "graph.npz", frames=np.array([frames]), nodes=nodes, edges=edges)
+    words = "built of the clips of mocap 0.1, .* Build it anew, or load it with mocap 0.1"
+    refused(words, storage.load, older)
+    refused(words, storage.load, older, [straight])
 
 
 MISFITS = [

@@ -304,7 +304,7 @@ def test_a_walk_stays_within_all_limits():
 
 
 BEYOND = [
-    ([("lfemur", 80, (1, 0, 0))], "lfemur", "back"),
+    ([("lfemur", 60, (1, 0, 0))], "lfemur", "back"),
     ([("lfemur", 100, (0, 0, 1))], "lfemur", "out"),
     ([("rfemur", -100, (0, 0, 1))], "rfemur", "out"),
     ([("rfemur", 85, (0, 0, 1))], "rfemur", "out"),  # across the other leg

@@ -29,14 +29,14 @@ def test_jumps_are_those_of_curves_known_in_closed_form():
 def test_a_clip_s_own_frames_are_nothing_special():
     walk = generate("walk_straight")  # as stored, feet tremble by a nanometre
     inside = [seam_quality(walk, (start, start + 40), USUAL) for start in range(40, 1100, 120)]
-    assert np.mean([q.velocity_jump <= 1 for q in inside]) > 0.9
+    assert np.mean([q.velocity_jump <= 1.001 for q in inside]) > 0.9
     assert max(q.slide for q in inside) < 1e-9
 
 
 def test_a_cut_shows_and_a_blend_does_not():
     cut = concatenate([WALK[:500], WALK[320:]])
     assert seam_quality(cut, (500, 501), USUAL).velocity_jump > 20
-    assert seam_quality(join(WALK, 500, WALK, 233, 40), (500, 540), USUAL).velocity_jump < 1
+    assert seam_quality(join(WALK, 500, WALK, 242, 40), (500, 540), USUAL).velocity_jump < 1
 
 
 def test_plants_that_touch_the_seam_slide_and_no_plants_do_not():
@@ -52,8 +52,8 @@ FROZEN = replace(WALK[:9], root_positions=WALK.root_positions[[0] * 9], rotation
 
 test_what_is_measured_must_go_together = refusals(
     *(
-        ("1201 frames, and no seam", seam_quality, WALK, seam, USUAL)
-        for seam in ((-1, 5), (5, 5), (1190, 1202))
+        (f"{len(WALK)} frames, and no seam", seam_quality, WALK, seam, USUAL)
+        for seam in ((-1, 5), (5, 5), (len(WALK) - 11, len(WALK) + 1))
     ),
     ("one clip or more, got none", spread, []),
     ("takes three frames; 'walk_straight' has 2", jumps, WALK[:2]),

@@ -20,7 +20,7 @@ from tests.methods.parametric_graphs.built import walking
 from tests.refusals import refused
 from tests.widgets.steerable import Dot
 
-SPEED = 0.8
+SPEED = 1.0
 
 
 @cache

@@ -24,11 +24,20 @@ from mocap.body.planar import lay_on
 from mocap.course import diagrams
 from mocap.plotting.picture import few_colours
 
-WINDOW, FPS = 10, 30  # frames, frames per second
-PANEL, GAP, HEAD = (760, 520), 24, 76  # pixels: a step, what is between them, the heading
-INK, DISC, PAPER = "#222222", "#0072B2", "#FFFFFF"
-SMOOTH = Image.Resampling.LANCZOS
+WINDOW = 10  # frames
+FPS = 30  # frames per second
+PANEL = (760, 520)  # pixels of a step
 SMALL = (620, 440)  # pixels of a drawing on the sheet of all
+GAP = 24  # pixels between steps
+HEAD = 76  # pixels, the height of the heading
+HEADING_TOP = 18  # pixels above the heading
+HEADING_SIZE = 38  # pixels, of its letters
+DISC_SIZE = 48  # pixels, the diameter of the disc that holds the number of a step
+NUMBER_SIZE = 28  # pixels, of its letters
+INK = "#222222"
+DISC = "#0072B2"
+PAPER = "#FFFFFF"
+SMOOTH = Image.Resampling.LANCZOS
 FOUR = (1, 2, 3, 4)
 Steps = Iterator[Any]  # of figures, or of what a step has moved on one
 
@@ -40,10 +49,19 @@ def _walks(frames: int) -> list[Motion]:
 def _pair() -> tuple[Motion, Motion]:
     """Give the two windows of notebook 03, which match."""
     circle, curve = (resample(datasets.sample(f"walk_{name}"), FPS) for name in ("circle", "curve_1"))
-    return circle[56 : 56 + WINDOW], curve[97 : 97 + WINDOW]
+    return circle[47 : 47 + WINDOW], curve[80 : 80 + WINDOW]
 
 
-def _grid() -> Steps:
+def _window() -> Steps:
+    window, _ = _pair()
+    return (diagrams.window_cloud(window, step=step) for step in FOUR)
+
+
+def _theta() -> Steps:
+    return (diagrams.laying_on(*_pair(), step=step) for step in FOUR)
+
+
+def _minima() -> Steps:
     grid = matching.distance_grid(*_walks(180), window=WINDOW)
     low = matching.local_minima(grid)
     costs = np.sqrt(grid[tuple(low.T)])
@@ -56,21 +74,48 @@ def _laid() -> Steps:
     yield diagrams.alignment(first, second[20:], lay_on(second[20:], first, len(first) - 1))
 
 
-def _ball() -> Steps:
-    start, end = np.array([np.cos(0.3), np.sin(0.3), 0.0, 0.0]), rotations.about_y(2.2)
-    ways = {"slerp": np.stack([rotations.slerp(start, end, share) for share in np.linspace(0, 1, 31)])}
-    return (diagrams.turning_paths(ways, share) for share in (0.0, 0.35, 0.7, 1.0))
+def _alpha() -> Steps:
+    return map(diagrams.blended_seam, FOUR)
+
+
+def _slerp() -> Steps:
+    start = np.array([np.cos(0.3), np.sin(0.3), 0.0, 0.0])
+    end = rotations.about_y(2.2)
+    arc = np.stack([rotations.slerp(start, end, share) for share in np.linspace(0, 1, 31)])
+    return (diagrams.turning_paths({"slerp": arc}, share) for share in (0.0, 0.35, 0.7, 1.0))
+
+
+def _graph() -> Steps:
+    return map(diagrams.nodes_and_edges, range(6))
+
+
+def _tarjan() -> Steps:
+    return map(diagrams.tarjan_steps(graphs.notes_example()), (0, 4, 6, 14, 16, 99))
+
+
+def _search() -> Steps:
+    return map(diagrams.search_steps(graphs.notes_example(), 6, 2), (0, 2, 3, 9, 11, 13))
 
 
 def _path() -> Steps:
+    corner = GroundPath([[0, 0], [0, 3], [3, 3]])
     rounded = arcs((0, 0), heading=0.0, pieces=[(1.5, 0), (0.75 * np.pi, np.pi / 2), (1.5, 0)])
-    return map(diagrams.two_distances(GroundPath([[0, 0], [0, 3], [3, 3]]), rounded), (0, 3, 5, 8))
+    return map(diagrams.two_distances(corner, rounded), (0, 3, 5, 8))
+
+
+def _pinned() -> Steps:
+    return map(diagrams.knee_triangle, (1, 2, 3))
 
 
 def _layers() -> Steps:
-    asked = GroundPath([[0, 0], [0, 2.1], [0.7, 2.1], [0.7, 0]]).at(0.7 * np.arange(7)) @ [1j, 1]
-    draw_stage = diagrams.layer_steps(asked, 5)
+    hairpin = GroundPath([[0, 0], [0, 2.1], [0.7, 2.1], [0.7, 0]])
+    goals = hairpin.at(0.7 * np.arange(7)) @ [1j, 1]
+    draw_stage = diagrams.layer_steps(goals, 5)
     return (draw_stage(step, 4, True) for step in (6, 9, 13, 17, 18, 25))
+
+
+def _quaternion() -> Steps:
+    return map(diagrams.half_turns, range(3))
 
 
 def _tree() -> Steps:
@@ -79,32 +124,21 @@ def _tree() -> Steps:
 
 
 WHOLE = "04-laid-on"  # one figure that shows its steps itself
+# reads: statement: a table of the drawings: file, heading and steps
 BOARD: dict[str, tuple[str, Callable[[], Steps]]] = {
-    "01-window": (
-        "A window as a cloud of points",
-        lambda: (diagrams.window_cloud(_pair()[0], step=step) for step in FOUR),
-    ),
-    "02-theta": (
-        "Four steps to the best turn and shift",
-        lambda: (diagrams.laying_on(*_pair(), step=step) for step in FOUR),
-    ),
-    "03-minima": ("A grid of distances, its minima, those below a threshold", _grid),
+    "01-window": ("A window as a cloud of points", _window),
+    "02-theta": ("Four steps to the best turn and shift", _theta),
+    "03-minima": ("A grid of distances, its minima, those below a threshold", _minima),
     "04-laid-on": ("One clip laid on the end of another: turn, then shift", _laid),
-    "05-alpha": ("The share α of the first clip over a window", lambda: map(diagrams.blended_seam, FOUR)),
-    "06-slerp": ("From one rotation to another on the ball", _ball),
-    "07-graph": ("Two clips become a graph", lambda: map(diagrams.nodes_and_edges, range(6))),
-    "08-tarjan": (
-        "Tarjan's algorithm on eight nodes",
-        lambda: map(diagrams.tarjan_steps(graphs.notes_example()), (0, 4, 6, 14, 16, 99)),
-    ),
-    "09-search": (
-        "Branch and bound on eight nodes",
-        lambda: map(diagrams.search_steps(graphs.notes_example(), 6, 2), (0, 2, 3, 9, 11, 13)),
-    ),
+    "05-alpha": ("The share α of the first clip over a window", _alpha),
+    "06-slerp": ("From one rotation to another on the ball", _slerp),
+    "07-graph": ("Two clips become a graph", _graph),
+    "08-tarjan": ("Tarjan's algorithm on eight nodes", _tarjan),
+    "09-search": ("Branch and bound on eight nodes", _search),
     "10-path": ("Two distances from a path: at equal arc length, to the nearest point", _path),
-    "11-pinned": ("A leg that reaches its pinned foot", lambda: map(diagrams.knee_triangle, FOUR[:3])),
+    "11-pinned": ("A leg that reaches its pinned foot", _pinned),
     "12-layers": ("The layered search along a hairpin: cross out, keep the best four, lengthen", _layers),
-    "13-quaternion": ("A vector is turned in two halves", lambda: map(diagrams.half_turns, range(3))),
+    "13-quaternion": ("A vector is turned in two halves", _quaternion),
     "14-tree": ("Forward kinematics, joint after joint", _tree),
 }
 
@@ -131,12 +165,20 @@ def write_board(out: Path, progress: Progress = iter) -> list[Path]:
 
 def _laid_out(pictures: list[Image.Image], room: tuple[int, int], columns: int, head: int = 0) -> Image.Image:
     """Lay pictures on a page, row by row, each fitted into a room of pixels."""
-    wide, high = room[0] + GAP, room[1] + GAP
-    page = Image.new("RGB", (columns * wide + GAP, -(-len(pictures) // columns) * high + head + GAP), PAPER)
+    rows = -(-len(pictures) // columns)
+    width = GAP + columns * (room[0] + GAP)
+    height = head + rows * (room[1] + GAP) + GAP
+    page = Image.new("RGB", (width, height), PAPER)
     for number, picture in enumerate(pictures):
-        place = (GAP + number % columns * wide, head + number // columns * high)
-        page.paste(ImageOps.pad(picture, room, SMOOTH, PAPER), place)
+        fitted = ImageOps.pad(picture, room, SMOOTH, PAPER)
+        page.paste(fitted, _corner(number, room, columns, head))
     return page
+
+
+def _corner(number: int, room: tuple[int, int], columns: int, head: int) -> tuple[int, int]:
+    """Return the upper left corner of a picture on a page, by its number, in pixels."""
+    row, column = divmod(number, columns)
+    return GAP + column * (room[0] + GAP), head + row * (room[1] + GAP)
 
 
 @cache
@@ -160,23 +202,29 @@ def board_sheet(name: str) -> Image.Image:
     """
     heading, _ = BOARD[name]
     pictures = [Image.open(io.BytesIO(picture)).convert("RGB") for picture in pictures_of(name)]
-    alone = name == WHOLE
-    room = ((1 + alone) * PANEL[0], PANEL[1])
+    room = (2 * PANEL[0], PANEL[1]) if name == WHOLE else PANEL
     columns = min(len(pictures), 2 if len(pictures) == 4 else 3)
     page = _laid_out(pictures, room, columns, HEAD)
     pen = ImageDraw.Draw(page)
-    pen.text((GAP, 18), heading, INK, font_of(38, bold=True))
-    for number in range(0 if alone else len(pictures)):
-        x, y = GAP + number % columns * (room[0] + GAP), HEAD + number // columns * (room[1] + GAP)
-        pen.ellipse([x, y, x + 48, y + 48], DISC)
-        pen.text((x + 24, y + 24), str(number + 1), PAPER, font_of(28, bold=True), anchor="mm")
+    pen.text((GAP, HEADING_TOP), heading, INK, font_of(HEADING_SIZE, bold=True))
+    if name != WHOLE:
+        for number in range(len(pictures)):
+            _draw_number(pen, str(number + 1), _corner(number, room, columns, HEAD))
     return page
+
+
+def _draw_number(pen: ImageDraw.ImageDraw, number: str, corner: tuple[int, int]) -> None:
+    """Draw the number of a step on a disc, with its upper left corner in pixels."""
+    x, y = corner
+    middle = (x + DISC_SIZE / 2, y + DISC_SIZE / 2)
+    pen.ellipse([x, y, x + DISC_SIZE, y + DISC_SIZE], DISC)
+    pen.text(middle, number, PAPER, font_of(NUMBER_SIZE, bold=True), anchor="mm")
 
 
 @cache
 def font_of(size: int, *, bold: bool = False) -> ImageFont.FreeTypeFont:
     """Give the font of Matplotlib's pictures, which has Greek letters."""
-    found = find_spec("matplotlib")
-    assert found and found.origin
-    fonts = Path(found.origin).parent / "mpl-data" / "fonts" / "ttf"
+    matplotlib = find_spec("matplotlib")
+    assert matplotlib and matplotlib.origin
+    fonts = Path(matplotlib.origin).parent / "mpl-data" / "fonts" / "ttf"
     return ImageFont.truetype(str(fonts / f"DejaVuSans{'-Bold' if bold else ''}.ttf"), size)

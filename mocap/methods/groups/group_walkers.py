@@ -109,7 +109,7 @@ def walk_group(
     ...     print(said)
     2 characters
     4.0 s
-    1.7 cm from where they should be by then (95 % within 3 cm)
+    3.7 cm from where they should be by then (95 % within 8 cm)
     1.50 m apart at least
     100% of the planted frames kept
 

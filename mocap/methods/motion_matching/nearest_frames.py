@@ -202,14 +202,14 @@ def foresee(database: PoseDatabase, frame: int, goal: complex, halflife: float) 
     >>> table = tabulate([body.resample(datasets.sample("walk_straight"), 30)])
     >>> ahead = foresee(table, 100, 1.3 + 0j, 0.27) * table.scale[FUTURE] + table.mean[FUTURE]
     >>> ahead[4:6].round(1)  # after one second she would be 1.2 m ahead
-    array([0. , 1.2])
+    array([0. , 1.3])
 
     Asked to go to the left, she comes there in a bend, 0.8 m to the left, and then faces to the left:
 
     >>> ahead = foresee(table, 100, 1.3j, 0.27) * table.scale[FUTURE] + table.mean[FUTURE]
     >>> places, directions = ahead.reshape(2, 3, 2).round(2).tolist()
     >>> places, directions
-    ([[0.11, 0.29], [0.43, 0.4], [0.83, 0.43]], [[0.71, 0.7], [0.97, 0.23], [1.0, 0.06]])
+    ([[0.13, 0.34], [0.45, 0.46], [0.85, 0.5]], [[0.72, 0.69], [0.97, 0.22], [1.0, 0.06]])
 
     Notebook: 18-motion-matching
     """

@@ -62,10 +62,10 @@ def cut_strides(
     >>> from mocap import body, datasets
     >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_1"), 30)])
     >>> len(strides), strides.dropped
-    (30, 2)
+    (27, 2)
     >>> turn, speed = strides.values[0]
     >>> round(np.degrees(turn)), float(speed.round(2)), strides.seconds[0, strides.ends].round(2).tolist()
-    (77, 0.69, [0.0, 1.3])
+    (86, 0.9, [0.0, 1.1])
     """
     if by not in ("strikes", "curves"):
         raise MocapError(f"Examples are put on one clock by 'strikes' or by 'curves', got '{by}'.")
@@ -191,7 +191,7 @@ def changing_strides(first: Examples, second: Examples, *, stands: str = "") -> 
     >>> kinds = [cut_strides([resample(sample(f"walk_6m_{speed}_0"), 30)]) for speed in (0.7, 1.65)]
     >>> speeds = [kind.values[:, 1].mean() for kind in (kinds[0], changing_strides(*kinds), kinds[1])]
     >>> np.round(speeds, 2).tolist()
-    [0.69, 1.18, 1.76]
+    [0.7, 1.08, 1.7]
     """
     if len(first.grid) != len(second.grid) or not np.allclose(first.grid, second.grid):
         raise MocapError("A change goes between examples over the same phases.")

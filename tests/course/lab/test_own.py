@@ -34,7 +34,7 @@ def changed(some, **by):
 def clips():
     names = "walk_straight", "walk_circle"
     straight, circle = (mocap.resample(datasets.sample(name), 30) for name in names)
-    return [straight[:100], circle[350:650]]
+    return [straight[:100], circle[200:500]]
 
 
 @pytest.fixture(scope="module")

@@ -163,7 +163,7 @@ def test_graphs_walks_and_paths_bring_their_maps(graph):
 def test_a_large_grid_is_sent_in_blocks_that_keep_its_minima():
     walk = resample(sample("walk_circle"), 30)
     grid = inspector(walk, window=10).scene["grid"]
-    assert grid["every"] == 2 and grid["rows"] <= 600 and grid["rows"] * 2 >= len(walk) - 9
+    assert grid["every"] == 3 and grid["rows"] <= 600 and grid["rows"] * 3 >= len(walk) - 9
 
 
 NOWHERE_TO_LOOK = (

@@ -49,7 +49,7 @@ def plants_on_a_cart():
 
 @case("a seam")
 def seam():
-    return cleaned(blending.join(WALK, 500, WALK, 233, 40))
+    return cleaned(blending.join(WALK, 500, WALK, 242, 40))
 
 
 @case("straight legs")

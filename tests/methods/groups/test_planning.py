@@ -247,10 +247,10 @@ def test_they_face_where_they_go():
 
 
 def test_the_bare_lines_bring_them_together_and_out_of_time():
-    """Without bending, characters of these slow walks come late."""
+    """Without bending, characters of slow clips come late."""
     two = Configuration(led().places[:81, :2], led().velocities[:81, :2])
-    loose = walk_group(bundled("walk_circle", "walk_curve_1"), two, bend=False)
-    assert loose.off.mean() > 3 * walkers().off.mean()
+    loose, bent = (walk_group(bundled("sneak"), two, bend=bend) for bend in (False, True))
+    assert loose.off.mean() > 3 * bent.off.mean()
 
 
 @pytest.mark.parametrize(("some", "got"), [(np.s_[:10, :], "6 and 0.9 s"), (np.s_[:, :0], "0 and 13.7 s")])

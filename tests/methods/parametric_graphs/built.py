@@ -49,8 +49,8 @@ def walk_and_jog():
 
 
 @cache
-def space(feet="lrl"):
-    width, high = np.radians([12, 75]) * SHARE[feet]
+def space(feet="lrl", degrees=12):
+    width, high = np.radians([degrees, 75]) * SHARE[feet]
     return make_space(strides(feet), width, -high, high)
 
 

@@ -88,7 +88,7 @@ def made(some=built.strides, low=-0.5, high=0.5):
 test_what_makes_no_sense_is_refused = refusals(
     ("A range has ends low < high", lambda: made(low=0.5)),
     ("A range has ends low < high", lambda: made(high=np.nan)),
-    (r"Only 0 of 120 .*: they come to a turn of 97° to 97°\.", lambda: made(low=20.0, high=21.0)),
+    (r"Only 0 of 120 .*: they come to a turn of 88° to 88°\.", lambda: made(low=20.0, high=21.0)),
     ("takes 3 strides or more that vary, got 2 with a turn of", lambda: made(lambda: some(2))),
     ("that vary, got 7 with a turn of -1° to 1°: add clips", made, lambda: cut_strides([clips()[3]])),
 )
@@ -148,7 +148,7 @@ def test_windows_that_run_off_the_margins_of_quick_strides_are_refused():
     jogs = [resample(generate_walk([[0, 0], [s, 6], [5 * s, 12]], style="jog"), 30) for s in (-2, 0, 2)]
     tight, wide = (make_space(cut_strides(jogs, margin=m), 0.2, -0.3, 0.3) for m in (0.3, 0.5))
     for phase in (0.0, 1.0):
-        with pytest.raises(MocapError, match=r"A window runs 0.04 s off a motion of 1.26 s, margins and all"):
+        with pytest.raises(MocapError, match=r"A window runs 0.04 s off a motion of 1.22 s, margins and all"):
             near_end(tight, np.zeros((1, 1)), phase)
     assert np.ptp(near_end(wide, np.zeros((1, 1)), 1.0)[1]) > 0.6
 
@@ -157,12 +157,12 @@ PLACES = st.floats(-10, 10).map(lambda v: round(v, 2))
 
 
 def test_few_sources_leave_bad_targets_in_the_boxes_between_them_and_few_targets_leave_boxes_small():
-    """As in [HG07, 4]."""
-    source, samples = built.space(), ((5, 300), (50, 300), (5, 20))
-    few, many, small = (build_edge(source, source, good=0.03, sampling=sampling) for sampling in samples)
+    """As in [HG07, 4], with means of few strides each, so that costs are uneven."""
+    source, samples = built.space(degrees=6), ((5, 300), (50, 300), (5, 20))
+    few, many, small = (build_edge(source, source, good=0.02, sampling=sampling) for sampling in samples)
     assert len(many.at) == 50 and (small.high - small.low).mean() < 0.95 * (few.high - few.low).mean()
-    assert built.bad_ones(source, source, few, BAD * 0.03)[0] > 0.12
-    assert built.bad_ones(source, source, many, BAD * 0.03)[0] < 0.03
+    assert built.bad_ones(source, source, few, BAD * 0.02)[0] > 0.12
+    assert built.bad_ones(source, source, many, BAD * 0.02)[0] < 0.03
 
 
 def test_with_d_plus_1_neighbours_boxes_jump():

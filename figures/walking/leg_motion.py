@@ -18,7 +18,7 @@ from scipy.linalg import solveh_banded
 from mocap._shared.arrays import Array, Indices, Mask
 from mocap._shared.easing import quintic_step
 from mocap.body import rotations
-from striding.footsteps import (
+from walking.footsteps import (
     Foot,
     FootPath,
     Footplant,
@@ -31,9 +31,9 @@ from striding.footsteps import (
     rising_pitch,
     toe_angle,
 )
-from striding.gait import WALK, Gait, mix, stance_knee, swing_bump
-from striding.gait_timing import Timing
-from striding.walking_body import (
+from walking.gait import WALK, Gait, mix, stance_knee, swing_bump
+from walking.gait_timing import Timing
+from walking.walking_body import (
     FOOT,
     FPS,
     LegAngles,
@@ -55,7 +55,7 @@ PUSH_OFF = 0.5  # of the time from heel off to lift, after which the heel rises 
 STIFF = 150.0  # weight of squared second differences of the pelvis's height
 REACH = 400.0  # weight of heights that a leg cannot reach
 SLACK = 0.035  # metres that the pelvis may be too high for a leg that is not loaded yet
-CLEARANCE = 0.014  # metres between the floor and the tip of the toes in mid swing
+CLEARANCE = 0.020  # metres between the floor and the tip of the toes in mid swing
 TOES_UP = np.radians(18.0)  # so far toes bend up in the air to clear the floor
 MOST_SPEED = np.radians(400.0)  # per second: of thigh and knee at both ends of a swing
 MOST_PUSH = np.radians(5000.0)  # per second²

@@ -1,6 +1,4 @@
-"""The bundled jump, generated from a few figures: crouch, push off, fly, land, stand.
-
-`bundled_clips.py` stores it; `datasets.sample("jump")` gives it.
+"""A jump, generated from a few figures: crouch, push off, fly, land, stand.
 
 The centre of mass comes first: its height runs from pose to pose by quintic curves that fit place, speed and
 acceleration, and in the air it is the parabola of gravity. The feet stand, rise on their balls, leave the
@@ -20,26 +18,35 @@ from typing import NamedTuple
 import numpy as np
 from scipy.interpolate import BPoly, PchipInterpolator
 from scipy.ndimage import gaussian_filter1d
-from walking.footsteps import FootPath, about_ball, toe_angle
-from walking.gait import WALK
-from walking.gait_timing import drift
-from walking.walking_body import FOOT, FPS, SKELETON, leg
 
 from mocap._shared.arrays import Array, Mask
 from mocap._shared.easing import quintic_step
 from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.quality.falling import centre_of_mass
+from walking.footsteps import FootPath, about_ball, toe_angle
+from walking.gait_timing import drift
+from walking.walking_body import FIGURES, FOOT, FPS, SKELETON, leg
 
 GRAVITY = 9.81
-STANDING, TAKE_OFF, ABSORBED = 1.0, 1.055, 0.86  # metres: the centre of mass
-STAND, CROUCH, RISE = 1.0, 0.45, 0.55  # seconds
-HALF_STANCE, TOE_OUT = 0.085, 7.0  # metres from the middle to an ankle, degrees
+STANDING = 1.0  # metres: the height of the centre of mass
+TAKE_OFF = 1.055  # metres
+ABSORBED = 0.86  # metres
+STAND = 1.0  # seconds
+CROUCH = 0.45  # seconds
+RISE = 0.55  # seconds
+HALF_STANCE = 0.085  # metres from the middle to an ankle
+TOE_OUT = 7.0  # degrees
 AHEAD = 0.085  # metres from the ankles to the centre of mass, above the middle of the soles
 HANG = (0.085, -0.91, -0.09)  # metres from the centre of mass to an ankle that hangs in the air
-EXTEND, TUCK = 0.21, 0.03  # metres that the body rises until the legs hang; metres they are drawn up then
-HEELS_UP, HEELS_FIRST = 44.0, 36.0  # degrees that the soles point down at take-off and at landing
-BALL_RATE, LAND_RATE = 350.0, 290.0  # degrees that they turn then, for each metre of the jump's speed
+EXTEND = 0.21  # metres that the body rises until the legs hang
+TUCK = 0.03  # metres that they are drawn up then
+HEELS_UP = 44.0  # degrees that the soles point down at take-off
+HEELS_FIRST = 36.0  # degrees that they point down at landing
+BALL_RATE = 350.0  # degrees that they turn at take-off, for each metre of the jump's speed
+LAND_RATE = 290.0  # degrees that they turn at landing
+STILL = 0.0  # no speed, no acceleration
+CATCH = 5.0  # m/s²: the push where the body is lowest after the landing
 
 # Degrees at these moments: standing, lowest, take-off, apex, landing, absorbed, standing. The trunk leans
 # forwards; the upper arm swings forwards, the elbow bends.
@@ -73,7 +80,7 @@ class Course(NamedTuple):
     apex: float
     landing: float
     absorbed: float
-    done: float
+    recovered: float
     end: float
 
     @property
@@ -122,91 +129,101 @@ def plan_jump(rise: float) -> Course:
 
 def _height(course: Course) -> Curve:
     """Give the height of the centre of mass over time: quintics on the ground, a parabola in the air."""
-    speed, low = course.speed, STANDING - course.depth
+    speed = course.speed
+    low = STANDING - course.depth
     pushing = 1.25 * speed**2 / (2 * (TAKE_OFF - low))
-    states = [
-        (STANDING, 0, 0),
-        (low, 0, pushing),
-        (TAKE_OFF, speed, -GRAVITY),
-        (TAKE_OFF + speed**2 / (2 * GRAVITY), 0, -GRAVITY),
-        (TAKE_OFF, -speed, -GRAVITY),
-        (ABSORBED, 0, 5),
-        (STANDING, 0, 0),
-    ]
-    return _through(course.poses, states)
+    apex = TAKE_OFF + speed**2 / (2 * GRAVITY)
+    on_ground = [(STANDING, STILL, STILL), (low, STILL, pushing)]
+    aloft = [(TAKE_OFF, speed, -GRAVITY), (apex, STILL, -GRAVITY), (TAKE_OFF, -speed, -GRAVITY)]
+    landed = [(ABSORBED, STILL, CATCH), (STANDING, STILL, STILL)]
+    return _through(course.poses, on_ground + aloft + landed)
 
 
 def _through(moments: tuple[float, ...], states: object) -> Curve:
     """Join (place, speed, acceleration) at some moments by quintics; constant outside."""
     curve = BPoly.from_derivatives(moments, states)
-    return lambda at: np.asarray(curve(np.clip(at, moments[0], moments[-1])))
+    return lambda times: np.asarray(curve(np.clip(times, moments[0], moments[-1])))
 
 
 def _standing(course: Course, times: Array) -> Array:
     """Weigh the sway: 1 where the body stands, 0 from the crouch to the end of the landing."""
-    middle, half = (course.done + course.still) / 2, (course.done - course.still) / 2
+    middle = (course.recovered + course.still) / 2
+    half = (course.recovered - course.still) / 2
     return quintic_step((np.abs(times - middle) - half) / 0.5)
 
 
 def _foot(side: str, course: Course, times: Array) -> FootPath:
     """Stand, rise on the ball, fly, land on the ball, and stand again on the same place."""
     out = 1 if side == "l" else -1
-    pitch, height = _pitch(course), _height(course)
+    pitch = _pitch(course)
+    height = _height(course)
+    place = np.array([out * HALF_STANCE, 0.0])
+    heading = out * np.radians(TOE_OUT)
 
-    def on_ground(at: Array) -> Array:
-        yaw = np.full_like(at, out * np.radians(TOE_OUT))
-        return about_ball(np.tile([out * HALF_STANCE, 0.0], (len(at), 1)), yaw, pitch(at), FOOT)
+    def on_ground(moments: Array) -> Array:
+        yaw = np.full_like(moments, heading)
+        return about_ball(np.tile(place, (len(moments), 1)), yaw, pitch(moments), FOOT)
 
-    def from_centre(at: Array) -> Array:
-        return on_ground(at) - np.stack([0 * at, height(at), 0 * at], axis=-1)
+    def from_centre(moments: Array) -> Array:
+        centre = np.zeros((len(moments), 3))
+        centre[:, 1] = height(moments)
+        return on_ground(moments) - centre
 
-    up, down = course.take_off, course.landing
-    hang = np.array([[out * HANG[0], *HANG[1:]], [0, 0, 0], [0, 0, 0]])
+    up = course.take_off
+    down = course.landing
+    hang = np.zeros((3, 3))
+    hang[0] = [out * HANG[0], *HANG[1:]]
     states = [_state(from_centre, up), hang, hang, _state(from_centre, down)]
     air = (times > up) & (times < down)
     hung = EXTEND / course.speed
     ankle = on_ground(times)
     ankle[air] = _through((up, up + hung, down - hung, down), states)(times[air])
     share = (times[air] - up) / (down - up)
-    ankle[air, 1] += height(times[air]) + TUCK * 64 * (share * (1 - share)) ** 3
-    yaw, turn = np.full_like(times, out * np.radians(TOE_OUT)), pitch(times)
+    tucked = TUCK * 64 * (share * (1 - share)) ** 3
+    ankle[air, 1] += height(times[air]) + tucked
+    yaw = np.full_like(times, heading)
+    turn = pitch(times)
     flat = (turn == 0) & ~air
-    return FootPath(
-        ankle, turn, yaw, toe_angle(ankle, turn, FOOT), flat, ~air, 0 * times, (~air).astype(float)
-    )
+    return FootPath(ankle, turn, yaw, toe_angle(ankle, turn, FOOT), flat, ~air)
 
 
 def _pitch(course: Course) -> Curve:
     """Give how far the toes point up, radians: flat, heels up, pointed in the air, heels down."""
-    up, down = course.take_off, course.landing
-    rise, fall = BALL_RATE * course.speed, LAND_RATE * course.speed
-    states = [(0, 0, 0), (-HEELS_UP, -rise, 0), (-HEELS_UP - 10, 0, 0)]
-    states += [(-HEELS_FIRST - 8, 0, 0), (-HEELS_FIRST, fall, 0), (0, 0, 0)]
+    up = course.take_off
+    down = course.landing
+    rise = BALL_RATE * course.speed
+    fall = LAND_RATE * course.speed
+    flat = (STILL, STILL, STILL)
+    leaving = [flat, (-HEELS_UP, -rise, STILL), (-HEELS_UP - 10, STILL, STILL)]
+    landing = [(-HEELS_FIRST - 8, STILL, STILL), (-HEELS_FIRST, fall, STILL), flat]
     # From rest to a pitch and its rate in 2.5 pitch / rate seconds, a quintic never turns the other way.
-    heels_off, flat = up - 2.5 * HEELS_UP / rise, down + 2 * HEELS_FIRST / fall
+    heels_off = up - 2.5 * HEELS_UP / rise
+    heels_down = down + 2 * HEELS_FIRST / fall
     hung = EXTEND / course.speed
-    return _through((heels_off, up, up + hung, down - hung, down, flat), np.radians(states))
+    moments = (heels_off, up, up + hung, down - hung, down, heels_down)
+    return _through(moments, np.radians(leaving + landing))
 
 
 def _state(curve: Curve, moment: float, step: float = 1e-3) -> Array:
     """Give a curve's place, speed and acceleration at a moment, by differences."""
-    before, at, after = curve(moment + step * np.array([-1.0, 0.0, 1.0]))
-    return np.stack([at, (after - before) / (2 * step), (after - 2 * at + before) / step**2])
+    earlier, value, later = curve(moment + step * np.array([-1.0, 0.0, 1.0]))
+    speed = (later - earlier) / (2 * step)
+    push = (later - 2 * value + earlier) / step**2
+    return np.stack([value, speed, push])
 
 
 def _swings(course: Course, times: Array, rng: np.random.Generator) -> dict[str, Array]:
     """Swing trunk and arms from pose to pose, with small noises: rotation vectors (F, 3), radians."""
-    inside = np.clip(times, course.still, course.done)
-    trunk, arm, elbow = (
-        gaussian_filter1d(PchipInterpolator(course.poses, np.radians(row))(inside), 0.04 * FPS)
-        for row in (_TRUNK, _ARM, _ELBOW)
-    )
+    inside = np.clip(times, course.still, course.recovered)
+    rows = [np.radians(row) for row in (_TRUNK, _ARM, _ELBOW)]
+    curves = [PchipInterpolator(course.poses, row)(inside) for row in rows]
+    trunk, arm, elbow = (gaussian_filter1d(curve, 0.04 * FPS) for curve in curves)
     nod = np.array([1.0, 0.0, 0.0])
-    angles = {
-        joint: np.outer(share * trunk, nod) + np.radians(0.8) * drift(rng, times, 3)
-        for joint, share in _LEAN.items()
-    }
-    hinge = np.array([row[0] for row in WALK.arm["radius"]])  # the elbow's axis
+    angles = {}
+    for joint, share in _LEAN.items():
+        noise = np.radians(0.8) * drift(rng, times, 3)
+        angles[joint] = np.outer(share * trunk, nod) + noise
+    hinge = np.array(FIGURES["arms"]["hinge"])  # the left elbow's axis
     for side, mirror in (("l", np.array([1, 1, 1])), ("r", np.array([1, -1, -1]))):
         reach = np.outer(-arm, nod) + np.array([0.0, -0.2, 0.06])
         angles[side + "humerus"] = reach * mirror + np.radians(1.3) * drift(rng, times, 3)
@@ -236,5 +253,5 @@ def _posed(
 
 def _labels(course: Course, frames: int) -> dict[str, Mask]:
     times = np.arange(frames) / FPS
-    jumping = (times > course.still) & (times < course.done)
+    jumping = (times > course.still) & (times < course.recovered)
     return {"stand": ~jumping, "jump": jumping}

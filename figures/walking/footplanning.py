@@ -9,10 +9,10 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
 from mocap._shared.arrays import Array
-from striding.footsteps import Footplant, SmoothPath
-from striding.gait import mix_rolls
-from striding.gait_timing import Timing
-from striding.walking_body import FPS
+from walking.footsteps import Footplant, SmoothPath
+from walking.gait import mix_rolls
+from walking.gait_timing import Timing
+from walking.walking_body import FPS
 
 GRAVITY = 9.81  # m/s²
 LEANING = 1.0  # metres: the height of the centre of mass, which comes to the inside of the feet
