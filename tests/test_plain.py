@@ -159,7 +159,7 @@ def compiled(clips):
 def graphs_of_walks(request):
     if request.param == "bundled":
         names = ("walk_circle", "walk_curve_1", "walk_curve_2")
-        return compiled([mocap.resample(datasets.sample(name), 30)[:600] for name in names])
+        return compiled([mocap.resample(datasets.sample(name), 30)[:900] for name in names])
     return compiled([mocap.resample(clip, 30) for clip in walks_of_16(request.getfixturevalue("real_data"))])
 
 

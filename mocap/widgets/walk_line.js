@@ -4,6 +4,7 @@ import { nearest } from "./walk_search.js";
 
 const LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
 const TIGHT = 0.8; // metres: nobody walks on a smaller circle
+const SET_OUT = 0.9; // metres that clips take to begin a turn
 const STRIDE = 0.25;
 const TURN = (Math.PI * 0.72) / 32; // a letter goes 25 cm, and turns by up to 31 times 4°
 
@@ -73,7 +74,7 @@ export function walkable(points) {
 }
 
 /**
- * A way from a place onto a line: half a metre on, which clips take to begin a turn, then by turns that can be walked
+ * A way from a place onto a line: straight on until clips have begun a turn, then by turns that can be walked
  * towards a place 70 cm further along the line.
  * @param {number[][]} line
  * @param {number[]} place
@@ -86,7 +87,7 @@ export function ledOnto(line, [z, x], heading) {
   let off = Infinity;
   for (let far = 0; far < 12 && k + 30 < line.length && off > 0.02; far += 0.05) {
     way.push([z, x]);
-    if (far > 0.5) {
+    if (far > SET_OUT) {
       k = nearest(at, [z, x], k, k + 30);
       off = Math.hypot(line[k][0] - z, line[k][1] - x);
       const [toZ, toX] = line[Math.min(k + 70, line.length - 1)];

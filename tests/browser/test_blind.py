@@ -14,7 +14,7 @@ TEST = "document.querySelector('.mocap-blindtest').blindtest"
 
 @pytest.fixture(scope="module")
 def blind():
-    clips = [datasets.sample("walk_circle")[:2400:4]]
+    clips = [datasets.sample("walk_curve_1")[:2400:4]]
     four = choose(clips, find_transitions(clips, window=10, below=0.06), 0.06, seed=0, count=4)
     return BlindTest(make_pairs(clips, four, 2, seed=0), 2, 0.06, 0)
 

@@ -78,7 +78,7 @@ CELLS = {
     "drawn": "drawn",
     "blind": """
         from mocap.course.lab.blind_tests import BlindTest, choose, make_pairs
-        whole = [datasets.sample("walk_circle")[:2400:4]]
+        whole = [datasets.sample("walk_curve_1")[:2400:4]]
         four = choose(whole, matching.find_transitions(whole, window=10, below=0.06), 0.06, seed=0, count=4)
         BlindTest(make_pairs(whole, four, 2, seed=0), 2, 0.06, 0)""",
     "mix": """

@@ -385,7 +385,7 @@ def test_a_line_behind_the_camera_is_cut_where_it_passes_it(resting):
 
 
 def test_capsules_lie_around_the_body_as_it_turns(page):
-    """A player knows no turns: what it guesses is up to 4 cm off for a head, and 1 cm for limbs."""
+    """A player knows no turns: what it guesses is up to 4 cm off for a head, 6 for bent toes, 1 for limbs."""
     walk, frame = resample(generate_walk([[0, 0], [0, 5], [3, 6]]), 30), 100
     about, _ = packed_character(walk, "#000000")
     places, turns = joint_positions(walk)[frame], [walk.rotations[frame, 0]]
@@ -400,13 +400,16 @@ def test_capsules_lie_around_the_body_as_it_turns(page):
     }"""
     got = page.evaluate(capsules, [about, places[packed_body(walk.skeleton)[0]].ravel().tolist()])
     ends = np.reshape(got, (-1, 13))[:, [0, 1, 2, 4, 5, 6]].reshape(-1, 2, 3)
+    pieces = figure(walk.skeleton)
     wanted = [
         [places[joint] + rotations.rotate(turns[joint], end) for end in (a, b)]
-        for joint, a, _, b, *_ in figure(walk.skeleton)
+        for joint, a, _, b, *_ in pieces
     ]
     off = np.linalg.norm(ends - wanted, axis=2).max(axis=1)
+    toes = np.array(["toes" in walk.skeleton.names[joint] for joint, *_ in pieces])
     assert off[:7].max() < 0.04
-    assert off[7:].max() < 0.01
+    assert off[toes].max() < 0.06
+    assert off[7:][~toes[7:]].max() < 0.01
 
 
 @shaded
