@@ -44,20 +44,13 @@ def straight_walker() -> CompiledGraph:
     return compile_graph(prune(build(clips, window=10, threshold=0.06)))
 
 
-def most_sway(graph):
-    """Measure how far the clips of a graph are off their own paths at most, metres: bending leaves it."""
-    rides = [(clip, ride_of(clip)) for clip in graph.source.clips]
-    off = (on_ground(clip.root_positions) - on_ground(ride.path.at(ride.along)) for clip, ride in rides)
-    return max(np.abs(each).max() for each in off)
-
-
 def require_kept_to(followed):
     """Hold a walk against every bar."""
     bent = followed.bent
     as_asked = bent.off[~bent.rounded]
     if len(as_asked):
         assert as_asked.mean() <= 0.025
-        assert as_asked.max() <= max(0.08, 1.1 * most_sway(compile_graph(followed.graph)))
+        assert as_asked.max() <= 0.08
     assert followed.seams_per_second <= 0.7
     assert slide(bent.motion) <= 1e-4
     assert plants_kept(bent.motion, bent.laid) >= 0.95
@@ -220,7 +213,7 @@ def test_a_seam_leads_smoothly_from_path_to_path():
     assert GRAPH.blended[edges].sum() > 3
     ride, ground = own_ride(OWN, edges), on_ground(to_motion(GRAPH.source, walk).root_positions)
     away = np.abs(ground - on_ground(ride.path.at(ride.along)))
-    assert away.max() < 1.2 * most_sway(GRAPH)
+    assert away.max() < 0.1  # the sway: the clips themselves are up to 9 cm off their paths
     assert OWN.step[rows_of(edges)].sum() == pytest.approx(ride.along[-1], rel=0.02)
     turned = np.ptp(np.asarray(moving_frames(ride.path, ride.along).angle)[[0, -1]])
     assert abs(TURNS[rows_of(edges)].sum()) == pytest.approx(turned, abs=0.5)  # ends go straight on
