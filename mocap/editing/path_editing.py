@@ -22,7 +22,7 @@ from mocap.errors import MocapError, warn
 
 # Seconds between knots: too slow for the sway, of which 5 cm stay in the motion, as with 1.2. But with 1.2
 # clips that turn as people do are up to 17 cm off their paths, and with 1.0 up to 9 cm. With 0.4 the path
-# takes half of the sway, and its heading wags by 13°.
+# takes half of the sway, and its heading wags by 13°; 0.9 aliases with some strides.
 STRIDE = 1.0
 
 # Metres before and after a place between which its heading is measured. With 0.02 the body turns at 3000° per
