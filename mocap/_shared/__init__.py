@@ -4,7 +4,7 @@
 2. `ties`: values that only rounding tells apart are equal, and the first of equals is taken
 3. `easing`: the curve that eases from 0 to 1
 4. `atomic`: a file is written whole or not at all
-5. `archives`: arrays in one file, unpacked only where it holds what it claims
+5. `archives`: arrays in one file, unpacked only where it holds what it claims; kinds of such files
 6. `progress`: what functions take as `progress=`
 7. `collector`: pause Python's garbage collector while a graph grows
 8. `tasks`: work by threads, processes or a cluster

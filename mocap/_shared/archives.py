@@ -2,6 +2,10 @@
 
 Such a file holds no code: it is safe to read one from a stranger. What it claims, in the directory of the
 `.zip` and in the headers of its arrays, is compared with what it can hold before anything is unpacked.
+
+A `Kind` describes the files of one kind, such as saved motion graphs: their arrays, and what must hold of the
+numbers in them. `write_archive` and `read_archive` hold a file to it, so that whatever is written can be read
+again.
 """
 
 import math
@@ -9,23 +13,37 @@ import mmap
 import re
 import warnings
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.lib.format as npy
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.atomic import replacing
 from mocap.errors import FormatError, MocapError
 
 Arrays = dict[str, NDArray[Any]]
+Layout = Mapping[str, tuple[type, tuple[int | str, ...]]]
+"""For each array its type, and its shape; sizes of one letter are the same in the whole file."""
+Rules = Iterator[tuple[str, ArrayLike]]
+"""Sentences, each with truths that must all hold; each may need those before it."""
 ROOM = 2**20  # bytes of arrays that any file may hold
 RATIO = 8  # bytes of arrays besides, for each byte of the file; ours have three
 MOST = 2**14  # members
 LAST = {"U": 0x10FFFF, "b": 1}  # the largest codes of letters and of truths
+
+# The kinds of files, and the functions that read them.
+LOADERS = {
+    "a motion graph": "graphs.load",
+    "a match web": "match_webs.load_web",
+    "a parametric motion graph": "parametric_graphs.load_parametric",
+    "a group motion graph": "groups.load_group",
+}
+FORMER_HEADS = {"mocap motion graph": "mocap: a motion graph"}  # as the first files say
 
 
 class Member:
@@ -119,3 +137,186 @@ def _members(archive: zipfile.ZipFile, room: int) -> dict[str, Member]:
     if odd or twice or overlapping or sum(entry.file_size for entry in entries) > room:
         raise zipfile.BadZipFile
     return {entry.filename.removesuffix(".npy"): Member(archive, entry) for entry in entries}
+
+
+Shaped = NDArray[Any] | Member
+
+
+class Part(NamedTuple):
+    """Arrays that a file holds several times, numbered from 0, such as those of each node.
+
+    `number` is the size that says how many times. In `arrays`, sizes of a small letter are each part's own.
+
+    Examples
+    --------
+    >>> Part("N", {"grid": (float, ("g",)), "heights": (float, ("g",))}).number
+    'N'
+    """
+
+    number: str
+    arrays: Layout
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of files: the arrays that they hold, and what must hold of the numbers in them.
+
+    Parameters
+    ----------
+    name : as in "a match web"; a key of `LOADERS`.
+    arrays : by name.
+    rules : from all arrays of a file to what must hold of them.
+    parts : by name; array `key` of part 3 of "node" is called "node_3_key".
+    version : of the layout; files of a later one are refused.
+
+    Examples
+    --------
+    >>> Kind("a match web", {"costs": (float, ("N",))}, lambda arrays: iter(()), version=2).wanted
+    'a match web saved by mocap, version 1 or 2'
+    """
+
+    name: str
+    arrays: Layout
+    rules: Callable[[Arrays], Rules]
+    parts: Mapping[str, Part] = field(default_factory=dict)
+    version: int = 1
+
+    @property
+    def wanted(self) -> str:
+        """What a file should be, for errors."""
+        versions = " or ".join(map(str, range(1, self.version + 1)))
+        return f"{self.name} saved by mocap, version {versions}"
+
+    @property
+    def head(self) -> str:
+        """The content of the array `format`."""
+        return f"mocap: {self.name}"
+
+    def part(self, arrays: Arrays, name: str, number: int) -> Arrays:
+        """Take the arrays of one part out of those of a file; `numbered` is the inverse."""
+        return {key: arrays[f"{name}_{number}_{key}"] for key in self.parts[name].arrays}
+
+    def fits(self, arrays: Mapping[str, Shaped]) -> Iterator[tuple[str, type, bool]]:
+        """Yield name and type of each array of this kind, and whether that in `arrays` has a shape that fits.
+
+        Parts follow the other arrays, which say how many of them there are. Ask for the next array only if
+        this one fits.
+        """
+        sizes: dict[str, int] = {}
+        for key, (kind, shape) in self.arrays.items():
+            yield key, kind, _has_shape(arrays.get(key), shape, sizes)
+        for name, part in self.parts.items():
+            for number in range(sizes[part.number]):
+                of_part = f"{name}_{number}_"
+                for key, (kind, shape) in part.arrays.items():
+                    named = tuple(_in_part(size, of_part) for size in shape)
+                    yield of_part + key, kind, _has_shape(arrays.get(of_part + key), named, sizes)
+
+
+def numbered(name: str, number: int, arrays: Mapping[str, Any]) -> dict[str, Any]:
+    """Name the arrays of one part as they are called in the file.
+
+    Examples
+    --------
+    >>> numbered("node", 3, {"grid": [0.0, 1.0]})
+    {'node_3_grid': [0.0, 1.0]}
+    """
+    return {f"{name}_{number}_{key}": array for key, array in arrays.items()}
+
+
+def _in_part(size: int | str, of_part: str) -> int | str:
+    """Name a size of a small letter by its part, so that it is no other part's."""
+    return of_part + size if isinstance(size, str) and size.islower() else size
+
+
+def _has_shape(
+    array: NDArray[Any] | Member | None, shape: tuple[int | str, ...], sizes: dict[str, int]
+) -> bool:
+    """Check the shape of an array, or of a `Member`; a size that is named for the first time is noted."""
+    if array is None or len(array.shape) != len(shape):
+        return False
+    for size, actual in zip(shape, array.shape, strict=True):
+        expected = sizes.setdefault(size, actual) if isinstance(size, str) else size
+        if actual != expected:
+            return False
+    return True
+
+
+def write_archive(path: str | Path, kind: Kind, arrays: Mapping[str, Any]) -> None:
+    """Write the arrays of a kind to an `.npz` file; an old file is replaced when the new one is complete.
+
+    Raises
+    ------
+    MocapError : for another suffix, for arrays that could not be read again, and where the file cannot be
+        written.
+
+    Examples
+    --------
+    >>> web = Kind("a match web", {"costs": (float, ("N",))}, lambda arrays: iter(()))
+    >>> write_archive("web.txt", web, {"costs": [0.1, 0.2]})
+    Traceback (most recent call last):
+    mocap.errors.MocapError: This is written as .npz, got 'web.txt'.
+    """
+    if Path(path).suffix.lower() != ".npz":
+        raise MocapError(f"This is written as .npz, got '{path}'.")
+    exact = {key: np.asarray(array) for key, array in arrays.items()}
+    whole: Arrays = {}
+    for key, dtype, fits in kind.fits(exact):
+        if not fits:
+            raise MocapError(f"Cannot save {kind.name}: '{key}' does not fit its other arrays.")
+        whole[key] = exact[key].astype(dtype)
+        if not np.array_equal(whole[key], exact[key]):
+            raise MocapError(f"Cannot save {kind.name}: '{key}' holds values that {dtype.__name__} has not.")
+    for rule, holds in kind.rules(whole):
+        if not np.all(holds):
+            raise MocapError(f"Cannot save {kind.name}: expected that {rule}.")
+    pack(path, {"format": np.array(kind.head), "version": np.array(kind.version), **whole})
+
+
+def read_archive(path: str | Path, kind: Kind) -> Arrays:
+    """Read the arrays of a file that `write_archive` wrote, and its `version`.
+
+    Raises
+    ------
+    MocapError : where the file cannot be read.
+    FormatError : for a file of another kind, with the function that reads it; for one of a later version, and
+        a damaged one.
+
+    Examples
+    --------
+    >>> read_archive("gone.npz", Kind("a match web", {}, lambda arrays: iter(())))
+    Traceback (most recent call last):
+    mocap.errors.MocapError: Cannot read gone.npz: No such file or directory.
+    """
+    with open_archive(path, kind.wanted) as members:
+        head = str(members["format"].read())
+        _require_kind(path, kind, FORMER_HEADS.get(head, head))
+        version = members["version"].read()
+        if int(version) > kind.version:
+            raise FormatError(path, None, kind.wanted, f"version {version}, which a newer mocap wrote")
+        arrays = {key: members[key].read() for key in _checked(path, kind, members)}
+        for rule, holds in kind.rules(arrays):
+            if not np.all(holds):
+                raise FormatError(path, None, f"that {rule}", "a damaged file")
+    return arrays | {"version": version}
+
+
+def _require_kind(path: str | Path, kind: Kind, head: str) -> None:
+    """Refuse a file of another kind, and name the function that reads it."""
+    if head == kind.head:
+        return
+    name = head.removeprefix("mocap: ")
+    got = f"{name}, which {LOADERS[name]} reads" if name in LOADERS else "an .npz of another kind"
+    raise FormatError(path, None, kind.wanted, got)
+
+
+def _checked(path: str | Path, kind: Kind, members: Mapping[str, Member]) -> list[str]:
+    """List the names of all arrays of a kind, or refuse the first that is missing or does not fit."""
+    keys = []
+    for key, dtype, fits in kind.fits(members):
+        if key not in members:
+            raise FormatError(path, None, kind.wanted, f"one without {key}")
+        if not fits or members[key].dtype.kind != np.dtype(dtype).kind:
+            raise FormatError(path, None, f"'{key}' to fit the other arrays", str(members[key]))
+        keys.append(key)
+    return keys

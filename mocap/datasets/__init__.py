@@ -10,6 +10,7 @@ Reading order (notebooks 01, 10, 11)
 6. `unpacking`: clips out of an archive, within bounds on what it may claim
 7. `named_sets`: sets of other labs, with their licences, hips and legs
 8. `clip_origins`: where clips were read from, to read them again
+9. `clip_references`: the clips of a saved graph or web, to find them again and compare them
 """
 
 import lazy_loader

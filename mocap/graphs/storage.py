@@ -3,45 +3,29 @@
 The file holds no frames of the clips and no code: it is safe to read a file from a stranger.
 """
 
-import itertools
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import networkx as nx
 import numpy as np
-from numpy.typing import ArrayLike
 
-from mocap._shared.archives import Arrays, Member, open_archive, pack
+from mocap._shared.archives import Arrays, Kind, Layout, Rules, read_archive, write_archive
 from mocap._shared.progress import Progress
-from mocap.body.fingerprints import fingerprint
-from mocap.body.motion import Motion, require_alike, resample
+from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
-from mocap.datasets.clip_origins import Origin, find_again, is_origin
-from mocap.datasets.samples import FPS, FRAMES_IN_0_1, SAMPLES, sample
-from mocap.editing.mirroring import mirror
-from mocap.errors import FormatError, MocapError, shortened, warn
-from mocap.files.conversion import is_clip
-from mocap.files.load_save import load as load_motion
+from mocap.datasets import clip_references
+from mocap.datasets.clip_origins import Origin
+from mocap.datasets.clip_references import MOST_FRAMES, ClipReferences
+from mocap.errors import warn
 from mocap.graphs.motion_graph import MotionGraph
 
-KIND = "mocap: a motion graph"
-FIRST_KIND = "mocap motion graph"  # as the first files say
-VERSION = 2  # in version 1 fingerprints were of all digits
-OURS = "a motion graph saved by mocap, version 1 or 2"
 FRAMES = 3  # column of `edges`
-MOST = 2**31  # frames
-FASTEST = 1e6  # frames per second
-# The arrays of the file, with C clips, O origins, N nodes, E edges, T transitions and L labels.
+# The arrays of the file, with C clips, N nodes, E edges, T transitions and L labels.
 # reads: statement: a table
-ARRAYS: dict[str, tuple[type, tuple[int | str, ...]]] = {
-    "fps": (float, ()),
+ARRAYS: Layout = {
+    **clip_references.LAYOUT,
     "window": (int, ()),
-    "names": (str, ("C",)),
-    "frames": (int, ("C",)),  # of each clip
-    "fingerprints": (str, ("C",)),
-    "origins": (str, ("O",)),
     "nodes": (int, ("N", 2)),  # clip, frame
     "edges": (int, ("E", 4)),  # start and end, as rows of nodes; key; frames
     "is_transition": (bool, ("E",)),
@@ -81,8 +65,8 @@ def save(motion_graph: MotionGraph, path: str | Path, origins: Sequence[Origin] 
     Examples
     --------
     >>> import tempfile
-    >>> from mocap import graphs
-    >>> clips = [sample("walk_circle")]
+    >>> from mocap import datasets, graphs
+    >>> clips = [datasets.sample("walk_circle")]
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     save(graphs.from_transitions(clips, [], window=10), f"{folder}/walks.npz")
     ...     load(f"{folder}/walks.npz", clips)
@@ -90,26 +74,9 @@ def save(motion_graph: MotionGraph, path: str | Path, origins: Sequence[Origin] 
 
     Notebook: 05b-choice-points
     """
-    if Path(path).suffix.lower() != ".npz":
-        raise MocapError(f"This is written as .npz, got '{path}'.")
-    arrays = {
-        "fps": motion_graph.fps,
-        "window": motion_graph.window,
-        "origins": [origin.text(Path(path).parent) for origin in origins],
-    }
-    arrays |= _arrays_of_clips(motion_graph.clips)
-    arrays |= _arrays_of_graph(motion_graph.graph)
-    whole: Arrays = {key: np.asarray(arrays[key], kind) for key, (kind, _) in ARRAYS.items()}
-    pack(path, {"format": np.array(KIND), "version": np.array(VERSION), **whole})
-
-
-def _arrays_of_clips(clips: Sequence[Motion]) -> dict[str, Any]:
-    """Arrays by which the clips are known again."""
-    return {
-        "names": [clip.name for clip in clips],
-        "frames": [len(clip) for clip in clips],
-        "fingerprints": [fingerprint(clip) for clip in clips],
-    }
+    arrays = clip_references.arrays_of_clips(motion_graph.clips, origins, path)
+    arrays |= {"window": motion_graph.window} | _arrays_of_graph(motion_graph.graph)
+    write_archive(path, GRAPH, arrays)
 
 
 def _arrays_of_graph(graph: nx.MultiDiGraph) -> dict[str, Any]:
@@ -170,56 +137,16 @@ def load(
     Notebook: 05b-choice-points
     """
     content = read(path)
-    if clips is None:
-        clips = _load_clips(path, content, skeleton, progress)
-    by_name = {clip.name: resample(clip, content.fps) for clip in clips}
-    with suppress(KeyError, MocapError):  # one end sites for all; what does not go together is named below
-        alike = require_alike([by_name[name] for name in content.names])
-        by_name.update(zip(content.names, alike, strict=True))
-    for name, length, digest in zip(content.names, content.frames, content.fingerprints, strict=True):
-        if name not in by_name:
-            names = shortened(", ".join(by_name) or "none")
-            raise MocapError(f"{path} needs the clip '{shortened(name)}'; given are: {names}.")
-        _require_same(path, by_name[name], length, digest)
+    references = _references(content)
+    clips = clip_references.load_references(references, path, clips, skeleton, progress)
     if not any(content.fingerprints):
         warn(f"An older mocap saved {path}: it cannot tell whether its clips have changed; save it anew.")
-    return MotionGraph(tuple(by_name[name] for name in content.names), content.window, content.graph)
+    return MotionGraph(tuple(clips), content.window, content.graph)
 
 
-def _load_clips(
-    path: str | Path, content: GraphFile, skeleton: Path | None, progress: Progress
-) -> list[Motion]:
-    """Load the clips of a file from where they were, or take the bundled ones."""
-    origins = find_origins(path)
-    if not origins:
-        return [sample(name) for name in content.names]
-    clips = []
-    for origin in progress(origins):
-        clip = load_motion(origin.path, skeleton=skeleton or origin.skeleton, scale=origin.scale)
-        clips.append(mirror(clip) if origin.mirrored else clip)
-    return clips
-
-
-def _require_same(path: str | Path, clip: Motion, length: int, digest: str) -> None:
-    """Refuse a clip that has not the length, in frames, or the fingerprint of the one in the file."""
-    if len(clip) == length and (not digest or fingerprint(clip) == digest):
-        return
-    if _was_bundled_in_0_1(clip.name, length, clip.fps):
-        raise MocapError(
-            f"{path} was built of the clips of mocap 0.1, which later versions do not have. "
-            "Build it anew, or load it with mocap 0.1."
-        )
-    difference = "other poses, bones or units"
-    if len(clip) != length:
-        difference = f"{length} frames then, {len(clip)} now"
-    named = f"another '{shortened(clip.name)}'"
-    raise MocapError(f"{path} was built of {named}: {difference}. Take that clip, or build anew.")
-
-
-def _was_bundled_in_0_1(name: str, length: int, fps: float) -> bool:
-    """Tell whether a clip of so many frames is one that came with mocap 0.1."""
-    intervals = FRAMES_IN_0_1.get(name, 0) - 1
-    return length == int(intervals * fps / FPS) + 1
+def _references(content: GraphFile) -> ClipReferences:
+    """Return what a file says of its clips."""
+    return ClipReferences._make(getattr(content, key) for key in ClipReferences._fields)
 
 
 def read(path: str | Path) -> GraphFile:
@@ -229,7 +156,9 @@ def read(path: str | Path) -> GraphFile:
     ------
     FormatError, MocapError : as for `load`.
     """
-    arrays = _unpack(path)
+    arrays = read_archive(path, GRAPH)
+    if arrays["version"] < VERSION:
+        arrays["fingerprints"] = np.zeros_like(arrays["fingerprints"])
     return GraphFile(**{key: arrays[key].tolist() for key in GraphFile._fields[:-1]}, graph=_graph(arrays))
 
 
@@ -250,66 +179,19 @@ def _graph(arrays: Arrays) -> nx.MultiDiGraph:
     return graph
 
 
-def _unpack(path: str | Path) -> Arrays:
-    """Unpack the arrays of a file, where they are those of a graph, and fit each other."""
-    with open_archive(path, OURS) as members:
-        if str(members["format"].read()) not in (KIND, FIRST_KIND):
-            raise FormatError(path, None, OURS, "an .npz of another kind")
-        version = int(members["version"].read())
-        if version > VERSION:
-            raise FormatError(path, None, OURS, f"version {version}, which a newer mocap wrote")
-        _require_shapes(path, members)
-        arrays = {key: members[key].read() for key in ARRAYS}
-        if version < VERSION:
-            arrays["fingerprints"] = np.zeros_like(arrays["fingerprints"])
-        for rule, holds in _rules(arrays):
-            if not np.all(holds):
-                raise FormatError(path, None, f"that {rule}", "a damaged file")
-    return arrays
-
-
-def _require_shapes(path: str | Path, members: Mapping[str, Member]) -> None:
-    """Refuse arrays that are missing, or of another kind or shape than `ARRAYS` says."""
-    sizes: dict[int | str, int] = {2: 2, 3: 3, 4: 4}
-    for key, (kind, shape) in ARRAYS.items():
-        if key not in members:
-            raise FormatError(path, None, OURS, f"one without {key}")
-        member = members[key]
-        fits = len(member.shape) == len(shape) and member.dtype.kind == np.dtype(kind).kind
-        if fits:
-            expected = [sizes.setdefault(*pair) for pair in zip(shape, member.shape, strict=True)]
-            fits = expected == list(member.shape)
-        if not fits:
-            raise FormatError(path, None, f"'{key}' to fit the other arrays", str(member))
-
-
 def find_origins(path: str | Path) -> list[Origin]:
     """Find the files of a saved graph's clips, as `load` reads them; none for bundled samples."""
-    content = read(path)
-    folder = Path(path).parent
-    if set(content.names) <= set(SAMPLES) and not content.origins:
-        return []
-    neighbours = {file.stem: file for file in sorted(folder.iterdir()) if is_clip(file)}
-    places: list[Origin] = []
-    for name, text in itertools.zip_longest(content.names, content.origins):
-        origin = find_again(text, folder) if text else None
-        if origin is None and name not in neighbours:
-            raise MocapError(f"The clip '{shortened(name)}' is no longer where {path} found it: give clips=.")
-        places.append(origin or Origin(neighbours[name]))
-    return places
+    return clip_references.find_files_of(_references(read(path)), path)
 
 
-def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
+def _rules(arrays: Arrays) -> Rules:
     """Yield what must hold; each rule needs those before it."""
     window = arrays["window"]
     lengths = arrays["frames"]
     nodes = arrays["nodes"]
-    names = arrays["names"].tolist()
-    yield "origins are one for each clip, or none", len(arrays["origins"]) in (0, len(lengths))
-    yield "origins are places of files", [is_origin(text) for text in arrays["origins"].tolist()]
-    yield "window and rate are above 0", 0 < window < MOST and 0 < arrays["fps"] < FASTEST
-    yield "clips have frames", (lengths > 0) & (lengths < MOST)
-    yield "there are clips with names of their own", 0 < len(set(names)) == len(lengths)
+    yield from clip_references.rules_of_clips(arrays)
+    yield "clips have names of their own", len(set(arrays["names"].tolist())) == len(lengths)
+    yield "the window is above 0", 0 < window < MOST_FRAMES
     yield "nodes lie in clips", (nodes[:, 0] >= 0) & (nodes[:, 0] < len(lengths))
     yield "nodes lie in their clips", (nodes[:, 1] >= 0) & (nodes[:, 1] <= lengths[nodes[:, 0]])
     yield "no node comes twice", len(np.unique(nodes, axis=0)) == len(nodes)
@@ -319,7 +201,7 @@ def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
     yield "transforms are finite", np.isfinite(arrays["transforms"])
 
 
-def _rules_of_edges(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
+def _rules_of_edges(arrays: Arrays) -> Rules:
     """Yield what must hold of edges, where clips and nodes are right."""
     window = arrays["window"]
     edges = arrays["edges"]
@@ -333,3 +215,7 @@ def _rules_of_edges(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
     fits = (start + window <= arrays["frames"][start_clip]) & (end >= window)
     blends = fits & (frames == window)
     yield "edges play what lies between their ends", np.where(arrays["is_transition"], blends, plays_on)
+
+
+VERSION = 2  # in version 1 fingerprints were of all digits
+GRAPH = Kind("a motion graph", ARRAYS, _rules, version=VERSION)

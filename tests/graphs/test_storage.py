@@ -113,8 +113,8 @@ MISFITS = [
     ({"nodes": np.zeros((3, 3), int)}, "'nodes' to fit"),
     ({"nodes": np.zeros((3, 2))}, "'nodes' to fit"),
     ({"costs": np.zeros(2)}, "'transforms' to fit"),
-    ({"window": 0}, "window and rate"),
-    ({"fps": np.inf}, "window and rate"),
+    ({"window": 0}, "the window is above 0"),
+    ({"fps": np.inf}, "the rate is above 0"),
     ({"names": ["a", "a"]}, "names of their own"),
     ({"names": ["a"]}, "'frames' to fit"),
     ({"names": np.array([{}, []], object)}, "'names' to fit"),  # nothing is unpickled

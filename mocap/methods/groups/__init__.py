@@ -17,9 +17,10 @@ Reading order (notebook 19)
 2. `configurations`: when do two groups stand and move alike, and which moments come again?
 3. `group_clips`: clips that lead from node to node, by constrained simulation
 4. `group_graphs`: the graph, and what a walk through it plays
-5. `planning`: where to go, what stands in the way, and a search for the way
-6. `group_steering`: the same without a plan, and the quicker of the two
-7. `group_walkers`: a character of a motion graph for each member
+5. `group_storage`: save a graph to .npz, and read it again
+6. `planning`: where to go, what stands in the way, and a search for the way
+7. `group_steering`: the same without a plan, and the quicker of the two
+8. `group_walkers`: a character of a motion graph for each member
 
 References
 ----------

@@ -15,6 +15,8 @@ from .group_graphs import random_group_walk as random_group_walk
 from .group_steering import clearances as clearances
 from .group_steering import lead_group as lead_group
 from .group_steering import steer_group as steer_group
+from .group_storage import load_group as load_group
+from .group_storage import save_group as save_group
 from .group_walkers import walk_group as walk_group
 from .planning import Scene as Scene
 from .planning import plan_group as plan_group

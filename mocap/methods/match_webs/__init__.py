@@ -10,9 +10,10 @@ Reading order (notebooks 16)
 ----------------------------
 1. `local_alignment`: valleys of a grid, and paths through it that begin and end anywhere; piece by piece
 2. `webs`: `MatchWeb`, all paths of a set of clips, found once
-3. `match_search`: what is like the query, and what is like that
-4. `motion_spaces`: what a motion does, in a number or a few; blends of examples, drawn at random and measured
-5. `wishes`: from a wish back to weights
+3. `web_storage`: save a web to .npz, and read it again
+4. `match_search`: what is like the query, and what is like that
+5. `motion_spaces`: what a motion does, in a number or a few; blends of examples, drawn at random and measured
+6. `wishes`: from a wish back to weights
 
 References
 ----------

@@ -8,5 +8,7 @@ from .motion_spaces import hand_target as hand_target
 from .motion_spaces import mean_speed as mean_speed
 from .motion_spaces import sample_space as sample_space
 from .motion_spaces import turn as turn
+from .web_storage import load_web as load_web
+from .web_storage import save_web as save_web
 from .webs import build_web as build_web
 from .wishes import weights_for as weights_for

@@ -12,7 +12,8 @@ Reading order (notebook 17)
 3. `stride_spaces`: ask for a turn, and get the weights of a blend that has it
 4. `made_motions`: motions made out of mixes, and where to leave one and enter another
 5. `parametric_edges`: boxes of targets that may follow; spaces and edges as a graph
-6. `parametric_control`: a character that decides once per stride
+6. `parametric_storage`: save a graph to .npz, and read it again
+7. `parametric_control`: a character that decides once per stride
 
 References
 ----------

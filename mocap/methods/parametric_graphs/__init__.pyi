@@ -4,6 +4,8 @@ from .made_motions import optimal_transitions as optimal_transitions
 from .parametric_control import ParametricController as ParametricController
 from .parametric_edges import build_edge as build_edge
 from .parametric_edges import build_parametric as build_parametric
+from .parametric_storage import load_parametric as load_parametric
+from .parametric_storage import save_parametric as save_parametric
 from .stride_spaces import bell_weights as bell_weights
 from .stride_spaces import make_space as make_space
 from .stride_spaces import measure_mixes as measure_mixes

@@ -1,0 +1,181 @@
+"""The clips of a saved graph or web, by name, length and fingerprint: to find them again and compare them.
+
+Such a file holds no frames of its clips. It remembers where they were read from, if the user says so.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections import defaultdict
+from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from mocap._shared.archives import Arrays, Layout, Rules
+from mocap._shared.progress import Progress
+from mocap.body.fingerprints import fingerprint
+from mocap.body.motion import Motion, require_alike, resample
+from mocap.datasets.clip_origins import Origin, find_again, is_origin
+from mocap.datasets.samples import FPS, FRAMES_IN_0_1, SAMPLES, sample
+from mocap.editing.mirroring import mirror
+from mocap.errors import MocapError, shortened
+from mocap.files.conversion import is_clip
+from mocap.files.load_save import load
+
+MOST_FRAMES = 2**31  # of a clip
+FASTEST = 1e6  # frames per second
+# The arrays that a file has for C clips and O origins.
+LAYOUT: Layout = {
+    "fps": (float, ()),
+    "names": (str, ("C",)),
+    "frames": (int, ("C",)),  # of each clip
+    "fingerprints": (str, ("C",)),
+    "origins": (str, ("O",)),
+}
+
+
+class ClipReferences(NamedTuple):
+    """The clips that something was built of: their rate, names, lengths in frames, and fingerprints.
+
+    A fingerprint of "" fits any clip. `origins` are texts of `Origin`, one for each clip, or none.
+
+    Examples
+    --------
+    >>> ClipReferences(30.0, ["walk"], [90], [""], []).names
+    ['walk']
+    """
+
+    fps: float
+    names: list[str]
+    frames: list[int]
+    fingerprints: list[str]
+    origins: list[str]
+
+
+def arrays_of_clips(clips: Sequence[Motion], origins: Sequence[Origin], path: str | Path) -> dict[str, Any]:
+    """Return the arrays of `LAYOUT` for clips of one rate, and a file that will be written to a path."""
+    arrays: dict[str, Any] = {"fps": clips[0].fps}
+    arrays["names"] = [clip.name for clip in clips]
+    arrays["frames"] = [len(clip) for clip in clips]
+    arrays["fingerprints"] = [fingerprint(clip) for clip in clips]
+    arrays["origins"] = [origin.text(Path(path).parent) for origin in origins]
+    return arrays
+
+
+def references_in(arrays: Arrays) -> ClipReferences:
+    """Return the references that the arrays of a file hold."""
+    return ClipReferences._make(arrays[key].tolist() for key in ClipReferences._fields)
+
+
+def rules_of_clips(arrays: Arrays) -> Rules:
+    """Yield what must hold of the arrays of `LAYOUT`."""
+    lengths = arrays["frames"]
+    yield "origins are one for each clip, or none", len(arrays["origins"]) in (0, len(lengths))
+    yield "origins are places of files", [is_origin(text) for text in arrays["origins"].tolist()]
+    yield "the rate is above 0", 0 < arrays["fps"] < FASTEST
+    yield "there are clips", len(lengths) > 0
+    yield "clips have frames", (lengths > 0) & (lengths < MOST_FRAMES)
+
+
+def find_files_of(references: ClipReferences, path: str | Path) -> list[Origin]:
+    """Find the files of the clips that a file at a path refers to; none for bundled samples.
+
+    Each is where it was, or else beside the file, under the clip's name.
+
+    Raises
+    ------
+    MocapError : for a clip that is in neither place.
+    """
+    folder = Path(path).parent
+    if set(references.names) <= set(SAMPLES) and not references.origins:
+        return []
+    neighbours = {file.stem: file for file in sorted(folder.iterdir()) if is_clip(file)}
+    places: list[Origin] = []
+    for name, text in itertools.zip_longest(references.names, references.origins):
+        origin = find_again(text, folder) if text else None
+        if origin is None and name not in neighbours:
+            raise MocapError(f"The clip '{shortened(name)}' is no longer where {path} found it: give clips=.")
+        places.append(origin or Origin(neighbours[name]))
+    return places
+
+
+def load_references(
+    references: ClipReferences,
+    path: str | Path,
+    clips: Sequence[Motion] | None,
+    skeleton: Path | None,
+    progress: Progress,
+) -> list[Motion]:
+    """Return the clips that a file at a path refers to, in its order and at its rate.
+
+    Parameters
+    ----------
+    references, path : from the file, and where it is.
+    clips : motions among which they are; None to read them from where they were, or to take bundled ones.
+    skeleton : the `.asf` file of `.amc` clips; by default the one of the origin, or one that fits.
+    progress : wraps the files of the clips, to show a bar.
+
+    Raises
+    ------
+    MocapError : for a clip that is missing, cannot be read, or has changed.
+    """
+    if clips is None:
+        clips = _load_clips(references, path, skeleton, progress)
+    resampled = [resample(clip, references.fps) for clip in clips]
+    needed = [clip for clip in resampled if clip.name in references.names]
+    with suppress(MocapError):  # one end sites for all; what does not go together is named below
+        needed = list(require_alike(needed))
+    by_name = defaultdict[str, list[Motion]](list)
+    for clip in needed:
+        by_name[clip.name].append(clip)
+    chosen = []
+    rows = zip(references.names, references.frames, references.fingerprints, strict=True)
+    for name, length, digest in rows:
+        if name not in by_name:
+            names = shortened(", ".join(dict.fromkeys(clip.name for clip in clips)) or "none")
+            raise MocapError(f"{path} needs the clip '{shortened(name)}'; given are: {names}.")
+        fitting = [clip for clip in by_name[name] if _is_same(clip, length, digest)]
+        if not fitting:
+            raise _difference(path, by_name[name][-1], length)
+        chosen.append(fitting[0])
+    return chosen
+
+
+def _load_clips(
+    references: ClipReferences, path: str | Path, skeleton: Path | None, progress: Progress
+) -> list[Motion]:
+    """Load the clips of a file from where they were, or take the bundled ones."""
+    origins = find_files_of(references, path)
+    if not origins:
+        return [sample(name) for name in references.names]
+    clips = []
+    for origin in progress(origins):
+        clip = load(origin.path, skeleton=skeleton or origin.skeleton, scale=origin.scale)
+        clips.append(mirror(clip) if origin.mirrored else clip)
+    return clips
+
+
+def _is_same(clip: Motion, length: int, digest: str) -> bool:
+    """Check whether a clip has the length, in frames, and the fingerprint of the one in the file."""
+    return len(clip) == length and (not digest or fingerprint(clip) == digest)
+
+
+def _difference(path: str | Path, clip: Motion, length: int) -> MocapError:
+    """Return the error that a clip is another one than that of the file, which had `length` frames."""
+    if _was_bundled_in_0_1(clip.name, length, clip.fps):
+        return MocapError(
+            f"{path} was built of the clips of mocap 0.1, which later versions do not have. "
+            "Build it anew, or load it with mocap 0.1."
+        )
+    difference = "other poses, bones or units"
+    if len(clip) != length:
+        difference = f"{length} frames then, {len(clip)} now"
+    named = f"another '{shortened(clip.name)}'"
+    return MocapError(f"{path} was built of {named}: {difference}. Take that clip, or build anew.")
+
+
+def _was_bundled_in_0_1(name: str, length: int, fps: float) -> bool:
+    """Tell whether a clip of so many frames is one that came with mocap 0.1."""
+    intervals = FRAMES_IN_0_1.get(name, 0) - 1
+    return length == int(intervals * fps / FPS) + 1

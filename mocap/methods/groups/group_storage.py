@@ -1,0 +1,127 @@
+"""Save a group motion graph to one file: its configurations and clips as arrays in an `.npz`.
+
+The file holds no code: it is safe to read a file from a stranger.
+"""
+
+from pathlib import Path
+
+import numpy as np
+
+from mocap._shared.archives import Arrays, Kind, Layout, Rules, read_archive, write_archive
+from mocap._shared.arrays import Mask, Points
+from mocap.methods.groups.configurations import SLOWEST
+from mocap.methods.groups.flocking import Configuration
+from mocap.methods.groups.group_clips import GroupClip
+from mocap.methods.groups.group_graphs import GroupGraph
+
+FARTHEST = 1e6  # metres, and metres per second
+ROUNDING = 1e-6  # metres, by which a clip may miss its nodes
+UNIT = 1e-9  # by which the length of a rotation may differ from 1
+# The arrays of the file, with K nodes, C clips, F + 1 frames of each (here F), and N members.
+# Places and velocities are complex, as in `Configuration`; ends, orders and transforms as in `GroupClip`.
+# reads: statement: a table
+ARRAYS: Layout = {
+    "node_places": (complex, ("K", "N")),
+    "node_velocities": (complex, ("K", "N")),
+    "starts": (int, ("C",)),
+    "ends": (int, ("C",)),
+    "places": (complex, ("C", "F", "N")),
+    "velocities": (complex, ("C", "F", "N")),
+    "orders": (int, ("C", "N")),
+    "turns": (complex, ("C",)),
+    "moves": (complex, ("C",)),
+    "tried": (int, ()),
+}
+
+
+def save_group(graph: GroupGraph, path: str | Path) -> None:
+    """Write a group motion graph to an `.npz` file; an old file is replaced when the new one is complete.
+
+    A graph of twelve members takes 6 s to build, and 0.3 s to load from 30 MB.
+
+    Parameters
+    ----------
+    graph : as from `build_group`.
+    path : the file.
+
+    Raises
+    ------
+    MocapError : for another suffix, for clips that do not lead from node to node, and where the file cannot
+        be written.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from mocap.methods.groups import build_group, random_group_walk
+    >>> graph = build_group(3, nodes=2, corridors=(), simulated=40.0, reach=0.4)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     save_group(graph, f"{folder}/three.npz")
+    ...     again = load_group(f"{folder}/three.npz")
+    >>> random_group_walk(again, 5) == random_group_walk(graph, 5)
+    True
+    """
+    clips = graph.clips
+    nodes = Configuration(*(np.array(field) for field in zip(*graph.nodes, strict=True)))
+    arrays = {"node_places": nodes.places, "node_velocities": nodes.velocities, "tried": graph.tried}
+    arrays |= {"starts": [clip.start for clip in clips], "ends": [clip.end for clip in clips]}
+    arrays |= {"turns": [clip.turn for clip in clips], "moves": [clip.move for clip in clips]}
+    for key, field in (("places", "places"), ("velocities", "velocities"), ("orders", "order")):
+        arrays[key] = np.array([getattr(clip, field) for clip in clips])
+    write_archive(path, GROUP, arrays)
+
+
+def load_group(path: str | Path) -> GroupGraph:
+    """Read a group motion graph; `save_group` shows an example.
+
+    Parameters
+    ----------
+    path : a file from `save_group`.
+
+    Returns
+    -------
+    The same graph, bit for bit.
+
+    Raises
+    ------
+    MocapError : for a file that cannot be read.
+    FormatError : for a file that is no group motion graph, is damaged, or has a newer version.
+    """
+    arrays = read_archive(path, GROUP)
+    nodes = tuple(map(Configuration, arrays["node_places"], arrays["node_velocities"]))
+    columns = [arrays[key].tolist() for key in ("starts", "ends", "turns", "moves")]
+    clips = []
+    for number, (start, end, turn, move) in enumerate(zip(*columns, strict=True)):
+        places, velocities, order = (arrays[key][number] for key in ("places", "velocities", "orders"))
+        clips.append(GroupClip(start, end, places, velocities, order, turn, move))
+    return GroupGraph(nodes, tuple(clips), int(arrays["tried"]))
+
+
+def _rules(arrays: Arrays) -> Rules:
+    """Yield what must hold; each rule needs those before it."""
+    places = arrays["node_places"]
+    velocities = arrays["node_velocities"]
+    clips, frames, members = arrays["places"].shape
+    numbers = (array for array in arrays.values() if array.dtype.kind == "c")
+    yield "numbers are finite and not above a million", [_is_near(array) for array in numbers]
+    yield "there are nodes and clips, of two members or more", len(places) and clips and members >= 2
+    yield "clips have frames", frames > 1
+    yield "nodes go somewhere", np.abs(velocities.mean(axis=1)) >= SLOWEST
+    yield "as many clips were tried or more", arrays["tried"] >= clips
+    ends = np.stack([arrays["starts"], arrays["ends"]])
+    yield "clips lead from node to node", (ends >= 0) & (ends < len(places))
+    yield "members keep their numbers apart", np.sort(arrays["orders"]) == np.arange(members)
+    yield "rotations have length 1", np.abs(np.abs(arrays["turns"]) - 1) < UNIT
+    first = arrays["places"][:, 0] - places[arrays["starts"]]
+    yield "clips begin at their nodes", np.abs(first) < ROUNDING
+    goals = np.take_along_axis(places[arrays["ends"]], arrays["orders"], axis=1)
+    aligned = arrays["turns"][:, None] * goals + arrays["moves"][:, None]
+    yield "clips end at their nodes", np.abs(arrays["places"][:, -1] - aligned) < ROUNDING
+
+
+def _is_near(array: Points) -> bool:
+    """Check whether all numbers are finite, and at most `FARTHEST` from 0."""
+    is_near: Mask = np.abs(array) <= FARTHEST
+    return bool(is_near.all())
+
+
+GROUP = Kind("a group motion graph", ARRAYS, _rules)
