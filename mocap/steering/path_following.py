@@ -1,13 +1,17 @@
 """Find a walk along a path on the ground: in layers, and by the paper's branch and bound [KGP02, 5.1]."""
 
+import itertools
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
+from operator import attrgetter
 
 import numpy as np
 
 from mocap._shared.arrays import Indices
+from mocap._shared.deadlines import OUT_OF_TIME, Deadline
 from mocap.body.ground_path import GroundPath
 from mocap.body.planar import on_ground
 from mocap.errors import MocapError, NoWalk, warn
@@ -23,6 +27,7 @@ from mocap.synthesis.ground_walks import GroundWalks, Stand
 
 WIDE = 400  # walks that stay in each layer, where all else leaves the path
 FAR = 1.0  # metres from the path on average: a walk does not follow it
+CHEAP = (1 / 3, 0.0)  # shares of the price of seams, for walks that leave the path
 AGAIN = 1.25  # a repeated search multiplies or divides the price of a seam by this
 
 
@@ -69,12 +74,13 @@ def follow_path(
     ------
     NoWalk : for a label that no walk can reach, a start that is not in the graph, a dead end, and clips of
         which no walk goes on at 0.3 m/s; without `bend` where the walk is a metre off on average; with
-        `Settings(tries=1)` it is given all the same.
+        `Settings(tries=1)` it is given all the same. For a deadline before the first step of the search.
     MocapError : for a path that takes these clips more than an hour, and wishes that make no sense.
 
     Warns
     -----
     MocapWarning : where the walk is more than 15 cm off the path, and with `bend` for plants that are let go.
+        Where `Settings.deadline` ended the search, with how much of the path the walk covers.
 
     Examples
     --------
@@ -90,7 +96,10 @@ def follow_path(
 
     Notebook: 08-path-synthesis
     """
-    wishes, settings, compiled = wishes or Wishes(), settings or Settings(), compile_graph(graph)
+    wishes = wishes or Wishes()
+    settings = settings or Settings()
+    deadline = Deadline(settings.deadline)
+    compiled = compile_graph(graph)
     if settings.tries < 1:
         raise MocapError(f"A path takes at least one search, got tries={settings.tries}.")
     measure: Callable[[Found], Followed]
@@ -107,28 +116,40 @@ def follow_path(
     def search(settings: Settings) -> Followed:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            walk = measure(find_walk(compiled, route, starts, settings))
+            walk = measure(find_walk(compiled, route, starts, settings, deadline))
         said[id(walk)] = [str(warned.message) for warned in caught]
         return walk
 
-    followed = _best_of(search, replace(settings, width=settings.width_on(route)))
+    followed, is_ended = _best_of(search, replace(settings, width=settings.width_on(route)), deadline)
     for sentence in said[id(followed)]:
         warn(sentence)
+    if is_ended and deadline.is_over:
+        _tell_deadline(followed, settings.deadline)
     if not wishes.others:  # with others it goes aside to give way
-        if settings.tries > 1 and not bend:
+        if settings.tries > 1 and not bend and not is_ended:
             _require_near(compiled, followed)
         _tell_departures(followed, bend)
     return followed
 
 
+def _tell_deadline(followed: Followed, seconds: float) -> None:
+    """Warn of a search that a deadline ended, with how much of the path the walk covers."""
+    length = f"{followed.path.length:.1f} m"
+    if followed.progress < 1:
+        covered = f"{min(99, round(100 * followed.progress))} % of the path, {followed.along[-1]:.1f} of {length}"
+    else:
+        covered = f"all of the path, {length}, but a longer search may find a better one"
+    warn(f"The deadline of {seconds:g} s ended the search: the walk covers {covered}.")
+
+
 def _require_near(graph: CompiledGraph, followed: Followed) -> None:
     """Raise `NoWalk` for a walk that does not follow the path at all."""
     if followed.off.mean() > FAR and not followed.found.stopped:
-        off = f"The nearest walk is {followed.off.mean():.1f} m off the line on average"
+        nearest = f"The nearest walk is {followed.off.mean():.1f} m off the line on average"
         speed = np.abs(np.diff(on_ground(followed.track))).sum() / followed.seconds
         if speed < SLOWEST:
-            raise too_slow(graph, f"{off}, and goes at {speed:.2f} m/s")
-        raise NoWalk(f"{off}: no clips turn as it does; try `bend`, or add clips that turn.")
+            raise too_slow(graph, f"{nearest}, and goes at {speed:.2f} m/s")
+        raise NoWalk(f"{nearest}: no clips turn as it does; try `bend`, or add clips that turn.")
 
 
 def _tell_departures(followed: Followed, bend: float) -> None:
@@ -136,33 +157,69 @@ def _tell_departures(followed: Followed, bend: float) -> None:
     if departures := followed.departures:
         start, end, worst = max(departures, key=lambda stretch: stretch[2])
         often = "once" if len(departures) == 1 else f"{len(departures)} times"
-        other = "the clips sway so far" if bend else "no clips turn as it does there"
-        rounded = followed.bent and followed.bent.rounded[followed.off.argmax()]
-        why = "it turns too fast there" if rounded else other
-        why += "" if bend else "; `bend` turns them, and `follow_as_2002` may come nearer"
         furthest = f"the furthest by {100 * worst:.0f} cm at {start:.1f} to {end:.1f} m"
-        warn(f"The walk leaves the path {often}, {furthest}: {why}.")
+        if followed.bent and followed.bent.rounded[followed.off.argmax()]:
+            reason = "it turns too fast there"
+        elif bend:
+            reason = "the clips sway so far"
+        else:
+            reason = "no clips turn as it does there"
+        if not bend:
+            reason += "; `bend` turns them, and `follow_as_2002` may come nearer"
+        warn(f"The walk leaves the path {often}, {furthest}: {reason}.")
 
 
-def _best_of(search: Callable[[Settings], Followed], settings: Settings) -> Followed:
-    """Search; while `excess` is above 1, search again with a wider beam and another price of a seam.
+def _best_of(
+    search: Callable[[Settings], Followed], settings: Settings, deadline: Deadline
+) -> tuple[Followed, bool]:
+    """Search, and search again with other settings while that may help.
 
-    Where the best walk still leaves the path, far more walks are kept, of cheap seams and then of free ones.
+    Returns
+    -------
+    The best walk, and whether the deadline or Ctrl-C ended the search.
     """
-    best = last = search(settings)
-    for again in range(1, settings.tries):
-        if best.excess <= 1 or last.found.stopped:
-            return best
-        seam = settings.seam * (AGAIN if best.restless > 1 else 1 / AGAIN)
-        wider = round((1 + again / 2) * (settings.width or 0))
-        last = search(replace(settings, seam=seam, width=wider))
-        best = min(best, last, key=lambda walk: (walk.progress < 1, walk.excess))
-    for share in (1 / 3, 0.0):  # of the price of seams
-        if settings.tries > 1 and best.far and best.off.max() > ASTRAY and not last.found.stopped:
-            cheap = replace(settings, seam=share * settings.seam, match=share * settings.match, width=WIDE)
-            last = search(cheap)
-            best = min(best, last, key=lambda walk: (walk.progress < 1, walk.far))
-    return best
+    best = search(settings)
+    last = best
+    for count in itertools.count(1):
+        next_settings = _next_settings(best, settings, count)
+        if next_settings is None:
+            break
+        if last.found.stopped or deadline.is_over:
+            return best, True
+        with _ending(deadline):
+            last = search(next_settings)
+        measure = attrgetter("excess" if count < settings.tries else "far")
+        best = min(best, last, key=lambda walk: (walk.progress < 1, measure(walk)))
+    return best, bool(last.found.stopped)
+
+
+@contextmanager
+def _ending(deadline: Deadline) -> Iterator[None]:
+    """Let a search end without a walk if the deadline is over: it may end before its first step."""
+    try:
+        yield
+    except NoWalk:
+        if not deadline.is_over:
+            raise
+
+
+def _next_settings(best: Followed, settings: Settings, count: int) -> Settings | None:
+    """Return the settings of the next search after so many; None where the best walk needs no other.
+
+    While `excess` is above 1, the beam grows, and the price of a seam changes. Where the best walk still
+    leaves the path, far more walks are kept, of cheap seams and then of free ones.
+    """
+    if count < settings.tries:
+        if best.excess <= 1:
+            return None
+        factor = AGAIN if best.restless > 1 else 1 / AGAIN
+        width = settings.width or WIDE
+        return replace(settings, seam=factor * settings.seam, width=round((1 + count / 2) * width))
+    cheap = count - settings.tries
+    if settings.tries == 1 or cheap >= len(CHEAP) or not (best.far and best.off.max() > ASTRAY):
+        return None
+    share = CHEAP[cheap]
+    return replace(settings, seam=share * settings.seam, match=share * settings.match, width=WIDE)
 
 
 def start_of(graph: CompiledGraph, route: Route, wishes: Wishes) -> States:
@@ -179,17 +236,18 @@ def _require_labels(graph: CompiledGraph, labels: Sequence[str], starts: Indices
     nodes = {graph.nodes[start] for start in starts}
     for label in filter(None, labels):
         edges = list(source.out_edges(reached(source, nodes), data=True))
-        if not (nodes := {end for _, end, edge in edges if label in edge["labels"]}):
+        nodes = {end for _, end, edge in edges if label in edge["labels"]}
+        if not nodes:
             can = ", ".join(sorted({name for _, _, edge in edges for name in edge["labels"]})) or "none"
             raise NoWalk(f"No walk comes to the label '{label}' from there; it can reach: {can}.")
 
 
 def cost_along(walks: GroundWalks, route: Route, stand: Stand, edge: SearchEdge) -> tuple[float, Stand]:
-    """Give g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖² [KGP02, Eq. 9] after a walk, and where it leads."""
-    rows, points, after = walks.step(stand, edge)
+    """Return g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖² [KGP02, Eq. 9] after a walk, and its next state."""
+    rows, points, next_stand = walks.step(stand, edge)
     along = stand.along + np.cumsum(walks.graph.progress[rows])
-    off = np.abs(points - route.at(along))
-    return float((off**2).sum()), after._replace(along=float(along[-1]))
+    distances = np.abs(points - route.at(along))
+    return float((distances**2).sum()), next_stand._replace(along=float(along[-1]))
 
 
 def path_problem(walks: GroundWalks, route: Route) -> Problem:
@@ -198,13 +256,14 @@ def path_problem(walks: GroundWalks, route: Route) -> Problem:
     return Problem(walks.graph.source.graph, step, lambda stand: stand.along >= route.length)
 
 
-def follow_as_2002(
+def follow_as_2002(  # noqa: PLR0913 (a path, wishes, and three limits)
     graph: MotionGraph | CompiledGraph,
     path: GroundPath,
     wishes: Wishes,
     *,
     look: tuple[int, int] = (90, 28),
     budget: float = np.inf,
+    deadline: float = np.inf,
 ) -> Followed:
     """Follow a path by the paper's branch and bound, to compare with `follow_path` [KGP02, Eq. 9].
 
@@ -214,6 +273,7 @@ def follow_as_2002(
     wishes : give a `start`, else the walk starts at the first node; labels and times are ignored.
     look : n and m, the frames to look ahead and the frames to keep; as for `synthesis.search_ahead`.
     budget : of each stretch of the search.
+    deadline : seconds of wall time for the whole search; then it is the walk so far.
 
     Returns
     -------
@@ -222,6 +282,10 @@ def follow_as_2002(
     Raises
     ------
     NoWalk, MocapError : as for `steering.follow_path`, and where the budget ends before the first step.
+
+    Warns
+    -----
+    MocapWarning : where the deadline ended the search, with how much of the path the walk covers.
 
     Examples
     --------
@@ -240,12 +304,16 @@ def follow_as_2002(
     start = start_of(compiled, route, wishes)
     stand = Stand(complex(start.turn[0]), complex(start.move[0]))
     walks = GroundWalks(compiled)
-    node, problem = compiled.nodes[int(start.node[0])], path_problem(walks, route)
-    result = search_ahead(problem, node, stand, look=look, budget=budget)
+    node = compiled.nodes[int(start.node[0])]
+    problem = path_problem(walks, route)
+    result = search_ahead(problem, node, stand, look=look, budget=budget, deadline=deadline)
     if not result.walk:
         raise NoWalk(f"The search was {result.stopped} before its first step.")
     edges = np.array([walks.number[edge] for edge in result.walk])
     along = np.cumsum(compiled.progress[walk_track(compiled, edges, stand.turn, stand.move)[1]])
-    counts = result.expanded, result.cut, result.stopped
-    found = Found(edges, stand.turn, stand.move, along, result.cost, *counts)
-    return account(compiled, path, route, found)
+    counts = (result.expanded, result.cut, result.stopped)
+    best = Found(edges, stand.turn, stand.move, along, result.cost, *counts)
+    followed = account(compiled, path, route, best)
+    if result.stopped == OUT_OF_TIME:
+        _tell_deadline(followed, deadline)
+    return followed

@@ -50,8 +50,8 @@ class Wishes:
     times: Sequence[tuple[float, float]] = ()
     start: Node | None = None
     slide: float = 0.5
-    others: Sequence[Array] = ()
-    apart: float = 0.8
+    others: Sequence[Array] = ()  # reads: name: users give it as a keyword
+    apart: float = 0.8  # reads: name: users give it as a keyword
 
 
 @dataclass(frozen=True)
@@ -76,6 +76,9 @@ class Settings:
     rescue : the largest expected cost of a walk that is about to leave the path, m².
     tries : the largest number of searches; 1 for one search with this width and these prices.
     progress : wraps the layers, to show a bar.
+    deadline : seconds of wall time, from the call of `follow_path`, after which its searches end. The best
+        walk so far is returned, with a warning that says how much of the path it covers. To measure the walk,
+        or to bend it, comes on top.
 
     Examples
     --------
@@ -99,9 +102,10 @@ class Settings:
     rescue: float = 1.5
     tries: int = 3
     progress: Progress = iter
+    deadline: float = np.inf
 
     def width_on(self, route: Route) -> int:
-        """Give the width, or its default for a route."""
+        """Return the width, or its default for a route."""
         return self.width or (50 if route.bare else 100)
 
 
@@ -132,8 +136,9 @@ class Route:
     label: Indices
     clock: Array
     wishes: Wishes = field(default_factory=Wishes)
+    # reads: name: as in `Wishes`
     others: Points = field(default_factory=lambda: np.empty((0, 1), complex))
-    own: CompiledGraph | None = None
+    own: CompiledGraph | None = None  # reads: name: as in `own_paths`, which makes it
     turns: Array = field(default_factory=lambda: np.zeros(0))
     curvature: Array = field(default_factory=lambda: np.zeros(0))
 
@@ -142,12 +147,12 @@ class Route:
         """Metres from the first point to the last."""
         return (len(self.points) - 1) * self.spacing
 
-    def at(self, along: Array) -> Points:
+    def at(self, along: Array) -> Points:  # reads: name: as of a `GroundPath`
         """Interpolate the points at some metres along; past the end it is the last point [KGP02, 5.1]."""
         place = np.clip(along / self.spacing, 0, len(self.points) - 1)
-        before = np.minimum(place.astype(np.intp), len(self.points) - 2)
-        start = self.points[before]
-        return np.asarray(start + (place - before) * (self.points[before + 1] - start))
+        piece = np.minimum(place.astype(np.intp), len(self.points) - 2)
+        start = self.points[piece]
+        return np.asarray(start + (place - piece) * (self.points[piece + 1] - start))
 
     def point(self, along: Array) -> Indices:
         """Find the point before each place, which is faster than to interpolate; past the end the last."""
@@ -155,10 +160,11 @@ class Route:
         return np.minimum(place.astype(np.intp), len(self.points) - 1)
 
     @cached_property
-    def ways(self) -> Points:
+    def directions(self) -> Points:
         """The direction of the path after each point, as complex numbers of length 1."""
         steps = np.diff(self.points)
-        return np.asarray(steps[[*range(len(steps)), -1]] / np.abs(steps[[*range(len(steps)), -1]]))
+        steps = np.append(steps, steps[-1])
+        return np.asarray(steps / np.abs(steps))
 
     @cached_property
     def bare(self) -> bool:
@@ -187,9 +193,9 @@ def make_route(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Route:
     if path.length > 3600 * fastest:
         hour = f"takes these clips more than an hour, at {fastest:.2f} m/s at most"
         raise MocapError(f"A path of {path.length:.0f} m {hour}: is it in metres, and do they walk?")
-    for where, what in (*wishes.labels, *wishes.times):
-        if not 0 <= where <= path.length:
-            raise MocapError(f"'{what}' is asked for {where} m along a path of {path.length:.1f} m.")
+    for place, wish in (*wishes.labels, *wishes.times):
+        if not 0 <= place <= path.length:
+            raise MocapError(f"'{wish}' is asked for {place} m along a path of {path.length:.1f} m.")
     points = path.resampled(SPACING).points
     along = np.linspace(0, path.length, len(points))
     label = np.full(len(points), -1)
@@ -197,8 +203,8 @@ def make_route(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Route:
         label[along >= start - 1e-9] = graph.label_number(name)
     # The tracks of others, as long as the longest; others stay at their end.
     frames = np.arange(max(map(len, wishes.others), default=1))
-    others = [on_ground(track[np.minimum(frames, len(track) - 1)]) for track in wishes.others]
-    together = np.array(others, complex).reshape(-1, len(frames))
+    tracks = [on_ground(track[np.minimum(frames, len(track) - 1)]) for track in wishes.others]
+    together = np.array(tracks, complex).reshape(-1, len(frames))
     return Route(on_ground(points), float(along[1]), label, _clock(along, wishes), wishes, together)
 
 

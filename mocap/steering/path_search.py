@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Mask, Points
+from mocap._shared.deadlines import OUT_OF_TIME, Deadline
 from mocap._shared.ties import first_least
 from mocap.body.planar import on_ground
 from mocap.errors import NoWalk
@@ -54,20 +55,34 @@ class Found(NamedTuple):
     stopped: str
 
 
-def find_walk(graph: CompiledGraph, route: Route, starts: States, settings: Settings) -> Found:
+def find_walk(
+    graph: CompiledGraph,
+    route: Route,
+    starts: States,
+    settings: Settings,
+    deadline: Deadline | None = None,
+) -> Found:
     """Find the best walk from one of the starts to the end of a route.
 
-    After Ctrl-C it is the best so far.
+    After Ctrl-C, or at the deadline, it is the best so far.
+
+    Parameters
+    ----------
+    graph, route, starts, settings : as for `PathSearch`.
+    deadline : of several searches; by default the one of the settings, from now on.
 
     Raises
     ------
     NoWalk : where every walk ends before the route does, or the search before its first step.
     """
+    deadline = deadline or Deadline(settings.deadline)
     search = PathSearch(graph, route, starts, settings)
     try:
         for layer in settings.progress(range(int(route.length / LAYER) + 1)):
             for walks in search.rounds(layer):
                 watching.get()(search, walks)
+                if deadline.is_over:
+                    return search.best_walk(OUT_OF_TIME)
     except KeyboardInterrupt:
         return search.best_walk("interrupted")
     return search.best_walk("")
@@ -124,7 +139,7 @@ class PathSearch(LayeredSearch):
         longer = states.then(row, hops._replace(cost=cost))
         root = self.graph.at[longer.node]
         point = route.point(longer.along)
-        direction = route.ways[point]
+        direction = route.directions[point]
         is_timed = np.isfinite(route.clock).any()
         if route.own:
             turn = np.exp(-1j * route.own.going[longer.node]) * direction
@@ -243,7 +258,8 @@ class PathSearch(LayeredSearch):
             reached = max(float(states.along.max()) for states in self.history)
             raise NoWalk(f"Every walk ends after {reached:.1f} m of the path: prune the graph first.")
         if not self.arrived and len(self.history) < 2:
-            raise NoWalk(f"The search was {stopped} before its first step.")
+            remedy = ": give it longer" if stopped == OUT_OF_TIME else ""
+            raise NoWalk(f"The search was {stopped} before its first step{remedy}.")
         last = States.join(self.arrived or self.history[-1:])
         walk = self.trace(last, int(first_least(last.cost, EQUAL)))
         hops = walk.hop[1:]

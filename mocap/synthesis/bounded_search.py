@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 import networkx as nx
 import numpy as np
 
+from mocap._shared.deadlines import OUT_OF_TIME, Deadline
 from mocap._shared.ties import in_order
 from mocap.errors import MocapError, NoWalk
 
@@ -98,8 +99,14 @@ class Branch(NamedTuple):
         return edges[::-1]
 
 
-def branch_and_bound(
-    problem: Problem, node: Hashable, state: State, *, horizon: float = np.inf, budget: float = np.inf
+def branch_and_bound(  # noqa: PLR0913 (a problem, a start, and three limits)
+    problem: Problem,
+    node: Hashable,
+    state: State,
+    *,
+    horizon: float = np.inf,
+    budget: float = np.inf,
+    deadline: float = np.inf,
 ) -> SearchResult:
     """Find the cheapest walk that is complete, or at least `horizon` frames long [KGP02, Eq. 8].
 
@@ -108,7 +115,8 @@ def branch_and_bound(
     problem : graph, costs and halting rule.
     node, state : where the walk starts, and the state of an empty walk.
     horizon : frames to look ahead.
-    budget : the largest number of walks to expand; Ctrl-C stops the search, too.
+    budget : the largest number of walks to expand. Ctrl-C also stops the search.
+    deadline : seconds of wall time after which the search stops.
 
     Returns
     -------
@@ -117,7 +125,7 @@ def branch_and_bound(
     Raises
     ------
     NoWalk : for a node that is not in the graph, and where every walk ends before it is complete.
-    MocapError : for a cost below 0, with which the bound would be wrong.
+    MocapError : for a cost below 0, with which the bound would be wrong; for a deadline that is not above 0.
 
     Examples
     --------
@@ -133,9 +141,14 @@ def branch_and_bound(
 
     Notebook: 07-walks-and-search
     """
-    if node not in problem.graph:
-        raise NoWalk(f"The graph has no node {node}.")
-    longest = Branch(0.0, node, state)
+    return _search(problem, node, state, horizon, budget, Deadline(deadline))
+
+
+def _search(  # noqa: PLR0913 (a problem, a start, and three limits)
+    problem: Problem, node: Hashable, state: State, horizon: float, budget: float, deadline: Deadline
+) -> SearchResult:
+    """Search as `branch_and_bound` does, up to a deadline that several searches share."""
+    longest = _root(problem, node, state)
     best: Branch | None = None
     stack = [longest]
     expanded = 0
@@ -151,6 +164,8 @@ def branch_and_bound(
                 best = branch
             elif expanded >= budget:
                 stopped = "out of nodes"
+            elif deadline.is_over:
+                stopped = OUT_OF_TIME
             else:
                 expanded += 1
                 stack += children(problem, branch)  # the cheapest last, to be popped first
@@ -160,6 +175,13 @@ def branch_and_bound(
         raise NoWalk(f"Every walk from node {node} ends too early: prune the graph first.")
     last = best or longest
     return SearchResult(last.walk(), last.cost, last.state, best is not None, expanded, cut, stopped)
+
+
+def _root(problem: Problem, node: Hashable, state: State) -> Branch:
+    """Return the empty walk from a node, or raise `NoWalk` if the graph has no such node."""
+    if node not in problem.graph:
+        raise NoWalk(f"The graph has no node {node}.")
+    return Branch(0.0, node, state)
 
 
 def _is_cut(branch: Branch, best: Branch | None) -> bool:
@@ -195,13 +217,14 @@ def children(problem: Problem, branch: Branch) -> list[Branch]:
     return [branches[number] for number in in_order([-child.cost for child in branches], EQUAL)]
 
 
-def search_ahead(
+def search_ahead(  # noqa: PLR0913 (a problem, a start, and three limits)
     problem: Problem,
     node: Hashable,
     state: State,
     *,
     look: tuple[int, int] = (90, 28),
     budget: float = np.inf,
+    deadline: float = np.inf,
 ) -> SearchResult:
     """Search in stretches: find the best walk of n frames, keep its first m, repeat from there [KGP02, 4.2].
 
@@ -212,10 +235,11 @@ def search_ahead(
     problem, node, state : as for `branch_and_bound`.
     look : n and m, frames; the paper takes 80-120 and 25-30.
     budget : of each stretch; where it runs out, the best walk so far is used.
+    deadline : seconds of wall time for all stretches together.
 
     Returns
     -------
-    The whole walk; after Ctrl-C, the walk so far.
+    The whole walk; after Ctrl-C, or at the deadline, the walk so far.
 
     Raises
     ------
@@ -238,12 +262,13 @@ def search_ahead(
     ahead, keep = look
     if not 1 <= keep <= ahead:
         raise MocapError(f"Of the frames looked ahead some must be kept, got n = {ahead} and m = {keep}.")
+    end = Deadline(deadline)
     walk: list[SearchEdge] = []
     cost = 0.0
     expanded = cut = 0
     stopped = ""
-    while not problem.done(state) and stopped != "interrupted":
-        best = branch_and_bound(problem, node, state, horizon=ahead, budget=budget)
+    while not problem.done(state) and stopped not in ("interrupted", OUT_OF_TIME):
+        best = _search(problem, node, state, ahead, budget, end)
         expanded += best.expanded
         cut += best.cut
         stopped = best.stopped or stopped

@@ -7,7 +7,9 @@ import re
 import struct
 import tracemalloc
 import zipfile
+from functools import cache
 
+import networkx as nx
 import numpy as np
 import pytest
 from numpy.lib.format import write_array, write_array_header_1_0
@@ -16,8 +18,15 @@ from mocap._shared.archives import pack
 from mocap.errors import MocapError
 from mocap.files import load_save
 from mocap.graphs import build, storage, summary
+from mocap.methods.groups import GroupGraph, Scene, build_group, load_group, plan_group, save_group
+from mocap.methods.match_webs import MotionSpace, load_web, save_web, search
+from mocap.methods.match_webs.webs import MatchWeb
+from mocap.methods.parametric_graphs import ParametricController, load_parametric, save_parametric
+from mocap.methods.parametric_graphs.examples import Examples
+from mocap.methods.parametric_graphs.parametric_edges import ParametricEdge
 from tests.conftest import SWEEP
 from tests.files.test_fuzz import complaints
+from tests.refusals import quietly
 from tests.strategies import wave
 
 CLIPS = [wave(90, name="a"), wave(70, phase=1.0, name="b", seed=1)]
@@ -38,7 +47,63 @@ def save_amass(path, size=1):
     pack(path, {"poses": numbers[:, :156], "trans": numbers[:, 156:], **facts})
 
 
+def save_match_web(path, size=1):
+    """A web of one path, which may come many times."""
+    path_cells = np.stack([np.arange(20), np.arange(100, 120)], axis=1)
+    cells = np.tile(path_cells, (9000 * size - 8999, 1))
+    offsets = np.arange(0, len(cells) + 1, 20)
+    save_web(MatchWeb(tuple(CLIPS), [0, 90, 160], 0.1, cells, np.full(len(cells), 0.05), offsets), path)
+
+
+def use_match_web(path):
+    return quietly(search, load_web(path, CLIPS), 0, slice(2, 18))
+
+
+def save_spaces(path, size=1):
+    """A space of strides that walk straight on, and follow themselves."""
+    skeleton = CLIPS[0].skeleton
+    grid = np.arange(-8, 29) / 20
+    phases = np.ones((4 + 500 * (size - 1), len(grid)))
+    poses = np.tile([1.0, 0, 0, 0], (*phases.shape, len(skeleton), 1))
+    marks = np.ones((*phases.shape, 1), bool)
+    rates = {"seconds": phases * grid, "speeds": 1j * phases, "turning": 0.1 * phases, "heights": phases}
+    values = np.ones((len(phases), 2))
+    names = skeleton.names[-1:]
+    examples = Examples(
+        skeleton, 30.0, grid, **rates, poses=poses, contacts=marks, contact_names=names, values=values
+    )
+    turns = np.linspace(-1, 1, 6)[:, None]
+    space = MotionSpace(examples, np.full((6, len(phases)), 1 / len(phases)), turns, np.ones(1), ("turn",))
+    graph = nx.DiGraph()
+    graph.add_node("walk", space=space)
+    edge = ParametricEdge(turns, turns - 1, turns + 1, np.ones(6), np.zeros(6), np.ones(1), 0.02)
+    graph.add_edge("walk", "walk", edge=edge)
+    save_parametric(graph, path)
+
+
+def use_spaces(path):
+    character = ParametricController(load_parametric(path))
+    return np.isfinite([character.step(0.1, 1.0).root_position for _ in range(40)]).all()
+
+
+@cache
+def three():
+    return build_group(3, nodes=2, corridors=(), simulated=40.0, reach=0.4)
+
+
+def save_three(path, size=1):
+    group = GroupGraph(three().nodes, three().clips[:6] * (1 + 99 * (size - 1)), 600)
+    save_group(group, path)
+
+
+def use_three(path):
+    return plan_group(load_group(path), Scene((4 + 1j,), ((2 - 3j, 0.5),)), most=20).clips
+
+
 KINDS = {
+    "web": (save_match_web, use_match_web),
+    "parametric": (save_spaces, use_spaces),
+    "group": (save_three, use_three),
     "graph": (save_graph, lambda path: summary(storage.load(path, CLIPS).graph, fps=30).table()),
     "amass": (save_amass, load_save.load),
 }

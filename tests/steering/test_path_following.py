@@ -97,9 +97,9 @@ def test_what_is_out_of_bounds_is_searched_for_again(monkeypatch):
     """By a second and a third, wider search, at another price; the best walk is taken."""
     tried, walks = [], []
 
-    def search(graph, route, starts, settings):
+    def search(graph, route, starts, settings, deadline):
         tried.append(settings)
-        return find_walk(graph, route, starts, settings)
+        return find_walk(graph, route, starts, settings, deadline)
 
     def measure(*args):
         walks.append(account(*args))

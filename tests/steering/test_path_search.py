@@ -92,7 +92,7 @@ def test_points_are_met_and_lines_join_them(seed, count):
     expected = np.interp(along, places, points.real) + 1j * np.interp(along, places, points.imag)
     assert route.at(along) == pytest.approx(expected)
     assert points[route.point(places + 0.05)] == pytest.approx(points)
-    assert np.abs(route.ways) == pytest.approx(np.ones(count))
+    assert np.abs(route.directions) == pytest.approx(np.ones(count))
     assert route.bare
 
 

@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap import synthesis
+from mocap._shared import deadlines
 from mocap.body.planar import on_ground
 from mocap.errors import NoWalk
 from mocap.synthesis import Problem, branch_and_bound, search_ahead
@@ -111,6 +112,30 @@ def test_an_interruption_gives_the_best_so_far():
     assert found.stopped == "interrupted"
     assert found.complete
     assert len(found.walk) == 9
+
+
+@pytest.mark.parametrize("seconds", [1, 9, 40])
+def test_a_deadline_gives_what_a_budget_of_as_many_walks_gives(monkeypatch, seconds):
+    """The clock goes on by a second whenever a walk is about to be expanded."""
+    clock = iter(range(10**6))
+    monkeypatch.setattr(deadlines, "monotonic", lambda: float(next(clock)))
+    problem = problem_on(random_graph(2, edges=16), 9)
+    limited = branch_and_bound(problem, 0, (), deadline=seconds)
+    expected = branch_and_bound(problem, 0, (), budget=seconds - 1)
+    assert limited.stopped == "out of time" and expected.stopped == "out of nodes"
+    assert limited[:-1] == expected[:-1]
+
+
+def test_a_deadline_is_for_all_stretches_together(monkeypatch):
+    clock = iter(range(10**6))
+    monkeypatch.setattr(deadlines, "monotonic", lambda: float(next(clock)))
+    problem = problem_on(random_graph(2), 12)
+    whole = search_ahead(problem, 0, (), look=(8, 3))
+    limited = search_ahead(problem, 0, (), look=(8, 3), deadline=whole.expanded // 2)
+    assert limited.stopped == "out of time" and not limited.complete
+    assert limited.expanded == whole.expanded // 2 - 1
+    assert 0 < len(limited.walk) < len(whole.walk)
+    assert search_ahead(problem, 0, (), look=(8, 3), deadline=10**6) == whole
 
 
 @given(seeds)
