@@ -136,7 +136,8 @@ def _tell_deadline(followed: Followed, seconds: float) -> None:
     """Warn of a search that a deadline ended, with how much of the path the walk covers."""
     length = f"{followed.path.length:.1f} m"
     if followed.progress < 1:
-        covered = f"{min(99, round(100 * followed.progress))} % of the path, {followed.along[-1]:.1f} of {length}"
+        percent = min(99, round(100 * followed.progress))
+        covered = f"{percent} % of the path, {followed.along[-1]:.1f} of {length}"
     else:
         covered = f"all of the path, {length}, but a longer search may find a better one"
     warn(f"The deadline of {seconds:g} s ended the search: the walk covers {covered}.")

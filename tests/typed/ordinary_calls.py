@@ -19,7 +19,7 @@ from mocap import (
     synthesis,
     widgets,
 )
-from mocap.methods import groups, motion_matching
+from mocap.methods import groups, match_webs, motion_matching
 
 # Motions and files
 walk = mocap.resample(datasets.sample("walk_curve_1"), 30)
@@ -59,6 +59,7 @@ trials = datasets.trials(subject=16)
 edges = synthesis.random_walk(graph, seconds=4, seed=1)
 walked = synthesis.to_motion(graph, edges, name="walked", clean=True)
 followed = steering.follow_path(graph, line, settings=steering.Settings(width=100))
+soon = steering.follow_path(graph, line, settings=steering.Settings(deadline=600))
 waypoint = steering.Waypoint(1, 2.5, label="walk")
 steered = steering.steer(steering.Controller(graph), [0.0] * 30, speed=1.2)
 headed = steering.steer(steering.Controller(graph), steering.command_headings(1.0, 30))
@@ -73,6 +74,11 @@ worst = max(quality.judge(walk).measures, key=lambda measure: measure.ratio)
 plan = plotting.draw_group_plan(np.arange(5)[:, None] * 1j + [0.0, 1.0], [0j, 4j])
 wants = motion_matching.Wants(future=0.5)
 scene = groups.Scene((0j, 8 + 0j), near=1.5)
+match_webs.save_web(match_webs.build_web([walk, other], below=0.05), "web.npz")
+web = match_webs.load_web("web.npz", [walk, other])
+group = groups.build_group(3, nodes=2, corridors=(), simulated=40, reach=0.4)
+groups.save_group(group, "group.npz")
+three = groups.load_group("group.npz").members
 
 # Pictures
 figure = plotting.flat_bodies(walk, [0, 10, 20], view="front").figure

@@ -34,6 +34,7 @@ matching.find_transitions([walk], window=10, threshold=0.04)  # wrong: it is cal
 synthesis.random_walk([walk], seconds=4)  # wrong: clips for a graph
 steering.follow_path(line, graphs.load("graph.npz"))  # wrong: the arguments in another order
 steering.follow_path(graphs.load("graph.npz"), line, widht=100)  # wrong: an option misspelt
+steering.Settings(deadline="5s")  # wrong: a text for a number
 feet.clean_up([walk])  # wrong: a list for one motion
 editing.mirror()  # wrong: no motion
 widgets.play([walk])  # wrong: a list for motions one by one
