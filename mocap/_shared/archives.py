@@ -37,7 +37,9 @@ MOST = 2**14  # members
 LAST = {"U": 0x10FFFF, "b": 1}  # the largest codes of letters and of truths
 
 # The kinds of files, and the functions that read them.
+AMASS = "an AMASS archive"
 LOADERS = {
+    AMASS: "mocap.load",
     "a motion graph": "graphs.load",
     "a match web": "match_webs.load_web",
     "a parametric motion graph": "parametric_graphs.load_parametric",
@@ -163,7 +165,7 @@ class Kind:
 
     Parameters
     ----------
-    name : as in "a match web"; a key of `LOADERS`.
+    name : as in "a match web"; a key of `LOADERS`. The array `format` of a file is "mocap: " and the name.
     arrays : by name.
     rules : from all arrays of a file to what must hold of them.
     parts : by name; array `key` of part 3 of "node" is called "node_3_key".
@@ -186,11 +188,6 @@ class Kind:
         """What a file should be, for errors."""
         versions = " or ".join(map(str, range(1, self.version + 1)))
         return f"{self.name} saved by mocap, version {versions}"
-
-    @property
-    def head(self) -> str:
-        """The content of the array `format`."""
-        return f"mocap: {self.name}"
 
     def part(self, arrays: Arrays, name: str, number: int) -> Arrays:
         """Take the arrays of one part out of those of a file; `numbered` is the inverse."""
@@ -270,7 +267,7 @@ def write_archive(path: str | Path, kind: Kind, arrays: Mapping[str, Any]) -> No
     for rule, holds in kind.rules(whole):
         if not np.all(holds):
             raise MocapError(f"Cannot save {kind.name}: expected that {rule}.")
-    pack(path, {"format": np.array(kind.head), "version": np.array(kind.version), **whole})
+    pack(path, {"format": np.array(f"mocap: {kind.name}"), "version": np.array(kind.version), **whole})
 
 
 def read_archive(path: str | Path, kind: Kind) -> Arrays:
@@ -289,8 +286,8 @@ def read_archive(path: str | Path, kind: Kind) -> Arrays:
     mocap.errors.MocapError: Cannot read gone.npz: No such file or directory.
     """
     with open_archive(path, kind.wanted) as members:
-        head = str(members["format"].read())
-        _require_kind(path, kind, FORMER_HEADS.get(head, head))
+        if kind_of(members) != kind.name:
+            raise FormatError(path, None, kind.wanted, described(members))
         version = members["version"].read()
         if int(version) > kind.version:
             raise FormatError(path, None, kind.wanted, f"version {version}, which a newer mocap wrote")
@@ -301,13 +298,18 @@ def read_archive(path: str | Path, kind: Kind) -> Arrays:
     return arrays | {"version": version}
 
 
-def _require_kind(path: str | Path, kind: Kind, head: str) -> None:
-    """Refuse a file of another kind, and name the function that reads it."""
-    if head == kind.head:
-        return
-    name = head.removeprefix("mocap: ")
-    got = f"{name}, which {LOADERS[name]} reads" if name in LOADERS else "an .npz of another kind"
-    raise FormatError(path, None, kind.wanted, got)
+def kind_of(members: Mapping[str, Member]) -> str:
+    """Return the kind of a file by what it says, or by its arrays; "" if neither tells."""
+    if "format" in members:
+        head = str(members["format"].read())
+        return FORMER_HEADS.get(head, head).removeprefix("mocap: ")
+    return AMASS if {"poses", "trans"} <= set(members) else ""
+
+
+def described(members: Mapping[str, Member]) -> str:
+    """Name the kind of a file and the function that reads it, for an error."""
+    kind = kind_of(members)
+    return f"{kind}, which {LOADERS[kind]} reads" if kind in LOADERS else "an .npz of another kind"
 
 
 def _checked(path: str | Path, kind: Kind, members: Mapping[str, Member]) -> list[str]:

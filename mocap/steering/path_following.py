@@ -146,11 +146,11 @@ def _tell_deadline(followed: Followed, seconds: float) -> None:
 def _require_near(graph: CompiledGraph, followed: Followed) -> None:
     """Raise `NoWalk` for a walk that does not follow the path at all."""
     if followed.off.mean() > FAR and not followed.found.stopped:
-        nearest = f"The nearest walk is {followed.off.mean():.1f} m off the line on average"
+        distance = f"The nearest walk is {followed.off.mean():.1f} m off the line on average"
         speed = np.abs(np.diff(on_ground(followed.track))).sum() / followed.seconds
         if speed < SLOWEST:
-            raise too_slow(graph, f"{nearest}, and goes at {speed:.2f} m/s")
-        raise NoWalk(f"{nearest}: no clips turn as it does; try `bend`, or add clips that turn.")
+            raise too_slow(graph, f"{distance}, and goes at {speed:.2f} m/s")
+        raise NoWalk(f"{distance}: no clips turn as it does; try `bend`, or add clips that turn.")
 
 
 def _tell_departures(followed: Followed, bend: float) -> None:
@@ -158,16 +158,12 @@ def _tell_departures(followed: Followed, bend: float) -> None:
     if departures := followed.departures:
         start, end, worst = max(departures, key=lambda stretch: stretch[2])
         often = "once" if len(departures) == 1 else f"{len(departures)} times"
+        cause = "the clips sway so far" if bend else "no clips turn as it does there"
+        rounded = followed.bent and followed.bent.rounded[followed.off.argmax()]
+        cause = "it turns too fast there" if rounded else cause
+        cause += "" if bend else "; `bend` turns them, and `follow_as_2002` may come nearer"
         furthest = f"the furthest by {100 * worst:.0f} cm at {start:.1f} to {end:.1f} m"
-        if followed.bent and followed.bent.rounded[followed.off.argmax()]:
-            reason = "it turns too fast there"
-        elif bend:
-            reason = "the clips sway so far"
-        else:
-            reason = "no clips turn as it does there"
-        if not bend:
-            reason += "; `bend` turns them, and `follow_as_2002` may come nearer"
-        warn(f"The walk leaves the path {often}, {furthest}: {reason}.")
+        warn(f"The walk leaves the path {often}, {furthest}: {cause}.")
 
 
 def _best_of(
@@ -244,11 +240,11 @@ def _require_labels(graph: CompiledGraph, labels: Sequence[str], starts: Indices
 
 
 def cost_along(walks: GroundWalks, route: Route, stand: Stand, edge: SearchEdge) -> tuple[float, Stand]:
-    """Return g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖² [KGP02, Eq. 9] after a walk, and its next state."""
-    rows, points, next_stand = walks.step(stand, edge)
+    """Give g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖² [KGP02, Eq. 9] after a walk, and where it leads."""
+    rows, points, end = walks.step(stand, edge)
     along = stand.along + np.cumsum(walks.graph.progress[rows])
     distances = np.abs(points - route.at(along))
-    return float((distances**2).sum()), next_stand._replace(along=float(along[-1]))
+    return float((distances**2).sum()), end._replace(along=float(along[-1]))
 
 
 def path_problem(walks: GroundWalks, route: Route) -> Problem:
@@ -306,15 +302,15 @@ def follow_as_2002(  # noqa: PLR0913 (a path, wishes, and three limits)
     stand = Stand(complex(start.turn[0]), complex(start.move[0]))
     walks = GroundWalks(compiled)
     node = compiled.nodes[int(start.node[0])]
-    problem = path_problem(walks, route)
-    result = search_ahead(problem, node, stand, look=look, budget=budget, deadline=deadline)
+    limits = {"budget": budget, "deadline": deadline}
+    result = search_ahead(path_problem(walks, route), node, stand, look=look, **limits)
     if not result.walk:
         raise NoWalk(f"The search was {result.stopped} before its first step.")
     edges = np.array([walks.number[edge] for edge in result.walk])
     along = np.cumsum(compiled.progress[walk_track(compiled, edges, stand.turn, stand.move)[1]])
-    counts = (result.expanded, result.cut, result.stopped)
-    best = Found(edges, stand.turn, stand.move, along, result.cost, *counts)
-    followed = account(compiled, path, route, best)
+    counts = result.expanded, result.cut, result.stopped
+    walk = Found(edges, stand.turn, stand.move, along, result.cost, *counts)
+    followed = account(compiled, path, route, walk)
     if result.stopped == OUT_OF_TIME:
         _tell_deadline(followed, deadline)
     return followed

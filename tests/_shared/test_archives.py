@@ -5,7 +5,7 @@ from importlib import import_module
 import numpy as np
 import pytest
 
-from mocap._shared.archives import LOADERS, Kind, Part, numbered, pack, read_archive, write_archive
+from mocap._shared.archives import AMASS, LOADERS, Kind, Part, numbered, pack, read_archive, write_archive
 from mocap.errors import FormatError
 from mocap.graphs import storage
 from mocap.methods.groups import group_storage
@@ -101,18 +101,29 @@ KINDS = {
 def test_a_kind_opened_by_the_loader_of_another_names_its_own(tmp_path, name):
     path = tmp_path / "a.npz"
     pack(path, {"format": np.array(f"mocap: {name}"), "version": np.array(1)})
-    for other, loader in LOADERS.items():
+    for other in KINDS:
         words = f"expected {other} saved by mocap, .* got {name}, which {LOADERS[name]} reads$"
         if other == name:
             words = "one without"
-        refused(words, function(loader), path, kind=FormatError)
+        refused(words, function(LOADERS[other]), path, kind=FormatError)
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_an_amass_archive_is_for_another_loader(tmp_path, name):
+    pack(tmp_path / "a.npz", {"poses": np.zeros((2, 156)), "trans": np.zeros((2, 3))})
+    words = f"expected {name} saved by mocap, .* got an AMASS archive, which mocap.load reads$"
+    refused(words, function(LOADERS[name]), tmp_path / "a.npz", kind=FormatError)
+    pack(tmp_path / "a.npz", {"rows": np.zeros(2)})
+    refused("got an .npz of another kind$", function(LOADERS[name]), tmp_path / "a.npz", kind=FormatError)
 
 
 def function(loader):
     """Find a loader by its room and name, as errors call it."""
-    room, name = loader.split(".")
-    return getattr(import_module(f"mocap.{room}" if room == "graphs" else f"mocap.methods.{room}"), name)
+    room, name = loader.rsplit(".", 1)
+    rooms = {"mocap": "mocap", "graphs": "mocap.graphs"}
+    return getattr(import_module(rooms.get(room, f"mocap.methods.{room}")), name)
 
 
 def test_every_kind_has_a_loader():
-    assert set(KINDS) == set(LOADERS)
+    assert {*KINDS, AMASS} == set(LOADERS)
+    assert all(map(callable, map(function, LOADERS.values())))
