@@ -77,8 +77,8 @@ class Settings:
     tries : the largest number of searches; 1 for one search with this width and these prices.
     progress : wraps the layers, to show a bar.
     deadline : seconds of wall time, from the call of `follow_path`, after which its searches end. The best
-        walk so far is returned, with a warning that says how much of the path it covers. To measure the walk,
-        or to bend it, comes on top.
+        walk so far is returned, with a warning that says how much of the path it covers. To measure the walk
+        comes on top, and to bend it: 0.7 s for a walk of 50 m.
 
     Examples
     --------

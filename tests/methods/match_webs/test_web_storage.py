@@ -65,12 +65,22 @@ def test_the_file_is_small_and_holds_no_frames(bundled, saved):
 
 def test_clips_of_one_name_are_told_apart_and_short_ones_are_remembered(tmp_path):
     walk = resample(datasets.sample("walk_straight"), 60)
-    parts = [walk[:20], walk[:200], walk[200:400]]
+    parts = [walk[:20], walk[:27], walk[:200], walk[200:400]]  # 10, 14, 100 and 100 frames at 30 Hz
     web = quietly(build_web, parts, below=0.1)
     save_web(web, tmp_path / "web.npz")
     back = load_web(tmp_path / "web.npz", [datasets.sample("walk_straight"), *parts[::-1]])
-    assert list(map(len, back.clips)) == [20, 200, 200] and back.clips[1] is parts[1]
+    assert list(map(len, back.clips)) == [20, 27, 200, 200] and back.clips[1] is parts[1]
+    assert np.diff(back.starts).tolist() == [0, 14, 100, 100]
     assert_same(web, back)
+
+
+def test_webs_without_a_path_and_with_paths_of_one_cell_come_back(tmp_path):
+    short = datasets.sample("walk_straight")[:56]  # 14 frames at 30 Hz
+    empty = build_web([short])
+    assert len(empty) == 0
+    for web in (empty, replace(empty, cells=[[0, 9], [1, 13]], costs=[0.1, 0.2], offsets=[0, 1, 2])):
+        save_web(web, tmp_path / "web.npz")
+        assert_same(web, load_web(tmp_path / "web.npz", [short]))
 
 
 def test_clips_are_found_where_they_were_and_in_their_unit(tmp_path):
@@ -117,6 +127,7 @@ def test_a_web_of_the_clips_of_mocap_0_1_is_refused_by_that_name(bundled, saved,
         (lambda arrays: {"offsets": arrays["offsets"][:-1]}, "that paths end with the last cell"),
         (lambda arrays: {"offsets": np.repeat(arrays["offsets"], 2)}, "that no path is empty"),
         (lambda arrays: {"costs": -arrays["costs"]}, "that costs are distances"),
+        (lambda arrays: {"costs": np.inf + arrays["costs"]}, "that costs are distances"),
         (lambda arrays: {"below": np.array(0.0)}, "that the limit of distances is above 0"),
         (lambda arrays: {"rate": np.array(60.0)}, "that a web compares 30 frames a second"),
         (lambda arrays: {"lengths": -arrays["lengths"]}, "that clips have lengths"),
