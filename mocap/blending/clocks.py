@@ -94,7 +94,10 @@ def _overlapping(plants: Sequence[list[Plant]]) -> list[list[list[Plant]]]:
 
 
 def _split(group: list[list[Plant]]) -> Iterator[tuple[list[float], list[float]]]:
-    """Split a group where the clip with the most plants pauses; yield the starts and stops of each match."""
+    """Split a group where the clip with the most plants pauses; yield the starts and stops of each match.
+
+    A part that lacks a clip is no match.
+    """
     busiest = max(group, key=len)
     pauses = [(stop + next_start) / 2 for (_, stop), (next_start, _) in pairwise(busiest)]
     for low, high in pairwise([-np.inf, *pauses, np.inf]):

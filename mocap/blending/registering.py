@@ -83,7 +83,7 @@ def register(
 
     Warns
     -----
-    MocapWarning : for clips that may not be of one kind, and for clips whose blend skates though they do not.
+    MocapWarning : for clips that may not be of one kind, and for a blend whose feet slide more than theirs.
 
     Examples
     --------

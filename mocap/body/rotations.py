@@ -132,9 +132,7 @@ def multiply(first: ArrayLike, second: ArrayLike) -> Array:
     second = np.asarray(second, float)
     w1, x1, y1, z1 = (first[..., k] for k in range(4))
     w2, x2, y2, z2 = (second[..., k] for k in range(4))
-    product = np.empty(
-        np.broadcast_shapes(first.shape, second.shape)
-    )  # filled in place: a stack takes longer
+    product = np.empty(np.broadcast_shapes(first.shape, second.shape))  # which is faster than a stack
     product[..., W] = w1 * w2 - x1 * x2 - y1 * y2 - z1 * z2
     product[..., X] = w1 * x2 + x1 * w2 + y1 * z2 - z1 * y2
     product[..., Y] = w1 * y2 + y1 * w2 + z1 * x2 - x1 * z2

@@ -182,13 +182,13 @@ def _marked_frames(
     motion: Motion, positions: Array, angles: Mapping[str, Array]
 ) -> Iterator[tuple[str, Mask, str]]:
     """Yield each kind of flaw, the frames (F,) that have it, and a detail in a few words."""
-    turns = rotations.angle_between(motion.rotations[1:], motion.rotations[:-1])  # (F - 1, J)
+    rotation_angles = rotations.angle_between(motion.rotations[1:], motion.rotations[:-1])  # (F - 1, J)
     too_fast = max(SNAP, FAST / motion.fps)  # radians: large for a frame, and fast for a joint
     yield "frozen", _frozen(motion), ""
     yield "nothing but zeros", _zeros(motion), ""
     yield "teleport", *_teleports(motion)
-    yield "snap", *_snaps(motion, turns, too_fast)
-    yield "Euler flip", *_flips(motion, turns, too_fast, angles)
+    yield "snap", *_snaps(motion, rotation_angles, too_fast)
+    yield "Euler flip", *_flips(motion, rotation_angles, too_fast, angles)
     yield "under the floor", *_under_the_floor(motion, positions)
 
 
@@ -217,22 +217,24 @@ def _teleports(motion: Motion) -> tuple[Mask, str]:
     return np.append(False, sudden), f"{speeds.max(initial=0) / motion.fps:.2f} m at most"
 
 
-def _snaps(motion: Motion, turns: Array, too_fast: float) -> tuple[Mask, str]:
+def _snaps(motion: Motion, rotation_angles: Array, too_fast: float) -> tuple[Mask, str]:
     """Mark rotations from frame to frame, (F - 1, J), that are too fast for a joint."""
-    largest = turns.max(axis=0, initial=0)
+    largest = rotation_angles.max(axis=0, initial=0)
     name = motion.skeleton.names[largest.argmax()]
     detail = f"'{name}' by {np.degrees(largest.max()):.0f}° at most"
-    return np.append(False, (turns > too_fast).any(axis=1)), detail
+    return np.append(False, (rotation_angles > too_fast).any(axis=1)), detail
 
 
-def _flips(motion: Motion, turns: Array, too_fast: float, angles: Mapping[str, Array]) -> tuple[Mask, str]:
-    """Mark angles that jump although their joint does not: rotations have no flips."""
-    flips = np.zeros(turns.shape, bool)
+def _flips(
+    motion: Motion, rotation_angles: Array, too_fast: float, angles: Mapping[str, Array]
+) -> tuple[Mask, str]:
+    """Mark Euler angles that jump although their joint does not: rotations have no flips."""
+    flips = np.zeros(rotation_angles.shape, bool)
     for name in set(angles) & set(motion.skeleton.names):
         joint = motion.skeleton.index(name)
         jumps = np.abs(np.diff(angles[name], axis=0)).max(axis=1, initial=0.0)
-        exceeds_turn = jumps > FLIP * np.degrees(turns[:, joint])
-        flips[:, joint] = (np.radians(jumps) > too_fast) & exceeds_turn
+        exceeds_rotation = jumps > FLIP * np.degrees(rotation_angles[:, joint])
+        flips[:, joint] = (np.radians(jumps) > too_fast) & exceeds_rotation
     names = [motion.skeleton.names[joint] for joint in np.flatnonzero(flips.any(axis=0))[:NAMED]]
     return np.append(False, flips.any(axis=1)), f"angles of {', '.join(names)}; as rotations they are smooth"
 

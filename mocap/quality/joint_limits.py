@@ -153,9 +153,8 @@ def _hinge_bend(poses: GlobalPoses, name: str, joints: Sequence[int], hip_axis: 
     """
     upper, lower = np.diff(poses.positions[:, list(joints)], axis=1).swapaxes(0, 1)
     normals = np.cross(upper, lower)
-    local_normals = np.einsum(
-        "fji,fj->fi", poses.matrices[:, joints[0]], normals
-    )  # in the upper bone's frame
+    to_world = poses.matrices[:, joints[0]]  # from the frame of the upper bone
+    local_normals = np.einsum("fji,fj->fi", to_world, normals)
     total = local_normals.sum(axis=0)
     axis = total / max(float(np.linalg.norm(total)), 1e-12)
     if (normals * hip_axis).sum() < -SURE * np.linalg.norm(normals, axis=-1).sum():

@@ -155,18 +155,18 @@ def measure_limbs(motion: Motion, positions: Array, legs: Sequence[Leg]) -> Iter
     if bends:
         worst = max(bends, key=lambda bend: float(bend.share.max()))
         frame = int(worst.share.argmax())
-        place = f"'{worst.joint}' {worst.way} by {worst.angles[frame]:.0f}°, frame {frame}"
-        yield Measure("bent", float(worst.share[frame]), 1.0, "of its limit", place)
+        detail = f"'{worst.joint}' {worst.way} by {worst.angles[frame]:.0f}°, frame {frame}"
+        yield Measure("bent", float(worst.share[frame]), 1.0, "of its limit", detail)
 
 
 def _slide(motion: Motion, positions: Array, legs: Sequence[Leg]) -> Measure:
     """Measure the foot sliding distance, the mean over the plants."""
     slides = plant_slides(mark_plants(motion, legs), feet_of(legs), positions=positions)
-    place = "no foot stands"
+    detail = "no foot stands"
     if slides:
         worst = max(slides, key=lambda slide: slide.far)
-        place = f"'{worst.joint}', frames {worst.start} to {worst.stop - 1}"
-    return Measure("slide", mean_slide(slides), LIMITS.slide, "cm", place)
+        detail = f"'{worst.joint}', frames {worst.start} to {worst.stop - 1}"
+    return Measure("slide", mean_slide(slides), LIMITS.slide, "cm", detail)
 
 
 def _skate(motion: Motion, positions: Array, legs: Sequence[Leg]) -> Measure:
@@ -193,8 +193,8 @@ def measure_body(
     if path is not None:
         line = cKDTree(path.resampled(0.01).points)
         distances, _ = line.query(motion.root_positions[:, [0, 2]])
-        place = f"{100 * distances.max():.0f} cm in frame {distances.argmax()}"
-        yield Measure("path", 100 * float(distances.mean()), LIMITS.path, "cm", place)
+        detail = f"{100 * distances.max():.0f} cm in frame {distances.argmax()}"
+        yield Measure("path", 100 * float(distances.mean()), LIMITS.path, "cm", detail)
     yield _size(positions)
 
 
@@ -206,10 +206,10 @@ def _size(positions: Array) -> Measure:
     ratio = max(SHORTEST / max(height, 1e-9), height / TALLEST)
     if ratio <= 1:
         return Measure("size", 0.0, 1.0, "of its limit")
-    place = f"{height:.3g} m tall"
+    detail = f"{height:.3g} m tall"
     if SHORTEST / 2 < height < SHORTEST:
-        place += f"; {2.54 * height:.3g} m if it is in inches"
-    return Measure("size", ratio, 1.0, "of its limit", place)
+        detail += f"; {2.54 * height:.3g} m if it is in inches"
+    return Measure("size", ratio, 1.0, "of its limit", detail)
 
 
 class Judgement(NamedTuple):

@@ -61,8 +61,8 @@ def plant_slides(
         positions = joint_positions(motion)
     ground = positions[..., [0, 2]]
     slides = []
-    for name, stands in _plant_marks(motion, joints).items():
-        for start, stop in runs(stands):
+    for name, contacts in _contacts(motion, joints).items():
+        for start, stop in runs(contacts):
             planted = ground[start:stop, motion.skeleton.index(name)]
             distances = np.linalg.norm(planted - planted.mean(axis=0), axis=-1)
             slides.append(PlantSlide(name, start, stop, 100 * float(distances.max())))
@@ -105,13 +105,13 @@ def ground_slides(motion: Motion) -> Array:
     True
     """
     feet = feet_of(find_legs(motion.skeleton))
-    stands = np.stack(list(_plant_marks(motion, feet).values()), axis=-1)
+    contacts = np.stack(list(_contacts(motion, feet).values()), axis=-1)
     ground = joint_positions(motion)[:, feet][..., [0, 2]]
     steps = np.linalg.norm(np.diff(ground, axis=0), axis=-1)
-    return np.asarray(100 * steps * (stands[1:] & stands[:-1]))
+    return np.asarray(100 * steps * (contacts[1:] & contacts[:-1]))
 
 
-def _plant_marks(motion: Motion, joints: Sequence[int] | None) -> dict[str, Mask]:
+def _contacts(motion: Motion, joints: Sequence[int] | None) -> dict[str, Mask]:
     """Return the contacts (F,) of joints, by name; of all joints that have contacts by default."""
     names = motion.contacts if joints is None else [motion.skeleton.names[joint] for joint in joints]
     if missing := [name for name in names if name not in motion.contacts]:
