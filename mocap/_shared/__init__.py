@@ -1,14 +1,14 @@
 """Small things that all rooms need; there is no need to read them first.
 
- 1. `arrays`: names for kinds of arrays; read-only copies, runs of True, joined ranges
- 2. `ties`: values that only rounding tells apart are equal, and the first of equals is taken
+ 1. `arrays`: types of arrays; read-only copies, runs of True, concatenated ranges
+ 2. `ties`: values that differ only by rounding are equal, and the first of equals is taken
  3. `easing`: the curve that eases from 0 to 1
  4. `atomic`: a file is written whole or not at all
- 5. `archives`: arrays in one file, unpacked only where it holds what it claims; kinds of such files
- 6. `progress`: what functions take as `progress=`
+ 5. `archives`: arrays in one file, unpacked only if it holds what it claims; kinds of such files
+ 6. `progress`: the type of the parameter `progress=`
  7. `collector`: pause Python's garbage collector while a graph grows
  8. `tasks`: work by threads, processes or a cluster
- 9. `limits`: a limit of time for code that others wrote
+ 9. `limits`: a time limit for code that others wrote
 10. `deadlines`: a moment at which a search ends with the best that it has
 11. `deprecation`: names that are removed, and warn for one version before
 """

@@ -1,4 +1,4 @@
-"""Names for kinds of arrays, and three small functions that many modules use."""
+"""Types of arrays, and three small functions that many modules use."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -43,12 +43,12 @@ def runs(marks: Mask) -> NDArray[np.intp]:
 
 
 def ranges(first: Indices, counts: Indices) -> Indices:
-    """Join ranges of whole numbers, each given by its first number and its count, into one row.
+    """Concatenate ranges of integers, each given by its first number and its count.
 
     Examples
     --------
     >>> ranges(np.array([5, 0]), np.array([2, 3])).tolist()
     [5, 6, 0, 1, 2]
     """
-    starts = np.cumsum(counts) - counts  # of the ranges in the row
+    starts = np.cumsum(counts) - counts  # of the ranges in the result
     return np.asarray(np.arange(counts.sum()) + np.repeat(first - starts, counts))

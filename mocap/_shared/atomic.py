@@ -1,7 +1,7 @@
-"""A file is written whole or not at all.
+"""Atomic writing: a file is written whole or not at all.
 
-It is made in a folder beside its place, and moved when it is complete. A process that is killed leaves that
-folder; who writes there a day later removes it.
+It is written in a temporary folder next to its path, and moved when it is complete. A process that is killed
+leaves that folder. The next process that writes there, a day or more later, removes it.
 """
 
 import errno
@@ -16,13 +16,13 @@ from pathlib import Path
 
 from mocap.errors import MocapError
 
-UNFINISHED = ".mocap-unfinished-"  # and some letters: the folders of files that are being written
-DAY = 86_400  # seconds; nobody writes one file for so long
+UNFINISHED = ".mocap-unfinished-"  # the names of temporary folders begin with it
+DAY = 86_400  # seconds, longer than it takes to write any file
 
 
 @contextmanager
 def _explained(action: str) -> Iterator[None]:
-    """Say of an error of the system what it hinders."""
+    """Raise an error of the operating system again, as a sentence with the action that it prevents."""
     try:
         yield
     except OSError as error:
@@ -31,14 +31,14 @@ def _explained(action: str) -> Iterator[None]:
 
 @contextmanager
 def replacing(path: str | Path) -> Iterator[Path]:
-    """Write a new file beside the old one, then replace the old one in a single step.
+    """Write a new file next to the old one, then replace the old one in a single step.
 
     If anything goes wrong inside the `with` block, even an interruption, the old file stays as it was,
-    and the new one is removed. Afterwards the new one is on the disk, even if the power fails.
+    and the new one is removed. After the block the new one is on the disk, even if the power fails.
 
     Parameters
     ----------
-    path : the file to make or replace; of a symbolic link, the file that it leads to.
+    path : the file to create or replace; for a symbolic link, the file that it leads to.
 
     Yields
     ------
@@ -46,7 +46,7 @@ def replacing(path: str | Path) -> Iterator[Path]:
 
     Raises
     ------
-    MocapError : when the folder is missing, or writing there is not allowed.
+    MocapError : for a folder that is missing, or in which writing is not allowed.
 
     Examples
     --------
@@ -56,45 +56,46 @@ def replacing(path: str | Path) -> Iterator[Path]:
     mocap.errors.MocapError: Cannot write nowhere/walk.bvh: No such file or directory.
     """
     real = Path(os.path.realpath(path))
-    with _explained(f"write {path}"), _workshop(real) as folder:
+    with _explained(f"write {path}"), _temporary_folder(real) as folder:
         new = folder / Path(path).name
         yield new
         _sync(new, os.O_RDWR)
         new.replace(real)
-        with suppress(OSError):  # not every system can
+        with suppress(OSError):  # not every system can sync a folder
             _sync(real.parent, os.O_RDONLY)
 
 
 def _sync(path: Path, flags: int) -> None:
-    number = os.open(path, flags)
+    """Wait until a file or folder is on the disk."""
+    descriptor = os.open(path, flags)
     try:
-        os.fsync(number)
+        os.fsync(descriptor)
     finally:
-        os.close(number)
+        os.close(descriptor)
 
 
 @contextmanager
-def _workshop(path: Path) -> Iterator[Path]:
-    """Make a folder beside a file to write: a file in it gets ordinary permissions."""
+def _temporary_folder(path: Path) -> Iterator[Path]:
+    """Make a temporary folder next to a file to write. A file in it gets the usual permissions."""
     if path.is_symlink():
         raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
-    _tidy(path.parent)
+    _remove_unfinished(path.parent)
     temporary = tempfile.TemporaryDirectory(prefix=UNFINISHED, dir=path.parent, ignore_cleanup_errors=True)
     with temporary as folder:
         yield Path(folder)
 
 
 @cache
-def _tidy(place: Path) -> None:
-    """Remove the folders of processes that were killed."""
-    for folder in place.glob(f"{UNFINISHED}*"):
-        with suppress(OSError):  # another process may do so as well
+def _remove_unfinished(parent: Path) -> None:
+    """Remove the temporary folders of processes that were killed, once for each parent."""
+    for folder in parent.glob(f"{UNFINISHED}*"):
+        with suppress(OSError):  # another process may remove it at the same time
             if time.time() - folder.stat().st_mtime > DAY:
                 shutil.rmtree(folder)
 
 
 def require_writable(path: str | Path) -> None:
-    """Raise, before any work is done for it, where a file could not be written.
+    """Raise if a file could not be written, before any work is done for it.
 
     Examples
     --------
@@ -106,18 +107,18 @@ def require_writable(path: str | Path) -> None:
         real = Path(os.path.realpath(path))
         if real.is_dir():
             raise MocapError(f"Cannot write {path}: it is a folder.")
-        with _workshop(real):
+        with _temporary_folder(real):
             pass
 
 
 def write_file(path: str | Path, content: str | bytes) -> None:
-    """Write bytes, or a text as UTF-8, whole or not at all."""
+    """Write a file of bytes, or of a text as UTF-8, whole or not at all."""
     with replacing(path) as new:
         new.write_bytes(content.encode() if isinstance(content, str) else content)
 
 
 def require_folder(path: Path) -> None:
-    """Raise, before any work is done for it, where a folder could not be made or written into.
+    """Raise if a folder could not be created or written into, before any work is done for it.
 
     Examples
     --------
@@ -126,13 +127,13 @@ def require_folder(path: Path) -> None:
     mocap.errors.MocapError: Cannot make the folder ...below: Not a directory.
     """
     with _explained(f"make the folder {path}"):
-        nearest = next((place for place in (path, *path.parents) if place.exists()), Path())
-        with _workshop(nearest / UNFINISHED):
+        existing = next((folder for folder in (path, *path.parents) if folder.exists()), Path())
+        with _temporary_folder(existing / UNFINISHED):
             pass
 
 
 def make_folder(path: Path) -> None:
-    """Make a folder and the folders above it, if they are missing.
+    """Create a folder and the folders above it, if they are missing.
 
     Examples
     --------

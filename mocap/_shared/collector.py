@@ -9,8 +9,8 @@ from contextlib import contextmanager
 def uncollected() -> Iterator[None]:
     """Pause Python's garbage collector inside a `with` block.
 
-    As a graph grows, the collector looks through all edges again and again and finds nothing to free.
-    Without the pause this takes four fifths of the time.
+    As a graph grows, the collector visits all edges again and again and finds nothing to free. Without the
+    pause this takes four fifths of the time.
     """
     was_on = gc.isenabled()
     gc.disable()

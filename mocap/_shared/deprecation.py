@@ -23,7 +23,7 @@ class Deprecation:
 
     Raises
     ------
-    MocapError : where the name would not warn for one whole 0.x version.
+    MocapError : for a name that would not warn for one whole 0.x version.
 
     Examples
     --------
@@ -37,7 +37,7 @@ class Deprecation:
     instead: str
 
     def __post_init__(self) -> None:
-        """Compare the two versions."""
+        """Check that the name warns for one whole version."""
         major, minor, patch = version_numbers(self.since)
         whole = minor + 1 if patch == 0 else minor + 2  # 0.2.3 is not all of 0.2: all of 0.3 must warn
         if version_numbers(self.removed_in) < (major, whole, 0):

@@ -7,10 +7,10 @@ from mocap._shared.arrays import Array
 
 
 def quintic_step(amount: ArrayLike) -> Array:
-    """Ease from 0 to 1 by 10u³ - 15u⁴ + 6u⁵, at rest and unaccelerated at both ends; 0 before, 1 after.
+    """Ease from 0 to 1 by 10u³ - 15u⁴ + 6u⁵, for u in [0, 1]; 0 below, 1 above.
 
-    It is the lowest polynomial whose speed and acceleration are 0 at both ends; computer graphics calls it
-    smootherstep.
+    It is the polynomial of lowest degree whose speed and acceleration are 0 at both ends. Computer graphics
+    calls it smootherstep.
 
     Examples
     --------

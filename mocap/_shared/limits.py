@@ -1,10 +1,10 @@
-"""A limit of time for code that others wrote.
+"""A time limit for code that others wrote.
 
 In the main thread of Linux and macOS the limit is the system's alarm, a signal that also ends a function that
-waits, such as `time.sleep`. Elsewhere, as on Windows and in other threads, a watching thread has Python raise
-the error in the limited thread. It takes effect at that thread's next step of Python: it ends loops that
-never end, but no single call of a compiled function. To start the watching thread takes some tenths of a
-millisecond, and the alarm a hundredth of that.
+waits, such as `time.sleep`. On Windows, and in other threads, a watching thread has Python raise the error in
+the limited thread. It takes effect at that thread's next step of Python: it ends endless loops, but no single
+call of a compiled function. To start the watching thread takes some tenths of a millisecond, and the alarm a
+hundredth of that.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from contextlib import contextmanager, suppress
 class Overdue(BaseException):
     """Code has taken longer than its limit.
 
-    It is no `Exception`, because a loop that never ends may hold `except Exception`.
+    It is no `Exception`, because an endless loop may contain `except Exception`.
     """
 
 
@@ -28,9 +28,9 @@ _watched: set[int] = set()  # numbers of the threads that a watching thread limi
 
 @contextmanager
 def time_limit(seconds: float) -> Iterator[None]:
-    """Raise `Overdue` in the code inside after some seconds.
+    """Raise `Overdue` in the code inside a `with` block after some seconds.
 
-    Inside another limit of the same thread there is none, nor in the Python of a browser, which has no
+    There is no limit inside another limit of the same thread, nor in the Python of a browser, which has no
     threads.
 
     Examples

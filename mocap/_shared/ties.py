@@ -1,8 +1,8 @@
-"""Ties broken by rule: values that only rounding tells apart are equal, and the first of equals is taken.
+"""Ties broken by rule: values that differ only by rounding are equal, and the first of equals is taken.
 
-The last bit of a sum depends on the processor, on the library and on the order of its terms. Where two
-answers are equally good, that bit alone would choose between them. Each method therefore names the difference
-below which two of its values are equal, in their unit: far above rounding, and far below what matters.
+The last bit of a sum depends on the processor, on the library and on the order of its terms. If two answers
+are equally good, that bit alone would choose between them. Each method therefore names the difference below
+which two of its values are equal, in their unit: far above rounding errors, and far below what matters.
 """
 
 from typing import Any
@@ -14,7 +14,7 @@ from mocap._shared.arrays import Indices
 
 
 def first_least(values: ArrayLike, equal: float, axis: int | None = None) -> NDArray[np.intp]:
-    """Return the index of the first value that is at most `equal` above the least one, as `np.argmin` does.
+    """Return the index of the first value at most `equal` above the least one: `np.argmin` with a tolerance.
 
     Examples
     --------
@@ -28,7 +28,7 @@ def first_least(values: ArrayLike, equal: float, axis: int | None = None) -> NDA
 
 
 def ranks(values: ArrayLike, equal: float) -> Indices:
-    """Rank values, shape (N,): 0 for the least, and one rank for all that follow each other within `equal`.
+    """Rank values, shape (N,): 0 for the least, and one rank for sorted values with gaps of at most `equal`.
 
     Examples
     --------
@@ -45,7 +45,7 @@ def ranks(values: ArrayLike, equal: float) -> Indices:
 
 
 def in_order(values: ArrayLike, equal: float) -> Indices:
-    """Sort values by their `ranks`: the indices, with equal values in the order given.
+    """Return the indices that sort values by their `ranks`; equal values keep their order.
 
     Examples
     --------
@@ -58,8 +58,8 @@ def in_order(values: ArrayLike, equal: float) -> Indices:
 def whole_steps(values: ArrayLike, step: float) -> NDArray[Any]:
     """Round values to whole multiples of a step, which have no rounding errors of their own.
 
-    Two values on either side of the middle between two multiples stay apart, however near they are. For
-    values that differ by rounding this is as rare as rounding is small beside the step.
+    Two values on either side of the middle between two multiples stay apart, even if they differ only by
+    rounding. This is as rare as rounding errors are small compared with the step.
 
     Examples
     --------

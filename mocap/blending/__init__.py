@@ -1,17 +1,17 @@
-"""From one motion into another: by a blend over a window, or by a cut whose offset dies away.
+"""Transitions and blends: by a blend over a window, by a cut whose offset fades, or of whole clips.
 
-Both ways start with two windows that look alike. The second clip is laid on the first; then the poses are
-mixed, or the second clip plays with an offset that fades. Whole clips, two or more, are first registered:
-which of their frames belong together, and how they lie on one another there.
+A transition starts with two similar windows. The second clip is aligned with the first. Then the poses are
+blended, or the second clip plays with an offset that fades. Whole clips, two or more, are first registered:
+registration finds their corresponding frames, and the transforms that align them there.
 
 Reading order (notebooks 04, 15)
 --------------------------------
-1. `weights`: how much of the first motion each frame holds
-2. `joining`: two motions into one; from clip into clip by a blend, or a cut whose offset dies away
+1. `weights`: the weight of the first motion in each frame of a transition
+2. `joining`: two motions into one; from clip to clip by a blend, or by a cut whose offset fades
 3. `timewarps`: smooth curves over time whose slope stays within bounds
 4. `clocks`: clips on one common clock, the plants that they share, and the blend's own clock
-5. `mixing`: registered clips blended by weights, constant or moving; from one into another at leisure
-6. `registering`: which frames of clips belong together, and how they lie on one another
+5. `mixing`: registered clips blended by weights, constant or moving; long crossfades between two of them
+6. `registering`: corresponding frames of clips, and the transforms that align them
 
 References
 ----------

@@ -1,6 +1,6 @@
-"""Clips on one common clock, and the blend's own clock: where on the common one each of its frames is."""
+"""Clips on one common clock, and the clock of a blend: the common time of each of its frames."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -16,33 +16,36 @@ from mocap.body.motion import Motion
 from mocap.body.planar import on_ground
 from mocap.errors import MocapError
 
-SHORTEST = 0.02  # seconds on the common clock: what is left of a plant beside a cut or the span's end
+SHORTEST = 0.02  # seconds of the common clock: shorter plants, and parts of plants, are dropped
 
 
 SharedPlant = tuple[str, Array]
-"""A plant that all C clips have: the joint, and when it starts and stops in each of them, (2, C), seconds.
+"""A plant that all C clips have: the joint, and the start and the stop of the plant in each of them, (2, C).
 
 They are seconds of the common clock.
 """
+
+Plant = tuple[float, float]
+"""The start and the stop of a plant, seconds of the common clock."""
 
 
 def match_contacts(
     clips: Sequence[Motion], times: Sequence[Curve], span: tuple[float, float]
 ) -> tuple[SharedPlant, ...]:
-    """Match the plants of registered clips: in each match one of every clip, all at about the same time.
+    """Match the plants of registered clips: each match has one of every clip, all at about the same time.
 
     In the paper: [KG03, constraint matches].
 
-    Plants that overlap, or hang together by others that do, make a group. A group that lacks a clip is
-    dropped. One with exactly one plant of each clip is a match. Any other is cut where the clip with the most
-    plants pauses, each part by itself. [KG03] has matches of one interval for each clip, with intervals
-    dropped or split; how it splits them is not known to us, so this rule is ours.
+    Plants whose time intervals overlap, directly or through others, form a group. A group that lacks a clip
+    is dropped. A group with exactly one plant of each clip is a match. Any other is split where the clip with
+    the most plants pauses, and each part is treated by itself. [KG03] has matches of one interval for each
+    clip, with intervals dropped or split. How it splits them is not known to us, therefore this rule is ours.
 
     Parameters
     ----------
-    clips : C motions; those without contacts have no plants, so there is no match.
+    clips : C motions; those without contacts have no plants, and there is no match.
     times : for each clip, the curve from the common clock to the clip's own seconds.
-    span : the stretch of the common clock to look at, seconds.
+    span : the interval of the common clock that is searched, seconds.
 
     Returns
     -------
@@ -59,45 +62,54 @@ def match_contacts(
     joints = [joint for joint in clips[0].contacts if all(joint in clip.contacts for clip in clips)]
     matches = []
     for joint in joints:
-        plants = [
-            (start, stop, number)
-            for number, (clip, curve) in enumerate(zip(clips, times, strict=True))
-            for start, stop in _within(curve.inverse(runs(clip.contacts[joint]) / clip.fps).tolist(), *span)
-        ]
-        for group in _groups(sorted(plants)):
-            of_clips = [[(a, b) for a, b, clip in group if clip == number] for number in range(len(clips))]
-            most = max(of_clips, key=len)
-            pauses = [(before[1] + after[0]) / 2 for before, after in pairwise(most)]
-            for low, high in pairwise([-np.inf, *pauses, np.inf]):
-                parts = [_within(own, low, high) for own in of_clips]
-                if all(parts):
-                    ends = [[own[0][0] for own in parts], [own[-1][1] for own in parts]]
-                    matches.append((joint, frozen(ends, np.float64)))
+        plants = [_plants(clip, curve, joint, span) for clip, curve in zip(clips, times, strict=True)]
+        for group in _overlapping(plants):
+            matches += [(joint, frozen(match, np.float64)) for match in _split(group)]
     return tuple(matches)
 
 
-def _within(plants: Iterable[Sequence[float]], low: float, high: float) -> list[tuple[float, float]]:
-    """Cut away what lies before `low` and after `high`, and leave out what is then too short."""
+def _plants(clip: Motion, curve: Curve, joint: str, span: tuple[float, float]) -> list[Plant]:
+    """List a joint's plants in a clip, cut to the span."""
+    seconds = runs(clip.contacts[joint]) / clip.fps
+    return _cut(curve.inverse(seconds).tolist(), *span)
+
+
+def _cut(plants: Iterable[Sequence[float]], low: float, high: float) -> list[Plant]:
+    """Cut plants to an interval, and drop those that are then too short."""
     parts = [(max(start, low), min(stop, high)) for start, stop in plants]
     return [(start, stop) for start, stop in parts if stop - start >= SHORTEST]
 
 
-def _groups(plants: Sequence[tuple[float, float, int]]) -> list[list[tuple[float, float, int]]]:
-    """Collect plants (start, stop, clip) that hang together: each starts before one before it stops."""
-    groups: list[list[tuple[float, float, int]]] = []
-    reach = -np.inf
-    for plant in plants:
-        if plant[0] >= reach:
-            groups.append([])
-        groups[-1].append(plant)
-        reach = max(reach, plant[1])
+def _overlapping(plants: Sequence[list[Plant]]) -> list[list[list[Plant]]]:
+    """Group the plants of C clips whose time intervals overlap: for each group, the plants of each clip."""
+    in_time = sorted((start, stop, clip) for clip, listed in enumerate(plants) for start, stop in listed)
+    groups: list[list[list[Plant]]] = []
+    group_stop = -np.inf
+    for start, stop, clip in in_time:
+        if start >= group_stop:
+            groups.append([[] for _ in plants])
+        groups[-1][clip].append((start, stop))
+        group_stop = max(group_stop, stop)
     return groups
 
 
-Weights = ArrayLike | Callable[[float, float], ArrayLike]
-"""Weights of C clips, which add up to one; or a function of u and t that gives them."""
+def _split(group: list[list[Plant]]) -> Iterator[tuple[list[float], list[float]]]:
+    """Split a group where the clip with the most plants pauses; yield the starts and stops of each match.
 
-FINE = 0.002  # seconds between the points at which the clock is looked at
+    A part that lacks a clip is no match.
+    """
+    busiest = max(group, key=len)
+    pauses = [(stop + next_start) / 2 for (_, stop), (next_start, _) in pairwise(busiest)]
+    for low, high in pairwise([-np.inf, *pauses, np.inf]):
+        parts = [_cut(plants, low, high) for plants in group]
+        if all(parts):
+            yield [plants[0][0] for plants in parts], [plants[-1][1] for plants in parts]
+
+
+Weights = ArrayLike | Callable[[float, float], ArrayLike]
+"""Weights of C clips, which add up to one; or a function of u and t that returns them."""
+
+FINE = 0.002  # seconds of the common clock between the points at which its speed is computed
 PACES = ("durations", "rates")
 
 
@@ -105,12 +117,12 @@ PACES = ("durations", "rates")
 class Registration:
     """Clips on one common clock u, which is the reference's own time in seconds.
 
-    clips, reference : C motions, and the number of the one that the others are laid on.
+    clips, reference : C motions, and the number of the one with which the others are aligned.
     times : for each clip the curve S from u to its own seconds; the reference's is u itself.
-    angles : for each clip the angle, radians, that turns it on the reference at u; the reference's is 0.
+    angles : for each clip the rotation angle, radians, that aligns it at u; the reference's is 0.
     centres : for each clip the centroid (x, z) of its points, averaged over a window, shape (F, 2), metres.
-    span : where all clips are defined: the first u and the last.
-    costs : shape (C,), the mean RMS distance along the clips' paths, metres.
+    span : the first and the last u at which all clips are defined.
+    costs : shape (C,), the mean RMS distance along the clips' time paths, metres.
     contacts : the plants that all clips have.
     """
 
@@ -125,20 +137,24 @@ class Registration:
 
     @cached_property
     def durations(self) -> Array:
-        """How long each clip takes for the span, seconds, shape (C,)."""
-        return frozen([float(curve(self.span[1]) - curve(self.span[0])) for curve in self.times], np.float64)
+        """The duration of the span in each clip, seconds, shape (C,)."""
+        ends = [curve(self.span) for curve in self.times]
+        return frozen([last - first for first, last in ends], np.float64)
 
     @cached_property
     def parts(self) -> tuple[Motion, ...]:
-        """The stretch of each clip that the span covers, to its nearest frames."""
-        ends = [np.rint(curve(self.span) * c.fps) for curve, c in zip(self.times, self.clips, strict=True)]
-        return tuple(c[int(a) : int(b) + 1] for (a, b), c in zip(ends, self.clips, strict=True))
+        """The part of each clip that the span covers, to the nearest frames."""
+        parts = []
+        for clip, curve in zip(self.clips, self.times, strict=True):
+            first, last = np.rint(curve(self.span) * clip.fps).astype(int)
+            parts.append(clip[first : last + 1])
+        return tuple(parts)
 
     def centre(self, clip: int, times: ArrayLike) -> Points:
-        """Give a clip's centroid as z + ix at times of the common clock."""
+        """Return a clip's centroid as z + ix at times of the common clock."""
         frames = self.times[clip](times) * self.clips[clip].fps
-        own = np.arange(len(self.centres[clip]))
-        x, z = (np.interp(frames, own, column) for column in self.centres[clip].T)
+        whole_frames = np.arange(len(self.centres[clip]))
+        x, z = (np.interp(frames, whole_frames, coordinates) for coordinates in self.centres[clip].T)
         return on_ground(np.stack([x, z], axis=-1))
 
 
@@ -147,9 +163,9 @@ def frame_times(
 ) -> tuple[Array, Array]:
     """Find the time u of each frame of a blend, from the first time of the span to its last.
 
-    With `pace="durations"` du/dt = 1 / Σ w S'(u): seconds of the clips are averaged, so with constant weights
-    the blend lasts exactly Σ w T (ours). With "rates" du/dt = Σ w / S'(u) (that this is the rule of [KG03] is
-    recalled): a mean of reciprocals, so it plays too fast wherever the curves wiggle.
+    With `pace="durations"`, du/dt = 1 / Σ w S'(u): seconds of the clips are averaged, and with constant
+    weights the blend lasts exactly Σ w T (ours). With "rates", du/dt = Σ w / S'(u) (that this is the rule of
+    [KG03] is recalled): a mean of reciprocals, which is too fast wherever the slopes of the curves vary.
 
     Parameters
     ----------
@@ -171,32 +187,51 @@ def frame_times(
     """
     if not (np.isfinite(fps) and fps > 0):
         raise MocapError(f"A frame rate must be above 0, got {fps}.")
-    count, (first, last) = len(registration.clips), registration.span
-    # The curves' slopes are straight between knots: with these among the points, sums by trapezia are exact.
-    knots = np.concatenate([curve.knots for curve in registration.times])
-    points = np.linspace(first, last, max(int((last - first) / FINE), 8) + 1)
-    points = np.union1d(points, knots[(first + FINE / 9 < knots) & (knots < last - FINE / 9)])
-    points = points[np.diff(points, prepend=-np.inf) > FINE / 1e3]
+    first, last = registration.span
+    points = _clock_points(registration)
     slopes = np.array([curve.slope(points) for curve in registration.times])
-    if callable(weights):
-        speeds, t = np.empty(len(points)), 0.0
-        for n, (u, step) in enumerate(zip(points, np.diff(points, append=last), strict=True)):
-            speeds[n] = clock_speed(slopes[:, n], checked(weights(float(u), t), count), pace)
-            t += float(step / speeds[n])
-    else:
-        constant = checked(weights, count)
-        speeds = clock_speed(slopes, constant, pace)
+    speeds = _clock_speeds(points, slopes, weights, pace)
     seconds = cumulative_trapezoid(1 / speeds, points, initial=0)  # the blend's own time t at each u
     clock = np.arange(int(seconds[-1] * fps + 1e-6) + 1) / fps
     times = np.clip(CubicHermiteSpline(seconds, points, speeds)(clock), first, last)
+    count = len(registration.clips)
+    if callable(weights):
+        moments = zip(times.tolist(), clock.tolist(), strict=True)
+        return times, np.array([checked(weights(u, t), count) for u, t in moments])
+    return times, np.tile(checked(weights, count), (len(times), 1))
+
+
+def _clock_points(registration: Registration) -> Array:
+    """Return times of the common clock, 2 ms apart, with the knots of all curves among them.
+
+    The curves' slopes are linear between knots, therefore the integral of Σ w S'(u) by trapezia is exact.
+    """
+    first, last = registration.span
+    points = np.linspace(first, last, max(int((last - first) / FINE), 8) + 1)
+    knots = np.concatenate([curve.knots for curve in registration.times])
+    inner = (first + FINE / 9 < knots) & (knots < last - FINE / 9)
+    points = np.union1d(points, knots[inner])
+    return points[np.diff(points, prepend=-np.inf) > FINE / 1e3]
+
+
+def _clock_speeds(points: Array, slopes: Array, weights: Weights, pace: str) -> Array:
+    """Compute du/dt at the points, shape (N,), from the slopes (C, N) of the clips' curves there.
+
+    Weights that move also depend on the blend's own time t, which is integrated from point to point.
+    """
+    count = len(slopes)
     if not callable(weights):
-        return times, np.tile(constant, (len(times), 1))
-    both = zip(times.tolist(), clock.tolist(), strict=True)
-    return times, np.array([checked(weights(u, t), count) for u, t in both])
+        return clock_speed(slopes, checked(weights, count), pace)
+    speeds = np.empty(len(points))
+    t = 0.0
+    for n, (u, step) in enumerate(zip(points, np.diff(points, append=points[-1]), strict=True)):
+        speeds[n] = clock_speed(slopes[:, n], checked(weights(float(u), t), count), pace)
+        t += float(step / speeds[n])
+    return speeds
 
 
 def checked(weights: ArrayLike, count: int) -> Array:
-    """Give weights as an array.
+    """Return weights as an array.
 
     Raises
     ------
@@ -215,7 +250,7 @@ def checked(weights: ArrayLike, count: int) -> Array:
 
 
 def clock_speed(slopes: ArrayLike, weights: ArrayLike, pace: str = "durations") -> Array:
-    """Say how fast the common clock goes, du/dt, where the clips' curves have these slopes [KG03, clock].
+    """Compute the speed of the common clock, du/dt, from the slopes of the clips' curves [KG03, clock].
 
     Parameters
     ----------
@@ -229,18 +264,19 @@ def clock_speed(slopes: ArrayLike, weights: ArrayLike, pace: str = "durations") 
 
     Raises
     ------
-    MocapError : where the clock would stop or run backwards, and for another pace.
+    MocapError : for a clock that would stop or run backwards, and for another pace.
 
     Examples
     --------
     >>> float(clock_speed([1, 2], [0.5, 0.5]).round(4)), float(clock_speed([1, 2], [0.5, 0.5], "rates"))
     (0.6667, 0.75)
     """
-    s, w = np.asarray(slopes, float), np.asarray(weights, float)
+    s = np.asarray(slopes, float)
+    w = np.asarray(weights, float)
     if pace not in PACES:
         raise MocapError(f"No pace '{pace}'; there are: {', '.join(PACES)}.")
     mean = w @ s if pace == "durations" else w @ (1 / s)
     if not np.all(mean > 0):
-        some = w.round(3).tolist()[:6]
-        raise MocapError(f"With the weights {some} time would stop; take them nearer to 0 … 1.")
+        shown = w.round(3).tolist()[:6]
+        raise MocapError(f"With the weights {shown} time would stop; take them nearer to 0 … 1.")
     return np.asarray(1 / mean if pace == "durations" else mean)

@@ -1,7 +1,6 @@
-"""From one clip into another: by a blend over a window [KGP02, 3.3], or a cut whose offset dies away [Bol18].
+"""Transitions between two clips: a blend over a window [KGP02, 3.3], or a cut whose offset fades [Bol18].
 
-A pair of windows is given as `matching` counts them: frame i of one clip and frame j of another start windows
-that look alike.
+A pair of windows is given as in `matching`, by the first frame of each: i of one clip and j of another.
 """
 
 from dataclasses import replace
@@ -18,18 +17,18 @@ from mocap.matching.point_clouds import align, point_cloud
 
 
 def blend(a: Motion, b: Motion, weights: ArrayLike) -> Motion:
-    """Mix two motions frame by frame: roots on a line, rotations by slerp [KGP02, Eqs. 5 and 6].
+    """Blend two motions frame by frame: roots linearly, rotations by slerp [KGP02, Eqs. 5 and 6].
 
-    It does not align the motions: lay b on a first.
+    It does not align the motions: align b with a first.
 
     Parameters
     ----------
     a, b : motions of F frames each.
-    weights : shape (F,), how much of `a` each frame holds, in [0, 1].
+    weights : shape (F,), the weight of `a` in each frame, in [0, 1].
 
     Returns
     -------
-    F frames; marks come from the motion with the larger weight, from `a` where they are equal.
+    F frames; marks come from the motion with the larger weight, from `a` if the weights are equal.
 
     Raises
     ------
@@ -52,19 +51,19 @@ def blend(a: Motion, b: Motion, weights: ArrayLike) -> Motion:
         raise MocapError(f"Blending needs as many frames of each motion as weights, got {got}.")
     if not ((alpha >= 0) & (alpha <= 1)).all():
         raise MocapError(f"Blend weights must lie in [0, 1], got {alpha.tolist()}.")
-    owner = np.stack([alpha < 0.5, np.arange(len(a))], axis=1)  # a or b, and which frame
+    sources = np.stack(
+        [alpha < 0.5, np.arange(len(a))], axis=1
+    )  # of marks: 0 for a or 1 for b, and the frame
+    labels = gather_marks([a.labels, b.labels], sources)
+    contacts = gather_marks([a.contacts, b.contacts], sources)
     alpha = alpha[:, None]  # (F, 1)
-    return replace(
-        a,
-        root_positions=alpha * a.root_positions + (1 - alpha) * b.root_positions,
-        rotations=rotations.slerp(b.rotations, a.rotations, alpha),
-        labels=gather_marks([a.labels, b.labels], owner),
-        contacts=gather_marks([a.contacts, b.contacts], owner),
-    )
+    roots = alpha * a.root_positions + (1 - alpha) * b.root_positions
+    quaternions = rotations.slerp(b.rotations, a.rotations, alpha)
+    return replace(a, root_positions=roots, rotations=quaternions, labels=labels, contacts=contacts)
 
 
 def lay_window_on(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
-    """Lay b on a so that the windows from j and from i agree best [KGP02, Eqs. 2-4].
+    """Align b with a so that the windows from frames j and i agree best [KGP02, Eqs. 2-4].
 
     Raises
     ------
@@ -88,12 +87,13 @@ def lay_window_on(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
         if start < 0 or start + window > len(clip):
             span = f"The window of {window} frames from frame {start}"
             raise MocapError(f"{span} runs off '{clip.name}', which has {len(clip)}.")
-    clouds = (point_cloud(clip[start : start + window]).reshape(-1, 3) for clip, start in ((a, i), (b, j)))
-    return align(*clouds).apply_motion(b)
+    a_points = point_cloud(a[i : i + window]).reshape(-1, 3)
+    b_points = point_cloud(b[j : j + window]).reshape(-1, 3)
+    return align(a_points, b_points).apply_motion(b)
 
 
 def splice(a: Motion, i: int, middle: Motion, b: Motion, j: int) -> Motion:
-    """Put the frames a[:i], the middle ones and b[j:] in a row.
+    """Concatenate the frames a[:i], the middle ones and b[j:].
 
     Examples
     --------
@@ -104,17 +104,20 @@ def splice(a: Motion, i: int, middle: Motion, b: Motion, j: int) -> Motion:
     >>> spliced.name, spliced.root_positions[:, 0].tolist()
     ('a to b', [0.0, 0.0, 0.0, 9.0, 9.0])
     """
-    parts = [a[:i]] if i > 0 else []
-    parts += [middle] + ([b[j:]] if j < len(b) else [])
+    parts = [middle]
+    if i > 0:
+        parts.insert(0, a[:i])
+    if j < len(b):
+        parts.append(b[j:])
     return concatenate(parts, name=f"{a.name} to {b.name}")
 
 
 def join(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
-    """Pass from one motion into another by blending two windows [KGP02, 3.3], [WP95, joining].
+    """Join two motions by blending a window of each [KGP02, 3.3], [WP95, joining].
 
-    Frames a[:i] as they are; then a[i : i+k] mixed with b[j : j+k]; then b[j+k :]. b is first laid on a by
-    the planar transform under which the two windows' points agree best. (The paper counts b's window
-    by its last frame; here j is its first, as in `Transition.enter`.)
+    Frames a[:i] as they are; then a[i : i+k] blended with b[j : j+k]; then b[j+k :]. b is first aligned with
+    a by the planar transform under which the two windows' points agree best. (The paper counts b's window by
+    its last frame; here j is its first, as in `Transition.enter`.)
 
     Parameters
     ----------
@@ -148,14 +151,14 @@ def join(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
 
 
 def inertialize(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
-    """Cut from one motion to another, and let their difference at the cut fade to zero [Bol18].
+    """Cut from one motion to another, and fade their difference at the cut to zero (inertialization) [Bol18].
 
-    At the cut a's pose is b's pose plus an offset x that changes with the velocity v. From there on only b
+    At the cut, a's pose is b's pose plus an offset x that changes with the velocity v. After the cut only b
     plays, plus this offset, which fades over T = k / fps by the quintic
     x(u) = (1 - u)⁴ (x + (4 x + v T) u), u = t / T. It ends at rest, without acceleration and without jerk.
-    The talk's own quintic also starts with the offset's acceleration, and T is cut where it would overshoot.
+    The talk's own quintic also starts with the offset's acceleration, and shortens T if it would overshoot.
     Roots are offset by vectors, rotations by rotation vectors. Unlike a blend it plays no frames of a after
-    the cut, so games can use it at any moment; but it does not know where a was going.
+    the cut. Therefore games can use it at any moment, but it does not know where a was going.
 
     Parameters
     ----------
@@ -163,7 +166,7 @@ def inertialize(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
 
     Returns
     -------
-    i + len(b) - j frames; frame i is a's own; marks are b's from there on.
+    i + len(b) - j frames; the pose of frame i is a's, and from frame i marks are b's.
 
     Raises
     ------
@@ -181,28 +184,34 @@ def inertialize(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
     Notebook: 09b-blend-window
     """
     b = lay_window_on(a, i, b, j, window)
-    before = 1 if min(i, j) > 0 else 0
-    after = 1 if window > 1 else 0
-    around = np.arange(-before, after + 1)
-    shifts = a.root_positions[i + around] - b.root_positions[j + around]
-    turns = rotations.difference(b.rotations[j + around], a.rotations[i + around])
-    shift, turn = (_decay(offsets, before, window) for offsets in (shifts, _steady(turns, before)))
-    onward = b[j : j + window]
-    turned = rotations.multiply(onward.rotations, rotations.from_rotvec(turn))
-    faded = replace(onward, root_positions=onward.root_positions + shift, rotations=turned)
+    first = -1 if min(i, j) > 0 else 0
+    last = 1 if window > 1 else 0
+    frames = np.arange(first, last + 1)  # relative to the cut
+    cut = -first  # the index of the cut in these frames
+    shifts = a.root_positions[i + frames] - b.root_positions[j + frames]
+    vectors = rotations.difference(b.rotations[j + frames], a.rotations[i + frames])
+    shift = _fade(shifts, cut, window)
+    vector = _fade(_near_the_cut(vectors, cut), cut, window)
+    played = b[j : j + window]
+    turned = rotations.multiply(played.rotations, rotations.from_rotvec(vector))
+    faded = replace(played, root_positions=played.root_positions + shift, rotations=turned)
     return splice(a, i, faded, b, j + window)
 
 
-def _steady(turns: Array, cut: int) -> Array:
-    """Two rotation vectors mean each turn: take the one that is nearer to the vector at index `cut`."""
-    length = np.maximum(np.linalg.norm(turns, axis=-1, keepdims=True), 1e-12)
-    others = turns * (1 - 2 * np.pi / length)
-    gaps = (np.linalg.norm(way - turns[cut], axis=-1, keepdims=True) for way in (turns, others))
-    return np.where(np.less(*gaps), turns, others)
+def _near_the_cut(vectors: Array, cut: int) -> Array:
+    """Choose, of the two rotation vectors of a rotation, the one nearer to the vector at index `cut`.
+
+    A rotation by θ about n is one by θ - 2π about n: its vectors are θ n and (θ - 2π) n.
+    """
+    angle = np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-12)
+    twins = vectors * (1 - 2 * np.pi / angle)
+    distance = np.linalg.norm(vectors - vectors[cut], axis=-1, keepdims=True)
+    twin_distance = np.linalg.norm(twins - vectors[cut], axis=-1, keepdims=True)
+    return np.where(distance < twin_distance, vectors, twins)
 
 
-def _decay(offsets: Array, cut: int, window: int) -> Array:
-    """Fade the offset at index `cut` of offsets (n, ...), with its velocity there, over a window."""
+def _fade(offsets: Array, cut: int, window: int) -> Array:
+    """Fade the offset at index `cut` of offsets (n, ...), with its velocity there, to zero over a window."""
     start = offsets[cut]
     drift = np.gradient(offsets, axis=0)[cut] * window if len(offsets) > 1 else 0 * start  # v T
     u = (np.arange(window) / window).reshape(-1, *np.ones(start.ndim, int))

@@ -1,4 +1,4 @@
-"""Registration [KG03]: which frames of several clips belong together, and how they lie on one another."""
+"""Registration [KG03]: corresponding frames of several clips, and the transforms that align them there."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -41,36 +41,36 @@ AS_GOOD = 1.06  # times the mean distance with `SPACING`
 AS_NEAR = 1e-9  # metres beyond that, so that rounding does not decide for clips that are the same
 
 _Pair = tuple[Curve, Curve, tuple[float, float], float]
-"""A clip registered on the reference: its curves of time and angle, where they hold, and the path's mean."""
+"""A clip registered with the reference: its curves of time and angle, their span, and the path's mean."""
 
 
 def register(
     clips: Sequence[Motion], *, reference: int = 0, slack: float = 1.2, slope: int = 2
 ) -> Registration:
-    """Find which frames of several clips belong together, and how they lie on one another [KG03, alignment].
+    """Find the corresponding frames of several clips, and the transforms that align them [KG03, alignment].
 
     In the paper: [KG03, alignment; several clips].
 
     Each clip is registered with the reference. The path of least mean through the grid of their distances,
-    √D of [KGP02, Eq. 1], says which windows belong together (`matching.time_path`). A curve S through the
-    path, with a slope between 1 / (W + 1) and W + 1, makes time run smoothly: a straight line where it is as
-    good, else as few knots as do [ours]. Another curve goes through the angles θ of the windows' best
-    alignments [KGP02, Eqs. 2-4]. With them the clip is laid on the reference
-    at u by turning it by θ(u) and moving its centroid onto the reference's. Last, plants are matched.
+    √D of [KGP02, Eq. 1], pairs the corresponding windows (`matching.time_path`). A curve S fitted to the
+    path, with a slope between 1 / (W + 1) and W + 1, makes time run smoothly: a straight line if it fits as
+    well, else a curve of as few knots as suffice [ours]. Another curve is fitted to the angles θ of the
+    windows' best alignments [KGP02, Eqs. 2-4]. With these curves the clip is aligned with the reference at u:
+    it is rotated by θ(u), and its centroid is moved onto the reference's. Last, plants are matched.
 
-    Ours: the clock is the reference's time, so C clips take C - 1 pairs (recalled: the paper fits one curve
-    through all clips' times). Only the angle is fitted, since the best alignment takes centroid to centroid;
-    so it does not matter where the clips were captured. The ends are free within the slack.
+    Ours: the clock is the reference's time, therefore C clips take C - 1 pairs (recalled: the paper fits one
+    curve through all clips' times). Only the angle is fitted, since the best alignment takes centroid to
+    centroid. Therefore it does not matter where the clips were captured. The ends are free within the slack.
 
     Parameters
     ----------
     clips : two motions or more, of one skeleton and one rate. Mark their plants first (`feet.mark_plants`)
         if the blend should have contacts.
     reference : the number of the clip whose clock is the common one.
-    slack : seconds that one clip may start or end before the other; at most half of the shortest clip, and
-        less where less than half of it would be in common. 0 for clips cut alike, at strikes for example.
-    slope : how many frames of one clip may pass in a row while the other stands: its pace stays between
-        1 / (slope + 1) and slope + 1 times the other's.
+    slack : seconds by which one clip may start or end before the other; at most half of the shortest clip,
+        and less if less than half of it would be in common. 0 for clips cut alike, at strikes for example.
+    slope : W, the largest number of frames of one clip in a row during which the other stands still. Its pace
+        stays between 1 / (slope + 1) and slope + 1 times the other's.
 
     Returns
     -------
@@ -83,7 +83,7 @@ def register(
 
     Warns
     -----
-    MocapWarning : for clips that may not be of one kind, and for clips whose blend skates though they do not.
+    MocapWarning : for clips that may not be of one kind, and for a blend whose feet slide more than theirs.
 
     Examples
     --------
@@ -120,7 +120,7 @@ def register(
 
 
 def _checked(clips: Sequence[Motion], reference: int, slack: float) -> int:
-    """Check what `register` is given; return how many frames make one step at `RATE`."""
+    """Check the arguments of `register`; return the number of frames in one step at `RATE`."""
     if len(clips) < 2:
         raise MocapError(f"A registration needs two clips or more, got {len(clips)}.")
     if reference not in range(len(clips)):
@@ -143,14 +143,14 @@ def _registered_on_itself(duration: float) -> _Pair:
 def _common_span(
     clips: Sequence[Motion], times: Sequence[Curve], spans: Sequence[tuple[float, float]]
 ) -> tuple[float, float]:
-    """Return the first and the last time at which all curves hold and all clips have a frame."""
+    """Return the first and the last time at which all curves are defined and all clips have a frame."""
     of_clips = [curve.inverse([0, clip.duration]) for curve, clip in zip(times, clips, strict=True)]
     limits: list[Any] = [*spans, *of_clips]
     return max(float(start) for start, _ in limits), min(float(end) for _, end in limits)
 
 
 def _register_pair(reference: Array, clip: Array, rate: float, slope: int, slack: int) -> _Pair:
-    """Register the points of a clip on those of the reference, both at the same rate."""
+    """Register the points of a clip with those of the reference, both at the same rate."""
     grid = np.sqrt(distance_grid(reference, clip, window=WINDOW))
     path = time_path(grid, slope=slope, slack=min(slack, min(grid.shape) - 1))
     half = (WINDOW - 1) / 2
@@ -166,7 +166,7 @@ def _register_pair(reference: Array, clip: Array, rate: float, slope: int, slack
     # The angle that aligns each window with its partner, without jumps of 2 π.
     alignment = align(_windows(reference, path[:, 0]), _windows(clip, path[:, 1]))
     angles = fit_curve(u, np.unwrap(np.asarray(alignment.angle)), spacing=SPACING)
-    # Clips cut alike go on to their ends: the last half window, and the frames that the rate left out.
+    # Clips cut alike match to their ends: the last half window, and the frames that the rate left out.
     margin = 0.0 if slack else (half + 1) / rate
     return times, angles, (u[0] - margin, u[-1] + margin), path_mean(grid, path)
 
@@ -193,7 +193,7 @@ def _window_centres(clip: Motion, seconds: float) -> Array:
 
 
 def _warn(registration: Registration, rate: float, *, alike: bool) -> None:
-    """Warn of clips that do not fit; those that were cut `alike` are blended with some of them only."""
+    """Warn of clips that do not fit. Clips cut `alike` need not look good in an even blend of all."""
     clips = registration.clips
     worst = int(np.argmax(registration.costs))
     distance = registration.costs[worst]

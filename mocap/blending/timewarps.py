@@ -1,8 +1,8 @@
 """Smooth curves over time whose slope stays within bounds: uniform quadratic B-splines, fitted to points.
 
-Within a knot step h the curve is ½ (1 - t)² c_n + (½ + t - t²) c_{n + 1} + ½ t² c_{n + 2}, and its slope goes
-in a straight line from (c_{n + 1} - c_n) / h to (c_{n + 2} - c_{n + 1}) / h. So the slope is within bounds
-everywhere if and only if the differences of neighbouring control points are.
+Within a knot step h the curve is ½ (1 - t)² c_n + (½ + t - t²) c_{n + 1} + ½ t² c_{n + 2}, and its slope is
+linear, from (c_{n + 1} - c_n) / h to (c_{n + 2} - c_{n + 1}) / h. Therefore the slope is within bounds
+everywhere if and only if the differences of neighbouring control points, divided by h, are.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import BSpline
 from scipy.optimize import lsq_linear
 
-from mocap._shared.arrays import Array, frozen
+from mocap._shared.arrays import Array, Indices, frozen
 from mocap.errors import MocapError
 
 
 class Curve(NamedTuple):
-    """A curve over time, which goes on along its tangents before its start and after its end.
+    """A curve over time, which continues along its tangents before its start and after its end.
 
     start, step : its first knot, and the time from knot to knot, seconds.
     coefficients : shape (N + 2,), the control points of N knot steps.
@@ -43,47 +43,58 @@ class Curve(NamedTuple):
         return np.asarray(self.start + self.step * np.arange(len(self.coefficients) - 1), float)
 
     def __call__(self, times: ArrayLike) -> Array:
-        """Give the curve's values at some times."""
-        u, knots, c = np.asarray(times, float), self.knots, self.coefficients
-        span = np.clip(np.searchsorted(knots, u, side="right") - 1, 0, len(c) - 3)
+        """Return the curve's values at some times."""
+        u = np.asarray(times, float)
+        knots = self.knots
+        index = _step_index(knots, u)
         inside = np.clip(u, knots[0], knots[-1])
-        mean = (self.slope(knots[span]) + self.slope(u)) / 2  # slopes are straight lines: a trapezium
-        value = (c[span] + c[span + 1]) / 2 + (inside - knots[span]) * mean
+        start_value = (self.coefficients[index] + self.coefficients[index + 1]) / 2
+        mean_slope = (self.slope(knots[index]) + self.slope(u)) / 2  # from the knot to u: slopes are linear
+        value = start_value + (inside - knots[index]) * mean_slope
         return np.asarray(value + (u - inside) * self.slope(u))
 
     def slope(self, times: ArrayLike) -> Array:
-        """Give the curve's slopes at some times, per second: straight lines from knot to knot."""
+        """Return the curve's slopes at some times, per second: linear from knot to knot."""
         slopes = np.diff(self.coefficients) / self.step
         return np.asarray(np.interp(np.asarray(times, float), self.knots, slopes))
 
     def inverse(self, values: ArrayLike) -> Array:
-        """Give the times at which an increasing curve has some values.
+        """Return the times at which an increasing curve has some values.
 
-        In the knot step that holds a value it solves a + b t + c t² = value, in a form that allows c = 0.
+        In the knot step that holds a value it solves b t + c t² = rise for the rise of the curve since the
+        last knot, by t = 2 rise / (b + √(b² + 4 c rise)), which allows c = 0.
         """
-        values, c = np.asarray(values, float), self.coefficients
-        knots = (c[1:] + c[:-1]) / 2
-        spans = np.clip(np.searchsorted(knots, values, side="right") - 1, 0, len(c) - 3)
-        over, first = values - knots[spans], np.diff(c)[spans]
-        within = np.clip(over, 0, knots[spans + 1] - knots[spans])
-        bend = np.diff(c, 2)[spans] / 2
-        t = 2 * within / (first + np.sqrt(np.maximum(first**2 + 4 * bend * within, 0)))
-        times = self.start + (spans + t) * self.step
-        return np.asarray(times + (over - within) / self.slope(times))
+        values = np.asarray(values, float)
+        at_knots = (self.coefficients[1:] + self.coefficients[:-1]) / 2
+        index = _step_index(at_knots, values)
+        rise = values - at_knots[index]
+        inside = np.clip(rise, 0, at_knots[index + 1] - at_knots[index])
+        b = np.diff(self.coefficients)[index]
+        c = np.diff(self.coefficients, 2)[index] / 2
+        root = np.sqrt(np.maximum(b**2 + 4 * c * inside, 0))
+        t = 2 * inside / (b + root)
+        times = self.start + (index + t) * self.step
+        return np.asarray(times + (rise - inside) / self.slope(times))
 
 
+def _step_index(knots: Array, numbers: Array) -> Indices:
+    """Return the index of the knot step that holds each number; beyond all knots, the first or last step."""
+    return np.asarray(np.clip(np.searchsorted(knots, numbers, side="right") - 1, 0, len(knots) - 2))
+
+
+# reads: name: public, and users write least= and most=
 def fit_curve(
     times: ArrayLike, values: ArrayLike, *, spacing: float, least: float = -np.inf, most: float = np.inf
 ) -> Curve:
     """Fit a curve to points by least squares, with slopes from `least` to `most` everywhere [KG03, timewarp].
 
-    Written as its first control point and their differences, the curve is linear in numbers that have simple
-    bounds: a bounded linear problem, which `scipy.optimize.lsq_linear` solves exactly. (This is ours: that
+    Written as the first control point and the differences of all, the curve is linear in numbers that have
+    simple bounds. `scipy.optimize.lsq_linear` solves this bounded linear problem exactly. (This is ours: that
     [KG03] fits freely and then pushes control points apart is recalled, not checked.)
 
     Parameters
     ----------
-    times, values : shape (N,); times never fall.
+    times, values : shape (N,); times never decrease.
     spacing : seconds from knot to knot, at most; `np.inf` fits a straight line.
     least, most : bounds of the slope, per second.
 
@@ -100,23 +111,31 @@ def fit_curve(
 
     Notebook: 15-registration
     """
-    u, y = np.asarray(times, float), np.asarray(values, float)
+    u = np.asarray(times, float)
+    y = np.asarray(values, float)
     if not spacing > 0:
         raise MocapError(f"Knots need a spacing above 0 s, got {spacing}.")
-    pairs = u.ndim == 1 and u.shape == y.shape and u.size > 0
-    if not (pairs and np.isfinite([u, y]).all() and (np.diff(u) >= 0).all()):
+    are_pairs = u.ndim == 1 and u.shape == y.shape and u.size > 0
+    if not (are_pairs and np.isfinite([u, y]).all() and (np.diff(u) >= 0).all()):
         raise MocapError("A curve needs finite values at as many finite times, which never fall.")
     count = max(int(np.ceil((u[-1] - u[0]) / spacing - 1e-9)), 1)
     step = (u[-1] - u[0]) / count if u[-1] > u[0] else min(spacing, 1.0)
-    empty = Curve(float(u[0]), float(step), np.zeros(count + 2))
-    around = u[0] + step * np.arange(-2, count + 3)  # SciPy wants two more knots at each end
-    matrix = BSpline.design_matrix(np.minimum(u, around[-3]), around, 2).toarray()
-    # The n-th control point is the first one plus n differences; so each difference adds to all later ones.
-    matrix = np.cumsum(matrix[:, ::-1], axis=1)[:, ::-1]
-    if spacing == np.inf:  # both differences are the same
+    # The n-th control point is the first one plus n differences: each difference adds to all later points.
+    matrix = np.cumsum(_basis_functions(u, step, count)[:, ::-1], axis=1)[:, ::-1]
+    is_straight = spacing == np.inf
+    if is_straight:  # a single knot step, whose two differences are equal
         matrix = np.stack([matrix[:, 0], matrix[:, 1] + matrix[:, 2]], axis=1)
-    low, high = (np.full(matrix.shape[1], bound * step) for bound in (least, most))
-    low[0], high[0] = -np.inf, np.inf
+    low = np.full(matrix.shape[1], least * step)
+    high = np.full(matrix.shape[1], most * step)
+    low[0] = -np.inf  # the first control point is free
+    high[0] = np.inf
     solution = np.clip(lsq_linear(matrix, y, (low, high), method="bvls").x, low, high)
-    differences = solution[[0, 1, 1]] if spacing == np.inf else solution
-    return empty._replace(coefficients=frozen(np.cumsum(differences), np.float64))
+    differences = solution[[0, 1, 1]] if is_straight else solution
+    return Curve(float(u[0]), float(step), frozen(np.cumsum(differences), np.float64))
+
+
+def _basis_functions(times: Array, step: float, count: int) -> Array:
+    """Return the quadratic B-splines of `count` knot steps from the first time, shape (N, count + 2)."""
+    knots = times[0] + step * np.arange(-2, count + 3)  # SciPy wants two more knots at each end
+    last = knots[-3]
+    return np.asarray(BSpline.design_matrix(np.minimum(times, last), knots, 2).toarray())

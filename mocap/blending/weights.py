@@ -1,4 +1,4 @@
-"""Weights over a transition: how much of the first motion each frame of a blend holds."""
+"""Weights of the first motion over the frames of a transition."""
 
 import numpy as np
 
@@ -7,10 +7,10 @@ from mocap.errors import MocapError
 
 
 def cubic_weights(window: int) -> Array:
-    """Give the weights α of the first motion over a transition, C¹ at both ends [KGP02, Eq. 7].
+    """Return the weights α of the first motion over a transition, C¹ at both ends [KGP02, Eq. 7].
 
-    α(p) = 2 ((p+1)/k)³ - 3 ((p+1)/k)² + 1 for the frames p = 0 … k-1. It falls from nearly 1 to 0, and its
-    slope is 0 where it would reach 1 (at p = -1) and where it reaches 0.
+    α(p) = 2 ((p+1)/k)³ - 3 ((p+1)/k)² + 1 for the frames p = 0 … k-1. It falls from nearly 1 to 0. Its slope
+    is 0 at p = -1, the frame before the window with α = 1, and at the last frame, with α = 0.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ def cubic_weights(window: int) -> Array:
 
 
 def linear_weights(window: int) -> Array:
-    """Give weights that fall evenly, α(p) = 1 - (p+1)/k: continuous, but with a kink at both ends.
+    """Return weights that fall evenly, α(p) = 1 - (p+1)/k: continuous, but with a kink at both ends.
 
     Examples
     --------
@@ -45,9 +45,9 @@ def linear_weights(window: int) -> Array:
 
 
 def sine_weights(window: int) -> Array:
-    """Give the homework's weights, α_i = 1 - (1 + sin(π i / (k-1) - π/2)) / 2, where k was 50.
+    """Return the homework's weights, α_i = 1 - (1 + sin(π i / (k-1) - π/2)) / 2, where k was 50.
 
-    Unlike the other weights they are 1 in the first frame of the window, which is the first motion's own.
+    Unlike the other weights they are 1 in the first frame of the window, which is that of the first motion.
 
     Examples
     --------
@@ -62,7 +62,7 @@ def sine_weights(window: int) -> Array:
 
 
 def window_steps(window: int) -> Array:
-    """Give (p+1)/k for the frames p of a window: 0 would be the frame before it, and 1 is its last frame.
+    """Return (p+1)/k for the frames p of a window: 1 is its last frame, and 0 would be the frame before it.
 
     Examples
     --------

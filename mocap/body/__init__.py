@@ -1,19 +1,19 @@
-"""What a moving body is: a skeleton, its pose in every frame, and how to turn and move it.
+"""Moving bodies: a skeleton, its pose in every frame, and rotations and translations of it.
 
-A `Motion` is a `Skeleton` plus arrays: where the root is and how each joint is turned, frame by frame. All
-other rooms stand on this one.
+A `Motion` is a `Skeleton` plus arrays: the root's position and each joint's rotation, frame by frame. All
+other rooms build on this one.
 
 Reading order (notebooks 01, 03)
 --------------------------------
 1. `skeleton`: a tree of joints
 2. `motion`: the body over time; other frame rates; clips in a row
 3. `rotations`: unit quaternions (w, x, y, z) as arrays: product, slerp, conversions
-4. `kinematics`: forward kinematics: from rotations to where every joint is; which joints are hinges
-5. `planar`: turns about the vertical and moves over the ground
+4. `kinematics`: forward kinematics, from rotations to the positions of all joints; which joints are hinges
+5. `planar`: rotations about the vertical with translations over the ground
 6. `euler`: Euler angles and their traps
 7. `ground_path`: lines on the ground, by metres along them
-8. `limbs`: which joints are the legs, where their hips head, and which joint of a body does what
-9. `fingerprints`: what a clip is known by, whatever it is called
+8. `limbs`: legs and arms, the heading of the hips, and the role of each joint in a body
+9. `fingerprints`: hashes by which a clip is recognised under any name
 
 References
 ----------

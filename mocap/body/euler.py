@@ -1,4 +1,4 @@
-"""Euler angles: three turns about three axes, and their traps.
+"""Euler angles: three rotations about three axes, and their traps.
 
 Notebooks: 01-skeletons-and-clips, 03b-angles.
 """
@@ -10,6 +10,10 @@ from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
 from mocap._shared.arrays import Array
+from mocap.body.rotations import W, X, Y, Z
+
+# The entry of a quaternion that belongs to an axis, and those of the two axes that follow it.
+AXES = {"x": (X, Y, Z), "y": (Y, Z, X), "z": (Z, X, Y)}
 
 
 def from_euler(order: str, angles: ArrayLike) -> Array:
@@ -17,7 +21,7 @@ def from_euler(order: str, angles: ArrayLike) -> Array:
 
     Parameters
     ----------
-    order : the axes in SciPy's notation: "ZXY" turns about the body's own axes, R = Rz Rx Ry, as BVH
+    order : the axes in SciPy's notation: "ZXY" rotates about the body's own axes, R = Rz Rx Ry, as BVH
         does; "xyz" about the fixed ones, R = Rz Ry Rx, as Acclaim files do.
     angles : shape (..., len(order)), radians.
 
@@ -33,15 +37,18 @@ def from_euler(order: str, angles: ArrayLike) -> Array:
     Notebook: 03b-angles
     """
     halves = np.moveaxis(np.asarray(angles, float), -1, 0) / 2
-    turns = list(zip(order.lower(), np.cos(halves), np.sin(halves), strict=True))
+    factors = list(zip(order.lower(), np.cos(halves), np.sin(halves), strict=True))
     q = np.zeros((4, *halves.shape[1:]))
-    q[0] = 1.0
-    for axis, cos, sin in turns if order.isupper() else reversed(turns):
-        i = "xyz".index(axis)
-        same, left, right = 1 + i, 1 + (i + 1) % 3, 1 + (i + 2) % 3
-        # q (cos + sin e): the product with the axis e swaps the numbers of q in two pairs
-        q[[0, same]] = cos * q[[0, same]] + sin * np.stack([-q[same], q[0]])
-        q[[left, right]] = cos * q[[left, right]] + sin * np.stack([q[right], -q[left]])
+    q[W] = 1.0
+    for letter, cos, sin in factors if order.isupper() else reversed(factors):
+        axis, second, third = AXES[letter]
+        # Hamilton's product q (cos + sin e) with the unit vector e of the axis
+        product = cos * q
+        product[W] -= sin * q[axis]
+        product[axis] += sin * q[W]
+        product[second] += sin * q[third]
+        product[third] -= sin * q[second]
+        q = product
     return np.moveaxis(q, 0, -1)
 
 
@@ -55,7 +62,7 @@ def to_euler(order: str, quaternions: ArrayLike) -> Array:
 
     Returns
     -------
-    Angles, shape (..., 3), radians; where two axes fall together (gimbal lock) the third is 0.
+    Angles, shape (..., 3), radians. If two axes coincide (gimbal lock), the third angle is 0.
 
     Examples
     --------
@@ -65,18 +72,18 @@ def to_euler(order: str, quaternions: ArrayLike) -> Array:
     Notebook: 03b-angles
     """
     quaternions = np.asarray(quaternions, float)
-    turns = Rotation.from_quat(quaternions.reshape(-1, 4), scalar_first=True)
+    rotations = Rotation.from_quat(quaternions.reshape(-1, 4), scalar_first=True)
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", "Gimbal lock")
-        angles = turns.as_euler(order)
+        angles = rotations.as_euler(order)
     return np.asarray(angles.reshape(*quaternions.shape[:-1], 3))
 
 
 def continuous(order: str, angles: ArrayLike) -> Array:
     """Choose, among the angles of the same rotations, those nearest to the frame before.
 
-    (a, b, c) is the same rotation as (a + π, π - b, c + π), and a whole turn more or less changes nothing. In
-    gimbal lock, where b = ±π/2, only a + c or a - c matters: there c stays as it was before.
+    (a, b, c) is the same rotation as its twin (a + π, π - b, c + π), and so is each with a multiple of 2π
+    added to an angle. In gimbal lock, b = ±π/2, only a + c or a - c matters: c keeps its last value.
 
     Parameters
     ----------
@@ -98,22 +105,41 @@ def continuous(order: str, angles: ArrayLike) -> Array:
     """
     angles = _without_lock(order, np.asarray(angles, float))
     twins = angles * [1, -1, 1] + np.pi
-    turn = 2 * np.pi
-    steps, twin_steps = (np.abs((a[1:] - angles[:-1] + np.pi) % turn - np.pi) for a in (angles, twins))
-    # Is the twin nearer to the frame before? It is the same question for either twin of that frame.
-    flips = steps.sum(-1) > twin_steps.sum(-1)
-    flipped = np.zeros(angles.shape[:-1], bool)
-    flipped[1:] = np.cumsum(flips, axis=0) % 2 == 1
-    return np.unwrap(np.where(flipped[..., None], twins, angles), axis=0)
+    # A twin is as near to a frame's angles as the angles are to the frame's twin. Therefore each frame is
+    # compared with the angles of the frame before, and a change to the twin holds until the next change.
+    distances = _angular_distance(angles[1:], angles[:-1])
+    twin_distances = _angular_distance(twins[1:], angles[:-1])
+    takes_twin = np.zeros(angles.shape[:-1], bool)
+    takes_twin[1:] = np.cumsum(twin_distances < distances, axis=0) % 2 == 1
+    return np.unwrap(np.where(takes_twin[..., None], twins, angles), axis=0)
+
+
+def _angular_distance(first: Array, second: Array) -> Array:
+    """Add up the differences of angles along the last axis, each at most π."""
+    differences = (first - second + np.pi) % (2 * np.pi) - np.pi
+    return np.asarray(np.abs(differences).sum(-1))
 
 
 def _without_lock(order: str, angles: Array) -> Array:
-    """Keep the last value of the third angle where two axes fall together and `to_euler` made it 0."""
+    """Replace angles in gimbal lock, of which `to_euler` sets the third to 0, by others of the same rotation.
+
+    The third angle keeps its value of the last frame without lock, and the first one makes up for it. If the
+    lock is at the start, the first frame without lock is taken.
+    """
     first, second, third = np.moveaxis(angles, -1, 0)
-    locked = (third == 0) & (np.abs(np.cos(second)) < 1e-6)
-    last = np.where(locked, 0, np.arange(len(angles)).reshape(-1, *[1] * (angles.ndim - 2)))
-    # A lock at the start has no frame before it: take the first frame that is not locked.
-    free = np.maximum(np.maximum.accumulate(last, axis=0), locked.argmin(axis=0))
-    held = np.where(locked, np.take_along_axis(third, free, axis=0), third)
-    sign = (1 if order.lower() in "xyzxy" else -1) * (1 if order.isupper() else -1) * np.sign(second)
-    return np.stack([np.where(locked, first - sign * held, first), second, held], axis=-1)
+    is_locked = (third == 0) & (np.abs(np.cos(second)) < 1e-6)
+    frames = np.arange(len(angles)).reshape(-1, *[1] * (angles.ndim - 2))
+    last_free = np.maximum.accumulate(np.where(is_locked, 0, frames), axis=0)
+    first_free = is_locked.argmin(axis=0)
+    held = np.take_along_axis(third, np.maximum(last_free, first_free), axis=0)
+    compensated = first - _lock_sign(order) * np.sign(second) * held
+    new_first = np.where(is_locked, compensated, first)
+    new_third = np.where(is_locked, held, third)
+    return np.stack([new_first, second, new_third], axis=-1)
+
+
+def _lock_sign(order: str) -> int:
+    """Return s such that in gimbal lock only a + s c sign(b) of the angles (a, b, c) matters, 1 or -1."""
+    is_cyclic = order.lower() in "xyzxy"
+    about_body_axes = order.isupper()
+    return 1 if is_cyclic == about_body_axes else -1

@@ -1,4 +1,4 @@
-"""What a clip is known by, whatever it is called."""
+"""Fingerprints of clips: hashes by which a clip is recognised under any name."""
 
 import hashlib
 
@@ -8,9 +8,9 @@ from mocap.body.motion import Motion
 
 
 def fingerprint(motion: Motion) -> str:
-    """Hash what a saved graph needs of a clip: skeleton, poses, rate and labels (SHA-256).
+    """Compute a hash (SHA-256) of a clip's skeleton, poses, rate and labels: all that a saved graph needs.
 
-    Numbers count to six digits after the point, because the last digits differ from machine to machine.
+    Numbers are rounded to six digits after the point, because the last digits depend on the machine.
 
     Examples
     --------

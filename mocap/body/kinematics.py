@@ -1,4 +1,4 @@
-"""From local rotations to where every joint is: forward kinematics, velocities, and hinges."""
+"""Forward kinematics, from local rotations to the positions of all joints; velocities; and hinges."""
 
 from typing import NamedTuple
 
@@ -9,16 +9,16 @@ from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
 
-# A joint is a hinge if its second singular value is below this share of the first. The knees of six sources
-# have 0.8 % at most; puppy's, which are no hinges, 45 %.
+# The largest ratio of a hinge's second singular value to its first. The knees of six sources have 0.008 at
+# most; those of puppy, which are no hinges, 0.45.
 HINGE = 0.05
 
-# Radians (rms): a joint that turns less in a clip does not show its axis; then the file's axes count.
+# Radians (RMS): a joint that rotates less in a clip does not show its axis, and the file's axes are used.
 STILL = 0.01
 
 
 class GlobalPoses(NamedTuple):
-    """Where all joints are: `positions` (F, J, 3), metres; and how they are turned: `matrices` (F, J, 3, 3).
+    """The positions of all joints (F, J, 3), metres, and their rotation matrices (F, J, 3, 3).
 
     Examples
     --------
@@ -31,9 +31,9 @@ class GlobalPoses(NamedTuple):
 
 
 def forward_kinematics(motion: Motion) -> GlobalPoses:
-    """Place every joint in the world, from the root down the tree.
+    """Compute the positions and rotations of all joints in the world, from the root down the tree.
 
-    R_j = R_parent · L_j and p_j = p_parent + R_parent · offset_j, where L_j is the joint's own rotation.
+    R_j = R_parent · L_j and p_j = p_parent + R_parent · offset_j, where L_j is the joint's local rotation.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def forward_kinematics(motion: Motion) -> GlobalPoses:
     Notebook: 13-retargeting
     """
     skeleton = motion.skeleton
-    matrices = rotations.to_matrix(np.swapaxes(motion.rotations, 0, 1))  # L_j, and R_j from the root down
+    matrices = rotations.to_matrix(np.swapaxes(motion.rotations, 0, 1))  # L_j, which become R_j
     for joint in range(1, len(skeleton)):
         matrices[joint] = matrices[skeleton.parents[joint]] @ matrices[joint]
     positions = np.einsum("jfxy,jy->jfx", matrices[skeleton.parents], skeleton.offsets)
@@ -65,7 +65,7 @@ def forward_kinematics(motion: Motion) -> GlobalPoses:
 
 
 def joint_positions(motion: Motion) -> Array:
-    """Give only the positions of `forward_kinematics`, shape (F, J, 3), metres.
+    """Compute the positions of all joints by `forward_kinematics`, shape (F, J, 3), metres.
 
     Examples
     --------
@@ -107,16 +107,16 @@ def velocities(positions: Array, fps: float) -> Array:
 
 
 def hinge_of(motion: Motion, joint: int) -> Array | None:
-    """Find the one axis about which a joint turns, a unit vector in its own frame, or None.
+    """Find the axis of a hinge joint, a unit vector in the joint's frame, or None for other joints.
 
-    A joint is a hinge if its rotation vectors from their mean spread along one direction. Where it hardly
-    turns in the clip, it is one if its file gives it one axis. A knee that may turn about three axes meets
-    its pins as well, and twists by up to 19°.
+    A joint is a hinge if its rotation vectors, relative to the mean rotation, spread along one direction. If
+    it hardly rotates in the clip, it is a hinge if its file gives it one axis. Without a hinge, an edited
+    knee meets its constraints equally well, but twists by up to 19°.
 
     Parameters
     ----------
-    motion : the clip that shows it.
-    joint : its index.
+    motion : F frames.
+    joint : the index of the joint.
 
     Examples
     --------
@@ -124,12 +124,12 @@ def hinge_of(motion: Motion, joint: int) -> Array | None:
     >>> hinge_of(sample("walk_straight"), 3).round(6) + 0.0  # the left knee
     array([1., 0., 0.])
     """
-    turns = motion.rotations[:, joint]
-    away = rotations.difference(rotations.mean(turns), turns)
-    spread, axes = np.linalg.svd(away - away.mean(axis=0), full_matrices=False)[1:]
-    if len(away) > 3 and spread[0] > STILL * np.sqrt(len(away)):
+    quaternions = motion.rotations[:, joint]
+    vectors = rotations.difference(rotations.mean(quaternions), quaternions)
+    _, spread, axes = np.linalg.svd(vectors - vectors.mean(axis=0), full_matrices=False)
+    if len(vectors) > 3 and spread[0] > STILL * np.sqrt(len(vectors)):
         return np.asarray(axes[0]) if spread[1] < HINGE * spread[0] else None
-    free = motion.skeleton.dofs[joint]
-    if len(free) != 1:
+    dofs = motion.skeleton.dofs[joint]
+    if len(dofs) != 1:
         return None
-    return rotations.rotate(motion.skeleton.axes[joint], np.eye(3)["xyz".index(free)])
+    return rotations.rotate(motion.skeleton.axes[joint], np.eye(3)["xyz".index(dofs)])

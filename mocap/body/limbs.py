@@ -1,4 +1,4 @@
-"""Which joints are the legs? And which joint of a body does what.
+"""Legs and arms of a skeleton, and the role of each joint in a body.
 
 Two skeletons have few names in common, but the same parts. Legs, arms and head are found by the names that
 files use, or legs are named by hand. The trunk is found by the tree: the pelvis is where the legs meet, the
@@ -16,8 +16,8 @@ from mocap._shared.arrays import Array
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
 
-# Hip, knee, ankle and shoulder, elbow, wrist of the left side, as files name them; each column is looked up
-# by itself, and a prefix up to a colon is ignored.
+# Hip, knee, ankle and shoulder, elbow, wrist of the left side, as files name them. Legs and arms are looked
+# up separately, and a prefix up to a colon is ignored.
 LIMBS = (
     ("lfemur ltibia lfoot", "lhumerus lradius lwrist"),  # Acclaim, CMU
     ("lfemur ltibia lfoot", "lhumerus lradius lhand"),
@@ -38,7 +38,7 @@ ARM = ("shoulder", "elbow", "wrist")
 SIDES = ("left", "right")
 FEET = tuple(f"{side} {part}" for side in SIDES for part in ("ankle", "ball"))
 ROLES = (*TRUNK, *(f"{side} {part}" for side in SIDES for part in ("clavicle", *ARM, *LEG)))
-"""What a joint can be to a body: from "pelvis" to "right ball"."""
+"""The roles that a joint can have in a body, from "pelvis" to "right ball"."""
 
 
 class Leg(NamedTuple):
@@ -58,7 +58,7 @@ class Leg(NamedTuple):
     ball: int
 
     def lengths(self, skeleton: Skeleton) -> Array:
-        """Give the lengths of thigh, shank and foot (ankle to ball), shape (3,), metres."""
+        """Return the lengths of thigh, shank and foot (ankle to ball), shape (3,), metres."""
         return np.asarray(np.linalg.norm(skeleton.offsets[list(self[1:])], axis=-1))
 
 
@@ -67,7 +67,7 @@ def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
 
     Raises
     ------
-    MocapError : if no known names are there; then name the joints by hand with `name_leg`.
+    MocapError : for skeletons without known names, whose joints are named by hand with `name_leg`.
 
     Examples
     --------
@@ -77,20 +77,33 @@ def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
 
     Notebook: 04b-feet
     """
-    legs = find_pair(skeleton, "legs")
-    if bare := [ankle for *_, ankle in legs if not skeleton.children(ankle)]:
-        name = skeleton.names[bare[0]]
+    return _find_legs(skeleton, "Name each by hand: legs=[name_leg(skeleton, hip, knee, ankle, ball), ...].")
+
+
+def _find_legs(skeleton: Skeleton, remedy: str) -> tuple[Leg, ...]:
+    """Find the left and the right leg; the error for unknown names advises `remedy`."""
+    pair = find_pair(skeleton, "legs")
+    if not pair:
+        joints = shorten(", ".join(skeleton.names), 38)
+        names = shorten(", ".join(dict(LIMBS)), 40)
+        raise MocapError(f"No legs found among {joints}: tried {names}. {remedy}")
+    legs = [Leg(hip, knee, ankle, _ball(skeleton, ankle)) for hip, knee, ankle in pair]
+    for leg in legs:
+        _require_leg(skeleton, leg)
+    return tuple(legs)
+
+
+def _ball(skeleton: Skeleton, ankle: int) -> int:
+    """Return the ball of a foot: the first child of its ankle."""
+    children = skeleton.children(ankle)
+    if not children:
+        name = skeleton.names[ankle]
         raise MocapError(f"The foot '{name}' has no joint or end site that could be its ball.")
-    if not legs:
-        joints, known = (", ".join(names) for names in (skeleton.names, dict(LIMBS)))
-        helps = "Name each by hand: legs=[name_leg(skeleton, hip, knee, ankle, ball), ...]."
-        raise MocapError(f"No legs found among {shorten(joints, 38)}: tried {shorten(known, 40)}. {helps}")
-    whole = [[*joints, skeleton.children(joints[2])[0]] for joints in legs]
-    return tuple(name_leg(skeleton, *(skeleton.names[joint] for joint in leg)) for leg in whole)
+    return children[0]
 
 
 def find_pair(skeleton: Skeleton, limbs: Literal["legs", "arms"]) -> list[list[int]]:
-    """Find the three joints of the left limb and of the right one, its mirror image; [] where none are known.
+    """Find the three joints of the left limb and of its mirror image, the right one; [] for unknown names.
 
     Examples
     --------
@@ -98,17 +111,23 @@ def find_pair(skeleton: Skeleton, limbs: Literal["legs", "arms"]) -> list[list[i
     >>> [[SKELETON.names[joint] for joint in arm] for arm in find_pair(SKELETON, "arms")]
     [['lhumerus', 'lradius', 'lwrist'], ['rhumerus', 'rradius', 'rwrist']]
     """
-    plain = [name.rsplit(":", 1)[-1] for name in skeleton.names]
-    for names in (row[limbs == "arms"].split() for row in LIMBS):
-        left = [plain.index(name) for name in names if name in plain]
+    names = _without_prefixes(skeleton)
+    for legs, arms in LIMBS:
+        limb = (legs if limbs == "legs" else arms).split()
+        left = [names.index(name) for name in limb if name in names]
         right = [skeleton.partner(joint) for joint in left]
-        if len(left) == 3 and not set(left) & set(right):
+        if len(left) == len(limb) and not set(left) & set(right):
             return [left, right]
     return []
 
 
+def _without_prefixes(skeleton: Skeleton) -> list[str]:
+    """List the joints' names without what is before a colon, as in "mixamorig:LeftArm"."""
+    return [name.rsplit(":", 1)[-1] for name in skeleton.names]
+
+
 def name_leg(skeleton: Skeleton, hip: str, knee: str, ankle: str, ball: str) -> Leg:
-    """Make a leg out of the names of its joints.
+    """Make a leg from the names of its joints.
 
     Raises
     ------
@@ -121,18 +140,24 @@ def name_leg(skeleton: Skeleton, hip: str, knee: str, ankle: str, ball: str) -> 
     >>> name_leg(SKELETON, "lfemur", "ltibia", "lfoot", "ltoes")
     Leg(hip=2, knee=3, ankle=4, ball=5)
     """
-    leg, names = Leg(*(skeleton.index(name) for name in (hip, knee, ankle, ball))), skeleton.names
+    leg = Leg(*(skeleton.index(name) for name in (hip, knee, ankle, ball)))
+    _require_leg(skeleton, leg)
+    return leg
+
+
+def _require_leg(skeleton: Skeleton, leg: Leg) -> None:
+    """Raise unless each joint of a leg is the parent of the next one, at a distance."""
+    names = skeleton.names
     for above, below in pairwise(leg):
         if skeleton.parents[below] != above:
             hangs = f"'{names[below]}' hangs on '{names[skeleton.parents[below]]}', not on '{names[above]}'"
             raise MocapError(f"In a leg each joint hangs on the one before, but {hangs}.")
         if not np.linalg.norm(skeleton.offsets[below]) > 1e-6:
             raise MocapError(f"'{names[below]}' sits on '{names[above]}': a bone needs a length.")
-    return leg
 
 
 def heading_by_hips(positions: Array, legs: Sequence[Leg]) -> Array:
-    """Read where a body heads, square to the line of its hips, from positions (F, J, 3); radians (F,).
+    """Compute the heading at right angles to the line of the hips, from positions (F, J, 3); radians (F,).
 
     Examples
     --------
@@ -146,7 +171,7 @@ def heading_by_hips(positions: Array, legs: Sequence[Leg]) -> Array:
 
 
 def roles(skeleton: Skeleton) -> dict[str, int]:
-    """Find which joint plays which role in a body.
+    """Find the role of each joint in a body.
 
     Parameters
     ----------
@@ -163,38 +188,49 @@ def roles(skeleton: Skeleton) -> dict[str, int]:
     Examples
     --------
     >>> from mocap.datasets.samples import SKELETON
-    >>> found = roles(SKELETON)
-    >>> [SKELETON.names[found[role]] for role in ("pelvis", "waist", "chest", "neck", "left wrist")]
+    >>> joints = roles(SKELETON)
+    >>> [SKELETON.names[joints[role]] for role in ("pelvis", "waist", "chest", "neck", "left wrist")]
     ['root', 'lowerback', 'thorax', 'lowerneck', 'lwrist']
 
     Notebook: 13-retargeting
     """
-    try:
-        limbs = zip(SIDES * 2, [*find_legs(skeleton), *find_pair(skeleton, "arms")], strict=False)
-    except MocapError as error:
-        raise MocapError(f"{str(error).split(' Name each')[0]} Rename the joints.") from None
-    found: dict[str, int] = {}
-    for side, joints in limbs:
-        parts = LEG if isinstance(joints, Leg) else ARM
-        found |= {f"{side} {part}": joint for part, joint in zip(parts, joints, strict=True)}
-    names = [name.rsplit(":", 1)[-1].lower() for name in skeleton.names]
-    heads = [joint for joint, name in enumerate(names) if name == "head"]
-    found |= {"head": heads[0]} if heads else {}
-    found |= _trunk(skeleton, found)
-    return {role: found[role] for role in ROLES if role in found}
+    joints: dict[str, int] = {}
+    for side, leg in zip(SIDES, _find_legs(skeleton, "Rename the joints."), strict=True):
+        joints |= {f"{side} {part}": joint for part, joint in zip(LEG, leg, strict=True)}
+    for side, arm in zip(SIDES, find_pair(skeleton, "arms"), strict=False):  # there may be none
+        joints |= {f"{side} {part}": joint for part, joint in zip(ARM, arm, strict=True)}
+    names = [name.lower() for name in _without_prefixes(skeleton)]
+    if "head" in names:
+        joints["head"] = names.index("head")
+    joints |= _trunk(skeleton, joints)
+    return {role: joints[role] for role in ROLES if role in joints}
 
 
 def _trunk(skeleton: Skeleton, limbs: Mapping[str, int]) -> dict[str, int]:
-    """Find the trunk by the tree: what the limbs and the head hang on."""
-    up = {role: skeleton.path_to_root(joint)[1:] for role, joint in limbs.items()}
-    pelvis, chest = (
-        max(set(up.get(f"left {part}", ())) & set(up.get(f"right {part}", ())), default=0)
-        for part in ("hip", "shoulder")
-    )
-    if pelvis not in (above := skeleton.path_to_root(chest)[1:]):  # no arms, or they hang on the pelvis
+    """Find the trunk's roles by the tree, from those of the limbs and the head."""
+    ancestors = {role: skeleton.path_to_root(joint)[1:] for role, joint in limbs.items()}
+    pelvis = _last_common(ancestors, "hip")
+    chest = _last_common(ancestors, "shoulder")
+    spine = skeleton.path_to_root(chest)[1:]
+    if pelvis not in spine:  # no arms, or they hang on the pelvis
         return {"pelvis": pelvis}
     trunk = {"pelvis": pelvis, "chest": chest}
-    # The first joint on the way from the chest to a limb, and from the pelvis to the chest.
-    ways = {"neck": up.get("head", []), **{f"{side} clavicle": up[f"{side} shoulder"] for side in SIDES}}
-    trunk |= {role: way[way.index(chest) - 1] for role, way in ways.items() if chest in way[1:]}
-    return trunk | ({"waist": above[above.index(pelvis) - 1]} if above[0] != pelvis else {})
+    if spine[0] != pelvis:
+        trunk["waist"] = _child_towards(pelvis, spine)
+    for role, limb in (("neck", "head"), *((f"{side} clavicle", f"{side} shoulder") for side in SIDES)):
+        path = ancestors.get(limb, [])
+        if chest in path[1:]:
+            trunk[role] = _child_towards(chest, path)
+    return trunk
+
+
+def _last_common(ancestors: Mapping[str, list[int]], part: str) -> int:
+    """Return the last joint on which the left and the right `part` both hang, or else the root."""
+    left = set(ancestors.get(f"left {part}", ()))
+    right = set(ancestors.get(f"right {part}", ()))
+    return max(left & right, default=0)
+
+
+def _child_towards(joint: int, path: list[int]) -> int:
+    """Return the joint before `joint` on a path to the root."""
+    return path[path.index(joint) - 1]

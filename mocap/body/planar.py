@@ -1,10 +1,11 @@
-"""Planar transforms: turn about the vertical, then move over the ground.
+"""Planar rigid transforms: a rotation about the vertical, then a translation over the ground.
 
-A captured motion stays the same motion wherever on the ground it happens and whichever way it faces. So only
-these three numbers may change when one clip is laid on another [KGP02, 3.1].
+A captured motion stays the same motion wherever on the ground it happens and whichever way it faces.
+Therefore only these three numbers may change when one clip is aligned with another [KGP02, 3.1].
 
-A point (x, z) on the ground is also the complex number z + ix. To turn it about +y by θ is then to multiply
-it by exp(iθ), and a planar transform is p ↦ turn · p + move. Only this module knows which part is which.
+A point (x, z) on the ground is also the complex number z + ix. A rotation about +y by θ is then a product
+with exp(iθ), and a planar transform is p ↦ turn · p + move. Only this module knows which part is x and which
+is z.
 """
 
 from __future__ import annotations
@@ -49,7 +50,7 @@ def from_ground(points: Points) -> Array:
 
 
 class PlanarTransform(NamedTuple):
-    """Turn by `angle` (radians) about +y, then move by `x` and `z` (metres).
+    """Rotation by `angle` (radians) about +y, then translation by `x` and `z` (metres).
 
     The fields are numbers, or arrays of one shape for many transforms at once. `a @ b` does b first.
 
@@ -75,57 +76,57 @@ class PlanarTransform(NamedTuple):
 
     @property
     def turn(self) -> Points:
-        """The turn as a complex number, exp(i · angle)."""
+        """The rotation as a complex number, exp(i · angle)."""
         return np.exp(1j * np.asarray(self.angle))
 
     @property
     def move(self) -> Points:
-        """The move as a complex number, z + ix."""
+        """The translation as a complex number, z + ix."""
         return np.asarray(self.z) + 1j * np.asarray(self.x)
 
     def apply_points(self, points: ArrayLike) -> Array:
-        """Move points, shape (..., 3): x' = x cos θ + z sin θ + x₀, z' = z cos θ - x sin θ + z₀."""
+        """Transform points, shape (..., 3): x' = x cos θ + z sin θ + x₀, z' = z cos θ - x sin θ + z₀."""
         x, y, z = np.moveaxis(np.asarray(points, float), -1, 0)
         cos = np.cos(self.angle)
         sin = np.sin(self.angle)
-        moved_x = x * cos + z * sin + self.x
-        moved_z = z * cos - x * sin + self.z
-        return np.stack(np.broadcast_arrays(moved_x, y, moved_z), -1)
+        new_x = x * cos + z * sin + self.x
+        new_z = z * cos - x * sin + self.z
+        return np.stack(np.broadcast_arrays(new_x, y, new_z), -1)
 
     def apply_frames(self, roots: ArrayLike, turns: Array) -> tuple[Array, Array]:
-        """Move frames of root positions (..., 3) and rotations (..., J, 4); only roots change."""
-        turned = turns.copy()
-        turned[..., 0, :] = rotations.multiply(rotations.about_y(self.angle), turned[..., 0, :])
-        return self.apply_points(roots), turned
+        """Transform frames of root positions (..., 3) and rotations (..., J, 4); only roots change."""
+        transformed = turns.copy()
+        transformed[..., 0, :] = rotations.multiply(rotations.about_y(self.angle), transformed[..., 0, :])
+        return self.apply_points(roots), transformed
 
     def apply_motion(self, motion: Motion) -> Motion:
-        """Move a whole motion; only its root changes."""
-        roots, turned = self.apply_frames(motion.root_positions, motion.rotations)
-        return replace(motion, root_positions=roots, rotations=turned)
+        """Transform a whole motion; only its root changes."""
+        root_positions, transformed = self.apply_frames(motion.root_positions, motion.rotations)
+        return replace(motion, root_positions=root_positions, rotations=transformed)
 
     def __matmul__(self, first: PlanarTransform) -> PlanarTransform:
-        """Compose: do `first`, then this one; angles add up, wrapped to [-π, π)."""
-        moved = self.apply_points(np.stack(np.broadcast_arrays(first.x, 0.0, first.z), -1))
-        total = np.add(self.angle, first.angle)
-        return PlanarTransform((total + np.pi) % (2 * np.pi) - np.pi, moved[..., 0], moved[..., 2])
+        """Compose: apply `first`, then this one. Angles add up, wrapped to [-π, π)."""
+        translation = self.apply_points(np.stack(np.broadcast_arrays(first.x, 0.0, first.z), -1))
+        angle = (np.add(self.angle, first.angle) + np.pi) % (2 * np.pi) - np.pi
+        return PlanarTransform(angle, translation[..., 0], translation[..., 2])
 
     def inverse(self) -> PlanarTransform:
-        """Give the transform that undoes this one."""
-        back = PlanarTransform(np.negative(self.angle), 0.0, 0.0)
-        moved = back.apply_points(np.stack(np.broadcast_arrays(self.x, 0.0, self.z), -1))
-        return PlanarTransform(back.angle, -moved[..., 0], -moved[..., 2])
+        """Return the inverse transform."""
+        rotation = PlanarTransform(np.negative(self.angle), 0.0, 0.0)
+        translation = rotation.apply_points(np.stack(np.broadcast_arrays(self.x, 0.0, self.z), -1))
+        return PlanarTransform(rotation.angle, -translation[..., 0], -translation[..., 2])
 
 
 IDENTITY = PlanarTransform(0.0, 0.0, 0.0)
 
 
 def heading(quaternions: ArrayLike) -> Array:
-    """Read the direction that a body faces as its twist about the vertical: θ = 2 atan2(q_y, q_w).
+    """Compute the direction that a body faces, its twist about the vertical: θ = 2 atan2(q_y, q_w).
 
-    Every rotation is a turn about +y after a swing about a level axis; θ is that turn. It stays defined when
-    the body lies down or looks straight up, and turning the body by α adds α exactly. The one exception is
-    a swing by half a turn (upside down, q_w = q_y = 0), where it is 0. The homework took the heading from
-    the rotation matrix instead; notebook 03b shows where that fails.
+    Every rotation is a swing about a level axis, then a twist about +y by θ. The heading stays defined when
+    the body lies down or looks straight up, and a rotation of the body about +y by α adds α exactly. The one
+    exception is a swing by 180° (upside down, q_w = q_y = 0), where it is 0. The homework's heading comes
+    from the rotation matrix instead; notebook 03b shows where that fails.
 
     Parameters
     ----------
@@ -149,14 +150,14 @@ def heading(quaternions: ArrayLike) -> Array:
 
 
 def lay_on(motion: Motion, target: Motion, frame: int = 0) -> PlanarTransform:
-    """Find the transform that lays a motion's first frame on a frame of another.
+    """Return the planar transform that aligns a motion's first frame with a frame of another.
 
-    It turns by the difference of the two headings, then moves the root over the ground to the other root.
+    It rotates by the difference of the two headings, then moves the root over the ground to the other root.
 
     Parameters
     ----------
-    motion : the motion to move.
-    target, frame : the motion and the frame to lay it on.
+    motion : the motion to align.
+    target, frame : the motion and the frame to align it with.
 
     Examples
     --------
@@ -169,14 +170,14 @@ def lay_on(motion: Motion, target: Motion, frame: int = 0) -> PlanarTransform:
 
     Notebook: 03b-angles
     """
-    turn = float(heading(target.rotations[frame, 0]) - heading(motion.rotations[0, 0]))
-    turned = PlanarTransform(turn, 0.0, 0.0).apply_points(motion.root_positions[0])
-    x, _, z = target.root_positions[frame] - turned
-    return PlanarTransform(turn, float(x), float(z))
+    angle = float(heading(target.rotations[frame, 0]) - heading(motion.rotations[0, 0]))
+    rotated = PlanarTransform(angle, 0.0, 0.0).apply_points(motion.root_positions[0])
+    x, _, z = target.root_positions[frame] - rotated
+    return PlanarTransform(angle, float(x), float(z))
 
 
 def place(motion: Motion, direction: float, position: ArrayLike) -> Motion:
-    """Move a whole motion so that its first frame faces `direction` and stands over `position`.
+    """Transform a whole motion so that its first frame faces `direction` and is over `position`.
 
     Parameters
     ----------
@@ -201,6 +202,6 @@ def place(motion: Motion, direction: float, position: ArrayLike) -> Motion:
     if target.shape != (2,) or not np.isfinite([direction, *target]).all():
         got = f"{direction} and {target.tolist()}"
         raise MocapError(f"A place is a finite direction and position (x, z), got {got}.")
-    turn = PlanarTransform(direction - float(heading(motion.rotations[0, 0])), 0.0, 0.0)
-    x, _, z = turn.apply_points(motion.root_positions[0])
-    return turn._replace(x=target[0] - x, z=target[1] - z).apply_motion(motion)
+    rotation = PlanarTransform(direction - float(heading(motion.rotations[0, 0])), 0.0, 0.0)
+    x, _, z = rotation.apply_points(motion.root_positions[0])
+    return rotation._replace(x=target[0] - x, z=target[1] - z).apply_motion(motion)

@@ -1,11 +1,11 @@
 """Unit quaternions as arrays `(..., 4)`, scalar first (w, x, y, z).
 
-All functions broadcast over the leading axes, and take a single quaternion as well. Rotations turn column
-vectors: `rotate(multiply(a, b), v)` turns v by b first, then by a.
+All functions broadcast over the leading axes, and also take a single quaternion. Rotations apply to column
+vectors: `rotate(multiply(a, b), v)` rotates v by b first, then by a.
 
 Products, rotation vectors and slerp are written out as their formulas. On arrays, products and slerp are also
-several times quicker than those of SciPy's `Rotation`, against which the tests check them. Lengths are not
-corrected: results have length 1, up to rounding, if the arguments have. Matrices come from SciPy.
+several times faster than those of SciPy's `Rotation`, against which the tests check them. Quaternions are not
+normalised: results have length 1, up to rounding, if the arguments have. Matrices come from SciPy.
 
 Notebooks: 01-skeletons-and-clips, 04-blending (slerp).
 """
@@ -17,7 +17,14 @@ from scipy.spatial.transform import Rotation
 from mocap._shared.arrays import Array, frozen
 
 IDENTITY: Array = frozen([1.0, 0.0, 0.0, 0.0], np.float64)
-Z_UP: Array = frozen([0.5**0.5, -(0.5**0.5), 0.0, 0.0], np.float64)  # turns what points along z upwards
+Z_UP: Array = frozen([0.5**0.5, -(0.5**0.5), 0.0, 0.0], np.float64)  # rotates the axis z upwards
+
+# Entries of a quaternion.
+W = 0
+X = 1
+Y = 2
+Z = 3
+VECTOR = slice(1, None)
 
 
 def from_matrix(matrices: ArrayLike) -> Array:
@@ -58,7 +65,7 @@ def to_matrix(quaternions: ArrayLike) -> Array:
 def from_rotvec(vectors: ArrayLike) -> Array:
     """Convert rotation vectors (axis times angle in radians), shape (..., 3), to quaternions, shape (..., 4).
 
-    The exponential: a turn by θ about the unit axis n is q = (cos θ/2, n sin θ/2).
+    The exponential map: the rotation by θ about the unit axis n is q = (cos θ/2, n sin θ/2).
 
     Examples
     --------
@@ -76,8 +83,8 @@ def from_rotvec(vectors: ArrayLike) -> Array:
 def to_rotvec(quaternions: ArrayLike) -> Array:
     """Convert quaternions to rotation vectors, shape (..., 3), of at most π radians.
 
-    The logarithm: (w, v) with w ≥ 0 is a turn by θ = 2 atan2(|v|, w) about v. Where w < 0, -q is used, which
-    is the same rotation.
+    The logarithm: (w, v) with w ≥ 0 is the rotation by θ = 2 atan2(|v|, w) about v. If w < 0, -q is used,
+    which is the same rotation.
 
     Examples
     --------
@@ -87,13 +94,15 @@ def to_rotvec(quaternions: ArrayLike) -> Array:
     Notebook: 15-registration
     """
     quaternions = np.asarray(quaternions, float)
-    w, v = quaternions[..., :1], quaternions[..., 1:]
-    sine = np.maximum(np.linalg.norm(v, axis=-1, keepdims=True), 1e-300)  # never 0 / 0
-    return np.asarray(2 * np.arctan2(sine, np.abs(w)) / sine * np.where(w < 0, -v, v))
+    scalar = quaternions[..., :1]
+    vector = quaternions[..., VECTOR]
+    sine = np.maximum(np.linalg.norm(vector, axis=-1, keepdims=True), 1e-300)  # never 0 / 0
+    angle = 2 * np.arctan2(sine, np.abs(scalar))
+    return np.asarray(angle / sine * np.where(scalar < 0, -vector, vector))
 
 
 def about_y(angles: ArrayLike) -> Array:
-    """Build the turns by `angles` (radians, shape (...)) about the vertical, shape (..., 4).
+    """Build the rotations by `angles` (radians, shape (...)) about the vertical, shape (..., 4).
 
     Examples
     --------
@@ -101,13 +110,14 @@ def about_y(angles: ArrayLike) -> Array:
     array([1., 0., 0.])
     """
     half = np.asarray(angles, float) / 2
-    turns = np.zeros((*half.shape, 4))
-    turns[..., 0], turns[..., 2] = np.cos(half), np.sin(half)
-    return turns
+    quaternions = np.zeros((*half.shape, 4))
+    quaternions[..., W] = np.cos(half)
+    quaternions[..., Y] = np.sin(half)
+    return quaternions
 
 
 def multiply(first: ArrayLike, second: ArrayLike) -> Array:
-    """Compose rotations by Hamilton's product: the result turns by `second`, then by `first`.
+    """Compose rotations by Hamilton's product: the result rotates by `second`, then by `first`.
 
     (w₁, v₁)(w₂, v₂) = (w₁w₂ - v₁·v₂, w₁v₂ + w₂v₁ + v₁ × v₂); shapes (..., 4) broadcast.
 
@@ -118,14 +128,15 @@ def multiply(first: ArrayLike, second: ArrayLike) -> Array:
 
     Notebook: 01-skeletons-and-clips
     """
-    first, second = np.asarray(first, float), np.asarray(second, float)
-    (w1, x1, y1, z1), (w2, x2, y2, z2) = ([q[..., k] for k in range(4)] for q in (first, second))
-    # It is filled in place: a stack takes longer.
-    product = np.empty(np.broadcast_shapes(first.shape, second.shape))
-    product[..., 0] = w1 * w2 - x1 * x2 - y1 * y2 - z1 * z2
-    product[..., 1] = w1 * x2 + x1 * w2 + y1 * z2 - z1 * y2
-    product[..., 2] = w1 * y2 + y1 * w2 + z1 * x2 - x1 * z2
-    product[..., 3] = w1 * z2 + z1 * w2 + x1 * y2 - y1 * x2
+    first = np.asarray(first, float)
+    second = np.asarray(second, float)
+    w1, x1, y1, z1 = (first[..., k] for k in range(4))
+    w2, x2, y2, z2 = (second[..., k] for k in range(4))
+    product = np.empty(np.broadcast_shapes(first.shape, second.shape))  # which is faster than a stack
+    product[..., W] = w1 * w2 - x1 * x2 - y1 * y2 - z1 * z2
+    product[..., X] = w1 * x2 + x1 * w2 + y1 * z2 - z1 * y2
+    product[..., Y] = w1 * y2 + y1 * w2 + z1 * x2 - x1 * z2
+    product[..., Z] = w1 * z2 + z1 * w2 + x1 * y2 - y1 * x2
     return product
 
 
@@ -141,7 +152,7 @@ def inverse(quaternions: ArrayLike) -> Array:
 
 
 def rotate(quaternions: ArrayLike, vectors: ArrayLike) -> Array:
-    """Turn vectors, shape (..., 3), by quaternions, shape (..., 4); leading axes broadcast.
+    """Rotate vectors, shape (..., 3), by quaternions, shape (..., 4); leading axes broadcast.
 
     Examples
     --------
@@ -154,25 +165,31 @@ def rotate(quaternions: ArrayLike, vectors: ArrayLike) -> Array:
 
 
 def between(start: ArrayLike, end: ArrayLike) -> Array:
-    """Build the shortest turn that brings one direction onto another: q ~ (|a| |b| + a·b, a × b).
+    """Build the shortest rotation from one direction to another: q ~ (|a| |b| + a·b, a × b).
 
     Parameters
     ----------
-    start, end : shape (..., 3), of any length but 0. Between opposite directions no turn is the shortest,
-        and the result is not a rotation.
+    start, end : a and b, shape (..., 3), of any length but 0. Between opposite directions no rotation is the
+        shortest, and the result is not a rotation.
 
     Examples
     --------
     >>> between([0, 0, 1], [2, 0, 0]).round(6) == about_y(np.pi / 2).round(6)
     array([ True,  True,  True,  True])
     """
-    a, b = (np.asarray(v, float) / np.linalg.norm(v, axis=-1, keepdims=True) for v in (start, end))
-    turn = np.concatenate([1 + (a * b).sum(-1, keepdims=True), np.cross(a, b)], axis=-1)
-    return np.asarray(turn / np.linalg.norm(turn, axis=-1, keepdims=True))
+    a = _normalised(start)
+    b = _normalised(end)
+    cosine = (a * b).sum(-1, keepdims=True)
+    return _normalised(np.concatenate([1 + cosine, np.cross(a, b)], axis=-1))
+
+
+def _normalised(vectors: ArrayLike) -> Array:
+    """Scale vectors, along the last axis, to length 1."""
+    return np.asarray(np.asarray(vectors, float) / np.linalg.norm(vectors, axis=-1, keepdims=True))
 
 
 def difference(start: ArrayLike, end: ArrayLike) -> Array:
-    """Give the turn from one rotation to another as a rotation vector in the first one's frame: log(a⁻¹ b).
+    """Return the rotation vector from one rotation to another, in the first one's frame: log(a⁻¹ b).
 
     Parameters
     ----------
@@ -180,7 +197,7 @@ def difference(start: ArrayLike, end: ArrayLike) -> Array:
 
     Returns
     -------
-    Shape (..., 3), of at most π radians.
+    Shape (..., 3), of length at most π radians.
 
     Examples
     --------
@@ -191,10 +208,10 @@ def difference(start: ArrayLike, end: ArrayLike) -> Array:
 
 
 def slerp(start: ArrayLike, end: ArrayLike, amount: ArrayLike) -> Array:
-    """Interpolate the short way round: start · exp(amount · log(start⁻¹ · end)).
+    """Interpolate rotations along the shorter arc (slerp): start · exp(amount · log(start⁻¹ · end)).
 
-    exp is `from_rotvec`, and the logarithm is `difference`: as that turns by at most π, the way is the short
-    one.
+    exp is `from_rotvec`, and the logarithm is `difference`. Its angle is at most π, therefore the arc is the
+    shorter one.
 
     Parameters
     ----------
@@ -216,7 +233,7 @@ def slerp(start: ArrayLike, end: ArrayLike, amount: ArrayLike) -> Array:
 
 
 def continuous(quaternions: ArrayLike) -> Array:
-    """Choose between q and -q, the same rotation, the one nearer to the frame before, shape (F, ..., 4).
+    """Choose, of q and -q, the same rotation, the one nearer to the frame before, shape (F, ..., 4).
 
     Examples
     --------
@@ -224,7 +241,8 @@ def continuous(quaternions: ArrayLike) -> Array:
     [1.0, 1.0, 0.6]
     """
     q = np.asarray(quaternions, float)
-    signs = np.cumprod(np.where((q[1:] * q[:-1]).sum(-1, keepdims=True) < 0, -1.0, 1.0), axis=0)
+    cosines = (q[1:] * q[:-1]).sum(-1, keepdims=True)
+    signs = np.cumprod(np.where(cosines < 0, -1.0, 1.0), axis=0)
     return np.concatenate([q[:1], q[1:] * signs])
 
 
@@ -244,17 +262,17 @@ def nearest(matrices: Array) -> Array:
 def mean(quaternions: ArrayLike, weights: ArrayLike | None = None, *, rounds: int = 1) -> Array:
     """Average rotations, each with its weight.
 
-    All are first flipped to the side of the heaviest one, for q and -q are the same rotation. Their weighted
-    sum, scaled to length 1, is near the mean m for which Σ w log(m⁻¹ q) = 0; each round brings it nearer, by
-    m ← m exp(Σ w log(m⁻¹ q)), Karcher's way. Of two rotations, one round gives `slerp`. Without weights all
-    count the same, and the mean is the q that has the largest Σ (q · qᵢ)², an eigenvector of Σ qᵢ qᵢᵀ.
+    First, q is replaced by -q, the same rotation, if that is nearer to the rotation of the largest weight.
+    The weighted sum, scaled to length 1, is near the mean m for which Σ w log(m⁻¹ q) = 0. Each round of
+    Karcher's iteration, m ← m exp(Σ w log(m⁻¹ q)), brings it nearer. For two rotations, one round is `slerp`.
+    Without weights, the mean is the q that maximises Σ (q · qᵢ)², an eigenvector of Σ qᵢ qᵢᵀ.
 
     Parameters
     ----------
     quaternions : shape (..., C, 4).
     weights : shape (..., C), leading axes broadcast; they add up to one, and some may be negative.
-    rounds : 0 for the bare sum, which takes a third of the time; it is off by up to 8° for random rotations,
-        and by less than 1 mm at the hands of similar poses.
+    rounds : 0 for the weighted sum, which takes a third of the time. Its error is up to 8° for random
+        rotations, and less than 1 mm at the hands of similar poses.
 
     Returns
     -------
@@ -267,24 +285,29 @@ def mean(quaternions: ArrayLike, weights: ArrayLike | None = None, *, rounds: in
     """
     q = np.asarray(quaternions, float)
     if weights is None:
-        average = np.linalg.eigh(np.swapaxes(q, -1, -2) @ q)[1][..., -1]
-        return np.where(average[..., :1] < 0, -average, average)
-    w = np.asarray(weights, float)[..., None]
-    w = np.broadcast_to(w, (*np.broadcast_shapes(q.shape[:-1], w.shape[:-1]), 1))
-    heaviest = np.take_along_axis(np.broadcast_to(q, (*w.shape[:-1], 4)), w.argmax(-2)[..., None], -2)
+        return _unweighted_mean(q)
+    shape = np.broadcast_shapes(q.shape[:-1], np.shape(weights))
+    w = np.broadcast_to(np.asarray(weights, float), shape)[..., None]
+    heaviest = np.take_along_axis(np.broadcast_to(q, (*shape, 4)), w.argmax(-2)[..., None], -2)
     q = np.where((q * heaviest).sum(-1, keepdims=True) < 0, -q, q)
-    average = (w * q).sum(-2)
-    average /= np.linalg.norm(average, axis=-1, keepdims=True)
+    average = _normalised((w * q).sum(-2))
     for _ in range(rounds):
-        away = difference(average[..., None, :], q)
-        average = multiply(average, from_rotvec((w * away).sum(-2)))
-    return np.asarray(average)
+        residuals = difference(average[..., None, :], q)
+        average = multiply(average, from_rotvec((w * residuals).sum(-2)))
+    return average
+
+
+def _unweighted_mean(q: Array) -> Array:
+    """Average rotations (..., C, 4): the eigenvector of Σ qᵢ qᵢᵀ to the largest eigenvalue, with w ≥ 0."""
+    _, eigenvectors = np.linalg.eigh(np.swapaxes(q, -1, -2) @ q)
+    average = eigenvectors[..., -1]
+    return np.where(average[..., :1] < 0, -average, average)
 
 
 def angle_between(first: ArrayLike, second: ArrayLike) -> Array:
-    """Measure the angle, in [0, π] radians and shape (...), of the turn from one rotation to another.
+    """Return the angle of the rotation from one orientation to another, shape (...), radians in [0, π].
 
-    It is the length of their `difference`, exact for small angles, too.
+    It is the length of their `difference`, and exact also for small angles.
 
     Examples
     --------

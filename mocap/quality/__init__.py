@@ -1,16 +1,16 @@
-"""Measures: what is wrong with a clip, how good a seam is, and whether a jump falls as bodies fall.
+"""Measures: flaws of a clip, the quality of a seam, the acceleration of a fall, and judgements of motions.
 
-A seam is compared with the clips' own windows of the same length: a jump that the clips have themselves is
-nothing special. A new measure of clips goes into `clip_flaws`, one of seams into `seam_measures`, and one of
-whole motions into `judging`, with its limit.
+A seam is compared with the clips' own windows of the same length: a jump that the clips also have does not
+count. A new measure of clips goes into `clip_flaws`, one of seams into `seam_measures`, and one of whole
+motions into `judging`, with its limit.
 
 Reading order (notebooks 01, 04, 09 to 11)
 ----------------------------------------
-1. `clip_flaws`: a clip's length, its path and its flaws
-2. `seam_measures`: how far planted feet slide, how a seam jolts, turning knees
-3. `falling`: the centre of mass, and the gravity that a flight shows
-4. `joint_limits`: joints that bend beyond what people's do
-5. `judging`: any motion in a few numbers, each over its limit
+1. `clip_flaws`: a clip's duration, its path and its flaws
+2. `seam_measures`: foot sliding, jumps of velocity at a seam, rotating knees
+3. `falling`: the centre of mass, and its acceleration in a flight
+4. `joint_limits`: joints that bend beyond the limits of people's
+5. `judging`: any motion in a few numbers, each divided by its limit
 
 References
 ----------

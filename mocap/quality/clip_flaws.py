@@ -1,10 +1,10 @@
-"""Inspect a clip: how long it is, how far it goes, how tall the body is, and what is wrong with it.
+"""Inspection of a clip: its duration, its path, the body's height, and flaws of the data.
 
-The thresholds lie beyond what people do. They were checked on 132 trials of the CMU database at 120 Hz, of
+The thresholds are beyond what people do. They were checked on 132 trials of the CMU database at 120 Hz, of
 subjects 02, 03, 16, 49 and 127.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -23,34 +23,38 @@ FROZEN = 3
 # Metres per second. The fastest runs reach 5.5.
 TELEPORT = 5.0
 
-# How many times faster than the median of the frames around. Above 5 m/s, no root moves more than 1.4 times
-# as fast, except in one trial: 17 times. Below 5 m/s, one who stands and starts to move reaches 26 times.
+# Times the median speed of the neighbouring frames. Above 5 m/s, no root reaches more than 1.4 times the
+# median, except in one trial: 17 times. Below 5 m/s, a body that stands and starts to move reaches 26 times.
 SUDDEN = 5.0
-AROUND = 5  # frames on either side
+AROUND = 5  # neighbouring frames on either side
 
-# Radians per frame: 45°. At 120 Hz, 99.99 % of all turns stay below 31°. Of the 28 trials with a turn above
-# 45°, 16 have one above 150°, which no joint can do in a frame.
+# Radians per frame: 45°. At 120 Hz, 99.99 % of all rotations stay below 31°. Of the 28 trials with a rotation
+# above 45°, 16 have one above 150°, which no joint can do in a frame.
 SNAP = np.pi / 4
 
 # Radians per second. At 30 Hz, 45° per frame is only 24 radians per second, and joints of trials without a
 # snap reach 36.
 FAST = 50.0
 
-# How many times further than its joint an angle turns in an Euler flip. In a snap both turn about as far.
+# Change of an Euler angle in a flip, times the rotation of its joint. In a snap the two are about equal.
 FLIP = 2.0
 
-# Metres. The sole of a shoe is about as thick, and markers are not that exact: the lowest joint of subject
-# 16 is 2 cm under the floor, those of the others up to 9 cm.
+# Metres. The sole of a shoe is about as thick, and markers are less exact: the lowest joint of subject 16 is
+# 2 cm under the floor, those of the others up to 9 cm.
 UNDER = 0.03
 
 # Metres. Beyond these, a wrong unit of length is likelier than a body so small or so tall.
-SMALLEST, TALLEST = 0.15, 3.5
+SMALLEST = 0.15
+TALLEST = 3.5
 
-STILL = 1e-9  # metres, or entries of a quaternion: less than the digits of a file can say
+STILL = 1e-9  # metres, or entries of a quaternion: less than the precision of the numbers in a file
+
+SHOWN = 4  # stretches of frames that the text of a flaw lists
+NAMED = 3  # joints that the text of an Euler flip lists
 
 
 class Flaw(NamedTuple):
-    """What is wrong, in which frames (counted from 0, in order), and a few words more.
+    """A kind of flaw, its frames (counted from 0, in order), and a detail in a few words.
 
     Examples
     --------
@@ -64,9 +68,13 @@ class Flaw(NamedTuple):
 
     def __str__(self) -> str:
         stretches = runs(np.isin(np.arange(self.frames[-1] + 1), self.frames))
-        shown = ", ".join(f"{a}" if b == a + 1 else f"{a}-{b - 1}" for a, b in stretches[:4])
-        more = f" and {len(stretches) - 4} more" if len(stretches) > 4 else ""
-        return f"{self.kind} in frame {shown}{more}{self.detail and f' ({self.detail})'}"
+        shown = [f"{start}" if stop == start + 1 else f"{start}-{stop - 1}" for start, stop in stretches]
+        text = f"{self.kind} in frame {', '.join(shown[:SHOWN])}"
+        if len(shown) > SHOWN:
+            text += f" and {len(shown) - SHOWN} more"
+        if self.detail:
+            text += f" ({self.detail})"
+        return text
 
 
 class Report(NamedTuple):
@@ -80,28 +88,35 @@ class Report(NamedTuple):
 
     def table(self) -> str:
         """Write the report in a few aligned lines."""
-        motion, degrees = self.motion, round(np.degrees(self.turn))
-        side = f"{'left' if degrees > 0 else 'right'} " if degrees else ""
-        doubt = "" if SMALLEST < self.height < TALLEST else ": is its scale right?"
-        rows = [
-            ("clip", motion.name),
-            ("frames", f"{len(motion)} at {motion.fps:g} Hz, {motion.duration:.2f} s"),
-            ("joints", f"{len(motion.skeleton)}"),
-            ("height", f"{self.height:.2f} m{doubt}"),
-            ("heading", f"turns {side}by {abs(degrees)}° in all"),
-            ("path", f"{self.path:.2f} m over the ground"),
-            ("flaws", "none found" if not self.flaws else str(self.flaws[0])),
-            *(("", str(flaw)) for flaw in self.flaws[1:]),
-        ]
+        motion = self.motion
+        frames = f"{len(motion)} at {motion.fps:g} Hz, {motion.duration:.2f} s"
+        height = f"{self.height:.2f} m"
+        if not SMALLEST < self.height < TALLEST:
+            height += ": is its scale right?"
+        degrees = round(np.degrees(self.turn))
+        side = " left" if degrees > 0 else " right" if degrees < 0 else ""
+        heading = f"turns{side} by {abs(degrees)}° in all"
+        path = f"{self.path:.2f} m over the ground"
+        flaws = [str(flaw) for flaw in self.flaws] or ["none found"]
+        measures = {
+            "clip": motion.name,
+            "frames": frames,
+            "joints": f"{len(motion.skeleton)}",
+            "height": height,
+            "heading": heading,
+            "path": path,
+            "flaws": flaws[0],
+        }
+        rows = [*measures.items(), *(("", flaw) for flaw in flaws[1:])]
         return "\n".join(f"{name:<8} {printable(text)}" for name, text in rows)
 
 
 def warn_of_size(motions: Iterable[Motion]) -> None:
-    """Warn of the first body that nobody has, so that all that is measured in metres would be wrong.
+    """Warn of the first body of an impossible height, for which all measures in metres would be wrong.
 
     Warns
     -----
-    MocapWarning : for a body below 0.15 m or above 3.5 m: its unit of length is likelier to be wrong.
+    MocapWarning : for a body below 0.15 m or above 3.5 m, whose unit of length is probably wrong.
 
     Examples
     --------
@@ -121,14 +136,14 @@ def inspect(motion: Motion, angles: Mapping[str, Array] | None = None) -> Report
     Parameters
     ----------
     motion : F frames.
-    angles : the file's own angles (F, axes), degrees, by joint, as `files.read_angles` gives them. Where
-        an angle jumps and the joint does not, another program that reads the file may go wrong.
+    angles : the file's own angles (F, axes), degrees, by joint, as `files.read_angles` returns them. If an
+        angle jumps and the joint does not, another program that reads the file may go wrong.
 
     Returns
     -------
-    A report. Height: the median over time of the body's vertical extent. Turn: how far the heading turns in
-    all, above 0 to the left. Path: how far the root goes over the ground. Flaws: frozen stretches, teleports
-    of the root, joints that snap, Euler flips, frames of zeros, joints under the floor.
+    A report. Height: the median over time of the body's vertical extent. Turn: the total change of heading,
+    above 0 to the left. Path: the length of the root's path over the ground. Flaws: frozen stretches,
+    teleports of the root, joints that snap, Euler flips, frames of zeros, joints under the floor.
 
     Examples
     --------
@@ -147,57 +162,86 @@ def inspect(motion: Motion, angles: Mapping[str, Array] | None = None) -> Report
 
     Notebook: 01b-motion-files
     """
-    positions, names = joint_positions(motion), motion.skeleton.names
+    positions = joint_positions(motion)
+    flaws = []
+    for kind, frames, detail in _marked_frames(motion, positions, angles or {}):
+        if frames.any():
+            flaws.append(Flaw(kind, np.flatnonzero(frames).tolist(), detail))
     headings = np.unwrap(heading(motion.rotations[:, 0]))
-    steps = np.diff(motion.root_positions[:, [0, 2]], axis=0)
-    turns = rotations.angle_between(motion.rotations[1:], motion.rotations[:-1])  # (F - 1, J)
-    too_fast = max(SNAP, FAST / motion.fps)  # radians: large for a frame, and fast for a joint
-    most, lowest = turns.max(axis=0, initial=0), positions[..., 1].min(axis=0)
-    unturned = np.abs(np.abs(motion.rotations) - rotations.IDENTITY).max(axis=(1, 2)) < STILL
-    snapped = f"'{names[most.argmax()]}' by {np.degrees(most.max()):.0f}° at most"
-    sunk = f"'{names[lowest.argmin()]}' by {-100 * lowest.min():.0f} cm at most"
-    found = [
-        ("frozen", _frozen(motion), ""),
-        ("nothing but zeros", unturned & (np.abs(motion.root_positions).max(axis=1) < STILL), ""),
-        ("teleport", *_teleports(motion)),
-        ("snap", np.append(False, (turns > too_fast).any(axis=1)), snapped),
-        ("Euler flip", *_flips(motion, turns, too_fast, angles or {})),
-        ("under the floor", positions[..., 1].min(axis=1) < -UNDER, sunk),
-    ]
-    flaws = [Flaw(kind, np.flatnonzero(marks).tolist(), said) for kind, marks, said in found if marks.any()]
-    turn, path = float(headings[-1] - headings[0]), float(np.hypot(*steps.T).sum())
-    return Report(motion, height_of(positions), turn, path, flaws)
+    x_steps, z_steps = np.diff(motion.root_positions[:, [0, 2]], axis=0).T
+    path = float(np.hypot(x_steps, z_steps).sum())
+    return Report(motion, height_of(positions), float(headings[-1] - headings[0]), path, flaws)
 
 
 def height_of(positions: Array) -> float:
-    """Measure how far a body reaches up, the median over its frames (F, J, 3)."""
+    """Measure the vertical extent of a body, the median over its frames, from positions (F, J, 3)."""
     return float(np.median(np.ptp(positions[..., 1], axis=1)))
+
+
+def _marked_frames(
+    motion: Motion, positions: Array, angles: Mapping[str, Array]
+) -> Iterator[tuple[str, Mask, str]]:
+    """Yield each kind of flaw, the frames (F,) that have it, and a detail in a few words."""
+    rotation_angles = rotations.angle_between(motion.rotations[1:], motion.rotations[:-1])  # (F - 1, J)
+    too_fast = max(SNAP, FAST / motion.fps)  # radians: large for a frame, and fast for a joint
+    yield "frozen", _frozen(motion), ""
+    yield "nothing but zeros", _zeros(motion), ""
+    yield "teleport", *_teleports(motion)
+    yield "snap", *_snaps(motion, rotation_angles, too_fast)
+    yield "Euler flip", *_flips(motion, rotation_angles, too_fast, angles)
+    yield "under the floor", *_under_the_floor(motion, positions)
 
 
 def _frozen(motion: Motion) -> Mask:
     """Mark frames that repeat the one before exactly, as no living body does."""
     numbers = np.hstack([motion.root_positions, motion.rotations.reshape(len(motion), -1)])
-    same = np.append(False, (numbers[1:] == numbers[:-1]).all(axis=1))
-    for start, stop in runs(same):
-        same[start:stop] = stop - start >= FROZEN
-    return same
+    repeats = np.append(False, (numbers[1:] == numbers[:-1]).all(axis=1))
+    for start, stop in runs(repeats):
+        repeats[start:stop] = stop - start >= FROZEN
+    return repeats
+
+
+def _zeros(motion: Motion) -> Mask:
+    """Mark frames with the root at the origin and all rotations 0."""
+    rotation_errors = np.abs(np.abs(motion.rotations) - rotations.IDENTITY).max(axis=(1, 2))
+    root_errors = np.abs(motion.root_positions).max(axis=1)
+    return np.asarray((rotation_errors < STILL) & (root_errors < STILL))
 
 
 def _teleports(motion: Motion) -> tuple[Mask, str]:
-    """Mark steps of the root that are much longer than those around them."""
+    """Mark steps of the root that are much longer than the neighbouring ones."""
     speeds = np.linalg.norm(np.diff(motion.root_positions, axis=0), axis=1) * motion.fps
-    usual = [np.median(speeds[max(0, i - AROUND) : i + AROUND + 1]) for i in range(len(speeds))]
-    sudden = (speeds > TELEPORT) & (speeds > SUDDEN * np.array(usual))
+    neighbourhoods = [speeds[max(0, i - AROUND) : i + AROUND + 1] for i in range(len(speeds))]
+    usual = np.array([np.median(neighbours) for neighbours in neighbourhoods])
+    sudden = (speeds > TELEPORT) & (speeds > SUDDEN * usual)
     return np.append(False, sudden), f"{speeds.max(initial=0) / motion.fps:.2f} m at most"
 
 
-def _flips(motion: Motion, turns: Array, too_fast: float, angles: Mapping[str, Array]) -> tuple[Mask, str]:
-    """Mark angles that jump although their joint does not: rotations have no flips."""
-    flips = np.zeros(turns.shape, bool)
+def _snaps(motion: Motion, rotation_angles: Array, too_fast: float) -> tuple[Mask, str]:
+    """Mark rotations from frame to frame, (F - 1, J), that are too fast for a joint."""
+    largest = rotation_angles.max(axis=0, initial=0)
+    name = motion.skeleton.names[largest.argmax()]
+    detail = f"'{name}' by {np.degrees(largest.max()):.0f}° at most"
+    return np.append(False, (rotation_angles > too_fast).any(axis=1)), detail
+
+
+def _flips(
+    motion: Motion, rotation_angles: Array, too_fast: float, angles: Mapping[str, Array]
+) -> tuple[Mask, str]:
+    """Mark Euler angles that jump although their joint does not: rotations have no flips."""
+    flips = np.zeros(rotation_angles.shape, bool)
     for name in set(angles) & set(motion.skeleton.names):
         joint = motion.skeleton.index(name)
         jumps = np.abs(np.diff(angles[name], axis=0)).max(axis=1, initial=0.0)
-        further = jumps > FLIP * np.degrees(turns[:, joint])
-        flips[:, joint] = (np.radians(jumps) > too_fast) & further
-    names = [motion.skeleton.names[joint] for joint in np.flatnonzero(flips.any(axis=0))[:3]]
+        exceeds_rotation = jumps > FLIP * np.degrees(rotation_angles[:, joint])
+        flips[:, joint] = (np.radians(jumps) > too_fast) & exceeds_rotation
+    names = [motion.skeleton.names[joint] for joint in np.flatnonzero(flips.any(axis=0))[:NAMED]]
     return np.append(False, flips.any(axis=1)), f"angles of {', '.join(names)}; as rotations they are smooth"
+
+
+def _under_the_floor(motion: Motion, positions: Array) -> tuple[Mask, str]:
+    """Mark frames with a joint below the floor, y = 0."""
+    heights = positions[..., 1]
+    lowest = heights.min(axis=0)
+    detail = f"'{motion.skeleton.names[lowest.argmin()]}' by {-100 * lowest.min():.0f} cm at most"
+    return heights.min(axis=1) < -UNDER, detail

@@ -1,7 +1,8 @@
-"""Does a body fall as bodies fall? Its centre of mass, and the gravity that a flight shows.
+"""The centre of mass of a body, and the acceleration with which it falls in a flight.
 
-In the air nothing but gravity moves the centre of mass, so its height is a parabola with -g/2 in front of t².
-A clip whose height was changed, but not its time, falls with another g, and looks heavy or floating.
+In the air only gravity accelerates the centre of mass. Therefore its height is a parabola, with -g/2 as the
+coefficient of t². A body in a clip whose heights were changed, but not its times, falls with another g: it
+looks heavy or floating.
 """
 
 from collections.abc import Sequence
@@ -14,7 +15,8 @@ from mocap.body.motion import Motion
 from mocap.errors import MocapError
 
 Part = tuple[str, str, float, float]
-"""Two joints, one above the other, a share of the body's mass, and at which share of the way down it sits."""
+"""Two joints, one above the other; a fraction of the body's mass; and the fraction of the line from the one
+to the other at which the mass is."""
 
 
 _SIDED: tuple[Part, ...] = (
@@ -26,15 +28,23 @@ _SIDED: tuple[Part, ...] = (
     ("radius", "wrist", 0.016, 0.430),
     ("wrist", "fingers", 0.006, 0.506),
 )
+
+
+def _of_side(part: Part, side: str) -> Part:
+    """Return a part of the left or the right side; `side` is "l" or "r"."""
+    above, below, mass, centre = part
+    return side + above, side + below, mass, centre
+
+
 SEGMENTS: tuple[Part, ...] = (
-    *((side + above, side + below, mass, at) for above, below, mass, at in _SIDED for side in "lr"),
+    *(_of_side(part, side) for part in _SIDED for side in "lr"),
     ("head", "head_end", 0.081, 0.5),  # with the neck
 )
 """The body's masses by [Winter09], Table 4.1, after Dempster; the joints are those of CMU's skeletons."""
 
 
 def centre_of_mass(motion: Motion, segments: Sequence[Part] = SEGMENTS) -> Array:
-    """Weigh the body's parts: where its centre of mass is, Σ m p / Σ m.
+    """Compute the centre of mass of a body from its parts, Σ m p / Σ m.
 
     Parameters
     ----------
@@ -58,20 +68,20 @@ def centre_of_mass(motion: Motion, segments: Sequence[Part] = SEGMENTS) -> Array
     Notebook: 11-warping
     """
     weights = np.zeros(len(motion.skeleton))
-    for above, below, mass, at in segments:
-        weights[motion.skeleton.index(above)] += mass * (1 - at)
-        weights[motion.skeleton.index(below)] += mass * at
+    for above, below, mass, centre in segments:
+        weights[motion.skeleton.index(above)] += mass * (1 - centre)
+        weights[motion.skeleton.index(below)] += mass * centre
     return np.asarray(np.einsum("j,fjk->fk", weights / weights.sum(), joint_positions(motion)))
 
 
 def gravity(motion: Motion, first: int, last: int, segments: Sequence[Part] = SEGMENTS) -> float:
-    """Fit a parabola to the height of the centre of mass in the air: how fast it falls.
+    """Fit a parabola to the height of the centre of mass in the air, and return the acceleration of its fall.
 
     Parameters
     ----------
     motion : F frames.
-    first, last : the first and the last frame of a flight, a few frames away from take-off and landing, where
-        the feet still push.
+    first, last : the first and the last frame of a flight, a few frames away from take-off and landing, in
+        which the feet still push.
     segments : see `centre_of_mass`.
 
     Returns

@@ -1,11 +1,11 @@
-"""Do joints bend as people's do? Knees, elbows, hips, wrists and the neck, measured between bones.
+"""Joint angles of knees, elbows, hips, wrists and the neck, and the limits of people's joints.
 
-Rest poses differ from file to file, so nothing is measured against them: an angle is between two bones, or
-between a bone and the trunk, which goes from the middle of the hips to the neck. The trunk is bent by the
-spine. So a limit against it is that of the joint plus that of the spine, both by [AAOS65]: the thigh goes
-30° + 30° behind the trunk, 45° + 35° out to its side and 30° + 35° past the other leg; the head bends by
-45° + 35°, a wrist by 80°. For knees and elbows the limits are ours. In 75 captured files, dances and
-cartwheels among them, the head bends by 60° at most, a wrist by 70°; thighs go 43° behind and 76° out.
+Rest poses differ from file to file, and nothing is measured against them: an angle is between two bones, or
+between a bone and the trunk, which is the line from the middle of the hips to the neck. The spine bends the
+trunk. Therefore a limit against it is that of the joint plus that of the spine, both by [AAOS65]: the thigh
+bends 30° + 30° behind the trunk, 45° + 35° out to its side and 30° + 35° past the other leg; the head bends
+by 45° + 35°, a wrist by 80°. For knees and elbows the limits are ours. In 75 captured files, dances and
+cartwheels among them, the head bends by 60° at most, a wrist by 70°; thighs bend 43° behind and 76° out.
 """
 
 from __future__ import annotations
@@ -22,15 +22,23 @@ from mocap.body.limbs import Leg
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 
-BACKWARDS, FOLDED = 10.0, 160.0  # degrees that a knee or an elbow may bend backwards, and forwards
-BEHIND, OUT, ACROSS = 60.0, 80.0, 65.0  # degrees that a thigh may go from the trunk's line
-SURE = 0.5  # of a knee's bending has to be about one axis to say that it bends the wrong way
-NOD, WRIST = 80.0, 80.0  # degrees between trunk and head, and between forearm and hand
-ELBOW, NECK, HEAD = "elbow|radius|forearm|lowerarm", "neck", "head"  # in the names of joints
+BACKWARDS = 10.0  # degrees that a knee or an elbow may bend backwards
+FOLDED = 160.0  # degrees that a knee or an elbow may bend forwards
+BEHIND = 60.0  # degrees that a thigh may bend behind the trunk's line
+OUT = 80.0  # degrees that a thigh may bend out to its side
+ACROSS = 65.0  # degrees that a thigh may bend past the other leg
+NOD = 80.0  # degrees between trunk and head
+WRIST = 80.0  # degrees between forearm and hand
+SURE = 0.5  # the fraction of a knee's bending that has to be about one axis to tell that it bends backwards
+
+# In the names of joints.
+ELBOW = "elbow|radius|forearm|lowerarm"
+NECK = "neck"
+HEAD = "head"
 
 
 class Bend(NamedTuple):
-    """A joint's angle in each frame (F,), degrees, and the least and the most that a person's joint does.
+    """A joint's angle in each frame (F,), degrees, with the least and the largest angle of people's joints.
 
     Examples
     --------
@@ -39,22 +47,23 @@ class Bend(NamedTuple):
     """
 
     joint: str
-    way: str
+    way: str  # reads: name: public, and users read it
     angles: Array
-    least: float
-    most: float
+    least: float  # reads: name: public, and users read it
+    most: float  # reads: name: public, and users read it
 
     @property
     def share(self) -> Array:
-        """How much of the limit is used, per frame; above 1 the joint is beyond it."""
+        """The fraction of the limit that is used in each frame; above 1 the joint is beyond it."""
         return np.maximum(self.angles / self.least, self.angles / self.most)
 
 
 def joint_bends(motion: Motion, legs: Sequence[Leg] = ()) -> list[Bend]:
     """Measure the angles of the joints whose limits are known.
 
-    A knee or an elbow bends about the axis about which it bends most in the clip. The shank goes back from
-    there; but an arm may point anywhere, so an elbow that is bent backwards in all frames is not seen.
+    The axis of a knee or an elbow is that about which it bends most in the clip. A knee whose shank is in
+    front is recognised as bent backwards. An arm may point anywhere, therefore an elbow that is bent
+    backwards in all frames is not recognised.
 
     Parameters
     ----------
@@ -70,60 +79,92 @@ def joint_bends(motion: Motion, legs: Sequence[Leg] = ()) -> list[Bend]:
     >>> sorted({bend.way for bend in joint_bends(walk, find_legs(walk.skeleton))})
     ['back', 'bent', 'nodding', 'out']
     """
-    poses, skeleton = forward_kinematics(motion), motion.skeleton
-    places, names, left = poses.positions, skeleton.names, np.zeros(3)
-    if len(legs) == 2:  # unit vectors (F, 3) from the right hip to the left
-        left = places[:, legs[0].hip] - places[:, legs[1].hip]
-        left = left / np.maximum(np.linalg.norm(left, axis=-1, keepdims=True), 1e-12)
-    bends = [_hinge(poses, names[leg.knee], leg[:3], left) for leg in legs]
-    for elbow in range(1, len(skeleton)):
-        below = skeleton.children(elbow)
-        if not below or not re.search(ELBOW, names[elbow].lower()):
-            continue
-        wrist, forearm = below[0], (int(skeleton.parents[elbow]), elbow, below[0])
-        bends.append(_hinge(poses, names[elbow], forearm, np.zeros(3)))
-        if fingers := [c for c in skeleton.children(wrist) if np.linalg.norm(skeleton.offsets[c]) > 1e-3]:
-            hand = places[:, fingers].mean(axis=1) - places[:, wrist]
-            turned = _between(places[:, wrist] - places[:, elbow], hand)
-            bends.append(Bend(names[wrist], "bent", turned, -np.inf, WRIST))
-    return [*bends, *_against_trunk(places, skeleton, legs, left)]
+    skeleton = motion.skeleton
+    poses = forward_kinematics(motion)
+    hip_axis = _hip_axis(poses.positions, legs)
+    bends = [_hinge_bend(poses, skeleton.names[leg.knee], leg[:3], hip_axis) for leg in legs]
+    for elbow in _elbows(skeleton):
+        bends += _arm_bends(poses, skeleton, elbow)
+    return [*bends, *_trunk_bends(poses.positions, skeleton, legs, hip_axis)]
 
 
-def _against_trunk(places: Array, skeleton: Skeleton, legs: Sequence[Leg], left: Array) -> Iterator[Bend]:
-    """Measure hips and neck against the line from the middle of the hips to the neck."""
-    names = [(j, name.lower()) for j, name in enumerate(skeleton.names) if j]
-    neck, head = (next((j for j, name in names if part in name), None) for part in (NECK, HEAD))
+def _hip_axis(positions: Array, legs: Sequence[Leg]) -> Array:
+    """Return the unit vectors (F, 3) from the right hip to the left one; zeros unless there are two legs."""
+    if len(legs) != 2:
+        return np.zeros(3)
+    axis = positions[:, legs[0].hip] - positions[:, legs[1].hip]
+    return np.asarray(axis / np.maximum(np.linalg.norm(axis, axis=-1, keepdims=True), 1e-12))
+
+
+def _elbows(skeleton: Skeleton) -> list[int]:
+    """List the joints that have the name of an elbow, and a joint below."""
+    joints = range(1, len(skeleton))
+    named = [joint for joint in joints if re.search(ELBOW, skeleton.names[joint].lower())]
+    return [joint for joint in named if skeleton.children(joint)]
+
+
+def _arm_bends(poses: GlobalPoses, skeleton: Skeleton, elbow: int) -> Iterator[Bend]:
+    """Measure an elbow, and its wrist if there are joints in the hand."""
+    shoulder = int(skeleton.parents[elbow])
+    wrist = skeleton.children(elbow)[0]
+    yield _hinge_bend(poses, skeleton.names[elbow], (shoulder, elbow, wrist), np.zeros(3))
+    fingers = [joint for joint in skeleton.children(wrist) if np.linalg.norm(skeleton.offsets[joint]) > 1e-3]
+    if fingers:
+        positions = poses.positions
+        forearm = positions[:, wrist] - positions[:, elbow]
+        hand = positions[:, fingers].mean(axis=1) - positions[:, wrist]
+        yield Bend(skeleton.names[wrist], "bent", _angles(forearm, hand), -np.inf, WRIST)
+
+
+def _trunk_bends(
+    positions: Array, skeleton: Skeleton, legs: Sequence[Leg], hip_axis: Array
+) -> Iterator[Bend]:
+    """Measure hips and neck against the trunk, the line from the middle of the hips to the neck."""
+    neck = _named(skeleton, NECK)
+    head = _named(skeleton, HEAD)
     if len(legs) != 2 or neck is None:
         return
-    trunk = places[:, neck] - (places[:, legs[0].hip] + places[:, legs[1].hip]) / 2
-    ahead = np.cross(left, trunk)
-    for leg, side in zip(legs, (1, -1), strict=True):
-        thigh, name = places[:, leg.knee] - places[:, leg.hip], skeleton.names[leg.hip]
-        yield Bend(name, "back", _between(thigh, ahead) - 90, -np.inf, BEHIND)
-        yield Bend(name, "out", 90 - _between(thigh, side * np.cross(trunk, ahead)), -ACROSS, OUT)
+    middle_of_hips = (positions[:, legs[0].hip] + positions[:, legs[1].hip]) / 2
+    trunk = positions[:, neck] - middle_of_hips
+    ahead = np.cross(hip_axis, trunk)
+    to_the_left = np.cross(trunk, ahead)
+    for leg, outwards in zip(legs, (to_the_left, -to_the_left), strict=True):
+        name = skeleton.names[leg.hip]
+        thigh = positions[:, leg.knee] - positions[:, leg.hip]
+        yield Bend(name, "back", _angles(thigh, ahead) - 90, -np.inf, BEHIND)
+        yield Bend(name, "out", 90 - _angles(thigh, outwards), -ACROSS, OUT)
     if head is not None:
         top = (skeleton.children(head) or [head])[0]
-        nodding = _between(trunk, places[:, top] - places[:, neck])
+        nodding = _angles(trunk, positions[:, top] - positions[:, neck])
         yield Bend(skeleton.names[neck], "nodding", nodding, -np.inf, NOD)
 
 
-def _hinge(poses: GlobalPoses, name: str, joints: Sequence[int], left: Array) -> Bend:
-    """Measure how far a hinge bends, degrees; below 0 backwards: against the way in which it mostly bends.
+def _named(skeleton: Skeleton, part: str) -> int | None:
+    """Return the first joint below the root with `part` in its name."""
+    names = enumerate(skeleton.names[1:], start=1)
+    return next((joint for joint, name in names if part in name.lower()), None)
 
-    If it mostly bends to the right about `left`, unit vectors (F, 3), as no knee does, that is backwards.
+
+def _hinge_bend(poses: GlobalPoses, name: str, joints: Sequence[int], hip_axis: Array) -> Bend:
+    """Measure the bending of a hinge between two bones, degrees; below 0 backwards.
+
+    Forwards is the direction in which it mostly bends in the clip, unless that is to the right about
+    `hip_axis`, unit vectors (F, 3), as in no person's knee.
     """
     upper, lower = np.diff(poses.positions[:, list(joints)], axis=1).swapaxes(0, 1)
-    across = np.cross(upper, lower)
-    bends = np.einsum("fji,fj->fi", poses.matrices[:, joints[0]], across)  # seen from above
-    axis = bends.sum(axis=0) / max(float(np.linalg.norm(bends.sum(axis=0))), 1e-12)
-    if (across * left).sum() < -SURE * np.linalg.norm(across, axis=-1).sum():
+    normals = np.cross(upper, lower)
+    to_world = poses.matrices[:, joints[0]]  # from the frame of the upper bone
+    local_normals = np.einsum("fji,fj->fi", to_world, normals)
+    total = local_normals.sum(axis=0)
+    axis = total / max(float(np.linalg.norm(total)), 1e-12)
+    if (normals * hip_axis).sum() < -SURE * np.linalg.norm(normals, axis=-1).sum():
         axis = -axis
-    sine = np.linalg.norm(bends, axis=-1) * np.sign(bends @ axis)
+    sine = np.linalg.norm(local_normals, axis=-1) * np.sign(local_normals @ axis)
     angles = np.degrees(np.arctan2(sine, (upper * lower).sum(-1)))
     return Bend(name, "bent", np.asarray(angles), -BACKWARDS, FOLDED)
 
 
-def _between(first: Array, second: Array) -> Array:
-    """Measure the angles between vectors (F, 3), degrees."""
+def _angles(first: Array, second: Array) -> Array:
+    """Return the angles between vectors (F, 3), degrees."""
     sine = np.linalg.norm(np.cross(first, second), axis=-1)
     return np.asarray(np.degrees(np.arctan2(sine, (first * second).sum(-1))))

@@ -1,18 +1,19 @@
-"""Judge a motion, whatever made it: what stands out beyond what captured people do.
+"""Judgement of a motion of any origin: measures, each divided by a limit that captured people keep.
 
-Each measure is divided by a limit; up to 1 nothing stands out. The limits are ours, but for those of joints,
-which `joint_limits` explains. Of 30 captured files from nine sources 11 keep all of them. In six, of one
-source, an elbow bends backwards; in ten joints snap from one frame to the next, as after an Euler flip; two
-are in inches, and of these one lies with the hands in the floor; one is a smoothed copy, whose feet skate.
+Up to 1 a measure does not stand out. The limits are ours, except those of joints, which `joint_limits`
+explains. Of 30 captured files from nine sources 11 keep all of them. In six, of one source, an elbow bends
+backwards. In ten, joints snap from one frame to the next, as after an Euler flip. Two are in inches, and in
+one of these the body lies with the hands in the floor. One is a smoothed copy with sliding feet.
 
-What this cannot see: whether a motion is the one that was wanted, whether it looks alive, and in which style
-it is; hands and faces; a body that walks through itself or through things; balance. Of the limits of joints
-it sees those of knees, elbows, hips, wrists and the neck, not those of shoulders, ankles and fingers.
+Not measured are: whether a motion is the one that was wanted, whether it looks alive, and its style; hands
+and faces; a body that walks through itself or through things; balance. Limits of joints are measured at
+knees, elbows, hips, wrists and the neck, not at shoulders, ankles and fingers.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -25,6 +26,7 @@ from mocap.body.ground_path import GroundPath
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import Leg, find_legs
 from mocap.body.motion import Motion, resample
+from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened
 from mocap.feet.footplants import mark_plants
 from mocap.matching.point_clouds import point_cloud
@@ -32,16 +34,37 @@ from mocap.quality.clip_flaws import FAST, UNDER, height_of
 from mocap.quality.joint_limits import joint_bends
 from mocap.quality.seam_measures import LEAP, MOSTLY, USUAL, Spread, feet_of, jumps, mean_slide, plant_slides
 
-WINDOW = 1 / 3  # seconds: jumps in a window are compared with those in the clips' windows
-FLAT = 0.1  # seconds of a smooth curve, from which a joint trembles
-STILL = 0.02  # m/s: a jump of velocity that one who stands still makes
-SLOWEST, SLOW = 25, 0.5  # percentile of the frames in which a foot skates; the least speed of a body, m/s
-ALOFT = 25.0  # centimetres; in 153 clips the lowest joint comes down to 12.5 cm at least, also on stairs
-SHORTEST, TALLEST = 0.75, 2.5  # metres, of one who walks; a grown body in inches, read as cm, is 0.7 at most
+WINDOW = 1 / 3  # seconds: a jump in a window is compared with those in windows of the clips
+FLAT = 0.1  # seconds: the window of the smooth curves from which a trembling joint differs
+STILL = 0.02  # m/s: a jump of velocity that a standing body makes
+SLOWEST = 25  # percentile of the frames, by the speed of the slowest joint of the feet
+SLOW = 0.5  # m/s: a slower body's foot sliding is divided by this speed
+SHORTEST = 0.75  # metres, of a body that walks; a grown one in inches, read as cm, is 0.7 at most
+TALLEST = 2.5  # metres
+
+
+@dataclass(frozen=True)
+class Limits:
+    """The limits of the measures, which captured people keep; `judge` explains the measures."""
+
+    jolt: float = LEAP  # times the percentile `MOSTLY` of the motion's frames
+    seam_jolt: float = 1.5  # times the percentile `USUAL` of the windows of the clips
+    tremble: float = 3.0  # mm, median over the frames
+    slide: float = 2.5  # cm, mean over the plants
+    skate: float = 8.0  # percent of the body's speed
+    sunk: float = 100 * UNDER  # cm
+    aloft: float = 25.0  # cm; in 153 clips the lowest joint comes down to 12.5 cm or lower, also on stairs
+    lopsided: float = 20.0  # mm
+    bones: float = 5.0  # mm
+    turn: float = float(np.degrees(FAST))  # degrees per second
+    path: float = 15.0  # cm, mean over the frames; `steering.follow_path` warns above it
+
+
+LIMITS = Limits()
 
 
 class Measure(NamedTuple):
-    """Something measured, its limit in the same unit, and where it is worst.
+    """A measured value, its limit in the same unit, and the place at which it is worst.
 
     Examples
     --------
@@ -53,99 +76,144 @@ class Measure(NamedTuple):
     value: float
     limit: float
     unit: str
-    where: str = ""
+    where: str = ""  # reads: name: public, and a key in the JSON of `mocap judge`
 
     @property
     def ratio(self) -> float:
-        """How many times its limit it is."""
+        """The value, as a multiple of its limit."""
         return self.value / self.limit
 
 
-def measure_smoothness(motion: Motion, places: Array, against: Sequence[Motion]) -> Iterator[Measure]:
-    """Measure jolts and trembling; `places` are the joints' positions, (F, J, 3)."""
-    own, fps = jumps(motion), motion.fps
-    usual, limit, unit = float(np.percentile(own, MOSTLY)), LEAP, "times usual"
-    if against:
-        clips = Spread(tuple(jumps(resample(clip, fps)) for clip in against))
-        usual = float(np.percentile(clips.within(max(2, round(WINDOW * fps))), USUAL))
-        limit, unit = 1.5, "times the clips'"
-    frame = 1 + int(own[1:-1].argmax())
-    apart = np.linalg.norm(np.diff(places[frame - 1 : frame + 2], 2, axis=0), axis=-1)
-    most = motion.skeleton.names[int(apart.max(axis=0).argmax())]
-    yield Measure("jolt", float(own.max()) / max(usual, STILL), limit, unit, f"frame {frame}, most '{most}'")
+def measure_smoothness(motion: Motion, positions: Array, against: Sequence[Motion]) -> Iterator[Measure]:
+    """Measure jolts and trembling; `positions` are those of the joints, (F, J, 3)."""
+    yield _jolt(motion, positions, against)
     points = point_cloud(motion)
-    window = max(5, 2 * round(FLAT * fps / 2) + 1)
+    window = max(5, 2 * round(FLAT * motion.fps / 2) + 1)
     window = min(window, len(points) - 1 + len(points) % 2)
-    off = np.sqrt(((points - savgol_filter(points, window, 3, axis=0)) ** 2).sum(-1).mean(-1))
-    yield Measure("tremble", 1000 * float(np.median(off)), 3.0, "mm")
+    residuals = points - savgol_filter(points, window, 3, axis=0)
+    distances = np.sqrt((residuals**2).sum(-1).mean(-1))
+    yield Measure("tremble", 1000 * float(np.median(distances)), LIMITS.tremble, "mm")
 
 
-def measure_joints(motion: Motion, places: Array) -> Iterator[Measure]:
-    """Measure where joints go, how fast they turn, and whether left and right are alike."""
-    skeleton, local = motion.skeleton, motion.rotations
+def _jolt(motion: Motion, positions: Array, against: Sequence[Motion]) -> Measure:
+    """Measure the largest jump of velocity, as a multiple of the usual one."""
+    velocity_jumps = jumps(motion)
+    if against:
+        usual = _usual_jump(against, motion.fps)
+        limit = LIMITS.seam_jolt
+        unit = "times the clips'"
+    else:
+        usual = float(np.percentile(velocity_jumps, MOSTLY))
+        limit = LIMITS.jolt
+        unit = "times usual"
+    frame = 1 + int(velocity_jumps[1:-1].argmax())
+    joint_jumps = np.linalg.norm(np.diff(positions[frame - 1 : frame + 2], 2, axis=0), axis=-1)[0]
+    joint = motion.skeleton.names[int(joint_jumps.argmax())]
+    value = float(velocity_jumps.max()) / max(usual, STILL)
+    return Measure("jolt", value, limit, unit, f"frame {frame}, most '{joint}'")
 
-    def most(values: Array, first: int = 0) -> str:
-        """Say at which joint and in which frame values (F, J) are largest, if they start at a frame."""
-        frame, joint = np.unravel_index(int(values.argmax()), values.shape)
-        return f"'{skeleton.names[int(joint)]}', frame {frame + first}"
 
-    depths = -places[..., 1]
-    yield Measure("sunk", 100 * max(0.0, float(depths.max())), 100 * UNDER, "cm", most(depths))
-    turns = np.degrees(rotations.angle_between(local[1:], local[:-1])) * motion.fps
-    yield Measure("turn", float(turns.max()), float(np.degrees(FAST)), "°/s", most(turns, first=1))
+def _usual_jump(clips: Sequence[Motion], fps: float) -> float:
+    """Return the jump of velocity that nearly all windows of clips stay below, m/s."""
+    velocity_jumps = tuple(jumps(resample(clip, fps)) for clip in clips)
+    largest = Spread(velocity_jumps).within(max(2, round(WINDOW * fps)))
+    return float(np.percentile(largest, USUAL))
+
+
+def measure_joints(motion: Motion, positions: Array) -> Iterator[Measure]:
+    """Measure depths, heights and rotation speeds of joints, and bones that differ from left to right."""
+    skeleton = motion.skeleton
+    depths = -positions[..., 1]
+    depth = 100 * max(0.0, float(depths.max()))
+    yield Measure("sunk", depth, LIMITS.sunk, "cm", _largest_at(depths, skeleton))
+    speeds = np.degrees(rotations.angle_between(motion.rotations[1:], motion.rotations[:-1])) * motion.fps
+    yield Measure("turn", float(speeds.max()), LIMITS.turn, "°/s", _largest_at(speeds, skeleton, first=1))
     partners = [skeleton.partner(joint) for joint in range(len(skeleton))]
     if partners != list(range(len(skeleton))):
         lengths = np.linalg.norm(skeleton.offsets, axis=-1)
-        gaps = 1000 * np.abs(lengths - lengths[partners])
-        yield Measure("lopsided", float(gaps.max()), 20.0, "mm", f"'{skeleton.names[gaps.argmax()]}'")
-    lowest = 100 * places[..., 1].min(axis=1)
-    if lowest.min() > ALOFT:
-        yield Measure("aloft", float(lowest.min()), ALOFT, "cm", f"lowest in frame {lowest.argmin()}")
+        differences = 1000 * np.abs(lengths - lengths[partners])
+        joint = skeleton.names[differences.argmax()]
+        yield Measure("lopsided", float(differences.max()), LIMITS.lopsided, "mm", f"'{joint}'")
+    heights = 100 * positions[..., 1].min(axis=1)
+    lowest = float(heights.min())
+    if lowest > LIMITS.aloft:
+        yield Measure("aloft", lowest, LIMITS.aloft, "cm", f"lowest in frame {heights.argmin()}")
 
 
-def measure_limbs(motion: Motion, places: Array, legs: Sequence[Leg]) -> Iterator[Measure]:
-    """Measure feet that slide or skate, where there are `legs`, and joints that bend too far."""
+def _largest_at(values: Array, skeleton: Skeleton, first: int = 0) -> str:
+    """Name the joint and the frame of the largest of values (F, J), whose frames are counted from `first`."""
+    frame, joint = np.unravel_index(int(values.argmax()), values.shape)
+    return f"'{skeleton.names[int(joint)]}', frame {frame + first}"
+
+
+def measure_limbs(motion: Motion, positions: Array, legs: Sequence[Leg]) -> Iterator[Measure]:
+    """Measure foot sliding, if there are `legs`, and joints that bend too far."""
     if legs:
-        slides = plant_slides(mark_plants(motion, legs), feet_of(legs), positions=places)
-        far = max(slides, key=lambda slide: slide.far, default=None)
-        where = f"'{far.joint}', frames {far.start} to {far.stop - 1}" if far else "no foot stands"
-        yield Measure("slide", mean_slide(slides), 2.5, "cm", where)
-        feet, roots = places[:, feet_of(legs)][..., [0, 2]], motion.root_positions[:, [0, 2]]
-        slowest = (np.linalg.norm(np.diff(feet, axis=0), axis=-1) * motion.fps).min(axis=1)
-        speed = max(SLOW, float(np.linalg.norm(np.diff(roots, axis=0), axis=-1).mean()) * motion.fps)
-        yield Measure("skate", 100 * float(np.percentile(slowest, SLOWEST)) / speed, 8.0, "% of speed")
-    if bends := joint_bends(motion, legs):
+        yield _slide(motion, positions, legs)
+        yield _skate(motion, positions, legs)
+    bends = joint_bends(motion, legs)
+    if bends:
         worst = max(bends, key=lambda bend: float(bend.share.max()))
         frame = int(worst.share.argmax())
-        how = f"'{worst.joint}' {worst.way} by {worst.angles[frame]:.0f}°, frame {frame}"
-        yield Measure("bent", float(worst.share[frame]), 1.0, "of its limit", how)
+        detail = f"'{worst.joint}' {worst.way} by {worst.angles[frame]:.0f}°, frame {frame}"
+        yield Measure("bent", float(worst.share[frame]), 1.0, "of its limit", detail)
+
+
+def _slide(motion: Motion, positions: Array, legs: Sequence[Leg]) -> Measure:
+    """Measure the foot sliding distance, the mean over the plants."""
+    slides = plant_slides(mark_plants(motion, legs), feet_of(legs), positions=positions)
+    detail = "no foot stands"
+    if slides:
+        worst = max(slides, key=lambda slide: slide.far)
+        detail = f"'{worst.joint}', frames {worst.start} to {worst.stop - 1}"
+    return Measure("slide", mean_slide(slides), LIMITS.slide, "cm", detail)
+
+
+def _skate(motion: Motion, positions: Array, legs: Sequence[Leg]) -> Measure:
+    """Measure the foot sliding speed, in percent of the body's speed."""
+    feet = positions[:, feet_of(legs)]
+    slowest = (_ground_steps(feet) * motion.fps).min(axis=1)
+    body_speed = float(_ground_steps(motion.root_positions).mean()) * motion.fps
+    percent = 100 * float(np.percentile(slowest, SLOWEST)) / max(SLOW, body_speed)
+    return Measure("skate", percent, LIMITS.skate, "% of speed")
+
+
+def _ground_steps(positions: Array) -> Array:
+    """Return the distances over the ground from each frame to the next, of positions (F, ..., 3)."""
+    return np.asarray(np.linalg.norm(np.diff(positions[..., [0, 2]], axis=0), axis=-1))
 
 
 def measure_body(
-    motion: Motion, places: Array, path: GroundPath | None, stretch: Mapping[str, float] | None
+    motion: Motion, positions: Array, path: GroundPath | None, stretch: Mapping[str, float] | None
 ) -> Iterator[Measure]:
-    """Measure bones that stretch and a root off its path, where these are known, and the body's size.
-
-    A body is compared with the smallest and the tallest people; one who lies down is as long as tall.
-    """
+    """Measure bones that stretch and the root's distance from its path, if these are known, and the size."""
     if stretch is not None:
-        far, joint = max(((far, joint) for joint, far in stretch.items()), default=(0.0, ""))
-        yield Measure("bones", 1000 * far, 5.0, "mm", f"'{joint}'")
+        change, joint = max(((change, joint) for joint, change in stretch.items()), default=(0.0, ""))
+        yield Measure("bones", 1000 * change, LIMITS.bones, "mm", f"'{joint}'")
     if path is not None:
-        off, _ = cKDTree(path.resampled(0.01).points).query(motion.root_positions[:, [0, 2]])
-        where = f"{100 * off.max():.0f} cm in frame {off.argmax()}"
-        yield Measure("path", 100 * float(off.mean()), 15.0, "cm", where)  # as `steering.follow_path` warns
-    height = height_of(places)
+        line = cKDTree(path.resampled(0.01).points)
+        distances, _ = line.query(motion.root_positions[:, [0, 2]])
+        detail = f"{100 * distances.max():.0f} cm in frame {distances.argmax()}"
+        yield Measure("path", 100 * float(distances.mean()), LIMITS.path, "cm", detail)
+    yield _size(positions)
+
+
+def _size(positions: Array) -> Measure:
+    """Compare a body with the smallest and the tallest people; the length of one who lies is its height."""
+    height = height_of(positions)
     if not SHORTEST <= height <= TALLEST:
-        height = float(np.median(np.ptp(places, axis=1).max(axis=-1)))
-    times = max(SHORTEST / max(height, 1e-9), height / TALLEST)
-    inches = f"; {2.54 * height:.3g} m if it is in inches" if SHORTEST / 2 < height < SHORTEST else ""
-    value, where = (times, f"{height:.3g} m tall{inches}") if times > 1 else (0.0, "")
-    yield Measure("size", value, 1.0, "of its limit", where)
+        height = float(np.median(np.ptp(positions, axis=1).max(axis=-1)))
+    ratio = max(SHORTEST / max(height, 1e-9), height / TALLEST)
+    if ratio <= 1:
+        return Measure("size", 0.0, 1.0, "of its limit")
+    detail = f"{height:.3g} m tall"
+    if SHORTEST / 2 < height < SHORTEST:
+        detail += f"; {2.54 * height:.3g} m if it is in inches"
+    return Measure("size", ratio, 1.0, "of its limit", detail)
 
 
 class Judgement(NamedTuple):
-    """What was measured of a motion; `left_out` says what could not be, and why.
+    """The measures of a motion; `left_out` lists what was not measured, and why.
 
     `height` is the body's vertical extent, the median over the frames, and `bones` the length of each joint's
     bone, from its parent to it; both in metres.
@@ -168,19 +236,19 @@ class Judgement(NamedTuple):
 
     @property
     def worst(self) -> Measure:
-        """The measure that is most times its limit."""
+        """The measure with the largest ratio to its limit."""
         return max(self.measures, key=lambda measure: measure.ratio)
 
     @property
     def score(self) -> float:
-        """How many times the measures must be halved, in all, to be within their limits; 0 is best."""
+        """The number of halvings that bring all measures within their limits, Σ log₂ ratio; 0 is best."""
         return float(sum(np.log2(max(measure.ratio, 1.0)) for measure in self.measures))
 
     def as_dict(self) -> dict[str, Any]:
-        """Give plain numbers and texts, for JSON."""
+        """Return plain numbers and texts, for JSON."""
         rows = [measure._asdict() | {"ratio": measure.ratio} for measure in self.measures]
-        more = {"left_out": list(self.left_out), "worst": self.worst.name, "score": self.score}
-        return self._asdict() | {"measures": rows} | more
+        summary = {"left_out": list(self.left_out), "worst": self.worst.name, "score": self.score}
+        return self._asdict() | {"measures": rows} | summary
 
 
 def judge(
@@ -192,28 +260,28 @@ def judge(
 ) -> Judgement:
     """Measure a motion and compare each number with its limit.
 
-    - jolt: the largest jump of velocity from a frame to the next, over that of nine in ten frames; with
-      `against`, over what is usual in windows of a third of a second of these clips.
-    - tremble: how far joints are from smooth curves.
-    - slide: how far a standing foot wanders, mean over the plants.
-    - skate: how fast the slowest joint of the feet is over the ground, a quarter of the time, in percent of
-      the body's speed. A body that glides has no plants that could slide.
-    - sunk: how deep the lowest joint is below the ground, y = 0.
-    - aloft: how high the lowest joint stays; told where it never comes down to 25 cm.
-    - lopsided: how much the bones of left and right differ.
-    - size: how many times a body is taller than 2.5 m, or 0.75 m is taller than it: its unit may be wrong.
-    - bones: by how much a bone of the file changes its length.
-    - bent: how far a knee, elbow, hip, wrist or the neck bends, over what people's do.
-    - turn: how fast a joint turns.
-    - path: how far the root is from a path, mean over the frames.
+    - jolt: the largest jump of velocity from one frame to the next, divided by the 90th percentile of all
+      frames; with `against`, by the usual jump in windows of a third of a second of these clips.
+    - tremble: the distance of joints from smooth curves.
+    - slide: the foot sliding distance, mean over the plants.
+    - skate: the foot sliding speed, the 25th percentile of the slowest joint of the feet, in percent of the
+      body's speed. It finds a body that glides and has no plants.
+    - sunk: the depth of the lowest joint below the ground, y = 0.
+    - aloft: the least height of the lowest joint; reported if it never comes down to 25 cm.
+    - lopsided: the largest difference in length between a left bone and a right one.
+    - size: the ratio of a body's height to 2.5 m, or of 0.75 m to its height, above 1: its unit may be wrong.
+    - bones: the largest change in the length of a bone of the file.
+    - bent: the angle of a knee, elbow, hip, wrist or the neck, divided by people's limit.
+    - turn: the largest rotation speed of a joint.
+    - path: the distance of the root from a path, mean over the frames.
 
     Parameters
     ----------
     motion : F frames, at least 12.
-    against : the clips that it was made of, if it was made of clips; resampled to its frame rate.
-    path : what it should follow.
-    stretch : by how much bones change their lengths in the motion's file, metres, by joint, as
-        `files.load_save.read` gives it; a motion that was loaded has rigid bones.
+    against : the clips of which it was made, if any; they are resampled to its frame rate.
+    path : the path that it should follow.
+    stretch : the changes of the bones' lengths in the motion's file, metres, by joint, as
+        `files.load_save.read` returns them; a motion that was loaded has rigid bones.
 
     Raises
     ------
@@ -231,25 +299,27 @@ def judge(
     if len(motion) < 12:
         name = shortened(motion.name)
         raise MocapError(f"To judge '{name}' takes 12 frames or more, it has {len(motion)}.")
+    legs: tuple[Leg, ...] = ()
     left_out: tuple[str, ...] = ()
     try:
         legs = find_legs(motion.skeleton)
     except MocapError as error:
-        legs, left_out = (), (f"feet and knees: {error}",)
-    places = joint_positions(motion)
-    measures = (
-        *measure_smoothness(motion, places, against),
-        *measure_joints(motion, places),
-        *measure_limbs(motion, places, legs),
-        *measure_body(motion, places, path, stretch),
-    )
+        left_out = (f"feet and knees: {error}",)
+    positions = joint_positions(motion)
+    measures = [
+        *measure_smoothness(motion, positions, against),
+        *measure_joints(motion, positions),
+        *measure_limbs(motion, positions, legs),
+    ]
+    measures += measure_body(motion, positions, path, stretch)
     lengths = np.linalg.norm(motion.skeleton.offsets[1:], axis=-1).tolist()
-    bones, height = dict(zip(motion.skeleton.names[1:], lengths, strict=True)), height_of(places)
-    return Judgement(motion.name, len(motion), motion.fps, measures, left_out, height, bones)
+    bones = dict(zip(motion.skeleton.names[1:], lengths, strict=True))
+    height = height_of(positions)
+    return Judgement(motion.name, len(motion), motion.fps, tuple(measures), left_out, height, bones)
 
 
 def judgement_table(judgements: Sequence[Judgement]) -> str:
-    """Write a line for each motion, the best first: score, height, each measure over its limit, the worst.
+    """Write a line for each motion, the best first: score, height, all ratios to limits, the worst measure.
 
     Examples
     --------
@@ -264,9 +334,20 @@ def judgement_table(judgements: Sequence[Judgement]) -> str:
     heads = " ".join(f"{name:>7}" for name in ["height", *names])
     rows = [f"{'name':<{width}} {'score':>5} {heads}  worst"]
     for judged in sorted(judgements, key=lambda judged: (judged.score, judged.worst.ratio)):
-        ratios, worst = {measure.name: f"{measure.ratio:.2f}" for measure in judged.measures}, judged.worst
-        cells = [f"{ratios.get(name, '-'):>{max(7, len(name))}}" for name in names]
-        numbers = " ".join([f"{f'{judged.height:.3g} m':>7}", *cells])
-        said = f"{worst.name} {worst.value:.3g} {worst.unit} {worst.where and f'({worst.where})'}".rstrip()
-        rows.append(f"{shortened(judged.name, 40):<{width}} {judged.score:>5.1f} {numbers}  {said}")
+        name = f"{shortened(judged.name, 40):<{width}}"
+        height = f"{judged.height:.3g} m"
+        rows.append(f"{name} {judged.score:>5.1f} {height:>7} {_ratios(judged, names)}  {_worst(judged)}")
     return "\n".join(rows)
+
+
+def _ratios(judged: Judgement, names: Sequence[str]) -> str:
+    """Write the ratios of measures to their limits in columns, "-" for one that was not measured."""
+    ratios = {measure.name: f"{measure.ratio:.2f}" for measure in judged.measures}
+    return " ".join(f"{ratios.get(name, '-'):>{max(7, len(name))}}" for name in names)
+
+
+def _worst(judged: Judgement) -> str:
+    """Write the name, value and place of the worst measure."""
+    worst = judged.worst
+    text = f"{worst.name} {worst.value:.3g} {worst.unit}"
+    return f"{text} ({worst.where})" if worst.where else text.rstrip()

@@ -1,9 +1,9 @@
-"""How good is a seam? Measure it: sliding feet, jolts, and knees that turn.
+"""Quality of a seam: foot sliding, jumps of velocity, and knees that rotate.
 
-How far a foot that stands slides over the ground is one measure for seams, motions and characters. A jolt is
-the change of velocity from one frame to the next, |x_{f+1} - 2 x_f + x_{f-1}| · fps in metres per second, the
-RMS over the joints. Clips have jolts of their own: a foot that touches the ground stops. So `seam_quality`
-compares those of a seam with what is usual in its clips.
+The foot sliding distance is a measure of seams, motions and characters. A jump of velocity from one frame to
+the next is |x_{f+1} - 2 x_f + x_{f-1}| · fps in metres per second, the RMS over the joints. Clips also have
+such jumps: a foot that touches the ground stops. Therefore `seam_quality` compares those of a seam with those
+that are usual in its clips.
 """
 
 from collections.abc import Iterable, Sequence
@@ -22,7 +22,7 @@ from mocap.matching.point_clouds import point_cloud
 
 
 class PlantSlide(NamedTuple):
-    """How far a joint is from its mean place over the ground in one plant, at most, in centimetres.
+    """The largest distance `far` of a joint from its mean position on the ground in one plant, centimetres.
 
     The plant is from frame `start` to just before frame `stop`.
     """
@@ -30,23 +30,23 @@ class PlantSlide(NamedTuple):
     joint: str
     start: int
     stop: int
-    far: float
+    far: float  # reads: name: public, and users read it
 
 
 def plant_slides(
     motion: Motion, joints: Sequence[int] | None = None, *, positions: Array | None = None
 ) -> list[PlantSlide]:
-    """Measure how far each planted joint strays from its mean place on the ground, once per plant.
+    """Measure the foot sliding distance of each plant: from the mean position on the ground, at most.
 
     Parameters
     ----------
     motion : F frames, with contacts for the joints.
-    joints : which joints; by default all that have contacts.
-    positions : those of all joints, shape (F, J, 3), metres, if they are known already.
+    joints : the indices of joints; by default all that have contacts.
+    positions : those of all joints, shape (F, J, 3), metres; they are computed by default.
 
     Raises
     ------
-    MocapError : for a joint of which the motion does not say when it stands.
+    MocapError : for a joint without contacts in the motion.
 
     Examples
     --------
@@ -57,39 +57,41 @@ def plant_slides(
 
     Notebook: 18-motion-matching
     """
-    places = (joint_positions(motion) if positions is None else positions)[..., [0, 2]]
+    if positions is None:
+        positions = joint_positions(motion)
+    ground = positions[..., [0, 2]]
     slides = []
-    for name, stands in _plant_marks(motion, joints).items():
-        for start, stop in runs(stands):
-            stood = places[start:stop, motion.skeleton.index(name)]
-            far = np.linalg.norm(stood - stood.mean(axis=0), axis=-1).max()
-            slides.append(PlantSlide(name, start, stop, 100 * float(far)))
+    for name, contacts in _contacts(motion, joints).items():
+        for start, stop in runs(contacts):
+            planted = ground[start:stop, motion.skeleton.index(name)]
+            distances = np.linalg.norm(planted - planted.mean(axis=0), axis=-1)
+            slides.append(PlantSlide(name, start, stop, 100 * float(distances.max())))
     return slides
 
 
 def mean_slide(slides: Iterable[PlantSlide]) -> float:
-    """Average how far plants slide, cm; 0 if there are none.
+    """Average the foot sliding distance of plants, cm; 0 if there are none.
 
     Examples
     --------
     >>> mean_slide([PlantSlide("lfoot", 3, 9, 1.5), PlantSlide("lfoot", 30, 39, 0.5)]), mean_slide([])
     (1.0, 0.0)
     """
-    far = [slide.far for slide in slides]
-    return float(np.mean(far)) if far else 0.0
+    distances = [slide.far for slide in slides]
+    return float(np.mean(distances)) if distances else 0.0
 
 
 def ground_slides(motion: Motion) -> Array:
-    """Measure how far planted joints slide over the ground, cm.
+    """Measure the foot sliding of planted joints from each frame to the next, cm.
 
     Parameters
     ----------
-    motion : F frames; its `contacts` say when the legs' ankles and balls stand.
+    motion : F frames, with `contacts` for the legs' ankles and balls.
 
     Returns
     -------
-    Shape (F - 1, joints): the step of each ankle and ball from each frame to the next where the joint is
-    planted in both, else 0. Its sum is how far all of them slide.
+    Shape (F - 1, joints): the step of each ankle and ball from each frame to the next if the joint is planted
+    in both, else 0. Its sum is the foot sliding distance of all of them.
 
     Raises
     ------
@@ -103,13 +105,14 @@ def ground_slides(motion: Motion) -> Array:
     True
     """
     feet = feet_of(find_legs(motion.skeleton))
-    stands = np.stack(list(_plant_marks(motion, feet).values()), axis=-1)
-    steps = np.linalg.norm(np.diff(joint_positions(motion)[:, feet][..., [0, 2]], axis=0), axis=-1)
-    return np.asarray(100 * steps * (stands[1:] & stands[:-1]))
+    contacts = np.stack(list(_contacts(motion, feet).values()), axis=-1)
+    ground = joint_positions(motion)[:, feet][..., [0, 2]]
+    steps = np.linalg.norm(np.diff(ground, axis=0), axis=-1)
+    return np.asarray(100 * steps * (contacts[1:] & contacts[:-1]))
 
 
-def _plant_marks(motion: Motion, joints: Sequence[int] | None) -> dict[str, Mask]:
-    """Give the marks (F,) of when joints stand, by name; of all that have marks by default."""
+def _contacts(motion: Motion, joints: Sequence[int] | None) -> dict[str, Mask]:
+    """Return the contacts (F,) of joints, by name; of all joints that have contacts by default."""
     names = motion.contacts if joints is None else [motion.skeleton.names[joint] for joint in joints]
     if missing := [name for name in names if name not in motion.contacts]:
         raise MocapError(f"'{motion.name}' does not say when '{missing[0]}' stands; mark_plants finds out.")
@@ -121,17 +124,17 @@ def feet_of(legs: Sequence[Leg]) -> list[int]:
     return [joint for leg in legs for joint in leg[2:]]
 
 
-# Percent of the clips' own windows: all but one window in a thousand.
-USUAL = 99.9
+USUAL = 99.9  # percentile of the clips' windows: all but one window in a thousand are below
 
-# In broken data the velocity jumps this many times as far as `MOSTLY` percent of all frames do, or further.
-# At 30 Hz, in the walks, runs and jumps of CMU's subject 16, leaps jump 20 times as far, all other frames
-# but one at most 3.3 times.
-LEAP, MOSTLY = 5.0, 90
+# A jump of velocity above LEAP times the percentile MOSTLY of all frames is a leap in the data. At 30 Hz, in
+# the walks, runs and jumps of CMU's subject 16, leaps have 20 times the percentile, and all other frames but
+# one at most 3.3 times.
+LEAP = 5.0  # times
+MOSTLY = 90  # percentile of the frames
 
 
 def jumps(motion: Motion) -> Array:
-    """Measure how velocity jumps at each frame: the RMS over all joints of |x_{f+1} - 2 x_f + x_{f-1}| · fps.
+    """Measure the jump of velocity at each frame: the RMS over joints of |x_{f+1} - 2 x_f + x_{f-1}| · fps.
 
     Parameters
     ----------
@@ -139,7 +142,7 @@ def jumps(motion: Motion) -> Array:
 
     Returns
     -------
-    Shape (F,), m/s; 0 at both ends, where none can be measured.
+    Shape (F,), m/s; 0 at both ends, which have a neighbour on one side only.
 
     Examples
     --------
@@ -158,9 +161,9 @@ def jumps(motion: Motion) -> Array:
 
 
 class Spread(NamedTuple):
-    """What is usual in some clips: a seam between them is compared with it.
+    """The usual jumps of velocity in some clips, with which a seam between them is compared.
 
-    `velocity`: how far velocity jumps in each frame, clip by clip, m/s; NaN where the data leap.
+    `velocity`: the jump in each frame, clip by clip, m/s; NaN where the data leap.
     """
 
     velocity: tuple[Array, ...]
@@ -168,8 +171,8 @@ class Spread(NamedTuple):
     def within(self, frames: int) -> Array:
         """List the largest jump of velocity in each window of `frames` frames, sorted.
 
-        A seam is a window, too: its largest jump is compared with the largest in other windows of its length,
-        not with single frames. Windows in which the data leap are left out; a shorter clip is one window.
+        A seam is also a window: its largest jump is compared with the largest in other windows of its length,
+        not with single frames. Windows in which the data leap are left out. A shorter clip is one window.
 
         Examples
         --------
@@ -182,10 +185,10 @@ class Spread(NamedTuple):
 
 
 def spread(clips: Sequence[Motion]) -> Spread:
-    """Measure what is usual in some clips.
+    """Measure the usual jumps of velocity in some clips.
 
-    Captured clips leap where a marker was lost or mistaken for another. A jump of velocity that is five times
-    as large as nine in ten frames have is such a leap: it must neither excuse a seam nor be blamed on one.
+    Captured clips leap if a marker was lost or mistaken for another. A jump of velocity above five times the
+    90th percentile is such a leap: it must neither excuse a seam nor be blamed on one.
 
     Parameters
     ----------
@@ -205,18 +208,17 @@ def spread(clips: Sequence[Motion]) -> Spread:
     Notebook: 04b-feet
     """
     clips = require_alike(clips)
-    found = [jumps(clip) for clip in clips]
-    leap = LEAP * float(np.percentile(np.concatenate(found), MOSTLY))
-    return Spread(tuple(np.where(jump > leap, np.nan, jump) for jump in found))
+    velocity_jumps = [jumps(clip) for clip in clips]
+    leap = LEAP * float(np.percentile(np.concatenate(velocity_jumps), MOSTLY))
+    return Spread(tuple(np.where(of_clip > leap, np.nan, of_clip) for of_clip in velocity_jumps))
 
 
 class SeamQuality(NamedTuple):
-    """A seam in two numbers; small is good.
+    """The quality of a seam in two numbers, both small for a good one.
 
     `velocity_jump` is the largest jump of velocity at the seam, divided by the jump that 99.9 % of the clips'
-    own windows of its length stay below: up to 1 it is nothing special. `slide` is how far a planted joint is
-    from its mean place over the ground, cm: at most in each plant, on average over the plants that the seam
-    touches.
+    windows of its length stay below: up to 1 it is as usual. `slide` is the foot sliding distance, cm: the
+    largest in each plant, the mean over the plants that the seam touches.
     """
 
     velocity_jump: float
@@ -230,7 +232,7 @@ def seam_quality(motion: Motion, seam: tuple[int, int], usual: Spread) -> SeamQu
     ----------
     motion : with the seam, and with contacts for the feet.
     seam : its first frame, and the first frame after it: (i, i + window) after `blending.join`.
-    usual : what is usual in the clips, `spread(clips)`.
+    usual : the usual jumps in the clips, `spread(clips)`.
 
     Raises
     ------
@@ -250,19 +252,19 @@ def seam_quality(motion: Motion, seam: tuple[int, int], usual: Spread) -> SeamQu
     if not 0 <= seam[0] < seam[1] <= len(motion):
         none = f"no seam from {seam[0]} to {seam[1]}"
         raise MocapError(f"'{motion.name}' has {len(motion)} frames, and {none}.")
-    found = jumps(motion)[max(seam[0] - 1, 0) : seam[1] + 1]
-    largest = usual.within(len(found))
+    seam_jumps = jumps(motion)[max(seam[0] - 1, 0) : seam[1] + 1]
+    largest = usual.within(len(seam_jumps))
     if len(largest) == 0 or not largest[-1] > 0:
         raise MocapError("The clips do not move, so nothing at a seam can be measured against them.")
     slides = plant_slides(motion, feet_of(find_legs(motion.skeleton)))
     touched = [slide for slide in slides if slide.start < seam[1] and seam[0] < slide.stop]
-    return SeamQuality(float(found.max() / np.percentile(largest, USUAL)), mean_slide(touched))
+    return SeamQuality(float(seam_jumps.max() / np.percentile(largest, USUAL)), mean_slide(touched))
 
 
 def knee_turns(motion: Motion) -> Array:
-    """Measure how far each knee turns from one frame to the next, degrees, shape (F - 1, legs).
+    """Measure the rotation of each knee from one frame to the next, degrees, shape (F - 1, legs).
 
-    A leg's bones are rigid, so its length says nothing about a knee that snaps; how fast the knee turns does.
+    A leg's bones are rigid, and their lengths do not show a knee that snaps. The rotation of the knee does.
 
     Examples
     --------
@@ -274,5 +276,5 @@ def knee_turns(motion: Motion) -> Array:
     Notebook: 09b-blend-window
     """
     knees = [leg.knee for leg in find_legs(motion.skeleton)]
-    turned = motion.rotations[:, knees]
-    return np.asarray(np.degrees(rotations.angle_between(turned[1:], turned[:-1])))
+    of_knees = motion.rotations[:, knees]
+    return np.asarray(np.degrees(rotations.angle_between(of_knees[1:], of_knees[:-1])))

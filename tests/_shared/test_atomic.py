@@ -110,7 +110,7 @@ def test_what_a_kill_leaves_is_no_clip_and_who_writes_a_day_later_removes_it(tmp
     with replacing(tmp_path / "run.bvh") as beside:
         for seconds, stays in ((atomic.DAY - 60, True), (atomic.DAY + 60, False)):
             os.utime(left, times=(time.time() - seconds,) * 2)
-            atomic._tidy.cache_clear()  # as in another process
+            atomic._remove_unfinished.cache_clear()  # as in another process
             require_writable(tmp_path / "walk.bvh")
             assert left.exists() == stays and beside.parent.exists()  # who lives, keeps what it has
         beside.write_text("")

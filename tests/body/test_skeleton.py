@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mocap.body.limbs import find_legs, name_leg
+from mocap.body.limbs import find_legs, name_leg, roles
 from mocap.body.skeleton import Skeleton
 from mocap.datasets.samples import SKELETON
 from mocap.errors import SkeletonMismatch
@@ -117,6 +117,8 @@ FLAT = Skeleton(["h", "k", "a", "b"], [-1, 0, 1, 2], [[0, 0, 0], [0, -1, 0], [0,
 test_what_is_no_leg_is_told_with_what_was_tried = refusals(
     (r"among pelvis, a, b: tried lfemur ltibia lfoot, Left.*name_leg\(", find_legs, body("a", "b")),
     ("'lfoot' has no joint or end site", find_legs, FOOTLESS),
+    ("that could be its ball.$", roles, FOOTLESS),
+    ("tried lfemur.*Rename the joints.$", roles, body("a", "b")),
     ("No joint 'toe'", name_leg, NAMED, "h1", "k1", "a1", "toe"),
     ("'a2' hangs on 'k2', not on 'k1'", name_leg, NAMED, "h1", "k1", "a2", "b2"),
     ("'b' sits on 'a': a bone needs a length", name_leg, FLAT, "h", "k", "a", "b"),
