@@ -3,10 +3,11 @@
     python -m mocap.plain my-clips/ path.csv -o walk.bvh
 
 Each function is the plain form of a quick one in the rooms of the package, and a test holds the two equal. In
-the comments F counts frames, J joints and n points; a window is K frames. A point of the ground is the
-complex number z + ix, so that turning about the vertical is a product, and p ↦ turn · p + move lays one clip
-on another. A node of the graph is (clip, frame): "this frame comes next". An edge of kind "clip" plays the
-frames between two nodes; one of kind "transition" blends K frames, from one clip into another.
+the comments F is the number of frames, J of joints and n of points. A window is K frames. A point on the
+ground is the complex number z + ix, so that a rotation about the vertical axis is a product, and the rigid
+transform p ↦ rotation · p + translation aligns one clip with another. A node of the graph is (clip, frame):
+"this frame comes next". An edge of kind "clip" plays the frames between two nodes; an edge of kind
+"transition" blends K frames, from one clip into another.
 
 Notebooks: 01-skeletons-and-clips to 08-path-synthesis.
 
@@ -32,30 +33,30 @@ if TYPE_CHECKING:
 
 FPS = 30  # frames per second
 K = 10  # frames in a window: a third of a second
-BELOW = 0.04  # metres: windows that are more apart than this make no transition
+BELOW = 0.04  # metres: a transition needs two windows that are nearer to each other than this
 
 Array = NDArray[np.float64]
 Ground = NDArray[np.complexfloating[Any, Any]]
-Lay = tuple[complex, complex]  # turn and move
+Transform = tuple[complex, complex]  # rotation and translation
 Node = tuple[int, int]  # clip and frame
 Edge = tuple[Node, Node, int]
 State = Any
 Step = Callable[[State, Any], tuple[float, State]]
-Found = list[tuple[int, int, int, int, float, Lay]]  # clip, frame, clip, frame, metres, how to lay
+Transitions = list[tuple[int, int, int, int, float, Transform]]  # clip, frame, clip, frame, metres, transform
 
 
 # 1. Bodies -------------------------------------------------------------------------------------------------
 
 
 def rotate(q: Array, v: Array) -> Array:
-    """Turn vectors v (..., 3) by unit quaternions q = (w, u) (..., 4): v + 2w (u × v) + 2 u × (u × v)."""
+    """Rotate vectors v (..., 3) by unit quaternions q = (w, u) (..., 4): v + 2w (u × v) + 2 u × (u × v)."""
     w, u = q[..., :1], q[..., 1:]
     across = 2 * np.cross(u, v)
     return np.asarray(v + w * across + np.cross(u, across))
 
 
 def multiply(p: Array, q: Array) -> Array:
-    """Multiply quaternions (..., 4): the turn that does q first, then p."""
+    """Multiply quaternions (..., 4): the rotation q, followed by the rotation p."""
     w, u = p[..., :1], p[..., 1:]
     s, v = q[..., :1], q[..., 1:]
     real = w * s - (u * v).sum(-1, keepdims=True)
@@ -64,50 +65,50 @@ def multiply(p: Array, q: Array) -> Array:
 
 
 def joint_positions(clip: Motion) -> Array:
-    """Go down the tree: a joint stands at its parent's place plus its offset, turned as the parent is."""
-    places = [clip.root_positions]  # (F, 3) for each joint
-    turns = [clip.rotations[:, 0]]  # (F, 4) for each joint
+    """Compute positions down the tree: the parent's position plus the offset, rotated with the parent."""
+    positions = [clip.root_positions]  # (F, 3) for each joint
+    rotations = [clip.rotations[:, 0]]  # (F, 4) for each joint
     for joint in range(1, len(clip.skeleton.parents)):
         parent = clip.skeleton.parents[joint]
-        places.append(places[parent] + rotate(turns[parent], clip.skeleton.offsets[joint]))
-        turns.append(multiply(turns[parent], clip.rotations[:, joint]))
-    return np.stack(places, 1)  # (F, J, 3)
+        positions.append(positions[parent] + rotate(rotations[parent], clip.skeleton.offsets[joint]))
+        rotations.append(multiply(rotations[parent], clip.rotations[:, joint]))
+    return np.stack(positions, 1)  # (F, J, 3)
 
 
-# 2. Which moments are alike? -------------------------------------------------------------------------------
+# 2. Which frames are similar? -------------------------------------------------------------------------------
 
 
 def ground(points: Array) -> Ground:
-    """Look at points (..., 3) from above: complex numbers z + ix, shape (...)."""
+    """Project points (..., 3) onto the ground: complex numbers z + ix, shape (...)."""
     return np.asarray(points[..., 2] + 1j * points[..., 0])
 
 
 def windows(clip: Motion) -> Array:
-    """Give the points of all windows of a clip: K frames of joints in each."""
+    """Return the point clouds of all windows of a clip: the joints of K frames in each."""
     points = joint_positions(clip)
-    _, joints = np.unique(points[0].round(6), axis=0, return_index=True)  # one of those at the same place
+    _, joints = np.unique(points[0].round(6), axis=0, return_index=True)  # one of those at the same position
     joints = np.sort(joints)
     starts = range(len(points) - K + 1)
     return np.array([points[i : i + K, joints].reshape(-1, 3) for i in starts])  # (F - K + 1, n, 3)
 
 
 def align(p: Array, q: Array) -> tuple[Ground, Ground]:
-    """Find the turn and the move that lay the points q (..., n, 3) on p best [KGP02, Eqs. 2-4]."""
+    """Find the transform that aligns the points q (..., n, 3) with p best [KGP02, Eqs. 2-4]."""
     g = ground(p)
     h = ground(q)
     g_mean = g.mean(-1)
     h_mean = h.mean(-1)
-    turn = (np.conj(h - h_mean[..., None]) * (g - g_mean[..., None])).sum(-1)
-    turn = np.exp(1j * np.angle(turn))
-    return turn, g_mean - turn * h_mean
+    rotation = (np.conj(h - h_mean[..., None]) * (g - g_mean[..., None])).sum(-1)
+    rotation = np.exp(1j * np.angle(rotation))
+    return rotation, g_mean - rotation * h_mean
 
 
 def window_distance(p: Array, q: Array) -> Array:
-    """Lay the points q (..., n, 3) on p, and measure how far apart they are: RMS, metres [KGP02, Eq. 1]."""
-    turn, move = align(p, q)
-    aside = ground(p) - turn[..., None] * ground(q) - move[..., None]
-    above = p[..., 1] - q[..., 1]
-    return np.asarray(np.sqrt(np.mean(abs(aside) ** 2 + above**2, -1)))
+    """Return the RMS distance of the points q (..., n, 3), aligned with p, in metres [KGP02, Eq. 1]."""
+    rotation, translation = align(p, q)
+    horizontal = ground(p) - rotation[..., None] * ground(q) - translation[..., None]
+    vertical = p[..., 1] - q[..., 1]
+    return np.asarray(np.sqrt(np.mean(abs(horizontal) ** 2 + vertical**2, -1)))
 
 
 def distance_grid(a: Array, b: Array) -> Array:
@@ -126,98 +127,102 @@ def local_minima(grid: Array, below: float) -> list[tuple[int, int]]:
     return minima
 
 
-def undo(turn: complex, move: complex) -> Lay:
-    """Give the turn and the move that lay back what these lay."""
-    return 1 / turn, -move / turn
+def inverse(rotation: complex, translation: complex) -> Transform:
+    """Return the inverse of a planar rigid transform."""
+    return 1 / rotation, -translation / rotation
 
 
-def find_transitions(clips: Sequence[Motion]) -> Found:
-    """List where a walk may leave a clip and enter one, and how the second clip is laid on the first."""
+def find_transitions(clips: Sequence[Motion]) -> Transitions:
+    """List the frames at which a walk may pass from one clip into another, with the aligning transforms."""
     points = [windows(clip) for clip in clips]
-    transitions: Found = []
+    transitions: Transitions = []
     for a in range(len(clips)):
         for b in range(a, len(clips)):
             for i, j in local_minima(distance_grid(points[a], points[b]), BELOW):
                 if a == b and j < i + K:
-                    continue  # a window is like itself; and what lies below the diagonal is the way back
+                    continue  # a window is similar to itself; below the diagonal is the way back
                 cost = float(window_distance(points[a][i], points[b][j]))
-                turn, move = map(complex, align(points[a][i], points[b][j]))
-                transitions.append((a, i, b, j, cost, (turn, move)))
-                transitions.append((b, j, a, i, cost, undo(turn, move)))
+                rotation, translation = map(complex, align(points[a][i], points[b][j]))
+                transitions.append((a, i, b, j, cost, (rotation, translation)))
+                transitions.append((b, j, a, i, cost, inverse(rotation, translation)))
     return sorted(transitions, key=lambda transition: transition[:4])
 
 
 # 3. From one clip into another -----------------------------------------------------------------------------
 
 
-def lay(clip: Motion, frames: slice, turn: complex, move: complex) -> tuple[Array, Array]:
-    """Take frames of a clip, laid elsewhere on the ground: roots (F, 3), rotations (F, J, 4)."""
+def transform_clip(
+    clip: Motion, frames: slice, rotation: complex, translation: complex
+) -> tuple[Array, Array]:
+    """Apply a transform to frames of a clip: roots (F, 3), rotations (F, J, 4)."""
     roots = clip.root_positions[frames].copy()
-    turns = clip.rotations[frames].copy()
-    laid = turn * ground(roots) + move
-    roots[:, 2], roots[:, 0] = laid.real, laid.imag
-    half = np.angle(turn) / 2
+    rotations = clip.rotations[frames].copy()
+    transformed = rotation * ground(roots) + translation
+    roots[:, 2] = transformed.real
+    roots[:, 0] = transformed.imag
+    half = np.angle(rotation) / 2
     about_y = np.array([np.cos(half), 0, np.sin(half), 0])
-    turns[:, 0] = multiply(about_y, turns[:, 0])
-    return roots, turns
+    rotations[:, 0] = multiply(about_y, rotations[:, 0])
+    return roots, rotations
 
 
-def slerp(p: Array, q: Array, share: Array | float) -> Array:
-    """Go a share of the way from p to q (..., 4), the short way round, at constant speed [KGP02, Eq. 6]."""
+def slerp(p: Array, q: Array, fraction: Array | float) -> Array:
+    """Spherical linear interpolation (slerp) from p to q (..., 4), along the shorter arc [KGP02, Eq. 6]."""
     cosine = (p * q).sum(-1, keepdims=True)
     q = np.where(cosine < 0, -q, q)
     angle = np.arccos(np.minimum(abs(cosine), 1))
     is_tiny = angle < 1e-7
     sine = np.where(is_tiny, 1, np.sin(angle))
-    part_of_p = np.sin((1 - share) * angle) * p
-    part_of_q = np.sin(share * angle) * q
+    part_of_p = np.sin((1 - fraction) * angle) * p
+    part_of_q = np.sin(fraction * angle) * q
     return np.where(is_tiny, p, (part_of_p + part_of_q) / sine)
 
 
 def cubic_weights() -> Array:
-    """Give the first clip's weight in each frame of a window: from nearly 1 to 0, smoothly [KGP02, Eq. 7]."""
+    """Return the first clip's weight in each frame of a window: smoothly from 1 to 0 [KGP02, Eq. 7]."""
     t = np.arange(1, K + 1) / K
     return 2 * t**3 - 3 * t**2 + 1
 
 
 def blend(first: tuple[Array, Array], second: tuple[Array, Array]) -> tuple[Array, Array]:
-    """Mix two windows: roots on straight lines, turns by slerp [KGP02, Eqs. 5-6]."""
+    """Blend two windows: roots by linear interpolation, rotations by slerp [KGP02, Eqs. 5-6]."""
     alpha = cubic_weights()[:, None]
-    first_roots, first_turns = first
-    second_roots, second_turns = second
+    first_roots, first_rotations = first
+    second_roots, second_rotations = second
     roots = alpha * first_roots + (1 - alpha) * second_roots
-    return roots, slerp(second_turns, first_turns, alpha[..., None])
+    return roots, slerp(second_rotations, first_rotations, alpha[..., None])
 
 
 def join(a: Motion, i: int, b: Motion, j: int) -> tuple[Array, Array]:
-    """Play a up to frame i, blend K frames of both, and play on with b, laid on a [KGP02, 3.3]."""
-    turn, move = map(complex, align(windows(a)[i], windows(b)[j]))
-    start = lay(a, slice(0, i), 1, 0)
-    leaving = lay(a, slice(i, i + K), 1, 0)
-    entering = lay(b, slice(j, j + K), turn, move)
-    end = lay(b, slice(j + K, None), turn, move)
-    roots, turns = zip(start, blend(leaving, entering), end, strict=True)
-    return np.concatenate(roots), np.concatenate(turns)
+    """Play a up to frame i, blend K frames of both, and continue with b, aligned with a [KGP02, 3.3]."""
+    rotation, translation = map(complex, align(windows(a)[i], windows(b)[j]))
+    start = transform_clip(a, slice(0, i), 1, 0)
+    leaving = transform_clip(a, slice(i, i + K), 1, 0)
+    entering = transform_clip(b, slice(j, j + K), rotation, translation)
+    end = transform_clip(b, slice(j + K, None), rotation, translation)
+    roots, rotations = zip(start, blend(leaving, entering), end, strict=True)
+    return np.concatenate(roots), np.concatenate(rotations)
 
 
 # 4. The graph ----------------------------------------------------------------------------------------------
 
 
-def cut_and_join(clips: Sequence[Motion], transitions: Found) -> nx.MultiDiGraph:
+def cut_and_join(clips: Sequence[Motion], transitions: Transitions) -> nx.MultiDiGraph:
     """Cut the clips where transitions leave and enter, and join the pieces to a graph [KGP02, 3]."""
     graph = nx.MultiDiGraph()
     for clip, motion in enumerate(clips):
         graph.add_nodes_from([(clip, 0), (clip, len(motion))])
-    for a, i, b, j, cost, laid in transitions:
-        graph.add_edge((a, i), (b, j + K), kind="transition", frames=K, cost=cost, lay=laid)
+    for a, i, b, j, cost, transform in transitions:
+        graph.add_edge((a, i), (b, j + K), kind="transition", frames=K, cost=cost, transform=transform)
     for (clip, start), (next_clip, end) in pairwise(sorted(graph)):
         if clip == next_clip:
-            graph.add_edge((clip, start), (clip, end), kind="clip", frames=end - start, cost=0.0, lay=(1, 0))
+            frames = end - start
+            graph.add_edge((clip, start), (clip, end), kind="clip", frames=frames, cost=0.0, transform=(1, 0))
     return graph
 
 
 def components(graph: nx.MultiDiGraph) -> list[set[Node]]:
-    """Find the sets in which each node can be reached from each other one [Tarjan 1972]."""
+    """Find the strongly connected components: each node can be reached from every other [Tarjan 1972]."""
     number: dict[Node, int] = {}  # the order in which nodes are met
     low: dict[Node, int] = {}  # the smallest number that a node leads back to
     waiting: list[Node] = []  # met, and in no component yet
@@ -245,7 +250,7 @@ def components(graph: nx.MultiDiGraph) -> list[set[Node]]:
 
 
 def prune(graph: nx.MultiDiGraph) -> nx.MultiDiGraph:
-    """Keep the component that plays most frames of clip: in it a walk can go on for ever [KGP02, 3.4]."""
+    """Return the component with the most frames of clips: in it, no walk ever has to end [KGP02, 3.4]."""
 
     def frames(nodes: set[Node]) -> int:
         inside = graph.subgraph(nodes).edges(data=True)
@@ -258,7 +263,7 @@ def prune(graph: nx.MultiDiGraph) -> nx.MultiDiGraph:
 
 
 def random_walk(graph: nx.MultiDiGraph, seconds: float, seed: int) -> list[Edge]:
-    """Walk at random: a second or more of clip, then a transition; cheap ones are likelier than dear ones."""
+    """Walk at random: a second or more of a clip, then a transition, more likely the lower its cost."""
     random = np.random.default_rng(seed)
     node = sorted(graph)[random.integers(len(graph))]
     walk: list[Edge] = []
@@ -283,40 +288,40 @@ def random_walk(graph: nx.MultiDiGraph, seconds: float, seed: int) -> list[Edge]
     return walk
 
 
-def product(first: Lay, then: Lay) -> Lay:
-    """Give the turn and the move of p ↦ first(then(p))."""
-    return first[0] * then[0], first[0] * then[1] + first[1]
+def compose(first: Transform, second: Transform) -> Transform:
+    """Compose two transforms: p ↦ first(second(p))."""
+    return first[0] * second[0], first[0] * second[1] + first[1]
 
 
 def to_motion(
     clips: Sequence[Motion],
     graph: nx.MultiDiGraph,
     walk: Sequence[Edge],
-    turn: complex = 1,
-    move: complex = 0,
+    rotation: complex = 1,
+    translation: complex = 0,
 ) -> tuple[Array, Array]:
-    """Play a walk: each clip is laid by the product of all transitions before it [KGP02, 4.1]."""
+    """Convert a walk to motion: the transforms of all transitions before a clip are composed [KGP02, 4.1]."""
     pieces = []
     for start, end, key in walk:
         a, i = start
         b, j = end
         edge = graph.edges[start, end, key]
-        piece = lay(clips[a], slice(i, i + edge["frames"]), turn, move)
-        turn, move = product((turn, move), edge["lay"])
+        piece = transform_clip(clips[a], slice(i, i + edge["frames"]), rotation, translation)
+        rotation, translation = compose((rotation, translation), edge["transform"])
         if edge["kind"] == "transition":
-            piece = blend(piece, lay(clips[b], slice(j - K, j), turn, move))
+            piece = blend(piece, transform_clip(clips[b], slice(j - K, j), rotation, translation))
         pieces.append(piece)
-    roots, turns = zip(*pieces, strict=True)
-    return np.concatenate(roots), np.concatenate(turns)
+    roots, rotations = zip(*pieces, strict=True)
+    return np.concatenate(roots), np.concatenate(rotations)
 
 
 def branch_and_bound(
     graph: nx.MultiDiGraph, node: Hashable, state: State, step: Step, is_complete: Callable[[State], bool]
 ) -> tuple[float, list[Edge]] | None:
-    """Find the cheapest walk from a node on: depth first, cheap edges first [KGP02, Eq. 8, 4.2].
+    """Find the walk of least cost from a node: depth first, low costs first [KGP02, Eq. 8, 4.2].
 
-    step(state, edge) gives what an edge costs, 0 or more, and the next state; is_complete(state) says when a
-    walk is complete. A walk that costs as much as the best complete one cannot become better: it is cut.
+    step(state, edge) returns the cost of an edge, 0 or more, and the next state; is_complete(state) returns
+    whether a walk is complete. A walk that costs as much as the best complete one cannot improve: it is cut.
     """
     best: tuple[float, list[Edge]] | None = None
     branches: list[Any] = [(0.0, node, state, [])]
@@ -331,44 +336,44 @@ def branch_and_bound(
         for edge in graph.out_edges(node, keys=True):
             price, next_state = step(state, edge)
             longer.append((cost + price, edge[1], next_state, [*walk, edge]))
-        branches += sorted(longer, key=lambda branch: branch[0], reverse=True)  # the cheapest is popped first
+        branches += sorted(longer, key=lambda branch: branch[0], reverse=True)  # the lowest cost comes last
     return best
 
 
 # 6. A walk along a line ------------------------------------------------------------------------------------
 
-WIDTH = 150  # walks that go on from each layer of the line
+BEAM_WIDTH = 150  # walks that are kept in each layer of the line
 LAYER = 0.15  # metres of the line in a layer
 LOOK = 22  # frames that each walk looks ahead
-RESCUE = 1.5  # m²: what lies ahead costs no more than this, since a transition can leave it
+RESCUE = 1.5  # m²: the largest expected cost of the frames ahead, since a transition can leave them
 SEAM = 0.15  # m²: the price of a transition
-CELL = 0.1  # metres: of two walks at one node and in one cell of the ground, the cheaper one goes on
-CELL_TURN = 0.1  # radians: if their headings are in one interval as well
+CELL = 0.1  # metres: of two walks at one node and in one cell of the ground, the one of lower cost is kept
+CELL_HEADING = 0.1  # radians: if their headings are also in one interval
 
 
 class Walk(NamedTuple):
-    """A walk of the search: what it costs, how far it has come (metres), and how its next clip is laid."""
+    """A walk of the search: its cost, its length along the line (metres), and its next clip's transform."""
 
     cost: float
     expected: float
     along: float
     node: Node
-    turn: complex
-    move: complex
+    rotation: complex
+    translation: complex
     edge: Edge | None = None
     previous: Walk | None = None  # the walk without its last edge
 
 
-def lay_on(track: Ground, line: Ground) -> Lay:
-    """Lay the start of a track on the start of a line, so that both lead the same way."""
+def align_start(track: Ground, line: Ground) -> Transform:
+    """Align the start of a track with the start of a line, position and direction."""
     line_direction = line[-1] - line[0]
     track_direction = track[-1] - track[0]
-    turn = np.exp(1j * np.angle(line_direction / track_direction))
-    return turn, line[0] - turn * track[0]
+    rotation = np.exp(1j * np.angle(line_direction / track_direction))
+    return rotation, line[0] - rotation * track[0]
 
 
 class Search:
-    """All walks advance along a line together, layer by layer; the best of each layer go on [KGP02, 5.1]."""
+    """A beam search: all walks advance along a line in layers, and each layer keeps the best [KGP02, 5.1]."""
 
     def __init__(self, clips: Sequence[Motion], graph: nx.MultiDiGraph, line: Ground) -> None:
         """Prepare a search; `line` holds points of the ground, 1 cm apart."""
@@ -380,52 +385,53 @@ class Search:
         self.ahead = {(clip, frame): self.roots[clip][frame : frame + LOOK] for clip, frame in graph}
 
     def price(self, walk: Walk, track: Ground) -> tuple[float, float]:
-        """Give what a track costs [KGP02, Eq. 9], and how far it comes: root and line, at equal lengths."""
+        """Return the cost of a track [KGP02, Eq. 9], by equal arc lengths, and its end along the line."""
         clip, frame = walk.node
         start = self.roots[clip][max(frame - 1, 0)]
         along = walk.along + np.cumsum(abs(np.diff(track, prepend=start)))
         wanted = self.line[np.clip(100 * along, 0, len(self.line) - 1).astype(int)]
-        errors = abs(walk.turn * track + walk.move - wanted) ** 2  # m² in each frame
-        return float((errors + 100 * errors**2).sum()), float(along[-1])  # 10 cm cost twice what Eq. 9 says
+        errors = abs(walk.rotation * track + walk.translation - wanted) ** 2  # m² in each frame
+        return float((errors + 100 * errors**2).sum()), float(along[-1])  # at 10 cm twice the cost of Eq. 9
 
     def look_ahead(self, walk: Walk) -> Walk:
-        """Expect what the walk will cost if its clip plays on."""
+        """Estimate the cost of the frames ahead if the walk stays in its clip."""
         return walk._replace(expected=min(self.price(walk, self.ahead[walk.node])[0], RESCUE))
 
     def lengthen(self, walk: Walk, edge: Edge) -> Walk:
-        """Let a walk take one more edge."""
+        """Extend a walk by one edge."""
         cost, along = self.price(walk, self.tracks[edge])
         if self.graph.edges[edge]["kind"] == "transition":
             cost += SEAM
-        turn, move = product((walk.turn, walk.move), self.graph.edges[edge]["lay"])
-        return self.look_ahead(Walk(walk.cost + cost, 0, along, edge[1], turn, move, edge, walk))
+        transform = self.graph.edges[edge]["transform"]
+        rotation, translation = compose((walk.rotation, walk.translation), transform)
+        return self.look_ahead(Walk(walk.cost + cost, 0, along, edge[1], rotation, translation, edge, walk))
 
     def lengthened(self, walks: list[Walk]) -> Iterator[Walk]:
-        """Yield each walk with one more edge, for each edge of its node."""
+        """Yield all extensions of the walks by one edge."""
         for walk in walks:
             for edge in self.graph.out_edges(walk.node, keys=True):
                 yield self.lengthen(walk, edge)
 
     def starts(self) -> list[Walk]:
-        """Start at each node from which the root goes somewhere: at the line's start, and along it."""
+        """Return a walk of no edges at each node that leads on, aligned with the start of the line."""
         walks = []
         for node, track in self.ahead.items():
             if len(track) == LOOK and abs(track[-1] - track[0]) > 0.3:
-                walks.append(self.look_ahead(Walk(0, 0, 0, node, *lay_on(track, self.line[:31]))))
+                walks.append(self.look_ahead(Walk(0, 0, 0, node, *align_start(track, self.line[:31]))))
         return walks
 
     def best_of(self, walks: list[Walk]) -> list[Walk]:
-        """Cross out what stands where another one stands and costs more; keep the best of the others."""
+        """Keep the walk of lowest cost of each cell, and of these the best."""
         kept: dict[Hashable, Walk] = {}
         for walk in sorted(walks, key=lambda walk: walk.cost + walk.expected):
-            place = walk.turn * self.ahead[walk.node][0] + walk.move
-            heading = np.angle(walk.turn)
-            cell = (walk.node, place.real // CELL, place.imag // CELL, heading // CELL_TURN)
+            position = walk.rotation * self.ahead[walk.node][0] + walk.translation
+            heading = np.angle(walk.rotation)
+            cell = (walk.node, position.real // CELL, position.imag // CELL, heading // CELL_HEADING)
             kept.setdefault(cell, walk)
-        return list(kept.values())[:WIDTH]
+        return list(kept.values())[:BEAM_WIDTH]
 
     def layers(self) -> Iterator[tuple[list[Walk], Walk | None]]:
-        """Search: in each layer yield the walks that go on, and the best one at the line's end so far."""
+        """Search: for each layer, yield the walks that are kept, and the best complete walk so far."""
         waiting: dict[int, list[Walk]] = {0: self.starts()}
         best: Walk | None = None
         while waiting:
@@ -441,24 +447,24 @@ class Search:
             yield kept, best
 
     def walk(self) -> tuple[list[Edge], complex, complex]:
-        """Give the edges of the best walk, and how the first one's clip is laid."""
+        """Return the edges of the best walk, and the transform of its first clip."""
         *_, (_, walk) = self.layers()
         if walk is None:
-            raise ValueError("No walk comes to the end of the line.")
+            raise ValueError("No walk reaches the end of the line.")
         edges = []
         while walk.previous and walk.edge:
             edges.append(walk.edge)
             walk = walk.previous
-        return edges[::-1], walk.turn, walk.move
+        return edges[::-1], walk.rotation, walk.translation
 
 
 def follow(clips: Sequence[Motion], graph: nx.MultiDiGraph, line: Ground) -> tuple[Array, Array]:
-    """Walk along a line: the frames of the best walk, roots (F, 3) and rotations (F, J, 4)."""
+    """Walk along a line: return the frames of the best walk, roots (F, 3) and rotations (F, J, 4)."""
     return to_motion(clips, graph, *Search(clips, graph, line).walk())
 
 
 def points_along(corners: Array) -> Ground:
-    """Lay points on a line, 1 cm apart, from its corners (x, z), shape (N, 2)."""
+    """Sample a polyline every 1 cm, given its corners (x, z), shape (N, 2)."""
     corner = corners[:, 1] + 1j * corners[:, 0]
     along = np.cumsum(abs(np.diff(corner, prepend=corner[0])))
     return np.asarray(np.interp(np.arange(0, along[-1], 0.01), along, corner))
@@ -487,9 +493,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         clips = require_alike(long)
         graph = prune(cut_and_join(clips, find_transitions(clips)))
         print(f"{len(clips)} clips make a graph of {len(graph)} nodes and {graph.size()} edges.")
-        roots, turns = follow(clips, graph, line)
+        roots, rotations = follow(clips, graph, line)
         errors = [abs(line - point).min() for point in ground(roots)]
-        save(Motion(clips[0].skeleton, roots, turns, FPS, "walk"), options.out)
+        save(Motion(clips[0].skeleton, roots, rotations, FPS, "walk"), options.out)
     except (MocapError, ValueError) as error:
         print(f"mocap.plain: {error}", file=sys.stderr)
         return 2

@@ -195,5 +195,5 @@ def test_a_line_that_no_walk_follows_is_refused():
     clip = mocap.resample(datasets.sample("walk_circle"), 30)[:60]
     still = [replace(clip, root_positions=0 * clip.root_positions)]
     graph = plain.cut_and_join(still, [])
-    with pytest.raises(ValueError, match="No walk comes to the end of the line"):
+    with pytest.raises(ValueError, match="No walk reaches the end of the line"):
         plain.follow(still, graph, plain.points_along(LINES["S"].points))

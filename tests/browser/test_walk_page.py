@@ -57,7 +57,7 @@ def as_packed(graph):
             turn = np.exp(1j * np.rint(np.angle(edge["transform"].turn) / STEPS["turn"]) * STEPS["turn"])
             here, there = (clips[clip].root_positions[at] for clip, at in (start, (end[0], end[1] - 10)))
             lay = turn, plain.ground(here) + off - turn * plain.ground(there)
-        key = rounded.add_edge(start, end, kind=edge["kind"], frames=edge["frames"], lay=lay)
+        key = rounded.add_edge(start, end, kind=edge["kind"], frames=edge["frames"], transform=lay)
         order[start, end, key] = number
     return clips, rounded, order
 

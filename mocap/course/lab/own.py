@@ -28,18 +28,23 @@ from mocap.course.lab.adopting import NAMES as NAMES
 from mocap.course.lab.adopting import Tools, whose
 from mocap.course.lab.adopting import tools as tools
 from mocap.errors import MocapError
-from mocap.plain import Edge, Found, Ground, Lay, Node, Walk
+from mocap.plain import Edge, Ground, Node, Transform, Transitions, Walk
 
-WINDOW, BELOW = 10, 0.05  # of the transitions: frames, and metres
+WINDOW = 10  # frames in a window of a transition
+BELOW = 0.05  # metres: the threshold of the transitions
 AHEAD = 1.5  # seconds that a choice looks ahead: with less, no turn is seen
-WIDTH, SEAM = 60, 0.05  # walks that go on from a layer, and the price of a seam in m²
-LEAST = 0.1  # metres per second: the least progress
-PLACE, TURN = 0.1, 0.1  # metres and radians: walks that agree so far stand alike
-OwnWalk = tuple[list[Edge], complex, complex]  # edges, and how the first clip is placed, p ↦ turn · p + move
+BEAM_WIDTH = 60  # walks that are kept in a layer
+SEAM = 0.05  # m²: the price of a seam
+LEAST_SPEED = 0.1  # metres per second: the least progress along a path
+CELL = 0.1  # metres: walks count as equal if their positions agree to this,
+CELL_HEADING = 0.1  # radians: and their headings to this
+OwnWalk = tuple[
+    list[Edge], complex, complex
+]  # edges, and the first clip's transform, p ↦ rotation · p + translation
 
 
 def pages_of(by: Tools | None, window: int, below: float = 0.0) -> Any:  # noqa: ANN401 (a module)
-    """Copy `mocap.plain`, with functions of exercises in the places of its own, if any are given.
+    """Copy `mocap.plain`, with functions of exercises in place of its own, if any are given.
 
     Notebook: 04-blending
     """
@@ -58,18 +63,21 @@ def pages_of(by: Tools | None, window: int, below: float = 0.0) -> Any:  # noqa:
 class Places:
     """Functions of `mocap.plain` by name, each made of an exercise's; arguments and results are plain's.
 
-    The exercises move by (angle, x, z), and plain by (turn, move).
+    The exercises write a transform as (angle, x, z), and plain as (rotation, translation).
     """
 
     def __init__(self, by: Tools, window: int) -> None:
-        self._by, self._window = by, window
+        self._by = by
+        self._window = window
 
     def joint_positions(self, clip: Motion) -> Array:
-        """Let each joint climb to the root."""
-        joints, frames = range(len(clip.skeleton)), zip(clip.root_positions, clip.rotations, strict=True)
+        """Compute the position of each joint by a climb to the root."""
         climb = self._by.climb
         body = clip.skeleton
-        return np.array([[at + climb(body, turns, joint) for joint in joints] for at, turns in frames])
+        frames = []
+        for root, rotations in zip(clip.root_positions, clip.rotations, strict=True):
+            frames.append([root + climb(body, rotations, joint) for joint in range(len(body))])
+        return np.array(frames)
 
     def distance_grid(self, a: Array, b: Array) -> Array:
         """Compare all windows by sums along diagonals."""
@@ -79,71 +87,79 @@ class Places:
         """Find the minima inside of a grid."""
         return [(int(i), int(j)) for i, j in self._by.inner_minima(grid, below)]
 
-    def align(self, p: Array, q: Array) -> Lay:
-        """Find the best angle, then the best shift."""
+    def align(self, p: Array, q: Array) -> Transform:
+        """Find the best angle, then the best translation."""
         angle = float(self._by.best_angle(p, q))
-        return _to_lay(angle, *map(float, self._by.best_shift(p, q, angle)))
+        return _to_transform(angle, *map(float, self._by.best_shift(p, q, angle)))
 
-    def undo(self, turn: complex, move: complex) -> Lay:
-        """Undo a transform."""
-        return _to_lay(*self._by.undo(*_to_angle(turn, move)))
+    def inverse(self, rotation: complex, translation: complex) -> Transform:
+        """Invert a transform."""
+        return _to_transform(*self._by.undo(*_to_angle(rotation, translation)))
 
-    def product(self, first: Lay, then: Lay) -> Lay:
-        """Multiply two transforms."""
-        return _to_lay(*self._by.product_of(np.array([_to_angle(*first), _to_angle(*then)])))
+    def compose(self, first: Transform, second: Transform) -> Transform:
+        """Compose two transforms."""
+        return _to_transform(*self._by.product_of(np.array([_to_angle(*first), _to_angle(*second)])))
 
-    def lay(self, clip: Motion, frames: slice, turn: complex, move: complex) -> tuple[Array, Array]:
-        """Turn the root about the vertical by a product."""
-        roots, turns = plain.lay(clip, frames, turn, move)
-        half = np.angle(turn) / 2
+    def transform_clip(
+        self, clip: Motion, frames: slice, rotation: complex, translation: complex
+    ) -> tuple[Array, Array]:
+        """Rotate the root about the vertical axis by a product."""
+        roots, rotations = plain.transform_clip(clip, frames, rotation, translation)
+        half = np.angle(rotation) / 2
         about_y = np.array([np.cos(half), 0, np.sin(half), 0])
-        turns[:, 0] = [self._by.hamilton(about_y, own) for own in clip.rotations[frames, 0]]
-        return roots, turns
+        rotations[:, 0] = [self._by.hamilton(about_y, root) for root in clip.rotations[frames, 0]]
+        return roots, rotations
 
     def cubic_weights(self) -> Array:
         """Weigh by the polynomial of degree five."""
         return np.asarray(self._by.quintic(self._window))
 
-    def blend(self, one: tuple[Array, Array], other: tuple[Array, Array]) -> tuple[Array, Array]:
-        """Mix two windows, as motions of any body."""
-        count = one[1].shape[1]
-        body = Skeleton(list(map(str, range(count))), np.arange(-1, count - 1), np.zeros((count, 3)))
-        first, second = (Motion(body, *poses, plain.FPS) for poses in (one, other))
-        roots, turns = self._by.mix(first, second, self.cubic_weights())
-        return np.asarray(roots), np.asarray(turns)
+    def blend(self, first: tuple[Array, Array], second: tuple[Array, Array]) -> tuple[Array, Array]:
+        """Mix two windows, as motions of a chain of as many joints."""
+        joints = first[1].shape[1]
+        body = Skeleton(list(map(str, range(joints))), np.arange(-1, joints - 1), np.zeros((joints, 3)))
+        first_motion = Motion(body, *first, plain.FPS)
+        second_motion = Motion(body, *second, plain.FPS)
+        roots, rotations = self._by.mix(first_motion, second_motion, self.cubic_weights())
+        return np.asarray(roots), np.asarray(rotations)
 
-    def cut_and_join(self, clips: Sequence[Motion], transitions: Found) -> nx.MultiDiGraph:
-        """Cut at the choice points, and join by what follows each."""
+    def cut_and_join(self, clips: Sequence[Motion], transitions: Transitions) -> nx.MultiDiGraph:
+        """Cut the clips at the choice points, and join them by the successors of each."""
         points = []
         for clip, motion in enumerate(clips):
             leaves = [leave for a, leave, *_ in transitions if a == clip]
             enters = [enter for _, _, b, enter, *_ in transitions if b == clip]
             points.append(self._by.choice_points(len(motion), leaves, enters, self._window))
-        following = self._by.successors_of(points, [found[:4] for found in transitions], self._window)
+        windows = [transition[:4] for transition in transitions]
+        following = self._by.successors_of(points, windows, self._window)
         graph = nx.MultiDiGraph(following=following)
         graph.add_nodes_from(sorted(following))
         for clip, frames in enumerate(points):
             for start, end in pairwise(frames):
-                about = {"kind": "clip", "frames": end - start, "cost": 0.0, "lay": (1, 0)}
-                graph.add_edge((clip, start), (clip, end), **about)
-        for a, i, b, j, cost, lay in transitions:
-            about = {"kind": "transition", "frames": self._window, "cost": cost, "lay": lay}
-            graph.add_edge((a, i), (b, j + self._window), **about)
+                fields = {"kind": "clip", "frames": end - start, "cost": 0.0, "transform": (1, 0)}
+                graph.add_edge((clip, start), (clip, end), **fields)
+        for a, i, b, j, cost, transform in transitions:
+            fields = {"kind": "transition", "frames": self._window, "cost": cost, "transform": transform}
+            graph.add_edge((a, i), (b, j + self._window), **fields)
         return graph
 
     def components(self, graph: nx.MultiDiGraph) -> Any:  # noqa: ANN401
-        """Find the components as Tarjan does."""
+        """Find the strongly connected components."""
         sys.setrecursionlimit(max(sys.getrecursionlimit(), 4 * len(graph) + 1000))
         return self._by.tarjan(graph.graph["following"])
 
     def prune(self, graph: nx.MultiDiGraph) -> nx.MultiDiGraph:
         """Keep one component."""
-        played = [(a, b, b[1] - a[1]) for a, b, kind in graph.edges(data="kind") if kind == "clip"]
-        return graph.subgraph(self._by.component_to_keep(self.components(graph), played)).copy()
+        played = []
+        for start, end, kind in graph.edges(data="kind"):
+            if kind == "clip":
+                played.append((start, end, end[1] - start[1]))
+        kept = self._by.component_to_keep(self.components(graph), played)
+        return graph.subgraph(kept).copy()
 
 
 class OwnSearch:
-    """What the search of `mocap.plain` does by `look_ahead`, `lengthen` and `survivors`, for roots alone."""
+    """The search of `mocap.plain` by `look_ahead`, `lengthen` and `survivors`, for roots alone."""
 
     by: Tools
     graph: nx.MultiDiGraph
@@ -153,39 +169,52 @@ class OwnSearch:
 
     def __init__(self, clips: Sequence[Motion], graph: nx.MultiDiGraph, line: Ground) -> None:
         roots = [
-            SimpleNamespace(root_positions=c.root_positions, rotations=c.rotations[:, :1]) for c in clips
+            SimpleNamespace(root_positions=clip.root_positions, rotations=clip.rotations[:, :1])
+            for clip in clips
         ]
         search: Any = super()
         search.__init__(roots, graph, line)
-        self.path, self.least = GroundPath(np.stack([line.imag, line.real], axis=1)), LEAST / clips[0].fps
+        self.path = GroundPath(np.stack([line.imag, line.real], axis=1))
+        self.least_step = LEAST_SPEED / clips[0].fps  # metres
         self.numbers = {node: number for number, node in enumerate(graph)}
-        self.before = {(clip, frame): self.roots[clip][max(frame - 1, 0)] for clip, frame in graph}
-        self.tracks = {edge: np.append(self.before[edge[0]], way) for edge, way in self.tracks.items()}
+        self.starts_of_nodes = {(clip, frame): self.roots[clip][max(frame - 1, 0)] for clip, frame in graph}
+        for edge, track in self.tracks.items():
+            self.tracks[edge] = np.append(self.starts_of_nodes[edge[0]], track)
 
     def look_ahead(self, walk: Walk) -> Walk:
-        """Expect what the exercise expects."""
-        ahead = np.append(self.before[walk.node], self.ahead[walk.node])
-        stands = walk.turn, walk.move, walk.along, walk.cost
-        expected = self.by.look_ahead(stands, ahead, lambda s: self.path.at(s) @ [1j, 1], plain.RESCUE)
+        """Estimate the cost of the frames ahead as the exercise does."""
+        ahead = np.append(self.starts_of_nodes[walk.node], self.ahead[walk.node])
+        expected = self.by.look_ahead(_state_of(walk), ahead, self._point_at, plain.RESCUE)
         return walk._replace(expected=expected)
 
+    def _point_at(self, length: ArrayLike) -> Ground:
+        """Return the points of the path at arc lengths, as complex numbers."""
+        return np.asarray(self.path.at(length) @ [1j, 1], complex)
+
     def lengthen(self, walk: Walk, edge: Edge) -> Walk:
-        """Lengthen a walk by one edge."""
+        """Extend a walk by one edge."""
         data = self.graph.edges[edge]
-        edges = [(edge[1], self.tracks[edge], *data["lay"], SEAM * (data["kind"] == "transition"))]
-        stands = walk.turn, walk.move, walk.along, walk.cost
-        ((_, turn, move, along, cost),) = self.by.lengthen(stands, edges, self.path.at, self.least)
-        return self.look_ahead(Walk(cost, 0, along, edge[1], turn, move, edge, walk))
+        price = SEAM if data["kind"] == "transition" else 0.0
+        edges = [(edge[1], self.tracks[edge], *data["transform"], price)]
+        longer = self.by.lengthen(_state_of(walk), edges, self.path.at, self.least_step)
+        ((_, rotation, translation, along, cost),) = longer
+        return self.look_ahead(Walk(cost, 0, along, edge[1], rotation, translation, edge, walk))
 
     def best_of(self, walks: list[Walk]) -> list[Walk]:
-        """Let the survivors go on."""
-        stand = []
+        """Keep the survivors of a layer."""
+        cells = []
         for walk in walks:
-            here = walk.turn * self.ahead[walk.node][0] + walk.move
-            cell = here.real / PLACE, here.imag / PLACE, np.angle(walk.turn) / TURN
-            stand.append([self.numbers[walk.node], *map(round, cell)])
+            position = walk.rotation * self.ahead[walk.node][0] + walk.translation
+            heading = np.angle(walk.rotation)
+            cell = position.real / CELL, position.imag / CELL, heading / CELL_HEADING
+            cells.append([self.numbers[walk.node], *map(round, cell)])
         costs = np.array([walk.cost + walk.expected for walk in walks])
-        return [walks[number] for number in self.by.survivors(np.array(stand), costs, WIDTH)]
+        return [walks[number] for number in self.by.survivors(np.array(cells), costs, BEAM_WIDTH)]
+
+
+def _state_of(walk: Walk) -> tuple[complex, complex, float, float]:
+    """Return a walk as the exercises take it: rotation, translation, metres along the line, cost."""
+    return walk.rotation, walk.translation, walk.along, walk.cost
 
 
 def squared_distances(a: Array, b: Array, window: int, window_sums: Callable[[Array, int], Array]) -> Array:
@@ -194,25 +223,36 @@ def squared_distances(a: Array, b: Array, window: int, window_sums: Callable[[Ar
     With points on the ground as complex numbers g = z + ix, and means over a window's points,
     D = S + S' - 2 mean(y y') - 2 |mean(g ḡ') - mean(g) mean(ḡ')|: the grid of notebook 02b.
     """
-    origin, points = a.mean(axis=(0, 1)) * [1, 0, 1], a.shape[1]  # numbers near 0 lose no digits
-    pair = a - origin, b - origin
-    means = [plain.ground(windows).mean(1) for windows in pair]
-    sizes = [(w**2).sum(-1).mean(-1) - abs(mean) ** 2 for w, mean in zip(pair, means, strict=True)]
-    firsts = [np.split(windows, window, axis=1) for windows in pair]  # of each window, frame by frame
-    frames = [np.concatenate([of[0], *(late[-1:] for late in of[1:])]) for of in firsts]  # each frame once
-    products = plain.ground(frames[0]) @ plain.ground(frames[1]).conj().T
-    both = window_sums(products.real, window) + 1j * window_sums(products.imag, window)
-    turned = np.abs(both / points - means[0][:, None] * means[1].conj())
-    level = window_sums(frames[0][..., 1] @ frames[1][..., 1].T, window) / points
-    return np.asarray(np.maximum(sizes[0][:, None] + sizes[1] - 2 * level - 2 * turned, 0))
+    points = a.shape[1]
+    origin = a.mean(axis=(0, 1)) * [1, 0, 1]  # numbers near 0 lose no digits
+    first = a - origin
+    second = b - origin
+    first_mean = plain.ground(first).mean(1)
+    second_mean = plain.ground(second).mean(1)
+    first_size = (first**2).sum(-1).mean(-1) - abs(first_mean) ** 2
+    second_size = (second**2).sum(-1).mean(-1) - abs(second_mean) ** 2
+    first_frames = _frames_of(first, window)
+    second_frames = _frames_of(second, window)
+    products = plain.ground(first_frames) @ plain.ground(second_frames).conj().T
+    covariance = window_sums(products.real, window) + 1j * window_sums(products.imag, window)
+    horizontal = np.abs(covariance / points - first_mean[:, None] * second_mean.conj())
+    vertical = window_sums(first_frames[..., 1] @ second_frames[..., 1].T, window) / points
+    return np.asarray(np.maximum(first_size[:, None] + second_size - 2 * vertical - 2 * horizontal, 0))
 
 
-def _to_lay(angle: float, x: float, z: float) -> Lay:
-    return np.exp(1j * angle), np.complex128(complex(z, x))
+def _frames_of(windows: Array, window: int) -> Array:
+    """Return each frame of a clip once, from all its windows: shape (F, n / window, 3)."""
+    slots = np.split(windows, window, axis=1)  # the first frames of all windows, the second ones, ...
+    return np.concatenate([slots[0], *(slot[-1:] for slot in slots[1:])])
 
 
-def _to_angle(turn: complex, move: complex) -> tuple[float, float, float]:
-    return float(np.angle(turn)), move.imag, move.real
+def _to_transform(angle: float, x: float, z: float) -> Transform:
+    rotation: complex = np.exp(1j * angle)
+    return rotation, np.complex128(complex(z, x))
+
+
+def _to_angle(rotation: complex, translation: complex) -> tuple[float, float, float]:
+    return float(np.angle(rotation)), translation.imag, translation.real
 
 
 class OwnGraph:
@@ -226,8 +266,8 @@ class OwnGraph:
 
     Attributes
     ----------
-    pages : the copy of `mocap.plain` in which these functions have their places.
-    found, graph : all transitions, and the nodes and edges that are kept, as in `mocap.plain`.
+    pages : the copy of `mocap.plain` which calls these functions.
+    transitions, graph : all transitions, and the nodes and edges that are kept, as in `mocap.plain`.
 
     Raises
     ------
@@ -238,12 +278,14 @@ class OwnGraph:
     """
 
     def __init__(self, clips: Sequence[Motion], window: int, threshold: float, by: Tools | None) -> None:
-        self.clips, self.pages = require_alike(clips), pages_of(by, window, threshold)
+        self.clips = require_alike(clips)
+        self.pages = pages_of(by, window, threshold)
         self.by = by or Tools()
         if not 2 <= window <= min(map(len, self.clips)):
             raise MocapError(f"A graph takes a window of two frames up to the shortest clip, got {window}.")
-        self.found = self.pages.find_transitions(self.clips)
-        self.graph: nx.MultiDiGraph = self.pages.prune(self.pages.cut_and_join(self.clips, self.found))
+        self.transitions = self.pages.find_transitions(self.clips)
+        whole = self.pages.cut_and_join(self.clips, self.transitions)
+        self.graph: nx.MultiDiGraph = self.pages.prune(whole)
         if len(self.graph) < 2:
             raise MocapError(f"No walk goes on for ever with transitions below {threshold} m: allow more.")
 
@@ -256,11 +298,11 @@ class OwnGraph:
 
         Raises
         ------
-        ValueError : where no walk comes to the end of the path.
+        ValueError : if no walk reaches the end of the path.
         """
-        search = self.pages.Search(self.clips, self.graph, self.pages.points_along(np.asarray(path, float)))
-        found: OwnWalk = search.walk()
-        return found
+        line = self.pages.points_along(np.asarray(path, float))
+        walk: OwnWalk = self.pages.Search(self.clips, self.graph, line).walk()
+        return walk
 
     def steer(self, command: Callable[[float], tuple[float, float]], seconds: float) -> OwnWalk:
         """Walk for some seconds, and choose at each node the edge that fits the command of that moment.
@@ -271,24 +313,35 @@ class OwnGraph:
             per second.
         seconds : how long to walk.
         """
-        fps, pages = self.clips[0].fps, self.pages
-        search, soon = pages.Search(self.clips, self.graph, pages.points_along(np.eye(2))), round(AHEAD * fps)
-        node, lay, edges, frames = min(self.graph), (1 + 0j, 0j), [], 0
+        fps = self.clips[0].fps
+        frames_ahead = round(AHEAD * fps)
+        search = self.pages.Search(self.clips, self.graph, self.pages.points_along(np.eye(2)))
+        node = min(self.graph)
+        transform = (1 + 0j, 0j)
+        walk: list[Edge] = []
+        frames = 0
         while frames < seconds * fps:
-            ways, tracks = list(self.graph.out_edges(node, keys=True)), []
-            for way in ways:
-                (clip, frame), (turn, move) = way[1], self.graph.edges[way]["lay"]
-                there = turn * search.roots[clip][frame : frame + soon] + move
-                tracks.append(np.concatenate([search.tracks[way], there])[: soon + 1])
-            edges.append(ways[int(self.by.next_edge(lay[0], tracks, *command(frames / fps), fps))])
-            frames += len(search.tracks[edges[-1]]) - 1
-            node, lay = edges[-1][1], pages.product(lay, self.graph.edges[edges[-1]]["lay"])
-        return edges, 1, 0
+            edges = list(self.graph.out_edges(node, keys=True))
+            tracks = [self._track_ahead(search, edge)[: frames_ahead + 1] for edge in edges]
+            number = self.by.next_edge(transform[0], tracks, *command(frames / fps), fps)
+            edge = edges[int(number)]
+            walk.append(edge)
+            frames += len(search.tracks[edge]) - 1
+            transform = self.pages.compose(transform, self.graph.edges[edge]["transform"])
+            node = edge[1]
+        return walk, 1, 0
+
+    def _track_ahead(self, search: Any, edge: Edge) -> Ground:  # noqa: ANN401 (of a copied module)
+        """Return the root's track on an edge, and then to the end of the clip that the edge leads into."""
+        clip, frame = edge[1]
+        rotation, translation = self.graph.edges[edge]["transform"]
+        onward = rotation * search.roots[clip][frame:] + translation
+        return np.concatenate([search.tracks[edge], onward])
 
     def play(self, walk: OwnWalk) -> Motion:
         """Play a walk, shape (F, ...): copy stretches of clip, blend transitions [KGP02, Eqs. 5 and 6]."""
-        roots, turns = self.pages.to_motion(self.clips, self.graph, *walk)
-        return Motion(self.clips[0].skeleton, roots, turns, self.clips[0].fps, "my walk")
+        roots, rotations = self.pages.to_motion(self.clips, self.graph, *walk)
+        return Motion(self.clips[0].skeleton, roots, rotations, self.clips[0].fps, "my walk")
 
 
 def main(file: str) -> int:

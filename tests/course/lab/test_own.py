@@ -50,7 +50,7 @@ def graph(clips, by):
 @pytest.fixture(scope="module")
 def theirs(clips, graph):
     """The package's graph with the transitions of one's own: those on the borders of grids are missing."""
-    found = {match[:4] for match in graph.found}
+    found = {match[:4] for match in graph.transitions}
     every = matching.find_transitions(clips, window=WINDOW, below=BELOW)
     assert len(found) < len(every)
     for t in every:
@@ -86,7 +86,7 @@ def test_nodes_edges_and_transforms_are_the_packages(graph, theirs):
                 if other["kind"] == "transition"
             )
             assert data["cost"] == pytest.approx(cost, abs=1e-9)
-            assert np.allclose(data["lay"], [laid.turn, laid.move], atol=1e-9)
+            assert np.allclose(data["transform"], [laid.turn, laid.move], atol=1e-9)
 
 
 def test_with_the_same_weights_the_walk_is_the_packages_motion_and_stays_on_its_path(graph, theirs, by):
@@ -110,8 +110,8 @@ def test_with_the_same_weights_the_walk_is_the_packages_motion_and_stays_on_its_
 def test_a_steered_walk_takes_the_edges_that_were_chosen_and_knows_where_they_would_lead(graph, by):
     asked = []
 
-    def last(turn, tracks, heading, speed, fps):
-        asked.append((turn, len(tracks), tracks[0][0], heading))
+    def last(rotation, tracks, heading, speed, fps):
+        asked.append((rotation, len(tracks), tracks[0][0], heading))
         return len(tracks) - 1
 
     command = {True: (0.5, 1.0), False: (-0.5, 1.0)}
@@ -121,7 +121,7 @@ def test_a_steered_walk_takes_the_edges_that_were_chosen_and_knows_where_they_wo
     assert all(there[0] == here[1] for here, there in pairwise(taken))
     assert [list(graph.graph.out_edges(edge[0], keys=True))[-1] for edge in taken] == taken
     assert {asked[0][3], asked[-1][3]} == {0.5, -0.5}
-    assert asked[-1][0] == pytest.approx(np.prod([edge["lay"][0] for edge in edges[:-1]]))
+    assert asked[-1][0] == pytest.approx(np.prod([edge["transform"][0] for edge in edges[:-1]]))
     assert 60 <= sum(edge["frames"] for edge in edges) < 90
 
 
@@ -132,7 +132,7 @@ def test_what_holds_no_graph_and_no_walk_is_refused(clips, graph, by):
     refused("resample one first", own.OwnGraph, [clips[0], mocap.resample(clips[0], 10)], WINDOW, 0.05, by)
     nowhere = changed(graph, graph=graph.graph.copy())
     nowhere.graph.remove_edges_from(list(graph.graph.edges))
-    refused("No walk comes to the end of the line", nowhere.follow, [[0, 0], [0, 3]], kind=ValueError)
+    refused("No walk reaches the end of the line", nowhere.follow, [[0, 0], [0, 3]], kind=ValueError)
 
 
 # Two students walk a path: one has solved all, one every second exercise, and is wrong in the others.
