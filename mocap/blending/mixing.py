@@ -6,11 +6,11 @@ how the clips *move*: their velocities, each turned as its clip is laid on the b
 """
 
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
 from mocap._shared.arrays import Array, Mask, Points
+from mocap._shared.records import NamedTuple
 from mocap.blending.clocks import Registration, Weights, frame_times
 from mocap.body import rotations
 from mocap.body.motion import Motion, gather_marks, turning

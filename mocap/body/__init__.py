@@ -8,12 +8,13 @@ Reading order (notebooks 01, 03)
 1. `skeleton`: a tree of joints
 2. `motion`: the body over time; other frame rates; clips in a row
 3. `rotations`: unit quaternions (w, x, y, z) as arrays: product, slerp, conversions
-4. `kinematics`: forward kinematics: from rotations to where every joint is; which joints are hinges
-5. `planar`: turns about the vertical and moves over the ground
-6. `euler`: Euler angles and their traps
-7. `ground_path`: lines on the ground, by metres along them
-8. `limbs`: which joints are the legs, where their hips head, and which joint of a body does what
-9. `fingerprints`: what a clip is known by, whatever it is called
+4. `joint_trees`: from rotations to where every joint is, and velocities, as arrays
+5. `kinematics`: the same of a motion: forward kinematics; which joints are hinges
+6. `planar`: turns about the vertical and moves over the ground
+7. `euler`: Euler angles and their traps
+8. `ground_path`: lines on the ground, by metres along them
+9. `limbs`: which joints are the legs, where their hips head, and which joint of a body does what
+10. `fingerprints`: what a clip is known by, whatever it is called
 
 References
 ----------

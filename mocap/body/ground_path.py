@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline
 
 from mocap._shared.arrays import Array, VectorsLike, frozen
+from mocap._shared.records import dataclass, rebuilding, same_fields
 from mocap.errors import MocapError
 
 FINE = 0.02  # metres between the points of a curve
@@ -61,6 +61,15 @@ class GroundPath:
 
     def __repr__(self) -> str:
         return f"GroundPath({len(self.points)} points, {self.length:.1f} m)"
+
+    def __eq__(self, other: object) -> bool:  # reads: name: Python's word for it
+        return same_fields(self, other) if isinstance(other, GroundPath) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash((len(self.points), self.length))
+
+    def __reduce__(self) -> tuple[Callable[..., Any], tuple[Any, ...]]:
+        return rebuilding(self)
 
     @property
     def along(self) -> Array:

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array, Indices, Mask, VectorsLike, frozen, ranges
+from mocap._shared.records import dataclass, rebuilding, same_fields
 from mocap.body import rotations
+from mocap.body.joint_trees import place_joints, velocities
 from mocap.body.skeleton import Skeleton
-from mocap.errors import MocapError, SkeletonMismatch
+from mocap.errors import MocapError, SkeletonMismatch, shortened
 
 Marks = Mapping[str, NDArray[np.bool_]]
 
@@ -35,13 +38,23 @@ class Motion:
     ------
     MocapError : for wrong shapes, no frames, numbers that are not finite, or quaternions not of length 1.
 
+    Notes
+    -----
+    A motion does not change: its arrays are read-only, and `dataclasses.replace` makes another one. Two
+    motions are equal, `==`, if all fields are: skeleton, every number, rate, name, labels and contacts. Equal
+    motions have one hash. To compare within rounding, use `numpy.allclose` on `positions`.
+
     Examples
     --------
     >>> from mocap.body.skeleton import Skeleton
     >>> bone = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 1, 0]])
     >>> still = Motion(bone, np.zeros((9, 3)), np.tile([1.0, 0, 0, 0], (9, 2, 1)), 30.0, "still")
-    >>> still, still[2:5], still[::3].fps
-    (Motion('still', 9 frames at 30 Hz, 2 joints), Motion('still', 3 frames at 30 Hz, 2 joints), 10.0)
+    >>> still
+    Motion('still', 9 frames at 30 Hz, 0.267 s, 2 joints)
+    >>> len(still[2:5]), still[::3].fps, still[:] == still, still[:3] == still
+    (3, 10.0, True, False)
+    >>> still.positions[0, 1], still.velocities.shape
+    (array([0., 1., 0.]), (9, 2, 3))
 
     Notebook: 01b-motion-files
     """
@@ -107,7 +120,18 @@ class Motion:
         return len(self.root_positions)
 
     def __repr__(self) -> str:
-        return f"Motion('{self.name}', {len(self)} frames at {self.fps:g} Hz, {len(self.skeleton)} joints)"
+        frames = f"{len(self)} {'frame' if len(self) == 1 else 'frames'} at {self.fps:g} Hz"
+        joints = f"{len(self.skeleton)} {'joint' if len(self.skeleton) == 1 else 'joints'}"
+        return f"Motion('{shortened(self.name)}', {frames}, {self.duration:.3g} s, {joints})"
+
+    def __eq__(self, other: object) -> bool:  # reads: name: Python's word for it
+        return same_fields(self, other) if isinstance(other, Motion) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash((self.name, self.fps, len(self), self.skeleton))
+
+    def __reduce__(self) -> tuple[Callable[..., Any], tuple[Any, ...]]:
+        return rebuilding(self)
 
     def __getitem__(self, frames: slice | Sequence[int] | NDArray[np.integer[Any]] | Mask) -> Motion:
         """Take a stretch of frames, a step of n divides the frame rate by n; or frames by number or mask."""
@@ -130,6 +154,29 @@ class Motion:
     def duration(self) -> float:
         """Seconds from the first frame to the last."""
         return (len(self) - 1) / self.fps
+
+    @cached_property
+    def positions(self) -> Array:
+        """Where the joints are in the world, shape (F, J, 3), metres; read-only.
+
+        They are computed at the first use, by `body.forward_kinematics`, and kept: as much memory as three
+        quarters of the rotations.
+        """
+        places = place_joints(self.skeleton, self.root_positions, self.rotations).positions
+        return frozen(places, np.float64)
+
+    @property
+    def velocities(self) -> Array:
+        """Velocities of the joints in the world, shape (F, J, 3), metres per second.
+
+        Central differences of `positions` over two frames; in the first and the last frame, differences to
+        the only neighbour. They are computed at each use.
+
+        Raises
+        ------
+        MocapError : for a motion of one frame.
+        """
+        return velocities(self.positions, self.fps)
 
     # reads: name: public, and promised to those who call it
     def at(self, frames: ArrayLike) -> Motion:
@@ -214,7 +261,7 @@ def concatenate(motions: Sequence[Motion], name: str | None = None) -> Motion:
     >>> bone = Skeleton(["root"], [-1], [[0, 0, 0]])
     >>> still = Motion(bone, np.zeros((4, 3)), np.tile([1.0, 0, 0, 0], (4, 1, 1)), 30.0, "still")
     >>> concatenate([still, still], "stiller")
-    Motion('stiller', 8 frames at 30 Hz, 1 joints)
+    Motion('stiller', 8 frames at 30 Hz, 0.233 s, 1 joint)
 
     Notebook: 00-quickstart
     """

@@ -1,12 +1,13 @@
 """Lay a walk on a line: any line, rounded where it turns faster than a walk should, with feet that stand."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
 from scipy.spatial import cKDTree
 
 from mocap._shared.arrays import Array, Mask
+from mocap._shared.records import dataclass
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
 from mocap.editing.line_rounding import RoundedLine, round_line

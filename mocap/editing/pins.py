@@ -7,13 +7,13 @@ to close, clip(p, low, high) - p. How a joint is turned is such a p as well: a r
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array, Mask, frozen
+from mocap._shared.records import dataclass
 from mocap.body.kinematics import GlobalPoses, forward_kinematics, joint_positions
 from mocap.body.limbs import Leg, find_legs
 from mocap.body.motion import Motion

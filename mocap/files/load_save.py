@@ -130,7 +130,7 @@ def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
     >>> with TemporaryDirectory() as folder:
     ...     save(still, f"{folder}/still.bvh", precision=9)
     ...     load(f"{folder}/still.bvh")
-    Motion('still', 1 frames at 30 Hz, 2 joints)
+    Motion('still', 1 frame at 30 Hz, 0 s, 2 joints)
 
     Notebook: 01b-motion-files
     """

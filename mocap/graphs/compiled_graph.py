@@ -5,13 +5,13 @@ Ground points are complex numbers z + ix, and planar transforms are p â†¦ turn Â
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Mask, Points, ranges
+from mocap._shared.records import dataclass
 from mocap.body.motion import gather_marks
 from mocap.body.planar import heading, on_ground
 from mocap.errors import NoWalk

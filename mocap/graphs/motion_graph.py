@@ -7,7 +7,6 @@ each edge plays some frames, and the frames of a walk are those of its edges in 
 
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
 from itertools import pairwise
 
 import networkx as nx
@@ -16,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from mocap._shared.collector import uncollected
 from mocap._shared.progress import Progress
+from mocap._shared.records import dataclass
 from mocap.body.motion import Motion, require_alike
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError

@@ -12,13 +12,14 @@ pruning by labels.
 
 from collections import Counter
 from collections.abc import Hashable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import StrEnum
 from itertools import permutations
 
 import networkx as nx
 
 from mocap._shared.collector import uncollected
+from mocap._shared.records import dataclass
 from mocap.errors import NoWalk, warn
 from mocap.graphs.components import NO_LABELS, Labels, Nodes, largest_components, reached
 from mocap.graphs.motion_graph import MotionGraph

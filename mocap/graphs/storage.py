@@ -7,7 +7,7 @@ import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import networkx as nx
 import numpy as np
@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from mocap._shared.archives import Arrays, Member, open_archive, pack
 from mocap._shared.progress import Progress
+from mocap._shared.records import NamedTuple
 from mocap.body.fingerprints import fingerprint
 from mocap.body.motion import Motion, require_alike, resample
 from mocap.body.planar import PlanarTransform

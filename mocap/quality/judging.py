@@ -13,13 +13,14 @@ it sees those of knees, elbows, hips, wrists and the neck, not those of shoulder
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from scipy.signal import savgol_filter
 from scipy.spatial import cKDTree
 
 from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.ground_path import GroundPath
 from mocap.body.kinematics import joint_positions

@@ -12,11 +12,12 @@ import time
 from collections import deque
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import NamedTuple, Protocol
+from typing import Protocol
 
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Mask
+from mocap._shared.records import NamedTuple
 from mocap.body.motion import Motion
 from mocap.body.planar import on_ground
 from mocap.body.skeleton import Skeleton
@@ -156,7 +157,7 @@ def as_motion(character: Character, poses: Sequence[Pose], name: str = "steered"
     >>> character = Controller(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
     >>> walked = as_motion(character, [character.step(0.0, 1.0) for _ in range(9)])
     >>> walked, sorted(walked.contacts)
-    (Motion('steered', 9 frames at 30 Hz, 38 joints), ['lfoot', 'ltoes', 'rfoot', 'rtoes'])
+    (Motion('steered', 9 frames at 30 Hz, 0.267 s, 38 joints), ['lfoot', 'ltoes', 'rfoot', 'rtoes'])
     """
     root_positions = np.array([pose.root_position for pose in poses])
     rotations = np.array([pose.rotations for pose in poses])

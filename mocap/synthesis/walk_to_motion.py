@@ -8,11 +8,11 @@ two.
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices
+from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.motion import Motion, gather_marks
 from mocap.body.planar import IDENTITY, PlanarTransform

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -19,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array, Indices, runs
+from mocap._shared.records import dataclass
 from mocap.body import Motion, Skeleton, joint_positions
 from mocap.errors import MocapError
 from mocap.feet.footplants import find_footprints, mark_plants

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
@@ -11,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array, Indices, frozen
 from mocap._shared.progress import Progress
+from mocap._shared.records import dataclass
 from mocap.body.motion import Motion, require_alike, resample
 from mocap.errors import MocapError, warn
 from mocap.matching.transitions import join_clouds
