@@ -10,4 +10,6 @@
 8. `tasks`: work by threads, processes or a cluster
 9. `limits`: a limit of time for code that others wrote
 10. `deprecation`: names that are removed, and warn for one version before
+11. `faces`: the names of a room, imported at their first use; where a name is that a room lacks
+12. `records`: classes with named fields that print in one line, and are compared and pickled by their fields
 """

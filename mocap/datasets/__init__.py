@@ -12,6 +12,6 @@ Reading order (notebooks 01, 10, 11)
 8. `clip_origins`: where clips were read from, to read them again
 """
 
-import lazy_loader
+from mocap._shared import faces
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__getattr__, __dir__, __all__ = faces.attach(__name__, __file__)
