@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import field, replace
 from functools import cached_property
+from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array, Indices, Mask, VectorsLike, frozen, ranges
+from mocap._shared.quantities import check_number, described, numbers_of
 from mocap._shared.records import dataclass, rebuilding, same_fields
 from mocap.body import rotations
 from mocap.body.joint_trees import place_joints, velocities
@@ -81,8 +83,15 @@ class Motion:
         ) -> None: ...
 
     def __post_init__(self) -> None:
-        for key in ("root_positions", "rotations"):
-            object.__setattr__(self, key, frozen(getattr(self, key), np.float64))
+        if not isinstance(self.skeleton, Skeleton):
+            needs = (
+                "a Motion begins with its Skeleton: mocap.Motion(skeleton, root_positions, rotations, fps)"
+            )
+            raise MocapError(f"{needs}, got {described(self.skeleton)}.")
+        for key, example in (("root_positions", "[[0, 1, 0]]"), ("rotations", "[[[1, 0, 0, 0]]]")):
+            numbers = numbers_of(getattr(self, key), key, example)
+            object.__setattr__(self, key, frozen(numbers, np.float64))
+        check_number(self.fps, "fps")
         object.__setattr__(self, "fps", float(self.fps))
         self._check_numbers()
         for key in ("labels", "contacts"):
@@ -135,6 +144,7 @@ class Motion:
 
     def __getitem__(self, frames: slice | Sequence[int] | NDArray[np.integer[Any]] | Mask) -> Motion:
         """Take a stretch of frames, a step of n divides the frame rate by n; or frames by number or mask."""
+        _check_frames(self, frames)
         step = (frames.step or 1) if isinstance(frames, slice) else 1
         if step < 1:
             raise MocapError(f"Frames run forwards only; got a step of {step}.")
@@ -191,7 +201,7 @@ class Motion:
         >>> slide.at([0, 0.25, 7]).root_positions[:, 0]
         array([0.  , 0.25, 1.  ])
         """
-        frames = np.clip(frames, 0, len(self) - 1)
+        frames = np.clip(numbers_of(frames, "at", "[0, 2.5]"), 0, len(self) - 1)
         floor = frames.astype(int)
         ceiling = np.minimum(floor + 1, len(self) - 1)
         fraction = (frames - floor)[:, None]
@@ -200,6 +210,66 @@ class Motion:
         end = self.root_positions[ceiling]
         sampled = rotations.slerp(self.rotations[floor], self.rotations[ceiling], fraction)
         return replace(self[nearest], root_positions=start + fraction * (end - start), rotations=sampled)
+
+
+def _check_frames(motion: Motion, frames: object) -> None:
+    """Raise for frames that are no frame numbers: a number alone, a key, or seconds."""
+    if isinstance(frames, int | np.integer):
+        stretch = f"motion[{frames}:{frames + 1}]" if frames >= 0 else f"motion[{frames}:][:1]"
+        raise MocapError(f"One frame is {stretch}, or motion.positions[{frames}] for its joints.")
+    if isinstance(frames, str):
+        raise MocapError(f"Frames are numbers such as motion[10:20], got {described(frames)}.")
+    parts = (frames.start, frames.stop, frames.step) if isinstance(frames, slice) else (frames,)
+    for part in parts:
+        if isinstance(part, float):
+            seconds = f"{part:g} s are frame {round(part * motion.fps)}, round({part:g} * motion.fps)"
+            raise MocapError(f"Frames are whole numbers, got {part:g}: {seconds}.")
+
+
+def require_motion(motion: object) -> Motion:
+    """Return a motion as it is; raise for anything else, with the motion that may be meant.
+
+    Raises
+    ------
+    MocapError : for a path, a list, a skeleton, a result that holds a motion, and other values.
+
+    Examples
+    --------
+    >>> require_motion("walk.bvh")
+    Traceback (most recent call last):
+    mocap.errors.MocapError: This takes a motion, got the text 'walk.bvh': write mocap.load('walk.bvh').
+    """
+    if isinstance(motion, Motion):
+        return motion
+    needs = f"This takes a motion, got {described(motion)}"
+    if isinstance(motion, str | PathLike):
+        raise MocapError(f"{needs}: write mocap.load({shortened(repr(str(motion)), 60)}).")
+    if isinstance(motion, list | tuple) and any(isinstance(part, Motion) for part in motion):
+        raise MocapError(f"{needs}: pass one of them, such as clips[0], or call it for each.")
+    if isinstance(getattr(motion, "motion", None), Motion):
+        raise MocapError(f"{needs}: pass its motion, result.motion.")
+    if isinstance(motion, Skeleton):
+        raise MocapError(f"{needs}, which is a body without poses: mocap.load reads motions.")
+    raise MocapError(f"{needs}: mocap.load reads one from a file.")
+
+
+def require_motions(motions: object) -> tuple[Motion, ...]:
+    """Return motions as a tuple; raise for a single one, for paths, and for other values.
+
+    Examples
+    --------
+    >>> require_motions(["walk.bvh"])
+    Traceback (most recent call last):
+    mocap.errors.MocapError: This takes a motion, got the text 'walk.bvh': write mocap.load('walk.bvh').
+    """
+    if isinstance(motions, Motion):
+        raise MocapError("This takes a list of motions, got one: write [motion], in brackets.")
+    if isinstance(motions, str | PathLike):
+        load = f"[mocap.load({shortened(repr(str(motions)), 60)})]"
+        raise MocapError(f"This takes a list of motions, got {described(motions)}: write {load}.")
+    if not isinstance(motions, Iterable):
+        raise MocapError(f"This takes a list of motions, got {described(motions)}: write [first, second].")
+    return tuple(require_motion(motion) for motion in motions)
 
 
 def turning(motion: Motion) -> NDArray[np.bool_]:
@@ -236,6 +306,8 @@ def resample(motion: Motion, fps: float) -> Motion:
 
     Notebook: 01b-motion-files
     """
+    require_motion(motion)
+    check_number(fps, "fps")
     if not (np.isfinite(fps) and fps > 0):
         raise MocapError(f"A frame rate must be above 0, got {fps}.")
     if fps == motion.fps:
@@ -295,6 +367,7 @@ def require_alike(motions: Sequence[Motion]) -> tuple[Motion, ...]:
     Traceback (most recent call last):
     mocap.errors.MocapError: 'walk' runs at 120 Hz, 'walk' at 30 Hz: resample one first.
     """
+    motions = require_motions(motions)
     if not motions:
         raise MocapError("This takes one clip or more, got none.")
     fullest = max(motions, key=lambda motion: len(motion.skeleton))

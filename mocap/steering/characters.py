@@ -10,13 +10,14 @@ import cmath
 import math
 import time
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Protocol
 
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Mask
+from mocap._shared.quantities import check_radians, described
 from mocap._shared.records import NamedTuple
 from mocap.body.motion import Motion
 from mocap.body.planar import on_ground
@@ -25,6 +26,7 @@ from mocap.errors import MocapError
 
 OBEYS = math.radians(20)  # between the way of the last third of a second and the heading, at most
 LONGEST = 8.0  # seconds; a turn that takes longer counts as that long
+TEN_TURNS = 20 * math.pi  # radians: a heading beyond them is meant in degrees
 AGAIN = math.radians(5)  # between one heading and the next, for the clock to start again
 
 
@@ -123,6 +125,10 @@ def steer(character: Character, headings: Sequence[float] | Array, speed: float 
     headings : shape (F,), radians; 0 is +z, π/2 is +x.
     speed : metres per second.
 
+    Raises
+    ------
+    MocapError : for headings beyond ten full turns, which are meant in degrees, and for what is no character.
+
     Examples
     --------
     Two seconds ahead, then to the left:
@@ -137,9 +143,16 @@ def steer(character: Character, headings: Sequence[float] | Array, speed: float 
 
     Notebook: 08b-steering
     """
+    if not hasattr(character, "step"):
+        needs = "This steers a character, such as steering.Controller(graph)"
+        raise MocapError(f"{needs}, got {described(character)}.")
+    if not isinstance(headings, Iterable):
+        needs = "Headings are a list, one for each frame"
+        raise MocapError(f"{needs}, got {described(headings)}: write 30 * [{headings}] for 30 frames.")
     poses: list[Pose] = []
     frames_left: list[int] = []
     for heading in headings:
+        check_radians(heading, "heading", largest=TEN_TURNS)
         frames_left.append(character.frames_left)
         poses.append(character.step(float(heading), speed))
     blending = np.array([pose.blending for pose in poses])

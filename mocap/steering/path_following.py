@@ -7,8 +7,8 @@ from functools import partial
 
 import numpy as np
 
-from mocap._shared.arrays import Indices
-from mocap.body.ground_path import GroundPath
+from mocap._shared.arrays import Indices, VectorsLike
+from mocap.body.ground_path import GroundPath, as_path
 from mocap.body.planar import on_ground
 from mocap.errors import MocapError, NoWalk, warn
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph, walk_track
@@ -28,7 +28,7 @@ AGAIN = 1.25  # a repeated search multiplies or divides the price of a seam by t
 
 def follow_path(
     graph: MotionGraph | CompiledGraph,
-    path: GroundPath,
+    path: GroundPath | VectorsLike,
     wishes: Wishes | None = None,
     *,
     settings: Settings | None = None,
@@ -55,7 +55,7 @@ def follow_path(
     Parameters
     ----------
     graph : pruned, so that walks do not end; compile it yourself to follow many paths.
-    path : where to walk.
+    path : where to walk, or its points (x, z), metres.
     wishes : labels, times and the start.
     settings : how thoroughly to search, and what deviations cost.
     bend : the fastest that a walk is turned beyond its own turning, radians per second: `editing.LIMIT`, 100°
@@ -90,7 +90,10 @@ def follow_path(
 
     Notebook: 08-path-synthesis
     """
-    wishes, settings, compiled = wishes or Wishes(), settings or Settings(), compile_graph(graph)
+    compiled = compile_graph(graph)
+    path = as_path(path)
+    wishes = wishes or Wishes()
+    settings = settings or Settings()
     if settings.tries < 1:
         raise MocapError(f"A path takes at least one search, got tries={settings.tries}.")
     measure: Callable[[Found], Followed]
@@ -124,11 +127,11 @@ def follow_path(
 def _require_near(graph: CompiledGraph, followed: Followed) -> None:
     """Raise `NoWalk` for a walk that does not follow the path at all."""
     if followed.off.mean() > FAR and not followed.found.stopped:
-        off = f"The nearest walk is {followed.off.mean():.1f} m off the line on average"
+        distance = f"The nearest walk is {followed.off.mean():.1f} m off the line on average"
         speed = np.abs(np.diff(on_ground(followed.track))).sum() / followed.seconds
         if speed < SLOWEST:
-            raise too_slow(graph, f"{off}, and goes at {speed:.2f} m/s")
-        raise NoWalk(f"{off}: no clips turn as it does; try `bend`, or add clips that turn.")
+            raise too_slow(graph, f"{distance}, and goes at {speed:.2f} m/s")
+        raise NoWalk(f"{distance}: no clips turn as it does; try `bend`, or add clips that turn.")
 
 
 def _tell_departures(followed: Followed, bend: float) -> None:
@@ -136,12 +139,12 @@ def _tell_departures(followed: Followed, bend: float) -> None:
     if departures := followed.departures:
         start, end, worst = max(departures, key=lambda stretch: stretch[2])
         often = "once" if len(departures) == 1 else f"{len(departures)} times"
-        other = "the clips sway so far" if bend else "no clips turn as it does there"
+        cause = "the clips sway so far" if bend else "no clips turn as it does there"
         rounded = followed.bent and followed.bent.rounded[followed.off.argmax()]
-        why = "it turns too fast there" if rounded else other
-        why += "" if bend else "; `bend` turns them, and `follow_as_2002` may come nearer"
+        cause = "it turns too fast there" if rounded else cause
+        cause += "" if bend else "; `bend` turns them, and `follow_as_2002` may come nearer"
         furthest = f"the furthest by {100 * worst:.0f} cm at {start:.1f} to {end:.1f} m"
-        warn(f"The walk leaves the path {often}, {furthest}: {why}.")
+        warn(f"The walk leaves the path {often}, {furthest}: {cause}.")
 
 
 def _best_of(search: Callable[[Settings], Followed], settings: Settings) -> Followed:
@@ -150,11 +153,13 @@ def _best_of(search: Callable[[Settings], Followed], settings: Settings) -> Foll
     Where the best walk still leaves the path, far more walks are kept, of cheap seams and then of free ones.
     """
     best = last = search(settings)
-    for again in range(1, settings.tries):
+    for repetition in range(1, settings.tries):
         if best.excess <= 1 or last.found.stopped:
             return best
-        seam = settings.seam * (AGAIN if best.restless > 1 else 1 / AGAIN)
-        wider = round((1 + again / 2) * (settings.width or 0))
+        change = AGAIN if best.restless > 1 else 1 / AGAIN
+        seam = change * settings.seam
+        width = settings.width or 0
+        wider = round((1 + repetition / 2) * width)
         last = search(replace(settings, seam=seam, width=wider))
         best = min(best, last, key=lambda walk: (walk.progress < 1, walk.excess))
     for share in (1 / 3, 0.0):  # of the price of seams
@@ -179,17 +184,18 @@ def _require_labels(graph: CompiledGraph, labels: Sequence[str], starts: Indices
     nodes = {graph.nodes[start] for start in starts}
     for label in filter(None, labels):
         edges = list(source.out_edges(reached(source, nodes), data=True))
-        if not (nodes := {end for _, end, edge in edges if label in edge["labels"]}):
+        nodes = {end for _, end, edge in edges if label in edge["labels"]}
+        if not nodes:
             can = ", ".join(sorted({name for _, _, edge in edges for name in edge["labels"]})) or "none"
             raise NoWalk(f"No walk comes to the label '{label}' from there; it can reach: {can}.")
 
 
 def cost_along(walks: GroundWalks, route: Route, stand: Stand, edge: SearchEdge) -> tuple[float, Stand]:
     """Give g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖² [KGP02, Eq. 9] after a walk, and where it leads."""
-    rows, points, after = walks.step(stand, edge)
+    rows, points, end = walks.step(stand, edge)
     along = stand.along + np.cumsum(walks.graph.progress[rows])
-    off = np.abs(points - route.at(along))
-    return float((off**2).sum()), after._replace(along=float(along[-1]))
+    distances = np.abs(points - route.at(along))
+    return float((distances**2).sum()), end._replace(along=float(along[-1]))
 
 
 def path_problem(walks: GroundWalks, route: Route) -> Problem:
@@ -200,7 +206,7 @@ def path_problem(walks: GroundWalks, route: Route) -> Problem:
 
 def follow_as_2002(
     graph: MotionGraph | CompiledGraph,
-    path: GroundPath,
+    path: GroundPath | VectorsLike,
     wishes: Wishes,
     *,
     look: tuple[int, int] = (90, 28),
@@ -236,16 +242,17 @@ def follow_as_2002(
     Notebook: 08c-judging-a-search
     """
     compiled = compile_graph(graph)
+    path = as_path(path)
     route = make_route(compiled, path, wishes)
     start = start_of(compiled, route, wishes)
     stand = Stand(complex(start.turn[0]), complex(start.move[0]))
     walks = GroundWalks(compiled)
-    node, problem = compiled.nodes[int(start.node[0])], path_problem(walks, route)
-    result = search_ahead(problem, node, stand, look=look, budget=budget)
+    node = compiled.nodes[int(start.node[0])]
+    result = search_ahead(path_problem(walks, route), node, stand, look=look, budget=budget)
     if not result.walk:
         raise NoWalk(f"The search was {result.stopped} before its first step.")
     edges = np.array([walks.number[edge] for edge in result.walk])
     along = np.cumsum(compiled.progress[walk_track(compiled, edges, stand.turn, stand.move)[1]])
     counts = result.expanded, result.cut, result.stopped
-    found = Found(edges, stand.turn, stand.move, along, result.cost, *counts)
-    return account(compiled, path, route, found)
+    walk = Found(edges, stand.turn, stand.move, along, result.cost, *counts)
+    return account(compiled, path, route, walk)
