@@ -114,7 +114,7 @@ def join(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
 
     Frames a[:i] as they are; then a[i : i+k] mixed with b[j : j+k]; then b[j+k :]. b is first laid on a by
     the planar transform under which the two windows' points agree best. (The paper counts b's window
-    by its last frame; here j is its first, as in `Transition.enter`.)
+    by its last frame; here j is its first, as in `matching.Transition.enter`.)
 
     Parameters
     ----------

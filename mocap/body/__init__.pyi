@@ -11,6 +11,7 @@ from .joint_trees import velocities as velocities
 from .kinematics import forward_kinematics as forward_kinematics
 from .kinematics import joint_positions as joint_positions
 from .limbs import find_legs as find_legs
+from .limbs import name_leg as name_leg
 from .motion import Motion as Motion
 from .motion import concatenate as concatenate
 from .motion import resample as resample

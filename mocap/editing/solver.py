@@ -106,7 +106,7 @@ def solve(
 
     In the paper: [Gle98, objective; finer knots], [LS99, inverse kinematics].
 
-    Steps of Levenberg and Marquardt, `Curve.step`, on the control points c. The time grows with the frames.
+    Steps of Levenberg and Marquardt, `solver.Curve.step`, on the control points c. The time grows with F.
 
     Parameters
     ----------

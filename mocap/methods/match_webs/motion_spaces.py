@@ -215,7 +215,7 @@ def sample_space(
     Parameters
     ----------
     examples : registered clips, from `blending.register`; or examples on a grid, such as those of
-        `parametric_graphs.cut_actions`, whose space can be a node of a graph.
+        `methods.parametric_graphs.cut_actions`, whose space can be a node of a graph.
     measure : a function of a `Motion` that gives d numbers, such as `turn` or `hand_target`.
     count : of random blends, beside the examples. 0 leaves the examples alone.
     scale : shape (d,): amounts of each number that count as equally far, such as 10° and 0.1 m/s. By default

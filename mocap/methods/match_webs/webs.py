@@ -78,8 +78,8 @@ class MatchWeb:
 def build_web(clips: Sequence[Motion], *, below: float = 0.12, progress: Progress = iter) -> MatchWeb:
     """Find all long paths of frames that are alike in a set of clips [KG04, match web].
 
-    The distance is that of `find_transitions`. How paths are found, see `local_paths`: a cell that is no
-    one-dimensional minimum costs more, so that paths follow the floors of valleys.
+    The distance is that of `matching.find_transitions`. How paths are found, see `local_paths`: a cell that
+    is no one-dimensional minimum costs more, so that paths follow the floors of valleys.
 
     Parameters
     ----------
