@@ -115,7 +115,7 @@ CALLS = {
         "files.load_path('path.csv')",
         "files.load_path('path.csv')",
     ),
-    "numbers for points": ("body.GroundPath([0, 6])", "two points (x, z)", "body.GroundPath([[0, 6], [1, 6]])"),
+    "numbers for points": (
         "body.GroundPath([0, 6])",
         "two points (x, z)",
         "body.GroundPath([[0, 0], [0, 6]])",
@@ -229,11 +229,11 @@ CALLS = {
     "a file that is missing": ("mocap.load('walks.bvh')", "No such file", "mocap.load('walk.bvh')"),
     "a folder": (
         "mocap.load('clips')",
-        "[mocap.load(path) for path in Path('clips').glob('*.bvh')]",
-        "[mocap.load(path) for path in Path('clips').glob('*.bvh')]",
+        "[mocap.load(file) for file in Path(folder).glob('*.bvh')]",
+        "[mocap.load(file) for file in Path(folder).glob('*.bvh')]",
     ),
     "a format that is not read": ("mocap.load('walk.fbx')", "mocap reads .amc", "mocap.load('walk.bvh')"),
-    "another format": ("mocap.save(walk, 'w.fbx')", ".bvh and .glb", "mocap.save(walk, 'w.glb')"),
+    "a format that is not written": (
         "mocap.save(walk, 'w.fbx')",
         ".bvh and .glb",
         "mocap.save(walk, 'w.glb')",

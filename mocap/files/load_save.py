@@ -8,7 +8,7 @@ from mocap._shared.arrays import Array
 from mocap._shared.atomic import write_file
 from mocap._shared.quantities import check_number, described
 from mocap.body.motion import Motion, require_motion, turning
-from mocap.errors import MocapError, shortened
+from mocap.errors import MocapError
 from mocap.files import bvh, formats, gltf
 from mocap.files.recordings import Recording
 from mocap.files.rigid_bones import STRETCH
@@ -58,8 +58,8 @@ def load(
     """
     require_path(path)
     if Path(path).is_dir():
-        loop = f"[mocap.load(path) for path in Path({shortened(repr(str(path)), 60)}).glob('*.bvh')]"
-        raise MocapError(f"Cannot read {path}: it is a folder; load its files, {loop}.")
+        loop = "[mocap.load(file) for file in Path(folder).glob('*.bvh')]"
+        raise MocapError(f"Cannot read {path}: Is a directory; its files are loaded by {loop}.")
     for name, number in {"fps": fps, "scale": scale, "stretch": stretch}.items():
         if number is not None:
             check_number(number, name)
