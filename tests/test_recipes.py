@@ -144,6 +144,10 @@ def test_the_file_for_engines_has_one_root_metres_y_up_and_the_animation(recipe,
     assert moved == [document["skins"][0]["skeleton"]]
 
 
+# Debian's Blender of 2022 runs with a younger NumPy, which lacks a name that its importer uses.
+OLD_NAMES = "import numpy\nnumpy.bool = bool\n"
+
+
 def test_the_script_for_blender_is_python_and_writes_an_fbx(tmp_path):
     program, script = programs("Blender, and FBX")
     compile(script, "to_fbx.py", "exec")
@@ -151,13 +155,11 @@ def test_the_script_for_blender_is_python_and_writes_an_fbx(tmp_path):
     if not blender:
         pytest.skip("no Blender here: apt-get install blender")
     run(program, tmp_path)
-    (tmp_path / "to_fbx.py").write_text(script, "utf-8")
+    (tmp_path / "to_fbx.py").write_text(OLD_NAMES + script, "utf-8")
     command = [blender, "--background", "--factory-startup", "--python-exit-code", "1"]
     command += ["--python", "to_fbx.py", "--", "walk.glb", "walk.fbx"]
     here = {**os.environ, "PWD": str(tmp_path)}  # which Blender takes for the current folder
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False, env=here)
-    if "numpy' has no attribute" in done.stdout + done.stderr:
-        pytest.skip("this Blender is older than its NumPy: its importers fail")
     assert done.returncode == 0, done.stdout + done.stderr
     data = (tmp_path / "walk.fbx").read_bytes()
     assert data.startswith(b"Kaydara FBX Binary") and b"lfoot" in data and b"AnimCurve" in data

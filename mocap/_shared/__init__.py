@@ -12,4 +12,5 @@
 10. `deprecation`: names that are removed, and warn for one version before
 11. `faces`: the names of a room, imported at their first use; where a name is that a room lacks
 12. `records`: classes with named fields that print in one line, and are compared and pickled by their fields
+13. `quantities`: checks of numbers that callers pass: their kind and their unit
 """

@@ -48,7 +48,8 @@ def attach(room: str, file: str) -> tuple[Callable[[str], Any], Callable[[], lis
 
 def is_module(room: str, name: str) -> bool:
     """Check whether a room has a file or folder of that name."""
-    return importlib.util.find_spec(f"{room}.{name}") is not None
+    module = f"{room}.{name}"
+    return module in sys.modules or importlib.util.find_spec(module) is not None
 
 
 def missing_name(room: str, name: str, names: list[str]) -> str:

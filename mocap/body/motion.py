@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import field, replace
-from functools import cached_property
+from functools import cached_property, wraps
 from os import PathLike
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,6 +20,7 @@ from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, SkeletonMismatch, shortened
 
 Marks = Mapping[str, NDArray[np.bool_]]
+Resampling = TypeVar("Resampling", bound="Callable[..., Motion]")
 
 
 @dataclass(frozen=True, eq=False)
@@ -285,6 +286,19 @@ def turning(motion: Motion) -> NDArray[np.bool_]:
     return np.asarray(np.abs(np.abs(motion.rotations) - rotations.IDENTITY).max(axis=(0, 2)) > 1e-9)
 
 
+def _of_motion_and_rate(resampling: Resampling) -> Resampling:
+    """Check what is passed; `resample` itself, which a notebook shows, is the method alone."""
+
+    @wraps(resampling)
+    def checking(motion: Motion, fps: float) -> Motion:
+        require_motion(motion)
+        check_number(fps, "fps")
+        return resampling(motion, fps)
+
+    return cast(Resampling, checking)  # with the names of the parameters, for type checkers
+
+
+@_of_motion_and_rate
 def resample(motion: Motion, fps: float) -> Motion:
     """Resample a motion to another frame rate, by `Motion.at`.
 
@@ -306,8 +320,6 @@ def resample(motion: Motion, fps: float) -> Motion:
 
     Notebook: 01b-motion-files
     """
-    require_motion(motion)
-    check_number(fps, "fps")
     if not (np.isfinite(fps) and fps > 0):
         raise MocapError(f"A frame rate must be above 0, got {fps}.")
     if fps == motion.fps:

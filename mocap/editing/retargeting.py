@@ -252,8 +252,6 @@ def wear(motion: Motion, body: Skeleton | Stance) -> Motion:
     >>> worn = wear(walk, child)
     >>> round(float(worn.root_positions[:, 1].mean() / walk.root_positions[:, 1].mean()), 1)
     0.7
-
-    Notebook: 13-retargeting
     """
     motion = with_plants(motion)
     source = stance_of(motion)
