@@ -52,9 +52,9 @@ A room's `__init__.py` lists its files, and its `__init__.pyi` the names that it
 `tests/ROOM`.
 """
 
-import lazy_loader
+from mocap._shared import faces
 
 __version__ = "0.2.0"
 
 # Each name is imported at its first use, so that `import mocap` is quick; `__init__.pyi` lists them.
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__getattr__, __dir__, __all__ = faces.attach(__name__, __file__)

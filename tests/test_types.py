@@ -39,7 +39,7 @@ def module_of(stub):
 
 
 def test_each_room_with_a_face_has_a_stub():
-    lazy = [path for path in PACKAGE.rglob("__init__.py") if "lazy_loader" in path.read_text("utf-8")]
+    lazy = [path for path in PACKAGE.rglob("__init__.py") if "faces.attach(" in path.read_text("utf-8")]
     assert [path.with_suffix(".pyi") for path in sorted(lazy)] == STUBS
     assert {PACKAGE / room / "__init__.pyi" for room in [*FACES, "methods", "."]} == set(STUBS)
 
@@ -59,7 +59,7 @@ def test_a_room_exports_what_its_stub_lists_and_each_name_is_there(stub):
 def test_no_room_lists_a_name_a_second_time():
     for stub in STUBS:
         (attached,) = re.findall(r"^__getattr__.*", stub.with_suffix(".py").read_text("utf-8"), re.MULTILINE)
-        assert attached == "__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)"
+        assert attached == "__getattr__, __dir__, __all__ = faces.attach(__name__, __file__)"
 
 
 # Constructors that take lists -------------------------------------------------------------------------------
@@ -199,7 +199,15 @@ COMPLETED = {
     "from mocap import graphs\ngraphs.": {"build", "prune", "load", "save", "summary", "MotionGraph"},
     "import mocap\nmocap.lo": {"load"},
     "import mocap\nmocap.graphs.bui": {"build"},
-    "import mocap\nmocap.load('walk.bvh').": {"skeleton", "root_positions", "rotations", "fps", "duration"},
+    "import mocap\nmocap.load('walk.bvh').": {
+        "skeleton",
+        "root_positions",
+        "rotations",
+        "fps",
+        "duration",
+        "positions",
+        "velocities",
+    },
     "from mocap import datasets\ndatasets.cmu('16_15').root_p": {"root_positions"},
     "from mocap.methods import match_webs\nmatch_webs.": {"build_web", "search", "MotionSpace"},
     "from mocap import graphs\ngraphs.build(clips, exec": {"executor="},

@@ -11,4 +11,7 @@
  9. `limits`: a time limit for code that others wrote
 10. `deadlines`: a moment at which a search ends with the best that it has
 11. `deprecation`: names that are removed, and warn for one version before
+12. `faces`: the names of a room, imported at their first use; the room of a name that a room lacks
+13. `records`: classes with named fields that print in one line, and are compared and pickled by their fields
+14. `quantities`: checks of numbers that callers pass: their kind and their unit
 """

@@ -1,7 +1,7 @@
 """Types of arrays, and three small functions that many modules use."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Protocol, SupportsFloat
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,7 +11,16 @@ Mask = NDArray[np.bool_]
 Indices = NDArray[np.intp]
 Points = NDArray[np.complexfloating[Any, Any]]
 """Points on the ground, as complex numbers z + ix."""
-VectorsLike = NDArray[Any] | Sequence[Sequence[float] | NDArray[Any]]
+
+
+class Row(Protocol):
+    """Some numbers in a row: a list, a tuple or an array of one axis."""
+
+    def __len__(self) -> int: ...
+    def __getitem__(self, index: int, /) -> SupportsFloat: ...
+
+
+VectorsLike = NDArray[Any] | Sequence[Row]
 """N vectors as callers may pass them: an array of shape (N, K), or N lists or arrays of K numbers each."""
 
 

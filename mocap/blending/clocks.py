@@ -1,7 +1,6 @@
 """Clips on one common clock, and the clock of a blend: the common time of each of its frames."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 
@@ -11,6 +10,7 @@ from scipy.integrate import cumulative_trapezoid
 from scipy.interpolate import CubicHermiteSpline
 
 from mocap._shared.arrays import Array, Points, frozen, runs
+from mocap._shared.records import dataclass
 from mocap.blending.timewarps import Curve
 from mocap.body.motion import Motion
 from mocap.body.planar import on_ground

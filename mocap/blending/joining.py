@@ -117,7 +117,7 @@ def join(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
 
     Frames a[:i] as they are; then a[i : i+k] blended with b[j : j+k]; then b[j+k :]. b is first aligned with
     a by the planar transform under which the two windows' points agree best. (The paper counts b's window by
-    its last frame; here j is its first, as in `Transition.enter`.)
+    its last frame; here j is its first, as in `matching.Transition.enter`.)
 
     Parameters
     ----------

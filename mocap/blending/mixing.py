@@ -6,11 +6,11 @@ how the clips *move*: their velocities, each turned as its clip is laid on the b
 """
 
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
 from mocap._shared.arrays import Array, Mask, Points
+from mocap._shared.records import NamedTuple
 from mocap.blending.clocks import Registration, Weights, frame_times
 from mocap.body import rotations
 from mocap.body.motion import Motion, gather_marks, turning
@@ -44,9 +44,9 @@ def mix(
     With φ for how the blend is turned against the reference and c for a clip's centroid, from one frame to
     the next φ falls by Σ w Δθ and the blend's centroid moves by Σ w R(θ + φ) Δc, with w, θ and φ half-way
     between the frames. The root stands at the mean of the clips' roots as they lie around that centroid;
-    rotations are averaged by `rotations.mean`. (That the transforms' *increments* are averaged is [KG03]'s
-    idea; that they are averaged about the centroid that all clips share is ours. About the world's origin a
-    blend would depend on where its clips were captured.)
+    rotations are averaged by `body.rotations.mean`. (That the transforms' *increments* are averaged is
+    [KG03]'s idea; that they are averaged about the centroid that all clips share is ours. About the world's
+    origin a blend would depend on where its clips were captured.)
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def mix(
         both in seconds, that gives them. A little outside of 0 … 1, say by 0.1, they exaggerate.
     fps : frames per second; the clips' own by default.
     pace : as for `frame_times`.
-    rounds : as for `rotations.mean`; 0 is quicker.
+    rounds : as for `body.rotations.mean`; 0 is quicker.
 
     Returns
     -------
@@ -144,7 +144,7 @@ def poses(
     ----------
     registration, times, shares : as for `mix`.
     course : as from `ground_course`.
-    rounds : as for `rotations.mean`.
+    rounds : as for `body.rotations.mean`.
     """
     root, height, laid = 0j * course.centres, np.zeros(len(times)), []
     for number, (clip, curve) in enumerate(zip(registration.clips, registration.times, strict=True)):

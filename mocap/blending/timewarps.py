@@ -7,14 +7,13 @@ everywhere if and only if the differences of neighbouring control points, divide
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import BSpline
 from scipy.optimize import lsq_linear
 
 from mocap._shared.arrays import Array, Indices, frozen
+from mocap._shared.records import NamedTuple
 from mocap.errors import MocapError
 
 

@@ -8,18 +8,19 @@ Reading order (notebooks 01, 03)
 1. `skeleton`: a tree of joints
 2. `motion`: the body over time; other frame rates; clips in a row
 3. `rotations`: unit quaternions (w, x, y, z) as arrays: product, slerp, conversions
-4. `kinematics`: forward kinematics, from rotations to the positions of all joints; which joints are hinges
-5. `planar`: rotations about the vertical with translations over the ground
-6. `euler`: Euler angles and their traps
-7. `ground_path`: lines on the ground, by metres along them
-8. `limbs`: legs and arms, the heading of the hips, and the role of each joint in a body
-9. `fingerprints`: hashes by which a clip is recognised under any name
+ 4. `joint_trees`: from rotations to the positions of all joints, and velocities, as arrays
+ 5. `kinematics`: the same of a motion: forward kinematics; which joints are hinges
+ 6. `planar`: rotations about the vertical with translations over the ground
+ 7. `euler`: Euler angles and their traps
+ 8. `ground_path`: lines on the ground, by metres along them
+ 9. `limbs`: legs and arms, the heading of the hips, and the role of each joint in a body
+10. `fingerprints`: hashes by which a clip is recognised under any name
 
 References
 ----------
 .. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
 """
 
-import lazy_loader
+from mocap._shared import faces
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__getattr__, __dir__, __all__ = faces.attach(__name__, __file__)

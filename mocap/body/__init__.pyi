@@ -7,9 +7,11 @@ from .ground_path import arcs as arcs
 from .ground_path import circle as circle
 from .ground_path import s_curve as s_curve
 from .ground_path import spline as spline
+from .joint_trees import velocities as velocities
+from .kinematics import forward_kinematics as forward_kinematics
 from .kinematics import joint_positions as joint_positions
-from .kinematics import velocities as velocities
 from .limbs import find_legs as find_legs
+from .limbs import name_leg as name_leg
 from .motion import Motion as Motion
 from .motion import concatenate as concatenate
 from .motion import resample as resample

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from os import PathLike
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline
 
 from mocap._shared.arrays import Array, VectorsLike, frozen
-from mocap.errors import MocapError
+from mocap._shared.quantities import check_radians, described, numbers_of
+from mocap._shared.records import dataclass, rebuilding, same_fields
+from mocap.errors import MocapError, shortened
 
 FINE = 0.02  # metres between the points of a curve
 CLOSEST = 1e-9  # metres; nearer points count as one
@@ -46,7 +48,9 @@ class GroundPath:
         def __init__(self, points: VectorsLike) -> None: ...
 
     def __post_init__(self) -> None:
-        points = np.asarray(self.points, float)
+        if isinstance(self.points, str | PathLike | GroundPath):
+            object.__setattr__(self, "points", as_path(self.points).points)
+        points = numbers_of(self.points, "A path", "[[0, 0], [0, 6]]")
         if points.ndim != 2 or points.shape[1] != 2 or len(points) < 2:
             raise MocapError(f"A path needs two points (x, z) or more, got an array {points.shape}.")
         if not np.isfinite(points).all():
@@ -61,6 +65,15 @@ class GroundPath:
 
     def __repr__(self) -> str:
         return f"GroundPath({len(self.points)} points, {self.length:.1f} m)"
+
+    def __eq__(self, other: object) -> bool:  # reads: name: Python's word for it
+        return same_fields(self, other) if isinstance(other, GroundPath) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash((len(self.points), self.length))
+
+    def __reduce__(self) -> tuple[Callable[..., Any], tuple[Any, ...]]:
+        return rebuilding(self)
 
     @property
     def along(self) -> Array:
@@ -87,6 +100,29 @@ class GroundPath:
         return GroundPath(self.at(np.linspace(0, self.length, max(pieces, 1) + 1)))
 
 
+def as_path(path: GroundPath | VectorsLike) -> GroundPath:
+    """Return a path as it is, and points (x, z) as the polyline through them.
+
+    Raises
+    ------
+    MocapError : for what is neither, such as the name of a file; as for `GroundPath` of points.
+
+    Examples
+    --------
+    >>> as_path([[0, 0], [0, 6]])
+    GroundPath(2 points, 6.0 m)
+    """
+    if isinstance(path, GroundPath):
+        return path
+    if isinstance(path, str | PathLike):
+        read = f"files.load_path({shortened(repr(str(path)), 60)})"
+        raise MocapError(f"This takes a path on the ground, got the name of a file: write {read}.")
+    if not isinstance(path, np.ndarray | list | tuple):
+        needs = "This takes a path on the ground, such as [[0, 0], [0, 6]]"
+        raise MocapError(f"{needs}, got {described(path)}.")
+    return GroundPath(path)
+
+
 def spline(points: VectorsLike) -> GroundPath:
     """Draw a smooth curve through some points, C² where it passes them.
 
@@ -108,7 +144,7 @@ def spline(points: VectorsLike) -> GroundPath:
 
     Notebook: 00-quickstart
     """
-    through = GroundPath(np.asarray(points, float)).points
+    through = as_path(points).points
     knots = np.concatenate([[0.0], np.cumsum(np.sqrt(np.hypot(*np.diff(through, axis=0).T)))])
     curve = CubicSpline(knots, through, bc_type="natural")
     between = np.linspace(0, knots[-1], 50 * len(knots))
@@ -131,6 +167,7 @@ def arcs(start: tuple[float, float], heading: float, pieces: Sequence[tuple[floa
 
     Notebook: 08-path-synthesis
     """
+    check_radians(heading, "heading")
     steps: list[Array] = []
     rotations: list[Array] = []
     for length, turn in pieces:

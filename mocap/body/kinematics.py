@@ -1,13 +1,13 @@
 """Forward kinematics, from local rotations to the positions of all joints; velocities; and hinges."""
 
-from typing import NamedTuple
-
 import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap.body import rotations
+from mocap.body.joint_trees import GlobalPoses as GlobalPoses
+from mocap.body.joint_trees import place_joints
+from mocap.body.joint_trees import velocities as velocities
 from mocap.body.motion import Motion
-from mocap.errors import MocapError
 
 # The largest ratio of a hinge's second singular value to its first. The knees of six sources have 0.008 at
 # most; those of puppy, which are no hinges, 0.45.
@@ -15,19 +15,6 @@ HINGE = 0.05
 
 # Radians (RMS): a joint that rotates less in a clip does not show its axis, and the file's axes are used.
 STILL = 0.01
-
-
-class GlobalPoses(NamedTuple):
-    """The positions of all joints (F, J, 3), metres, and their rotation matrices (F, J, 3, 3).
-
-    Examples
-    --------
-    >>> GlobalPoses(np.zeros((1, 2, 3)), np.tile(np.eye(3), (1, 2, 1, 1))).matrices[0, 1, 2]
-    array([0., 0., 1.])
-    """
-
-    positions: Array
-    matrices: Array
 
 
 def forward_kinematics(motion: Motion) -> GlobalPoses:
@@ -53,19 +40,13 @@ def forward_kinematics(motion: Motion) -> GlobalPoses:
 
     Notebook: 13-retargeting
     """
-    skeleton = motion.skeleton
-    matrices = rotations.to_matrix(np.swapaxes(motion.rotations, 0, 1))  # L_j, which become R_j
-    for joint in range(1, len(skeleton)):
-        matrices[joint] = matrices[skeleton.parents[joint]] @ matrices[joint]
-    positions = np.einsum("jfxy,jy->jfx", matrices[skeleton.parents], skeleton.offsets)
-    positions[0] = motion.root_positions
-    for joint in range(1, len(skeleton)):
-        positions[joint] += positions[skeleton.parents[joint]]
-    return GlobalPoses(np.swapaxes(positions, 0, 1), np.swapaxes(matrices, 0, 1))
+    return place_joints(motion.skeleton, motion.root_positions, motion.rotations)
 
 
 def joint_positions(motion: Motion) -> Array:
     """Compute the positions of all joints by `forward_kinematics`, shape (F, J, 3), metres.
+
+    `Motion.positions` keeps them.
 
     Examples
     --------
@@ -76,34 +57,6 @@ def joint_positions(motion: Motion) -> Array:
     Notebook: 01-skeletons-and-clips
     """
     return forward_kinematics(motion).positions
-
-
-def velocities(positions: Array, fps: float) -> Array:
-    """Differentiate positions over frames: central differences, one-sided at both ends.
-
-    Parameters
-    ----------
-    positions : shape (F, ...), metres; at least two frames.
-    fps : frames per second.
-
-    Returns
-    -------
-    Shape (F, ...), metres per second.
-
-    Raises
-    ------
-    MocapError : for fewer than two frames.
-
-    Examples
-    --------
-    >>> velocities(np.array([0.0, 1.0, 2.0]), 30.0)
-    array([30., 30., 30.])
-
-    Notebook: 01b-motion-files
-    """
-    if len(positions) < 2:
-        raise MocapError(f"A velocity needs at least two frames, got {len(positions)}.")
-    return np.asarray(np.gradient(positions, 1 / fps, axis=0))
 
 
 def hinge_of(motion: Motion, joint: int) -> Array | None:

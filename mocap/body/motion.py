@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import field, replace
+from functools import cached_property, wraps
+from os import PathLike
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array, Indices, Mask, VectorsLike, frozen, ranges
+from mocap._shared.quantities import check_number, described, numbers_of
+from mocap._shared.records import dataclass, rebuilding, same_fields
 from mocap.body import rotations
+from mocap.body.joint_trees import place_joints, velocities
 from mocap.body.skeleton import Skeleton
-from mocap.errors import MocapError, SkeletonMismatch
+from mocap.errors import MocapError, SkeletonMismatch, shortened
 
 Marks = Mapping[str, NDArray[np.bool_]]
+Resampling = TypeVar("Resampling", bound="Callable[..., Motion]")
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,13 +41,23 @@ class Motion:
     ------
     MocapError : for wrong shapes, no frames, numbers that are not finite, or quaternions not of length 1.
 
+    Notes
+    -----
+    A motion does not change: its arrays are read-only, and `dataclasses.replace` makes another one. Two
+    motions are equal, `==`, if all fields are: skeleton, every number, rate, name, labels and contacts. Equal
+    motions have one hash. To compare within rounding, use `numpy.allclose` on `positions`.
+
     Examples
     --------
     >>> from mocap.body.skeleton import Skeleton
     >>> bone = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 1, 0]])
     >>> still = Motion(bone, np.zeros((9, 3)), np.tile([1.0, 0, 0, 0], (9, 2, 1)), 30.0, "still")
-    >>> still, still[2:5], still[::3].fps
-    (Motion('still', 9 frames at 30 Hz, 2 joints), Motion('still', 3 frames at 30 Hz, 2 joints), 10.0)
+    >>> still
+    Motion('still', 9 frames at 30 Hz, 0.267 s, 2 joints)
+    >>> len(still[2:5]), still[::3].fps, still[:] == still, still[:3] == still
+    (3, 10.0, True, False)
+    >>> still.positions[0, 1], still.velocities.shape
+    (array([0., 1., 0.]), (9, 2, 3))
 
     Notebook: 01b-motion-files
     """
@@ -68,8 +84,15 @@ class Motion:
         ) -> None: ...
 
     def __post_init__(self) -> None:
-        for key in ("root_positions", "rotations"):
-            object.__setattr__(self, key, frozen(getattr(self, key), np.float64))
+        if not isinstance(self.skeleton, Skeleton):
+            needs = (
+                "a Motion begins with its Skeleton: mocap.Motion(skeleton, root_positions, rotations, fps)"
+            )
+            raise MocapError(f"{needs}, got {described(self.skeleton)}.")
+        for key, example in (("root_positions", "[[0, 1, 0]]"), ("rotations", "[[[1, 0, 0, 0]]]")):
+            numbers = numbers_of(getattr(self, key), key, example)
+            object.__setattr__(self, key, frozen(numbers, np.float64))
+        check_number(self.fps, "fps")
         object.__setattr__(self, "fps", float(self.fps))
         self._check_numbers()
         for key in ("labels", "contacts"):
@@ -107,10 +130,22 @@ class Motion:
         return len(self.root_positions)
 
     def __repr__(self) -> str:
-        return f"Motion('{self.name}', {len(self)} frames at {self.fps:g} Hz, {len(self.skeleton)} joints)"
+        frames = f"{len(self)} {'frame' if len(self) == 1 else 'frames'} at {self.fps:g} Hz"
+        joints = f"{len(self.skeleton)} {'joint' if len(self.skeleton) == 1 else 'joints'}"
+        return f"Motion('{shortened(self.name)}', {frames}, {self.duration:.3g} s, {joints})"
+
+    def __eq__(self, other: object) -> bool:  # reads: name: Python's word for it
+        return same_fields(self, other) if isinstance(other, Motion) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash((self.name, self.fps, len(self), self.skeleton))
+
+    def __reduce__(self) -> tuple[Callable[..., Any], tuple[Any, ...]]:
+        return rebuilding(self)
 
     def __getitem__(self, frames: slice | Sequence[int] | NDArray[np.integer[Any]] | Mask) -> Motion:
         """Take a stretch of frames, a step of n divides the frame rate by n; or frames by number or mask."""
+        _check_frames(self, frames)
         step = (frames.step or 1) if isinstance(frames, slice) else 1
         if step < 1:
             raise MocapError(f"Frames run forwards only; got a step of {step}.")
@@ -131,6 +166,29 @@ class Motion:
         """Seconds from the first frame to the last."""
         return (len(self) - 1) / self.fps
 
+    @cached_property
+    def positions(self) -> Array:
+        """Where the joints are in the world, shape (F, J, 3), metres; read-only.
+
+        They are computed at the first use, by `body.forward_kinematics`, and kept: as much memory as three
+        quarters of the rotations.
+        """
+        places = place_joints(self.skeleton, self.root_positions, self.rotations).positions
+        return frozen(places, np.float64)
+
+    @property
+    def velocities(self) -> Array:
+        """Velocities of the joints in the world, shape (F, J, 3), metres per second.
+
+        Central differences of `positions` over two frames; in the first and the last frame, differences to
+        the only neighbour. They are computed at each use.
+
+        Raises
+        ------
+        MocapError : for a motion of one frame.
+        """
+        return velocities(self.positions, self.fps)
+
     # reads: name: public, and promised to those who call it
     def at(self, frames: ArrayLike) -> Motion:
         """Sample the motion at frames (N,), such as 2.5: roots on straight lines, rotations by slerp.
@@ -144,7 +202,7 @@ class Motion:
         >>> slide.at([0, 0.25, 7]).root_positions[:, 0]
         array([0.  , 0.25, 1.  ])
         """
-        frames = np.clip(frames, 0, len(self) - 1)
+        frames = np.clip(numbers_of(frames, "at", "[0, 2.5]"), 0, len(self) - 1)
         floor = frames.astype(int)
         ceiling = np.minimum(floor + 1, len(self) - 1)
         fraction = (frames - floor)[:, None]
@@ -153,6 +211,66 @@ class Motion:
         end = self.root_positions[ceiling]
         sampled = rotations.slerp(self.rotations[floor], self.rotations[ceiling], fraction)
         return replace(self[nearest], root_positions=start + fraction * (end - start), rotations=sampled)
+
+
+def _check_frames(motion: Motion, frames: object) -> None:
+    """Raise for frames that are no frame numbers: a number alone, a key, or seconds."""
+    if isinstance(frames, int | np.integer):
+        stretch = f"motion[{frames}:{frames + 1}]" if frames >= 0 else f"motion[{frames}:][:1]"
+        raise MocapError(f"One frame is {stretch}, or motion.positions[{frames}] for its joints.")
+    if isinstance(frames, str):
+        raise MocapError(f"Frames are numbers such as motion[10:20], got {described(frames)}.")
+    parts = (frames.start, frames.stop, frames.step) if isinstance(frames, slice) else (frames,)
+    for part in parts:
+        if isinstance(part, float):
+            seconds = f"{part:g} s are frame {round(part * motion.fps)}, round({part:g} * motion.fps)"
+            raise MocapError(f"Frames are whole numbers, got {part:g}: {seconds}.")
+
+
+def require_motion(motion: object) -> Motion:
+    """Return a motion as it is; raise for anything else, with the motion that may be meant.
+
+    Raises
+    ------
+    MocapError : for a path, a list, a skeleton, a result that holds a motion, and other values.
+
+    Examples
+    --------
+    >>> require_motion("walk.bvh")
+    Traceback (most recent call last):
+    mocap.errors.MocapError: This takes a motion, got the text 'walk.bvh': write mocap.load('walk.bvh').
+    """
+    if isinstance(motion, Motion):
+        return motion
+    needs = f"This takes a motion, got {described(motion)}"
+    if isinstance(motion, str | PathLike):
+        raise MocapError(f"{needs}: write mocap.load({shortened(repr(str(motion)), 60)}).")
+    if isinstance(motion, list | tuple) and any(isinstance(part, Motion) for part in motion):
+        raise MocapError(f"{needs}: pass one of them, such as clips[0], or call it for each.")
+    if isinstance(getattr(motion, "motion", None), Motion):
+        raise MocapError(f"{needs}: pass its motion, result.motion.")
+    if isinstance(motion, Skeleton):
+        raise MocapError(f"{needs}, which is a body without poses: mocap.load reads motions.")
+    raise MocapError(f"{needs}: mocap.load reads one from a file.")
+
+
+def require_motions(motions: object) -> tuple[Motion, ...]:
+    """Return motions as a tuple; raise for a single one, for paths, and for other values.
+
+    Examples
+    --------
+    >>> require_motions(["walk.bvh"])
+    Traceback (most recent call last):
+    mocap.errors.MocapError: This takes a motion, got the text 'walk.bvh': write mocap.load('walk.bvh').
+    """
+    if isinstance(motions, Motion):
+        raise MocapError("This takes a list of motions, got one: write [motion], in brackets.")
+    if isinstance(motions, str | PathLike):
+        load = f"[mocap.load({shortened(repr(str(motions)), 60)})]"
+        raise MocapError(f"This takes a list of motions, got {described(motions)}: write {load}.")
+    if not isinstance(motions, Iterable):
+        raise MocapError(f"This takes a list of motions, got {described(motions)}: write [first, second].")
+    return tuple(require_motion(motion) for motion in motions)
 
 
 def turning(motion: Motion) -> NDArray[np.bool_]:
@@ -168,6 +286,19 @@ def turning(motion: Motion) -> NDArray[np.bool_]:
     return np.asarray(np.abs(np.abs(motion.rotations) - rotations.IDENTITY).max(axis=(0, 2)) > 1e-9)
 
 
+def _of_motion_and_rate(resampling: Resampling) -> Resampling:
+    """Check what is passed; `resample` itself, which a notebook shows, is the method alone."""
+
+    @wraps(resampling)
+    def checking(motion: Motion, fps: float) -> Motion:
+        require_motion(motion)
+        check_number(fps, "fps")
+        return resampling(motion, fps)
+
+    return cast(Resampling, checking)  # with the names of the parameters, for type checkers
+
+
+@_of_motion_and_rate
 def resample(motion: Motion, fps: float) -> Motion:
     """Resample a motion to another frame rate, by `Motion.at`.
 
@@ -214,7 +345,7 @@ def concatenate(motions: Sequence[Motion], name: str | None = None) -> Motion:
     >>> bone = Skeleton(["root"], [-1], [[0, 0, 0]])
     >>> still = Motion(bone, np.zeros((4, 3)), np.tile([1.0, 0, 0, 0], (4, 1, 1)), 30.0, "still")
     >>> concatenate([still, still], "stiller")
-    Motion('stiller', 8 frames at 30 Hz, 1 joints)
+    Motion('stiller', 8 frames at 30 Hz, 0.233 s, 1 joint)
 
     Notebook: 00-quickstart
     """
@@ -248,6 +379,7 @@ def require_alike(motions: Sequence[Motion]) -> tuple[Motion, ...]:
     Traceback (most recent call last):
     mocap.errors.MocapError: 'walk' runs at 120 Hz, 'walk' at 30 Hz: resample one first.
     """
+    motions = require_motions(motions)
     if not motions:
         raise MocapError("This takes one clip or more, got none.")
     fullest = max(motions, key=lambda motion: len(motion.skeleton))

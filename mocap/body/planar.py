@@ -17,8 +17,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array, Points
+from mocap._shared.quantities import check_radians
 from mocap.body import rotations
-from mocap.body.motion import Motion
+from mocap.body.motion import Motion, require_motion
 from mocap.errors import MocapError
 
 Numbers = float | NDArray[np.floating[Any]]
@@ -198,6 +199,8 @@ def place(motion: Motion, direction: float, position: ArrayLike) -> Motion:
 
     Notebook: 03-transforms
     """
+    require_motion(motion)
+    check_radians(direction, "direction")
     target = np.asarray(position, float)
     if target.shape != (2,) or not np.isfinite([direction, *target]).all():
         got = f"{direction} and {target.tolist()}"

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import field
 from functools import cached_property
 from textwrap import shorten
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array, Indices, VectorsLike, frozen
-from mocap.errors import MocapError, SkeletonMismatch
+from mocap._shared.records import dataclass, rebuilding, same_fields
+from mocap.errors import MocapError, SkeletonMismatch, shortened
 
 _LEFT = ("left", "Left", "_l", "_L", "l", "L")
 _RIGHT = ("right", "Right", "_r", "_R", "r", "R")
@@ -38,6 +39,11 @@ class Skeleton:
     Raises
     ------
     MocapError : if one of these does not hold.
+
+    Notes
+    -----
+    Two skeletons are equal, `==`, if all fields are, number by number; equal ones have one hash.
+    `require_same` asks for less: that offsets agree within 1 µm.
 
     Examples
     --------
@@ -119,7 +125,17 @@ class Skeleton:
         return len(self.names)
 
     def __repr__(self) -> str:
-        return f"Skeleton({len(self)} joints, root '{self.names[0]}')"
+        joints = f"{len(self)} {'joint' if len(self) == 1 else 'joints'}"
+        return f"Skeleton({joints}, root '{shortened(self.names[0])}')"
+
+    def __eq__(self, other: object) -> bool:  # reads: name: Python's word for it
+        return same_fields(self, other) if isinstance(other, Skeleton) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash((self.names, self.dofs))
+
+    def __reduce__(self) -> tuple[Callable[..., Any], tuple[Any, ...]]:
+        return rebuilding(self)
 
     def index(self, name: str) -> int:
         """Find a joint by its name."""

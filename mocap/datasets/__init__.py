@@ -13,6 +13,6 @@ Reading order (notebooks 01, 10, 11)
 9. `clip_references`: the clips of a saved graph or web, to find them again and compare them
 """
 
-import lazy_loader
+from mocap._shared import faces
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__getattr__, __dir__, __all__ = faces.attach(__name__, __file__)

@@ -7,7 +7,8 @@ import os
 from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
-from typing import NamedTuple
+
+from mocap._shared.records import NamedTuple
 
 
 class Origin(NamedTuple):

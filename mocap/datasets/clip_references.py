@@ -10,10 +10,11 @@ from collections import defaultdict
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from mocap._shared.archives import Arrays, Layout, Rules
 from mocap._shared.progress import Progress
+from mocap._shared.records import NamedTuple
 from mocap.body.fingerprints import fingerprint
 from mocap.body.motion import Motion, require_alike, resample
 from mocap.datasets.clip_origins import Origin, find_again, is_origin

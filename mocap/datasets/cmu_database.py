@@ -107,8 +107,8 @@ def cmu(
     clip : a trial's name, such as "16_15".
     subject : without `clip`, the person's number.
     kind : without `clip`, a word of the description, such as "walk"; `mocap data list` shows all of them.
-    skeleton : the body that wears the motions, as for `wear`; by default each person's own. A stance, such as
-        `editing.stance_of(cmu("16_15"))`, also says how high the feet stand.
+    skeleton : the body that wears the motions, as for `editing.wear`; by default each person's own. A stance,
+        such as `editing.stance_of(cmu("16_15"))`, also says how high the feet stand.
 
     Returns
     -------
@@ -117,7 +117,7 @@ def cmu(
     Raises
     ------
     MocapError : for a trial that is not listed, or a file that cannot be downloaded, with what to do instead;
-        with `skeleton`, for what `wear` refuses, such as a trial in which a foot never stands.
+        with `skeleton`, for what `editing.wear` refuses, such as a trial in which a foot never stands.
 
     Examples
     --------

@@ -62,7 +62,7 @@ def sample(name: str = "walk_circle") -> Motion:
     Examples
     --------
     >>> sample("walk_straight")
-    Motion('walk_straight', 1158 frames at 120 Hz, 38 joints)
+    Motion('walk_straight', 1158 frames at 120 Hz, 9.64 s, 38 joints)
 
     Notebook: 01-skeletons-and-clips
     """

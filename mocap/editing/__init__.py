@@ -35,6 +35,6 @@ References
 .. [WP95] A. Witkin, Z. Popović, *Motion Warping*, SIGGRAPH 1995, doi 10.1145/218380.218422.
 """
 
-import lazy_loader
+from mocap._shared import faces
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__getattr__, __dir__, __all__ = faces.attach(__name__, __file__)

@@ -1,13 +1,17 @@
 from .bending import LIMIT as LIMIT
+from .bending import Bent as Bent
 from .bending import bend as bend
 from .bodies import body_of as body_of
 from .bodies import keep_turned as keep_turned
 from .bodies import limit_turns as limit_turns
+from .cycles import find_loop as find_loop
 from .cycles import loop as loop
+from .cycles import repeated as repeated
 from .displacements import Displacement as Displacement
 from .displacements import difference as difference
 from .displacements import displaced as displaced
 from .displacements import spline_basis as spline_basis
+from .edits import Level as Level
 from .edits import edit as edit
 from .edits import hierarchy as hierarchy
 from .edits import posed as posed
@@ -18,6 +22,7 @@ from .keys import keys_around as keys_around
 from .keys import offsets as offsets
 from .keys import scaled as scaled
 from .mirroring import mirror as mirror
+from .mirroring import symmetry as symmetry
 from .path_editing import moving_frames as moving_frames
 from .path_editing import on_path as on_path
 from .path_editing import plants_kept as plants_kept
@@ -31,6 +36,7 @@ from .pins import plant_pins as plant_pins
 from .retargeting import copied as copied
 from .retargeting import floor_pins as floor_pins
 from .retargeting import retarget as retarget
+from .retargeting import wear as wear
 from .retiming import retime as retime
 from .solver import REACH as REACH
 from .solver import Basis as Basis

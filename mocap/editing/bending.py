@@ -1,13 +1,15 @@
 """Lay a walk on a line: any line, rounded where it turns faster than a walk should, with feet that stand."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
 from scipy.spatial import cKDTree
 
-from mocap._shared.arrays import Array, Mask
-from mocap.body.ground_path import GroundPath
+from mocap._shared.arrays import Array, Mask, VectorsLike
+from mocap._shared.quantities import check_radians
+from mocap._shared.records import dataclass
+from mocap.body.ground_path import GroundPath, as_path
 from mocap.body.motion import Motion
 from mocap.editing.line_rounding import RoundedLine, round_line
 from mocap.editing.path_editing import Ride, moving_frames, plants_kept, ride_of
@@ -18,6 +20,7 @@ from mocap.feet.footskate import clean_up
 
 LIMIT = float(np.radians(100))  # per second: the fastest that a walk is turned; people reach 90° to 110°
 WILD = 2 * np.pi  # per second: faster than anybody who walks turns; walks on lines that turn fast reach 100°
+FASTEST = 50.0  # radians per second: a larger `limit` is meant in degrees
 FINE = 0.01  # metres between the points of a line from which distances are measured
 MOST = 3  # stretches that a report lists
 
@@ -43,6 +46,11 @@ class Bent:
     ride: Ride
     walked: Array
 
+    def __repr__(self) -> str:
+        line = f"{self.along[-1] / self.path.length:.0%} of {self.path.length:.1f} m"
+        return f"Bent({self.motion!r}, {line}, {100 * self.off.mean():.1f} cm off on average)"
+
+    # reads: name: public, as `Followed.off`
     @cached_property
     def off(self) -> Array:
         """Metres of the root from the line asked for, shape (F,); the sway alone is 1 to 2 cm on average."""
@@ -63,27 +71,36 @@ class Bent:
     @cached_property
     def turned(self) -> Array:
         """How fast the walk is turned beyond what it turns by itself, shape (F - 1,), radians per second."""
-        old, new = moving_frames(self.ride.path, self.ride.along), moving_frames(self.line.path, self.walked)
-        return np.diff(np.asarray(new.angle) - old.angle) * self.motion.fps
+        source = moving_frames(self.ride.path, self.ride.along)
+        target = moving_frames(self.line.path, self.walked)
+        return np.diff(np.asarray(target.angle) - source.angle) * self.motion.fps
 
     def report(self) -> str:
         """Say how well the walk keeps to the line, and where the line was rounded and by how much."""
         as_asked = ~self.rounded if not self.rounded.all() else self.rounded
-        off, fastest = 100 * self.off[as_asked], np.degrees(np.abs(self.turned).max(initial=0.0))
-        where, found = "", self.line.roundings
-        if found:
-            parts = [f"{a:.1f} to {b:.1f} m by up to {100 * far:.0f} cm" for a, b, far in found[:MOST]]
-            more = f" and {len(found) - MOST} more" if len(found) > MOST else ""
-            where = f"{'' if self.rounded.all() else ' elsewhere'}, rounded at {', '.join(parts)}{more}"
-        return (
-            f"{self.motion.duration:.1f} s along {self.along[-1] / self.path.length:.0%} of "
-            f"{self.path.length:.1f} m, {off.mean():.1f} cm off on average, {off.max():.1f} cm at worst"
-            f"{where}; turned by up to {fastest:.0f}° per second, "
-            f"{plants_kept(self.motion, self.laid):.0%} of the plants kept"
-        )
+        distances = 100 * self.off[as_asked]
+        fastest = np.degrees(np.abs(self.turned).max(initial=0.0))
+        reached = f"{self.along[-1] / self.path.length:.0%} of {self.path.length:.1f} m"
+        length = f"{self.motion.duration:.1f} s along {reached}"
+        deviation = f"{distances.mean():.1f} cm off on average, {distances.max():.1f} cm at worst"
+        plants = f"{plants_kept(self.motion, self.laid):.0%} of the plants kept"
+        turned = f"turned by up to {fastest:.0f}° per second"
+        return f"{length}, {deviation}{self._rounded_places()}; {turned}, {plants}"
+
+    def _rounded_places(self) -> str:
+        """Say where the line was rounded, and by how much; nothing if it was not."""
+        roundings = self.line.roundings
+        if not roundings:
+            return ""
+        parts = [f"{a:.1f} to {b:.1f} m by up to {100 * gap:.0f} cm" for a, b, gap in roundings]
+        rest = f" and {len(roundings) - MOST} more" if len(roundings) > MOST else ""
+        elsewhere = "" if self.rounded.all() else " elsewhere"
+        return f"{elsewhere}, rounded at {', '.join(parts[:MOST])}{rest}"
 
 
-def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT, ride: Ride | None = None) -> Bent:
+def bend(
+    motion: Motion, path: GroundPath | VectorsLike, *, limit: float = LIMIT, ride: Ride | None = None
+) -> Bent:
     """Lay a walk on a line, and clean up its feet [Gle01, 5].
 
     Its own path is taken off and the line put in its place [Gle01]. Ours is that it slows down and leans in
@@ -94,7 +111,7 @@ def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT, ride: Ride |
     Parameters
     ----------
     motion : its plants are marked where it has none.
-    path : the line, where on the ground it shall be walked.
+    path : the line, where on the ground it shall be walked, or its points (x, z), metres.
     limit : the fastest that the walk is turned, radians per second; faster only where it turns by itself.
     ride : of the motion, where its path is known better than by `ride_of(motion)`.
 
@@ -126,21 +143,26 @@ def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT, ride: Ride |
 
     Notebook: 12-path-editing
     """
+    path = as_path(path)
+    check_radians(limit, "limit", largest=FASTEST)
     if not limit > 0:
         raise MocapError(f"A walk is turned by more than 0 radians per second, got limit={limit}.")
     motion = with_plants(motion)
     ride = ride or ride_of(motion)
     line = round_line(_reached(path, ride), ride, motion.fps, limit)
-    slowed, own, walked, angle = slow_down(motion, ride, line.path, limit)
+    slowed, *timing = slow_down(motion, ride, line.path, limit)
+    walked = timing[1]
     frames = max(2, int(np.searchsorted(walked, line.path.length + 1e-6)))
-    slowed, own, walked, angle = slowed[:frames], own[:frames], walked[:frames], angle[:frames]
-    way = moving_frames(line.path, walked)
-    flat = (way @ moving_frames(ride.path, own).inverse()).apply_motion(slowed)
-    laid, held = lean(flat, np.asarray(way.angle), angle)
-    bent = Bent(clean_up(laid, held=held), laid, path, line, replace(ride, along=own), walked)
-    if (fastest := np.abs(bent.turned).max(initial=0.0)) > max(WILD, 2 * limit):
-        why = "where it stands, or goes to and fro, its way turns at once; bend a walk that goes on"
-        warn(f"'{shortened(motion.name)}' is turned by up to {np.degrees(fastest):.0f}° per second: {why}.")
+    slowed = slowed[:frames]
+    ridden, walked, angle = (values[:frames] for values in timing)
+    target = moving_frames(line.path, walked)
+    flat = (target @ moving_frames(ride.path, ridden).inverse()).apply_motion(slowed)
+    laid, held = lean(flat, np.asarray(target.angle), angle)
+    bent = Bent(clean_up(laid, held=held), laid, path, line, replace(ride, along=ridden), walked)
+    fastest = np.abs(bent.turned).max(initial=0.0)
+    if fastest > max(WILD, 2 * limit):
+        cause = "where it stands, or goes to and fro, its way turns at once; bend a walk that goes on"
+        warn(f"'{shortened(motion.name)}' is turned by up to {np.degrees(fastest):.0f}° per second: {cause}.")
     return bent
 
 
@@ -153,7 +175,7 @@ def _reached(path: GroundPath, ride: Ride) -> GroundPath:
     ...  for far in (15, 99)]
     [GroundPath(2 points, 15.0 m), GroundPath(2 points, 16.0 m)]
     """
-    most = 3 * ride.path.length + 10.0
-    if path.length <= most:
+    longest = 3 * ride.path.length + 10.0
+    if path.length <= longest:
         return path
-    return GroundPath(np.vstack([path.points[path.along < most], path.at(most)]))
+    return GroundPath(np.vstack([path.points[path.along < longest], path.at(longest)]))

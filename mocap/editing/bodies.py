@@ -5,11 +5,11 @@ Only joints above a pinned one take part. Prices and hinges are ours.
 
 from collections.abc import Mapping, Sequence
 from itertools import combinations
-from typing import NamedTuple
 
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices
+from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.kinematics import forward_kinematics, hinge_of, joint_positions
 from mocap.body.motion import Motion, turning

@@ -9,10 +9,10 @@ is large for a held pose, and for half a stride. Method and measure are ours.
 
 import warnings
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
+from mocap._shared.records import NamedTuple
 from mocap._shared.ties import first_least
 from mocap.blending.joining import join
 from mocap.body import rotations

@@ -6,13 +6,13 @@ answer faster than in about 2 h.
 """
 
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 from scipy import sparse
 from scipy.interpolate import BSpline
 
 from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.errors import MocapError

@@ -2,13 +2,13 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy import sparse
 
 from mocap._shared.arrays import Array, Indices
+from mocap._shared.records import NamedTuple
 from mocap.body.motion import Motion
 from mocap.editing.bodies import Body, body_of, require_reachable, warn_of_gaps
 from mocap.editing.displacements import displaced, spline_basis

@@ -1,7 +1,6 @@
 """Round a line where a walk would have to turn too fast on it: at a corner, or at the cusp of a heart."""
 
 from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
 from scipy.linalg import solveh_banded
@@ -9,6 +8,7 @@ from scipy.ndimage import maximum_filter1d
 from scipy.spatial import cKDTree
 
 from mocap._shared.arrays import Array, Indices
+from mocap._shared.records import NamedTuple
 from mocap.body.ground_path import GroundPath
 from mocap.editing.path_editing import CHORD, Ride, moving_frames
 from mocap.editing.turning import RADIUS, SLOWER, places_on

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array
 from mocap.body import rotations
-from mocap.body.motion import Motion
+from mocap.body.motion import Motion, require_motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened, warn
 
@@ -25,6 +25,7 @@ CLEAR = 0.2  # of the square of the bones: how much better one way must fit than
 KEPT = 1e-6  # of the square of the bones: how much speaks for no turn, where bones leave it open
 ACROSS = np.array([1.0, 0.0, 0.0])  # the world is mirrored in the plane x = 0
 ENDING = "_mirrored"
+OPPOSITE = {"left": "right", "right": "left", "Left": "Right", "Right": "Left"}
 
 
 def symmetry(skeleton: Skeleton) -> tuple[NDArray[np.intp], Array, Array]:
@@ -46,18 +47,19 @@ def symmetry(skeleton: Skeleton) -> tuple[NDArray[np.intp], Array, Array]:
     >>> symmetry(SKELETON)[1].tolist()
     [1.0, 0.0, 0.0]
     """
-    joints, above = range(len(skeleton)), skeleton.parents
+    joints = range(len(skeleton))
+    parents = skeleton.parents
     partners = np.array([skeleton.partner(joint) for joint in joints])
     alike = partners[partners] == joints
-    alike[1:] &= partners[above[1:]] == above[partners[1:]]
+    alike[1:] &= partners[parents[1:]] == parents[partners[1:]]
     if not alike.all():
         name = shortened(skeleton.names[int(alike.argmin())], 40)
         raise MocapError(f"'{name}' has no mirror image: its side has other joints than the other.")
-    apart = skeleton.rest - skeleton.rest[partners]
-    pairs = np.flatnonzero((partners < joints) & (np.linalg.norm(apart, axis=1) > 1e-3))
+    distances = skeleton.rest - skeleton.rest[partners]
+    pairs = np.flatnonzero((partners < joints) & (np.linalg.norm(distances, axis=1) > 1e-3))
     if not len(pairs):
         raise MocapError(f"No left and right joints here: {shortened(', '.join(skeleton.names), 100)}.")
-    across = apart[pairs[0]] / np.linalg.norm(apart[pairs[0]])
+    across = distances[pairs[0]] / np.linalg.norm(distances[pairs[0]])
     across *= 1 if skeleton.side(int(pairs[0])) == "left" else -1
     axis = int(np.abs(across).argmax())
     if abs(across[axis]) > NEAR:
@@ -76,8 +78,8 @@ def _turns(skeleton: Skeleton, partners: NDArray[np.intp], across: Array) -> Arr
     upward = np.cross(across, np.roll(across, 1))  # any direction in the plane, for bones that are opposite
     matrices = np.zeros((len(skeleton), 3, 3))
     for child in range(1, len(skeleton)):
-        bone, other = mirror @ skeleton.offsets[child], skeleton.offsets[partners[child]]
-        matrices[skeleton.parents[child]] += np.outer(bone, other)
+        bone = mirror @ skeleton.offsets[child]
+        matrices[skeleton.parents[child]] += np.outer(bone, skeleton.offsets[partners[child]])
     usual = np.tile(np.eye(3), (len(skeleton), 1, 1))
     for joint, matrix in enumerate(matrices):
         better = np.sum((np.eye(3) + mirror) * matrix)  # how much better 1 fits than -H
@@ -135,30 +137,27 @@ def mirror(motion: Motion) -> Motion:
     >>> bool(abs(there + here) < 1e-9), mirror(walk).name
     (True, 'walk_curve_1_mirrored')
     """
-    skeleton = motion.skeleton
+    skeleton = require_motion(motion).skeleton
     partners, across, turns = symmetry(skeleton)
     lengths = np.linalg.norm(skeleton.offsets, axis=1)
     gaps = np.abs(lengths - lengths[partners])
     if gaps.max() > LOPSIDED:
-        far = f"{1e3 * gaps.max():.0f} mm ({shortened(skeleton.names[gaps.argmax()], 40)})"
-        differ = f"'{shortened(motion.name, 60)}': left and right bones differ by up to {far}"
+        difference = f"{1e3 * gaps.max():.0f} mm ({shortened(skeleton.names[gaps.argmax()], 40)})"
+        differ = f"'{shortened(motion.name, 60)}': left and right bones differ by up to {difference}"
         warn(f"{differ}, so its mirror image does not reach as far.")
-    before = rotations.inverse(turns[skeleton.parents])
-    before[0] = rotations.from_matrix(_reflection(ACROSS) @ _reflection(across))
+    parent_turns = rotations.inverse(turns[skeleton.parents])
+    parent_turns[0] = rotations.from_matrix(_reflection(ACROSS) @ _reflection(across))
     vectors = -motion.rotations[..., 1:] @ _reflection(across)  # (w, v) becomes (w, -H v)
     flipped = np.concatenate([motion.rotations[..., :1], vectors], axis=-1)
-    local = rotations.multiply(before, rotations.multiply(flipped, turns))
-    other = {"left": "right", "right": "left", "Left": "Right", "Right": "Left"}
-    pattern = re.compile("|".join(other))
+    local = rotations.multiply(parent_turns, rotations.multiply(flipped, turns))
+    pattern = re.compile("|".join(OPPOSITE))
+    labels = {pattern.sub(lambda word: OPPOSITE[word[0]], name): mark for name, mark in motion.labels.items()}
     names = dict(zip(skeleton.names, (skeleton.names[joint] for joint in partners), strict=True))
-    return replace(
-        motion,
-        root_positions=motion.root_positions @ _reflection(ACROSS),
-        rotations=local[:, partners],
-        name=mirrored_name(motion.name),
-        labels={pattern.sub(lambda word: other[word[0]], name): mark for name, mark in motion.labels.items()},
-        contacts={names[joint]: mark for joint, mark in motion.contacts.items()},
-    )
+    contacts = {names[joint]: mark for joint, mark in motion.contacts.items()}
+    root_positions = motion.root_positions @ _reflection(ACROSS)
+    name = mirrored_name(motion.name)
+    mirrored = replace(motion, root_positions=root_positions, rotations=local[:, partners], name=name)
+    return replace(mirrored, labels=labels, contacts=contacts)
 
 
 def _reflection(across: Array) -> Array:

@@ -5,7 +5,7 @@ held relative to a frame that moves along its path, and put into the frame that 
 feet slide where the path bends; `feet.clean_up` lets them stand again.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Literal
 
 import numpy as np
@@ -14,6 +14,7 @@ from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
 from mocap._shared.arrays import Array, Points
+from mocap._shared.records import dataclass
 from mocap.body.ground_path import CLOSEST, GroundPath
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform, from_ground, on_ground

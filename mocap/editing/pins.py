@@ -7,16 +7,16 @@ to close, clip(p, low, high) - p. How a joint is turned is such a p as well: a r
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array, Mask, frozen
+from mocap._shared.records import dataclass
 from mocap.body.kinematics import GlobalPoses, forward_kinematics, joint_positions
 from mocap.body.limbs import Leg, find_legs
-from mocap.body.motion import Motion
+from mocap.body.motion import Motion, require_motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.turns import Turn
 from mocap.errors import MocapError
@@ -167,7 +167,10 @@ def pin(
 
     Notebook: 14-levels
     """
+    require_motion(motion)
     number = motion.skeleton.index(joint) if isinstance(joint, str) else int(joint)
+    if isinstance(frames, int | float):
+        raise MocapError(f"A pin takes a list of frames, got {frames}: write [{frames:.0f}].")
     try:
         rows = np.arange(len(motion))[frames if isinstance(frames, slice) else list(frames)]
     except IndexError:
@@ -331,6 +334,7 @@ def require_pins_of(motion: Motion, pins: Pins) -> None:
 
 def with_plants(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
     """Mark when ankles and balls stand, unless the motion says it of all of them."""
+    require_motion(motion)
     legs = find_legs(motion.skeleton) if legs is None else legs
     names = {motion.skeleton.names[joint] for leg in legs for joint in (leg.ankle, leg.ball)}
     return motion if names <= set(motion.contacts) else mark_plants(motion, legs)

@@ -224,9 +224,34 @@ def retarget(motion: Motion, body: Stance, source: Stance, *, scale: float | Non
 
 
 def wear(motion: Motion, body: Skeleton | Stance) -> Motion:
-    """Let another body wear a clip as it was read: mark its plants, and find how both bodies stand.
+    """Retarget a motion as it was read: mark its footplants, find how both bodies stand, call `retarget`.
 
-    The balls of a skeleton alone stand as high as the clip's, times the ratio of the legs.
+    Parameters
+    ----------
+    motion : F frames; its footplants are marked where it has none.
+    body : the skeleton that takes over the motion, such as `mocap.load("child.bvh").skeleton`; or how it
+        stands, from `stance_of`. The balls of a skeleton alone stand as high as the clip's, times the ratio
+        of the legs.
+
+    Returns
+    -------
+    F frames of the other body.
+
+    Raises
+    ------
+    MocapError : for legs that are not found, a clip in which a foot never stands, and as for `retarget`.
+
+    Examples
+    --------
+    A body of 70 % of the size:
+
+    >>> from dataclasses import replace
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")[:240]
+    >>> child = replace(walk.skeleton, offsets=0.7 * walk.skeleton.offsets)
+    >>> worn = wear(walk, child)
+    >>> round(float(worn.root_positions[:, 1].mean() / walk.root_positions[:, 1].mean()), 1)
+    0.7
     """
     motion = with_plants(motion)
     source = stance_of(motion)

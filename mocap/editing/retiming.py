@@ -83,7 +83,7 @@ def at_frames(motion: Motion, frames: ArrayLike) -> Motion:
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_straight")[:9]
     >>> at_frames(walk, [0, 2.5, 8])
-    Motion('walk_straight', 3 frames at 120 Hz, 38 joints)
+    Motion('walk_straight', 3 frames at 120 Hz, 0.0167 s, 38 joints)
     >>> falls = replace(walk, root_positions=np.arange(9)[:, None] ** 2 * [0, -1, 1])
     >>> at_frames(falls, [-1, 0.5, 2.5, 7.5, 9]).root_positions[:, 2].tolist()
     [0.0, 0.375, 6.25, 56.375, 64.0]

@@ -12,13 +12,13 @@ and the weight in place of [Gle98]'s Lagrange multipliers are ours.
 """
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 from scipy import sparse
 from scipy.linalg import solveh_banded
 
 from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple
 from mocap.body.kinematics import forward_kinematics
 from mocap.body.motion import Motion
 from mocap.editing.bodies import Body, body_of, require_reachable, warn_of_gaps
@@ -106,7 +106,7 @@ def solve(
 
     In the paper: [Gle98, objective; finer knots], [LS99, inverse kinematics].
 
-    Steps of Levenberg and Marquardt, `Curve.step`, on the control points c. The time grows with the frames.
+    Steps of Levenberg and Marquardt, `solver.Curve.step`, on the control points c. The time grows with F.
 
     Parameters
     ----------

@@ -6,12 +6,13 @@ along one line. So two bodies are compared as they stand: feet flat, heading +z.
 
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
 
 from mocap._shared.arrays import Array
+from mocap._shared.records import dataclass
 from mocap.body import rotations
 from mocap.body.kinematics import forward_kinematics, joint_positions
 from mocap.body.limbs import FEET, SIDES, Leg, find_legs, heading_by_hips, roles

@@ -4,11 +4,10 @@ A pin is a box for a position. A rotation fits into it as a rotation vector time
 gives the residual of both, in metres. The length is ours.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
 from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.motion import Motion
 

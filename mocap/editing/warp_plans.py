@@ -4,9 +4,9 @@ import math
 import re
 from difflib import get_close_matches
 from pathlib import Path
-from typing import NamedTuple
 
 from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
@@ -160,7 +160,7 @@ def warp(motion: Motion, plan: WarpPlan, *, window: float = HALF_SECOND, feet: b
     >>> walk = sample("walk_straight")
     >>> place = joint_positions(walk)[180, walk.skeleton.index("lhand")] + [0.1, 0.25, 0.0]
     >>> warp(walk, WarpPlan("keys.txt", {180: [Wish(1, "lhand", place, level=False)]}, []))
-    Motion('walk_straight', 1158 frames at 120 Hz, 38 joints)
+    Motion('walk_straight', 1158 frames at 120 Hz, 9.64 s, 38 joints)
     """
     keys, pins = [], []
     for frame, wishes in sorted(plan.wishes.items()):

@@ -6,13 +6,13 @@ together with the knees.
 """
 
 from collections.abc import Mapping
-from typing import NamedTuple
 
 import numpy as np
 from scipy.linalg import solveh_banded
 from scipy.ndimage import binary_propagation
 
 from mocap._shared.arrays import Array, Mask, runs
+from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.feet.leg_track import BACK, BENT, ROUNDING, LegTrack, dot
 

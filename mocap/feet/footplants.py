@@ -7,13 +7,13 @@ generated clip and a captured one.
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 from scipy.ndimage import binary_propagation
 
 from mocap._shared.arrays import Array, Mask
 from mocap._shared.arrays import runs as runs  # which the room exports
+from mocap._shared.records import NamedTuple
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import Leg, find_legs
 from mocap.body.motion import Motion

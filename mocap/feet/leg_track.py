@@ -5,12 +5,11 @@ There is a pose to begin with, and the leg changes as little as its new ankle al
 as it must. Then the whole leg swings at the hip.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.kinematics import GlobalPoses
 from mocap.body.limbs import Leg

@@ -27,6 +27,6 @@ References
 .. [GLTF21] Khronos Group, *glTF 2.0 Specification*, version 2.0.1, 2021.
 """
 
-import lazy_loader
+from mocap._shared import faces
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__getattr__, __dir__, __all__ = faces.attach(__name__, __file__)

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 
 from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple
 from mocap.body import euler, rotations
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError

@@ -1,11 +1,13 @@
 """Read and write motions; the suffix of the file's name decides the format."""
 
 import math
+from os import PathLike
 from pathlib import Path
 
 from mocap._shared.arrays import Array
 from mocap._shared.atomic import write_file
-from mocap.body.motion import Motion, turning
+from mocap._shared.quantities import check_number, described
+from mocap.body.motion import Motion, require_motion, turning
 from mocap.errors import MocapError
 from mocap.files import bvh, formats, gltf
 from mocap.files.recordings import Recording
@@ -54,6 +56,13 @@ def load(
 
     Notebook: 01b-motion-files
     """
+    require_path(path)
+    if Path(path).is_dir():
+        loop = "[mocap.load(file) for file in Path(folder).glob('*.bvh')]"
+        raise MocapError(f"Cannot read {path}: Is a directory; its files are loaded by {loop}.")
+    for name, number in {"fps": fps, "scale": scale, "stretch": stretch}.items():
+        if number is not None:
+            check_number(number, name)
     return read(path, skeleton, fps, scale, stretch).motion
 
 
@@ -76,6 +85,22 @@ def read(
     if suffix == "":
         read_text(path, most=1)  # raises for a file that is not there, and for a folder
     raise MocapError(f"Cannot read {path}: mocap reads {formats.listed()}.")
+
+
+def require_path(path: object) -> None:
+    """Raise unless a value is the path of one file.
+
+    Examples
+    --------
+    >>> require_path(["a.bvh", "b.bvh"])
+    Traceback (most recent call last):
+    mocap.errors.MocapError: This takes one file's path, got a list of 2: [mocap.load(f) for f in paths].
+    """
+    needs = f"This takes one file's path, got {described(path)}"
+    if isinstance(path, list | tuple):
+        raise MocapError(f"{needs}: [mocap.load(f) for f in paths].")
+    if not isinstance(path, str | PathLike):
+        raise MocapError(f"{needs}: write it as text, such as 'walk.bvh'.")
 
 
 def read_angles(path: str | Path, *, skeleton: str | Path | None = None) -> dict[str, Array]:
@@ -130,10 +155,14 @@ def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
     >>> with TemporaryDirectory() as folder:
     ...     save(still, f"{folder}/still.bvh", precision=9)
     ...     load(f"{folder}/still.bvh")
-    Motion('still', 1 frames at 30 Hz, 2 joints)
+    Motion('still', 1 frame at 30 Hz, 0 s, 2 joints)
 
     Notebook: 01b-motion-files
     """
+    if isinstance(motion, str | PathLike) and isinstance(path, Motion):
+        raise MocapError(f"The motion comes first: mocap.save(motion, {str(motion)!r}).")
+    require_motion(motion)
+    require_path(path)
     path = Path(path)
     if not 0 <= precision <= 15:
         raise MocapError(f"precision must be 0 to 15 digits, got {precision}.")

@@ -1,8 +1,7 @@
 """What a motion file says, besides the motion: its own angles, and by how much its bones stretch."""
 
-from typing import NamedTuple
-
 from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple
 from mocap.body.motion import Motion
 
 

@@ -5,18 +5,18 @@ Ground points are complex numbers z + ix, and planar transforms are p ↦ turn �
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Mask, Points, ranges
+from mocap._shared.records import dataclass
 from mocap.body.motion import gather_marks
 from mocap.body.planar import heading, on_ground
 from mocap.errors import NoWalk
 from mocap.graphs.edge_tables import Edge, EdgeTable, Hops, clip_rows, edge_table, find_hops, require_node
-from mocap.graphs.motion_graph import MotionGraph, Node
+from mocap.graphs.motion_graph import MotionGraph, Node, require_graph
 
 AHEAD = (1 / 4, 1 / 2, 3 / 4)  # seconds
 LEAST = 0.3  # metres per second: standing counts as this, so that no walk stands for ever; γ in [KGP02, 5.1]
@@ -45,7 +45,7 @@ class CompiledGraph(EdgeTable):
     nodes: list[Node]
     edges: list[Edge]
     target: Indices
-    at: Points
+    at: Points  # reads: name: public, and read by searches everywhere
     ahead: Points
     going: Array
     ground: Points
@@ -96,8 +96,9 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
     """
     if isinstance(graph, CompiledGraph):
         return graph
+    require_graph(graph)
     kinds = graph.graph.edges(keys=True, data="kind")
-    ordered = sorted(kinds, key=lambda edge: (edge[3] == "transition", edge))
+    ordered = sorted(kinds, key=lambda edge: (edge[-1] == "transition", edge))
     edges = [(start, end, key) for start, end, key, _ in ordered]
     if not edges:
         raise NoWalk("The graph has no edges.")
@@ -128,20 +129,22 @@ def _standing(graph: MotionGraph, nodes: Indices, roots: Points) -> tuple[Points
     speed = (root(last) - root(last - back)) / back
     steps = [frame + max(1, round(graph.fps * seconds)) for seconds in AHEAD]
     ahead = np.stack([root(then) + speed * np.maximum(then - last, 0) for then in steps], axis=1)
-    way = ahead[:, -1] - root(frame)
+    direction = ahead[:, -1] - root(frame)
     turns = np.concatenate([motion.rotations[:, 0] for motion in graph.clips])
     faces = heading(turns[clip_rows(graph.clips, nodes)])
-    return root(frame), ahead, np.where(np.abs(way) > 0.1, np.angle(way), faces)
+    return root(frame), ahead, np.where(np.abs(direction) > 0.1, np.angle(direction), faces)
 
 
 def _tracks(graph: MotionGraph, edges: EdgeTable, roots: Points) -> tuple[Points, Array]:
     """Follow the root along every edge, blended as the poses are [KGP02, Eq. 5]: places, and steps."""
-    turn, move = edges.turn[edges.of], edges.move[edges.of]
-    here, there = (roots[clip_rows(graph.clips, some)] for some in (edges.here, edges.there))
-    ground = edges.alpha * here + (1 - edges.alpha) * (turn * there + move)
+    turn = edges.turn[edges.of]
+    move = edges.move[edges.of]
+    source_roots = roots[clip_rows(graph.clips, edges.here)]
+    target_roots = roots[clip_rows(graph.clips, edges.there)]
+    ground = edges.alpha * source_roots + (1 - edges.alpha) * (turn * target_roots + move)
     step = np.abs(np.diff(ground, prepend=0))
-    before = clip_rows(graph.clips, edges.here[edges.first] - np.array([0, 1]))
-    step[edges.first] = np.abs(ground[edges.first] - roots[before])
+    preceding = clip_rows(graph.clips, edges.here[edges.first] - np.array([0, 1]))
+    step[edges.first] = np.abs(ground[edges.first] - roots[preceding])
     return ground, step
 
 

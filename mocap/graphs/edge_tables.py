@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Mask, Points, ranges
+from mocap._shared.records import dataclass
 from mocap.blending.weights import cubic_weights
 from mocap.body.motion import Motion
 from mocap.body.planar import IDENTITY, PlanarTransform

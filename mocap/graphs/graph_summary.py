@@ -1,12 +1,12 @@
 """A graph for people: what it can play, how soon a walk can turn off; and as GraphML for other tools."""
 
 from pathlib import Path
-from typing import NamedTuple
 
 import networkx as nx
 import numpy as np
 
 from mocap._shared.atomic import replacing
+from mocap._shared.records import NamedTuple
 from mocap.errors import MocapError, printable
 from mocap.graphs.components import Labels, reached
 from mocap.graphs.motion_graph import MotionGraph, Node

@@ -7,8 +7,8 @@ each edge plays some frames, and the frames of a walk are those of its edges in 
 
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
 from itertools import pairwise
+from os import PathLike
 
 import networkx as nx
 import numpy as np
@@ -16,7 +16,9 @@ from numpy.typing import ArrayLike
 
 from mocap._shared.collector import uncollected
 from mocap._shared.progress import Progress
-from mocap.body.motion import Motion, require_alike
+from mocap._shared.quantities import check_frames, check_threshold, described
+from mocap._shared.records import dataclass
+from mocap.body.motion import Motion, require_alike, require_motions
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError
 from mocap.graphs.components import Labels
@@ -69,6 +71,27 @@ class MotionGraph:
         return sum(edge_kind == kind for _, _, edge_kind in self.graph.edges(data="kind"))
 
 
+def require_graph(graph: object) -> MotionGraph:
+    """Return a motion graph as it is; raise for anything else, with the call that makes one.
+
+    Examples
+    --------
+    >>> require_graph("graph.npz")
+    Traceback (most recent call last):
+    mocap.errors.MocapError: This takes a MotionGraph, got the text 'graph.npz': graphs.load reads one.
+    """
+    if isinstance(graph, MotionGraph):
+        return graph
+    needs = f"This takes a MotionGraph, got {described(graph)}"
+    if isinstance(graph, nx.Graph):
+        raise MocapError(f"{needs}, its field `graph`: pass the MotionGraph itself.")
+    if isinstance(graph, list | tuple | Motion):
+        raise MocapError(f"{needs}: graphs.build(clips, window=10, threshold=0.04) makes one of clips.")
+    if isinstance(graph, str | PathLike):
+        raise MocapError(f"{needs}: graphs.load reads one.")
+    raise MocapError(f"{needs}: the graph comes first, then what is asked of it.")
+
+
 def build(  # noqa: PLR0913 (the parameters of `find_transitions`)
     clips: Sequence[Motion],
     *,
@@ -108,6 +131,8 @@ def build(  # noqa: PLR0913 (the parameters of `find_transitions`)
     Notebook: 00-quickstart
     """
     _require_names(clips)
+    check_frames(window, "A window", clips[0].fps if len(clips) else None)
+    check_threshold(threshold)
     transitions = find_transitions(
         clips,
         window=window,
@@ -158,6 +183,7 @@ def from_transitions(
     Notebook: 05b-choice-points
     """
     _require_names(clips)
+    check_frames(window, "A window", clips[0].fps if len(clips) else None)
     clips = require_alike(clips)
     for t in transitions:
         for clip, start in ((t.source, t.leave), (t.target, t.enter)):
@@ -209,7 +235,7 @@ def cut_and_join(clips: Sequence[Motion], transitions: Sequence[Transition], win
 
 
 def _require_names(clips: Sequence[Motion]) -> None:
-    names = [clip.name for clip in clips]
+    names = [clip.name for clip in require_motions(clips)]
     if twice := sorted({name for name in names if names.count(name) > 1}):
         raise MocapError(f"Clips need different names; given twice: {', '.join(twice)}.")
 
@@ -250,6 +276,7 @@ def merge_choice_points(motion_graph: MotionGraph, *, within: int, threshold: fl
 
     Notebook: 08c-judging-a-search
     """
+    check_threshold(threshold)
     if not threshold > 0:
         raise MocapError(f"The threshold must be above 0 m, got {threshold} m.")
     clips = motion_graph.clips

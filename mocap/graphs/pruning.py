@@ -12,16 +12,17 @@ pruning by labels.
 
 from collections import Counter
 from collections.abc import Hashable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import StrEnum
 from itertools import permutations
 
 import networkx as nx
 
 from mocap._shared.collector import uncollected
+from mocap._shared.records import dataclass
 from mocap.errors import NoWalk, warn
 from mocap.graphs.components import NO_LABELS, Labels, Nodes, largest_components, reached
-from mocap.graphs.motion_graph import MotionGraph
+from mocap.graphs.motion_graph import MotionGraph, require_graph
 
 
 def prune(motion_graph: MotionGraph, *, by_labels: bool = False) -> MotionGraph:
@@ -58,6 +59,7 @@ def prune(motion_graph: MotionGraph, *, by_labels: bool = False) -> MotionGraph:
 
     Notebook: 00-quickstart
     """
+    require_graph(motion_graph)
     return replace(motion_graph, graph=prune_graph(motion_graph.graph, by_labels=by_labels).graph)
 
 
@@ -178,43 +180,53 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
 
     Notebook: 06b-pruning-clips
     """
-    found = largest_components(graph, by_labels)
-    components = {labels: nodes for labels, (nodes, _) in found.items() if nodes}
+    largest = largest_components(graph, by_labels)
+    components = {labels: nodes for labels, (nodes, _) in largest.items() if nodes}
     if not components:
-        one = " of edges with the same labels" if len(found) > 1 else ""
-        raise NoWalk(f"The graph has no cycle{one}, so a walk through it ends: allow costlier transitions.")
+        edges = " of edges with the same labels" if len(largest) > 1 else ""
+        raise NoWalk(f"The graph has no cycle{edges}, so a walk through it ends: allow costlier transitions.")
     kept: Nodes = frozenset().union(*components.values())
     pruned = graph.copy()  # its nodes keep their order, which random walks depend on
     pruned.remove_nodes_from([node for node in graph if node not in kept])
-    frames = {labels: count for labels, (_, count) in found.items()}
+    frames = {labels: count for labels, (_, count) in largest.items()}
     for message in _shortcomings(frames, least_frames, pruned, components):
         warn(message)
-    on_cycle = set(nx.nodes_with_selfloops(graph))
-    on_cycle.update(*(part for part in nx.strongly_connected_components(graph) if len(part) > 1))
-    after, before = reached(graph, kept), reached(graph.reverse(copy=False), kept)
-    reasons = {}
-    for node in graph:
-        if node not in kept:
-            cycle, aside = node in on_cycle, Reason.ASIDE if node in after else Reason.UNREACHED
-            reasons[node] = Reason.DEAD_END if not cycle else Reason.SINK if node not in before else aside
+    reasons = _reasons(graph, kept)
     ends = ((edge, edge[0] if edge[1] in kept else edge[1]) for edge in graph.edges(keys=True))
     removed = {edge: reasons[end] for edge, end in ends if end in reasons}
     return Pruning(pruned, components, removed, tuple(reasons))
 
 
+def _reasons(graph: nx.MultiDiGraph, kept: Nodes) -> dict[Hashable, Reason]:
+    """Find why each node that is not kept is removed, in the order of the graph."""
+    on_cycle = set(nx.nodes_with_selfloops(graph))
+    on_cycle.update(*(part for part in nx.strongly_connected_components(graph) if len(part) > 1))
+    descendants = reached(graph, kept)
+    ancestors = reached(graph.reverse(copy=False), kept)
+
+    def reason(node: Hashable) -> Reason:
+        if node not in on_cycle:
+            return Reason.DEAD_END
+        if node not in ancestors:
+            return Reason.SINK
+        return Reason.ASIDE if node in descendants else Reason.UNREACHED
+
+    return {node: reason(node) for node in graph if node not in kept}
+
+
 def _shortcomings(
-    frames: Mapping[Labels, int], least: int, graph: nx.MultiDiGraph, components: Mapping[Labels, Nodes]
+    frames: Mapping[Labels, int], minimum: int, graph: nx.MultiDiGraph, components: Mapping[Labels, Nodes]
 ) -> Iterator[str]:
     """Say of which label sets fewer frames stay than asked for, and which components do not reach another."""
     for labels, count in frames.items():
-        together = NO_LABELS.union(*(other for other in frames if other < labels))
-        if count < least and (labels != together or not labels):
+        together = NO_LABELS.union(*(subset for subset in frames if subset < labels))
+        if count < minimum and (labels != together or not labels):
             kind = f" with {name(labels)}" if len(frames) > 1 else ""
-            yield f"{count} frames of clip stay{kind}, fewer than the {least} asked for."
-    ways = {labels: reached(graph, nodes) for labels, nodes in components.items()}
-    for here, there in permutations(components, 2):
-        if not components[there] & ways[here]:
+            yield f"{count} frames of clip stay{kind}, fewer than the {minimum} asked for."
+    descendants = {labels: reached(graph, nodes) for labels, nodes in components.items()}
+    for source, target in permutations(components, 2):
+        if not components[target] & descendants[source]:
             yield (
-                f"No way leads from {name(here)} ({len(components[here])} nodes) to {name(there)} "
-                f"({len(components[there])} nodes): allow costlier transitions between the two."
+                f"No way leads from {name(source)} ({len(components[source])} nodes) to {name(target)} "
+                f"({len(components[target])} nodes): allow costlier transitions between the two."
             )

@@ -5,13 +5,14 @@ The file holds no frames of the clips and no code: it is safe to read a file fro
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import networkx as nx
 import numpy as np
 
 from mocap._shared.archives import Arrays, Kind, Layout, Rules, read_archive, write_archive
 from mocap._shared.progress import Progress
+from mocap._shared.records import NamedTuple
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.datasets import clip_references

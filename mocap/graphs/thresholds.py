@@ -3,13 +3,13 @@
 from bisect import bisect_left
 from collections.abc import Sequence
 from functools import partial
-from typing import NamedTuple
 
 import networkx as nx
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array, Indices
+from mocap._shared.records import NamedTuple
 from mocap.body.kinematics import velocities
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform

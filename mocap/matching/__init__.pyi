@@ -3,6 +3,7 @@ from .minima import local_minima as local_minima
 from .point_clouds import align as align
 from .point_clouds import distinct_joints as distinct_joints
 from .point_clouds import point_cloud as point_cloud
+from .time_paths import path_mean as path_mean
 from .time_paths import time_path as time_path
 from .transitions import Transition as Transition
 from .transitions import find_transitions as find_transitions

@@ -20,13 +20,14 @@ a clip is or how far it goes, and 32 bits are enough.
 """
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple
 from mocap.body.motion import Motion, require_alike
 from mocap.body.planar import on_ground
 from mocap.errors import MocapError

@@ -4,13 +4,14 @@ A grid that is too large to hold is cut into blocks, one for a worker at a time.
 """
 
 from concurrent.futures import Executor
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array, Indices
 from mocap._shared.progress import Progress
+from mocap._shared.records import NamedTuple
 from mocap._shared.tasks import run_in_order
 from mocap.body.planar import from_ground
 from mocap.errors import MocapError

@@ -20,12 +20,13 @@ symmetric rules of [SC78] for P = 1 and P = 1/2. (That [KG03] weighs all steps a
 With the weight 1 for all of them, a known timewarp comes back 16 % less exactly. The free ends are ours.)
 """
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Indices, Mask
+from mocap._shared.records import NamedTuple
 from mocap._shared.ties import first_least
 from mocap.errors import MocapError
 

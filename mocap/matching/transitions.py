@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
-from typing import Any, NamedTuple, overload
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array
 from mocap._shared.progress import Progress
+from mocap._shared.records import NamedTuple, dataclass
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError

@@ -8,6 +8,6 @@ Reading order (notebooks 16 to 19)
 4. `groups`: a crowd that was planned: group graphs, and characters for their members (19)
 """
 
-import lazy_loader
+from mocap._shared import faces
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__getattr__, __dir__, __all__ = faces.attach(__name__, __file__)

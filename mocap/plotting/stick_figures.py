@@ -98,7 +98,7 @@ class StickFigure:
     >>> from mocap.plotting import ground_axes
     >>> walk = datasets.sample("walk_straight")
     >>> body = StickFigure(walk.skeleton, ground_axes(ax=Figure().add_subplot(projection="3d")))
-    >>> moved = body.pose(joint_positions(walk)[30])  # `explore` draws only these again
+    >>> moved = body.pose(joint_positions(walk)[30])  # `widgets.explore` draws only these again
     >>> len(moved)  # the bones, and the head
     2
 

@@ -18,6 +18,6 @@ References
 .. [Winter09] D. A. Winter, *Biomechanics and Motor Control of Human Movement*, 4th ed., Wiley 2009.
 """
 
-import lazy_loader
+from mocap._shared import faces
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__getattr__, __dir__, __all__ = faces.attach(__name__, __file__)

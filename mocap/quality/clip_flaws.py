@@ -5,11 +5,11 @@ subjects 02, 03, 16, 49 and 127.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import NamedTuple
 
 import numpy as np
 
 from mocap._shared.arrays import Array, Mask, runs
+from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion

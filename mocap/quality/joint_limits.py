@@ -12,11 +12,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
 
 import numpy as np
 
 from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple
 from mocap.body.kinematics import GlobalPoses, forward_kinematics
 from mocap.body.limbs import Leg
 from mocap.body.motion import Motion

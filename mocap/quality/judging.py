@@ -13,14 +13,14 @@ knees, elbows, hips, wrists and the neck, not at shoulders, ankles and fingers.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from scipy.signal import savgol_filter
 from scipy.spatial import cKDTree
 
 from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple, dataclass
 from mocap.body import rotations
 from mocap.body.ground_path import GroundPath
 from mocap.body.kinematics import joint_positions

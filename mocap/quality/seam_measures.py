@@ -7,12 +7,12 @@ that are usual in its clips.
 """
 
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from mocap._shared.arrays import Array, Mask, runs
+from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import Leg, find_legs

@@ -1,10 +1,13 @@
 from .characters import Character as Character
+from .characters import CommandClock as CommandClock
 from .characters import measure_delay as measure_delay
 from .characters import steer as steer
+from .followed import Followed as Followed
 from .foot_turning import FootTurner as FootTurner
 from .graph_control import Controller as Controller
 from .judged_control import command_headings as command_headings
 from .judged_control import judge_control as judge_control
+from .layered_search import LayeredSearch as LayeredSearch
 from .path_following import follow_as_2002 as follow_as_2002
 from .path_following import follow_path as follow_path
 from .path_objective import Settings as Settings

@@ -10,13 +10,15 @@ import cmath
 import math
 import time
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
-from typing import NamedTuple, Protocol
+from typing import Protocol
 
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Mask
+from mocap._shared.quantities import check_radians, described
+from mocap._shared.records import NamedTuple
 from mocap.body.motion import Motion
 from mocap.body.planar import on_ground
 from mocap.body.skeleton import Skeleton
@@ -24,6 +26,7 @@ from mocap.errors import MocapError
 
 OBEYS = math.radians(20)  # between the way of the last third of a second and the heading, at most
 LONGEST = 8.0  # seconds; a turn that takes longer counts as that long
+TEN_TURNS = 20 * math.pi  # radians: a heading beyond them is meant in degrees
 AGAIN = math.radians(5)  # between one heading and the next, for the clock to start again
 
 
@@ -122,6 +125,10 @@ def steer(character: Character, headings: Sequence[float] | Array, speed: float 
     headings : shape (F,), radians; 0 is +z, π/2 is +x.
     speed : metres per second.
 
+    Raises
+    ------
+    MocapError : for headings beyond ten full turns, which are meant in degrees, and for what is no character.
+
     Examples
     --------
     Two seconds ahead, then to the left:
@@ -136,9 +143,16 @@ def steer(character: Character, headings: Sequence[float] | Array, speed: float 
 
     Notebook: 08b-steering
     """
+    if not hasattr(character, "step"):
+        needs = "This steers a character, such as steering.Controller(graph)"
+        raise MocapError(f"{needs}, got {described(character)}.")
+    if not isinstance(headings, Iterable):
+        needs = "Headings are a list, one for each frame"
+        raise MocapError(f"{needs}, got {described(headings)}: write 30 * [{headings}] for 30 frames.")
     poses: list[Pose] = []
     frames_left: list[int] = []
     for heading in headings:
+        check_radians(heading, "heading", largest=TEN_TURNS)
         frames_left.append(character.frames_left)
         poses.append(character.step(float(heading), speed))
     blending = np.array([pose.blending for pose in poses])
@@ -156,7 +170,7 @@ def as_motion(character: Character, poses: Sequence[Pose], name: str = "steered"
     >>> character = Controller(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
     >>> walked = as_motion(character, [character.step(0.0, 1.0) for _ in range(9)])
     >>> walked, sorted(walked.contacts)
-    (Motion('steered', 9 frames at 30 Hz, 38 joints), ['lfoot', 'ltoes', 'rfoot', 'rtoes'])
+    (Motion('steered', 9 frames at 30 Hz, 0.267 s, 38 joints), ['lfoot', 'ltoes', 'rfoot', 'rtoes'])
     """
     root_positions = np.array([pose.root_position for pose in poses])
     rotations = np.array([pose.rotations for pose in poses])

@@ -5,12 +5,13 @@ walk that is bent asks by how much it must be turned beyond what it turns by its
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache, partial
 
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Mask, runs
+from mocap._shared.records import dataclass
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
 from mocap.body.planar import IDENTITY, PlanarTransform, from_ground, heading, on_ground

@@ -2,11 +2,11 @@
 
 import warnings
 from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
 
 from mocap._shared.arrays import Array, runs
+from mocap._shared.records import NamedTuple
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion

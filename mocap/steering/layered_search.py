@@ -11,12 +11,13 @@ Ground points are complex numbers z + ix, and p ↦ turn · p + move lays the cl
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array, Indices, Mask, Points
+from mocap._shared.records import NamedTuple
 from mocap._shared.ties import in_order
 from mocap.graphs.compiled_graph import CompiledGraph
 

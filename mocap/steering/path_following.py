@@ -10,9 +10,9 @@ from operator import attrgetter
 
 import numpy as np
 
-from mocap._shared.arrays import Indices
+from mocap._shared.arrays import Indices, VectorsLike
 from mocap._shared.deadlines import OUT_OF_TIME, Deadline
-from mocap.body.ground_path import GroundPath
+from mocap.body.ground_path import GroundPath, as_path
 from mocap.body.planar import on_ground
 from mocap.errors import MocapError, NoWalk, warn
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph, walk_track
@@ -33,7 +33,7 @@ AGAIN = 1.25  # a repeated search multiplies or divides the price of a seam by t
 
 def follow_path(
     graph: MotionGraph | CompiledGraph,
-    path: GroundPath,
+    path: GroundPath | VectorsLike,
     wishes: Wishes | None = None,
     *,
     settings: Settings | None = None,
@@ -60,7 +60,7 @@ def follow_path(
     Parameters
     ----------
     graph : pruned, so that walks do not end; compile it yourself to follow many paths.
-    path : where to walk.
+    path : where to walk, or its points (x, z), metres.
     wishes : labels, times and the start.
     settings : how thoroughly to search, and what deviations cost.
     bend : the fastest that a walk is turned beyond its own turning, radians per second: `editing.LIMIT`, 100°
@@ -96,10 +96,11 @@ def follow_path(
 
     Notebook: 08-path-synthesis
     """
+    compiled = compile_graph(graph)
+    path = as_path(path)
     wishes = wishes or Wishes()
     settings = settings or Settings()
     deadline = Deadline(settings.deadline)
-    compiled = compile_graph(graph)
     if settings.tries < 1:
         raise MocapError(f"A path takes at least one search, got tries={settings.tries}.")
     measure: Callable[[Found], Followed]
@@ -255,7 +256,7 @@ def path_problem(walks: GroundWalks, route: Route) -> Problem:
 
 def follow_as_2002(  # noqa: PLR0913 (a path, wishes, and three limits)
     graph: MotionGraph | CompiledGraph,
-    path: GroundPath,
+    path: GroundPath | VectorsLike,
     wishes: Wishes,
     *,
     look: tuple[int, int] = (90, 28),
@@ -297,6 +298,7 @@ def follow_as_2002(  # noqa: PLR0913 (a path, wishes, and three limits)
     Notebook: 08c-judging-a-search
     """
     compiled = compile_graph(graph)
+    path = as_path(path)
     route = make_route(compiled, path, wishes)
     start = start_of(compiled, route, wishes)
     stand = Stand(complex(start.turn[0]), complex(start.move[0]))

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Points
 from mocap._shared.progress import Progress
+from mocap._shared.records import dataclass
 from mocap.body.ground_path import GroundPath
 from mocap.body.planar import on_ground
 from mocap.errors import MocapError

@@ -9,12 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextvars import ContextVar
-from typing import NamedTuple
 
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Mask, Points
 from mocap._shared.deadlines import OUT_OF_TIME, Deadline
+from mocap._shared.records import NamedTuple
 from mocap._shared.ties import first_least
 from mocap.body.planar import on_ground
 from mocap.errors import NoWalk

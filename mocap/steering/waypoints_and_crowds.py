@@ -5,11 +5,11 @@ way among obstacles is planned by `groups`.
 """
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 
 from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple
 from mocap._shared.ties import first_least
 from mocap.body.ground_path import GroundPath, spline
 from mocap.errors import warn

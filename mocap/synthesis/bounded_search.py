@@ -9,13 +9,13 @@ walk itself, or sums over it.
 """
 
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import networkx as nx
 import numpy as np
 
 from mocap._shared.deadlines import OUT_OF_TIME, Deadline
+from mocap._shared.records import NamedTuple, dataclass
 from mocap._shared.ties import in_order
 from mocap.errors import MocapError, NoWalk
 

@@ -6,11 +6,11 @@ p ↦ turn · p + move. An edge turns and moves what comes after it, so both are
 
 import math
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
 
 import numpy as np
 
 from mocap._shared.arrays import Points
+from mocap._shared.records import NamedTuple
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph, walk_track
 from mocap.graphs.motion_graph import MotionGraph, Node
 from mocap.synthesis.bounded_search import Problem, SearchEdge

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from mocap._shared.progress import Progress
+from mocap._shared.quantities import check_number
 from mocap.body.motion import Motion, concatenate, turning
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import MocapError, NoWalk
@@ -16,7 +17,7 @@ from mocap.feet.footskate import clean_up
 from mocap.files import bvh
 from mocap.files.load_save import save
 from mocap.graphs.edge_tables import Edge, edge_table, require_node
-from mocap.graphs.motion_graph import MotionGraph, Node
+from mocap.graphs.motion_graph import MotionGraph, Node, require_graph
 from mocap.synthesis.walk_to_motion import places, to_motion, with_plants
 
 MARGIN = 5.0  # seconds: longer than any footplant of a walk, and than the reach of any correction
@@ -66,6 +67,7 @@ def random_walk(
 
     Notebook: 07-walks-and-search
     """
+    require_graph(motion_graph)
     edges = wander(motion_graph, seed=seed, settle=settle, start=start)
     return next(cut_walk(motion_graph, edges, seconds))
 
@@ -74,18 +76,23 @@ def cut_walk(
     motion_graph: MotionGraph, edges: Iterator[Edge], seconds: float, piece: float = np.inf
 ) -> Iterator[list[Edge]]:
     """Cut a walk without end into pieces of at least `piece` seconds, and end it after `seconds`."""
+    check_number(seconds, "seconds")
     if not 0 < seconds < np.inf:
         raise MocapError(f"A walk must last longer than 0 s, got {seconds} s.")
-    fps, done, frames = motion_graph.fps, 0, 0
+    fps = motion_graph.fps
+    yielded = 0  # frames of the pieces that have been yielded
+    frames = 0  # of the piece
     walk: list[Edge] = []
     for edge in edges:
         walk.append(edge)
         frames += motion_graph.graph.edges[edge]["frames"]
-        over = done + frames >= seconds * fps
-        if over or frames >= piece * fps:
+        ends = yielded + frames >= seconds * fps
+        if ends or frames >= piece * fps:
             yield walk
-            walk, done, frames = [], done + frames, 0
-        if over:
+            walk = []
+            yielded += frames
+            frames = 0
+        if ends:
             return
 
 
@@ -106,19 +113,21 @@ def wander(
     >>> [end for _, end, _ in islice(wander(graph, start=(0, 20)), 4)]
     [(0, 60), (0, 20), (0, 60), (0, 20)]
     """
-    graph, fps = motion_graph.graph, motion_graph.clips[0].fps
+    graph = motion_graph.graph
+    fps = motion_graph.fps
     random = np.random.default_rng(seed)
     node = sorted(graph)[random.integers(len(graph))] if start is None else start
     require_node(motion_graph, node)
-    frames, since = 0, 0
+    frames = 0
+    since = 0  # frames of clip since the last transition
     while True:
         edges = list(graph.out_edges(node, keys=True, data=True))
-        onward = [edge for edge in edges if edge[3]["kind"] == "clip"]
-        leaving = [edge for edge in edges if edge[3]["kind"] == "transition"]
+        onward = [edge for edge in edges if edge[-1]["kind"] == "clip"]
+        leaving = [edge for edge in edges if edge[-1]["kind"] == "transition"]
         choices = leaving if leaving and (since >= settle * fps or not onward) else onward
         if not choices:
             raise NoWalk(f"The walk ends at node {node} after {frames / fps:.1f} s: prune the graph first.")
-        odds = np.array([1 / (edge[3].get("cost", 0.0) + 1e-3) for edge in choices])
+        odds = np.array([1 / (edge[-1].get("cost", 0.0) + 1e-3) for edge in choices])
         start_, node, key, data = choices[random.choice(len(choices), p=odds / odds.sum())]
         yield start_, node, key
         frames += data["frames"]
@@ -159,14 +168,16 @@ def cleaned(pieces: Iterator[Motion]) -> Iterator[Motion]:
     Each piece is cleaned together with 2 · `MARGIN` of the motion before it, and its last `MARGIN` is given
     out later. So every frame is cleaned with all frames that it depends on, and the cuts do not show.
     """
-    waiting, done = next(pieces), 0
+    waiting = next(pieces)
+    cleaned_frames = 0  # of `waiting`, that have been yielded
     margin = round(MARGIN * waiting.fps)
     for piece in pieces:
-        if len(waiting) - done > margin:
-            yield clean_up(waiting)[done:-margin]
-            waiting, done = waiting[-2 * margin :], min(len(waiting) - margin, margin)
+        if len(waiting) - cleaned_frames > margin:
+            yield clean_up(waiting)[cleaned_frames:-margin]
+            cleaned_frames = min(len(waiting) - margin, margin)
+            waiting = waiting[-2 * margin :]
         waiting = concatenate([waiting, piece])
-    yield clean_up(waiting)[done:]
+    yield clean_up(waiting)[cleaned_frames:]
 
 
 def dump(  # noqa: PLR0913 (which walk, where to, how long, and how)

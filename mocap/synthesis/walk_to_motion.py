@@ -8,19 +8,20 @@ two.
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices
+from mocap._shared.quantities import described
+from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.motion import Motion, gather_marks
 from mocap.body.planar import IDENTITY, PlanarTransform
-from mocap.errors import NoWalk
+from mocap.errors import MocapError, NoWalk
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
 from mocap.graphs.edge_tables import Edge, EdgeTable, edge_table
-from mocap.graphs.motion_graph import MotionGraph
+from mocap.graphs.motion_graph import MotionGraph, require_graph
 
 
 class Seam(NamedTuple):
@@ -81,14 +82,34 @@ def require_walk(motion_graph: MotionGraph, walk: Sequence[Edge]) -> None:
     Traceback (most recent call last):
     mocap.errors.NoWalk: The graph has no edge ((0, 0), (0, 99), 0).
     """
-    if not walk:
-        raise NoWalk("The walk has no edges.")
+    require_graph(motion_graph)
+    require_edges(walk)
     for edge in walk:
         if not motion_graph.graph.has_edge(*edge):
             raise NoWalk(f"The graph has no edge {edge}.")
     for (_, end, _), (start, _, _) in pairwise(walk):
         if end != start:
             raise NoWalk(f"The walk jumps from node {end} to node {start}.")
+
+
+def require_edges(walk: object) -> None:
+    """Raise unless a walk is a list of edges (start, end, key), such as `random_walk` returns.
+
+    Examples
+    --------
+    >>> require_edges([10, 20])
+    Traceback (most recent call last):
+    mocap.errors.MocapError: A walk is a list of edges ((clip, frame), (clip, frame), key), got 10 in it:
+    synthesis.random_walk makes one.
+    """
+    needs = "A walk is a list of edges ((clip, frame), (clip, frame), key)"
+    if not isinstance(walk, Sequence):
+        raise MocapError(f"{needs}, got {described(walk)}: synthesis.random_walk makes one.")
+    for edge in walk:
+        if not (isinstance(edge, list | tuple) and len(edge) == len(("start", "end", "key"))):
+            raise MocapError(f"{needs}, got {described(edge)} in it: synthesis.random_walk makes one.")
+    if not walk:
+        raise NoWalk("The walk has no edges.")
 
 
 def to_motion(
@@ -143,14 +164,14 @@ def to_motion(
     if clean:
         motion_graph = with_plants(motion_graph)
     edges = edge_table(motion_graph, walk)
-    before = places(edges, place)
-    roots, turns = _placed(motion_graph, edges.here, before, edges.of)
+    transforms = places(edges, place)
+    roots, turns = _placed(motion_graph, edges.here, transforms, edges.of)
     mixed = edges.blended[edges.of]
     # The target clip is placed by the transition's transform, in the blend and after it.
-    there, turned = _placed(motion_graph, edges.there[mixed], before, edges.of[mixed] + 1)
+    target_roots, target_turns = _placed(motion_graph, edges.there[mixed], transforms, edges.of[mixed] + 1)
     alpha = edges.alpha[mixed, None]
-    roots[mixed] = alpha * roots[mixed] + (1 - alpha) * there
-    turns[mixed] = rotations.slerp(turned, turns[mixed], alpha)
+    roots[mixed] = alpha * roots[mixed] + (1 - alpha) * target_roots
+    turns[mixed] = rotations.slerp(target_turns, turns[mixed], alpha)
     visited, number = np.unique(edges.owner[:, 0], return_inverse=True)
     owner = np.stack([number, edges.owner[:, 1]], axis=1)
     labels = gather_marks([motion_graph.clips[clip].labels for clip in visited], owner)
@@ -209,7 +230,8 @@ def _placed(
 ) -> tuple[Array, Array]:
     """Gather frames (F, 2), move each by its place `places[chosen]`; return root positions and rotations."""
     joints = len(motion_graph.clips[0].skeleton)
-    roots, turns = np.empty((len(frames), 3)), np.empty((len(frames), joints, 4))
+    roots = np.empty((len(frames), 3))
+    turns = np.empty((len(frames), joints, 4))
     for clip in np.unique(frames[:, 0]):
         of_clip = frames[:, 0] == clip
         roots[of_clip] = motion_graph.clips[clip].root_positions[frames[of_clip, 1]]

@@ -9,11 +9,12 @@ from __future__ import annotations
 import time
 import warnings
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple
 from mocap.body.kinematics import joint_positions
 from mocap.errors import MocapError, MocapWarning, shortened
 from mocap.steering.characters import Character, CommandClock, Pose, as_motion, require_command

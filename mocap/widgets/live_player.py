@@ -73,7 +73,7 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
     ----------
     follow : called with a path, shape (N, 2), points (x, z) in metres; returns a motion, or a `play` of one.
         Its `alt`, which can say how far off the path the walk is, and all warnings stand below the canvas.
-        While a `follow_path` in it searches, the best walk so far is drawn.
+        While a `steering.follow_path` in it searches, the best walk so far is drawn.
         Its `path`, if it has one, is drawn instead of the reader's line: give there what was followed, such
         as a spline.
     path : the first path, shape (N, 2).
@@ -167,7 +167,7 @@ class Mixer:
         self.box = ipywidgets.VBox([*self.sliders, self.player])
 
     def weights(self, u: float, t: float) -> Array:
-        """Give the weights at second t of the blend, as `mix` asks for them."""
+        """Give the weights at second t of the blend, as `blending.mix` asks for them."""
         now = np.array(self.start)
         for begin, weights in self.changes:
             now += float(quintic_step((t - begin) / EASE)) * (weights - now)

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -19,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array, Indices, runs
+from mocap._shared.records import dataclass
 from mocap.body import Motion, Skeleton, joint_positions
 from mocap.errors import MocapError
 from mocap.feet.footplants import find_footprints, mark_plants
@@ -149,8 +149,8 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
         `synthesis.sources`; each clip has its colour.
     seams : where the first motion takes a transition, as from `synthesis.seams`, or frames; they are marked.
     path : a path that was asked for, shape (N, 2), points (x, z) in metres.
-    off : metres from there in each frame of the first motion, shape (F,), as in `Followed.off`; where it is
-        more than 15 cm off, its path is red.
+    off : metres from there in each frame of the first motion, shape (F,), as in `steering.Followed.off`;
+        where it is more than 15 cm off, its path is red.
     discs : obstacles on the ground, shape (N, 3), x, z and radius in metres.
     places : of the joints of each motion, shape (F, J, 3), by a function of one's own; by default the
         package's.
@@ -159,7 +159,7 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
 
     Returns
     -------
-    The player; a notebook shows it as the last line of a cell, and its `page()` is a file to share.
+    The player; a notebook shows it as the last line of a cell, and `Player.page` makes a file to share.
 
     Raises
     ------

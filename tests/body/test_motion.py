@@ -11,8 +11,10 @@ from hypothesis import strategies as st
 
 from mocap.blending import blend, mix, register
 from mocap.body import Motion, Skeleton, concatenate, resample, rotations
+from mocap.body.kinematics import forward_kinematics
 from mocap.body.motion import require_alike
-from mocap.errors import SkeletonMismatch
+from mocap.datasets import sample
+from mocap.errors import MocapError, SkeletonMismatch
 from mocap.graphs import build
 from mocap.matching import find_transitions
 from mocap.matching.point_clouds import rms_distance
@@ -178,3 +180,33 @@ test_more_than_end_sites_still_parts_skeletons = refusals(
         other(NAMES, BONES + np.outer([0, 0, 0, 0.1], [1, 0, 0])),
     ),
 )
+
+
+# Positions and velocities -----------------------------------------------------------------------------------
+
+
+def test_positions_are_those_of_forward_kinematics_kept_and_read_only():
+    walk = sample("walk_straight")[:20]
+    assert np.array_equal(walk.positions, forward_kinematics(walk).positions)
+    assert walk.positions is walk.positions
+    with pytest.raises(ValueError, match="read-only"):
+        walk.positions[0, 0, 0] = 1.0
+
+
+def test_a_changed_copy_has_positions_of_its_own():
+    walk = sample("walk_straight")[:20]
+    moved = replace(walk, root_positions=walk.root_positions + np.array([0, 0, 1.0]))
+    assert np.allclose(moved.positions - walk.positions, [0, 0, 1.0])
+
+
+def test_velocities_are_central_differences_and_one_sided_at_both_ends():
+    """A point at z = t² moves at 2 t; half a frame inwards at the ends."""
+    times = np.arange(6) / 10
+    roots = np.stack([0 * times, 0 * times, times**2], axis=1)
+    dot = Motion(Skeleton(["root"], [-1], [[0, 0, 0]]), roots, np.tile([1.0, 0, 0, 0], (6, 1, 1)), 10)
+    expected = 2 * times
+    expected[[0, -1]] += [0.1, -0.1]
+    assert np.allclose(dot.velocities[:, 0, 2], expected)
+    assert dot.velocities.shape == dot.positions.shape
+    with pytest.raises(MocapError, match="at least two frames"):
+        _ = dot[:1].velocities

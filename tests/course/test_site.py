@@ -18,7 +18,7 @@ from mocap.datasets.samples import SAMPLES
 from mocap.widgets import live
 
 NAMES = ("00-quickstart", "09b-blend-window")
-PAGES = ("GLOSSARY", "FORMULAS", "PAPERS", "PROJECT", "README")
+PAGES = ("GLOSSARY", "FORMULAS", "PAPERS", "PROJECT", "README", "RECIPES")
 
 
 def course_site(tmp_path_factory):

@@ -28,6 +28,9 @@ mocap.save(walk, "walk.bvh", precision=4)
 read = mocap.load("walk.bvh", scale=0.01)
 seconds: float = read.duration
 heights = read.root_positions[:, 1] + 0.5
+head = walk.positions[:, walk.skeleton.index("head")]
+speeds = np.linalg.norm(walk.velocities, axis=-1).max(axis=0)
+same: bool = walk == walk[:]
 both = mocap.concatenate([walk, walk], name="twice")
 third = walk[::3]
 some = walk[[0, 5, 9]]
@@ -38,6 +41,8 @@ fast = mocap.Motion(leg, np.zeros((4, 3)), np.tile([1.0, 0, 0, 0], (4, 3, 1)), f
 # Bodies and the ground
 line = body.GroundPath([[0, 0], [0, 6]])
 bend = body.GroundPath([(0, 0), (0, 2.5), (1.5, 4)])
+mixed_rows = body.GroundPath([(0, 0), [0, 2.5], np.array([1.5, 4])])
+scalars = body.GroundPath([[np.float64(0), 0], [np.int64(3), 2.5]])
 wave = body.GroundPath(np.stack([np.sin(np.linspace(0, 6)), np.linspace(0, 6)], axis=1))
 curve = body.spline([[0, 0], [1, 1.5], [0, 3]])
 halfway = line.at(line.length / 2).round(2)
@@ -60,6 +65,7 @@ edges = synthesis.random_walk(graph, seconds=4, seed=1)
 walked = synthesis.to_motion(graph, edges, name="walked", clean=True)
 followed = steering.follow_path(graph, line, settings=steering.Settings(width=100))
 soon = steering.follow_path(graph, line, settings=steering.Settings(deadline=600))
+ahead = steering.follow_path(graph, [[0, 0], [0, 2.5]])
 waypoint = steering.Waypoint(1, 2.5, label="walk")
 steered = steering.steer(steering.Controller(graph), [0.0] * 30, speed=1.2)
 headed = steering.steer(steering.Controller(graph), steering.command_headings(1.0, 30))
@@ -69,6 +75,8 @@ cleaned = feet.clean_up(feet.mark_plants(walk))
 joined = blending.join(walk, 20, other, 10, 10)
 mixed = blending.mix(blending.register([walk[:60], walk[2:62]]), [0.5, 0.5])
 mirrored = editing.mirror(walk)
+bent: editing.Bent = editing.bend(walk, [[0, 0], [0, 2.5]])
+worn = editing.wear(walk, walk.skeleton)
 pinned = editing.pin(walk, "rhand", [10, 11], [0.1, 1.2, 0.3])
 worst = max(quality.judge(walk).measures, key=lambda measure: measure.ratio)
 plan = plotting.draw_group_plan(np.arange(5)[:, None] * 1j + [0.0, 1.0], [0j, 4j])

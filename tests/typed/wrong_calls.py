@@ -37,5 +37,7 @@ steering.follow_path(graphs.load("graph.npz"), line, widht=100)  # wrong: an opt
 steering.Settings(deadline="5s")  # wrong: a text for a number
 feet.clean_up([walk])  # wrong: a list for one motion
 editing.mirror()  # wrong: no motion
+editing.bend(walk, [0, 5])  # wrong: numbers for points
+walk.positions()  # wrong: an array is called
 widgets.play([walk])  # wrong: a list for motions one by one
 len(datasets.cmu("16_15", subject=16))  # wrong: a trial and a person

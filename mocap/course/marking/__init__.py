@@ -17,6 +17,6 @@ Reading order
 9. `marks`: judge each exercise of each notebook
 """
 
-import lazy_loader
+from mocap._shared import faces
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__getattr__, __dir__, __all__ = faces.attach(__name__, __file__)

@@ -10,7 +10,7 @@ Reading order
 3. `board`: drawings for the board, in numbered steps
 """
 
-import lazy_loader
+from mocap._shared import faces
 
 # The command is the face of this room.
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__getattr__, __dir__, __all__ = faces.attach(__name__, __file__)

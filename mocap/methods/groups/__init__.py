@@ -29,6 +29,6 @@ References
 .. [Rey87] C. Reynolds, *Flocks, Herds, and Schools*, SIGGRAPH 1987, doi 10.1145/37402.37406.
 """
 
-import lazy_loader
+from mocap._shared import faces
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__getattr__, __dir__, __all__ = faces.attach(__name__, __file__)

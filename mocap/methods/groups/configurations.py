@@ -6,12 +6,11 @@ alike when a planar transform brings their points together. All of this is ours;
 configurations are clustered.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from mocap._shared.arrays import Array, Indices, Mask, Points
+from mocap._shared.records import NamedTuple
 from mocap._shared.ties import first_least, whole_steps
 from mocap.errors import MocapError, warn
 from mocap.methods.groups.flocking import RATE, Configuration

@@ -8,11 +8,11 @@ Points on the ground are complex, z + ix, ten of them per second.
 """
 
 from collections.abc import Iterator
-from typing import NamedTuple
 
 import numpy as np
 
 from mocap._shared.arrays import Array, Points
+from mocap._shared.records import NamedTuple
 from mocap.errors import MocapError
 
 RATE = 10.0  # frames per second

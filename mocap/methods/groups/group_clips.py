@@ -7,12 +7,12 @@ pushed apart. How the papers do it ([AMC03], too) we could not read: the steps a
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Points
+from mocap._shared.records import dataclass
 from mocap.methods.groups import flocking
 from mocap.methods.groups.configurations import compare
 from mocap.methods.groups.flocking import APART, RATE, Configuration, Flock

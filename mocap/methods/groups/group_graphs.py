@@ -1,10 +1,10 @@
 """Group motion graphs: nodes are configurations, and clips of the whole group join them [LCF05]."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
+from mocap._shared.records import dataclass
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import MocapError, warn
 from mocap.methods.groups.configurations import cluster, seen_from_itself

@@ -1,12 +1,12 @@
 """Characters for a group: each member's way is walked by a motion graph, in place and in time."""
 
 import warnings
-from dataclasses import dataclass
 
 import numpy as np
 
 from mocap._shared.arrays import Array, Points
 from mocap._shared.progress import Progress
+from mocap._shared.records import dataclass
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
 from mocap.body.planar import from_ground, on_ground

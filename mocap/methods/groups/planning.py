@@ -8,11 +8,11 @@ ours.
 from cmath import phase
 from collections.abc import Iterator, Sequence
 from heapq import heappop, heappush
-from typing import NamedTuple
 
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Mask, Points
+from mocap._shared.records import NamedTuple
 from mocap._shared.ties import whole_steps
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import MocapError, NoWalk

@@ -28,6 +28,6 @@ References
    Biology 147, 1981, doi 10.1016/0022-2836(81)90087-5.
 """
 
-import lazy_loader
+from mocap._shared import faces
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__getattr__, __dir__, __all__ = faces.attach(__name__, __file__)

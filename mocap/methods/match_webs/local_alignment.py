@@ -81,7 +81,7 @@ def local_paths(costs: ArrayLike, *, slope: int = 2, least: int = 1) -> Iterator
     Yields
     ------
     Paths of cells, shape (N, 2), lowest sum first; of those that begin in one cell, only the best. They may
-    run side by side: `apart` keeps the distinct ones.
+    run side by side: `local_alignment.apart` keeps the distinct ones.
 
     Examples
     --------

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple
 from mocap._shared.ties import in_order
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, warn
@@ -295,7 +296,7 @@ def cut_out(web: MatchWeb, match: Match) -> Motion:
     >>> web = build_web([sample("walk_straight")], below=0.05)
     >>> match = search(web, 0, slice(240, 370))[1]
     >>> match.start, cut_out(web, match)
-    (884, Motion('walk_straight', 132 frames at 120 Hz, 38 joints))
+    (884, Motion('walk_straight', 132 frames at 120 Hz, 1.09 s, 38 joints))
     >>> np.array_equal(cut_out(web, match).root_positions[0], web.clips[0].root_positions[884])
     True
 

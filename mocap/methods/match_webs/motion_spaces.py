@@ -7,7 +7,7 @@ how fast it goes, and where the hand reaches. The nodes of parametric graphs are
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import partial
 from typing import Any, Generic, TypeVar
 
@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 from scipy.spatial.distance import cdist
 
 from mocap._shared.arrays import Array, frozen
+from mocap._shared.records import dataclass
 from mocap.blending.clocks import Registration, checked
 from mocap.blending.mixing import mix
 from mocap.body.kinematics import joint_positions
@@ -214,7 +215,7 @@ def sample_space(
     Parameters
     ----------
     examples : registered clips, from `blending.register`; or examples on a grid, such as those of
-        `parametric_graphs.cut_actions`, whose space can be a node of a graph.
+        `methods.parametric_graphs.cut_actions`, whose space can be a node of a graph.
     measure : a function of a `Motion` that gives d numbers, such as `turn` or `hand_target`.
     count : of random blends, beside the examples. 0 leaves the examples alone.
     scale : shape (d,): amounts of each number that count as equally far, such as 10° and 0.1 m/s. By default
@@ -273,7 +274,7 @@ def blend_of(
     >>> from mocap.datasets.samples import sample
     >>> walks = [sample(f"walk_5m_{speed}_0") for speed in (0.8, 1.1, 1.4)]
     >>> blend_of(register(walks), [0, 0.5, 0.5])
-    Motion('walk + walk', 348 frames at 120 Hz, 38 joints)
+    Motion('walk + walk', 348 frames at 120 Hz, 2.89 s, 38 joints)
 
     Notebook: 16-match-webs
     """

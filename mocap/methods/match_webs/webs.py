@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
@@ -11,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array, Indices, frozen
 from mocap._shared.progress import Progress
+from mocap._shared.records import dataclass
 from mocap.body.motion import Motion, require_alike, resample
 from mocap.errors import MocapError, warn
 from mocap.matching.transitions import join_clouds
@@ -78,8 +78,8 @@ class MatchWeb:
 def build_web(clips: Sequence[Motion], *, below: float = 0.12, progress: Progress = iter) -> MatchWeb:
     """Find all long paths of frames that are alike in a set of clips [KG04, match web].
 
-    The distance is that of `find_transitions`. How paths are found, see `local_paths`: a cell that is no
-    one-dimensional minimum costs more, so that paths follow the floors of valleys.
+    The distance is that of `matching.find_transitions`. How paths are found, see `local_paths`: a cell that
+    is no one-dimensional minimum costs more, so that paths follow the floors of valleys.
 
     Parameters
     ----------

@@ -29,7 +29,7 @@ def weights_for(
 
     Parameters
     ----------
-    space : from `sample_space` or `parametric_graphs.make_space`.
+    space : from `sample_space` or `methods.parametric_graphs.make_space`.
     wish : shape (d,), or a number; or M wishes (M, d).
     k : nearest samples that count; by default 12, and d + 2 for "neighbours".
     method : "convex" or "neighbours".

@@ -9,12 +9,13 @@ velocity v, to a goal g is after t seconds at
 1.211 h.
 """
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple
 from mocap._shared.ties import first_least
 from mocap.errors import MocapError, NoWalk
 from mocap.methods.motion_matching.pose_database import AHEAD, FUTURE, PoseDatabase, ahead_columns

@@ -5,13 +5,13 @@ turning. All numbers are seen from there: x to the body's left, y up, z ahead.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
 from mocap._shared.arrays import Array, Indices, Mask, Points, frozen
+from mocap._shared.records import dataclass
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions, velocities
 from mocap.body.limbs import find_legs

@@ -2,6 +2,7 @@ from .examples import cut_actions as cut_actions
 from .examples import mixed_way as mixed_way
 from .made_motions import optimal_transitions as optimal_transitions
 from .parametric_control import ParametricController as ParametricController
+from .parametric_edges import ParametricEdge as ParametricEdge
 from .parametric_edges import build_edge as build_edge
 from .parametric_edges import build_parametric as build_parametric
 from .parametric_storage import load_parametric as load_parametric

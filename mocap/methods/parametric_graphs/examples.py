@@ -5,7 +5,7 @@ velocities and turning are as the body sees them, so that examples can be mixed.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array, Indices, Mask, Points
+from mocap._shared.records import dataclass
 from mocap.blending.registering import register
 from mocap.body import rotations
 from mocap.body.motion import Motion, require_alike

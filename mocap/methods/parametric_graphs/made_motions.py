@@ -4,11 +4,10 @@ All pairs of 50 × 1000 generated clips are compared at once, by the products of
 whole window is there one frame of many points.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from mocap._shared.arrays import Array
+from mocap._shared.records import dataclass
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.errors import MocapError

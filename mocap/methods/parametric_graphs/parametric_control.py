@@ -1,12 +1,11 @@
 """Control on a parametric motion graph: one decision per motion, and no search [HG07, 5]."""
 
-from typing import NamedTuple
-
 import networkx as nx
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple
 from mocap.blending.joining import blend
 from mocap.blending.weights import cubic_weights
 from mocap.body.kinematics import joint_positions

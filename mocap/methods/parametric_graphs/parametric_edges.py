@@ -1,13 +1,12 @@
 """Parametric motion graphs: nodes are spaces of motions, edges say which targets may follow [HG07]."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import NamedTuple
 
 import networkx as nx
 import numpy as np
 
 from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple, dataclass
 from mocap.errors import MocapError, NoWalk
 from mocap.methods.match_webs.wishes import nearest_samples, neighbour_weights
 from mocap.methods.parametric_graphs.made_motions import optimal_transitions

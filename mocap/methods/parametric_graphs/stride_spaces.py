@@ -1,8 +1,8 @@
 """A space of strides: ask for a turn, and get the weights of a blend that has it [KG04].
 
-It is a `match_webs.MotionSpace` like that of any motion (`match_webs.sample_space`), but its samples are
-bells about the turn that is asked: many strides fill one parameter. Few examples of many parameters are
-blended d + 1 at a time.
+It is a `methods.match_webs.MotionSpace` like that of any motion (`methods.match_webs.sample_space`), but
+its samples are bells about the turn that is asked: many strides fill one parameter. Few examples of many
+parameters are blended d + 1 at a time.
 """
 
 import numpy as np
@@ -66,7 +66,7 @@ def make_space(strides: Examples, width: float, low: float, high: float) -> Spac
     """Sample mixes all over the range, measure what each comes to, and keep both [KG04], for [HG07, nodes].
 
     A bell's mix does not come to what was asked, by 4° on average. Looked up among what the samples come to
-    (`match_webs.weights_for`), it does to 0.01°.
+    (`methods.match_webs.weights_for`), it does to 0.01°.
 
     Parameters
     ----------

@@ -1,0 +1,87 @@
+"""Arrays of poses: the place of every joint down a skeleton's tree, and velocities.
+
+`Motion.positions` and `kinematics.forward_kinematics` both come here.
+"""
+
+import numpy as np
+
+from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple
+from mocap.body import rotations
+from mocap.body.skeleton import Skeleton
+from mocap.errors import MocapError
+
+
+class GlobalPoses(NamedTuple):
+    """Where all joints are: `positions` (F, J, 3), metres; and how they are turned: `matrices` (F, J, 3, 3).
+
+    Examples
+    --------
+    >>> GlobalPoses(np.zeros((1, 2, 3)), np.tile(np.eye(3), (1, 2, 1, 1))).matrices[0, 1, 2]
+    array([0., 0., 1.])
+    """
+
+    positions: Array
+    matrices: Array
+
+
+def place_joints(skeleton: Skeleton, root_positions: Array, local: Array) -> GlobalPoses:
+    """Place every joint in the world, from the root down the tree.
+
+    R_j = R_parent · L_j and p_j = p_parent + R_parent · offset_j, where L_j is the joint's own rotation.
+
+    Parameters
+    ----------
+    skeleton : J joints.
+    root_positions : shape (F, 3), metres.
+    local : shape (F, J, 4), unit quaternions (w, x, y, z) relative to the parent's frame.
+
+    Returns
+    -------
+    Positions (F, J, 3), metres, and rotation matrices (F, J, 3, 3).
+
+    Examples
+    --------
+    A forearm of 1 m at a shoulder that is turned by 90° about y:
+
+    >>> arm = Skeleton(["shoulder", "hand"], [-1, 0], [[0, 0, 0], [0, 0, 1]])
+    >>> turn = np.array([[rotations.about_y(np.pi / 2), [1, 0, 0, 0]]])
+    >>> place_joints(arm, np.array([[0.0, 2.0, 0.0]]), turn).positions[0, 1].round(6) + 0.0
+    array([1., 2., 0.])
+    """
+    matrices = rotations.to_matrix(np.swapaxes(local, 0, 1))  # L_j, and R_j from the root down
+    for joint in range(1, len(skeleton)):
+        matrices[joint] = matrices[skeleton.parents[joint]] @ matrices[joint]
+    positions = np.einsum("jfxy,jy->jfx", matrices[skeleton.parents], skeleton.offsets)
+    positions[0] = root_positions
+    for joint in range(1, len(skeleton)):
+        positions[joint] += positions[skeleton.parents[joint]]
+    return GlobalPoses(np.swapaxes(positions, 0, 1), np.swapaxes(matrices, 0, 1))
+
+
+def velocities(positions: Array, fps: float) -> Array:
+    """Differentiate positions over frames: central differences, one-sided at both ends.
+
+    Parameters
+    ----------
+    positions : shape (F, ...), metres; at least two frames.
+    fps : frames per second.
+
+    Returns
+    -------
+    Shape (F, ...), metres per second.
+
+    Raises
+    ------
+    MocapError : for fewer than two frames.
+
+    Examples
+    --------
+    >>> velocities(np.array([0.0, 1.0, 2.0]), 30.0)
+    array([30., 30., 30.])
+
+    Notebook: 01b-motion-files
+    """
+    if len(positions) < 2:
+        raise MocapError(f"A velocity needs at least two frames, got {len(positions)}.")
+    return np.asarray(np.gradient(positions, 1 / fps, axis=0))
