@@ -1,7 +1,7 @@
 """Paths from files: a table of points as .csv, or the first line drawn in an .svg picture.
 
-The reader of pictures is by hand: libraries that read SVG pass over commands and transforms that they do not
-know, where a student needs the place of the mistake.
+Pictures are read without an SVG library: those that there are skip commands and transforms that they do not
+know, and a reader of the error needs to know which they are.
 """
 
 from pathlib import Path
@@ -141,6 +141,10 @@ def _rows(name: str, numbers: list[float]) -> list[list[float]] | None:
             return _rotation(angle, 0.0, 0.0)
         case "rotate", [angle, x, y]:
             return _rotation(angle, x, y)
+        case "skewX", [angle]:
+            return [[1, np.tan(np.radians(angle)), 0], [0, 1, 0]]
+        case "skewY", [angle]:
+            return [[1, 0, 0], [np.tan(np.radians(angle)), 1, 0]]
     return None
 
 
