@@ -173,7 +173,7 @@ def _rate(path: str | Path, text: str, times: re.Match[str]) -> float:
         raise FormatError(path, line, f"a frame time from {SHORTEST:g} to {LONGEST:g} s", times[2])
     last_digit = 10.0 ** int(Decimal(times[2]).as_tuple().exponent)
     whole = max(1, round(1 / seconds))
-    if abs(1 / whole - seconds) < max(0.999 * last_digit, 1e-12):
+    if abs(1 / whole - seconds) < max(0.999 * last_digit, 1e-12):  # truncating loses less than a last digit
         return float(whole)
     return 1 / seconds
 

@@ -139,7 +139,7 @@ class Company:
         self.walk(START, 0.0)
 
     def walk(self, order: Command, seconds: float) -> list[Walked]:
-        """Let all characters walk on for some seconds under one order; warnings are kept as `notes`."""
+        """Move all characters on by some seconds under one order; warnings are kept as `notes`."""
         self.seconds += seconds
         start = time.thread_time()
         previous_steps = self.members[0].steps

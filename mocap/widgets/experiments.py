@@ -109,7 +109,7 @@ def step_aside(reason: object) -> None:
 
 
 class Experiment:
-    """What `explore` returns: the controls, the picture, and the last error.
+    """The controls, the picture and the last error of an experiment, as `explore` returns it.
 
     Parameters
     ----------

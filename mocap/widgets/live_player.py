@@ -73,7 +73,7 @@ class LivePlayer(AnyWidget):
 
 
 def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
-    """Let the reader draw a path on the ground, and show a walk along it.
+    """Show a canvas on which the reader draws a path, and a walk along it.
 
     Parameters
     ----------

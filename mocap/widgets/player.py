@@ -201,7 +201,7 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Player(Embedded):
-    """What `play` returns; a notebook shows it live, as a picture or a sentence.
+    """A player, as `play` returns it; a notebook shows it live, as a picture or a sentence.
 
     Examples
     --------

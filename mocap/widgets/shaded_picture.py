@@ -176,7 +176,7 @@ class ShadedPicture:
         return self.eye[0] + distance * x, self.eye[2] + distance * z
 
     def _cast(self, shadows: Floats, piece: Array) -> None:
-        """Let a capsule shade the ground: a stadium, the softer and the paler the higher the capsule is."""
+        """Add a capsule's shadow: a stadium on the ground, softer and paler with the capsule's height."""
         start_radius = piece[START_RADIUS]
         end_radius = piece[END_RADIUS]
         ends = np.stack([piece[START], piece[END]])

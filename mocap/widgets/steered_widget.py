@@ -78,7 +78,7 @@ def steered(
     labels: Sequence[str] = (),
     alt: str = "",
 ) -> Any:  # noqa: ANN401
-    """Let the reader steer characters side by side: one command for all, by mouse, keys or touch.
+    """Show characters side by side that the reader steers: one command for all, by mouse, keys or touch.
 
     The command goes from the browser to Python and comes back as steps. The line below the pictures shows the
     time that this takes, and the time until each character obeys. First, each character walks ten seconds
