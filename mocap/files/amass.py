@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mocap._shared.archives import Member, open_archive
 from mocap.body import rotations
@@ -26,11 +27,13 @@ from mocap.files.recordings import Recording
 
 _JOINTS: dict[str, Any] = tomllib.loads(Path(__file__).with_name("smpl.toml").read_text("utf-8"))
 SKELETON = replace(Skeleton.from_table(_JOINTS), dofs=["xyz"] * len(_JOINTS))
-PELVIS = np.array([0.0, -0.223, 0.028])  # where `trans` 0 puts the pelvis, in the archive's own axes
+PELVIS = np.array([0.0, -0.223, 0.028])  # metres: the pelvis for `trans` 0, in the archive's own axes
 
 RATES = ("mocap_framerate", "mocap_frame_rate")
-WIDTH = 3 * len(SKELETON)
+WIDTH = 3 * len(SKELETON)  # numbers of a pose that are read
 WIDTHS = {"poses": WIDTH, "trans": 3}  # numbers of a frame that are read
+LARGEST = 1e6  # radians, metres, frames per second: all numbers are below
+REAL_NUMBERS = "fiu"  # the kinds of NumPy's types: floating point, integers with and without a sign
 ROOM = 2**27  # bytes of arrays in the smallest file: somebody who stands still for a quarter of an hour
 
 
@@ -68,51 +71,67 @@ def read(path: str | Path, *, fps: float | None = None) -> Recording:
 
     Warns
     -----
-    MocapWarning : where the file gives the body a shape.
+    MocapWarning : if the file gives the body a shape.
     """
     with open_archive(path, "an AMASS archive with poses and trans", ROOM) as members:
-        counts = [_count(path, members, key) for key in WIDTHS]
-        if counts[0] != counts[1]:
-            raise FormatError(path, None, f"as many rows of trans as of poses, {counts[0]}", str(counts[1]))
-        if counts[0] == 0:
+        frames = _count_frames(path, members, "poses")
+        translations = _count_frames(path, members, "trans")
+        if frames != translations:
+            raise FormatError(path, None, f"as many rows of trans as of poses, {frames}", str(translations))
+        if frames == 0:
             raise FormatError(path, None, "one frame or more in 'poses'", "none")
         rate = fps or _rate(path, members)
-        numbers = {key: members[key].read()[:, :width] for key, width in WIDTHS.items()}
-        for key, rows in numbers.items():
-            fine = (np.abs(rows) < 1e6).all(axis=1)  # not so for nan
-            if not fine.all():
-                got = f"others in frame {fine.argmin()}"
-                raise FormatError(path, None, f"finite numbers below 1e6 in '{key}'", got)
-        betas = members.get("betas")
-        few = betas is not None and betas.dtype.kind in "fiu" and math.prod(betas.shape) <= WIDTH
-        shaped = betas is not None and few and betas.read().any()
-    if shaped:
-        so = "the bones are those of the mean body, so feet may stand some centimetres off the ground"
-        warn(f"{path}: betas, the shape of the body, are ignored: {so}.")
-    poses, trans = (rows.astype(float) for rows in numbers.values())
-    local = rotations.from_rotvec(poses.reshape(len(poses), -1, 3))
+        poses = members["poses"].read()[:, :WIDTH]
+        trans = members["trans"].read()[:, : WIDTHS["trans"]]
+        _require_small(path, "poses", poses)
+        _require_small(path, "trans", trans)
+        has_shape = _has_shape(members)
+    if has_shape:
+        effect = "the bones are those of the mean body, so feet may stand some centimetres off the ground"
+        warn(f"{path}: betas, the shape of the body, are ignored: {effect}.")
+    vectors = poses.astype(float).reshape(frames, -1, 3)
+    local = rotations.from_rotvec(vectors)
     local[:, 0] = rotations.multiply(rotations.Z_UP, local[:, 0])
-    places = rotations.rotate(rotations.Z_UP, PELVIS + trans)
-    return Recording(Motion(SKELETON, places, local, rate, Path(path).stem), {}, {})
+    positions = rotations.rotate(rotations.Z_UP, PELVIS + trans.astype(float))
+    return Recording(Motion(SKELETON, positions, local, rate, Path(path).stem), {}, {})
 
 
-def _count(path: str | Path, members: Mapping[str, Member], key: str) -> int:
-    """Count the frames of an array, which has rows of numbers, as many as are read, or more."""
+def _count_frames(path: str | Path, members: Mapping[str, Member], key: str) -> int:
+    """Count the rows of an array; raise if they have fewer numbers than are read."""
     if key not in members:
         raise FormatError(path, None, "arrays 'poses' and 'trans', as AMASS archives have", f"no '{key}'")
-    found = members[key]
-    if len(found.shape) != 2 or found.shape[1] < WIDTHS[key] or found.dtype.kind not in "fiu":
-        raise FormatError(path, None, f"{WIDTHS[key]} numbers for each frame in '{key}'", str(found))
-    return found.shape[0]
+    array = members[key]
+    is_table = len(array.shape) == 2 and array.dtype.kind in REAL_NUMBERS
+    if not is_table or array.shape[1] < WIDTHS[key]:
+        raise FormatError(path, None, f"{WIDTHS[key]} numbers for each frame in '{key}'", str(array))
+    return array.shape[0]
+
+
+def _require_small(path: str | Path, key: str, rows: NDArray[Any]) -> None:
+    """Raise at the first frame with a number that is not finite, or too large."""
+    is_small = (np.abs(rows) < LARGEST).all(axis=1)  # False for nan
+    if not is_small.all():
+        got = f"others in frame {is_small.argmin()}"
+        raise FormatError(path, None, f"finite numbers below 1e6 in '{key}'", got)
+
+
+def _has_shape(members: Mapping[str, Member]) -> bool:
+    """Check whether the archive gives the body a shape other than the mean one."""
+    betas = members.get("betas")
+    if betas is None or betas.dtype.kind not in REAL_NUMBERS or math.prod(betas.shape) > WIDTH:
+        return False
+    return bool(betas.read().any())
 
 
 def _rate(path: str | Path, members: Mapping[str, Member]) -> float:
+    """Read the frame rate, under its newer or its older name."""
     key = next((key for key in RATES if key in members), None)
     if key is None:
         raise FormatError(path, None, f"'{RATES[0]}'", "none: give fps=")
-    found = members[key]
-    rate = found.read().item() if math.prod(found.shape) == 1 and found.dtype.kind in "fiu" else None
-    if rate is None or not 0 < rate < 1e6:
-        got = str(found) if rate is None else str(rate)
-        raise FormatError(path, None, f"one number above 0 in '{key}'", got)
+    array = members[key]
+    if math.prod(array.shape) != 1 or array.dtype.kind not in REAL_NUMBERS:
+        raise FormatError(path, None, f"one number above 0 in '{key}'", str(array))
+    rate = array.read().item()
+    if not 0 < rate < LARGEST:
+        raise FormatError(path, None, f"one number above 0 in '{key}'", str(rate))
     return float(rate)

@@ -1,8 +1,8 @@
-"""The skeleton of Acclaim files (`.asf`): bones, where they start and end, and how they may turn.
+"""The skeleton of Acclaim files (`.asf`): bones, their vectors, axes and degrees of freedom.
 
 A joint has the name of the bone that starts there: the root's children are at the root itself, and a bone
-without children ends in the joint `<bone>_end`. An order lists turns about fixed axes, the first one first:
-XYZ is R = Rz Ry Rx.
+without children ends in the joint `<bone>_end`. An order lists rotations about fixed axes, the first one
+first: XYZ is R = Rz Ry Rx.
 """
 
 from __future__ import annotations
@@ -21,8 +21,13 @@ from mocap.files.text import lines, read_text, to_numbers
 
 Line = tuple[int, list[str]]  # its number, from 1, and its words
 
-INCH, SHORTEST = 0.0254, 1e-6  # metres; the smallest `:units length`
-TURNS, MOVES = ("rx", "ry", "rz"), ("tx", "ty", "tz")
+INCH = 0.0254  # metres
+SHORTEST = 1e-6  # the smallest `:units length`, which divides an inch
+TURNS = ("rx", "ry", "rz")  # degrees of freedom: rotations
+MOVES = ("tx", "ty", "tz")  # degrees of freedom: translations
+DEGREES = ("deg", "degrees")
+RADIANS = ("rad", "radians")
+ORDER = slice(3, None)  # words of an `axis` line: three angles, and their order
 
 
 class Bone(NamedTuple):
@@ -37,12 +42,12 @@ class Bone(NamedTuple):
 
     @property
     def turns(self) -> list[int]:
-        """Which of its dofs are turns."""
+        """The indices of its dofs that are rotations."""
         return [place for place, dof in enumerate(self.dofs) if dof in TURNS]
 
     @property
     def order(self) -> str:
-        """The axes that it turns about, in their order."""
+        """The axes of its rotations, in their order."""
         return "".join(self.dofs[place][1] for place in self.turns)
 
 
@@ -69,7 +74,8 @@ def read_skeleton(path: str | Path, *, scale: float | None = None) -> AcclaimSke
 
     Returns
     -------
-    The skeleton, and what reading an AMC file needs. Bones outside the hierarchy are not in the skeleton.
+    The skeleton, with the bones, unit and angles by which AMC files are read. Bones outside the hierarchy are
+    not in the skeleton.
 
     Raises
     ------
@@ -79,15 +85,9 @@ def read_skeleton(path: str | Path, *, scale: float | None = None) -> AcclaimSke
     for key in (":root", ":bonedata", ":hierarchy"):
         if key not in sections:
             raise FormatError(path, None, f"a {key} section", f"only {' '.join(sections)}")
-    units = _Fields(path, sections.get(":units", []))
-    length = units.numbers("length", 1, "1")[0]
-    if length < SHORTEST:
-        raise FormatError(path, units.line("length")[0], f"a length of {SHORTEST:g} or more", f"{length:g}")
-    line, words = units.line("angle", "deg")
-    if (angle := " ".join(words).lower()) not in ("deg", "degrees", "rad", "radians"):
-        raise FormatError(path, line, "angle deg or rad", f"'{angle}'")
-    unit, degrees = scale or INCH / length, angle.startswith("deg")
-    radians = np.radians(1.0) if degrees else 1.0  # of an angle
+    length, degrees = _units(_Fields(path, sections.get(":units", [])))
+    unit = scale or INCH / length
+    radians = np.radians(1.0) if degrees else 1.0  # in the unit of an angle
     bones = {"root": _root(_Fields(path, sections[":root"]), unit, radians)}
     for block in _blocks(path, sections[":bonedata"]):
         line, words = block.line("name")
@@ -96,10 +96,10 @@ def read_skeleton(path: str | Path, *, scale: float | None = None) -> AcclaimSke
         bones[words[0]] = _bone(block, unit, radians)
     children = _hierarchy(path, sections[":hierarchy"], bones)
     try:
-        skeleton = _grown(children, bones)
+        skeleton = _skeleton(children, bones)
     except MocapError:
-        expected, got = "bones whose ends have new names", "a bone called '<another bone>_end'"
-        raise FormatError(path, None, expected, got) from None
+        expected = "bones whose ends have new names"
+        raise FormatError(path, None, expected, "a bone called '<another bone>_end'") from None
     return AcclaimSkeleton(skeleton, bones, unit, degrees)
 
 
@@ -120,44 +120,59 @@ def _sections(path: str | Path, text: str) -> dict[str, list[Line]]:
 
 
 class _Fields:
-    """Lines by their first words; where a default is given, it stands for a line that is missing."""
+    """The lines of a section or a bone, by their first words; a default replaces a missing line."""
 
     def __init__(self, path: str | Path, lines: list[Line]) -> None:
-        self.path, self.lines = path, {key.lower(): (number, words) for number, (key, *words) in lines}
+        self.path = path
+        self.lines = {key.lower(): (number, words) for number, (key, *words) in lines}
 
     def line(self, key: str, *default: str) -> Line:
-        """Give the number and the words of the line with a key, or the default."""
+        """Return the number and the words of the line with a key, or the default."""
         if key not in self.lines and not default:
-            begin, known = self.lines.get("begin", (None,))[0], ", ".join(self.lines)
-            raise FormatError(self.path, begin, f"a '{key}' line", f"only {known or 'nothing'}")
+            begin = self.lines.get("begin", (None,))[0]
+            keys = ", ".join(self.lines) or "nothing"
+            raise FormatError(self.path, begin, f"a '{key}' line", f"only {keys}")
         return self.lines.get(key, (0, [*default]))
 
     def numbers(self, key: str, count: int, *default: str) -> Array:
-        """Give the numbers of the line with a key."""
+        """Return the numbers of the line with a key."""
         line, words = self.line(key, *default)
-        expected = f"{count} number{'s' * (count > 1)} for '{key}'"
-        return to_numbers(self.path, line, words[:count], expected, count)
+        noun = "number" if count == 1 else "numbers"
+        return to_numbers(self.path, line, words[:count], f"{count} {noun} for '{key}'", count)
 
-    def turn(self, order: list[str], angles: Array) -> Array:
-        """Turn radians about x, y and z into a quaternion; `order` says which turn comes first."""
+    def rotation(self, order: list[str], angles: Array) -> Array:
+        """Convert radians about x, y and z to a quaternion; `order` lists the axes, the first one first."""
         axes = "".join(order).lower()
         if sorted(axes) != ["x", "y", "z"]:
             line = self.line("axis", "XYZ")[0]
             raise FormatError(self.path, line, "an order of axes, such as XYZ", f"'{''.join(order)}'")
         return euler.from_euler(axes, angles[["xyz".index(letter) for letter in axes]])
 
-    def dofs(self, key: str, known: tuple[str, ...]) -> tuple[str, ...]:
-        """Give the degrees of freedom of the line with a key, each one that is known and there once."""
+    def dofs(self, key: str, allowed: tuple[str, ...]) -> tuple[str, ...]:
+        """Return the degrees of freedom of the line with a key; raise unless each is allowed and unique."""
         line, words = self.line(key)
         dofs = tuple(word.lower() for word in words)
-        if not dofs or set(dofs) - set(known) or len(set(dofs)) < len(dofs):
+        if not dofs or set(dofs) - set(allowed) or len(set(dofs)) < len(dofs):
             got = f"'{' '.join(words)}'"
-            raise FormatError(self.path, line, f"some of {' '.join(known)}, each once", got)
+            raise FormatError(self.path, line, f"some of {' '.join(allowed)}, each once", got)
         return dofs
 
 
+def _units(fields: _Fields) -> tuple[float, bool]:
+    """Read the length of an inch in the file's unit, and whether angles are in degrees."""
+    length = fields.numbers("length", 1, "1")[0]
+    if length < SHORTEST:
+        line, _ = fields.line("length")
+        raise FormatError(fields.path, line, f"a length of {SHORTEST:g} or more", f"{length:g}")
+    line, words = fields.line("angle", "deg")
+    angle = " ".join(words).lower()
+    if angle not in DEGREES + RADIANS:
+        raise FormatError(fields.path, line, "angle deg or rad", f"'{angle}'")
+    return length, angle in DEGREES
+
+
 def _blocks(path: str | Path, lines: list[Line]) -> Iterator[_Fields]:
-    """Cut lines at `begin` and `end`."""
+    """Yield the lines of each bone, from `begin` to `end`."""
     block: list[Line] = []
     for number, words in lines:
         word = words[0].lower()
@@ -172,27 +187,33 @@ def _blocks(path: str | Path, lines: list[Line]) -> Iterator[_Fields]:
 
 
 def _root(fields: _Fields, unit: float, radians: float) -> Bone:
-    position, angles = (fields.numbers(key, 3, "0", "0", "0") for key in ("position", "orientation"))
-    axis = fields.turn(fields.line("axis", "XYZ")[1], angles * radians)
+    """Read the position and the orientation of the root at rest, both 0 by default."""
+    position = fields.numbers("position", 3, "0", "0", "0")
+    angles = fields.numbers("orientation", 3, "0", "0", "0")
+    _, order = fields.line("axis", "XYZ")
+    axis = fields.rotation(order, angles * radians)
     return Bone(position * unit, axis, fields.dofs("order", MOVES + TURNS))
 
 
 def _bone(fields: _Fields, unit: float, radians: float) -> Bone:
+    """Read the vector, the axes and the degrees of freedom of a bone; it may have none of these."""
     vector = fields.numbers("direction", 3) * fields.numbers("length", 1) * unit
-    axis = fields.turn(fields.line("axis")[1][3:], fields.numbers("axis", 3) * radians)
-    return Bone(vector, axis, fields.dofs("dof", (*TURNS, *MOVES, "l")) if "dof" in fields.lines else ())
+    _, words = fields.line("axis")
+    axis = fields.rotation(words[ORDER], fields.numbers("axis", 3) * radians)
+    dofs = fields.dofs("dof", (*TURNS, *MOVES, "l")) if "dof" in fields.lines else ()
+    return Bone(vector, axis, dofs)
 
 
 def _hierarchy(path: str | Path, lines: list[Line], bones: Mapping[str, Bone]) -> dict[str, list[str]]:
-    """List the bones' children."""
+    """Return the children of each bone that has some."""
     children: dict[str, list[str]] = {}
-    free = set(bones) - {"root"}
+    orphans = set(bones) - {"root"}  # bones without a parent so far
     for number, (parent, *names) in lines:
         for name in names:  # none after 'begin' and 'end'
-            if parent not in bones or name not in free:
+            if parent not in bones or name not in orphans:
                 got = f"'{name}' below '{parent}'"
                 raise FormatError(path, number, "bones of :bonedata, each below one other", got)
-            free.remove(name)
+            orphans.remove(name)
         if names:
             children.setdefault(parent, []).extend(names)
     if "root" not in children:
@@ -200,23 +221,23 @@ def _hierarchy(path: str | Path, lines: list[Line], bones: Mapping[str, Bone]) -
     return children
 
 
-def _grown(children: Mapping[str, list[str]], bones: Mapping[str, Bone]) -> Skeleton:
-    """Follow the hierarchy from the root, depth first; bones that it does not reach are left out.
+def _skeleton(children: Mapping[str, list[str]], bones: Mapping[str, Bone]) -> Skeleton:
+    """Build the skeleton from the root, depth first; bones that the hierarchy does not reach are left out.
 
     A bone without children gets a joint at its end, unless it has no length.
     """
     joints: list[tuple[str, int, Array]] = []
-    waiting = [("root", -1, np.zeros(3))]  # name, parent, offset
-    while waiting:
-        name, parent, offset = waiting.pop()
-        end = bones[name].vector if name in bones and joints else np.zeros(3)
-        ends = [f"{name}_end"] if np.any(end) else []
-        waiting += [(child, len(joints), end) for child in reversed(children.get(name, ends))]
+    stack = [("root", -1, np.zeros(3))]  # name, parent, offset
+    while stack:
+        name, parent, offset = stack.pop()
+        vector = bones[name].vector if name in bones and joints else np.zeros(3)  # of the root, a position
+        ends = [f"{name}_end"] if np.any(vector) else []
+        stack += [(child, len(joints), vector) for child in reversed(children.get(name, ends))]
         joints.append((name, parent, offset))
     names, parents, offsets = zip(*joints, strict=True)
-    # The root's axis is its orientation at rest; its angles do not turn about it.
-    stub = Bone(np.zeros(3), rotations.IDENTITY, ())  # an end site
-    known = [bones.get(name, stub) for name in names]
-    axes = [rotations.IDENTITY, *(bone.axis for bone in known[1:])]
-    dofs = [bone.order for bone in known]
+    end = Bone(np.zeros(3), rotations.IDENTITY, ())
+    starting = [bones.get(name, end) for name in names]  # the bone that starts at each joint
+    # The root's axis is its orientation at rest, and not the axes of its angles.
+    axes = [rotations.IDENTITY, *(bone.axis for bone in starting[1:])]
+    dofs = [bone.order for bone in starting]
     return Skeleton(names, np.array(parents), np.array(offsets), np.array(axes), dofs)

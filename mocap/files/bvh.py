@@ -1,8 +1,8 @@
 """BVH files: a hierarchy of joints, and the numbers of their channels in every frame.
 
-Position channels replace a joint's offset. Rotation channels turn about the joint's own axes in the order
-given: Zrotation Xrotation Yrotation is R = Rz Rx Ry. A file has no unit: it is `scale` metres, by default a
-centimetre. `bvh_hierarchy` says how joints are named.
+Position channels replace a joint's offset. Rotation channels are angles about the joint's own axes in the
+order given: Zrotation Xrotation Yrotation is R = Rz Rx Ry. A file names no unit: it is `scale` metres, by
+default a centimetre. The names of joints are explained in `bvh_hierarchy`.
 """
 
 from __future__ import annotations
@@ -33,8 +33,10 @@ from mocap.files.text import LARGEST, check_room, quick_numbers, read_text, to_n
 
 SCALE = 0.01  # metres in one unit of the files that are written, and by default of those that are read
 STILL = 1e-5  # metres that a fixed joint may move in its parent's frame: rounding of printed numbers
-SHORTEST, LONGEST = 1e-5, 10.0  # seconds a frame may last
-ALONG = 0.8  # how much of a leg's length is along z where the file has z up
+SHORTEST = 1e-5  # seconds a frame lasts at least
+LONGEST = 10.0  # seconds a frame lasts at most
+ALONG = 0.8  # fraction of a leg's length that is along z if the file has z up
+UPRIGHT = 0.5  # fraction of the frames in which both legs are along z if the file has z up
 TIMES = re.compile(
     r"\s*Frames[ \t]*:[ \t]*(\S+)[ \t]*\n\s*Frame[ \t]+Time[ \t]*:[ \t]*(\S+)[ \t]*(?:\n|\Z)", re.IGNORECASE
 )
@@ -45,7 +47,7 @@ def read(
 ) -> Recording:
     """Read a BVH file.
 
-    Position channels below the root are allowed. Where they move, and no bone's length changes by more than
+    Position channels below the root are allowed. If they change, and no bone's length changes by more than
     `stretch`, the bones are fitted to rigid ones: see `rigid_bones`. If the root has only one child, and that
     child moves (some files have a reference point above the hips), both become one joint, named as the child.
 
@@ -53,7 +55,7 @@ def read(
     ----------
     path : the file.
     scale : metres in one unit of the file.
-    fps : frames per second; by default from the frame time, a whole number where its digits allow it.
+    fps : frames per second; by default from the frame time, a whole number if its digits allow it.
     stretch : metres by which a bone's length may change.
 
     Raises
@@ -62,60 +64,71 @@ def read(
 
     Warns
     -----
-    MocapWarning : where bones were fitted, with how much they stretch, and how far joints moved; and where
-        legs, found by their names, stand along z at rest and in most frames: then y is made to point up.
+    MocapWarning : if bones were fitted, with the changes of their lengths and the distances of the joints
+        from the file; and if legs, recognised by their names, are along z at rest and in most frames: then
+        the motion is rotated so that y is up.
     """
     joints, blocks, rate = _channels(path, fps=fps)
-    angles = {joint.name: block[:, _turning(joint)] for joint, block in zip(joints, blocks, strict=True)}
-    joints, places, local = _poses(joints, blocks, scale)
-    lengths = np.ptp(np.linalg.norm(places, axis=-1), axis=0).tolist()
-    names, parents = [joint.name for joint in joints], np.array([joint.parent for joint in joints])
-    offsets, local = _rigid(path, joints, (places, local), stretch)
-    skeleton = Skeleton(names, parents, offsets, dofs=[_turns(joint)[::-1] for joint in joints])
-    motion = Motion(skeleton, places[:, 0], local, rate, Path(path).stem)
-    return Recording(_upright(path, motion), angles, dict(zip(names[1:], lengths[1:], strict=True)))
+    angles = {}
+    for joint, block in zip(joints, blocks, strict=True):
+        angles[joint.name] = block[:, _rotation_columns(joint)]
+    joints, positions, local = _poses(joints, blocks, scale)
+    lengths = np.linalg.norm(positions, axis=-1)
+    changes = np.ptp(lengths, axis=0).tolist()
+    offsets, local = _rigid(path, joints, (positions, local), stretch)
+    names = [joint.name for joint in joints]
+    parents = np.array([joint.parent for joint in joints])
+    dofs = [_axes(joint)[::-1] for joint in joints]
+    skeleton = Skeleton(names, parents, offsets, dofs=dofs)
+    motion = Motion(skeleton, positions[:, 0], local, rate, Path(path).stem)
+    return Recording(_upright(path, motion), angles, dict(zip(names[1:], changes[1:], strict=True)))
 
 
 def _upright(path: str | Path, motion: Motion) -> Motion:
-    """Turn all axes so that y is up, where both legs stand along z at rest and in most frames."""
+    """Rotate a motion so that y is up if both legs are along z at rest and in most frames."""
     skeleton = motion.skeleton
-    if not (legs := find_pair(skeleton, "legs")):
+    legs = find_pair(skeleton, "legs")
+    if not legs:
         return motion
-    (hips, _, ankles), poses = np.transpose(legs), np.vstack([skeleton.rest[None], joint_positions(motion)])
+    hips, _, ankles = np.transpose(legs)
+    poses = np.vstack([skeleton.rest[None], joint_positions(motion)])
     up = poses[:, hips] - poses[:, ankles]
     along_z = (up[..., 2] > ALONG * np.linalg.norm(up, axis=-1)).all(axis=1)
-    if not along_z[0] or along_z[1:].mean() < 0.5:
+    if not along_z[0] or along_z[1:].mean() < UPRIGHT:
         return motion
     warn(f"{path}: the body stands along z: turned so that y is up.")
-    roots, offsets = (rotations.rotate(Z_UP, way) for way in (motion.root_positions, skeleton.offsets))
+    roots = rotations.rotate(Z_UP, motion.root_positions)
+    offsets = rotations.rotate(Z_UP, skeleton.offsets)
     local = rotations.multiply(rotations.multiply(Z_UP, motion.rotations), rotations.inverse(Z_UP))
     upright = replace(skeleton, offsets=offsets, axes=np.tile(Z_UP, (len(skeleton), 1)))
     return replace(motion, skeleton=upright, root_positions=roots, rotations=local)
 
 
 def _poses(joints: list[Joint], blocks: list[Array], scale: float) -> tuple[list[Joint], Array, Array]:
-    """Turn channels into joints, their places below their parents (F, J, 3), metres, and rotations."""
+    """Convert channels to joints, positions in their parents' frames (F, J, 3), metres, and rotations."""
     frames = len(blocks[0])
-    places = np.tile(np.array([joint.offset for joint in joints]), (frames, 1, 1))
+    positions = np.tile(np.array([joint.offset for joint in joints]), (frames, 1, 1))
     local = np.tile(rotations.IDENTITY, (frames, len(joints), 1))
     for index, (joint, block) in enumerate(zip(joints, blocks, strict=True)):
         for channel, numbers in zip(joint.channels, block.T, strict=True):
             if channel in POSITIONS:
-                places[:, index, POSITIONS.index(channel)] = numbers
-        if order := _turns(joint):
-            local[:, index] = euler.from_euler(order.upper(), np.radians(block[:, _turning(joint)]))
+                positions[:, index, POSITIONS.index(channel)] = numbers
+        order = _axes(joint).upper()
+        if order:
+            local[:, index] = euler.from_euler(order, np.radians(block[:, _rotation_columns(joint)]))
     parents = [joint.parent for joint in joints]
-    if parents.count(0) == 1 and np.ptp(places[:, 1], axis=0).max() * scale > STILL:
-        # The only child takes the root's place: p = p_root + R_root p_child, R = R_root R_child.
-        places[:, 1] = places[:, 0] + rotations.rotate(local[:, 0], places[:, 1])
+    if parents.count(0) == 1 and np.ptp(positions[:, 1], axis=0).max() * scale > STILL:
+        # The only child replaces the root: p = p_root + R_root p_child, R = R_root R_child.
+        positions[:, 1] = positions[:, 0] + rotations.rotate(local[:, 0], positions[:, 1])
         local[:, 1] = rotations.multiply(local[:, 0], local[:, 1])
         joints = [replace(joint, parent=joint.parent - 1) for joint in joints[1:]]
-        places, local = places[:, 1:], local[:, 1:]
-    return joints, scale * places, local
+        positions = positions[:, 1:]
+        local = local[:, 1:]
+    return joints, scale * positions, local
 
 
 def _channels(path: str | Path, *, fps: float | None = None) -> tuple[list[Joint], list[Array], float]:
-    """Read the joints, each one's numbers (F, channels), and the frame rate, which `fps` replaces."""
+    """Read the joints, the numbers of each joint (F, channels), and the frame rate, unless it is `fps`."""
     text = read_text(path)
     start = re.search(r"^[ \t]*MOTION[ \t]*$", text, re.MULTILINE | re.IGNORECASE)
     if start is None:
@@ -139,94 +152,114 @@ def _values(path: str | Path, text: str, times: re.Match[str], width: int) -> Ar
     if count < 1 or width == 0:
         raise FormatError(path, line, "one frame or more", f"{times[1]}, of {width} channels")
     words = text[times.end() :].split()
-    if len(words) == count * width and (values := quick_numbers(words)) is not None:
+    values = quick_numbers(words) if len(words) == count * width else None
+    if values is not None:
         return values.reshape(-1, width)
-    found = 0  # complete frames before the line that is wrong
-    for number, row in enumerate(text[times.end() :].split("\n"), text.count("\n", 0, times.end()) + 1):
-        if words := row.split():
-            to_numbers(path, number, words, f"{width} numbers after {found} complete frames", width)
-            found += 1
-    raise FormatError(path, line, f"'Frames: {found}', as many as follow", f"'Frames: {times[1]}'")
+    frames = 0  # complete ones, before the line that is wrong
+    first_line = text.count("\n", 0, times.end()) + 1
+    for number, row in enumerate(text[times.end() :].split("\n"), first_line):
+        words = row.split()
+        if words:
+            to_numbers(path, number, words, f"{width} numbers after {frames} complete frames", width)
+            frames += 1
+    raise FormatError(path, line, f"'Frames: {frames}', as many as follow", f"'Frames: {times[1]}'")
 
 
 def _rate(path: str | Path, text: str, times: re.Match[str]) -> float:
-    """Read the frame rate; a whole number where the frame time is 1 / that number, rounded or cut off."""
+    """Read the frame rate; a whole number if the frame time is 1 / that number, rounded or truncated."""
     line = text.count("\n", 0, times.start(2)) + 1
     seconds = float(to_numbers(path, line, [times[2]], "seconds", 1)[0])
     if not SHORTEST <= seconds <= LONGEST:
         raise FormatError(path, line, f"a frame time from {SHORTEST:g} to {LONGEST:g} s", times[2])
     last_digit = 10.0 ** int(Decimal(times[2]).as_tuple().exponent)
     whole = max(1, round(1 / seconds))
-    return float(whole) if abs(1 / whole - seconds) < max(0.999 * last_digit, 1e-12) else 1 / seconds
+    if abs(1 / whole - seconds) < max(0.999 * last_digit, 1e-12):  # truncating loses less than a last digit
+        return float(whole)
+    return 1 / seconds
 
 
-def _turning(joint: Joint) -> list[int]:
-    return [place for place, channel in enumerate(joint.channels) if channel in ROTATIONS]
+def _rotation_columns(joint: Joint) -> list[int]:
+    """Return the indices of a joint's rotation channels."""
+    return [column for column, channel in enumerate(joint.channels) if channel in ROTATIONS]
 
 
-def _turns(joint: Joint) -> str:
-    """Name the axes of a joint's rotation channels, in their order."""
-    return "".join(joint.channels[place][0] for place in _turning(joint))
+def _axes(joint: Joint) -> str:
+    """Return the axes of a joint's rotation channels in their order, such as "zxy"."""
+    return "".join(joint.channels[column][0] for column in _rotation_columns(joint))
 
 
 def _rigid(
-    path: str | Path, joints: list[Joint], poses: tuple[Array, Array], most: float
+    path: str | Path, joints: list[Joint], poses: tuple[Array, Array], limit: float
 ) -> tuple[Array, Array]:
-    """Give the offsets of rigid bones (J, 3) and rotations (F, J, 4); bones may stretch by `most` metres."""
-    places, local = poses
-    moved = np.ptp(places[:, 1:], axis=0).max(axis=1)  # metres, of each joint but the root
-    if not (moved > STILL).any():
-        return np.vstack([np.zeros((1, 3)), places[0, 1:]]), local
-    offsets, fitted, stretch, apart = fit(np.array([joint.parent for joint in joints]), places, local)
-    worst = int(stretch.argmax())
-    if stretch.max() > most or apart.max() > APART * most:
-        mover = joints[1 + int(moved.argmax())]
-        expected = f"'{mover.name}' in one place below its parent, but for {most:g} m"
-        raise FormatError(path, mover.line, expected, f"one that moves by {moved.max():.2g} m")
-    change = f"{1000 * stretch[worst]:.2g} mm ({shortened(joints[worst].name, 40)})"
-    off = f"fitted to rigid bones, joints lie up to {1000 * apart.max():.2g} mm from their places"
-    warn(f"{path}: bones change length by up to {change}; {off} in the file.")
+    """Fit rigid bones if joints move in their parents' frames, and raise if they stretch by `limit` metres.
+
+    Returns
+    -------
+    Offsets (J, 3), metres, and rotations (F, J, 4).
+    """
+    positions, local = poses
+    movements = np.ptp(positions[:, 1:], axis=0).max(axis=1)  # metres, of each joint except the root
+    if not (movements > STILL).any():
+        return np.vstack([np.zeros((1, 3)), positions[0, 1:]]), local
+    parents = np.array([joint.parent for joint in joints])
+    offsets, fitted, stretch, distances = fit(parents, positions, local)
+    if stretch.max() > limit or distances.max() > APART * limit:
+        mover = joints[1 + int(movements.argmax())]
+        expected = f"'{mover.name}' in one place below its parent, but for {limit:g} m"
+        raise FormatError(path, mover.line, expected, f"one that moves by {movements.max():.2g} m")
+    worst = shortened(joints[int(stretch.argmax())].name, 40)
+    change = f"bones change length by up to {1000 * stretch.max():.2g} mm ({worst})"
+    distance = f"joints lie up to {1000 * distances.max():.2g} mm from their places in the file"
+    warn(f"{path}: {change}; fitted to rigid bones, {distance}.")
     return offsets, fitted
 
 
 def write(
     pieces: Iterable[Motion], path: str | Path, *, frames: int, turns: NDArray[np.bool_], precision: int = 6
 ) -> None:
-    """Write a BVH file of motions that follow one another, in centimetres, one of them in memory at a time.
+    """Write a BVH file of consecutive motions, in centimetres, with one of them in memory at a time.
 
-    Joints are written depth first. A leaf that never turns, and has the name that reading would give it,
-    becomes an End Site; any other leaf is a joint with an End Site of zero length. Of all equal angles the
-    nearest to those of the frame before are written, so every curve is continuous.
+    Joints are written depth first. A leaf that never rotates, and has the name that reading would give it,
+    becomes an End Site; any other leaf is a joint with an End Site of zero length. Of equivalent Euler angles
+    those nearest to the previous frame are written, so every curve is continuous.
 
     Parameters
     ----------
     pieces : motions of one skeleton and rate, with `frames` frames together.
     path : the file; one that exists is replaced when the new one is whole.
     frames : the count in the file's header.
-    turns : shape (J,), which joints ever turn, as by `body.motion.turning`.
+    turns : shape (J,), which joints ever rotate, as by `body.motion.turning`.
     precision : digits after the point; 6 keep joints to 1e-7 m.
 
     Raises
     ------
     MocapError : for a name or frame rate that a BVH file cannot hold, or a folder that cannot be written to.
     """
-    first = next(pieces := iter(pieces))
-    seconds, name = 1 / first.fps, shortened(first.name)
+    motions = iter(pieces)
+    first = next(motions)
+    seconds = 1 / first.fps
     if not SHORTEST <= seconds <= LONGEST:
+        name = shortened(first.name)
         raise MocapError(f"'{name}' at {first.fps:g} Hz does not fit a BVH file: resample it first.")
     offsets = np.round(first.skeleton.offsets / SCALE, precision) + 0.0  # no -0.000000
     hierarchy, order = write_hierarchy(first.skeleton, offsets, turns, precision)
-    before = np.empty((0, len(order), 3))
-    with replacing(path) as beside, beside.open("w", encoding="utf-8", newline="\n") as file:
+    previous = np.empty((0, len(order), 3))  # angles of the last frame of the motion before
+    with replacing(path) as unfinished, unfinished.open("w", encoding="utf-8", newline="\n") as file:
         file.write(f"{hierarchy}MOTION\nFrames: {frames}\nFrame Time: {seconds!r}\n")
-        for motion in chain([first], pieces):  # the angles go on from those of the frame before
-            angles = np.concatenate([before, euler.to_euler("ZXY", motion.rotations[:, order])])
+        for motion in chain([first], motions):
+            angles = np.concatenate([previous, euler.to_euler("ZXY", motion.rotations[:, order])])
             angles = euler.continuous("ZXY", angles)[-len(motion) :]
-            before = angles[-1:]
-            values = np.hstack([motion.root_positions / SCALE, np.degrees(angles).reshape(len(motion), -1)])
-            if np.any(np.abs(values) >= LARGEST):
-                far = f"goes {LARGEST:g} units far, or turns by as many degrees"
-                raise MocapError(f"'{shortened(motion.name)}' {far}: no file holds it.")
-            values = np.round(values, precision) + 0.0  # no -0.0
-            row = " ".join([f"%.{precision}f"] * values.shape[1]) + "\n"
-            file.write((row * len(values)) % tuple(values.ravel().tolist()))
+            previous = angles[-1:]
+            file.write(_frame_rows(motion, angles, precision))
+
+
+def _frame_rows(motion: Motion, angles: Array, precision: int) -> str:
+    """Format the numbers of a motion, a line for each frame; `angles` of its joints (F, J, 3), radians."""
+    degrees = np.degrees(angles).reshape(len(motion), -1)
+    values = np.hstack([motion.root_positions / SCALE, degrees])
+    if np.any(np.abs(values) >= LARGEST):
+        reason = f"goes {LARGEST:g} units far, or turns by as many degrees"
+        raise MocapError(f"'{shortened(motion.name)}' {reason}: no file holds it.")
+    values = np.round(values, precision) + 0.0  # no -0.0
+    row = " ".join([f"%.{precision}f"] * values.shape[1]) + "\n"
+    return (row * len(values)) % tuple(values.ravel().tolist())

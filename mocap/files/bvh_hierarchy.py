@@ -20,13 +20,17 @@ from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError, shortened
 from mocap.files.text import to_numbers
 
-OUTSIDE, OPENING = ("HIERARCHY", "ROOT"), ("ROOT", "JOINT", "END")
-WITHIN, WITHIN_END = ("OFFSET", "CHANNELS", "JOINT", "END", "}"), ("OFFSET", "}")
-CHANNELS = "CHANNELS 3 Zrotation Xrotation Yrotation"
-ROOT_CHANNELS = "CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation"
-NOTHING_BELOW = ("End Site", "{", "\tOFFSET 0 0 0", "}")
+FIRST = ("HIERARCHY", "ROOT")  # keywords that begin a file
+OPENING = ("ROOT", "JOINT", "END")  # keywords before a brace that opens
+INSIDE_JOINT = ("OFFSET", "CHANNELS", "JOINT", "END", "}")
+INSIDE_END_SITE = ("OFFSET", "}")
 POSITIONS = ("xposition", "yposition", "zposition")
 ROTATIONS = ("xrotation", "yrotation", "zrotation")
+
+# What is written.
+CHANNELS = "CHANNELS 3 Zrotation Xrotation Yrotation"
+ROOT_CHANNELS = "CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation"
+EMPTY_END_SITE = ("End Site", "{", "\tOFFSET 0 0 0", "}")  # below a joint without children
 
 
 @dataclass
@@ -41,57 +45,111 @@ class Joint:
 
 
 def _statements(text: str) -> Iterator[tuple[int, str, str]]:
-    """Go through the statements of the hierarchy: line, keyword in capitals, and the rest."""
+    """Yield the statements of the hierarchy: line, keyword in capitals, and the text after it."""
     for number, line in enumerate(text.split("\n"), 1):
         for statement in re.findall(r"[{}]|[^{}]+", line):
-            if words := statement.split(maxsplit=1):
+            words = statement.split(maxsplit=1)
+            if words:
                 yield number, words[0].upper(), "".join(words[1:]).strip()
 
 
 def read_hierarchy(path: str | Path, text: str) -> list[Joint]:
-    """Build the tree, parents first."""
-    joints: list[Joint] = []
-    inside: list[int] = []  # the joints whose braces are open
-    allowed: tuple[str, ...] = OUTSIDE
+    """Return the joints of a hierarchy, parents first.
+
+    Raises
+    ------
+    FormatError : with the line that breaks the format.
+
+    Examples
+    --------
+    >>> text = '''ROOT hips {
+    ... OFFSET 0 0 0
+    ... End Site { OFFSET 0 9 0 } }'''
+    >>> hips, end = read_hierarchy("walk.bvh", text)
+    >>> end.name, end.parent, end.offset
+    ('hips_end', 0, array([0., 9., 0.]))
+    """
+    tree = _Tree(path)
     line = 1
-    for line, keyword, rest in _statements(text):
-        if keyword not in allowed:
-            raise FormatError(path, line, " or ".join(allowed) or "MOTION", f"'{keyword}'")
+    for line, keyword, argument in _statements(text):
+        if keyword not in tree.allowed:
+            raise FormatError(path, line, " or ".join(tree.allowed) or "MOTION", f"'{keyword}'")
+        tree.add(line, keyword, argument)
+    if tree.open or tree.allowed:
+        raise FormatError(path, line, " or ".join(tree.allowed), "the end of the hierarchy")
+    return _named(path, tree.joints)
+
+
+class _Tree:
+    """The joints that are read so far.
+
+    joints : parents first. An End Site has an empty name.
+    open : the joints whose braces are open, innermost last.
+    allowed : the keywords that may follow; none after the brace that closes the root.
+    """
+
+    def __init__(self, path: str | Path) -> None:
+        self.path = path
+        self.joints: list[Joint] = []
+        self.open: list[int] = []
+        self.allowed: tuple[str, ...] = FIRST
+
+    def add(self, line: int, keyword: str, argument: str) -> None:
+        """Add a statement whose keyword is allowed."""
+        match keyword:
+            case "ROOT" | "JOINT" | "END":
+                self._open_joint(line, keyword, argument)
+            case "{":
+                self.open.append(len(self.joints) - 1)
+            case "OFFSET":
+                offset = to_numbers(self.path, line, argument.split(), "3 numbers", 3)
+                self.joints[self.open[-1]].offset = offset
+            case "CHANNELS":
+                channels = _channels(self.path, line, argument.lower().split())
+                self.joints[self.open[-1]].channels = channels
+            case "}":
+                self._close_joint(line)
+        self.allowed = self._next_keywords(keyword)
+
+    def _open_joint(self, line: int, keyword: str, argument: str) -> None:
+        if not argument:
+            raise FormatError(self.path, line, f"a name after {keyword}", "none")
+        name = "" if keyword == "END" else argument
+        parent = self.open[-1] if self.open else -1
+        self.joints.append(Joint(line, name, parent))
+
+    def _close_joint(self, line: int) -> None:
+        """Close the innermost brace; an End Site of zero length is dropped."""
+        joint = self.joints[self.open.pop()]
+        if joint.offset is None:
+            raise FormatError(self.path, line, "an OFFSET before '}'", "none")
+        if not joint.name and not np.any(joint.offset):
+            self.joints.pop()  # nothing is below an End Site: it is the last joint
+
+    def _next_keywords(self, keyword: str) -> tuple[str, ...]:
+        """Return the keywords that may follow a keyword."""
         if keyword in OPENING:
-            if not rest:
-                raise FormatError(path, line, f"a name after {keyword}", "none")
-            joints.append(Joint(line, rest if keyword != "END" else "", inside[-1] if inside else -1))
-        elif keyword == "{":
-            inside.append(len(joints) - 1)
-        elif keyword == "OFFSET":
-            joints[inside[-1]].offset = to_numbers(path, line, rest.split(), "3 numbers", 3)
-        elif keyword == "CHANNELS":
-            joints[inside[-1]].channels = _channels(path, line, rest.lower().split())
-        elif keyword == "}":
-            _close(path, line, joints, inside.pop())
-        within = (WITHIN if joints[inside[-1]].name else WITHIN_END) if inside else ()
-        allowed = ("{",) if keyword in OPENING else within if joints else OUTSIDE
-    if inside or allowed:
-        raise FormatError(path, line, " or ".join(allowed), "the end of the hierarchy")
-    return _named(path, joints)
+            return ("{",)
+        if self.open:
+            is_end_site = not self.joints[self.open[-1]].name
+            return INSIDE_END_SITE if is_end_site else INSIDE_JOINT
+        return () if self.joints else FIRST
 
 
 def _channels(path: str | Path, line: int, words: list[str]) -> list[str]:
+    """Read the names of channels after their number."""
     count, *names = words or [""]
     unknown = [name for name in names if name not in POSITIONS + ROTATIONS]
-    twice = [name for name, times in Counter(names).items() if times > 1]
-    if count != str(len(names)) or unknown or twice:
-        got = f"'{(unknown or twice)[0]}'{' twice' * bool(twice)}" if unknown or twice else ""
-        expected = "the number of channels and their names, such as '3 Zrotation Xrotation Yrotation'"
-        raise FormatError(path, line, expected, got or f"'{shortened(count, 30)}' and {len(names)} names")
-    return names
-
-
-def _close(path: str | Path, line: int, joints: list[Joint], joint: int) -> None:
-    if joints[joint].offset is None:
-        raise FormatError(path, line, "an OFFSET before '}'", "none")
-    if not joints[joint].name and not np.any(joints[joint].offset):
-        joints.pop()  # an End Site, so it is the last
+    repeated = [name for name, times in Counter(names).items() if times > 1]
+    if count == str(len(names)) and not unknown and not repeated:
+        return names
+    got = f"'{shortened(count, 30)}' and {len(names)} names"
+    if unknown:
+        got = f"'{unknown[0]}'"
+    elif repeated:
+        got = f"'{repeated[0]}' twice"
+    expected = "the number of channels and their names, such as '3 Zrotation Xrotation Yrotation'"
+    raise FormatError(path, line, expected, got)
 
 
 def _named(path: str | Path, joints: list[Joint]) -> list[Joint]:
@@ -108,48 +166,80 @@ def _named(path: str | Path, joints: list[Joint]) -> list[Joint]:
     return joints
 
 
-def _end_name(parent: str, before: int) -> str:
-    """Name the End Site of `parent` that comes after `before` others."""
-    return f"{parent}_end{before + 1 if before else ''}"
+def _end_name(parent: str, index: int) -> str:
+    """Name an End Site of `parent`; the first one has index 0."""
+    return f"{parent}_end{index + 1 if index else ''}"
 
 
 def _end_sites(skeleton: Skeleton, offsets: Array, turning: NDArray[np.bool_]) -> set[int]:
-    """Find the leaves that never turn and have the names that reading would give them."""
-    found: set[int] = set()
-    ends: Counter[int] = Counter()
+    """Return the leaves that never rotate and have the names that reading would give them."""
+    end_sites: set[int] = set()
+    counts: Counter[int] = Counter()  # of the End Sites of each parent
     leaves = set(range(1, len(skeleton))) - set(skeleton.parents.tolist())
     for joint in sorted(leaves - set(np.flatnonzero(turning).tolist())):
         parent = int(skeleton.parents[joint])
-        if skeleton.names[joint] == _end_name(skeleton.names[parent], ends[parent]) and offsets[joint].any():
-            found.add(joint)
-            ends[parent] += 1
-    return found
+        name = _end_name(skeleton.names[parent], counts[parent])
+        if skeleton.names[joint] == name and offsets[joint].any():
+            end_sites.add(joint)
+            counts[parent] += 1
+    return end_sites
 
 
 def write_hierarchy(
     skeleton: Skeleton, offsets: Array, turning: NDArray[np.bool_], precision: int
 ) -> tuple[str, list[int]]:
-    """Write the hierarchy with `offsets` in the file's unit; list the joints with channels, in its order."""
-    ends = _end_sites(skeleton, offsets, turning)
-    rows, order, waiting, depth = ["HIERARCHY"], [], [0], 0
-    while waiting:
-        joint = waiting.pop()
-        tabs = "\t" * depth
+    """Write the hierarchy, and list the joints that have channels, in the order of the file.
+
+    Parameters
+    ----------
+    skeleton : J joints.
+    offsets : shape (J, 3), in the unit of the file; the root is written with 0.
+    turning : shape (J,), which joints ever rotate.
+    precision : digits after the point.
+
+    Raises
+    ------
+    MocapError : for a name that a BVH file cannot hold.
+    """
+    end_sites = _end_sites(skeleton, offsets, turning)
+    rows = ["HIERARCHY"]
+    order: list[int] = []
+    depth = 0
+    stack = [0]  # joints to write, the next one last; -1 for the closing brace of a joint
+    while stack:
+        joint = stack.pop()
         if joint < 0:
             depth -= 1
-            rows.append(f"{tabs[1:]}}}")
+            rows.append("\t" * depth + "}")
             continue
-        name = skeleton.names[joint]
-        if not name.isprintable() or name != name.strip() or not name or set(name) & set("{}"):
-            raise MocapError(f"A BVH file cannot hold a joint called {shortened(repr(name))}.")
-        title = "End Site" if joint in ends else f"{'JOINT' if joint else 'ROOT'} {name}"
-        offset = " ".join(f"{number:.{precision}f}" for number in (offsets[joint] if joint else np.zeros(3)))
-        rows += [f"{tabs}{title}", f"{tabs}{{", f"{tabs}\tOFFSET {offset}"]
+        is_end_site = joint in end_sites
+        offset = offsets[joint] if joint else np.zeros(3)
+        numbers = " ".join(f"{number:.{precision}f}" for number in offset)
+        joint_rows = _joint_rows(skeleton, joint, numbers, is_end_site=is_end_site)
+        rows += ["\t" * depth + row for row in joint_rows]
+        stack.append(-1)
         depth += 1
-        waiting.append(-1)  # the closing brace, below all children
-        if joint not in ends:
-            rows.append(f"{tabs}\t{CHANNELS if joint else ROOT_CHANNELS}")
-            rows += [] if skeleton.children(joint) else [f"{tabs}\t{row}" for row in NOTHING_BELOW]
-            waiting += reversed(skeleton.children(joint))
+        if not is_end_site:
+            stack += reversed(skeleton.children(joint))
             order.append(joint)
     return "\n".join([*rows, ""]), order
+
+
+def _joint_rows(skeleton: Skeleton, joint: int, offset: str, *, is_end_site: bool) -> list[str]:
+    """Write the lines of a joint, without those of its children and its closing brace."""
+    if is_end_site:
+        return ["End Site", "{", f"\tOFFSET {offset}"]
+    keyword = "JOINT" if joint else "ROOT"
+    channels = CHANNELS if joint else ROOT_CHANNELS
+    rows = [f"{keyword} {_checked_name(skeleton, joint)}", "{", f"\tOFFSET {offset}", f"\t{channels}"]
+    if not skeleton.children(joint):
+        rows += [f"\t{row}" for row in EMPTY_END_SITE]
+    return rows
+
+
+def _checked_name(skeleton: Skeleton, joint: int) -> str:
+    """Return the name of a joint; raise if it would not be read back."""
+    name = skeleton.names[joint]
+    if not name.isprintable() or name != name.strip() or not name or set(name) & set("{}"):
+        raise MocapError(f"A BVH file cannot hold a joint called {shortened(repr(name))}.")
+    return name

@@ -1,4 +1,4 @@
-"""Which motion files there are, in folders too, and all of them converted, several at a time."""
+"""The search for motion files in folders, and their conversion, several at a time."""
 
 import os
 from collections.abc import Callable, Iterable, Sequence
@@ -39,7 +39,7 @@ def find_files(paths: Iterable[Path], *, deep: bool = False) -> list[Path]:
     Parameters
     ----------
     paths : files and folders.
-    deep : whether to look into the folders inside the folders, too.
+    deep : whether to search the folders inside the folders as well.
 
     Raises
     ------
@@ -65,7 +65,7 @@ def find_files(paths: Iterable[Path], *, deep: bool = False) -> list[Path]:
 
 
 def plan(source: str | Path, target: str | Path, suffix: str = ".bvh") -> list[tuple[Path, Path]]:
-    """Pair each motion file with the one to write.
+    """Pair each motion file with the file to write.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ def plan(source: str | Path, target: str | Path, suffix: str = ".bvh") -> list[t
 
 
 def require_apart(pairs: Sequence[tuple[Path, Path]], read: Iterable[Path] = ()) -> None:
-    """Raise where two files to read would become one, or a file to write is one of those to read.
+    """Raise if two files to read would become one, or a file to write is one of those to read.
 
     Examples
     --------
@@ -115,12 +115,12 @@ def require_apart(pairs: Sequence[tuple[Path, Path]], read: Iterable[Path] = ())
 def convert(
     pairs: Sequence[tuple[Path, Path]], load: Callable[[Path], "Motion"], *, progress: Progress = iter
 ) -> list[str]:
-    """Convert files, as many at a time as there are processors; a file that fails does not stop the others.
+    """Convert files, one at a time on each processor; a file that fails does not stop the others.
 
     Parameters
     ----------
     pairs : files to read and files to write, as from `plan`.
-    load : gives the motion to write for a file, as `files.load` does; sent to other processes.
+    load : returns the motion to write for a file, as `files.load` does; sent to other processes.
     progress : wraps the pairs while they are converted.
 
     Returns
@@ -148,6 +148,7 @@ def convert(
 
 
 def _convert(load: Callable[[Path], "Motion"], source: Path, target: Path) -> str:
+    """Convert a file; return the sentence of the error, or an empty text."""
     try:
         motion = load(source)
         make_folder(target.parent)

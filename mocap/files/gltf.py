@@ -1,8 +1,8 @@
 """A motion as a `.glb` file: a node for each joint, a skin, and an animation of rotations [GLTF21].
 
-The nodes stand at rest: no joint is turned, and the lowest is on the ground. The turns of joints that carry
-little are stored as shares of 32767 in 16 bits, as glTF allows: that moves no joint by more than 0.1 mm. The
-file is a JSON text and a block of numbers [GLTF21, 4.4].
+The nodes are at rest: no joint is rotated, and the lowest is on the ground. The rotations of joints with a
+short limb below are stored in 16 bits, as fractions of 32767, as glTF allows: that moves no joint by more
+than 0.1 mm. The file is a JSON text and a block of numbers [GLTF21, 4.4].
 """
 
 from __future__ import annotations
@@ -23,11 +23,23 @@ from mocap.files.gltf_capsules import body, reaches
 
 Record = dict[str, Any]
 
-CARRIED = 0.25  # metres: the turns of a joint that carries less are rounded to 16 bits
+CARRIED = 0.25  # metres: rotations of a joint with a shorter limb below are rounded to 16 bits
+LARGEST_INT16 = 32767  # stands for 1
 MOST = 2**32 - 1  # bytes: the header counts in 32 bits
+VERSION = 2  # of glTF
+HEADER = struct.Struct("<4sII")  # "glTF", the version, the bytes of the file
+CHUNK_HEADER = struct.Struct("<I4s")  # the bytes of a chunk, its kind
+
 KINDS = {1: "SCALAR", 3: "VEC3", 4: "VEC4", 16: "MAT4"}  # by how many numbers an element has
 NUMBERS = {"int16": 5122, "uint8": 5121, "uint16": 5123, "uint32": 5125, "float32": 5126}
-VERTICES, CORNERS = 34962, 34963  # what an array is for
+VERTICES = 34962  # the target of an array: data of vertices
+CORNERS = 34963  # the target of an array: corners of triangles
+TRANSLATION = 3  # column of a 4 × 4 matrix
+XYZW = [1, 2, 3, 0]  # glTF's order of the parts of a quaternion (w, x, y, z)
+INFLUENCES = 4  # joints that carry a vertex: glTF wants four, and we use the first
+
+ASSET = {"version": "2.0", "generator": "mocap"}
+BODY = {"name": "body", "mesh": 0, "skin": 0}
 CLAY = {"baseColorFactor": [0.45, 0.55, 0.65, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.8}
 
 
@@ -48,31 +60,15 @@ def glb(motion: Motion) -> bytes:
     >>> len(glb(sample("walk_straight"))) < 500_000
     True
     """
-    skeleton, block = motion.skeleton, Block()
-    joints = len(skeleton)
-    back = np.tile(np.eye(4, dtype=np.float32), (joints, 1, 1))  # each moves a joint at rest to the origin
-    back[:, 3, :3] = -skeleton.rest  # by columns
-    bind = block.add(back.reshape(-1, 16))
-    document = {
-        "asset": {"version": "2.0", "generator": "mocap"},
-        "scene": 0,
-        "scenes": [{"name": motion.name, "nodes": [0, joints]}],
-        "nodes": [*_nodes(skeleton), {"name": "body", "mesh": 0, "skin": 0}],
-        "skins": [{"inverseBindMatrices": bind, "joints": list(range(joints)), "skeleton": 0}],
-        "materials": [{"name": "clay", "pbrMetallicRoughness": CLAY}],
-        "meshes": [_mesh(skeleton, block)],
-        "animations": [_animation(motion, block)],
-        "accessors": block.accessors,
-        "bufferViews": block.views,
-        "buffers": [{"byteLength": len(block.data)}],
-    }
-    text = json.dumps(document, separators=(",", ":")).encode()
+    block = Block()
+    text = json.dumps(_document(motion, block), separators=(",", ":")).encode()
     text += b" " * (-len(text) % 4)
-    size = 28 + len(text) + len(block.data)
+    size = HEADER.size + CHUNK_HEADER.size + len(text) + CHUNK_HEADER.size + len(block.data)
     if size > MOST:
         raise MocapError(f"A .glb file holds {MOST / 1e9:.1f} GB at most, not {size / 1e9:.1f}: write .bvh.")
-    heads = struct.pack("<4sIII4s", b"glTF", 2, size, len(text), b"JSON"), (len(block.data), b"BIN\0")
-    return heads[0] + text + struct.pack("<I4s", *heads[1]) + block.data
+    json_chunk = CHUNK_HEADER.pack(len(text), b"JSON") + text
+    binary_chunk = CHUNK_HEADER.pack(len(block.data), b"BIN\0") + block.data
+    return HEADER.pack(b"glTF", VERSION, size) + json_chunk + binary_chunk
 
 
 @dataclass
@@ -93,72 +89,106 @@ class Block:
     data: bytearray = field(default_factory=bytearray)
 
     def add(self, values: NDArray[Any], *, bounds: bool = False, target: int | None = None) -> int:
-        """Add an array, shape (N,) or (N, numbers), and give the index of its accessor.
+        """Add an array, shape (N,) or (N, numbers), and return the index of its accessor.
 
-        Whole numbers with a sign stand for shares of their largest, and so do bytes ("normalised").
+        Signed integers and bytes are fractions of their largest value ("normalised").
 
         Parameters
         ----------
         values : of a type in `NUMBERS`.
-        bounds : whether to say the least and the largest, as glTF wants for places and times.
-        target : `VERTICES` for what belongs to vertices, `CORNERS` for the corners of triangles.
+        bounds : whether to store the smallest and the largest, as glTF wants for positions and times.
+        target : `VERTICES` for data of vertices, `CORNERS` for the corners of triangles.
         """
-        flat = values.reshape(len(values), -1)
-        accessor = {
-            "bufferView": len(self.views),
-            "componentType": NUMBERS[values.dtype.name],
-            "count": len(flat),
-            "type": KINDS[flat.shape[1]],
-        }
-        accessor |= {"normalized": True} if values.dtype in (np.int16, np.uint8) else {}
-        accessor |= {"min": flat.min(0).tolist(), "max": flat.max(0).tolist()} if bounds else {}
+        table = values.reshape(len(values), -1)
+        accessor: Record = {"bufferView": len(self.views), "componentType": NUMBERS[values.dtype.name]}
+        accessor["count"] = len(table)
+        accessor["type"] = KINDS[table.shape[1]]
+        if values.dtype in (np.int16, np.uint8):
+            accessor["normalized"] = True
+        if bounds:
+            accessor["min"] = table.min(0).tolist()
+            accessor["max"] = table.max(0).tolist()
+        view: Record = {"buffer": 0, "byteOffset": len(self.data), "byteLength": values.nbytes}
+        if target:
+            view["target"] = target
         self.accessors.append(accessor)
-        place = {"buffer": 0, "byteOffset": len(self.data), "byteLength": values.nbytes}
-        self.views.append(place | ({"target": target} if target else {}))
-        self.data += values.tobytes() + b"\0" * (-values.nbytes % 4)
-        return len(self.views) - 1
+        self.views.append(view)
+        padding = b"\0" * (-values.nbytes % 4)
+        self.data += values.tobytes() + padding
+        return len(self.accessors) - 1
+
+
+def _document(motion: Motion, block: Block) -> Record:
+    """Build the JSON part of the file, and add its arrays to the block."""
+    skeleton = motion.skeleton
+    roots = [0, len(skeleton)]  # the root joint, and the node of the body after all joints
+    document: Record = {"asset": ASSET, "scene": 0}
+    document["scenes"] = [{"name": motion.name, "nodes": roots}]
+    document["nodes"] = [*_nodes(skeleton), BODY]
+    document["skins"] = [_skin(skeleton, block)]
+    document["materials"] = [{"name": "clay", "pbrMetallicRoughness": CLAY}]
+    document["meshes"] = [_mesh(skeleton, block)]
+    document["animations"] = [_animation(motion, block)]
+    document["accessors"] = block.accessors
+    document["bufferViews"] = block.views
+    document["buffers"] = [{"byteLength": len(block.data)}]
+    return document
 
 
 def _nodes(skeleton: Skeleton) -> list[Record]:
-    places = skeleton.offsets.copy()
-    places[0] = [0.0, -skeleton.rest[:, 1].min(), 0.0]
+    """List a node for each joint, with its offset; the root is raised until the lowest joint is at y = 0."""
+    offsets = skeleton.offsets.copy()
+    offsets[0] = [0.0, -skeleton.rest[:, 1].min(), 0.0]
     nodes: list[Record] = []
     for joint, name in enumerate(skeleton.names):
-        node: Record = {"name": name, "translation": (places[joint] + 0.0).tolist()}
-        nodes.append(node | ({"children": below} if (below := skeleton.children(joint)) else {}))
+        node: Record = {"name": name, "translation": (offsets[joint] + 0.0).tolist()}
+        children = skeleton.children(joint)
+        if children:
+            node["children"] = children
+        nodes.append(node)
     return nodes
 
 
+def _skin(skeleton: Skeleton, block: Block) -> Record:
+    """Build the skin: for each joint a matrix that moves it from its position at rest to the origin."""
+    joints = len(skeleton)
+    matrices = np.tile(np.eye(4, dtype=np.float32), (joints, 1, 1))  # stored by columns
+    matrices[:, TRANSLATION, :3] = -skeleton.rest
+    accessor = block.add(matrices.reshape(joints, -1))
+    return {"inverseBindMatrices": accessor, "joints": list(range(joints)), "skeleton": 0}
+
+
 def _mesh(skeleton: Skeleton, block: Block) -> Record:
-    places, normals, joints, corners = body(skeleton)
-    counted = np.uint16 if len(places) < 2**16 - 1 else np.uint32  # the largest number is kept free
-    carried = np.zeros((len(places), 4), np.uint16)
-    carried[:, 0] = joints
-    weights = np.zeros((len(places), 4), np.uint8)
-    weights[:, 0] = 255  # the whole of it
-    attributes = {
-        "POSITION": block.add(places.astype(np.float32), bounds=True, target=VERTICES),
-        "NORMAL": block.add(normals.astype(np.float32), target=VERTICES),
-        "JOINTS_0": block.add(carried, target=VERTICES),
-        "WEIGHTS_0": block.add(weights, target=VERTICES),
-    }
-    indices = block.add(corners.ravel().astype(counted), target=CORNERS)
+    """Build the surface of the body; each vertex is carried by one joint."""
+    positions, normals, joints, corners = body(skeleton)
+    index_type = np.uint16 if len(positions) < 2**16 - 1 else np.uint32  # the largest number is kept free
+    carriers = np.zeros((len(positions), INFLUENCES), np.uint16)
+    carriers[:, 0] = joints
+    weights = np.zeros((len(positions), INFLUENCES), np.uint8)
+    weights[:, 0] = 255  # stands for 1
+    attributes = {"POSITION": block.add(positions.astype(np.float32), bounds=True, target=VERTICES)}
+    attributes["NORMAL"] = block.add(normals.astype(np.float32), target=VERTICES)
+    attributes["JOINTS_0"] = block.add(carriers, target=VERTICES)
+    attributes["WEIGHTS_0"] = block.add(weights, target=VERTICES)
+    indices = block.add(corners.ravel().astype(index_type), target=CORNERS)
     return {"name": "body", "primitives": [{"attributes": attributes, "indices": indices, "material": 0}]}
 
 
 def _animation(motion: Motion, block: Block) -> Record:
+    """Build the animation: the root's translation, and the rotations of joints that ever rotate."""
     times = (np.arange(len(motion)) / motion.fps).astype(np.float32)
     if np.any(np.diff(times) <= 0):
         name = shortened(motion.name)
         raise MocapError(f"'{name}' at {motion.fps:g} Hz is too fast for a .glb: resample it.")
     clock = block.add(times, bounds=True)
     samplers = [{"input": clock, "output": block.add(motion.root_positions.astype(np.float32))}]
-    channels = [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]
-    turns = rotations.continuous(motion.rotations)[..., [1, 2, 3, 0]]
-    carries = reaches(motion.skeleton)
+    channels: list[Record] = [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]
+    quaternions = rotations.continuous(motion.rotations)[..., XYZW]
+    limbs = reaches(motion.skeleton)
     for joint in np.flatnonzero(turning(motion)).tolist():
-        exact = turns[:, joint].astype(np.float32)
-        short = np.round(32767 * exact).astype(np.int16)
+        values: NDArray[Any] = quaternions[:, joint].astype(np.float32)
+        if limbs[joint] <= CARRIED:
+            values = np.round(LARGEST_INT16 * values).astype(np.int16)
         channels.append({"sampler": len(samplers), "target": {"node": joint, "path": "rotation"}})
-        samplers.append({"input": clock, "output": block.add(exact if carries[joint] > CARRIED else short)})
+        samplers.append({"input": clock, "output": block.add(values)})
     return {"name": motion.name, "samplers": samplers, "channels": channels}

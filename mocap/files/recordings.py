@@ -1,4 +1,4 @@
-"""What a motion file says, besides the motion: its own angles, and by how much its bones stretch."""
+"""The contents of a motion file: the motion, the file's own angles, and the stretch of its bones."""
 
 from mocap._shared.arrays import Array
 from mocap._shared.records import NamedTuple
@@ -9,8 +9,8 @@ class Recording(NamedTuple):
     """A `motion` as it was read, named after its file.
 
     angles : of each joint, shape (F, its axes), degrees, as they are in the file; an `.npz` has none.
-    stretch : by how much the bone from its parent to each joint changes its length in the file, metres: the
-        longest less the shortest. Only a `.bvh` file can have such bones.
+    stretch : for each joint, the change in length of the bone from its parent in the file, metres: the
+        longest minus the shortest. Only a `.bvh` file can have such bones.
     """
 
     motion: Motion

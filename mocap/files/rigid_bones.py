@@ -1,9 +1,9 @@
 """Rigid bones for a file whose joints move in their parents' frames.
 
-Some programs write six channels for every joint, and let bones grow and shrink by a few millimetres. To
-drop these moves, as some readers do, would carry each of them on to all joints behind. Here each bone gets
-its mean length, and each joint turns so that its children come as close as they can to where the file has
-them. The method is ours, from the polar decomposition of a sum of outer products.
+Some programs write six channels for every joint, and let bones grow and shrink by a few millimetres. Some
+readers drop these translations, which moves all joints below. Here each bone gets its mean length, and each
+joint rotates so that its children come as close as possible to their positions in the file. The method is
+ours, from the polar decomposition of a sum of outer products.
 """
 
 import numpy as np
@@ -13,66 +13,84 @@ from mocap._shared.arrays import Array
 from mocap.body import rotations
 
 STRETCH = 0.02  # metres: a bone whose length changes by more is no bone
-APART = 2.5  # times as far a joint may come to lie from its place in the file
-KEPT = 1e-3  # of the bones' square lengths: how much a joint's own turn counts, so that it keeps its twist
+APART = 2.5  # times `STRETCH`: the distance that a joint may move from its position in the file
+ROTATION_WEIGHT = 1e-3  # λ, as a fraction of the bones' squared lengths: enough to keep a joint's twist
+SHORTEST = 1e-9  # metres: a shorter mean offset has no direction
 
 
-def fit(parents: NDArray[np.intp], places: Array, local: Array) -> tuple[Array, Array, Array, Array]:
+def fit(parents: NDArray[np.intp], positions: Array, local: Array) -> tuple[Array, Array, Array, Array]:
     r"""Fit rigid bones, from the root down.
 
-    A bone gets its mean direction and mean length in its parent's frame. The global turn R of a joint with
-    children at offsets o is the one that maximises Σ d · R o + λ tr(Rᵀ G), where d leads from the joint to
-    the child's place in the file, and G is its turn there: R = U diag(1, 1, ±1) Vᵀ of the SVD of
-    Σ d oᵀ + λ G.
+    A bone gets its mean direction and mean length in its parent's frame. The global rotation R of a joint
+    with children at offsets o is the one that maximises Σ d · R o + λ tr(Rᵀ G), where d leads from the joint
+    to the child's position in the file, and G is the joint's rotation there: R = U diag(1, 1, ±1) Vᵀ of the
+    SVD of Σ d oᵀ + λ G.
 
     Parameters
     ----------
     parents : shape (J,), -1 for the root, each before its children.
-    places : shape (F, J, 3), metres: where each joint is in its parent's frame; the root in the world.
+    positions : shape (F, J, 3), metres: of each joint in its parent's frame, of the root in the world.
     local : shape (F, J, 4), quaternions against the parent's frame.
 
     Returns
     -------
-    The bones' offsets (J, 3), metres; rotations (F, J, 4); by how much each bone changes its length in the
-    file, (J,), metres; and how far each joint lies from its place there at most, (J,), metres.
+    The bones' offsets (J, 3), metres; rotations (F, J, 4); the change of each bone's length in the file,
+    (J,), metres; and each joint's largest distance from its position there, (J,), metres.
 
     Examples
     --------
-    A bone that points up, then sideways: the joint below it turns, and the bone is as long as before.
+    A bone that points up, then sideways: the joint below it rotates, and the bone keeps its length.
 
     >>> moving = np.array([[[0, 0, 0], [0, 1, 0]], [[0, 0, 0], [1, 0, 0]]], float)
     >>> offsets, _, stretch, _ = fit(np.array([-1, 0]), moving, np.tile(rotations.IDENTITY, (2, 2, 1)))
     >>> offsets[1].round(2), float(stretch.max())
     (array([0.71, 0.71, 0.  ]), 0.0)
     """
-    lengths = np.linalg.norm(places, axis=-1)
-    middle = places.mean(axis=0)
-    short = np.linalg.norm(middle, axis=-1)
-    offsets = middle * np.where(short > 1e-9, lengths.mean(axis=0) / np.maximum(short, 1e-9), 1.0)[:, None]
-    offsets[0] = 0.0
-    there, turned = _in_world(parents, places, local)
-    here, fitted = there.copy(), turned.copy()
+    offsets = _mean_offsets(positions)
+    targets, file_rotations = _world_poses(parents, positions, local)
+    joints = targets.copy()
+    matrices = file_rotations.copy()
     for joint in range(len(parents)):
-        below = np.flatnonzero(parents == joint)
-        bones = offsets[below]
-        if len(below) and (bones**2).sum() > 0:
-            aims = there[:, below] - here[:, joint, None]
-            matrix = np.einsum("fci,cj->fij", aims, bones) + KEPT * (bones**2).sum() * turned[:, joint]
-            fitted[:, joint] = rotations.nearest(matrix)
-        here[:, below] = here[:, joint, None] + np.einsum("fij,cj->fci", fitted[:, joint], bones)
-    above = np.swapaxes(fitted[:, parents[1:]], -1, -2)
-    own = np.concatenate([fitted[:, :1], above @ fitted[:, 1:]], axis=1)
-    stretch = np.ptp(lengths, axis=0)
+        children = np.flatnonzero(parents == joint)
+        bones = offsets[children]
+        squares = (bones**2).sum()
+        if squares > 0:
+            directions = targets[:, children] - joints[:, joint, None]
+            outer_products = np.einsum("fci,cj->fij", directions, bones)
+            rotation_term = ROTATION_WEIGHT * squares * file_rotations[:, joint]
+            matrices[:, joint] = rotations.nearest(outer_products + rotation_term)
+        joints[:, children] = joints[:, joint, None] + np.einsum("fij,cj->fci", matrices[:, joint], bones)
+    stretch = np.ptp(np.linalg.norm(positions, axis=-1), axis=0)
     stretch[0] = 0.0
-    apart = np.linalg.norm(here - there, axis=-1).max(axis=0)
-    return offsets, rotations.from_matrix(own), stretch, apart
+    distances = np.linalg.norm(joints - targets, axis=-1).max(axis=0)
+    return offsets, _local_rotations(parents, matrices), stretch, distances
 
 
-def _in_world(parents: NDArray[np.intp], places: Array, local: Array) -> tuple[Array, Array]:
-    """Place all joints, (F, J, 3), and give how they are turned, (F, J, 3, 3), with bones of any length."""
-    at, turned = places.copy(), rotations.to_matrix(local)
+def _mean_offsets(positions: Array) -> Array:
+    """Average directions and lengths over the frames: offsets (J, 3), metres, of which the root's is 0."""
+    lengths = np.linalg.norm(positions, axis=-1).mean(axis=0)
+    means = positions.mean(axis=0)
+    mean_lengths = np.linalg.norm(means, axis=-1)  # shorter than `lengths` where the direction changes
+    ratios = np.where(mean_lengths > SHORTEST, lengths / np.maximum(mean_lengths, SHORTEST), 1.0)
+    offsets: Array = means * ratios[:, None]
+    offsets[0] = 0.0
+    return offsets
+
+
+def _world_poses(parents: NDArray[np.intp], positions: Array, local: Array) -> tuple[Array, Array]:
+    """Compute positions (F, J, 3) and rotation matrices (F, J, 3, 3) in the world; bones may stretch."""
+    joints = positions.copy()
+    matrices = rotations.to_matrix(local)
     for joint in range(1, len(parents)):
-        above = parents[joint]
-        at[:, joint] = at[:, above] + np.einsum("fij,fj->fi", turned[:, above], places[:, joint])
-        turned[:, joint] = turned[:, above] @ turned[:, joint]
-    return at, turned
+        parent = parents[joint]
+        bone = np.einsum("fij,fj->fi", matrices[:, parent], positions[:, joint])
+        joints[:, joint] = joints[:, parent] + bone
+        matrices[:, joint] = matrices[:, parent] @ matrices[:, joint]
+    return joints, matrices
+
+
+def _local_rotations(parents: NDArray[np.intp], matrices: Array) -> Array:
+    """Convert rotation matrices in the world to quaternions against the parents' frames, (F, J, 4)."""
+    inverses = np.swapaxes(matrices[:, parents[1:]], -1, -2)  # of the parents
+    local = np.concatenate([matrices[:, :1], inverses @ matrices[:, 1:]], axis=1)
+    return rotations.from_matrix(local)

@@ -13,10 +13,12 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.errors import FormatError, MocapError, shortened
 
-LARGEST = 1e9  # lengths, angles and times of motion files are far below
+LARGEST = 1e9  # units of a file: lengths, angles and times of motion files are far below
+MOST_POSES = 10_000_000  # of one joint: from here a file must have numbers for them
+POSES_PER_NUMBER = 10  # poses that a number of such a file may stand for
 
 
-def read_text(path: str | Path, *, most: int = -1) -> str:
+def read_text(path: str | Path, *, most: int = -1) -> str:  # reads: name: a keyword that callers write
     r"""Read a text file; all its lines end with "\n" afterwards.
 
     Text that is not UTF-8 is read as Latin-1, which older exporters wrote.
@@ -46,8 +48,10 @@ def read_text(path: str | Path, *, most: int = -1) -> str:
             data = file.read(most)
     except OSError as error:
         raise MocapError(f"Cannot read {path}: {error.strerror}.") from error
-    if (zero := data.find(b"\0")) >= 0:
-        raise FormatError(path, data.count(b"\n", 0, zero) + 1, "text", "a zero byte, as in a binary file")
+    zero = data.find(b"\0")
+    if zero >= 0:
+        line = data.count(b"\n", 0, zero) + 1
+        raise FormatError(path, line, "text", "a zero byte, as in a binary file")
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
@@ -55,32 +59,39 @@ def read_text(path: str | Path, *, most: int = -1) -> str:
     if not text.strip():
         raise FormatError(path, None, "some text", "an empty file")
     text = text.replace("\r\n", "\n").replace("\r", "\n")
-    if (marker := f"\n{text}".find("\n<<<<<<< ")) >= 0:
+    marker = f"\n{text}".find("\n<<<<<<< ")
+    if marker >= 0:
+        line = text.count("\n", 0, marker) + 1
         got = "'<<<<<<<', an unresolved merge: take one of its two versions"
-        raise FormatError(path, text.count("\n", 0, marker) + 1, "one version of the file", got)
+        raise FormatError(path, line, "one version of the file", got)
     return text
 
 
 def check_room(path: str | Path, poses: int, numbers: int) -> None:
-    """Refuse a file with few numbers and many joints without channels: their poses would fill the memory.
+    """Raise if a file has few numbers and many joints without channels: their poses would fill the memory.
+
+    Parameters
+    ----------
+    poses : the frames times the joints.
+    numbers : how many the file holds.
 
     Raises
     ------
     FormatError : for more than 10 million poses of one joint, and less than one number per ten of them.
     """
-    if poses > 10_000_000 and poses > 10 * numbers:
+    if poses > MOST_POSES and poses > POSES_PER_NUMBER * numbers:
         raise FormatError(path, None, "numbers for at least a tenth of the joints", f"{numbers} for {poses}")
 
 
 def check_above_0(**options: float | None) -> None:
-    """Refuse a number that was given, but is not finite and above 0."""
+    """Raise unless each option is None, or finite and above 0."""
     for name, value in options.items():
         if value is not None and not (math.isfinite(value) and value > 0):
             raise MocapError(f"{name} must be a number above 0, got {value}.")
 
 
 def lines(text: str) -> Iterator[tuple[int, list[str]]]:
-    r"""Go through the lines with words: line number, from 1, and words; `#` starts a comment.
+    r"""Yield the number (from 1) and the words of each line that has words; `#` starts a comment.
 
     Examples
     --------
@@ -93,7 +104,7 @@ def lines(text: str) -> Iterator[tuple[int, list[str]]]:
 
 
 def to_numbers(path: str | Path, line: int | None, words: list[str], expected: str, count: int) -> Array:
-    """Turn words into numbers, all finite and below 10⁹.
+    """Convert words to numbers, all finite and below 10⁹.
 
     Parameters
     ----------
@@ -116,21 +127,26 @@ def to_numbers(path: str | Path, line: int | None, words: list[str], expected: s
     """
     if len(words) != count:
         raise FormatError(path, line, expected, str(len(words)))
-    if (numbers := quick_numbers(words)) is not None:
+    numbers = quick_numbers(words)
+    if numbers is not None:
         return numbers
-    place, word = next((n, word) for n, word in enumerate(words, 1) if quick_numbers([word]) is None)
+    position, word = next((n, word) for n, word in enumerate(words, 1) if quick_numbers([word]) is None)
     with suppress(ValueError):
         float(word)  # it is a number, but a large one
         expected = f"{expected}, all below {LARGEST:g}"
-    got = f"'{shortened(word, 40)}'{f' as number {place}' if count > 1 else ''}"
+    got = f"'{shortened(word, 40)}'"
+    if count > 1:
+        got = f"{got} as number {position}"
     raise FormatError(path, line, expected, got)
 
 
 def quick_numbers(words: list[str]) -> Array | None:
-    """Turn many words into numbers; None where one of them is no finite number below 10⁹.
+    """Convert many words to numbers, or return None if one of them is no finite number below 10⁹.
 
     Examples
     --------
+    >>> quick_numbers(["1.5", "2"])
+    array([1.5, 2. ])
     >>> quick_numbers(["1.5", "nan"])
     """
     try:
@@ -143,8 +159,8 @@ def quick_numbers(words: list[str]) -> Array | None:
 def load_rows(path: str | Path, names: tuple[str, ...] = ("x", "z")) -> Array:
     r"""Read a table of numbers from a `.csv` file as people write it, one row per line.
 
-    Numbers stand between commas, semicolons or blanks; lines without numbers at the start are a heading, and
-    what follows a # is left out.
+    Numbers are separated by commas, semicolons or blanks. Lines without numbers at the start are a heading,
+    and what follows a # is left out.
 
     Parameters
     ----------
@@ -174,8 +190,13 @@ def load_rows(path: str | Path, names: tuple[str, ...] = ("x", "z")) -> Array:
     for number, words in lines(read_text(path)):
         line = " ".join(words)
         if rows or re.search(r"\d", line):
-            cells = [cell.split() or [""] for cell in line.replace(";", ",").split(",")]
-            rows.append(to_numbers(path, number, [*chain.from_iterable(cells)], expected, len(names)))
+            rows.append(to_numbers(path, number, _cells(line), expected, len(names)))
     if not rows:
         raise FormatError(path, None, expected, "no numbers")
     return np.array(rows)
+
+
+def _cells(line: str) -> list[str]:
+    """Split a row of a table; nothing between two commas is an empty cell."""
+    parts = [part.split() or [""] for part in line.replace(";", ",").split(",")]
+    return [*chain.from_iterable(parts)]

@@ -1,7 +1,6 @@
 """Characters that take their steps together, under one order, and the seconds until each obeys.
 
-A reader gives the commands, at any time, and may drag a heading along: each character carries
-a `CommandClock`.
+A reader gives the commands, at any time, and may drag a heading along: each character has a `CommandClock`.
 """
 
 from __future__ import annotations
@@ -21,7 +20,8 @@ from mocap.steering.characters import Character, CommandClock, Pose, as_motion, 
 from mocap.widgets.player import packed_body
 
 MOST = 4  # characters side by side
-
+LONGEST_FAULT = 200  # letters of the sentence of an error
+DELAYS = 20  # the last delays that a browser is sent
 
 Command = tuple[float, float, str]
 """Heading in radians (0 is +z, π/2 is +x), speed in metres per second, and a label."""
@@ -35,15 +35,18 @@ def checked(heading: float, speed: float, label: str) -> Command:
 
 
 class Walked(NamedTuple):
-    """The last F steps of a character: its poses, where its drawn joints are (F, K, 3), and what to tell.
+    """The last F steps of a character.
 
-    `told` has for each step the seconds `waited` and whether the command is `obeyed`, the number of the
-    `first` step, and the `fault`: the sentence of the error that the character stands still for, or "".
+    poses : one for each step.
+    places : the positions of its drawn joints, (F, K, 3), metres.
+    told : a message to the browser. It has for each step the seconds `waited`, and whether the command is
+        `obeyed` and the pose `blending`; the number of the `first` step; the last `delays`; and the `fault`:
+        the sentence of the error because of which the character stands still, or "".
     """
 
     poses: list[Pose]
     places: Array
-    told: dict[str, Any]
+    told: dict[str, Any]  # reads: name: the name that the course's tools read
 
 
 class Member:
@@ -51,42 +54,55 @@ class Member:
 
     Parameters
     ----------
-    name : as the pictures say it.
+    name : the name in the pictures.
     character : any controller.
     """
 
     def __init__(self, name: str, character: Character) -> None:
-        self.name, self.character = name, character
-        self.clock, (self.joints, self.body) = CommandClock(character.fps), packed_body(character.skeleton)
-        self.steps, self.fault = 0, ""
+        self.name = name
+        self.character = character
+        self.clock = CommandClock(character.fps)
+        self.joints, self.body = packed_body(character.skeleton)
+        self.steps = 0
+        self.fault = ""
         self.order: Command | None = None  # the last one that it took
-        self.stands: tuple[Pose, Array] | None = None  # the last pose, and where its joints are
+        self.last: tuple[Pose, Array] | None = None  # the last pose, and the positions of its joints
 
     def walk(self, order: Command, count: int) -> Walked:
-        """Take some steps; after an error it stands still until the order changes."""
+        """Take some steps; after an error the character stands still until the order changes."""
         if order != self.order:
-            self.order, self.fault = order, ""
-        told: dict[str, Any] = {"first": self.steps, "waited": [], "obeyed": [], "blending": []}
+            self.order = order
+            self.fault = ""
+        heading, _, _ = order
+        report: dict[str, Any] = {"first": self.steps, "waited": [], "obeyed": [], "blending": []}
         self.steps += count
-        poses, places = [], np.empty((count, len(self.joints), 3))
+        poses = []
+        positions = np.empty((count, len(self.joints), 3))
         for frame in range(count):
-            try:
-                if not self.fault:
-                    pose = self.character.step(*order)
-                    self.stands = pose, joint_positions(as_motion(self.character, [pose]))[0, self.joints]
-            except Exception as error:  # of any kind: it may come from a student's character
-                if self.stands is None:
-                    raise
-                self.fault = shortened(f"{type(error).__name__}: {error}", 200)
-            assert self.stands is not None
-            pose, places[frame] = self.stands
-            self.clock.command(order[0])
+            pose, positions[frame] = self._step(order)
+            self.clock.command(heading)
             self.clock.step(complex(pose.root_position[2], pose.root_position[0]))
             poses.append(pose)
-            told["waited"].append(round(self.clock.waited, 3))
-            told["obeyed"].append(self.clock.obeyed)
-            told["blending"].append(bool(pose.blending))
-        return Walked(poses, places, told | {"fault": self.fault, "delays": self.clock.delays[-20:]})
+            report["waited"].append(round(self.clock.waited, 3))
+            report["obeyed"].append(self.clock.obeyed)
+            report["blending"].append(bool(pose.blending))
+        report["fault"] = self.fault
+        report["delays"] = self.clock.delays[-DELAYS:]
+        return Walked(poses, positions, report)
+
+    def _step(self, order: Command) -> tuple[Pose, Array]:
+        """Take a step, or stand still after an error; return the pose and the positions of its joints."""
+        try:
+            if not self.fault:
+                pose = self.character.step(*order)
+                positions = joint_positions(as_motion(self.character, [pose]))
+                self.last = (pose, positions[0, self.joints])
+        except Exception as error:  # of any kind: it may come from a student's character
+            if self.last is None:
+                raise
+            self.fault = shortened(f"{type(error).__name__}: {error}", LONGEST_FAULT)
+        assert self.last is not None
+        return self.last
 
 
 class Company:
@@ -99,7 +115,7 @@ class Company:
     Raises
     ------
     MocapError : for no characters or more than four, and for the same one under two names.
-    Exception : whatever a character raises at its first step. Later, it stands still and says why.
+    Exception : whatever a character raises at its first step. Later, it stands still, and says why.
 
     Examples
     --------
@@ -124,16 +140,17 @@ class Company:
         self.walk(START, 0.0)
 
     def walk(self, order: Command, seconds: float) -> list[Walked]:
-        """Walk on for some seconds under one order, all of them; warnings are kept as `notes`."""
+        """Move all characters on by some seconds under one order; warnings are kept as `notes`."""
         self.seconds += seconds
-        start, before = time.thread_time(), self.members[0].steps
+        start = time.thread_time()
+        previous_steps = self.members[0].steps
+        walked = []
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always", MocapWarning)
-            walked = [
-                member.walk(order, max(0, 1 + round(self.seconds * member.character.fps) - member.steps))
-                for member in self.members
-            ]
-        steps = max(1, self.members[0].steps - before)
-        self.cost = 1e3 * (time.thread_time() - start) / steps
-        self.notes = list(dict.fromkeys(str(one.message) for one in caught))
+            for member in self.members:
+                steps = 1 + round(self.seconds * member.character.fps) - member.steps
+                walked.append(member.walk(order, max(0, steps)))
+        steps_taken = max(1, self.members[0].steps - previous_steps)
+        self.cost = 1e3 * (time.thread_time() - start) / steps_taken
+        self.notes = list(dict.fromkeys(str(warning.message) for warning in caught))
         return walked

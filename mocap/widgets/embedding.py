@@ -1,4 +1,4 @@
-"""What plays on a page, as a notebook shows it: live, as a picture or as a sentence."""
+"""Players on a page, as a notebook shows them: live, as a picture or as a sentence."""
 
 import base64
 import html
@@ -51,15 +51,15 @@ class Embedded(Protocol):
 
     @property
     def scene(self) -> dict[str, Any]:
-        """What the scripts draw; its `data` are bytes."""
+        """The scene that scripts draw; its `data` are bytes."""
 
     @property
     def picture(self) -> bytes:
-        """What stays where no script runs: a PNG."""
+        """The picture for places where no script runs: a PNG."""
 
     @property
     def heading(self) -> str:
-        """What stands above it on a page of its own."""
+        """The heading of a page of its own."""
         return ""
 
     def still(self) -> Picture:

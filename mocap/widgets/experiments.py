@@ -64,24 +64,30 @@ def explore(draw: Callable[..., Drawn], *, alt: str, **controls: Any) -> Experim
     Notebook: 01-skeletons-and-clips
     """
     defaults = {name: parameter.default for name, parameter in inspect.signature(draw).parameters.items()}
-    made = {}
+    widgets = {}
     for name, control in controls.items():
         if name not in defaults:
             raise MocapError(f"'{draw.__name__}' takes no '{name}'; it takes: {', '.join(defaults)}.")
-        try:
-            made[name] = ipywidgets.interactive.widget_from_abbrev(control, defaults[name])
-        except (ValueError, TypeError):
-            made[name] = None
-        if made[name] is None:
-            raise MocapError(f"The control {name}={control!r} is no range, choice or widget.")
-        made[name].description = name.replace("_", " ")
-    if sum(hasattr(control, "with_handles") for control in made.values()) > 1:
+        widgets[name] = _widget(name, control, defaults[name])
+    if sum(hasattr(widget, "with_handles") for widget in widgets.values()) > 1:
         raise MocapError("An experiment has one control of handles: put all points into it.")
-    return Experiment(draw, alt, made)
+    return Experiment(draw, alt, widgets)
+
+
+def _widget(name: str, control: object, default: object) -> Any:  # noqa: ANN401
+    """Make the widget of a control, with its name as the description."""
+    try:
+        widget = ipywidgets.interactive.widget_from_abbrev(control, default)
+    except (ValueError, TypeError):
+        widget = None
+    if widget is None:
+        raise MocapError(f"The control {name}={control!r} is no range, choice or widget.")
+    widget.description = name.replace("_", " ")
+    return widget
 
 
 def step_aside(reason: object) -> None:
-    """Say in one sentence why a notebook cannot go on, and make the cells below do nothing.
+    """Print in one sentence why a notebook cannot go on, and make the cells below do nothing.
 
     Parameters
     ----------
@@ -97,12 +103,13 @@ def step_aside(reason: object) -> None:
     from IPython import get_ipython
 
     print(f"The cells below do nothing until the kernel restarts: {reason}")
-    if (shell := get_ipython()) is not None:
+    shell = get_ipython()
+    if shell is not None:
         shell.input_transformers_cleanup.append(lambda lines: [])  # turns each cell into an empty one
 
 
 class Experiment:
-    """What `explore` returns: the controls, the picture, and the last error.
+    """The controls, the picture and the last error of an experiment, as `explore` returns it.
 
     Parameters
     ----------
@@ -121,10 +128,13 @@ class Experiment:
     """
 
     def __init__(self, draw: Callable[..., Drawn], alt: str, controls: dict[str, Any]) -> None:
-        self.draw, self.alt, self.controls = draw, alt, controls
+        self.draw = draw
+        self.alt = alt
+        self.controls = controls
         self.error: Exception | None = None
         self._figure: Figure | None = None
-        self._dragged = next((one for one in controls.values() if hasattr(one, "with_handles")), None)
+        handles = [control for control in controls.values() if hasattr(control, "with_handles")]
+        self._dragged = handles[0] if handles else None
         self.picture: Any = self._dragged or ipywidgets.Image(format="png")
         self.picture.add_class("mocap-picture")
         self.message = ipywidgets.HTML(layout={"display": "none"})
@@ -178,7 +188,7 @@ class Experiment:
         """Draw a whole figure; or, for a list of artists, these over the stored picture of all others.
 
         Matplotlib leaves `animated` artists out of a full drawing, and their changes do not make a figure
-        stale. So while the figure is not stale, the stored background is valid, and what moved goes on top.
+        stale. While the figure is not stale, the stored background is valid, and the artists are drawn on it.
         """
         figure = figure_of(drawn)
         moved = isinstance(drawn, Sequence) and all(isinstance(part, Artist) for part in drawn)
@@ -199,26 +209,34 @@ class Experiment:
             if hasattr(artist, "do_3d_projection"):
                 artist.do_3d_projection()
             artist.draw(self._canvas.get_renderer())
-        picture, stream = Image.fromarray(np.asarray(self._canvas.buffer_rgba())), io.BytesIO()
+        picture = Image.fromarray(np.asarray(self._canvas.buffer_rgba()))
+        stream = io.BytesIO()
         picture.convert("RGB").save(stream, "png", compress_level=1)  # fast rather than small
         return stream.getvalue()
 
     def _take(self, figure: Figure) -> None:
-        """Take a new figure; its axes get the old ones' places: a layout takes as long as a drawing."""
+        """Take a new figure; its axes get the old ones' positions: a layout takes as long as a drawing."""
         plt.close(figure)  # or the notebook shows it a second time, and pyplot keeps it for ever
-        before, self._figure, self._canvas = self._figure, figure, FigureCanvasAgg(figure)
-        size = figure.get_size_inches()
-        if before and len(figure.axes) == len(before.axes) and (size == before.get_size_inches()).all():
+        previous = self._figure
+        self._figure = figure
+        self._canvas = FigureCanvasAgg(figure)
+        if previous and _have_same_layout(figure, previous):
             figure.set_layout_engine("none")
-            for axes, placed in zip(figure.axes, before.axes, strict=True):
-                axes.set_position(placed.get_position(original=True))
+            for axes, previous_axes in zip(figure.axes, previous.axes, strict=True):
+                axes.set_position(previous_axes.get_position(original=True))
         figure.stale = True
 
     def still(self) -> tuple[dict[str, str], dict[str, Any]]:
-        """Return what stands where no Python runs: the picture, with its handles, as a PNG."""
+        """Return the picture for where no Python runs, with its handles, as a PNG."""
         drawn = self._dragged.with_handles() if self._dragged else Image.open(io.BytesIO(self.png))
         small = few_colours(drawn, letters_of(self._canvas.figure) * self._canvas.figure.dpi)
         return Picture(small, self.alt)._repr_mimebundle_()
 
     def _ipython_display_(self) -> None:
         display_live(self.still(), self.box, "slider")
+
+
+def _have_same_layout(figure: Figure, previous: Figure) -> bool:
+    """Check whether two figures have the same size and number of axes."""
+    sizes_agree = (figure.get_size_inches() == previous.get_size_inches()).all()
+    return bool(sizes_agree and len(figure.axes) == len(previous.axes))

@@ -23,9 +23,22 @@ from mocap.widgets.shaded_picture import GROUND, ShadedPicture, blend
 from mocap.widgets.walk_figure import capsules_at
 
 AROUND = 9  # metres of ground that are drawn to each side, beyond the characters
-FADE, PALE = 2.0, 0.7  # seconds from now, until which a path gets paler, and how pale
+FADE = 2.0  # seconds from now, until which a path gets paler
+PALE = 0.7  # weight of the ground's colour in a path after that time
 GREY = "#737B8C"  # the middle of a body
 STEP = 0.1  # seconds between points of a path
+SMOOTHING = 0.4  # seconds, the standard deviation by which the camera's path is smoothed
+ROUNDING = 1e-6  # frames: a time so near to a frame is that frame
+GRID_PIECES = 14  # pieces of a line of the grid on the ground, each of one colour
+PATH_WIDTH = 2.5  # pixels
+ASKED_WIDTH = 5  # pixels, of the path that was asked for
+SEAM_RADIUS = 0.07  # metres
+FOOTPRINT_RADIUS = 0.055  # metres
+EYE_LEVEL = np.array([0, 0.9, 0])  # metres: the camera looks at this height
+NEAREST = 4.2  # metres from the camera to one character
+ZOOM = 1.5  # metres further for each metre between characters
+FLAT = [1, 0, 1]  # a factor that moves points to the ground
+XZ = [0, 2]
 SCENE = re.compile(r'<div class="mocap-player">.*?<script type="application/json">(.*?)</script>', re.DOTALL)
 
 
@@ -46,7 +59,8 @@ class FilmedScene:
     """
 
     def __init__(self, scene: dict[str, Any]) -> None:
-        self.scene, self.seconds = scene, (scene["frames"] - 1) / scene["fps"]
+        self.scene = scene
+        self.seconds = (scene["frames"] - 1) / scene["fps"]
         data = zlib.decompress(scene["data"])
         self.clouds: list[Array] = []  # each (F, J, 3), metres
         for character in scene["characters"]:
@@ -55,18 +69,24 @@ class FilmedScene:
             numbers = changes.cumsum(-1, dtype="u2").cumsum(-1, dtype="u2")
             self.clouds.append(np.moveaxis(numbers, -1, 0) * character["step"] + character["low"])
         self.times = np.append(np.arange(0.0, self.seconds, STEP), self.seconds)
-        self.ways = [np.array([self.pose(n, t)[0] for t in self.times]) for n in range(len(self.clouds))]
-        ways = np.array(self.ways) * [1, 0, 1]
-        centres = ways.mean(axis=0)
-        self.spread = float(np.linalg.norm(ways - centres, axis=-1).max())
-        self.targets = gaussian_filter1d(centres, 0.4 / STEP, axis=0, mode="nearest")
+        self.paths = [self._path(number) for number in range(len(self.clouds))]
+        paths = np.array(self.paths) * FLAT
+        centres = paths.mean(axis=0)
+        self.spread = float(np.linalg.norm(paths - centres, axis=-1).max())
+        self.targets = gaussian_filter1d(centres, SMOOTHING / STEP, axis=0, mode="nearest")
+
+    def _path(self, number: int) -> Array:
+        """Return the positions of a character's root at `times`, (T, 3), metres."""
+        return np.array([self.pose(number, time)[0] for time in self.times])
 
     def pose(self, number: int, time: float) -> Array:
-        """Place the drawn joints of a character, (J, 3), metres; who has come to the end stands there."""
-        cloud, at = self.clouds[number], time * self.scene["characters"][number]["fps"]
-        frame = min(int(at + 1e-6), len(cloud) - 1)
-        here, after = cloud[frame], cloud[min(frame + 1, len(cloud) - 1)]
-        return np.asarray(here + min(at - frame, 1.0) * (after - here))
+        """Return positions of a character's drawn joints, (J, 3), metres: the last ones beyond its end."""
+        cloud = self.clouds[number]
+        frames = time * self.scene["characters"][number]["fps"]
+        frame = min(int(frames + ROUNDING), len(cloud) - 1)
+        joints = cloud[frame]
+        next_joints = cloud[min(frame + 1, len(cloud) - 1)]
+        return np.asarray(joints + min(frames - frame, 1.0) * (next_joints - joints))
 
     def picture(self, time: float, size: tuple[int, int]) -> NDArray[np.uint8]:
         """Draw the ground, the paths and the bodies, shape (height, width, 3).
@@ -77,59 +97,87 @@ class FilmedScene:
         size : width and height of the picture, pixels.
         """
         time = time % self.seconds if time > self.seconds > 0 else time
-        target = np.array([np.interp(time, self.times, along) for along in self.targets.T])
-        page = ShadedPicture(size, target + np.array([0, 0.9, 0]), 4.2 + 1.5 * self.spread)
-        reach = AROUND + round(self.spread)
-        ends = np.linspace(-reach, reach, 15)
-        for off in range(-reach, reach + 1, 1 + reach // 30):
-            far = np.hypot(off, ends[1:] - reach / 14)[:, None] / (reach + 1)
-            inks = to_rgb(FLOOR) + far.clip(0, 1) * (np.array(to_rgb(GROUND)) - to_rgb(FLOOR))
-            for way in ([ends, 0 * ends, 0 * ends + off], [0 * ends + off, 0 * ends, ends]):
-                page.line(np.round(target) + np.transpose(way), inks, 1)
+        target = np.array([np.interp(time, self.times, coordinate) for coordinate in self.targets.T])
+        page = ShadedPicture(size, target + EYE_LEVEL, NEAREST + ZOOM * self.spread)
+        self._draw_grid(page, np.round(target))
         for rim in rims(self.scene["obstacles"]):
             page.area(rim, to_rgb(QUIET))
-        asked = np.insert(np.reshape(self.scene["asked"], (-1, 2)), 1, 0.0, axis=1)
-        page.line(asked, blend(QUIET, GROUND, 0.3), 5)
+        asked_path = np.insert(np.reshape(self.scene["asked"], (-1, 2)), 1, 0.0, axis=1)
+        page.line(asked_path, blend(QUIET, GROUND, 0.3), ASKED_WIDTH)
         pieces: list[Array] = []
         colours: list[ArrayLike] = []
         for number, character in enumerate(self.scene["characters"]):
-            sides = self._draw_path(page, number, time)
+            self._draw_path(page, number, time)
             pieces.append(capsules_at(character, self.pose(number, time)))
+            sides = self._body_colours(number, time)
             colours += [sides[side] for *_, side in character["pieces"]]
         return page.finished(np.concatenate(pieces), np.array(colours))
 
-    def _draw_path(self, page: ShadedPicture, number: int, time: float) -> list[ArrayLike]:
-        """Draw a character's path, seams and footprints, strong around now; give its body's colours now.
+    def _draw_grid(self, page: ShadedPicture, centre: Array) -> None:
+        """Draw lines on the ground, metres apart, that fade into it with their distance from the centre."""
+        reach = AROUND + round(self.spread)
+        ends = np.linspace(-reach, reach, GRID_PIECES + 1)
+        middles = ends[1:] - reach / GRID_PIECES
+        zeros = np.zeros_like(ends)
+        floor = np.array(to_rgb(FLOOR))
+        ground = np.array(to_rgb(GROUND))
+        for offset in range(-reach, reach + 1, 1 + reach // 30):
+            fading = np.hypot(offset, middles)[:, None] / (reach + 1)
+            inks = floor + fading.clip(0, 1) * (ground - floor)
+            offsets = zeros + offset
+            page.line(centre + np.stack([ends, zeros, offsets], axis=-1), inks, 1)
+            page.line(centre + np.stack([offsets, zeros, ends], axis=-1), inks, 1)
 
-        They are those of the middle, the left and the right of a body, whose pieces say 0, 1 and -1.
-        """
-        character, way = self.scene["characters"][number], self.ways[number] * [1, 0, 1]
-        sources = character["sources"] or [{"start": 0.0, "colour": character["path_colour"]}]
+    def _draw_path(self, page: ShadedPicture, number: int, time: float) -> None:
+        """Draw a character's path, seams and footprints, paler with their distance in time."""
+        character = self.scene["characters"][number]
         middles = (self.times[1:] + self.times[:-1]) / 2
-        which = np.searchsorted([source["start"] for source in sources], [*middles, time], "right") - 1
-        inks = np.array([to_rgb(source["colour"]) for source in sources])[which[:-1]]
-        pale = PALE * np.minimum(np.abs(middles - time) / FADE, 1)[:, None]
-        page.line(way, (1 - pale) * inks + pale * to_rgb(GROUND), 2.5)
-        for seam in rims([[*self.pose(number, at)[0, [0, 2]], 0.07] for at in character["seams"]]):
-            page.area(seam, to_rgb(self.scene["marks"]["seam"]))
+        paleness = PALE * np.minimum(np.abs(middles - time) / FADE, 1)[:, None]
+        inks = (1 - paleness) * self._path_colours(number, middles) + paleness * to_rgb(GROUND)
+        page.line(self.paths[number] * FLAT, inks, PATH_WIDTH)
+        seams = [[*self.pose(number, seam)[0, XZ], SEAM_RADIUS] for seam in character["seams"]]
+        for rim in rims(seams):
+            page.area(rim, to_rgb(self.scene["marks"]["seam"]))
         for start, end, x, z, side in character["prints"]:
             if start <= time < end + FADE:
-                pale = PALE * max(0.0, (time - end) / FADE)
-                page.area(rims([[x, z, 0.055]])[0], blend(self.scene["sides"][side], GROUND, pale))
-        own = sources[which[-1]]["colour"] if character["sources"] else character["colour"]
+                colour = blend(self.scene["sides"][side], GROUND, PALE * max(0.0, (time - end) / FADE))
+                page.area(rims([[x, z, FOOTPRINT_RADIUS]])[0], colour)
+
+    def _path_colours(self, number: int, times: Array) -> Array:
+        """Return the colours of a path at some times, (T, 3): those of its sources."""
+        character = self.scene["characters"][number]
+        sources = character["sources"] or [{"start": 0.0, "colour": character["path_colour"]}]
+        colours = np.array([to_rgb(source["colour"]) for source in sources])
+        return np.asarray(colours[_sources_at(sources, times)])
+
+    def _body_colours(self, number: int, time: float) -> list[ArrayLike]:
+        """Return the colours of the middle, the left and the right of a body: indices 0, 1 and -1."""
+        character = self.scene["characters"][number]
+        colour = character["colour"]
+        if character["sources"]:
+            colour = character["sources"][_sources_at(character["sources"], time)]["colour"]
         if len(self.clouds) > 1:
-            return [to_rgb(own), blend(own, "#FFFFFF", 0.2), blend(own, "#000000", 0.2)]
+            return [to_rgb(colour), blend(colour, "#FFFFFF", 0.2), blend(colour, "#000000", 0.2)]
         middle, *sides = self.scene["sides"]
-        return [to_rgb(GREY if own == middle else own), *(blend(side, GREY, 0.25) for side in sides)]
+        if colour == middle:
+            colour = GREY
+        return [to_rgb(colour), *(blend(side, GREY, 0.25) for side in sides)]
+
+
+def _sources_at(sources: list[dict[str, Any]], times: ArrayLike) -> Any:  # noqa: ANN401
+    """Return the indices of the sources from which a motion comes at some times."""
+    return np.searchsorted([source["start"] for source in sources], times, "right") - 1
 
 
 def stored_scene(page: str) -> FilmedScene | None:
-    """Read the player in the HTML of an output; None where there is none.
+    """Read the player in the HTML of an output, or return None if there is none.
 
     Parameters
     ----------
     page : the HTML.
     """
-    found = SCENE.search(page)
-    scene = json.loads(found[1]) if found else None
-    return FilmedScene(scene | {"data": base64.b64decode(scene["data"])}) if scene else None
+    match = SCENE.search(page)
+    if match is None:
+        return None
+    scene = json.loads(match[1])
+    return FilmedScene(scene | {"data": base64.b64decode(scene["data"])})

@@ -1,15 +1,16 @@
-"""Live widgets in a notebook, and what stays when the kernel has ended.
+"""Live widgets in a notebook, and the pictures that remain when the kernel has ended.
 
-JupyterLab shows a widget whose kernel has ended as an error, and prefers that to the picture beside it. So a
-cell has two outputs here, the picture and the widget. A rule hides the picture while the widget lives, and
-the widget's output when it does not. In the dark theme it dims the notebook's pictures, which are drawn on
-white paper: inverted, they would have other colours than the text names.
+JupyterLab shows a widget whose kernel has ended as an error, and prefers that to the picture beside it. A
+cell therefore has two outputs here, the picture and the widget. A rule hides the picture while the widget
+lives, and the widget's output when it does not. In the dark theme it dims the notebook's pictures, which are
+drawn on white paper: inverted, they would have other colours than the text names.
 """
 
 from typing import Any
 
 WIDGET = "application/vnd.jupyter.widget-view+json"  # the name of a model that ends with its kernel
-STILL, LIVE = "mocap-still", "mocap-live"  # classes of the picture and of the widget
+STILL = "mocap-still"  # the class of the picture
+LIVE = "mocap-live"  # the class of the widget
 
 _OUTPUT = ".jp-OutputArea-child"
 _RULE = f"""<style>
@@ -19,21 +20,25 @@ _RULE = f"""<style>
 </style>"""
 
 
-def display_live(still: tuple[dict[str, str], dict[str, Any]], widget: Any, what: str = "controls") -> None:  # noqa: ANN401
+def display_live(
+    still: tuple[dict[str, str], dict[str, Any]],
+    widget: Any,  # noqa: ANN401
+    control: str = "controls",
+) -> None:
     """Show a picture and a widget as two outputs of a cell, of which the reader sees one.
 
     Parameters
     ----------
-    still : the data and the metadata of a picture, as `Picture` and `Player` give them.
+    still : the data and the metadata of a picture, as `Picture` and `Player` return them.
     widget : the widget.
-    what : the reader gets by running the cell again.
+    control : a word for what the reader gets by running the cell again.
     """
     from IPython.display import display
 
     data, metadata = still
     widget.add_class(LIVE)
-    again = f"<p><small>Run this cell to get its {what}.</small></p>"
-    page = f'<div class="{STILL}">{data["text/html"]}{again}</div>{_RULE}'  # where the rule finds the picture
+    hint = f"<p><small>Run this cell to get its {control}.</small></p>"
+    page = f'<div class="{STILL}">{data["text/html"]}{hint}</div>{_RULE}'  # where the rule finds the picture
     display(data | {"text/html": page}, metadata=metadata, raw=True)  # type: ignore[no-untyped-call]
     live = {"version_major": 2, "version_minor": 0, "model_id": widget.model_id}
     display({WIDGET: live}, raw=True)  # type: ignore[no-untyped-call]

@@ -23,41 +23,47 @@ from mocap.widgets.player import Player, play
 from mocap.widgets.shared_traits import AnyWidget, ipywidgets, shared
 
 Follow = Callable[[Array], Motion | Player]
-FPS = 30.0  # of a mix
-TELL = 0.1  # seconds until the best walk so far is told again
+FPS = 30.0  # frames per second of a mix
+TELL = 0.1  # seconds between two reports of the best walk so far
 EASE = 0.4  # seconds until new weights are reached
 
 
 class LivePlayer(AnyWidget):
-    """A player whose scene Python changes, and which tells Python what it shows."""
+    """A player whose scene Python changes, and which reports to Python the frame that it shows."""
 
     _esm = joined(*Player.scripts)
     scene = shared({"number": 0})
-    at = shared([-1, 0])  # the browser's: the number of a scene, and a frame
-    move = shared([0, 0])  # Python's
-    path, message = shared([]), shared("")
+    at = shared([-1, 0])  # reads: name: the browser sets it: the number of a scene, and a frame
+    move = shared([0, 0])  # Python sets it: the number of a scene, and a frame
+    path = shared([])
+    message = shared("")
     best = shared([])  # the line of the best walk so far, while a search is under way
     player: Player
     error: Exception | None = None
-    told = 0.0  # when the best walk so far was told, by the clock
+    reported = 0.0  # seconds by the clock, when the best walk so far was reported
 
     def show(self, player: Player, frame: int = 0, **extra: bool) -> None:
-        """Show another player in the same place, from a frame on."""
+        """Show another player in the same position, from a frame on."""
         number = self.scene["number"] + 1
-        # The browser is to know the place before the scene: a place that comes later would stop the player.
+        # The browser gets the frame before the scene: a frame that comes later would stop the player.
         self.move = [number, frame]
-        self.player, self.scene = player, player.scene | extra | {"number": number}
+        self.player = player
+        self.scene = player.scene | extra | {"number": number}
 
     def watch(self, search: PathSearch, walks: States) -> None:
-        """Tell the browser the best walk so far of a search that is under way."""
-        if monotonic() > self.told + TELL:
-            line, self.told = search.line(walks), monotonic()
+        """Report to the browser the best walk so far of a search that is under way."""
+        if monotonic() > self.reported + TELL:
+            line = search.line(walks)
+            self.reported = monotonic()
             self.best = np.stack([line.imag, line.real], axis=-1).round(2).tolist()
 
     @property
     def frame(self) -> int:
-        """The frame of this scene that the browser has told last, or Python before it."""
-        return int((self.at if self.at[0] == self.scene["number"] else self.move)[1])
+        """The frame of this scene that the browser reported last, or that Python set."""
+        number, frame = self.at
+        if number != self.scene["number"]:
+            _, frame = self.move
+        return int(frame)
 
     def __repr__(self) -> str:
         return f"LivePlayer({self.player.alt!r})"
@@ -67,24 +73,24 @@ class LivePlayer(AnyWidget):
 
 
 def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
-    """Let the reader draw a path on the ground, and show a walk along it.
+    """Show a canvas on which the reader draws a path, and a walk along it.
 
     Parameters
     ----------
     follow : called with a path, shape (N, 2), points (x, z) in metres; returns a motion, or a `play` of one.
-        Its `alt`, which can say how far off the path the walk is, and all warnings stand below the canvas.
-        While a `steering.follow_path` in it searches, the best walk so far is drawn.
-        Its `path`, if it has one, is drawn instead of the reader's line: give there what was followed, such
-        as a spline.
+        Its `alt`, which can give the walk's distance from the path, and all warnings are shown below the
+        canvas. While a `steering.follow_path` in it searches, the best walk so far is drawn.
+        Its `path`, if it has one, is drawn instead of the reader's line: use it for the path that was
+        followed, such as a spline.
     path : the first path, shape (N, 2).
 
     Returns
     -------
-    A live player; its `path` is what the reader drew last, its `error` what `follow` raised there, or None.
+    A live player; its `path` is the reader's last line, its `error` the exception of `follow` there, or None.
 
     Raises
     ------
-    MocapError : where anywidget is not installed.
+    MocapError : if anywidget is not installed.
     Exception : whatever `follow` raises at the first path. Later, the canvas shows the error.
 
     Examples
@@ -100,19 +106,24 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
     canvas = LivePlayer()
 
     def redraw(change: dict[str, Any]) -> None:
-        asked, known = np.array(change["new"], float), bool(change["old"])
-        canvas.best, canvas.error, before = [], None, watching.set(canvas.watch)
+        line = np.array(change["new"], float)
+        is_first = not change["old"]
+        canvas.best = []
+        canvas.error = None
+        token = watching.set(canvas.watch)
         try:
             with warnings.catch_warnings(record=True, action="always", category=MocapWarning) as caught:
-                made = follow(asked)
-            player = made if isinstance(made, Player) else play(made)
-            player = player if len(player.path) else replace(player, path=asked)
-            canvas.show(player, drawable=True, follow=False, reports=False, autoplay=known)
-            canvas.message = "\n".join([player.alt, *(str(w.message) for w in caught)])
+                walk = follow(line)
+            player = walk if isinstance(walk, Player) else play(walk)
+            if not len(player.path):
+                player = replace(player, path=line)
+            canvas.show(player, drawable=True, follow=False, reports=False, autoplay=not is_first)
+            canvas.message = "\n".join([player.alt, *(str(warning.message) for warning in caught)])
         except Exception as error:  # of any kind: it comes from a student's function
-            canvas.error, canvas.message = error, f"{type(error).__name__}: {error}"
+            canvas.error = error
+            canvas.message = f"{type(error).__name__}: {error}"
         finally:
-            watching.reset(before)
+            watching.reset(token)
 
     canvas.observe(redraw, "path")
     canvas.path = np.reshape(np.asarray(path, float), (-1, 2)).tolist()
@@ -122,19 +133,19 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
 
 
 class Mixer:
-    """A player of a blend, and a slider for each clip; where a slider moves, the rest of the blend changes.
+    """A player of a blend, and a slider for each clip; when a slider moves, the rest of the blend changes.
 
-    What has been played stays as it was. From the frame that is shown, the weights ease to what the sliders
-    say. (That a blend may be steered so while it plays is one of the uses that [KG03] names.)
+    The frames that have been played do not change. From the frame that is shown, the weights ease to those of
+    the sliders. (To steer a blend in this way while it plays is one of the uses that [KG03] names.)
 
     Parameters
     ----------
     registration : of C clips.
-    weights : those at the start, shape (C,); by default all alike.
+    weights : those at the start, shape (C,); by default all equal.
 
     Raises
     ------
-    MocapError : for weights that do not add up to one, and where anywidget is not installed.
+    MocapError : for weights that do not add up to one, and if anywidget is not installed.
 
     Examples
     --------
@@ -152,28 +163,33 @@ class Mixer:
 
     def __init__(self, registration: Registration, weights: ArrayLike = ()) -> None:
         count = len(registration.clips)
-        given = np.asarray(weights, float)
-        start = checked(given if given.size else np.full(count, 1 / count), count)
-        self.registration, self.start = registration, frozen(start, np.float64)
+        start = np.asarray(weights, float)
+        if not start.size:
+            start = np.full(count, 1 / count)
+        start = checked(start, count)
+        self.registration = registration
+        self.start = frozen(start, np.float64)
         self.changes: list[tuple[float, Array]] = []  # new weights, and the blend's second when they begin
         self.player = LivePlayer()
-        self.player.show(self._played(), reports=True)
-        names, self.sliders = [clip.name for clip in registration.clips], []
+        self.player.show(self._blend_player(), reports=True)
+        self.sliders = []
+        names = [clip.name for clip in registration.clips]
         for number, (name, value) in enumerate(zip(names, start, strict=True), 1):
-            name = f"{name} {number}" if names.count(name) > 1 else name
-            slider = ipywidgets.FloatSlider(value, min=0.0, max=1.0, step=0.05, description=name)
+            label = f"{name} {number}" if names.count(name) > 1 else name
+            slider = ipywidgets.FloatSlider(value, min=0.0, max=1.0, step=0.05, description=label)
             slider.observe(self._take_weights, "value")
             self.sliders.append(slider)
         self.box = ipywidgets.VBox([*self.sliders, self.player])
 
     def weights(self, u: float, t: float) -> Array:
-        """Give the weights at second t of the blend, as `blending.mix` asks for them."""
-        now = np.array(self.start)
+        """Return the weights at second t of the blend, with the arguments by which `blending.mix` calls it."""
+        mixed = np.array(self.start)
         for begin, weights in self.changes:
-            now += float(quintic_step((t - begin) / EASE)) * (weights - now)
-        return now
+            mixed += float(quintic_step((t - begin) / EASE)) * (weights - mixed)
+        return mixed
 
-    def _played(self) -> Any:  # noqa: ANN401
+    def _blend_player(self) -> Any:  # noqa: ANN401
+        """Return a player of the blend with its weights so far."""
         blend = mix(self.registration, self.weights, fps=FPS)
         return play(blend, alt="A blend whose weights sliders change.")
 
@@ -185,8 +201,8 @@ class Mixer:
         frame = self.player.frame
         self.changes = [change for change in self.changes if change[0] < frame / FPS]
         self.changes.append((frame / FPS, frozen(values / values.sum(), np.float64)))
-        played = self._played()
-        self.player.show(played, min(frame, played.scene["frames"] - 1), reports=True, autoplay=True)
+        player = self._blend_player()
+        self.player.show(player, min(frame, player.scene["frames"] - 1), reports=True, autoplay=True)
 
     def __repr__(self) -> str:
         return f"Mixer({len(self.sliders)} clips)"

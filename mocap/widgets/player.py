@@ -29,9 +29,11 @@ from mocap.synthesis.walk_to_motion import Seam
 from mocap.widgets.embedding import SHADED, SHARED, Embedded
 from mocap.widgets.walk_figure import posed
 
-SIDES = ("middle", "left", "right")  # the scripts know a side by its number
+SIDES = ("middle", "left", "right")  # in scripts a side is its index here
 LOOK = {"sides": [COLOURS[side] for side in SIDES], "marks": {"seam": MARK, "astray": ASTRAY}}
 SCREEN = 60.0  # frames per second that a screen shows; of a faster clip, frames are left out
+LARGEST_UINT16 = 65535
+SMALLEST_RANGE = 1e-6  # metres, of coordinates: so that no step is 0
 
 
 def packed_body(skeleton: Skeleton) -> tuple[Indices, dict[str, Any]]:
@@ -52,7 +54,8 @@ def packed_body(skeleton: Skeleton) -> tuple[Indices, dict[str, Any]]:
     starts, ends, sides = bones(skeleton)
     joints = np.unique([0, *starts, *ends])
     pairs = np.searchsorted(joints, [starts, ends]).T.tolist()
-    heads = np.searchsorted(joints, [joint for joint in head_joints(skeleton) if joint in joints]).tolist()
+    drawn_heads = [joint for joint in head_joints(skeleton) if joint in joints]
+    heads = np.searchsorted(joints, drawn_heads).tolist()
     lines = [[*pair, SIDES.index(side)] for pair, side in zip(pairs, sides, strict=True)]
     body = {"joints": len(joints), "bones": lines, "head": heads[-1] if heads else None}
     return joints, body | posed(skeleton, joints)
@@ -63,8 +66,8 @@ def packed(values: Array, low: Array | float, step: Array | float, kind: str) ->
 
     Parameters
     ----------
-    values : shape (F, ...); each place of the rest is a channel.
-    low, step : that a number counts from, and its unit; alike for all, or as the last axis asks.
+    values : shape (F, ...); each index of the other axes is a channel.
+    low, step : the origin and the unit of the numbers; one for all, or one for each index of the last axis.
     kind : "<u2" for numbers up to 65535, whose differences wrap around, or "<i4".
 
     Examples
@@ -80,18 +83,18 @@ def packed(values: Array, low: Array | float, step: Array | float, kind: str) ->
 def packed_character(
     motion: Motion, colour: str, step: float | None = None, places: Array | None = None
 ) -> tuple[dict[str, Any], bytes]:
-    """Pack where the drawn joints of a motion are, for `Character` in `player_scene.js`.
+    """Pack the positions of a motion's drawn joints, for `Character` in `player_scene.js`.
 
     Parameters
     ----------
     motion : the motion; of more than 60 frames per second, some are left out.
     colour : of the body and its path.
-    step : metres; by default as fine as 16 bits can tell.
+    step : metres; by default the smallest that 16 bits allow.
     places : of all joints, shape (F, J, 3), metres; by default those of `joint_positions`.
 
     Returns
     -------
-    What the numbers mean, and the numbers.
+    A description of the numbers, and the numbers.
 
     Examples
     --------
@@ -102,15 +105,16 @@ def packed_character(
     """
     joints, body = packed_body(motion.skeleton)
     stride = max(1, int(motion.fps / SCREEN))
-    points = (joint_positions(motion) if places is None else places)[::stride, joints]  # (F, J, 3)
-    low, high = points.min(axis=(0, 1)), points.max(axis=(0, 1))
-    steps = np.full(3, step) if step else np.maximum(high - low, 1e-6) / 65535
-    about = {
-        **{"name": motion.name, "fps": motion.fps / stride, "frames": len(points), **body},
-        **{"low": low.tolist(), "step": steps.tolist()},
-        **{"colour": colour, "path_colour": colour, "sources": [], "seams": [], "astray": [], "prints": []},
-    }
-    return about, packed(points, low, steps, "<u2")
+    positions = joint_positions(motion) if places is None else places
+    points = positions[::stride, joints]  # (F, J, 3)
+    low = points.min(axis=(0, 1))
+    high = points.max(axis=(0, 1))
+    steps = np.full(3, step) if step else np.maximum(high - low, SMALLEST_RANGE) / LARGEST_UINT16
+    character = {"name": motion.name, "fps": motion.fps / stride, "frames": len(points), **body}
+    character |= {"low": low.tolist(), "step": steps.tolist()}
+    character |= {"colour": colour, "path_colour": colour}
+    character |= {"sources": [], "seams": [], "astray": [], "prints": []}
+    return character, packed(points, low, steps, "<u2")
 
 
 def with_contacts(motion: Motion) -> Motion:
@@ -123,9 +127,19 @@ def with_contacts(motion: Motion) -> Motion:
         return motion
 
 
-Sources = Sequence[tuple[int, str]]
+def _packed_footprints(motion: Motion) -> list[list[float]]:
+    """List the footprints of a motion: from, until (seconds), x, z (metres), number of the side."""
+    rows = []
+    for footprint in find_footprints(with_contacts(motion)):
+        start = footprint.start / motion.fps
+        end = footprint.end / motion.fps
+        side = SIDES.index(footprint.side)
+        rows.append([start, end, round(footprint.x, 3), round(footprint.z, 3), side])
+    return rows
 
-FAR = 0.15  # metres off the path that was asked for, from where on a walk's path is red
+
+Sources = Sequence[tuple[int, str]]
+FAR = 0.15  # metres from the path that was asked for: a walk's path is red beyond
 WALKS = 1.0  # metres of ground that a motion covers at least, to be drawn along its path
 
 
@@ -134,7 +148,7 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     sources: Sources = (),
     seams: Iterable[Seam | int] = (),
     path: ArrayLike = (),
-    off: ArrayLike = (),
+    off: ArrayLike = (),  # reads: name: a public parameter
     discs: ArrayLike = (),
     places: Sequence[Array] = (),
     follow: bool = True,
@@ -149,11 +163,11 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
         `synthesis.sources`; each clip has its colour.
     seams : where the first motion takes a transition, as from `synthesis.seams`, or frames; they are marked.
     path : a path that was asked for, shape (N, 2), points (x, z) in metres.
-    off : metres from there in each frame of the first motion, shape (F,), as in `steering.Followed.off`;
-        where it is more than 15 cm off, its path is red.
+    off : distance from that path in each frame of the first motion, shape (F,), metres, as in `steering.Followed.off`;
+        beyond 15 cm, the path of the motion is red.
     discs : obstacles on the ground, shape (N, 3), x, z and radius in metres.
-    places : of the joints of each motion, shape (F, J, 3), by a function of one's own; by default the
-        package's.
+    places : positions of the joints of each motion, shape (F, J, 3), metres; by default those of
+        `body.joint_positions`.
     follow : whether the camera follows the first character.
     alt : a sentence for readers who do not see it; by default it gives names and seconds.
 
@@ -175,22 +189,19 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     """
     if not motions:
         raise MocapError("There is no motion to play.")
+    seam_frames = tuple(seam if isinstance(seam, int) else seam.frame for seam in seams)
+    points = np.reshape(np.asarray(path, float), (-1, 2))
+    astray = runs(np.asarray(off, float) > FAR)
+    obstacles = np.reshape(np.asarray(discs, float), (-1, 3))
+    positions = tuple(places) or tuple(joint_positions(motion) for motion in motions)
     return Player(
-        motions,
-        tuple(sources),
-        tuple(seam if isinstance(seam, int) else seam.frame for seam in seams),
-        np.reshape(np.asarray(path, float), (-1, 2)),
-        runs(np.asarray(off, float) > FAR),
-        np.reshape(np.asarray(discs, float), (-1, 3)),
-        tuple(places) or tuple(joint_positions(motion) for motion in motions),
-        follow,
-        alt,
+        motions, tuple(sources), seam_frames, points, astray, obstacles, positions, follow=follow, said=alt
     )
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Player(Embedded):
-    """What `play` returns; a notebook shows it live, as a picture or a sentence.
+    """A player, as `play` returns it; a notebook shows it live, as a picture or a sentence.
 
     Examples
     --------
@@ -215,11 +226,11 @@ class Player(Embedded):
 
     @property
     def alt(self) -> str:
-        """What was said with the motions, else their names and seconds."""
+        """The sentence that came with the motions, or their names and seconds."""
         count = len(self.motions)
-        who = "A figure plays" if count == 1 else f"{count} figures play"
+        subject = "A figure plays" if count == 1 else f"{count} figures play"
         seconds = max(motion.duration for motion in self.motions)
-        return self.said or f"{who} {self.heading}, {seconds:.1f} s."
+        return self.said or f"{subject} {self.heading}, {seconds:.1f} s."
 
     @property
     def heading(self) -> str:
@@ -228,37 +239,34 @@ class Player(Embedded):
 
     @cached_property
     def scene(self) -> dict[str, Any]:
-        """What the scripts draw; `data` holds all characters' numbers, compressed, each from its `offset`."""
+        """The scene that scripts draw; `data` holds all characters' numbers, each from its `offset`."""
         characters: list[dict[str, Any]] = []
-        data, count = b"", len(self.motions)
-        for number, (motion, places) in enumerate(zip(self.motions, self.places, strict=True)):
-            colour = own_colour(number, count) or COLOURS["middle"]
-            about, block = packed_character(motion, colour, places=places)
-            prints = [  # from, until (seconds), x, z (metres), number of the side
-                [p.start / motion.fps, p.end / motion.fps, round(p.x, 3), round(p.z, 3), SIDES.index(p.side)]
-                for p in find_footprints(with_contacts(motion))
-            ]
-            characters.append(about | {"offset": len(data), "prints": prints})
+        data = b""
+        for number, (motion, positions) in enumerate(zip(self.motions, self.places, strict=True)):
+            colour = own_colour(number, len(self.motions)) or COLOURS["middle"]
+            character, block = packed_character(motion, colour, places=positions)
+            characters.append(character | {"offset": len(data), "prints": _packed_footprints(motion)})
             data += block
-        first, fps = characters[0], self.motions[0].fps
-        first["path_colour"] = PATH if count == 1 else first["colour"]
+        self._mark_first(characters[0])
+        fps = self.motions[0].fps
+        scene = {"alt": self.alt, "number": 0, "reports": False, "follow": self.follow, **LOOK}
+        scene |= {"fps": fps, "frames": max(1 + round(motion.duration * fps) for motion in self.motions)}
+        scene |= {"asked": self.path.round(3).tolist(), "obstacles": self.discs.round(3).tolist()}
+        return scene | {"characters": characters, "data": zlib.compress(data)}
+
+    def _mark_first(self, character: dict[str, Any]) -> None:
+        """Add the colours of the path, its sources, seams and red stretches to the first character."""
+        fps = self.motions[0].fps
+        character["path_colour"] = PATH if len(self.motions) == 1 else character["colour"]
         colours = source_colours([name for _, name in self.sources])
-        first["sources"] = [{"start": f / fps, "name": n, "colour": colours[n]} for f, n in self.sources]
-        first["seams"] = [seam / fps for seam in self.seams]
-        first["astray"] = (self.astray / fps).tolist()
-        return {
-            **{"alt": self.alt, "number": 0, "reports": False, "follow": self.follow, **LOOK},
-            "fps": fps,
-            "frames": max(1 + round(motion.duration * fps) for motion in self.motions),
-            "asked": self.path.round(3).tolist(),
-            "obstacles": self.discs.round(3).tolist(),
-            "characters": characters,
-            "data": zlib.compress(data),
-        }
+        for frame, name in self.sources:
+            character["sources"].append({"start": frame / fps, "name": name, "colour": colours[name]})
+        character["seams"] = [seam / fps for seam in self.seams]
+        character["astray"] = (self.astray / fps).tolist()
 
     @cached_property
     def picture(self) -> bytes:
-        """The whole motion as a PNG, for places where no script runs; who stays in place is shown in time."""
+        """The whole motion as a PNG, for places where no script runs; without a path, as a strip of poses."""
         ground = self.motions[0].root_positions[:, [0, 2]]
         if max(np.ptp(ground, axis=0)) < WALKS and not len(self.path):
             return small_png(film_strip(self.motions))

@@ -1,11 +1,13 @@
 """A picture of shaded bodies on a ground, by NumPy alone: a film is written without a browser.
 
-A body is round cones, as `bodies.js` draws them: balls whose centre goes from one end to the other while
-their radius changes evenly, flattened from front to back. For each pixel it is solved in closed form which of
-these balls its ray meets first. Camera, light and colours are the player's.
+A body is round cones, as `bodies.js` draws them: balls whose centre moves from one end to the other while
+their radius changes linearly, flattened from front to back. The first ball that the ray of a pixel meets is
+found in closed form. Camera, light and colours are the player's.
 """
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.colors import to_rgb
@@ -14,27 +16,56 @@ from PIL import Image, ImageDraw
 
 from mocap._shared.arrays import Array, Indices
 
-YAW, PITCH = 0.7, 0.25  # radians
-NEAR = 0.1  # metres; what is nearer to the eye is not drawn
+YAW = 0.7  # radians
+PITCH = 0.25  # radians, downwards
+FOCUS = 1.5  # focal length, in smaller sides of the picture
+NEAR = 0.1  # metres: a nearer point is not drawn
 TWICE = 2  # drawn larger by this, then made smaller, so that edges are smooth
-SKY, GROUND = "#FAF7F0", "#ECE6DA"
+SKY = "#FAF7F0"
+GROUND = "#ECE6DA"
 WARM = np.array([1.22, 1.1, 0.95], np.float32)  # the light of the sun
 SUN = (-0.45, 0.78, 0.44)  # to the right, up and back, seen from the camera
-SHADOW = 0.3  # how dark it is
+SHADOW = 0.3  # darkness, from 0 to 1
+
+# Columns of a capsule, as from `capsules_at`.
+START = slice(0, 3)
+START_RADIUS = 3
+END = slice(4, 7)
+END_RADIUS = 7
+ENDS = slice(0, 8)  # two balls (x, y, z, radius)
+AHEAD = slice(8, 11)  # the direction in which it is flattened
+FLATNESS = 11
+BALL = (2, 4)  # shape of `ENDS`, one row for each ball
+RADIUS = 3  # column of a ball
 
 Window = tuple[slice, slice]  # rows and columns of pixels
 Floats = NDArray[np.float32]
 
 
-def blend(colour: str, other: str, share: float) -> Array:
-    """Mix two colours, as red, green and blue from 0 to 1.
+def blend(colour: str, second: str, weight: float) -> Array:
+    """Mix two colours, with the weight of the second, as red, green and blue from 0 to 1.
 
     Examples
     --------
     >>> blend("#000000", "#FFFFFF", 0.25).tolist()
     [0.25, 0.25, 0.25]
     """
-    return (1 - share) * np.array(to_rgb(colour)) + share * np.array(to_rgb(other))
+    return (1 - weight) * np.array(to_rgb(colour)) + weight * np.array(to_rgb(second))
+
+
+class _Cone(NamedTuple):
+    """A capsule in the axes of the camera: balls around a + u s with the radius r + u k, u from 0 to 1.
+
+    Lengths are measured by `metric` = 1 + flat z zᵀ, in which flattened balls are round.
+    """
+
+    a: Array
+    s: Array
+    r: float
+    k: float
+    z: Array
+    flat: float
+    metric: Array
 
 
 class ShadedPicture:
@@ -43,28 +74,37 @@ class ShadedPicture:
     Parameters
     ----------
     size : width and height, pixels.
-    target : the place (x, y, z) that the camera looks at, metres.
+    target : the position (x, y, z) that the camera looks at, metres.
     distance : metres from the camera to there.
     """
 
     def __init__(self, size: tuple[int, int], target: Array, distance: float) -> None:
-        (cy, sy), (cp, sp) = ((np.cos(a), np.sin(a)) for a in (YAW, PITCH))
-        self.axes = np.array([[cy, 0, -sy], [-sy * sp, cp, -cy * sp], [-sy * cp, -sp, -cy * cp]])
-        self.eye, self.focus, self.size = target - distance * self.axes[2], 1.5 * min(size), np.array(size)
-        self.sun = np.array([SUN[0] * cy + SUN[2] * sy, SUN[1], SUN[2] * cy - SUN[0] * sy])
-        share = np.linspace(-1 / 3, 1, TWICE * size[1]).clip(0)[:, None]
-        rows = (1 - share) * to_rgb(SKY) + share * to_rgb(GROUND)
-        self.paper = Image.fromarray(np.repeat(_bytes(rows)[:, None], TWICE * size[0], axis=1))
+        cos_yaw = np.cos(YAW)
+        sin_yaw = np.sin(YAW)
+        cos_pitch = np.cos(PITCH)
+        sin_pitch = np.sin(PITCH)
+        right = [cos_yaw, 0, -sin_yaw]
+        up = [-sin_yaw * sin_pitch, cos_pitch, -cos_yaw * sin_pitch]
+        ahead = [-sin_yaw * cos_pitch, -sin_pitch, -cos_yaw * cos_pitch]
+        self.axes = np.array([right, up, ahead])
+        self.eye = target - distance * self.axes[2]
+        self.focus = FOCUS * min(size)
+        self.size = np.array(size)
+        sun_right, sun_up, sun_back = SUN
+        sun_x = sun_right * cos_yaw + sun_back * sin_yaw
+        sun_z = sun_back * cos_yaw - sun_right * sin_yaw
+        self.sun = np.array([sun_x, sun_up, sun_z])
+        self.paper = _paper(size)
         self.pen = ImageDraw.Draw(self.paper)
 
     def pixels(self, points: ArrayLike) -> tuple[Array, Array]:
-        """Give where points (N, 3) are in the picture, (N, 2), and a metre's pixels there; NaN behind."""
-        right, up, far = self.axes @ (np.asarray(points, float) - self.eye).T
-        scale = self.focus / np.where(far > NEAR, far, np.nan)
+        """Project points (N, 3) to pixels (N, 2), with the pixels of a metre there; NaN behind the camera."""
+        right, up, ahead = self.axes @ (np.asarray(points, float) - self.eye).T
+        scale = self.focus / np.where(ahead > NEAR, ahead, np.nan)
         return self.size / 2 + np.stack([right, -up], -1) * scale[:, None], scale
 
     def line(self, points: ArrayLike, colours: ArrayLike, width: float) -> None:
-        """Draw a line through points (N, 3), so many pixels wide, of one colour or of N - 1."""
+        """Draw a line through points (N, 3), `width` pixels wide, of one colour or of N - 1."""
         ends = (TWICE * self.pixels(points)[0]).tolist()
         inks = np.broadcast_to(_bytes(colours), (max(len(ends) - 1, 0), 3)).tolist()
         for start, end, ink in zip(ends[:-1], ends[1:], inks, strict=True):
@@ -87,106 +127,179 @@ class ShadedPicture:
         colours : of each, shape (P, 3), from 0 to 1.
         """
         picture = np.asarray(self.paper.reduce(TWICE), np.float32) / 255
-        wide, high = self.size.tolist()
-        dark = np.zeros((high, wide), np.float32)
+        width, height = self.size.tolist()
+        shadows = np.zeros((height, width), np.float32)
         for piece in pieces:
-            self._cast(dark, piece)
-        picture *= 1 - SHADOW * dark[..., None]
-        met = np.full((3, TWICE * high, TWICE * wide), np.inf, np.float32)
+            self._cast(shadows, piece)
+        picture *= 1 - SHADOW * shadows[..., None]
+        met = np.full((3, TWICE * height, TWICE * width), np.inf, np.float32)
         for number, piece in enumerate(pieces):
             self._meet(piece, number, met)
-        rows, columns = at = np.nonzero(np.isfinite(met[0]))
-        pixel = rows // TWICE * wide + columns // TWICE
-        picture *= 1 - np.bincount(pixel, minlength=dark.size).reshape(high, wide, 1) / TWICE**2
-        for channel, lit in enumerate(self._lit(pieces, colours, at, met[:, rows, columns]).T):
-            picture[..., channel] += np.bincount(pixel, lit / TWICE**2, dark.size).reshape(high, wide)
+        rows, columns = np.nonzero(np.isfinite(met[0]))
+        pixels = rows // TWICE * width + columns // TWICE
+        counts = np.bincount(pixels, minlength=width * height)
+        picture *= 1 - counts.reshape(height, width, 1) / TWICE**2
+        light = self._lit(pieces, colours, (rows, columns), met[:, rows, columns])
+        for channel, values in enumerate(light.T):
+            sums = np.bincount(pixels, values / TWICE**2, width * height)
+            picture[..., channel] += sums.reshape(height, width)
         return _bytes(picture)
 
     def _window(self, balls: Array, fine: int = 1) -> Window:
-        """Give the rows and columns that hold balls, each a row (x, y, z, radius), metres."""
-        at, scale = self.pixels(balls[:, :3])
-        reach = 1.1 * balls[:, 3] * scale + 1
-        ends = fine * np.array([(at.T - reach).min(axis=1), (at.T + reach).max(axis=1) + 1])
-        (left, top), (right, bottom) = np.nan_to_num(ends.clip(0, fine * self.size)).astype(int).tolist()
+        """Return the rows and columns that hold balls, each a row (x, y, z, radius), metres."""
+        centres, scale = self.pixels(balls[:, :RADIUS])
+        reach = 1.1 * balls[:, RADIUS] * scale + 1
+        low = (centres.T - reach).min(axis=1)
+        high = (centres.T + reach).max(axis=1) + 1
+        corners = (fine * np.array([low, high])).clip(0, fine * self.size)
+        (left, top), (right, bottom) = np.nan_to_num(corners).astype(int).tolist()
         return slice(top, bottom), slice(left, right)
 
     def _rays(self, window: Window, fine: int = 1) -> tuple[Floats, Floats]:
-        """Give how far right, (1, W), and up, (H, 1), the ray of a pixel is one metre ahead."""
-        down, right = ((np.arange(s.start, s.stop, dtype=np.float32) + 0.5) / fine for s in window)
-        wide, high = self.size.tolist()
-        return (right - wide / 2)[None] / self.focus, (high / 2 - down)[:, None] / self.focus
+        """Return the offset of pixels' rays one metre ahead: to the right (1, W) and up (H, 1), metres."""
+        rows, columns = window
+        down = (np.arange(rows.start, rows.stop, dtype=np.float32) + 0.5) / fine
+        right = (np.arange(columns.start, columns.stop, dtype=np.float32) + 0.5) / fine
+        width, height = self.size.tolist()
+        to_right = (right - width / 2) / self.focus
+        to_top = (height / 2 - down) / self.focus
+        return to_right[None], to_top[:, None]
 
-    def _cast(self, dark: Floats, piece: Array) -> None:
-        """Let a capsule shade the ground: a stadium, the softer and the paler the higher the capsule is."""
-        ends, radii = piece[:8].reshape(2, 4)[:, :3], piece[[3, 7]]
-        soft = 0.02 + 0.12 * ends[:, 1].clip(0)
-        ends = ends - self.sun / self.sun[1] * ends[:, 1:2]
-        window = self._window(np.column_stack([ends, radii + soft]))
+    def _on_ground(self, window: Window) -> tuple[Array, Array]:
+        """Return x and z, (H, W) each, metres, of the points where the rays of pixels meet the ground."""
         right, up = self._rays(window)
-        x, y, z = (r * right + u * up + a for r, u, a in self.axes.T)
-        ahead = -self.eye[1] / np.minimum(y, -1e-3)
-        (ax, _, az), (wx, _, wz) = ends[0], ends[1] - ends[0]
-        x, z = self.eye[0] + ahead * x - ax, self.eye[2] + ahead * z - az
-        u = ((x * wx + z * wz) / max(wx * wx + wz * wz, 1e-9)).clip(0, 1)
-        r, s = (values[0] + u * (values[1] - values[0]) for values in (radii, soft))
-        edge = ((np.hypot(x - u * wx, z - u * wz) - r + 0.8 * s) / (1.8 * s)).clip(0, 1)
-        shade = (1 - edge * edge * (3 - 2 * edge)) * 0.05 / (0.05 + 1.2 * s * s)
-        np.maximum(dark[window], shade, out=dark[window])
+        axis_x, axis_y, axis_z = self.axes.T  # of the world, in those of the camera
+        x = axis_x[0] * right + axis_x[1] * up + axis_x[2]
+        y = axis_y[0] * right + axis_y[1] * up + axis_y[2]
+        z = axis_z[0] * right + axis_z[1] * up + axis_z[2]
+        distance = -self.eye[1] / np.minimum(y, -1e-3)
+        return self.eye[0] + distance * x, self.eye[2] + distance * z
+
+    def _cast(self, shadows: Floats, piece: Array) -> None:
+        """Add a capsule's shadow: a stadium on the ground, softer and paler with the capsule's height."""
+        start_radius = piece[START_RADIUS]
+        end_radius = piece[END_RADIUS]
+        ends = np.stack([piece[START], piece[END]])
+        softness = 0.02 + 0.12 * ends[:, 1].clip(0)  # metres, at either end
+        ends = ends - self.sun / self.sun[1] * ends[:, 1:2]  # on the ground, along the light
+        reaches = np.array([start_radius, end_radius]) + softness
+        window = self._window(np.column_stack([ends, reaches]))
+        x, z = self._on_ground(window)
+        start_x, _, start_z = ends[0]
+        axis_x, _, axis_z = ends[1] - ends[0]
+        x = x - start_x
+        z = z - start_z
+        u = (x * axis_x + z * axis_z) / max(axis_x * axis_x + axis_z * axis_z, 1e-9)
+        u = u.clip(0, 1)  # of the nearest point on the axis
+        radius = start_radius + u * (end_radius - start_radius)
+        soft = softness[0] + u * (softness[1] - softness[0])
+        distance = np.hypot(x - u * axis_x, z - u * axis_z)
+        edge = ((distance - radius + 0.8 * soft) / (1.8 * soft)).clip(0, 1)
+        smooth_edge = edge * edge * (3 - 2 * edge)
+        shade = (1 - smooth_edge) * 0.05 / (0.05 + 1.2 * soft * soft)
+        np.maximum(shadows[window], shade, out=shadows[window])
+
+    def _cone(self, piece: Array) -> _Cone:
+        """Convert a capsule to the axes of the camera; if one ball holds the other, that ball remains."""
+        a = self.axes @ (piece[START] - self.eye)
+        b = self.axes @ (piece[END] - self.eye)
+        z = self.axes @ piece[AHEAD]
+        flat = piece[FLATNESS] ** -2 - 1
+        metric = np.eye(3) + flat * np.outer(z, z)
+        r = float(piece[START_RADIUS])
+        end_radius = float(piece[END_RADIUS])
+        k = end_radius - r
+        s = b - a
+        if s @ metric @ s <= k * k:
+            centre = b if k > 0 else a
+            return _Cone(centre, 0 * s, max(r, end_radius), 0.0, z, flat, metric)
+        return _Cone(a, s, r, k, z, flat, metric)
 
     def _meet(self, piece: Array, number: int, met: Floats) -> None:
-        """Find where rays meet a capsule before what they have met: how far, which, and at which share u.
+        """Find where rays meet a capsule before other ones: update the distance, the capsule and the u.
 
         The ball around a + u s has the radius r + u k. A point at a + e is farthest inside the ball of
-        u = (e · s + r k) / (s · s - k²). The ray touches that ball where a quadratic is zero.
+        u = (e · s + r k) / (s · s - k²). A ray t d enters the cone of all balls, u of any size, at a zero of
+        a quadratic in t. There u, clipped to the ends, chooses the ball, which the ray enters at a zero of
+        another quadratic.
         """
-        a, b = (self.axes @ (piece[at : at + 3] - self.eye) for at in (0, 4))
-        z, flat = self.axes @ piece[8:11], piece[11] ** -2 - 1
-        metric = np.eye(3) + flat * np.outer(z, z)  # which makes flattened balls round
-        r, s, k = piece[3], b - a, piece[7] - piece[3]
-        if s @ metric @ s <= k * k:  # one ball holds the other
-            a, r, s, k = b if k > 0 else a, max(piece[3], piece[7]), 0 * s, 0.0
-        window = self._window(piece[:8].reshape(2, 4), TWICE)
-        x, y = self._rays(window, TWICE)
-        along, towards = (x * v[0] + (y * v[1] + v[2]) for v in (metric @ s, metric @ a))
-        ray = x * x + (y * y + 1) + flat * (x * z[0] + (y * z[1] + z[2])) ** 2
-        q, h, rest = max(s @ metric @ s - k * k, 1e-9), a @ metric @ s - k * r, a @ metric @ a - r * r
-        half, out = towards - along * (h / q), rest - h * h / q
-        t = out / (half + np.sqrt((half * half - (ray - along * along / q) * out).clip(0)))
-        u = ((t * along - h) / q).clip(0, 1)
-        half = towards + along * u
-        inside = half * half - ray * (rest + u * (2 * h + u * q))
-        t = (half - np.sqrt(inside.clip(0))) / ray
-        seen = (inside > 0) & (t > NEAR) & (t < met[0][window])
+        a, s, r, k, z, flat, metric = self._cone(piece)
+        window = self._window(piece[ENDS].reshape(BALL), TWICE)
+        x, y = self._rays(window, TWICE)  # d = (x, y, 1)
+        metric_s = metric @ s
+        metric_a = metric @ a
+        d_s = x * metric_s[0] + (y * metric_s[1] + metric_s[2])
+        d_a = x * metric_a[0] + (y * metric_a[1] + metric_a[2])
+        d_z = x * z[0] + (y * z[1] + z[2])
+        d_d = x * x + (y * y + 1) + flat * d_z**2
+        q = max(float(s @ metric @ s) - k * k, 1e-9)
+        h = float(a @ metric @ s) - k * r
+        c = float(a @ metric @ a) - r * r
+        half = d_a - d_s * (h / q)
+        constant = c - h * h / q
+        discriminant = half * half - (d_d - d_s * d_s / q) * constant
+        t = constant / (half + np.sqrt(discriminant.clip(0)))
+        u = ((t * d_s - h) / q).clip(0, 1)
+        half = d_a + d_s * u
+        discriminant = half * half - d_d * (c + u * (2 * h + u * q))
+        t = (half - np.sqrt(discriminant.clip(0))) / d_d
+        is_first = (discriminant > 0) & (t > NEAR) & (t < met[0][window])
         for values, new in zip(met, (t, number, u), strict=True):
-            np.copyto(values[window], new, where=seen, casting="unsafe")
+            np.copyto(values[window], new, where=is_first, casting="unsafe")
 
-    def _lit(self, pieces: Array, colours: Array, at: tuple[Indices, ...], met: Floats) -> Floats:
-        """Light what the rays of pixels meet, (N, 3), as the shader of limbs in `bodies.js` does."""
-        (far, number, u), (rows, columns) = met[..., None], at
-        number = number[:, 0].astype(int)
-        right, up = self._rays((slice(0, TWICE * self.size[1]), slice(0, TWICE * self.size[0])), TWICE)
+    def _lit(self, pieces: Array, colours: Array, pixels: tuple[Indices, ...], met: Floats) -> Floats:
+        """Return the light of the points that rays meet, (N, 3), as the shader of limbs in `bodies.js`."""
+        rows, columns = pixels
+        distances, numbers, u = met[..., None]
+        order = numbers[:, 0].astype(int)
+        width, height = self.size.tolist()
+        right, up = self._rays((slice(0, TWICE * height), slice(0, TWICE * width)), TWICE)
         view = np.stack([right[0, columns], up[rows, 0], np.ones_like(met[0])], axis=-1)
         view = view @ self.axes.astype(np.float32)
-        places = self.eye.astype(np.float32) + view * far
-        capsules = pieces.astype(np.float32)[number]
-        out, z = places - (1 - u) * capsules[:, :3] - u * capsules[:, 4:7], capsules[:, 8:11]
-        normal = _unit(out + z * ((capsules[:, 11] ** -2 - 1) * (out * z).sum(-1))[:, None])
-        view, sun = _unit(view), self.sun.astype(np.float32)
-        facing, lit = -(normal * view).sum(-1, keepdims=True), (normal @ sun)[:, None]
-        above, wrap = normal[:, 1:2] / 2 + 0.5, ((lit + 0.4) / 1.4).clip(0, 1)
-        shine = (2 * lit * facing + (view @ sun)[:, None]).clip(0) ** 24 * 0.14
-        low = 0.75 + 0.25 * (places[:, 1:2] / 0.6).clip(0, 1)
-        sky, ground = (np.array(to_rgb(colour), np.float32) for colour in (SKY, GROUND))
-        light = 0.62 * ground * (1 - above) + 0.78 * sky * above + wrap * wrap * WARM
-        rim = (1 - facing.clip(0)) ** 3 * 0.28 * (0.4 + 0.6 * above)
-        lit_up: Floats = colours.astype(np.float32)[number] * light * low + rim * sky + shine
-        return lit_up
+        points = self.eye.astype(np.float32) + view * distances
+        normals = _normals(pieces.astype(np.float32)[order], u, points)
+        return self._shade(colours.astype(np.float32)[order], points, normals, _unit(view))
+
+    def _shade(self, colours: Floats, points: Floats, normals: Floats, view: Floats) -> Floats:
+        """Light points (N, 3) of a surface by sky, ground and sun, with a bright rim and a highlight."""
+        sky = np.array(to_rgb(SKY), np.float32)
+        ground = np.array(to_rgb(GROUND), np.float32)
+        sun = self.sun.astype(np.float32)
+        facing = -(normals * view).sum(-1, keepdims=True)  # cosines of the angles to the camera
+        sunward = (normals @ sun)[:, None]
+        skyward = normals[:, 1:2] / 2 + 0.5
+        sunlight = ((sunward + 0.4) / 1.4).clip(0, 1)
+        light = 0.62 * ground * (1 - skyward) + 0.78 * sky * skyward + sunlight * sunlight * WARM
+        rim = (1 - facing.clip(0)) ** 3 * 0.28 * (0.4 + 0.6 * skyward)
+        reflection = 2 * sunward * facing + (view @ sun)[:, None]
+        highlight = reflection.clip(0) ** 24 * 0.14
+        nearness = 0.75 + 0.25 * (points[:, 1:2] / 0.6).clip(0, 1)  # darker near the ground
+        lit: Floats = colours * light * nearness + rim * sky + highlight
+        return lit
+
+
+def _paper(size: tuple[int, int]) -> Image.Image:
+    """Make the background: the sky, which fades into the ground below the upper quarter."""
+    weights = np.linspace(-1 / 3, 1, TWICE * size[1]).clip(0)[:, None]
+    rows = (1 - weights) * to_rgb(SKY) + weights * to_rgb(GROUND)
+    pixels = np.repeat(_bytes(rows)[:, None], TWICE * size[0], axis=1)
+    return Image.fromarray(pixels)
+
+
+def _normals(capsules: Floats, u: Floats, points: Floats) -> Floats:
+    """Return unit normals (N, 3) at points on the balls u of capsules, one capsule for each point."""
+    offsets = points - (1 - u) * capsules[:, START] - u * capsules[:, END]
+    ahead = capsules[:, AHEAD]
+    flattening = (capsules[:, FLATNESS] ** -2 - 1) * (offsets * ahead).sum(-1)
+    return _unit(offsets + ahead * flattening[:, None])
 
 
 def _unit(vectors: Floats) -> Floats:
+    """Divide vectors (N, 3) by their lengths."""
     unit: Floats = vectors / np.sqrt((vectors * vectors).sum(-1, keepdims=True))
     return unit
 
 
 def _bytes(colours: ArrayLike) -> NDArray[np.uint8]:
+    """Convert colours from 0 to 1 to bytes."""
     return (255 * np.asarray(colours).clip(0, 1) + 0.5).astype(np.uint8)

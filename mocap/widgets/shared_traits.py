@@ -1,4 +1,4 @@
-"""What browser and Python share of a live widget: its traits. This module needs anywidget and ipywidgets."""
+"""The traits of a live widget, which browser and Python share. This module needs anywidget and ipywidgets."""
 
 from pathlib import Path
 from typing import Any

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -13,129 +13,177 @@ from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
 from mocap.files.gltf_capsules import THICK, reaches
 
-LEG = 0.86  # metres from hip to ankle of the person whose radii stand below
-LEVEL = ("pelvis", "chest")
+LEG = 0.86  # metres from hip to ankle of the person for whom the radii below are
+LEG_PARTS = ("left hip", "left knee", "left ankle")
+LEVEL = ("pelvis", "chest")  # parts that keep their left, and not the direction that they are along
 TRUNK = ("pelvis", "chest", "neck", "head", "left shoulder", "left elbow", "left wrist")
+SIDES = {"left": 1, "right": -1}
 
-HIPS, SHOULDERS = ("left hip", "right hip"), ("left shoulder", "right shoulder")
-AXES = {  # of a part: what it is along, and its left
-    "pelvis": ("pelvis", "chest", *HIPS),
-    "waist": ("waist", "chest", *SHOULDERS),
-    "chest": ("pelvis", "neck", *SHOULDERS),
-    "neck": ("neck", "head", *SHOULDERS),
-    "head": ("neck", "head", *SHOULDERS),
-    "hip": ("hip", "knee", *HIPS),
-    "knee": ("knee", "ankle", *HIPS),
-    "ankle": ("ankle", "ball", *HIPS),
-    "ball": ("ankle", "ball", *HIPS),
-    "shoulder": ("shoulder", "elbow", *SHOULDERS),
-    "elbow": ("elbow", "wrist", *SHOULDERS),
-    "wrist": ("elbow", "wrist", *SHOULDERS),
+# Of each part the roles that it is along, from and to, and the roles at its left and its right.
+AXES = {
+    "pelvis": ("pelvis", "chest", "left hip", "right hip"),
+    "waist": ("waist", "chest", "left shoulder", "right shoulder"),
+    "chest": ("pelvis", "neck", "left shoulder", "right shoulder"),
+    "neck": ("neck", "head", "left shoulder", "right shoulder"),
+    "head": ("neck", "head", "left shoulder", "right shoulder"),
+    "hip": ("hip", "knee", "left hip", "right hip"),
+    "knee": ("knee", "ankle", "left hip", "right hip"),
+    "ankle": ("ankle", "ball", "left hip", "right hip"),
+    "ball": ("ankle", "ball", "left hip", "right hip"),
+    "shoulder": ("shoulder", "elbow", "left shoulder", "right shoulder"),
+    "elbow": ("elbow", "wrist", "left shoulder", "right shoulder"),
+    "wrist": ("elbow", "wrist", "left shoulder", "right shoulder"),
 }
 
-Piece = tuple[str, Array, float, Array, float, float, int]
-"""The joint's role; one end, its radius, the other end, its radius; flatness; side: 1 left, -1 right."""
+# Columns of a packed piece.
+PART = 0
+START = slice(1, 4)
+START_RADIUS = 4
+END = slice(5, 8)
+END_RADIUS = 8
+FLATNESS = 9
+
+SHORTEST_BONE = 1e-3  # of the longest limb: a shorter bone gets no capsule
+TIP = 0.05  # of the longest limb: the limb below the end of a bone looks so much longer
+
+
+class Piece(NamedTuple):
+    """A capsule at the joint of a `role`; ends in metres, radii in metres of the person of `LEG`."""
+
+    role: str
+    start: Array
+    start_radius: float
+    end: Array
+    end_radius: float
+    flatness: float = 1.0
+    side: int = 0  # 1 left, -1 right
 
 
 def figure(skeleton: Skeleton) -> list[list[Any]]:
-    """Give the capsules of a body: [joint, end, radius, other end, radius, flatness, side], metres.
+    """Return the capsules of a body: [joint, end, radius, other end, radius, flatness, side], metres.
 
-    The ends are seen from the joint while no joint is turned. A body whose legs, arms and trunk have no known
-    names gets a capsule for each bone, as the glTF writer draws it.
+    The ends are relative to the joint while no joint is rotated. A body whose legs, arms and trunk have no
+    known names gets a capsule for each bone, as the glTF writer draws it.
     """
-    who = known(skeleton)
-    if not set(TRUNK) <= set(who):
+    joints = _roles(skeleton)
+    if not set(TRUNK) <= set(joints):
         return list(_bones(skeleton).values())
-    places = skeleton.rest
-    at = {role: places[joint] for role, joint in who.items()}
-    leg = np.linalg.norm(np.diff([at[f"left {part}"] for part in ("hip", "knee", "ankle")], axis=0), axis=1)
-    size = float(leg.sum()) / LEG
-    pieces = [*_trunk(at, size), *_limbs(at, size, "left", 1), *_limbs(at, size, "right", -1)]
-    return [
-        [who[role], *_end(a - at[role], ra * size), *_end(b - at[role], rb * size), flat, side]
-        for role, a, ra, b, rb, flat, side in pieces
-    ]
+    positions = {role: skeleton.rest[joint] for role, joint in joints.items()}
+    bones = np.diff([positions[role] for role in LEG_PARTS], axis=0)
+    size = float(np.linalg.norm(bones, axis=1).sum()) / LEG
+    pieces = [*_trunk(positions, size), *_limbs(positions, size, "left"), *_limbs(positions, size, "right")]
+    rows = []
+    for piece in pieces:
+        origin = positions[piece.role]
+        start = _end(piece.start - origin, piece.start_radius * size)
+        end = _end(piece.end - origin, piece.end_radius * size)
+        rows.append([joints[piece.role], *start, *end, piece.flatness, piece.side])
+    return rows
 
 
 def posed(skeleton: Skeleton, drawn: Indices) -> dict[str, list[list[Any]]]:
-    """Give the capsules of a body for a player, which knows where the drawn joints are, but no turns.
+    """Return the capsules of a body for a player, which has the positions of joints, but no rotations.
+
+    Parameters
+    ----------
+    skeleton : J joints.
+    drawn : the indices of the joints that the player has, in order.
 
     Returns
     -------
-    `parts` of the body, each [origin, from, to, left, right, level], which count the drawn joints. The axes
-    of a part point to its left, along it, and ahead; it keeps its left where `level` is 1, else what it is
-    along.
-    `pieces` as in `figure`, seen from the axes of a part, whose number comes first.
+    `parts` of the body, each [origin, from, to, left, right, level], indices of drawn joints. The axes of a
+    part point to its left, along it, and ahead. If `level` is 1, the axis to the left is exact, else that
+    along it.
+    `pieces` as in `figure`, relative to the axes of a part, whose index comes first.
     """
-    places, who = skeleton.rest, known(skeleton)
-    if set(TRUNK) <= set(who):
+    joints = _roles(skeleton)
+    if set(TRUNK) <= set(joints):
         pieces = [(row[0], row) for row in figure(skeleton)]
-        axes = {joint: (joint, *_along(who, role)) for role, joint in who.items() if role.split()[-1] in AXES}
+        spans = _spans(joints)
     else:
         pieces = list(_bones(skeleton).items())
-        axes = {child: (row[0], row[0], child, row[0], row[0], False) for child, row in pieces}
-    parts = {joint: axes[joint] for joint, _ in pieces}
+        spans = {child: (row[0], row[0], child, row[0], row[0], False) for child, row in pieces}
+    parts = {joint: spans[joint] for joint, _ in pieces}
+    order = list(parts)
 
-    def number(joint: int) -> int:  # what starts where its parent ends is drawn there
-        return int(np.searchsorted(drawn, joint)) if joint in drawn else number(int(skeleton.parents[joint]))
+    def index(joint: int) -> int:
+        """Return the index among the drawn joints; a joint that is not drawn is where its parent is."""
+        return int(np.searchsorted(drawn, joint)) if joint in drawn else index(int(skeleton.parents[joint]))
 
-    def seen(joint: int, end: list[float]) -> list[float]:
-        return [round(value, 4) for value in (_axes(places, parts[joint]) @ end).tolist()]
+    def in_axes(joint: int, end: list[float]) -> list[float]:
+        """Return the coordinates of an end along the axes of a part."""
+        return [round(value, 4) for value in (_axes(skeleton.rest, parts[joint]) @ end).tolist()]
 
-    return {
-        "parts": [[*map(number, row[:5]), int(row[5])] for row in parts.values()],
-        "pieces": [
-            [list(parts).index(joint), seen(joint, a), ra, seen(joint, b), rb, flat, side]
-            for joint, (_, a, ra, b, rb, flat, side) in pieces
-        ],
-    }
+    packed_parts = []
+    for *spanning, level in parts.values():
+        packed_parts.append([*map(index, spanning), int(level)])
+    packed_pieces = []
+    for joint, (_, start, start_radius, end, *rest) in pieces:
+        ends = [in_axes(joint, start), start_radius, in_axes(joint, end)]
+        packed_pieces.append([order.index(joint), *ends, *rest])
+    return {"parts": packed_parts, "pieces": packed_pieces}
 
 
 def capsules_at(character: Mapping[str, Any], pose: Array) -> Array:
-    """Place the capsules of a packed character, as `capsulesAt` in `player_body.js` does.
+    """Return the capsules of a packed character in a pose, as `capsulesAt` in `player_body.js` does.
 
     Parameters
     ----------
     character : with the `parts` and `pieces` of `posed`.
-    pose : of its drawn joints, shape (J, 3), metres.
+    pose : positions of its drawn joints, shape (J, 3), metres.
 
     Returns
     -------
-    Shape (P, 12): an end and its radius, the other end and its radius, the way it is flattened, how much.
+    Shape (P, 12): an end and its radius, the other end and its radius, the direction in which the capsule is
+    flattened, its flatness.
     """
-    parts, pieces = character["parts"], np.array([np.hstack(row) for row in character["pieces"]])
-    axes = np.array([_axes(pose, part) for part in parts])[pieces[:, 0].astype(int)]
-    origins = pose[[parts[int(number)][0] for number in pieces[:, 0]]]
-    a, b = (origins + (pieces[:, at : at + 3, None] * axes).sum(1) for at in (1, 5))
-    ahead = np.cross(axes[:, 0], b - a) + 1e-6 * axes[:, 2]
+    pieces = np.array([np.hstack(row) for row in character["pieces"]])
+    parts = [character["parts"][int(part)] for part in pieces[:, PART]]
+    axes = np.array([_axes(pose, part) for part in parts])
+    origins = pose[[origin for origin, *_ in parts]]
+    starts = origins + (pieces[:, START, None] * axes).sum(1)
+    ends = origins + (pieces[:, END, None] * axes).sum(1)
+    ahead = np.cross(axes[:, 0], ends - starts) + 1e-6 * axes[:, 2]
     ahead /= np.linalg.norm(ahead, axis=-1, keepdims=True)
-    return np.column_stack([a, pieces[:, 4], b, pieces[:, 8], ahead, pieces[:, 9]])
+    start_radii = pieces[:, START_RADIUS]
+    end_radii = pieces[:, END_RADIUS]
+    return np.column_stack([starts, start_radii, ends, end_radii, ahead, pieces[:, FLATNESS]])
 
 
-def _along(who: Mapping[str, int], role: str) -> list[int]:
-    """Give the joints that span the axes of a role, and whether it keeps its left."""
-    *side, part = role.split()
-    return [*(who[name if name in who else " ".join([*side, name])] for name in AXES[part]), part in LEVEL]
+def _spans(joints: Mapping[str, int]) -> dict[int, tuple[Any, ...]]:
+    """Return for each joint with axes the part (origin, from, to, left, right, level) in joints."""
+    spans: dict[int, tuple[Any, ...]] = {}
+    for role, joint in joints.items():
+        *side, part = role.split()
+        if part in AXES:
+            names = [name if name in joints else " ".join([*side, name]) for name in AXES[part]]
+            spans[joint] = (joint, *(joints[name] for name in names), part in LEVEL)
+    return spans
 
 
-def _axes(places: Array, part: tuple[int, ...]) -> Array:
-    """Give the axes of a part at rest, in rows, as `axesOf` in `player_body.js` does."""
+def _axes(positions: Array, part: tuple[int, ...]) -> Array:
+    """Return the axes of a part, in rows, as `axesOf` in `player_body.js` does."""
     _, start, end, left, right, level = part
-    along, across = places[end] - places[start], places[left] - places[right]
-    x = across / np.linalg.norm(across) if level else _beside(across, along / np.linalg.norm(along))
-    y = _beside(along, x) if level else along / np.linalg.norm(along)
+    along = positions[end] - positions[start]
+    across = positions[left] - positions[right]
+    if level:
+        x = across / np.linalg.norm(across)
+        y = _perpendicular(along, x)
+    else:
+        y = along / np.linalg.norm(along)
+        x = _perpendicular(across, y)
     return np.array([x, y, np.cross(x, y)])
 
 
-def _beside(a: Array, b: Array) -> Array:
-    """Give the unit vector of a at right angles to the unit vector b."""
+def _perpendicular(a: Array, b: Array) -> Array:
+    """Return the unit vector of a's component at right angles to the unit vector b."""
     v = a - a @ b * b
     length = float(np.linalg.norm(v))
-    return v / length if length > 1e-6 else _beside(np.roll(b, -1), b)
+    return v / length if length > 1e-6 else _perpendicular(np.roll(b, -1), b)
 
 
-def known(skeleton: Skeleton) -> Mapping[str, int]:
-    """Give the roles of joints; none where the legs have no known names."""
+def _roles(skeleton: Skeleton) -> Mapping[str, int]:
+    """Return the joints by their roles; none if the legs have no known names."""
     try:
         return roles(skeleton)
     except MocapError:
@@ -143,65 +191,96 @@ def known(skeleton: Skeleton) -> Mapping[str, int]:
 
 
 def feet(skeleton: Skeleton) -> list[list[int]]:
-    """Give the ankle and the ball of both feet, where they are known."""
-    who = known(skeleton)
-    return [[who[f"{side} ankle"], who[f"{side} ball"]] for side in ("left", "right")] if who else []
+    """Return the ankle and the ball of both feet, if they are known."""
+    joints = _roles(skeleton)
+    return [[joints[f"{side} ankle"], joints[f"{side} ball"]] for side in SIDES] if joints else []
 
 
-def _end(place: Array, radius: float) -> tuple[list[float], float]:
-    return place.round(4).tolist(), round(radius, 4)
+def _end(position: Array, radius: float) -> tuple[list[float], float]:
+    """Round an end of a capsule."""
+    return position.round(4).tolist(), round(radius, 4)
 
 
-def _trunk(at: Mapping[str, Array], size: float) -> list[Piece]:
+def _trunk(positions: Mapping[str, Array], size: float) -> Iterator[Piece]:
+    """Yield the capsules of the trunk and the head."""
+
     def up(height: float, ahead: float = 0.0) -> Array:
         return np.array([0.0, height, ahead]) * size
 
-    waist = "waist" if "waist" in at else "pelvis"
-    hips, arms = ([at[f"{side} {part}"] for side in ("left", "right")] for part in ("hip", "shoulder"))
-    middle, chest, head = (hips[0] + hips[1]) / 2, (arms[0] + arms[1]) / 2, at["head"]
-    hip, other = (0.72 * hip + 0.28 * middle + up(0.02) for hip in hips)
-    shoulder, far = (0.74 * arm + 0.26 * chest - up(0.015) for arm in arms)
-    ribs = 0.55 * at[waist] + 0.45 * chest + up(0.05)
-    return [
-        ("pelvis", hip, 0.094, other, 0.094, 0.95, 0),
-        (waist, at[waist] + up(0.02), 0.108, (at[waist] + chest) / 2 + up(0.02), 0.116, 0.78, 0),
-        ("chest", ribs, 0.118, chest - up(0.07), 0.142, 0.72, 0),
-        ("chest", shoulder, 0.062, far, 0.062, 1.0, 0),
-        ("neck", at["neck"] - up(0.03), 0.068, head, 0.05, 1.0, 0),
-        ("head", head + up(0.03, 0.03), 0.062, head + up(0.075, 0.025), 0.086, 0.9, 0),
-        ("head", head + up(0.1, -0.012), 0.096, head + up(0.115, 0.012), 0.096, 0.9, 0),
-    ]
+    waist = "waist" if "waist" in positions else "pelvis"
+    belly = positions[waist]
+    head = positions["head"]
+    left_hip = positions["left hip"]
+    right_hip = positions["right hip"]
+    left_shoulder = positions["left shoulder"]
+    right_shoulder = positions["right shoulder"]
+    hips = (left_hip + right_hip) / 2
+    chest = (left_shoulder + right_shoulder) / 2
+    ribs = 0.55 * belly + 0.45 * chest + up(0.05)
+
+    left = 0.72 * left_hip + 0.28 * hips + up(0.02)
+    right = 0.72 * right_hip + 0.28 * hips + up(0.02)
+    yield Piece("pelvis", left, 0.094, right, 0.094, 0.95)
+    yield Piece(waist, belly + up(0.02), 0.108, (belly + chest) / 2 + up(0.02), 0.116, 0.78)
+    yield Piece("chest", ribs, 0.118, chest - up(0.07), 0.142, 0.72)
+    left = 0.74 * left_shoulder + 0.26 * chest - up(0.015)
+    right = 0.74 * right_shoulder + 0.26 * chest - up(0.015)
+    yield Piece("chest", left, 0.062, right, 0.062)
+    yield Piece("neck", positions["neck"] - up(0.03), 0.068, head, 0.05)
+    yield Piece("head", head + up(0.03, 0.03), 0.062, head + up(0.075, 0.025), 0.086, 0.9)
+    yield Piece("head", head + up(0.1, -0.012), 0.096, head + up(0.115, 0.012), 0.096, 0.9)
 
 
-def _limbs(at: Mapping[str, Array], size: float, side: str, sign: int) -> list[Piece]:
-    hip, knee, ankle, ball = (at[f"{side} {part}"] for part in ("hip", "knee", "ankle", "ball"))
-    shoulder, elbow, wrist = (at[f"{side} {part}"] for part in ("shoulder", "elbow", "wrist"))
-    shank, back, down = ankle - knee, np.array([0, 0, -size]), np.array([0, -size, 0])
-    hand = size * (wrist - elbow) / np.linalg.norm(wrist - elbow)
+def _limbs(positions: Mapping[str, Array], size: float, side: str) -> Iterator[Piece]:
+    """Yield the capsules of the leg and the arm of a side."""
+    pieces = [*_leg(positions, size, side), *_arm(positions, size, side)]
+    for piece in pieces:
+        yield piece._replace(role=f"{side} {piece.role}", side=SIDES[side])
+
+
+def _leg(positions: Mapping[str, Array], size: float, side: str) -> Iterator[Piece]:
+    """Yield the capsules of a leg, without its side."""
+    hip = positions[f"{side} hip"]
+    knee = positions[f"{side} knee"]
+    ankle = positions[f"{side} ankle"]
+    ball = positions[f"{side} ball"]
+    shank = ankle - knee
+    back = np.array([0, 0, -size])
+    down = np.array([0, -size, 0])
     calf = 0.015 * back
-    rows = [
-        ("hip", hip, 0.086, knee, 0.056, 1.0),
-        ("knee", knee, 0.056, ankle, 0.036, 1.0),
-        ("knee", knee + 0.14 * shank + calf, 0.048, knee + 0.42 * shank + calf, 0.05, 1.0),
-        ("ankle", ankle, 0.036, ball, 0.036, 1.0),
-        ("ankle", ankle + 0.03 * down + 0.03 * back, 0.038, ball, 0.036, 1.0),
-        ("ball", ball, 0.036, ball + 0.008 * down - 0.06 * back, 0.026, 1.0),
-        ("shoulder", shoulder, 0.05, elbow, 0.038, 1.0),
-        ("elbow", elbow, 0.039, wrist, 0.027, 1.0),
-        ("wrist", wrist + 0.02 * hand, 0.03, wrist + 0.075 * hand, 0.037, 0.7),
-        ("wrist", wrist + 0.08 * hand, 0.034, wrist + 0.155 * hand, 0.018, 0.7),
-    ]
-    return [(f"{side} {part}", *row, sign) for part, *row in rows]  # type: ignore[misc]
+    yield Piece("hip", hip, 0.086, knee, 0.056)
+    yield Piece("knee", knee, 0.056, ankle, 0.036)
+    yield Piece("knee", knee + 0.14 * shank + calf, 0.048, knee + 0.42 * shank + calf, 0.05)
+    yield Piece("ankle", ankle, 0.036, ball, 0.036)
+    yield Piece("ankle", ankle + 0.03 * down + 0.03 * back, 0.038, ball, 0.036)
+    yield Piece("ball", ball, 0.036, ball + 0.008 * down - 0.06 * back, 0.026)
+
+
+def _arm(positions: Mapping[str, Array], size: float, side: str) -> Iterator[Piece]:
+    """Yield the capsules of an arm, without its side; the hand points along the forearm."""
+    shoulder = positions[f"{side} shoulder"]
+    elbow = positions[f"{side} elbow"]
+    wrist = positions[f"{side} wrist"]
+    hand = size * (wrist - elbow) / np.linalg.norm(wrist - elbow)
+    yield Piece("shoulder", shoulder, 0.05, elbow, 0.038)
+    yield Piece("elbow", elbow, 0.039, wrist, 0.027)
+    yield Piece("wrist", wrist + 0.02 * hand, 0.03, wrist + 0.075 * hand, 0.037, 0.7)
+    yield Piece("wrist", wrist + 0.08 * hand, 0.034, wrist + 0.155 * hand, 0.018, 0.7)
 
 
 def _bones(skeleton: Skeleton) -> dict[int, list[Any]]:
-    behind, lengths = reaches(skeleton), np.linalg.norm(skeleton.offsets, axis=-1)
-    longest, pieces = behind[0], {}
+    """Return a capsule for each bone, as in `figure`, by the joint at its end."""
+    limbs = reaches(skeleton)
+    longest = limbs[0]
+    pieces = {}
+    lengths = np.linalg.norm(skeleton.offsets, axis=-1)
     for joint in range(1, len(skeleton)):
-        if lengths[joint] > 1e-3 * longest:
-            further = np.array([lengths[joint], 0.05 * longest]) + behind[joint]
-            start, end = THICK * np.sqrt(longest * further)
+        length = lengths[joint]
+        if length > SHORTEST_BONE * longest:
+            below = np.array([length, TIP * longest]) + limbs[joint]  # of the start and the end, metres
+            start_radius, end_radius = THICK * np.sqrt(longest * below)
             parent = int(skeleton.parents[joint])
-            side = {"left": 1, "right": -1}.get(skeleton.side(parent), 0)
-            pieces[joint] = [parent, *_end(np.zeros(3), start), *_end(skeleton.offsets[joint], end), 1, side]
+            start = _end(np.zeros(3), start_radius)
+            end = _end(skeleton.offsets[joint], end_radius)
+            pieces[joint] = [parent, *start, *end, 1, SIDES.get(skeleton.side(parent), 0)]
     return pieces

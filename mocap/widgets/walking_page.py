@@ -17,17 +17,21 @@ from numpy.typing import ArrayLike
 
 from mocap import plain
 from mocap.body import rotations
+from mocap.body.motion import Motion
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.widgets.embedding import joined
 from mocap.widgets.walk_figure import feet, figure
 
 HERE = Path(__file__).parent
 Node = tuple[int, int]
+# The units of whole numbers: metres of a root, parts of a quaternion, radians and metres of a transition.
 STEPS = {"metres": 0.0005, "parts": 1 / 2048, "turn": 2 * np.pi / 65536, "move": 0.0001}
-# What each uses comes before it.
 SETTINGS = ("WIDTH", "LAYER", "LOOK", "RESCUE", "SEAM")  # of the search in `mocap.plain`
+# Scripts, each after those that it uses.
 WALKING = ("search", "body", "line", "camera", "scene", "saving", "small", "hands", "page")
 PARTS = ("bodies", *(f"walk_{part}" for part in WALKING))
+ZX = [2, 0]  # of a position (x, y, z), for complex numbers z + ix
+RAW_DEFLATE = -15  # zlib's window, negative: without a header
 
 
 def numbers(values: ArrayLike, order: int = 0) -> bytes:
@@ -46,55 +50,70 @@ def numbers(values: ArrayLike, order: int = 0) -> bytes:
 
 
 def pack_graph(graph: MotionGraph) -> tuple[dict[str, Any], bytes]:
-    """Pack a motion graph: what its numbers mean, and the numbers, not yet deflated."""
-    edges, motion = list(graph.graph.edges(data=True)), b""
-    for clip in graph.clips:
-        roots = np.rint(clip.root_positions / STEPS["metres"])
-        turns = np.rint(rotations.continuous(clip.rotations) / STEPS["parts"])
-        channels = [*roots.T, *turns.reshape(len(clip), -1).T]
-        motion += b"".join(numbers(channel, 2) for channel in channels)
-    place = {node: number for number, node in enumerate(graph.graph)}
+    """Pack a motion graph: a description of its numbers, and the numbers, not yet deflated."""
     labels = sorted({label for clip in graph.clips for label in clip.labels})
+    data = [_packed_clip(clip) for clip in graph.clips]
+    data.append(numbers([clip for clip, _ in graph.graph], 1))
+    data.append(numbers([frame for _, frame in graph.graph], 1))
+    data += _packed_edges(graph, labels)
+    return _description(graph, labels), b"".join(data)
+
+
+def _packed_clip(clip: Motion) -> bytes:
+    """Pack the root's positions and the rotations of a clip, one channel after the other."""
+    roots = np.rint(clip.root_positions / STEPS["metres"])
+    quaternions = np.rint(rotations.continuous(clip.rotations) / STEPS["parts"])
+    channels = [*roots.T, *quaternions.reshape(len(clip), -1).T]
+    return b"".join(numbers(channel, 2) for channel in channels)
+
+
+def _packed_edges(graph: MotionGraph, labels: list[str]) -> list[bytes]:
+    """Pack the columns of all edges: the indices of their nodes, and the numbers of `_row`."""
+    index = {node: number for number, node in enumerate(graph.graph)}
+    edges = list(graph.graph.edges(data=True))
+    starts = [index[start] for start, _, _ in edges]
+    ends = [index[end] for _, end, _ in edges]
     rows = np.array([_row(graph, labels, (start, end), edge) for start, end, edge in edges])
-    ends = np.array([(place[start], place[end]) for start, end, _ in edges])
-    packed = [numbers(ends[:, 0], 1), numbers(ends[:, 1], 1), *(numbers(column) for column in rows.T)]
-    nodes = [numbers([node[part] for node in graph.graph], 1) for part in (0, 1)]
-    going = sorted({label for _, _, edge in edges for label in edge["labels"]} - {"stand"})
+    return [numbers(starts, 1), numbers(ends, 1), *(numbers(column) for column in rows.T)]
+
+
+def _description(graph: MotionGraph, labels: list[str]) -> dict[str, Any]:
+    """Describe the numbers of a graph: its clips, skeleton and counts, and the settings of the search."""
     skeleton = graph.clips[0].skeleton
-    about = {
-        "fps": graph.fps,
-        "window": graph.window,
-        "clips": [{"name": clip.name, "frames": len(clip)} for clip in graph.clips],
-        "joints": list(skeleton.names),
-        "parents": skeleton.parents.tolist(),
-        "offsets": skeleton.offsets.round(4).tolist(),
-        "steps": STEPS,
-        "figure": figure(skeleton),
-        "feet": feet(skeleton),
-        "search": {name.lower(): getattr(plain, name) for name in SETTINGS},  # how it is set
-        **{"nodes": len(place), "edges": len(edges), "labels": labels, "going": going},
-    }
-    return about, motion + b"".join([*nodes, *packed])
+    edges = list(graph.graph.edges(data=True))
+    going = {label for _, _, edge in edges for label in edge["labels"]} - {"stand"}
+    description: dict[str, Any] = {"fps": graph.fps, "window": graph.window}
+    description["clips"] = [{"name": clip.name, "frames": len(clip)} for clip in graph.clips]
+    description["joints"] = list(skeleton.names)
+    description["parents"] = skeleton.parents.tolist()
+    description["offsets"] = skeleton.offsets.round(4).tolist()
+    description["steps"] = STEPS
+    description["figure"] = figure(skeleton)
+    description["feet"] = feet(skeleton)
+    description["search"] = {name.lower(): getattr(plain, name) for name in SETTINGS}
+    description |= {"nodes": len(graph.graph), "edges": len(edges)}
+    return description | {"labels": labels, "going": sorted(going)}
 
 
-def _row(graph: MotionGraph, labels: list[str], ends: tuple[Node, Node], edge: dict[str, Any]) -> list[int]:
-    """Give the whole numbers of an edge: kind and labels, turn, and how far apart its roots are laid."""
+def _row(graph: MotionGraph, labels: list[str], nodes: tuple[Node, Node], edge: dict[str, Any]) -> list[int]:
+    """Return the whole numbers of an edge: kind and labels, rotation, and translation between its roots.
+
+    A bit stands for each label, the next one for an edge without labels, and the lowest for a transition.
+    """
     kind = sum(2 << labels.index(label) for label in edge["labels"]) or 2 << len(labels)
     if edge["kind"] == "clip":
         return [kind, 0, 0, 0]
-    (a, leave), (b, enter) = ends
-    place = edge["transform"]
-    here, there = (
-        complex(*graph.clips[clip].root_positions[frame, [2, 0]])
-        for clip, frame in ((a, leave), (b, enter - graph.window))
-    )
-    off = place.turn * there + place.move - here
-    turned = round(np.angle(place.turn) / STEPS["turn"])
-    return [kind + 1, turned, round(off.real / STEPS["move"]), round(off.imag / STEPS["move"])]
+    (source, leave), (target, enter) = nodes
+    transform = edge["transform"]
+    source_root = complex(*graph.clips[source].root_positions[leave, ZX])
+    target_root = complex(*graph.clips[target].root_positions[enter - graph.window, ZX])
+    offset = transform.turn * target_root + transform.move - source_root
+    angle = round(np.angle(transform.turn) / STEPS["turn"])
+    return [kind + 1, angle, round(offset.real / STEPS["move"]), round(offset.imag / STEPS["move"])]
 
 
 def walk_page(graph: MotionGraph) -> str:
-    """Make a page that walks along drawn lines, through a motion graph whose walks can go on for ever.
+    """Make a page that walks along drawn lines, through a motion graph whose walks never end.
 
     Parameters
     ----------
@@ -104,13 +123,11 @@ def walk_page(graph: MotionGraph) -> str:
     -------
     HTML that needs no other file: half a megabyte for the bundled clips.
     """
-    about, data = pack_graph(graph)
-    squeeze = zlib.compressobj(9, zlib.DEFLATED, -15)
-    packed = base64.b64encode(squeeze.compress(data) + squeeze.flush()).decode()
-    filled = {
-        "ABOUT": json.dumps(about, separators=(",", ":")).replace("</", "<\\/"),
-        "GRAPH": packed,
-        "SCRIPT": joined(*(HERE / f"{part}.js" for part in PARTS)),
-    }
+    description, data = pack_graph(graph)
+    compressor = zlib.compressobj(9, zlib.DEFLATED, RAW_DEFLATE)
+    compressed = compressor.compress(data) + compressor.flush()
+    parts = {"ABOUT": json.dumps(description, separators=(",", ":")).replace("</", "<\\/")}
+    parts["GRAPH"] = base64.b64encode(compressed).decode()
+    parts["SCRIPT"] = joined(*(HERE / f"{part}.js" for part in PARTS))
     html = (HERE / "walk.html").read_text("utf-8")
-    return re.sub("ABOUT|GRAPH|SCRIPT", lambda found: filled[found[0]], html)
+    return re.sub("ABOUT|GRAPH|SCRIPT", lambda match: parts[match[0]], html)

@@ -99,6 +99,8 @@ TRANSFORMS = [
     ("scale(2 3)", (20, 60)),
     ("rotate(90)", (-20, 10)),
     ("rotate(90, 10, 0)", (-10, 0)),
+    ("skewX(45)", (30, 20)),
+    ("skewY(-45)", (10, 10)),
     ("translate(5) scale(2), rotate(90)", (-35, 20)),  # the last comes first
 ]
 

@@ -30,7 +30,7 @@ def apart(offsets, local, places):
     """Return how far joints lie from those of the file, (J,), metres, RMS over the frames."""
     skeleton = Skeleton(WALK.skeleton.names, WALK.skeleton.parents, offsets)
     ours = joint_positions(Motion(skeleton, WALK.root_positions, local, 30.0))
-    theirs, _ = rigid_bones._in_world(WALK.skeleton.parents, places, WALK.rotations)
+    theirs, _ = rigid_bones._world_poses(WALK.skeleton.parents, places, WALK.rotations)
     return np.sqrt(((ours - theirs) ** 2).sum(-1).mean(0))
 
 
