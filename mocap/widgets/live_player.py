@@ -182,7 +182,7 @@ class Mixer:
         self.box = ipywidgets.VBox([*self.sliders, self.player])
 
     def weights(self, u: float, t: float) -> Array:
-        """Return the weights at second t of the blend, with the arguments by which `blending.mix` calls it."""
+        """Return the weights at second t of the blend, as `blending.mix` asks for them."""
         mixed = np.array(self.start)
         for begin, weights in self.changes:
             mixed += float(quintic_step((t - begin) / EASE)) * (weights - mixed)

@@ -163,8 +163,8 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
         `synthesis.sources`; each clip has its colour.
     seams : where the first motion takes a transition, as from `synthesis.seams`, or frames; they are marked.
     path : a path that was asked for, shape (N, 2), points (x, z) in metres.
-    off : distance from that path in each frame of the first motion, shape (F,), metres, as in `steering.Followed.off`;
-        beyond 15 cm, the path of the motion is red.
+    off : distance from that path in each frame of the first motion, shape (F,), metres, as in
+        `steering.Followed.off`; beyond 15 cm, the path of the motion is red.
     discs : obstacles on the ground, shape (N, 3), x, z and radius in metres.
     places : positions of the joints of each motion, shape (F, J, 3), metres; by default those of
         `body.joint_positions`.
