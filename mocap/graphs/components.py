@@ -43,18 +43,17 @@ def largest_components(graph: nx.MultiDiGraph, by_labels: bool) -> dict[Labels, 
 
     Notebook: 06b-pruning-clips
     """
-    number = {node: row for row, node in enumerate(graph)}
-    ends = np.array([(number[start], number[end]) for start, end in graph.edges()])
-    frames = np.zeros(len(ends), int)  # of clip
-    edges_by_labels: dict[Labels, list[int]] = {}
-    for edge, (_, _, fields) in enumerate(graph.edges(data=True)):
-        if fields["kind"] == "clip":
-            frames[edge] = fields["frames"]
-        labels = fields.get("labels", NO_LABELS) if by_labels else NO_LABELS
-        edges_by_labels.setdefault(labels, []).append(edge)
+    number = {node: index for index, node in enumerate(graph)}
+    ends = np.array([(number[start], number[end]) for start, end in graph.edges()], int)
+    edges = [edge for _, _, edge in graph.edges(data=True)]
+    frames = np.array([edge["frames"] if edge["kind"] == "clip" else 0 for edge in edges], int)
+    rows: dict[Labels, list[int]] = {}  # the edges with each label set
+    for row, edge in enumerate(edges):
+        labels = edge.get("labels", NO_LABELS) if by_labels else NO_LABELS
+        rows.setdefault(labels, []).append(row)
     components = {}
-    for labels, edges in edges_by_labels.items():
-        inside, played = largest_component(ends[edges], frames[edges], len(graph))
+    for labels, chosen in rows.items():
+        inside, played = largest_component(ends[chosen], frames[chosen], len(graph))
         components[labels] = (frozenset(compress(graph, inside)), played)
     return components
 
