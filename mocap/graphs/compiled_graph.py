@@ -32,7 +32,7 @@ class CompiledGraph(EdgeTable):
     source : the graph.
     nodes : sorted by clip and frame.
     edges : the stretches of clip, in the order of the nodes they leave, then the transitions.
-    target : shape (E,), the number of the node that an edge enters.
+    target : shape (E,), the number of the node that each edge enters.
     at : shape (N,), the position of the root at a node, in the coordinates of its clip.
     ahead : shape (N, 3), its positions `AHEAD` seconds later; after the clip's end it keeps its velocity.
     going : shape (N,), the direction of its movement, or if it stands still, its heading (radians).
@@ -105,7 +105,7 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
     edges = sorted(kinds, key=lambda edge: (kinds[edge] == "transition", edge))
     nodes = sorted(graph.graph)
     number = {node: n for n, node in enumerate(nodes)}
-    source = np.array([number[start] for start, _, _ in edges])
+    starts = np.array([number[start] for start, _, _ in edges])
     target = np.array([number[end] for _, end, _ in edges])
     table = edge_table(graph, edges)
     roots = on_ground(np.concatenate([clip.root_positions for clip in graph.clips]))
@@ -115,7 +115,7 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
     marks = gather_marks([clip.labels for clip in graph.clips], table.owner)
     label_names = sorted(marks)
     bears = np.array([marks[name] for name in label_names], bool).reshape(-1, len(table.of))
-    hops = find_hops(table, source, len(nodes), graph.fps)
+    hops = find_hops(table, starts, len(nodes), graph.fps)
     # reads: statement: one field a line
     return CompiledGraph(
         **vars(table),

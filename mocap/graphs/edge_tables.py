@@ -1,6 +1,6 @@
 """The frames that each edge and each macro-edge ("hop") of a motion graph plays, as arrays.
 
-An array has a row for each edge, each frame or each hop. `Hops` says what a hop is.
+An array has a row for each edge, each frame or each hop. `Hops` defines a hop.
 """
 
 from __future__ import annotations
@@ -178,19 +178,19 @@ class Hops:
         return ranges(first.ravel(), counts.ravel())
 
 
-def find_hops(edges: EdgeTable, leaves: Indices, nodes: int, fps: float) -> Hops:
+def find_hops(edges: EdgeTable, starts: Indices, nodes: int, fps: float) -> Hops:
     """Find the hops: from every node follow the clip, and leave by each transition on the way.
 
     Parameters
     ----------
     edges : the stretches of clip, in the order of the nodes they leave, then the transitions.
-    leaves : shape (E,), the number of the node that each edge leaves.
+    starts : shape (E,), the number of the node that each edge leaves.
     nodes : the number of nodes, which are sorted, so that a stretch of clip leads from node n to node n + 1.
     fps : frames per second.
     """
     stretch_from: list[int | None] = [None] * nodes
     transitions_from: list[list[int]] = [[] for _ in range(nodes)]
-    for edge, (node, blended) in enumerate(zip(leaves.tolist(), edges.blended.tolist(), strict=True)):
+    for edge, (node, blended) in enumerate(zip(starts.tolist(), edges.blended.tolist(), strict=True)):
         if blended:
             transitions_from[node].append(edge)
         else:
@@ -199,21 +199,21 @@ def find_hops(edges: EdgeTable, leaves: Indices, nodes: int, fps: float) -> Hops
     hops: list[Hop] = []
     for node in range(nodes):
         hops += _hops_from(node, stretch_from, transitions_from, lengths, longest=HOP * fps)
-    start, stretches, last = np.array(hops).T
-    stretch = np.array([-1 if edge is None else edge for edge in stretch_from])[start]
+    node_of, stretches, last = np.array(hops).T
+    stretch = np.array([-1 if edge is None else edge for edge in stretch_from])[node_of]
     # A hop plays two runs of frames: those of its stretches, which follow one another, and those of `last`.
     frames_before = np.append(0, np.cumsum(edges.frames))
     followed = np.where(stretches > 0, frames_before[stretch + stretches] - frames_before[stretch], 0)
     played = edges.frames[last]
-    first = np.searchsorted(start, np.arange(nodes + 1))
-    starts = np.stack([frames_before[stretch], frames_before[last]], axis=1)
+    first = np.searchsorted(node_of, np.arange(nodes + 1))
+    rows = np.stack([frames_before[stretch], frames_before[last]], axis=1)
     counts = np.stack([followed, played], axis=1)
     return Hops(
         first=first,
         stretch=stretch,
         stretches=stretches,
         last=last,
-        starts=starts,
+        starts=rows,
         counts=counts,
         frames=counts.sum(axis=1),
     )

@@ -105,7 +105,7 @@ def _waits(graph: nx.MultiDiGraph) -> list[float]:
 
 
 def _reachable(graph: nx.MultiDiGraph) -> dict[Labels, frozenset[Labels]]:
-    """Return for each label set the target that a walk can reach from its stretches of clip."""
+    """Return for each label set the others that a walk can reach from its stretches of clip."""
     starts: dict[Labels, set[Node]] = {}
     for start, _, edge in graph.edges(data=True):
         if edge["kind"] == "clip":

@@ -109,7 +109,7 @@ def segment_graph(  # noqa: PLR0913 - the homework's own five knobs, and the met
     segment : frames in a segment.
     window : frames to compare, and later to blend.
     threshold : the distance, in the metric's unit, below which a segment of another clip may follow.
-    weighting : the successor in the clip gets probability 1/2, the others share the rest: "inverse" in
+    weighting : the successor in the clip gets probability 1/2, the matches get the rest: "inverse" in
         proportion to 1 / D, "distance" in proportion to D as in the homework.
     metric : the homework's program has `euler_grid`, its report `root_grid`; both are in `matching`.
 
@@ -221,7 +221,9 @@ def segment_walk(graph: nx.DiGraph, count: int, *, seed: int = 0, start: int | N
     while len(walk) < count:
         successors = graph[walk[-1]]
         if not successors:
-            raise NoWalk(f"Nothing follows segment {walk[-1]}, where the walk is after {len(walk)} segments.")
+            raise NoWalk(
+                f"Nothing follows segment {walk[-1]}, which the walk reaches after {len(walk)} segments."
+            )
         probabilities = [edge["probability"] for edge in successors.values()]
         walk.append(int(random.choice(list(successors), p=probabilities)))
     return walk

@@ -42,7 +42,9 @@ def smallest_threshold(clips: Sequence[Motion], *, window: int) -> float:
     # More transitions never remove a cycle, so the first that closes one is found by bisection.
     closing = bisect_left(range(len(transitions)), True, key=has_cycle)
     if closing == len(transitions):
-        raise NoWalk("No two windows of these clips join into a cycle: add clips that start and end alike.")
+        raise NoWalk(
+            "No two windows of these clips join into a cycle: add clips with similar starts and ends."
+        )
     return transitions[closing].cost
 
 
@@ -76,7 +78,9 @@ class ThresholdCurve(NamedTuple):
         NoWalk : if the graph has no cycle at any threshold.
         """
         if self.frames.max(initial=0) == 0:
-            raise NoWalk("At none of these thresholds has the graph a cycle: allow costlier transitions.")
+            raise NoWalk(
+                "The graph has no cycle at any of these thresholds: allow transitions of higher cost."
+            )
         return float(self.threshold[self.frames >= ENOUGH * self.frames.max()].min())
 
 
@@ -123,7 +127,7 @@ def threshold_curve(
     lengths = np.array([len(clip) for clip in clips])
     for clip, frame in ((transitions.source, transitions.leave), (transitions.target, transitions.enter)):
         if np.any(clip >= len(clips)) or np.any(frame + window > lengths[clip]):
-            raise MocapError("These transitions have windows that lie outside the clips.")
+            raise MocapError("These transitions have windows outside the clips.")
     transitions = transitions[np.argsort(transitions.cost)]
     counts = np.searchsorted(transitions.cost, values)  # of the transitions below each threshold
     sizes = [_size(lengths, transitions[:count], window) for count in counts]

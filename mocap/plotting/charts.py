@@ -145,7 +145,7 @@ def draw_group_plan(
     points : to pass in order; each is numbered, and has a circle of `near` metres.
     discs : obstacles, centre and radius.
     near : the radius around a point within which it counts as passed, metres.
-    ax : axes to draw on; by default those of a new figure that pyplot does not know.
+    ax : axes to draw on; by default those of a new figure that pyplot does not manage.
 
     Examples
     --------

@@ -30,7 +30,7 @@ FLOOR = "#DDDDDD"
 """The colour of the lines on the ground."""
 
 QUIET = "#999999"
-"""The colour of what matters less."""
+"""The colour of less important parts."""
 
 
 def source_colours(names: list[str]) -> dict[str, str]:
