@@ -184,8 +184,10 @@ def walk_track(graph: CompiledGraph, edges: Indices, turn: complex, move: comple
     -------
     The positions, shape (F,), and the rows of the frames among those of all edges, shape (F,).
     """
+    # Each edge composes the transform of its clip with its own: turn · turn_e, and move + turn · move_e.
     turns = np.cumprod([turn, *graph.turn[edges]])[:-1]
     moves = move + np.concatenate([[0], np.cumsum(turns * graph.move[edges])[:-1]])
     frames = graph.frames[edges]
     rows = ranges(graph.first[edges], frames)
-    return np.repeat(moves, frames) + np.repeat(turns, frames) * graph.ground[rows], rows
+    positions = np.repeat(moves, frames) + np.repeat(turns, frames) * graph.ground[rows]
+    return positions, rows

@@ -127,6 +127,13 @@ def clip_rows(clips: Sequence[Motion], frames: Indices) -> Indices:
     """Find the rows of frames (clip, frame), shape (N, 2), in the concatenated clips.
 
     A frame before or after its clip has the row of the clip's first or last frame.
+
+    Examples
+    --------
+    >>> from mocap import datasets
+    >>> clip = datasets.sample("walk_straight")[:90]
+    >>> clip_rows([clip, clip], np.array([[0, 5], [1, 5], [1, 99]]))
+    array([  5,  95, 179])
     """
     lengths = np.array([len(clip) for clip in clips])
     starts = np.cumsum(lengths) - lengths
@@ -150,6 +157,18 @@ class Hops:
     starts, counts : shape (H, 2), the first row and the number of the frames that a hop plays, among the
         frames of all edges: of the stretches before the last edge, and of the last edge.
     frames : shape (H,), the number of frames that each hop plays.
+
+    Examples
+    --------
+    A clip of 90 frames with a transition from frame 60 to frame 20. One hop leaves the start, one leaves
+    frame 20, two leave frame 60, none leaves the end:
+
+    >>> from mocap import body, datasets, graphs, matching
+    >>> clip = body.resample(datasets.sample("walk_circle"), 30)[:90]
+    >>> back = matching.Transition(0, 60, 0, 10, 0.02, body.PlanarTransform(0, 0, 0))
+    >>> hops = graphs.compile_graph(graphs.from_transitions([clip], [back], window=10)).hops
+    >>> hops.first.tolist(), hops.frames.tolist()
+    ([0, 1, 2, 4, 4], [20, 40, 10, 30])
     """
 
     first: Indices
