@@ -99,10 +99,12 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
     """
     if isinstance(graph, CompiledGraph):
         return graph
-    kinds = {(start, end, key): kind for start, end, key, kind in graph.graph.edges(keys=True, data="kind")}
+    kinds = list(graph.graph.edges(keys=True, data="kind"))
     if not kinds:
         raise NoWalk("The graph has no edges.")
-    edges = sorted(kinds, key=lambda edge: (kinds[edge] == "transition", edge))
+    stretches = sorted((start, end, key) for start, end, key, kind in kinds if kind == "clip")
+    transitions = sorted((start, end, key) for start, end, key, kind in kinds if kind == "transition")
+    edges = stretches + transitions
     nodes = sorted(graph.graph)
     number = {node: n for n, node in enumerate(nodes)}
     starts = np.array([number[start] for start, _, _ in edges])
