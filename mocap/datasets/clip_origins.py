@@ -1,4 +1,4 @@
-"""Where clips were read from, and how, so that they can be read again."""
+"""The files that clips were read from, and the options, so that they can be read again."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from mocap._shared.records import NamedTuple
 class Origin(NamedTuple):
     """The file that a clip was read from; `skeleton` and `scale` are those of `mocap.load`.
 
-    If `mirrored`, the clip is the mirror image of what the file holds.
+    If `mirrored`, the clip is the mirror image of the motion in the file.
     """
 
     path: Path
@@ -23,7 +23,7 @@ class Origin(NamedTuple):
     mirrored: bool = False
 
     def text(self, folder: Path) -> str:
-        """Write an origin as JSON: each file by its place seen from a folder, and by its absolute place.
+        """Write an origin as JSON: each file by its path relative to a folder, and by its absolute path.
 
         Examples
         --------
@@ -45,7 +45,7 @@ def _places(file: Path, folder: Path) -> list[str]:
 
 
 def find_again(text: str, folder: Path) -> Origin | None:
-    """Find a clip where `Origin.text` says it was, seen from a folder or from the root; None if it is gone.
+    """Find the file of a clip from `Origin.text`, by its relative or its absolute path; None if it is gone.
 
     Examples
     --------
@@ -62,7 +62,7 @@ def _first_file(places: Iterable[Path]) -> Path | None:
 
 
 def is_origin(text: str) -> bool:
-    """Say whether a text is one that `Origin.text` could have written.
+    """Return whether a text has the form that `Origin.text` writes.
 
     Examples
     --------

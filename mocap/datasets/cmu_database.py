@@ -50,7 +50,7 @@ def _registry() -> dict[str, dict[str, str]]:
 
 
 def trials(subject: int | None = None, kind: str | None = None) -> list[Trial]:
-    """List the trials that `cmu` can give.
+    """List the trials that `cmu` can return.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def trials(subject: int | None = None, kind: str | None = None) -> list[Trial]:
 
     Raises
     ------
-    MocapError : when there is no such trial.
+    MocapError : if there is no such trial.
 
     Examples
     --------
@@ -69,9 +69,10 @@ def trials(subject: int | None = None, kind: str | None = None) -> list[Trial]:
     listed = []
     for name, row in _registry().items():
         person, file = name.split("/")
-        said = kind is None or re.search(rf"\b{re.escape(kind)}\b", row["description"], re.IGNORECASE)
-        if file.endswith(".amc") and said and subject in (None, int(person)):
-            listed.append(Trial(file[:-4], int(person), int(row["frames"]), row["description"]))
+        is_kind = kind is None or re.search(rf"\b{re.escape(kind)}\b", row["description"], re.IGNORECASE)
+        if file.endswith(".amc") and is_kind and subject in (None, int(person)):
+            trial = Trial(file.removesuffix(".amc"), int(person), int(row["frames"]), row["description"])
+            listed.append(trial)
     if not listed:
         subjects = ", ".join(sorted({name.split("/")[0] for name in _registry()}))
         person_asked = f" of subject {subject}" if subject is not None else ""
@@ -106,7 +107,7 @@ def cmu(
     ----------
     clip : a trial's name, such as "16_15".
     subject : without `clip`, the person's number.
-    kind : without `clip`, a word of the description, such as "walk"; `mocap data list` shows all of them.
+    kind : without `clip`, a word of the description, such as "walk"; `mocap data list` shows all trials.
     skeleton : the body that wears the motions, as for `editing.wear`; by default each person's own. A stance,
         such as `editing.stance_of(cmu("16_15"))`, also says how high the feet stand.
 
@@ -141,5 +142,5 @@ def cmu(
 
 
 def fetch_listed(name: str) -> Path:
-    """Find a listed file, such as "16/16.asf", where fetched files are kept, or download it."""
+    """Find a listed file, such as "16/16.asf", in the folder of fetched files, or download it."""
     return fetch(name, f"{BASE_URL}/{name}", _registry()[name]["sha256"], TERMS)

@@ -26,19 +26,19 @@ def kept_in() -> Path:
 
 
 def fetch(name: str, url: str, sha256: str | None, terms: str) -> Path:
-    """Find a file where fetched files are kept, or download it, and print the terms of its use.
+    """Find a file in the folder of fetched files, or download it and print the terms of its use.
 
     Parameters
     ----------
-    name : the file seen from that folder, such as "16/16.asf".
-    url : where to get it.
-    sha256 : its checksum, where it is known. Files that differ from it in line ends only are taken.
-    terms : what to print, once, when something was downloaded.
+    name : its path relative to that folder, such as "16/16.asf".
+    url : its address.
+    sha256 : its checksum, if it is known. A file that differs only in its line ends is accepted.
+    terms : the terms, printed once when something is downloaded.
 
     Raises
     ------
-    MocapError : when it cannot be had, is not the file listed, or cannot be kept; part of a file never is.
-        If the environment variable `MOCAP_OFFLINE` is set: for each file that is not there.
+    MocapError : if it cannot be downloaded, is not the file listed, or cannot be written; then no part of it
+        is kept. If the environment variable `MOCAP_OFFLINE` is set, for each file that is not there.
     """
     import pooch
     from requests import RequestException
@@ -71,7 +71,7 @@ def fetch(name: str, url: str, sha256: str | None, terms: str) -> Path:
 
 
 def _restore_line_ends(file: Path, sha256: str | None) -> None:
-    """Write a text with the line ends, of Unix or of Windows, that its checksum asks for."""
+    """Rewrite a text with the line ends, of Unix or of Windows, that its checksum belongs to."""
     unix = file.read_bytes().replace(b"\r\n", b"\n")
     for data in (unix, unix.replace(b"\n", b"\r\n")):
         if hashlib.sha256(data).hexdigest() == sha256:

@@ -1,4 +1,4 @@
-"""Sets of clips that other labs share: from a copy of your own, or fetched once."""
+"""Sets of clips that other labs share: from a local copy, or downloaded once."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ HASHES: dict[str, str] = _TABLES["clips"]
 
 
 def folder_of(name: str) -> Path:
-    """Return the folder in which a set is looked for, and into which it is fetched.
+    """Return the folder of a set, into which it is fetched.
 
     Raises
     ------
@@ -71,7 +71,9 @@ def folder_of(name: str) -> Path:
 
 
 def clips_of(name: str) -> dict[str, Path]:
-    """Find the clips of a set that are at hand: their files by their names; of one name, the first file.
+    """Find the files of a set that are in its folder, by the names of their clips.
+
+    If several files have the same name, the first one is returned.
 
     Raises
     ------
@@ -82,9 +84,9 @@ def clips_of(name: str) -> dict[str, Path]:
 
 
 def fetch_set(name: str, progress: Progress = iter) -> list[str]:
-    """Download all clips of a named set, unless they are at hand; its terms are printed first.
+    """Download all clips of a named set, unless they are in its folder; its terms are printed first.
 
-    A download that broke off continues at the next call. The archive is removed once all of its clips are
+    The next call continues an interrupted download. The archive is removed once all of its clips are
     unpacked. Without a listed checksum, that of each archive is noted in `<set>.zip.sha256`.
 
     Parameters
@@ -181,12 +183,12 @@ def _note_checksum(packed: Path, digest: str) -> None:
 
 
 def from_set(name: str, clip: str) -> Motion:
-    """Read a clip of a named set, from your own copy or the one fetched; its terms are printed once.
+    """Read a clip of a named set, from a local copy or the fetched one; its terms are printed once.
 
     Parameters
     ----------
     name : the set, one of `SETS`, such as "lafan1".
-    clip : the name of a file, such as "walk1_subject1"; it may lie in any folder of the set.
+    clip : the name of a file in any folder of the set, such as "walk1_subject1".
 
     Raises
     ------

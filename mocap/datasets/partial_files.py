@@ -1,8 +1,8 @@
-"""A file of which a part is here: its bytes, a record of what they belong to, and the space for the rest.
+"""Partially downloaded files: the received bytes, a record of their origin, and the space for the rest.
 
-`NAME.part` beside the target holds the bytes that have been received. `NAME.part.json` says which file they
-belong to: its address, its length, and its validator, which is the server's ETag or date of change. The
-record is written before the bytes that it describes, so that the process may end at any moment.
+`NAME.part` beside the target holds the received bytes. `NAME.part.json` records the file that they belong to:
+its address, its length, and its validator, which is the server's ETag or date of change. The record is
+written before the bytes that it describes, so that the process may end at any moment.
 """
 
 from __future__ import annotations
@@ -32,11 +32,11 @@ class Record(NamedTuple):
 
 
 class Part:
-    """The received bytes of a file, beside the place where the whole file will be.
+    """The received bytes of a file, beside the path where the whole file will be.
 
     Parameters
     ----------
-    target : that place.
+    target : that path.
     url : the file's address. Bytes from another address are not continued.
     """
 
@@ -51,7 +51,7 @@ class Part:
         return self.path.stat().st_size if self.path.exists() else 0
 
     def record(self) -> Record | None:
-        """Read to which file the bytes belong; None if that is not known, or not the file asked for."""
+        """Read the record of the file to which the bytes belong; None if it is missing, or another file's."""
         try:
             stored = json.loads(self.record_path.read_text("utf-8"))
         except (FileNotFoundError, ValueError):
@@ -101,7 +101,7 @@ class Part:
             self.drop()
 
     def finish(self) -> None:
-        """Move the whole file to its place, once the disk holds it."""
+        """Move the whole file to its target, once the disk holds it."""
         with self.path.open("rb+") as file:
             os.fsync(file.fileno())
         self.path.replace(self.target)
@@ -110,7 +110,7 @@ class Part:
 
 @contextmanager
 def keeping(target: Path) -> Iterator[None]:
-    """Explain errors of the system that prevent a file from being kept.
+    """Explain errors of the system that prevent a file from being written.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Downloads of large files that continue where they broke off, each whole or refused.
+"""Downloads of large files that resume after an interruption, each whole or refused.
 
 The next call asks for the rest of the file (`Range`), on the condition that its validator, an ETag or a date,
 is still the same (`If-Range`; RFC 9110, sections 13.1.5 and 14). If the file has changed, or the server knows
@@ -61,11 +61,11 @@ class Listing(NamedTuple):
 
 
 def download(listing: Listing, target: Path, progress: Progress = iter) -> str:
-    """Download a file, or what is missing of it since an earlier call.
+    """Download a file, or the part of it that earlier calls did not receive.
 
     Parameters
     ----------
-    listing : where it is, and what is known of it.
+    listing : its address, and its size and checksum if they are known.
     target : the file to make, in a folder that exists. It appears when it is whole and has the listed
         checksum.
     progress : shows how much has been received, as `tqdm.tqdm` does.
@@ -127,7 +127,7 @@ def _receive(listing: Listing, part: Part, progress: Progress) -> None:
 
 
 def _try_request(listing: Listing, part: Part, progress: Progress) -> RequestException | None:
-    """Ask once for what is missing; return the error after which another try may succeed."""
+    """Request the missing bytes once; return the error after which another try may succeed."""
     from requests import RequestException
     from requests.exceptions import InvalidSchema, InvalidURL, TooManyRedirects
 
@@ -144,11 +144,11 @@ def _try_request(listing: Listing, part: Part, progress: Progress) -> RequestExc
 
 
 def _request(listing: Listing, part: Part, progress: Progress) -> None:
-    """Ask once for what is missing, and add what comes to the part.
+    """Request the missing bytes once, and append those received to the part.
 
     Raises
     ------
-    RequestException : if the answer is no answer, or not all that is missing.
+    RequestException : if the request fails, or not all missing bytes are received.
     """
     import requests
 
@@ -186,7 +186,7 @@ def _require_safe(answer: Response) -> None:
 
 
 def _continues(answer: Response, part: Part, earlier: Record) -> bool:
-    """Return whether an answer is the rest of the same file, or an error that says nothing of the file."""
+    """Return whether an answer is the rest of the same file, or an error independent of the file."""
     if answer.status_code == BEYOND_END:
         return False
     if answer.status_code != PARTIAL:
@@ -205,7 +205,7 @@ def _is_encoded(answer: Response) -> bool:
 
 
 def _describe(answer: Response, url: str) -> Record:
-    """Read from the head of an answer which file it is from.
+    """Read the address, validator and length of a file from the headers of an answer.
 
     A weak ETag (`W/`) may stay the same although bytes change, and the length of an encoded answer is not
     that of the file.
@@ -222,7 +222,7 @@ def _describe(answer: Response, url: str) -> Record:
 
 
 def _require_size(listing: Listing, part: Part, length: int | None, size: int) -> None:
-    """Refuse a file that is not as large as listed, or for which the disk has no space, before it comes."""
+    """Refuse a file that is not as large as listed, or for which the disk has no space, before it is sent."""
     if length is None:
         return
     if listing.megabytes is not None and abs(length - listing.megabytes * MEGABYTE) > ROUNDING * MEGABYTE:
@@ -245,7 +245,7 @@ def _require_bound(listing: Listing, size: int) -> None:
 
 
 def _append(listing: Listing, part: Part, answer: Response, progress: Progress) -> None:
-    """Add what an answer brings to the part, piece by piece."""
+    """Append the body of an answer to the part, piece by piece."""
     record = part.record()
     missing = record.length - part.size() if record and record.length else 0
     shown = iter(progress(range(-(-missing // PIECE))))

@@ -2,14 +2,14 @@
 
 They were generated: footsteps planned along a path, a few harmonics for each joint, and inverse kinematics
 for the legs (`figures/walking`). `clips.npz` holds their numbers in multiples of 2⁻³¹, each clip as the sixth
-differences of its columns: these are small where a motion is smooth.
+differences of its columns, which are small if a motion is smooth.
 """
 
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mocap._shared.archives import open_archive
 from mocap.body.motion import Motion
@@ -17,8 +17,8 @@ from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened
 
 FPS = 120.0  # frames per second of all bundled clips
-UNIT = 2.0**-31  # metres, or parts of a quaternion: what the stored numbers count
-ORDER = 6  # how often the stored numbers are differences
+UNIT = 2.0**-31  # metres, or of a component of a quaternion: the unit of the stored numbers
+ORDER = 6  # of the stored differences
 ROOT_ROTATION = slice(3, 7)  # columns of a clip: the root's position, its quaternion,
 OTHER_ROTATIONS = slice(7, None)  # and (x, y, z) of the quaternions of all other joints
 FEET = ["lfoot", "rfoot", "ltoes", "rtoes"]
@@ -36,7 +36,7 @@ FRAMES_IN_0_1 = {
     "jog": 3853,
     "stop_and_go": 2932,
 }
-"""Lengths of the clips that had these names in mocap 0.1, which walked otherwise."""
+"""Lengths of the clips with these names in mocap 0.1, which were other motions."""
 
 OURS = "the clips that come with mocap"
 
@@ -48,12 +48,13 @@ SKELETON = Skeleton(_names.tolist(), _parents, _offsets)
 
 @cache
 def sample(name: str = "walk_circle") -> Motion:
-    """Give a bundled clip, at 120 Hz, with its footplants as contacts; the same at each call.
+    """Return a bundled clip, at 120 Hz, with its footplants as contacts; each call returns the same object.
 
     Parameters
     ----------
     name : one of `SAMPLES`; "jump"; "bend_sneak" or "bend_walk", around one bend; or a walk of 5 or 6 metres
-        by its speed (m/s) and its turn (degrees to the left), as in "walk_5m_0.8_0" and "walk_6m_1.4_-180".
+        by its speed (m/s) and its change of heading (degrees to the left), as in "walk_5m_0.8_0" and
+        "walk_6m_1.4_-180".
 
     Raises
     ------
@@ -73,19 +74,29 @@ def sample(name: str = "walk_circle") -> Motion:
     keys = ("digits", "moving", "flipped", "labels", "kind", "contacts")
     with open_archive(STORE, OURS) as store:
         digits, moving, flipped, labels, kind, contacts = (store[f"{name}/{key}"].read() for key in keys)
-    folded = sum(plane.astype(np.int64) << 8 * place for place, plane in enumerate(digits))
-    numbers: Any = (folded >> 1) ^ -(folded & 1)
-    for _ in range(ORDER):
-        numbers = numbers.cumsum(axis=1)
     columns = np.zeros((len(kind), len(moving)))
-    columns[:, moving] = UNIT * numbers.T
-    turns = np.empty((len(kind), len(SKELETON), 4))
-    turns[:, 0] = columns[:, ROOT_ROTATION]
-    turns[:, 1:, 1:] = columns[:, OTHER_ROTATIONS].reshape(len(kind), -1, 3)
-    turns[:, 0] /= np.linalg.norm(turns[:, 0], axis=-1, keepdims=True)
-    turns[:, 1:, 0] = np.sqrt(1 - (turns[:, 1:, 1:] ** 2).sum(axis=-1))
-    rotations = np.where(flipped.T[..., None], -turns, turns)
+    columns[:, moving] = UNIT * _decode(digits).T
+    quaternions = np.empty((len(kind), len(SKELETON), 4))
+    quaternions[:, 0] = columns[:, ROOT_ROTATION]
+    quaternions[:, 1:, 1:] = columns[:, OTHER_ROTATIONS].reshape(len(kind), -1, 3)
+    quaternions[:, 0] /= np.linalg.norm(quaternions[:, 0], axis=-1, keepdims=True)
+    quaternions[:, 1:, 0] = np.sqrt(1 - (quaternions[:, 1:, 1:] ** 2).sum(axis=-1))
+    rotations = np.where(flipped.T[..., None], -quaternions, quaternions)
     title = name if name in (*SAMPLES, "jump") else str(labels[0])
     marks = {str(label): kind == number for number, label in enumerate(labels)}
     plants = dict(zip(FEET, contacts, strict=True))
     return Motion(SKELETON, columns[:, :3], rotations, FPS, title, marks, plants)
+
+
+def _decode(digits: NDArray[np.uint8]) -> NDArray[np.int64]:
+    """Decode the columns of a clip, shape (K, F), from the bytes of their differences, lowest byte first.
+
+    The lowest bit of a difference is its sign ("zigzag"), so that small negative numbers have few digits.
+    """
+    zigzag = np.zeros(digits.shape[1:], np.int64)
+    for place, byte in enumerate(digits):
+        zigzag += byte.astype(np.int64) << 8 * place
+    numbers: NDArray[np.int64] = (zigzag >> 1) ^ -(zigzag & 1)
+    for _ in range(ORDER):
+        numbers = numbers.cumsum(axis=1)
+    return numbers

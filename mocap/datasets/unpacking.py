@@ -1,4 +1,4 @@
-"""Clips out of an archive from the network: all of them or none, within bounds on what it may claim.
+"""Clips out of an archive from the network: all of them or none, within bounds on its size.
 
 A .zip file of 3 MB can claim, and unpack to, 3 GB. Its directory is therefore checked before anything is
 unpacked, and `zipfile` unpacks no more of a member than the directory claims. The clips are unpacked into a
@@ -62,8 +62,8 @@ def unpack(archive: Path, folder: Path, progress: Progress = iter) -> list[str]:
 
     Raises
     ------
-    BadArchive : for an archive that is damaged, holds no clip, claims to hold too much, or names a place
-        outside the folder.
+    BadArchive : for an archive that is damaged, holds no clip, claims to hold too much, or has a path outside
+        the folder.
     MocapError : if the disk has no space, or the folder cannot be written into.
 
     Examples

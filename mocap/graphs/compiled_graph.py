@@ -1,4 +1,4 @@
-"""A motion graph as arrays, for searches that look at thousands of edges at once.
+"""A motion graph as arrays, for searches that evaluate thousands of edges at once.
 
 Ground points are complex numbers z + ix, and planar transforms are p ↦ turn · p + move, as in `body.planar`.
 """
@@ -6,7 +6,6 @@ Ground points are complex numbers z + ix, and planar transforms are p ↦ turn �
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -20,6 +19,8 @@ from mocap.graphs.motion_graph import MotionGraph, Node, require_graph
 
 AHEAD = (1 / 4, 1 / 2, 3 / 4)  # seconds
 LEAST = 0.3  # metres per second: standing counts as this, so that no walk stands for ever; γ in [KGP02, 5.1]
+VELOCITY_TIME = 1 / 6  # seconds before the end of a clip from which its last velocity is measured
+STANDING = 0.1  # metres within the last time of `AHEAD`: a root that moves less has no direction of movement
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,13 +32,13 @@ class CompiledGraph(EdgeTable):
     source : the graph.
     nodes : sorted by clip and frame.
     edges : the stretches of clip, in the order of the nodes they leave, then the transitions.
-    target : shape (E,), the number of the node that an edge enters.
-    at : shape (N,), where the root is at a node, in the coordinates of its clip.
-    ahead : shape (N, 3), where it is after `AHEAD` seconds of clip; past the clip's end its velocity stays.
-    going : shape (N,), the direction of its movement, or where it stands still, its heading (radians).
-    ground, step : shape (T,), where the root is in each frame, in the coordinates of the clip that the edge
-        leaves; and metres from the frame before.
-    label_names, bears : the L labels, and shape (L, T), whether a frame bears them.
+    target : shape (E,), the number of the node that each edge enters.
+    at : shape (N,), the position of the root at a node, in the coordinates of its clip.
+    ahead : shape (N, 3), its positions `AHEAD` seconds later; after the clip's end it keeps its velocity.
+    going : shape (N,), the direction of its movement, or if it stands still, its heading (radians).
+    ground, step : shape (T,), the position of the root in each frame, in the coordinates of the clip that the
+        edge leaves, and its distance to the position one frame earlier (metres).
+    label_names, bears : the L labels, and shape (L, T), whether a frame has them.
     hops : the hops from each node.
     """
 
@@ -61,24 +62,26 @@ class CompiledGraph(EdgeTable):
 
     @cached_property
     def progress(self) -> Array:
-        """Each frame's progress, metres, (T,): its step, or γ if it is less [KGP02, least progress]."""
+        """The progress of each frame, metres, (T,): its step, but at least γ [KGP02, 5.1]."""
         return np.maximum(self.step, LEAST / self.fps)
 
     def index(self, node: Node) -> int:
-        """Find a node's number, or raise `NoWalk`."""
+        """Return the number of a node, or raise `NoWalk` if the graph does not have it."""
         require_node(self.source, node)
         return self.nodes.index(node)
 
     def label_number(self, name: str) -> int:
-        """Find a label's number, -1 for "", or raise `NoWalk`."""
-        if name and name not in self.label_names:
-            have = ", ".join(self.label_names) or "none"
-            raise NoWalk(f"No clip of the graph bears the label '{name}'; there are: {have}.")
-        return self.label_names.index(name) if name else -1
+        """Return the number of a label, -1 for "", or raise `NoWalk` if no clip has it."""
+        if not name:
+            return -1
+        if name not in self.label_names:
+            names = ", ".join(self.label_names) or "none"
+            raise NoWalk(f"No clip of the graph bears the label '{name}'; there are: {names}.")
+        return self.label_names.index(name)
 
 
 def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
-    """Turn a graph into arrays; a compiled graph comes back as it is.
+    """Compile a motion graph into arrays; a compiled graph is returned as it is.
 
     Raises
     ------
@@ -97,72 +100,97 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
     if isinstance(graph, CompiledGraph):
         return graph
     require_graph(graph)
-    kinds = graph.graph.edges(keys=True, data="kind")
-    ordered = sorted(kinds, key=lambda edge: (edge[-1] == "transition", edge))
-    edges = [(start, end, key) for start, end, key, _ in ordered]
-    if not edges:
+    kinds = list(graph.graph.edges(keys=True, data="kind"))
+    if not kinds:
         raise NoWalk("The graph has no edges.")
+    stretches = sorted((start, end, key) for start, end, key, kind in kinds if kind == "clip")
+    transitions = sorted((start, end, key) for start, end, key, kind in kinds if kind == "transition")
+    edges = stretches + transitions
     nodes = sorted(graph.graph)
-    index = {node: n for n, node in enumerate(nodes)}
-    leaves, target = (np.array([index[edge[end]] for edge in edges]) for end in (0, 1))
+    number = {node: n for n, node in enumerate(nodes)}
+    starts = np.array([number[start] for start, _, _ in edges])
+    target = np.array([number[end] for _, end, _ in edges])
     table = edge_table(graph, edges)
     roots = on_ground(np.concatenate([clip.root_positions for clip in graph.clips]))
+    positions, ahead, directions = _roots_at_nodes(graph, np.array(nodes), roots)
+    ground, step = _roots_on_edges(graph, table, roots)
     # The labels of a frame in a transition are those of the clip with the larger weight.
     marks = gather_marks([clip.labels for clip in graph.clips], table.owner)
-    names = sorted(marks)
-    bears = np.array([marks[name] for name in names], bool).reshape(-1, len(table.of))
-    parts = (target, *_standing(graph, np.array(nodes), roots), *_tracks(graph, table, roots))
-    hops = find_hops(table, leaves, len(nodes), graph.fps)
-    whole: list[Any] = [*vars(table).values(), graph, nodes, edges, *parts, names, bears, hops]
-    return CompiledGraph(*whole)
+    label_names = sorted(marks)
+    bears = np.array([marks[name] for name in label_names], bool).reshape(-1, len(table.of))
+    hops = find_hops(table, starts, len(nodes), graph.fps)
+    # reads: statement: one field a line
+    return CompiledGraph(
+        **vars(table),
+        source=graph,
+        nodes=nodes,
+        edges=edges,
+        target=target,
+        at=positions,
+        ahead=ahead,
+        going=directions,
+        ground=ground,
+        step=step,
+        label_names=label_names,
+        bears=bears,
+        hops=hops,
+    )
 
 
-def _standing(graph: MotionGraph, nodes: Indices, roots: Points) -> tuple[Points, Points, Array]:
-    """Find where the root is at each node, where it is `AHEAD`, and in which direction it goes."""
+def _roots_at_nodes(graph: MotionGraph, nodes: Indices, roots: Points) -> tuple[Points, Points, Array]:
+    """Find the position of the root at each node, its positions `AHEAD`, and its direction of movement."""
     clip, frame = nodes.T
     last = np.array([len(motion) - 1 for motion in graph.clips])[clip]
 
     def root(frames: Indices) -> Points:
         return np.asarray(roots[clip_rows(graph.clips, np.stack([clip, frames], axis=1))])
 
-    back = max(1, round(graph.fps / 6))
-    speed = (root(last) - root(last - back)) / back
-    steps = [frame + max(1, round(graph.fps * seconds)) for seconds in AHEAD]
-    ahead = np.stack([root(then) + speed * np.maximum(then - last, 0) for then in steps], axis=1)
-    direction = ahead[:, -1] - root(frame)
-    turns = np.concatenate([motion.rotations[:, 0] for motion in graph.clips])
-    faces = heading(turns[clip_rows(graph.clips, nodes)])
-    return root(frame), ahead, np.where(np.abs(direction) > 0.1, np.angle(direction), faces)
+    position = root(frame)
+    interval = max(1, round(graph.fps * VELOCITY_TIME))  # frames
+    velocity = (root(last) - root(last - interval)) / interval  # at the end of the clip, metres per frame
+    later = [frame + max(1, round(graph.fps * seconds)) for seconds in AHEAD]
+    ahead = np.stack([root(time) + velocity * np.maximum(time - last, 0) for time in later], axis=1)
+    displacement = ahead[:, -1] - position
+    orientations = np.concatenate([motion.rotations[:, 0] for motion in graph.clips])
+    headings = heading(orientations[clip_rows(graph.clips, nodes)])
+    directions = np.where(np.abs(displacement) > STANDING, np.angle(displacement), headings)
+    return position, ahead, directions
 
 
-def _tracks(graph: MotionGraph, edges: EdgeTable, roots: Points) -> tuple[Points, Array]:
-    """Follow the root along every edge, blended as the poses are [KGP02, Eq. 5]: places, and steps."""
+def _roots_on_edges(graph: MotionGraph, edges: EdgeTable, roots: Points) -> tuple[Points, Array]:
+    """Find the position of the root in every frame of every edge, and its distance to the frame before.
+
+    Roots are blended as in [KGP02, Eq. 5].
+    """
     turn = edges.turn[edges.of]
     move = edges.move[edges.of]
-    source_roots = roots[clip_rows(graph.clips, edges.here)]
-    target_roots = roots[clip_rows(graph.clips, edges.there)]
-    ground = edges.alpha * source_roots + (1 - edges.alpha) * (turn * target_roots + move)
+    leaving = roots[clip_rows(graph.clips, edges.here)]
+    entering = roots[clip_rows(graph.clips, edges.there)]
+    ground = edges.alpha * leaving + (1 - edges.alpha) * (turn * entering + move)
     step = np.abs(np.diff(ground, prepend=0))
-    preceding = clip_rows(graph.clips, edges.here[edges.first] - np.array([0, 1]))
-    step[edges.first] = np.abs(ground[edges.first] - roots[preceding])
+    # The frame before an edge's first is one of the clip that the edge leaves.
+    previous = clip_rows(graph.clips, edges.here[edges.first] - np.array([0, 1]))
+    step[edges.first] = np.abs(ground[edges.first] - roots[previous])
     return ground, step
 
 
 def walk_track(graph: CompiledGraph, edges: Indices, turn: complex, move: complex) -> tuple[Points, Indices]:
-    """Compute where the root is on the ground in every frame of a walk, and the rows of these frames.
+    """Compute the position of the root in every frame of a walk, and the rows of these frames.
 
     Parameters
     ----------
     graph : the compiled graph.
     edges : numbers of edges; each starts where the one before ends.
-    turn, move : place the first edge's clip: p ↦ turn · p + move.
+    turn, move : the planar transform p ↦ turn · p + move of the first edge's clip.
 
     Returns
     -------
-    The root, shape (F,), and the rows of its frames among those of all edges, shape (F,).
+    The positions, shape (F,), and the rows of the frames among those of all edges, shape (F,).
     """
+    # Each edge composes the transform of its clip with its own: turn · turn_e, and move + turn · move_e.
     turns = np.cumprod([turn, *graph.turn[edges]])[:-1]
     moves = move + np.concatenate([[0], np.cumsum(turns * graph.move[edges])[:-1]])
     frames = graph.frames[edges]
     rows = ranges(graph.first[edges], frames)
-    return np.repeat(moves, frames) + np.repeat(turns, frames) * graph.ground[rows], rows
+    positions = np.repeat(moves, frames) + np.repeat(turns, frames) * graph.ground[rows]
+    return positions, rows

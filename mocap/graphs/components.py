@@ -17,7 +17,7 @@ NO_LABELS: Labels = frozenset()
 
 
 def largest_components(graph: nx.MultiDiGraph, by_labels: bool) -> dict[Labels, tuple[Nodes, int]]:
-    """Find the strongly connected component that plays most frames of clip, of all edges or per label set.
+    """Find the strongly connected component with most frames of clip, of all edges or for each label set.
 
     Parameters
     ----------
@@ -26,7 +26,8 @@ def largest_components(graph: nx.MultiDiGraph, by_labels: bool) -> dict[Labels, 
 
     Returns
     -------
-    For each label set the nodes of its component (none where it has no cycle), and its frames of clip.
+    For each label set the nodes of its component (none if it has no cycle), and the number of its frames of
+    clip.
 
     Examples
     --------
@@ -36,38 +37,40 @@ def largest_components(graph: nx.MultiDiGraph, by_labels: bool) -> dict[Labels, 
     >>> walk, run = frozenset({"walk"}), frozenset({"run"})
     >>> _ = graph.add_edges_from([(1, 2), (2, 1)], kind="clip", frames=9, labels=walk)
     >>> _ = graph.add_edges_from([(3, 4), (4, 3)], kind="clip", frames=5, labels=run)
-    >>> found = largest_components(graph, by_labels=True)
-    >>> {min(labels): (sorted(nodes), frames) for labels, (nodes, frames) in found.items()}
+    >>> components = largest_components(graph, by_labels=True)
+    >>> {min(labels): (sorted(nodes), frames) for labels, (nodes, frames) in components.items()}
     {'walk': ([1, 2], 18), 'run': ([3, 4], 10)}
 
     Notebook: 06b-pruning-clips
     """
-    number = {node: n for n, node in enumerate(graph)}
-    ways = np.array([(number[a], number[b]) for a, b in graph.edges()], int).reshape(-1, 2)
+    number = {node: index for index, node in enumerate(graph)}
+    ends = np.array([(number[start], number[end]) for start, end in graph.edges()], int)
     edges = [edge for _, _, edge in graph.edges(data=True)]
-    frames = np.array([edge["frames"] * (edge["kind"] == "clip") for edge in edges], int)
-    labels = [edge.get("labels", NO_LABELS) if by_labels else NO_LABELS for edge in edges]
-    sets = {one: n for n, one in enumerate(dict.fromkeys(labels))}
-    which = np.array([sets[one] for one in labels], int)
-    found = {}
-    for one, n in sets.items():
-        inside, count = largest_component(ways[which == n], frames[which == n], len(graph))
-        found[one] = (frozenset(compress(graph, inside)), count)
-    return found
+    frames = np.array([edge["frames"] if edge["kind"] == "clip" else 0 for edge in edges], int)
+    rows: dict[Labels, list[int]] = {}  # the edges with each label set
+    for row, edge in enumerate(edges):
+        labels = edge.get("labels", NO_LABELS) if by_labels else NO_LABELS
+        rows.setdefault(labels, []).append(row)
+    components = {}
+    for labels, chosen in rows.items():
+        inside, played = largest_component(ends[chosen], frames[chosen], len(graph))
+        components[labels] = (frozenset(compress(graph, inside)), played)
+    return components
 
 
-def largest_component(ways: Indices, frames: Indices, count: int) -> tuple[Mask, int]:
+def largest_component(edges: Indices, frames: Indices, count: int) -> tuple[Mask, int]:
     """Find the strongly connected component that plays most frames; of equal ones, the one with most edges.
 
     Parameters
     ----------
-    ways : edges from node to node, numbers from 0 to count - 1, shape (E, 2).
-    frames : frames that each edge plays, shape (E,).
+    edges : from node to node, numbers from 0 to count - 1, shape (E, 2).
+    frames : the number of frames that each edge plays, shape (E,).
     count : the number of nodes.
 
     Returns
     -------
-    Which nodes are in the component, shape (count,), and its frames; no nodes where there is no cycle.
+    Booleans that mark the nodes of the component, shape (count,), and the number of its frames. Without a
+    cycle no node is marked.
 
     Examples
     --------
@@ -76,20 +79,20 @@ def largest_component(ways: Indices, frames: Indices, count: int) -> tuple[Mask,
 
     Notebook: 06b-pruning-clips
     """
-    matrix = coo_array((np.ones(len(ways), bool), tuple(ways.T)), shape=(count, count))
-    part = connected_components(matrix, directed=True, connection="strong")[1]  # the number of each node's
-    start, end = part[ways].T
+    adjacency = coo_array((np.ones(len(edges), bool), tuple(edges.T)), shape=(count, count))
+    _, component = connected_components(adjacency, directed=True, connection="strong")  # of each node
+    start, end = component[edges].T
     inside = start == end
     if not inside.any():
         return np.zeros(count, bool), 0
-    edges = np.bincount(start[inside])
-    played = np.bincount(start[inside], frames[inside])
-    best = np.lexsort([edges, played])[-1]
-    return part == best, int(played[best])
+    edge_counts = np.bincount(start[inside])
+    frame_counts = np.bincount(start[inside], frames[inside])
+    largest = np.lexsort([edge_counts, frame_counts])[-1]
+    return component == largest, int(frame_counts[largest])
 
 
 def reached(graph: nx.MultiDiGraph, start: Iterable[Hashable]) -> set[Hashable]:
-    """Find the nodes that a walk from some nodes can reach, and these nodes themselves.
+    """Find the nodes that a walk from some start nodes can reach, including the start nodes.
 
     Examples
     --------

@@ -1,4 +1,7 @@
-"""The frames that each edge and each hop of a motion graph plays, as arrays: a row per edge, frame or hop."""
+"""The frames that each edge and each macro-edge ("hop") of a motion graph plays, as arrays.
+
+An array has a row for each edge, each frame or each hop. `Hops` defines a hop.
+"""
 
 from __future__ import annotations
 
@@ -16,23 +19,26 @@ from mocap.graphs.motion_graph import MotionGraph, Node
 
 Edge = tuple[Node, Node, int]
 
-HOP = 1 / 6  # seconds of clip, after which a hop ends
+HOP = 1 / 6  # seconds of clip after which a hop ends
+FRAME = 1  # column of (clip, frame)
 
 
 @dataclass(frozen=True, eq=False)
 class EdgeTable:
-    """E edges of a graph as arrays, and the F frames that they play, those of an edge after those before it.
+    """E edges of a motion graph as arrays, and the F frames that they play, edge after edge.
 
-    A frame is a blend: `alpha` times frame `here` plus `1 - alpha` times frame `there`, laid on it.
+    A frame is a blend of two frames of clips: `alpha` times `here` plus `1 - alpha` times `there`, after
+    `there` has been aligned with `here`.
 
     Parameters
     ----------
-    first, frames : shape (E,), where the frames of an edge start among those of all, and how many they are.
-    cost, blended : shape (E,), as in the graph; `blended` are the transitions, a stretch of clip costs 0.
-    angle, turn, move : shape (E,), lay the clip that an edge enters on the one that it leaves: the turn in
-        radians, and p ↦ turn · p + move; 0, 1 and 0 on a stretch of clip.
+    first, frames : shape (E,), the row of an edge's first frame, and the number of its frames.
+    cost, blended : shape (E,), the cost, and whether an edge is a transition; a stretch of clip costs 0.
+    angle, turn, move : shape (E,), the planar transform p ↦ turn · p + move that aligns the clip that an edge
+        enters with the clip that it leaves, and its angle in radians; the identity on a stretch of clip.
     of : shape (F,), the edge that a frame belongs to.
-    here, there : shape (F, 2), clips and frames; the same on a stretch of clip.
+    here, there : shape (F, 2), a frame of the clip that the edge leaves, and of the one that it enters, each
+        as (clip, frame); the same on a stretch of clip.
     alpha : shape (F,), the weight of `here`.
     """
 
@@ -44,27 +50,29 @@ class EdgeTable:
     turn: Points
     move: Points
     of: Indices
-    here: Indices
-    there: Indices
+    here: Indices  # reads: name: `steering` reads this field
+    there: Indices  # reads: name: `steering` reads this field
     alpha: Array
 
     @property
     def owner(self) -> Indices:
-        """The clip frame with the larger weight, (F, 2): its labels and contacts are those of the blend."""
+        """The frame of clip with the larger weight, (F, 2): the blend has its labels and contacts."""
         return np.where(self.alpha[:, None] >= 0.5, self.here, self.there)
 
 
 def require_node(motion_graph: MotionGraph, node: Node) -> None:
     """Raise `NoWalk` for a node that is not in the graph."""
     if node not in motion_graph.graph:
-        of_clip = [n for n in motion_graph.graph if n[0] == node[0]]
-        near = min(of_clip, key=lambda n: abs(n[1] - node[1]), default=None)
-        help_ = f"; the nearest is {near}" if near else ", and none in that clip"
-        raise NoWalk(f"The graph has no node {node}{help_}.")
+        clip, frame = node
+        frames = [f for c, f in motion_graph.graph if c == clip]
+        if not frames:
+            raise NoWalk(f"The graph has no node {node}, and none in that clip.")
+        nearest = min(frames, key=lambda choice: abs(choice - frame))
+        raise NoWalk(f"The graph has no node {node}; the nearest is {(clip, nearest)}.")
 
 
 def edge_table(motion_graph: MotionGraph, edges: Sequence[Edge]) -> EdgeTable:
-    """List the data of some edges, and of what each of their frames is made [KGP02, Eqs. 5-7].
+    """Tabulate edges, and the two frames of clips that each of their frames blends [KGP02, Eqs. 5-7].
 
     No frame is part of two blends: a transition enters its clip at the frame after its window, and the next
     transition leaves at this frame or later. A transition of 10 frames from frame 60 into frame 20 blends
@@ -84,103 +92,182 @@ def edge_table(motion_graph: MotionGraph, edges: Sequence[Edge]) -> EdgeTable:
     frames = np.array([edge["frames"] for edge in data], np.intp)
     blended = np.array([edge["kind"] == "transition" for edge in data], bool)
     cost = np.array([edge.get("cost", 0.0) for edge in data], float)
-    transforms = np.array([edge.get("transform", IDENTITY) for edge in data], float)
-    lays = PlanarTransform(*transforms.reshape(-1, 3).T)
-    first, of = np.asarray(np.cumsum(frames) - frames, np.intp), np.repeat(np.arange(len(edges)), frames)
-    since = np.arange(len(of)) - first[of]  # frames since the edge's first
-    ends = np.array([edge[:2] for edge in edges], np.intp).reshape(-1, 2, 2)
-    here, there = ends[of, 0], ends[of, 1]
-    here[:, 1] += since
-    there[:, 1] += since - frames[of]
-    alpha, mixed = np.ones(len(of)), blended[of]
-    alpha[mixed] = cubic_weights(motion_graph.window)[since[mixed]]
-    of_all = (np.asarray(lays.angle), lays.turn, lays.move)
-    return EdgeTable(first, frames, cost, blended, *of_all, of, here, there, alpha)
+    transforms = np.array([edge.get("transform", IDENTITY) for edge in data], float).reshape(-1, 3)
+    aligning = PlanarTransform(*transforms.T)
+    angle = np.asarray(aligning.angle)
+    turn = aligning.turn
+    move = aligning.move
+    first = np.asarray(np.cumsum(frames) - frames, np.intp)
+    of = np.repeat(np.arange(len(edges)), frames)
+    elapsed = np.arange(len(of)) - first[of]  # frames since the edge's first
+    ends = np.array([(start, end) for start, end, _ in edges], np.intp).reshape(-1, 2, 2)
+    leaving = ends[of, 0]
+    entering = ends[of, 1]
+    leaving[:, FRAME] += elapsed
+    entering[:, FRAME] += elapsed - frames[of]
+    in_blend = blended[of]
+    alpha = np.ones(len(of))
+    alpha[in_blend] = cubic_weights(motion_graph.window)[elapsed[in_blend]]
+    return EdgeTable(
+        first=first,
+        frames=frames,
+        cost=cost,
+        blended=blended,
+        angle=angle,
+        turn=turn,
+        move=move,
+        of=of,
+        here=leaving,
+        there=entering,
+        alpha=alpha,
+    )
 
 
 def clip_rows(clips: Sequence[Motion], frames: Indices) -> Indices:
-    """Find the rows of frames (N, 2) among those of all clips; outside a clip, of the nearest frame."""
+    """Find the rows of frames (clip, frame), shape (N, 2), in the concatenated clips.
+
+    A frame before or after its clip has the row of the clip's first or last frame.
+
+    Examples
+    --------
+    >>> from mocap import datasets
+    >>> clip = datasets.sample("walk_straight")[:90]
+    >>> clip_rows([clip, clip], np.array([[0, 5], [1, 5], [1, 99]]))
+    array([  5,  95, 179])
+    """
     lengths = np.array([len(clip) for clip in clips])
+    starts = np.cumsum(lengths) - lengths
     clip, frame = frames.T
-    return np.asarray((np.cumsum(lengths) - lengths)[clip] + np.clip(frame, 0, lengths[clip] - 1))
+    return np.asarray(starts[clip] + np.clip(frame, 0, lengths[clip] - 1))
 
 
 @dataclass(frozen=True, eq=False)
 class Hops:
     """All H hops of a compiled graph with N nodes, sorted by the node that they leave.
 
-    A hop stays on the clip until it takes a transition or has lasted `HOP` seconds. Single edges, of a frame
-    or two each, would give the same walks in many more steps.
+    A hop is a macro-edge: edges in a row that a search takes in one step. It follows the clip until it takes
+    a transition, or has lasted `HOP` seconds, or reaches a dead end. Single edges, of a frame or two each,
+    would give the same walks in many more steps.
 
     Parameters
     ----------
     first : shape (N + 1,), hops `first[n]` to `first[n + 1]` leave node n.
-    ride, rides : shape (H,), the first stretch of clip of a hop, and the number of those before `last`.
+    stretch, stretches : shape (H,), the first stretch of clip, and the number of stretches before `last`.
     last : shape (H,), the last edge of a hop: a transition or a stretch of clip.
-    starts, counts : shape (H, 2), the rows of frames that a hop plays, among the frames of all edges:
-        first those of the stretches before the last edge, then those of the last edge.
+    starts, counts : shape (H, 2), the first row and the number of the frames that a hop plays, among the
+        frames of all edges: of the stretches before the last edge, and of the last edge.
     frames : shape (H,), the number of frames that each hop plays.
+
+    Examples
+    --------
+    A clip of 90 frames with a transition from frame 60 to frame 20. One hop leaves the start, one leaves
+    frame 20, two leave frame 60, none leaves the end:
+
+    >>> from mocap import body, datasets, graphs, matching
+    >>> clip = body.resample(datasets.sample("walk_circle"), 30)[:90]
+    >>> back = matching.Transition(0, 60, 0, 10, 0.02, body.PlanarTransform(0, 0, 0))
+    >>> hops = graphs.compile_graph(graphs.from_transitions([clip], [back], window=10)).hops
+    >>> hops.first.tolist(), hops.frames.tolist()
+    ([0, 1, 2, 4, 4], [20, 40, 10, 30])
     """
 
     first: Indices
-    ride: Indices
-    rides: Indices
+    stretch: Indices
+    stretches: Indices
     last: Indices
     starts: Indices
     counts: Indices
     frames: Indices
 
     def leaving(self, nodes: Indices) -> tuple[Indices, Indices]:
-        """List all hops that leave some nodes: the index of each one's node in `nodes`, and its number."""
+        """Return the hops that leave some nodes: the index of each hop's node in `nodes`, and its number."""
         first = self.first[nodes]
         count = self.first[nodes + 1] - first
         return np.repeat(np.arange(len(nodes)), count), ranges(first, count)
 
     def rows(self, hops: Indices) -> tuple[Indices, Indices]:
-        """List the rows of all frames that some hops play, and the index in `hops` that each belongs to."""
+        """Return the rows of all frames that some hops play, and the index of each row's hop in `hops`."""
         rows = ranges(self.starts[hops].ravel(), self.counts[hops].ravel())
         return rows, np.repeat(np.arange(len(hops)), self.frames[hops])
 
     def edges(self, hops: Indices) -> Indices:
-        """List the edges of some hops, in order."""
-        first = np.stack([self.ride[hops], self.last[hops]], axis=1)
-        return ranges(first.ravel(), np.stack([self.rides[hops], np.ones_like(hops)], axis=1).ravel())
+        """Return the edges of some hops, in order."""
+        first = np.stack([self.stretch[hops], self.last[hops]], axis=1)
+        counts = np.stack([self.stretches[hops], np.ones_like(hops)], axis=1)
+        return ranges(first.ravel(), counts.ravel())
 
 
-def find_hops(edges: EdgeTable, leaves: Indices, nodes: int, fps: float) -> Hops:
+def find_hops(edges: EdgeTable, starts: Indices, nodes: int, fps: float) -> Hops:
     """Find the hops: from every node follow the clip, and leave by each transition on the way.
-
-    A stretch of clip leads from node n to node n + 1, because the nodes are sorted.
 
     Parameters
     ----------
     edges : the stretches of clip, in the order of the nodes they leave, then the transitions.
-    leaves : shape (E,), the number of the node that each edge leaves.
-    nodes : the number of nodes.
+    starts : shape (E,), the number of the node that each edge leaves.
+    nodes : the number of nodes, which are sorted, so that a stretch of clip leads from node n to node n + 1.
     fps : frames per second.
     """
-    stretches = np.flatnonzero(~edges.blended)
-    onward = np.full(nodes, -1)  # the stretch that leaves each node
-    onward[leaves[stretches]] = stretches
-    first = np.searchsorted(leaves[len(stretches) :], np.arange(nodes + 1)) + len(stretches)
-    ride, ways, frames = onward.tolist(), first.tolist(), edges.frames.tolist()
-    found = []  # the node that a hop leaves, the stretches before its last edge, and this edge
+    stretch_from: list[int | None] = [None] * nodes
+    transitions_from: list[list[int]] = [[] for _ in range(nodes)]
+    for edge, (node, blended) in enumerate(zip(starts.tolist(), edges.blended.tolist(), strict=True)):
+        if blended:
+            transitions_from[node].append(edge)
+        else:
+            stretch_from[node] = edge
+    lengths = edges.frames.tolist()
+    hops: list[Hop] = []
     for node in range(nodes):
-        here, ridden, over = node, 0, False
-        while not over:
-            found += [(node, here - node, way) for way in range(ways[here], ways[here + 1])]
-            if ride[here] == -1:
-                break
-            ridden, here = ridden + frames[ride[here]], here + 1
-            # A hop ends when it has lasted long enough, or where nothing leaves its clip's end.
-            over = ridden >= HOP * fps or (ride[here] == -1 and ways[here] == ways[here + 1])
-        if over:
-            found.append((node, here - node - 1, ride[here - 1]))
-    start, rides, last = np.array(found).T
-    # The stretches of a hop lie one after the other, and so do their frames.
-    before = np.concatenate([[0], np.cumsum(edges.frames)])
-    begin, end = np.stack([onward[start], last], axis=1), np.stack([onward[start] + rides, last + 1], axis=1)
-    end[rides == 0, 0] = begin[rides == 0, 0]
-    counts = before[end] - before[begin]
-    first = np.searchsorted(start, np.arange(nodes + 1))
-    return Hops(first, onward[start], rides, last, before[begin], counts, counts.sum(axis=1))
+        hops += _hops_from(node, stretch_from, transitions_from, lengths, longest=HOP * fps)
+    node_of, stretches, last = np.array(hops).T
+    stretch = np.array([-1 if edge is None else edge for edge in stretch_from])[node_of]
+    # A hop plays two runs of frames: those of its stretches, which follow one another, and those of `last`.
+    frames_before = np.append(0, np.cumsum(edges.frames))
+    followed = np.where(stretches > 0, frames_before[stretch + stretches] - frames_before[stretch], 0)
+    played = edges.frames[last]
+    first = np.searchsorted(node_of, np.arange(nodes + 1))
+    rows = np.stack([frames_before[stretch], frames_before[last]], axis=1)
+    counts = np.stack([followed, played], axis=1)
+    return Hops(
+        first=first,
+        stretch=stretch,
+        stretches=stretches,
+        last=last,
+        starts=rows,
+        counts=counts,
+        frames=counts.sum(axis=1),
+    )
+
+
+Hop = tuple[int, int, int]  # the node that it leaves, the number of stretches before its last edge, this edge
+
+
+def _hops_from(
+    node: int,
+    stretch_from: Sequence[int | None],
+    transitions_from: Sequence[Sequence[int]],
+    lengths: Sequence[int],
+    *,
+    longest: float,
+) -> list[Hop]:
+    """Follow the clip from a node: a hop for each transition on the way, and one that stays on the clip.
+
+    Parameters
+    ----------
+    node : the node where the hops start.
+    stretch_from, transitions_from : for each node the stretch of clip and the transitions that leave it.
+    lengths : the number of frames of each edge.
+    longest : frames of clip after which a hop ends.
+    """
+    hops: list[Hop] = []
+    current = node
+    frames = 0
+    while True:
+        hops += [(node, current - node, transition) for transition in transitions_from[current]]
+        stretch = stretch_from[current]
+        if stretch is None:
+            return hops  # the clip ends here
+        frames += lengths[stretch]
+        current += 1
+        dead_end = stretch_from[current] is None and not transitions_from[current]
+        if frames >= longest or dead_end:
+            return [*hops, (node, current - node - 1, stretch)]

@@ -1,4 +1,4 @@
-"""A graph for people: what it can play, how soon a walk can turn off; and as GraphML for other tools."""
+"""A summary of a motion graph for people, and GraphML for other tools."""
 
 from pathlib import Path
 
@@ -14,13 +14,13 @@ from mocap.graphs.pruning import name
 
 
 class Summary(NamedTuple):
-    """What a motion graph can play.
+    """The size of a motion graph, its waiting times, and the kinds of motion that lead to each other.
 
-    `frames` and `seconds` : what it plays of the clips.
-    `nodes`, `edges`, `transitions` : their numbers; transitions count as edges too.
+    `frames` and `seconds` : the part of the clips that it plays.
+    `nodes`, `edges`, `transitions` : their numbers; transitions also count as edges.
     `out_degree` : the mean number of edges that leave a node.
     `mean_wait`, `worst_wait` : seconds from a frame of a clip until a transition leaves the clip; infinite
-    where the clip ends first.
+    if the clip ends first.
     `reachable` : for each label set the others that a walk can reach from it.
     """
 
@@ -35,22 +35,23 @@ class Summary(NamedTuple):
     reachable: dict[Labels, frozenset[Labels]]
 
     def table(self) -> str:
-        """Write the summary as lines of text."""
-        wait = f"{self.mean_wait:.2f} s away on average, {self.worst_wait:.2f} s at worst"
-        rows = [
-            ("frames", f"{self.frames} of the clips, {self.seconds:.1f} s"),
-            ("nodes", f"{self.nodes}, with {self.out_degree:.2f} edges out of each"),
-            ("edges", f"{self.edges}, of them {self.transitions} transitions"),
-            ("turn-off", wait if np.isfinite(self.worst_wait) else "none before the end of some clip"),
-        ]
+        """Format the summary as lines of text."""
+        wait = "none before the end of some clip"
+        if np.isfinite(self.worst_wait):
+            wait = f"{self.mean_wait:.2f} s away on average, {self.worst_wait:.2f} s at worst"
+        frames = f"{self.frames} of the clips, {self.seconds:.1f} s"
+        nodes = f"{self.nodes}, with {self.out_degree:.2f} edges out of each"
+        edges = f"{self.edges}, of them {self.transitions} transitions"
+        rows = [("frames", frames), ("nodes", nodes), ("edges", edges), ("turn-off", wait)]
         if len(self.reachable) > 1:
-            for here, there in self.reachable.items():
-                rows.append((name(here), f"leads to {', '.join(sorted(map(name, there))) or 'nothing else'}"))
-        return "\n".join(f"{printable(what):<12} {printable(text)}" for what, text in rows)
+            for labels, successors in self.reachable.items():
+                names = ", ".join(sorted(map(name, successors))) or "nothing else"
+                rows.append((name(labels), f"leads to {names}"))
+        return "\n".join(f"{printable(heading):<12} {printable(text)}" for heading, text in rows)
 
 
 def summary(graph: nx.MultiDiGraph, *, fps: float) -> Summary:
-    """Sum up the graph of a `MotionGraph`.
+    """Summarise the graph of a `MotionGraph`.
 
     Parameters
     ----------
@@ -73,26 +74,49 @@ def summary(graph: nx.MultiDiGraph, *, fps: float) -> Summary:
     Notebook: 05b-choice-points
     """
     kinds = [kind for _, _, kind in graph.edges(data="kind")]
-    turn_offs = {node for node, _, kind in graph.edges(data="kind") if kind == "transition"}
-    stretches = [(a, b) for a, b, kind in graph.edges(data="kind") if kind == "clip"]
-    ahead: dict[Node, float] = dict.fromkeys(turn_offs, 0.0)  # from a node to the next turn-off
-    waits = list[float]()  # from each frame of clip
-    for start, end in sorted(stretches, reverse=True):  # from the end, so that the next stretch is known
-        own = ahead.get(end, np.inf) + np.arange(end[1] - start[1], 0, -1)
-        ahead.setdefault(start, float(own[0]))
-        waits += [ahead[start], *own[1:].tolist()]
-    frames, nodes, degree = len(waits), len(graph), len(kinds) / max(len(graph), 1)
-    counts = (frames, frames / fps, nodes, len(kinds), kinds.count("transition"), degree)
+    waits = _waits(graph)
+    frames = len(waits)
+    # reads: statement: one field a line
+    return Summary(
+        frames=frames,
+        seconds=frames / fps,
+        nodes=len(graph),
+        edges=len(kinds),
+        transitions=kinds.count("transition"),
+        out_degree=len(kinds) / max(len(graph), 1),
+        mean_wait=sum(waits) / max(frames, 1) / fps,
+        worst_wait=max(waits, default=0.0) / fps,
+        reachable=_reachable(graph),
+    )
+
+
+def _waits(graph: nx.MultiDiGraph) -> list[float]:
+    """Return for each frame of clip the number of frames until a transition leaves the clip."""
+    kinds = list(graph.edges(data="kind"))
+    stretches = [(start, end) for start, end, kind in kinds if kind == "clip"]
+    node_waits: dict[Node, float] = {node: 0.0 for node, _, kind in kinds if kind == "transition"}
+    waits: list[float] = []
+    for start, end in sorted(stretches, reverse=True):  # from the end, so that the wait at `end` is known
+        frames_to_end = np.arange(end[1] - start[1], 0, -1)
+        stretch_waits = node_waits.get(end, np.inf) + frames_to_end
+        node_waits.setdefault(start, float(stretch_waits[0]))
+        waits += [node_waits[start], *stretch_waits[1:].tolist()]
+    return waits
+
+
+def _reachable(graph: nx.MultiDiGraph) -> dict[Labels, frozenset[Labels]]:
+    """Return for each label set the others that a walk can reach from its stretches of clip."""
     starts: dict[Labels, set[Node]] = {}
     for start, _, edge in graph.edges(data=True):
         if edge["kind"] == "clip":
             starts.setdefault(edge["labels"], set()).add(start)
-    ways = {labels: reached(graph, nodes) for labels, nodes in starts.items()}
-    reachable = {
-        here: frozenset(there for there in starts if there != here and starts[there] & ways[here])
-        for here in starts
-    }
-    return Summary(*counts, sum(waits) / max(frames, 1) / fps, max(waits, default=0.0) / fps, reachable)
+    reachable = {}
+    for labels, nodes in starts.items():
+        successors = reached(graph, nodes)
+        reachable[labels] = frozenset(
+            target for target in starts if target != labels and starts[target] & successors
+        )
+    return reachable
 
 
 def write_graphml(motion_graph: MotionGraph, path: str | Path) -> None:
@@ -110,14 +134,16 @@ def write_graphml(motion_graph: MotionGraph, path: str | Path) -> None:
     if Path(path).suffix.lower() != ".graphml":
         raise MocapError(f"This graph is written as .graphml, got '{path}'.")
     plain = motion_graph.graph.copy()
+    node_names = {}
     for (clip, frame), fields in plain.nodes(data=True):
-        seconds = frame / motion_graph.fps
-        fields.update(clip=motion_graph.clips[clip].name, frame=frame, seconds=seconds)
+        clip_name = motion_graph.clips[clip].name
+        fields.update(clip=clip_name, frame=frame, seconds=frame / motion_graph.fps)
+        node_names[clip, frame] = f"{clip_name}:{frame}"
     for *_, edge in plain.edges(data=True):
         edge["labels"] = "+".join(sorted(edge["labels"]))
         if edge["kind"] == "transition":
             numbers = {"cost": edge["cost"], **edge.pop("transform")._asdict()}
             edge.update((name, float(number)) for name, number in numbers.items())
-    plain = nx.relabel_nodes(plain, {node: f"{motion_graph.clips[node[0]].name}:{node[1]}" for node in plain})
-    with replacing(path) as beside:
-        nx.write_graphml_xml(plain, beside)
+    plain = nx.relabel_nodes(plain, node_names)
+    with replacing(path) as temporary:
+        nx.write_graphml_xml(plain, temporary)

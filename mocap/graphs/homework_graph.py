@@ -1,10 +1,9 @@
-"""The homework's graph: clips cut into segments, joined where the end of one is like the start of another.
+"""The homework's graph: clips cut into segments, joined if the end of one is similar to the start of another.
 
-A node is a segment; an edge leads to a segment that may follow it. Where the homework's program has a
-mistake, the default is correct and the mistake is an option: `weighting="distance"` makes the worse match
-more likely. More mistakes are shown in notebook 03b only: Euler angles that flip, and segments that repeat
-the last frame of the one before. And the homework moves segments in height too, so that a walk slowly rises
-or sinks.
+A node is a segment. An edge leads to a segment that may follow it. If the homework's program has a mistake,
+the default is correct and the mistake is an option: `weighting="distance"` makes the worse match more likely.
+Notebook 03b shows two more mistakes: Euler angles that flip, and segments that repeat the last frame of the
+one before. The homework also moves segments in height, so that a walk slowly rises or sinks.
 """
 
 from collections.abc import Sequence
@@ -25,6 +24,8 @@ from mocap.errors import MocapError, NoWalk
 from mocap.matching.distance_grids import check_window
 from mocap.matching.other_metrics import Metric, euler_grid
 
+LEAST_COST = 1e-9  # in the metric's unit: the costs of equal windows are 0, and 1 / 0 is no probability
+
 
 class Segment(NamedTuple):
     """Frames [start, end) of the clip with this number."""
@@ -35,7 +36,7 @@ class Segment(NamedTuple):
 
 
 def segments(clips: Sequence[Motion], length: int) -> list[Segment]:
-    """Cut clips into segments of one length; a clip's last one also takes the frames that are left over.
+    """Cut clips into segments of one length; the last segment of a clip also takes the remaining frames.
 
     Raises
     ------
@@ -108,7 +109,7 @@ def segment_graph(  # noqa: PLR0913 - the homework's own five knobs, and the met
     segment : frames in a segment.
     window : frames to compare, and later to blend.
     threshold : the distance, in the metric's unit, below which a segment of another clip may follow.
-    weighting : the successor in the clip gets probability 1/2, the others share the rest: "inverse" in
+    weighting : the successor in the clip gets probability 1/2, the matches get the rest: "inverse" in
         proportion to 1 / D, "distance" in proportion to D as in the homework.
     metric : the homework's program has `euler_grid`, its report `root_grid`; both are in `matching`.
 
@@ -129,7 +130,8 @@ def segment_graph(  # noqa: PLR0913 - the homework's own five knobs, and the met
     if not threshold > 0:
         raise MocapError(f"The threshold must be above 0, got {threshold}.")
     for clip in clips:  # a window to enter a segment, and one to leave it
-        if (length := min(segment, len(clip))) <= 2 * window:
+        length = min(segment, len(clip))
+        if length <= 2 * window:
             short = f"a segment of {length} frames is too short for windows of {window}"
             raise MocapError(f"'{clip.name}': {short} at both its ends.")
     distances = segment_distances(clips, segment=segment, window=window, metric=metric)
@@ -141,12 +143,12 @@ def segment_graph(  # noqa: PLR0913 - the homework's own five knobs, and the met
 def connect(
     parts: Sequence[Segment], distances: NDArray[np.floating], threshold: float, weighting: str
 ) -> nx.DiGraph:
-    """Join segments by edges: to the next one of the clip, and to those of other clips below the threshold.
+    """Connect each segment with its successor in the clip, and with similar segments of other clips.
 
     Parameters
     ----------
     parts : the segments of all clips, in order.
-    distances : D, shape (S, S), as `segment_distances` gives it.
+    distances : D, shape (S, S), from `segment_distances`.
     threshold, weighting : as for `segment_graph`.
 
     Examples
@@ -160,20 +162,22 @@ def connect(
     """
     graph = nx.DiGraph()
     graph.add_nodes_from((node, part._asdict()) for node, part in enumerate(parts))
+    clip_of = np.array([part.clip for part in parts])
     for node, part in enumerate(parts):
-        others = [j for j, s in enumerate(parts) if s.clip != part.clip and distances[node, j] < threshold]
-        left = 1.0
+        matches = np.flatnonzero((clip_of != part.clip) & (distances[node] < threshold)).tolist()
+        probability = 1.0  # of all matches together
         if node + 1 < len(parts) and parts[node + 1].clip == part.clip:
-            graph.add_edge(node, node + 1, kind="clip", probability=0.5 if others else 1.0)
-            left = 0.5
-        costs = distances[node, others]
-        for other, cost, share in zip(others, costs, shares(costs, weighting), strict=True):
-            graph.add_edge(node, other, kind="transition", probability=float(left * share), cost=float(cost))
+            graph.add_edge(node, node + 1, kind="clip", probability=0.5 if matches else 1.0)
+            probability = 0.5
+        costs = distances[node, matches]
+        fractions = probability * shares(costs, weighting)
+        for match, cost, fraction in zip(matches, costs, fractions, strict=True):
+            graph.add_edge(node, match, kind="transition", probability=float(fraction), cost=float(cost))
     return graph
 
 
 def shares(costs: NDArray[np.floating], weighting: str) -> Array:
-    """Share the probability 1 among some matches, in proportion to D or to 1 / D.
+    """Divide the probability 1 among matches, in proportion to D or to 1 / D.
 
     Parameters
     ----------
@@ -187,7 +191,8 @@ def shares(costs: NDArray[np.floating], weighting: str) -> Array:
 
     Notebook: 05b-choice-points
     """
-    odds = np.maximum(costs, 1e-9) ** (1.0 if weighting == "distance" else -1.0)
+    exponent = 1.0 if weighting == "distance" else -1.0
+    odds = np.maximum(costs, LEAST_COST) ** exponent
     return np.asarray(odds / odds.sum())
 
 
@@ -214,19 +219,22 @@ def segment_walk(graph: nx.DiGraph, count: int, *, seed: int = 0, start: int | N
     if walk[0] not in graph:
         raise NoWalk(f"The graph has no segment {walk[0]}.")
     while len(walk) < count:
-        following = graph[walk[-1]]
-        if not following:
-            raise NoWalk(f"Nothing follows segment {walk[-1]}, where the walk is after {len(walk)} segments.")
-        odds = [edge["probability"] for edge in following.values()]
-        walk.append(int(random.choice(list(following), p=odds)))
+        successors = graph[walk[-1]]
+        if not successors:
+            raise NoWalk(
+                f"Nothing follows segment {walk[-1]}, which the walk reaches after {len(walk)} segments."
+            )
+        probabilities = [edge["probability"] for edge in successors.values()]
+        walk.append(int(random.choice(list(successors), p=probabilities)))
     return walk
 
 
 def segment_motion(clips: Sequence[Motion], graph: nx.DiGraph, walk: Sequence[int]) -> Motion:
-    """Play a walk: the next segment of the clip follows as it is, a segment after a transition is blended in.
+    """Make the motion of a walk: segments in a row, with blends at transitions.
 
-    The first frame of a segment after a transition gets the heading and the place of the frame `window`
-    frames before the end. Over the window the poses are blended by `sine_weights`.
+    A segment that follows in the clip stays as it is. A segment after a transition is aligned: its first
+    frame gets the heading and the position of the frame `window` frames before the end of the motion. Over
+    the window the poses are blended by `sine_weights`.
 
     Parameters
     ----------
@@ -254,22 +262,21 @@ def segment_motion(clips: Sequence[Motion], graph: nx.DiGraph, walk: Sequence[in
     """
     if not walk or walk[0] not in graph:
         raise NoWalk(f"The walk starts at no segment of the graph: {list(walk[:1])}.")
+    for source, target in pairwise(walk):
+        if not graph.has_edge(source, target):
+            raise NoWalk(f"The walk jumps from segment {source} to segment {target}.")
     window = graph.graph["window"]
-    place = IDENTITY
-    pieces: list[Motion] = []
-    for before, node in pairwise([None, *walk]):
-        part = Segment(**graph.nodes[node])
-        piece = clips[part.clip][part.start : part.end]
-        if pieces and not graph.has_edge(before, node):
-            raise NoWalk(f"The walk jumps from segment {before} to segment {node}.")
-        blended = bool(pieces) and graph.edges[before, node]["kind"] == "transition"
-        if blended:
-            tail = pieces[-1][-window:]
-            place = lay_on(piece, tail)
-        if place is not IDENTITY:
-            piece = place.apply_motion(piece)
-        if blended:
-            mixed = blend(tail, piece[:window], sine_weights(window))
-            pieces[-1:] = [pieces[-1][:-window], mixed]
-        pieces.append(piece[window:] if blended else piece)
+    parts = [Segment(**graph.nodes[node]) for node in walk]
+    segment, *successors = [clips[part.clip][part.start : part.end] for part in parts]
+    pieces = [segment]
+    transform = IDENTITY
+    for edge, segment in zip(pairwise(walk), successors, strict=True):
+        if graph.edges[edge]["kind"] == "clip":
+            pieces.append(segment if transform is IDENTITY else transform.apply_motion(segment))
+            continue
+        tail = pieces[-1][-window:]
+        transform = lay_on(segment, tail)
+        aligned = transform.apply_motion(segment)
+        mixed = blend(tail, aligned[:window], sine_weights(window))
+        pieces[-1:] = [pieces[-1][:-window], mixed, aligned[window:]]
     return replace(concatenate(pieces), name="walk")

@@ -1,8 +1,7 @@
-"""Which threshold? The size and quality of the motion graph at many of them, from one list of transitions."""
+"""The size and the quality of the motion graph at many thresholds, from one list of transitions."""
 
 from bisect import bisect_left
 from collections.abc import Sequence
-from functools import partial
 
 import networkx as nx
 import numpy as np
@@ -25,7 +24,7 @@ def smallest_threshold(clips: Sequence[Motion], *, window: int) -> float:
 
     Raises
     ------
-    NoWalk : where no threshold gives a cycle.
+    NoWalk : if no threshold gives a cycle.
 
     Examples
     --------
@@ -33,28 +32,34 @@ def smallest_threshold(clips: Sequence[Motion], *, window: int) -> float:
     >>> bool(smallest_threshold([body.resample(datasets.sample("walk_curve_1"), 30)], window=10) < 0.04)
     True
     """
-    found = find_transitions(clips, window=window, below=float("inf"))
-    found = found[np.argsort(found.cost, kind="stable")]
-    made = partial(from_transitions, clips, window=window)
-    first = bisect_left(  # a cycle stays one with more transitions
-        range(len(found)), True, key=lambda n: not nx.is_directed_acyclic_graph(made(found[: n + 1]).graph)
-    )
-    if first == len(found):
-        raise NoWalk("No two windows of these clips join into a cycle: add clips that start and end alike.")
-    return found[first].cost
+    transitions = find_transitions(clips, window=window, below=float("inf"))
+    transitions = transitions[np.argsort(transitions.cost, kind="stable")]
+
+    def has_cycle(last: int) -> bool:
+        graph = from_transitions(clips, transitions[: last + 1], window=window).graph
+        return not nx.is_directed_acyclic_graph(graph)
+
+    # More transitions never remove a cycle, so the first that closes one is found by bisection.
+    closing = bisect_left(range(len(transitions)), True, key=has_cycle)
+    if closing == len(transitions):
+        raise NoWalk(
+            "No two windows of these clips join into a cycle: add clips with similar starts and ends."
+        )
+    return transitions[closing].cost
 
 
 AT_ONCE = 4096  # transitions measured together, to limit the memory
+ENOUGH = 0.9  # of the frames that the largest component plays at any threshold
 
 
 class ThresholdCurve(NamedTuple):
     """The motion graph at each of T thresholds, shape (T,) each; `threshold_curve` shows an example.
 
     threshold : metres.
-    transitions, nodes, edges : the numbers of these in the whole graph.
-    frames : frames of the clips that the largest strongly connected component can play.
+    transitions, nodes, edges : their numbers in the whole graph.
+    frames : the number of frames of clip that the largest strongly connected component plays.
     cost : the mean cost of the transitions, metres; 0 without transitions.
-    gap : the mean of their `velocity_gaps`, metres per second: how visible the seams are.
+    gap : the mean of their `velocity_gaps`, metres per second, a measure of how visible the seams are.
     """
 
     threshold: Array
@@ -66,24 +71,27 @@ class ThresholdCurve(NamedTuple):
     gap: Array
 
     def suggest(self) -> float:
-        """Give the lowest threshold at which the largest component plays 90 % of the most that it plays.
+        """Return the lowest threshold at which the largest component plays 90 % of its maximum of frames.
 
         Raises
         ------
-        NoWalk : where the graph has no cycle at any threshold.
+        NoWalk : if the graph has no cycle at any threshold.
         """
         if self.frames.max(initial=0) == 0:
-            raise NoWalk("At none of these thresholds has the graph a cycle: allow costlier transitions.")
-        return float(self.threshold[self.frames >= 0.9 * self.frames.max()].min())
+            raise NoWalk(
+                "The graph has no cycle at any of these thresholds: allow transitions of higher cost."
+            )
+        return float(self.threshold[self.frames >= ENOUGH * self.frames.max()].min())
 
 
 def threshold_curve(
     clips: Sequence[Motion], transitions: Transitions, *, window: int, thresholds: ArrayLike
 ) -> ThresholdCurve:
-    """Compute for many thresholds how large the motion graph is, and how much of it pruning keeps.
+    """Compute the size of the motion graph at many thresholds, and the part of it that pruning keeps.
 
     The transitions are sorted by cost once. Those below a threshold come first, so all means are running
-    sums. Components take time linear in the edges. So a curve takes as long as T prunings, without a search.
+    sums. Components take time linear in the edges. A curve therefore takes as long as T prunings, without a
+    search for transitions.
 
     Parameters
     ----------
@@ -94,7 +102,7 @@ def threshold_curve(
 
     Returns
     -------
-    The curve, which can suggest a threshold.
+    The curve; its method `suggest` chooses a threshold.
 
     Raises
     ------
@@ -119,9 +127,9 @@ def threshold_curve(
     lengths = np.array([len(clip) for clip in clips])
     for clip, frame in ((transitions.source, transitions.leave), (transitions.target, transitions.enter)):
         if np.any(clip >= len(clips)) or np.any(frame + window > lengths[clip]):
-            raise MocapError("These transitions have windows that lie outside the clips.")
+            raise MocapError("These transitions have windows outside the clips.")
     transitions = transitions[np.argsort(transitions.cost)]
-    counts = np.searchsorted(transitions.cost, values)  # how many are below each
+    counts = np.searchsorted(transitions.cost, values)  # of the transitions below each threshold
     sizes = [_size(lengths, transitions[:count], window) for count in counts]
     nodes, frames = np.array(sizes, np.intp).reshape(-1, 2).T
     edges = counts + nodes - len(clips)  # a clip of n nodes has n - 1 stretches
@@ -132,21 +140,28 @@ def threshold_curve(
 
 
 def _size(lengths: Indices, transitions: Transitions, window: int) -> tuple[int, int]:
-    """Count the nodes of a graph, and the frames that its largest strongly connected component plays."""
-    starts = np.cumsum(lengths + 1) - lengths - 1  # one more each: a clip's last node comes after its frames
-    leave = starts[transitions.source] + transitions.leave
-    enter = starts[transitions.target] + transitions.enter + window
-    places, number = np.unique(np.concatenate([starts + lengths, starts, leave, enter]), return_inverse=True)
-    # A stretch of clip leaves every node but the ends of clips.
-    before = np.setdiff1d(np.arange(len(places)), number[: len(lengths)])
-    left, entered = np.split(number[2 * len(lengths) :], 2)
-    ways = np.stack([np.concatenate([before, left]), np.concatenate([before + 1, entered])], axis=1)
-    frames = np.concatenate([np.diff(places)[before], np.zeros_like(left)])
-    return len(places), largest_component(ways, frames, len(places))[1]
+    """Count the nodes of a graph, and the frames that its largest strongly connected component plays.
+
+    The clips follow one another on one axis, and a node is a position on it.
+    """
+    clip_starts = np.cumsum(lengths + 1) - lengths - 1  # one more each: a clip's last node follows its frames
+    clip_ends = clip_starts + lengths
+    leave = clip_starts[transitions.source] + transitions.leave
+    enter = clip_starts[transitions.target] + transitions.enter + window
+    choice_points = np.concatenate([clip_ends, clip_starts, leave, enter])
+    positions, number = np.unique(choice_points, return_inverse=True)
+    # A stretch of clip leaves every node but the ends of clips, and enters the next one.
+    stretches = np.setdiff1d(np.arange(len(positions)), number[: len(lengths)])
+    sources, targets = np.split(number[2 * len(lengths) :], 2)
+    starts = np.concatenate([stretches, sources])
+    ends = np.concatenate([stretches + 1, targets])
+    frames = np.concatenate([np.diff(positions)[stretches], np.zeros_like(sources)])
+    _, played = largest_component(np.stack([starts, ends], axis=1), frames, len(positions))
+    return len(positions), played
 
 
 def velocity_gaps(clips: Sequence[Motion], transitions: Transitions, *, window: int) -> Array:
-    """Measure the difference of the points' velocities in the two clips, in the middle of each transition.
+    """Compute the difference of the two clips' point velocities in the middle of each transition.
 
     Parameters
     ----------
@@ -170,12 +185,15 @@ def velocity_gaps(clips: Sequence[Motion], transitions: Transitions, *, window: 
 
     Notebook: 05b-choice-points
     """
-    moving = np.concatenate([velocities(point_cloud(clip), clip.fps) for clip in clips])  # (frames, P, 3)
+    point_velocities = np.concatenate(
+        [velocities(point_cloud(clip), clip.fps) for clip in clips]
+    )  # (F, P, 3)
     middles = np.cumsum([0, *(len(clip) for clip in clips)]) + window // 2
     gaps = [np.zeros(0)]
     for first in range(0, len(transitions), AT_ONCE):
-        some = transitions[first : first + AT_ONCE]
-        turn = PlanarTransform(np.asarray(some.transform.angle)[:, None], 0.0, 0.0)
-        here, there = moving[middles[some.source] + some.leave], moving[middles[some.target] + some.enter]
-        gaps.append(np.sqrt(((here - turn.apply_points(there)) ** 2).sum(-1).mean(-1)))
+        batch = transitions[first : first + AT_ONCE]
+        rotation = PlanarTransform(np.asarray(batch.transform.angle)[:, None], 0.0, 0.0)
+        leaving = point_velocities[middles[batch.source] + batch.leave]
+        entering = rotation.apply_points(point_velocities[middles[batch.target] + batch.enter])
+        gaps.append(np.sqrt(((leaving - entering) ** 2).sum(-1).mean(-1)))
     return np.concatenate(gaps)

@@ -1,7 +1,8 @@
 """Pictures, by matplotlib: stick figures, distance images, paths, curves and graphs.
 
-Every function draws on `ax` (new axes by default), computes nothing of its own, and returns the artists that
-it made, or the axes; `show` puts the picture into a notebook with a sentence for readers who do not see it.
+Every function draws on `ax` (new axes by default), and returns the artists that it made, or the axes. It
+computes nothing but the picture. `show` puts the picture into a notebook, with a sentence for readers who do
+not see it.
 
 Reading order (notebooks 00 to 19)
 ----------------------------------
@@ -9,7 +10,7 @@ Reading order (notebooks 00 to 19)
 2. `bodies`: bodies as lines, on flat axes, and a whole walk in one picture
 3. `stick_figures`: bodies on 3D axes with a ground
 4. `grids`: distances and costs as images
-5. `charts`: curves and bands; paths and ways from above
+5. `charts`: curves and bands; paths seen from above
 6. `graph_drawing`: motion graphs as timelines and as nodes with arrows
 7. `picture`: a figure as a picture in a notebook
 

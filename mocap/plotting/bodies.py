@@ -1,7 +1,7 @@
 """Bodies as lines on flat axes: poses, film strips, and whole walks in a picture, as in [KGP02, Fig. 1]."""
 
 from collections.abc import Iterable, Sequence
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -15,15 +15,15 @@ from mocap.body import Motion, Skeleton, joint_positions
 from mocap.matching.point_clouds import distinct_joints
 from mocap.plotting.style import ASKED, COLOURS, FLOOR, MARK, PATH, QUIET, own_colour, source_colours
 
-# Across and up, seen from the right, front and above.
+# The directions across and up of an oblique view from the right, front and above, as rows (x, y, z).
 ASLANT = np.array([[0.57, 0, 0.82], [-0.2, 0.97, 0.14]])
 
 
 def bones(skeleton: Skeleton) -> tuple[Indices, Indices, NDArray[np.str_]]:
-    """List the B lines of a body: the joints where they start and end, and their sides, shapes (B,).
+    """Return the B bones of a body as lines: their start joints, end joints and sides, shapes (B,).
 
-    Joints that share a place share one line. The line from a parent to its child is the parent's bone, and so
-    it is on the parent's side.
+    Joints at the same position share one line. The line from a parent to its child is the parent's bone, and
+    therefore on the parent's side.
 
     Examples
     --------
@@ -40,7 +40,7 @@ def bones(skeleton: Skeleton) -> tuple[Indices, Indices, NDArray[np.str_]]:
 
 
 def head_joints(skeleton: Skeleton) -> list[int]:
-    """Find the joints that are called a head; the last is its tip."""
+    """Find the joints with "head" in their names; the last is the tip of the head."""
     return [joint for joint, name in enumerate(skeleton.names) if "head" in name.lower()]
 
 
@@ -59,10 +59,10 @@ def draw_body(
     ----------
     ax : flat axes.
     skeleton : the body.
-    points : shape (J, 2), where its joints are on the axes.
-    colour : one for all bones; by default left, right and middle have their own.
-    head : how to draw the dot for the head, such as {"markersize": 8}; without it there is none.
-    look : of the bones, such as `linewidths` and `alpha`.
+    points : the positions of its joints on the axes, shape (J, 2).
+    colour : one for all bones; by default that of their side.
+    head : options of the dot for the head, such as {"markersize": 8}; without them there is no dot.
+    look : options of the bones, such as `linewidths` and `alpha`.
 
     Examples
     --------
@@ -87,14 +87,14 @@ def flat_bodies(
     alpha: float = 1.0,
     ax: Axes | None = None,
 ) -> Axes:
-    """Draw poses of a motion flat, where they are: z or x to the right, y upwards, metres.
+    """Draw poses of a motion on flat axes at their positions: z or x to the right, y upwards, metres.
 
     Parameters
     ----------
     motion : a walk along z.
-    frames : which frames.
-    view : from the side, z to the right; or from the front, x to the right. There the walker comes to the
-        reader, so the left side of the body, which is at +x, is on the right.
+    frames : the frames to draw.
+    view : from the side, with z to the right; or from the front, with x to the right. From the front the
+        walker comes towards the reader, so the left side of the body, at +x, is on the right.
     alpha : 1 for solid bodies, less for ghosts.
     ax : flat axes; by default new ones.
 
@@ -118,16 +118,16 @@ def flat_bodies(
 
 
 def film_strip(motions: Sequence[Motion], *, count: int = 6) -> Figure:
-    """Draw poses side by side, evenly spread over the first motion's time; the others at the same times.
+    """Draw poses of one or more motions side by side, at times evenly spread over the first motion.
 
     Parameters
     ----------
-    motions : one or more; the picture goes with the first.
-    count : poses; fewer where the first motion has fewer frames.
+    motions : one or more; the positions are relative to the root of the first.
+    count : the number of poses; fewer if the first motion has fewer frames.
 
     Returns
     -------
-    A figure that pyplot does not know, so nobody has to close it.
+    A figure that pyplot does not manage, so that it need not be closed.
 
     Examples
     --------
@@ -136,15 +136,17 @@ def film_strip(motions: Sequence[Motion], *, count: int = 6) -> Figure:
     >>> [ax.get_title() for ax in strip.axes]
     ['0.00 s', '4.82 s', '9.64 s']
     """
-    first, clouds = motions[0], [joint_positions(motion) for motion in motions]
+    first = motions[0]
+    positions = [joint_positions(motion) for motion in motions]
     frames = np.unique(np.linspace(0, len(first) - 1, count).round().astype(int))
     figure = Figure(figsize=(1.5 * len(frames), 1.75))
     panels = figure.subplots(1, len(frames), sharex=True, sharey=True, squeeze=False)[0]
     figure.subplots_adjust(0.0, 0.0, 1.0, 0.86, 0.0)
     for ax, frame in zip(panels, frames, strict=True):
-        for number, (motion, points) in enumerate(zip(motions, clouds, strict=True)):
+        origin = positions[0][frame, 0] * [1, 0, 1]  # below the root of the first motion
+        for number, (motion, points) in enumerate(zip(motions, positions, strict=True)):
             pose = points[min(len(points) - 1, round(frame / first.fps * motion.fps))]
-            flat = (pose - clouds[0][frame, 0] * [1, 0, 1]) @ ASLANT.T
+            flat = (pose - origin) @ ASLANT.T
             look: dict[str, Any] = {"head": {"markersize": 5}, "linewidths": 1.6}
             draw_body(ax, motion.skeleton, flat, colour=own_colour(number, len(motions)), **look)
         ax.set_title(f"{frame / first.fps:.2f} s", fontsize=9)
@@ -155,12 +157,18 @@ def film_strip(motions: Sequence[Motion], *, count: int = 6) -> Figure:
 
 
 WIDTH = 9.0  # inches
-LOW, HIGH = 1.9, 4.6  # inches: the least and the greatest height of the picture
-RISE = np.radians(24)  # how far above the ground the camera stands
+LOW = 1.9  # inches, the least height of the picture
+HIGH = 4.6  # inches, the greatest height of the picture
+RISE = np.radians(24)  # the angle at which the camera looks down
 COLUMNS = 4  # of the legend
 MOST = 15  # bodies; more would hide one another
 FEW = 3  # characters; of more, the bodies of one moment are drawn together
-APART = 0.7  # metres between two bodies at least
+APART = 0.7  # metres, the least distance between two bodies
+VERTICAL = np.array([0, 1, 0])  # the direction upwards
+ACROSS = 0  # row of a view
+DEPTH = 2  # row of a view
+FLAT = slice(0, 2)  # rows of a view, across and up
+WIDENING = 1.15  # the factor by which the least distance grows while there are too many bodies
 
 
 def bodies_along(
@@ -177,17 +185,17 @@ def bodies_along(
     ----------
     motions : one or more characters; sources and seams are those of the first. More than three are drawn at
         the same three moments, so that one sees the group.
-    sources : pairs (frame, name of the clip from there on), as from `synthesis.sources`: bodies and path have
-        the colour of their clip. Without them one character has the colours of left and right, and several
+    sources : pairs (first frame, name of the clip), as from `synthesis.sources`: bodies and path have the
+        colour of their clip. Without them one character has the colours of left and right, and several
         have a colour each.
     seams : frames at which a transition starts, marked on the path.
-    path : the path that was asked for, shape (N, 2), points (x, z) in metres.
+    path : the requested path, shape (N, 2), points (x, z) in metres.
     discs : obstacles on the ground, shape (N, 3), x, z and radius in metres.
-    places : of the joints of each motion, shape (F, J, 3); by default those of `joint_positions`.
+    places : the joint positions of each motion, shape (F, J, 3); by default those of `joint_positions`.
 
     Returns
     -------
-    A figure that pyplot does not know, so nobody has to close it.
+    A figure that pyplot does not manage, so that it need not be closed.
 
     Examples
     --------
@@ -196,98 +204,153 @@ def bodies_along(
     >>> [text.get_text() for text in figure.legends[0].get_texts()]
     ['walked path', 'seam']
     """
-    asked = np.insert(np.reshape(np.asarray(path, float), (-1, 2)), 1, 0.0, axis=-1)
-    clouds = places or [joint_positions(motion) for motion in motions]
-    ways = [cloud[:, 0] * [1, 0, 1] for cloud in clouds]
+    request = np.insert(np.reshape(np.asarray(path, float), (-1, 2)), 1, 0.0, axis=-1)
+    positions = places or [joint_positions(motion) for motion in motions]
+    paths = [joints[:, 0] * [1, 0, 1] for joints in positions]
     figure = Figure(figsize=(WIDTH, LOW), layout="constrained")
-    ax = figure.add_subplot(aspect="equal", anchor="S")  # what is left over is the legend's
-    look = _draw_floor(ax, np.concatenate([*ways, asked]))
-    ax.add_collection(PolyCollection(list(rims(discs) @ look[:2].T), facecolors=QUIET, zorder=0.5))
-    lines = [(asked, ASKED, "asked path", 4.0)] if len(asked) else []
-    named = len(motions) == 1 or len({motion.name for motion in motions}) > 1  # colours need different names
-    together = np.linspace(0, min(map(len, motions)) - 1, 3).astype(int)  # of a group, the same three moments
-    for number, (motion, cloud, way) in enumerate(zip(motions, clouds, ways, strict=True)):
-        own = own_colour(number, len(motions))
-        spans = _spans(motion, sources if number == 0 else (), own, named)
-        lines += [(way[start : end + 1], colour or PATH, name, 1.6) for start, end, colour, name in spans]
-        for frame in together if len(motions) > FEW else _chosen(way):
-            (colour,) = [colour for start, end, colour, _ in spans if start <= frame < end]
-            near = 4 - float(np.tanh(look[2] @ cloud[frame, 0] / 50))  # over those that are farther
-            head = {"markersize": 7, "zorder": near, "clip_on": False}
-            points = cloud[frame] @ look[:2].T
-            draw_body(ax, motion.skeleton, points, colour=colour, head=head, linewidths=2, zorder=near)
-    for way, colour, name, wide in lines:
-        ax.plot(*look[:2] @ way.T, color=colour, linewidth=wide, label=name, zorder=1)
-    if len(marked := np.asarray(list(seams), int)):
-        ax.plot(*look[:2] @ ways[0][marked].T, "D", color=MARK, markersize=6, label="seam", zorder=2)
+    ax = figure.add_subplot(aspect="equal", anchor="S")  # the rest of the height is for the legend
+    ground = np.concatenate([*paths, request])
+    view = _view(ground)
+    _draw_floor(ax, view, ground)
+    ax.add_collection(PolyCollection(list(rims(discs) @ view[FLAT].T), facecolors=QUIET, zorder=0.5))
+    spans = [[_whole(motions, number)] for number in range(len(motions))]
+    if sources:
+        spans[0] = _spans_of_sources(sources, len(motions[0]))
+    moments = np.linspace(0, min(map(len, motions)) - 1, 3).astype(int)
+    for number, motion in enumerate(motions):
+        for frame in moments if len(motions) > FEW else _spaced(paths[number]):
+            colour = _colour_of(spans[number], frame)
+            _draw_pose(ax, view, motion.skeleton, positions[number][frame], colour)
+    if len(request):
+        _draw_path(ax, view, request, color=ASKED, label="asked path", linewidth=4.0)
+    for walked, stretches in zip(paths, spans, strict=True):
+        _draw_spans(ax, view, walked, stretches)
+    marks = paths[0][np.asarray(list(seams), int)]
+    if len(marks):
+        ax.plot(*view[FLAT] @ marks.T, "D", color=MARK, markersize=6, label="seam", zorder=2)
     return _frame(ax, figure)
 
 
-def _spans(
-    motion: Motion, sources: Sequence[tuple[int, str]], colour: str | None, named: bool
-) -> list[tuple[int, int, str | None, str]]:
-    """List the stretches of a motion that have one colour: their frames [start, end), colour and name."""
-    if not sources:
-        return [(0, len(motion), colour, motion.name * named if colour else "walked path")]
+class _Span(NamedTuple):
+    """Frames [start, end) of a motion that have one colour, None for the colours of the body's sides."""
+
+    start: int
+    end: int
+    colour: str | None
+    name: str  # in the legend; "" for none
+
+
+def _whole(motions: Sequence[Motion], number: int) -> _Span:
+    """Return a whole motion as one span; one of several is named if their names differ."""
+    motion = motions[number]
+    name = "walked path"
+    if len(motions) > 1:
+        has_name = len({character.name for character in motions}) > 1
+        name = motion.name if has_name else ""
+    return _Span(0, len(motion), own_colour(number, len(motions)), name)
+
+
+def _spans_of_sources(sources: Sequence[tuple[int, str]], count: int) -> list[_Span]:
+    """Return a span for each source of a motion of `count` frames."""
     colours = source_colours([name for _, name in sources])
-    ends = [*(frame for frame, _ in sources[1:]), len(motion)]
-    return [(start, end, colours[name], name) for (start, name), end in zip(sources, ends, strict=True)]
+    ends = [*(start for start, _ in sources[1:]), count]
+    return [_Span(start, end, colours[name], name) for (start, name), end in zip(sources, ends, strict=True)]
 
 
-def _draw_floor(ax: Axes, ground: Array) -> Array:
-    """Choose where to look from, so that the longest way over the ground runs across; draw squares of 1 m.
+def _colour_of(spans: Sequence[_Span], frame: int) -> str | None:
+    """Return the colour of the span that holds a frame."""
+    (colour,) = [span.colour for span in spans if span.start <= frame < span.end]
+    return colour
 
-    They are 10, 100, ... m wide rather than more than a thousand in a row. Returned are the picture's
-    directions across, up and away from the camera, as rows of (3, 3).
+
+def _draw_path(ax: Axes, view: Array, path: Array, **look: Any) -> None:  # noqa: ANN401 (of matplotlib's lines)
+    """Draw a path on the ground, shape (F, 3)."""
+    ax.plot(*view[FLAT] @ path.T, zorder=1, **look)
+
+
+def _draw_spans(ax: Axes, view: Array, path: Array, spans: Sequence[_Span]) -> None:
+    """Draw a walked path, each span in its colour."""
+    for span in spans:
+        points = path[span.start : span.end + 1]
+        _draw_path(ax, view, points, color=span.colour or PATH, label=span.name, linewidth=1.6)
+
+
+def _draw_pose(ax: Axes, view: Array, skeleton: Skeleton, joints: Array, colour: str | None) -> None:
+    """Draw a body with joint positions (J, 3), over the bodies that are farther from the camera."""
+    depth = view[DEPTH] @ joints[0]
+    zorder = 4 - float(np.tanh(depth / 50))
+    head = {"markersize": 7, "zorder": zorder, "clip_on": False}
+    draw_body(ax, skeleton, joints @ view[FLAT].T, colour=colour, head=head, linewidths=2, zorder=zorder)
+
+
+def _view(ground: Array) -> Array:
+    """Return a view in which the longest extent of points (N, 3) on the ground is across the picture.
+
+    Its rows are the directions across and up in the picture, and away from the camera along the ground.
     """
     across = np.linalg.svd(ground - ground.mean(axis=0), full_matrices=False)[2][0]
     across = -across if (ground[-1] - ground[0]) @ across < 0 else across
-    away = np.cross([0, 1, 0], across)
-    floor = np.stack([across, away])
-    low, high = (f(ground @ floor.T, axis=0) for f in (np.min, np.max))
+    depth = np.cross(VERTICAL, across)
+    up = np.cos(RISE) * VERTICAL + np.sin(RISE) * depth
+    return np.stack([across, up, depth])
+
+
+def _draw_floor(ax: Axes, view: Array, ground: Array) -> None:
+    """Draw squares of 1 m below points (N, 3); of 10, 100, ... m if more than a thousand were in a row."""
+    floor = view[[ACROSS, DEPTH]]
+    low = np.min(ground @ floor.T, axis=0)
+    high = np.max(ground @ floor.T, axis=0)
     cell = 10.0 ** np.ceil(np.log10(max((high - low).max() / 1000, 1.0)))
-    low, high = np.floor(low / cell - 0.5), np.ceil(high / cell + 0.5)
-    grid = [((x, low[1]), (x, high[1])) for x in np.arange(low[0], high[0] + 1)]
-    grid += [((low[0], z), (high[0], z)) for z in np.arange(low[1], high[1] + 1)]
-    look = np.stack([across, np.cos(RISE) * np.array([0, 1, 0]) + np.sin(RISE) * away, away])
-    lines = cell * np.array(grid) @ floor @ look[:2].T
-    ax.add_collection(LineCollection(list(lines), colors=FLOOR, linewidths=0.8, zorder=0))
-    return look
+    x_low, z_low = np.floor(low / cell - 0.5)
+    x_high, z_high = np.ceil(high / cell + 0.5)
+    lines = [((x, z_low), (x, z_high)) for x in np.arange(x_low, x_high + 1)]
+    lines += [((x_low, z), (x_high, z)) for z in np.arange(z_low, z_high + 1)]
+    flat = cell * np.array(lines) @ floor @ view[FLAT].T
+    ax.add_collection(LineCollection(list(flat), colors=FLOOR, linewidths=0.8, zorder=0))
 
 
 def _frame(ax: Axes, figure: Figure) -> Figure:
-    """Make the picture as high as what it shows, and name each colour above it, once."""
+    """Make the figure as high as its content, and add a legend above it, with each name once."""
     ax.set_axis_off()
     ax.margins(0.02, 0.04)
     ax.autoscale_view()
-    wide, high = np.ptp(ax.get_xlim()), np.ptp(ax.get_ylim())
+    width = np.ptp(ax.get_xlim())
+    height = np.ptp(ax.get_ylim())
     handles, names = ax.get_legend_handles_labels()
-    named = dict(zip(names, handles, strict=True))
-    words = 0.5 + 0.32 * -(-len(named) // COLUMNS)  # inches
-    figure.set_size_inches(WIDTH, float(np.clip(WIDTH * high / wide + words, LOW, HIGH)))
-    if named:
-        how: dict[str, Any] = {"loc": "outside upper left", "fontsize": 9, "frameon": False}
-        figure.legend(list(named.values()), list(named), ncols=min(COLUMNS, len(named)), **how)
+    entries = dict(zip(names, handles, strict=True))
+    legend_height = 0.5 + 0.32 * -(-len(entries) // COLUMNS)  # inches
+    figure.set_size_inches(WIDTH, float(np.clip(WIDTH * height / width + legend_height, LOW, HIGH)))
+    if entries:
+        look: dict[str, Any] = {"loc": "outside upper left", "fontsize": 9, "frameon": False}
+        figure.legend(list(entries.values()), list(entries), ncols=min(COLUMNS, len(entries)), **look)
     ax.text(
         1, 0, "lines 1 m apart", transform=ax.transAxes, ha="right", va="top", fontsize=8, color="#666666"
     )
     return figure
 
 
-def _chosen(way: Array) -> list[int]:
-    """Choose frames of a path over the ground, shape (F, 3), whose places are far enough from each other."""
-    apart, chosen = APART, [0]
+def _spaced(path: Array) -> list[int]:
+    """Choose frames of a path on the ground, shape (F, 3), that are far enough from each other.
+
+    The least distance is `APART`, or more if there would be more than `MOST` frames.
+    """
+    distance = APART
     while True:
-        for frame, place in enumerate(way):
-            if np.linalg.norm(way[chosen] - place, axis=-1).min() > apart:
+        chosen = [0]
+        for frame, position in enumerate(path):
+            if np.linalg.norm(path[chosen] - position, axis=-1).min() > distance:
                 chosen.append(frame)
         if len(chosen) <= MOST:
             return chosen
-        apart, chosen = 1.15 * apart, [0]
+        distance *= WIDENING
 
 
 def rims(discs: ArrayLike) -> Array:
-    """Outline discs on the ground, shape (N, 3), x, z and radius in metres: (N, 48, 3).
+    """Return points on the rims of discs on the ground, shape (N, 48, 3).
+
+    Parameters
+    ----------
+    discs : shape (N, 3), x, z and radius in metres.
 
     Examples
     --------
@@ -296,5 +359,6 @@ def rims(discs: ArrayLike) -> Array:
     """
     x, z, radius = np.reshape(np.asarray(discs, float), (-1, 3)).T[..., None]
     angle = np.linspace(0, 2 * np.pi, 48, endpoint=False)
-    across, along = x + radius * np.sin(angle), z + radius * np.cos(angle)
-    return np.stack([across, np.zeros_like(across), along], axis=-1)
+    rim_x = x + radius * np.sin(angle)
+    rim_z = z + radius * np.cos(angle)
+    return np.stack([rim_x, np.zeros_like(rim_x), rim_z], axis=-1)

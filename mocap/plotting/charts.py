@@ -1,4 +1,4 @@
-"""Charts: curves over time, samples as bands, and what lies on the ground, seen from above."""
+"""Charts: curves over time, samples as bands, and paths on the ground, seen from above."""
 
 from collections.abc import Sequence
 from itertools import cycle, repeat
@@ -63,7 +63,7 @@ def quartile_band(
 
     Parameters
     ----------
-    x : shape (n,), what was varied.
+    x : shape (n,), the varied quantity.
     samples : shape (n, k), k measurements at each x.
     label : for the legend.
     colour : of line and band.
@@ -89,7 +89,7 @@ def quartile_band(
 
 
 def seen_from_above(ax: Axes | None = None) -> Axes:
-    """Make axes for the ground seen from above: y points at the viewer, so with z upwards x goes left."""
+    """Make axes for the ground seen from above, with z upwards and x to the left (y points at the viewer)."""
     ax = ax or plt.figure(figsize=(4.5, 4.5), layout="constrained").add_subplot()
     ax.set(xlabel="x (m)", ylabel="z (m)", aspect="equal")
     ax.xaxis.set_inverted(True)
@@ -97,7 +97,7 @@ def seen_from_above(ax: Axes | None = None) -> Axes:
 
 
 def path_from_above(motion: Motion, *, colour: str = PATH, ax: Axes | None = None) -> list[Line2D]:
-    """Draw the root's path on the ground, seen from above: z upwards, x to the left, as seen from behind.
+    """Draw the root's path on the ground, seen from above: z upwards, x to the left.
 
     Parameters
     ----------
@@ -120,10 +120,12 @@ def path_from_above(motion: Motion, *, colour: str = PATH, ax: Axes | None = Non
     """
     ax = seen_from_above(ax)
     x, z = motion.root_positions[:, [0, 2]].T
-    way = ax.plot(x, z, color=colour, linewidth=2, label=motion.name)
-    return way + ax.plot(x[:1], z[:1], "o", color=COLOURS["middle"], markersize=6)
+    path = ax.plot(x, z, color=colour, linewidth=2, label=motion.name)
+    start = ax.plot(x[:1], z[:1], "o", color=COLOURS["middle"], markersize=6)
+    return path + start
 
 
+# reads: name: `near` is a public parameter
 def draw_group_plan(
     places: Points,
     points: Sequence[complex] = (),
@@ -132,17 +134,18 @@ def draw_group_plan(
     near: float = 1.0,
     ax: Axes | None = None,
 ) -> Figure:
-    """Draw where the members of a group go, seen from above; x to the left as for somebody who looks along z.
+    """Draw the paths of the members of a group, seen from above: z upwards, x to the left.
 
-    White dots are where they start, black ones where they are at five moments, evenly spread until the end.
+    White dots mark their positions at the start, black dots those at five evenly spaced moments until the
+    end.
 
     Parameters
     ----------
-    places : shape (F, N), complex z + ix, metres.
-    points : to pass in order; each is numbered, and its circle of `near` metres drawn.
+    places : their positions, shape (F, N), complex z + ix, metres.
+    points : to pass in order; each is numbered, and has a circle of `near` metres.
     discs : obstacles, centre and radius.
-    near : metres.
-    ax : axes to draw on; by default those of a new figure that pyplot does not know.
+    near : the radius around a point within which it counts as passed, metres.
+    ax : axes to draw on; by default those of a new figure that pyplot does not manage.
 
     Examples
     --------
@@ -154,8 +157,8 @@ def draw_group_plan(
     Notebook: 19-group-graphs
     """
     ax = seen_from_above(ax or Figure(figsize=(7, 7), layout="constrained").add_subplot())
-    for number, way in enumerate(np.asarray(places).T):
-        ax.plot(way.imag, way.real, color=SOURCES[number % len(SOURCES)], linewidth=1.2)
+    for number, path in enumerate(np.asarray(places).T):
+        ax.plot(path.imag, path.real, color=SOURCES[number % len(SOURCES)], linewidth=1.2)
     for frame in np.linspace(0, len(places) - 1, 6).round().astype(int):
         inside = "black" if frame else "white"
         ax.scatter(places[frame].imag, places[frame].real, s=14, color=inside, edgecolors="black", zorder=3)

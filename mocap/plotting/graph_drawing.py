@@ -1,4 +1,4 @@
-"""Pictures of graphs: large ones as bars and arcs along time, small ones as nodes and arrows."""
+"""Pictures of graphs: large ones as bars and arcs over time, small ones as nodes and arrows."""
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -23,21 +23,26 @@ Places = Mapping[Any, Sequence[float]]
 MOST_NODES = 100
 """With more nodes, the arrows of `node_link` cover each other."""
 
+POINTS = 13  # of an arc
+LIFT = 0.45  # rows by which the middle of an arc is above its clip's bar
+PALE = "#E8E8E8"  # the colour of nodes that pruning removes
 
+
+# reads: name: `most` and `each` are public parameters
 def timeline(
     motion_graph: MotionGraph, *, most: int = 1000, each: int | None = None, ax: Axes | None = None
 ) -> LineCollection:
-    """Draw a motion graph: one bar per clip, along time, and one arc per transition.
+    """Draw a motion graph: one bar per clip, over time, and one arc per transition.
 
-    Arcs within a clip are bent, arcs to another clip are straight. Where not all transitions are drawn, a
-    line below the axes says which, and how many of how many.
+    Arcs within a clip are bent, arcs to another clip are straight. If not all transitions are drawn, a line
+    below the axes says which, and how many of how many.
 
     Parameters
     ----------
     motion_graph : the graph; parts of its clips that are not in the graph are drawn thin.
-    most : how many transitions to show at most; of more, those of least cost.
-    each : how many to show from each clip to each clip, those of least cost, with the nodes where they leave
-        and enter; by default, as many as there are.
+    most : the largest number of transitions to draw; of more, those of least cost.
+    each : the largest number from each clip to each clip, those of least cost, drawn with the nodes where
+        they leave and enter; unlimited by default.
     ax : axes; new ones by default.
 
     Returns
@@ -56,61 +61,90 @@ def timeline(
 
     Notebook: 00-quickstart
     """
-    clips, fps = motion_graph.clips, motion_graph.clips[0].fps
+    clips = motion_graph.clips
+    fps = clips[0].fps
     ax = ax or plt.figure(figsize=(9, 0.55 * len(clips) + 1), layout="constrained").add_subplot()
     frames = np.array(list(motion_graph.graph.edges(keys=False)), int).reshape(-1, 2, 2)  # (clip, frame)
-    ends = frames[..., ::-1] / [fps, -1]  # (E, 2, 2): (seconds, row)
     edges = [edge for _, _, edge in motion_graph.graph.edges(data=True)]
-    stays = np.array([edge["kind"] == "clip" for edge in edges], bool)
-    whole = [[(0, -clip), (len(motion) / fps, -clip)] for clip, motion in enumerate(clips)]
-    ax.add_collection(LineCollection(whole, colors=QUIET, linewidths=1, zorder=0))
-    colours = [SOURCES[clip % len(SOURCES)] for clip in frames[stays, 0, 0]]
-    ax.add_collection(LineCollection(list(ends[stays]), colors=colours, linewidths=5, capstyle="butt"))
+    in_clip = np.array([edge["kind"] == "clip" for edge in edges], bool)
+    _draw_bars(motion_graph, frames[in_clip], ax)
     if len(motion_graph.graph) <= MOST_NODES:
-        x, y = np.array(motion_graph.graph.nodes).reshape(-1, 2)[:, ::-1].T / [[fps], [-1]]
+        x, y = _on_timeline(np.array(motion_graph.graph.nodes).reshape(-1, 2), fps).T
         ax.plot(x, y, "o", color="white", markeredgecolor=COLOURS["middle"], markersize=5)
-    costs = np.array([edge.get("cost", 0.0) for edge in edges])[~stays]
-    chosen = sorted(islice(cheapest(frames[~stays, :, 0], costs, each), most))
-    arcs = _arcs(ends[~stays][chosen])
-    fade = min(1.0, 0.06 + 60 / (len(arcs) + 1))
-    transitions = LineCollection(list(arcs), colors=MARK, linewidths=0.7, alpha=fade, zorder=1.5)
-    ax.add_collection(transitions)
+    costs = np.array([edge.get("cost", 0.0) for edge in edges])[~in_clip]
+    transitions = frames[~in_clip]
+    drawn = sorted(islice(cheapest(transitions[..., 0], costs, each), most))
+    arcs = _arcs(_on_timeline(transitions[drawn], fps))
+    opacity = min(1.0, 0.06 + 60 / (len(arcs) + 1))
+    lines = LineCollection(list(arcs), colors=MARK, linewidths=0.7, alpha=opacity, zorder=1.5)
+    ax.add_collection(lines)
     if each is not None:
         _draw_ends(arcs, ax)
     if len(arcs) < len(costs):
-        which = f"the {each} cheapest" if each and each > 1 else "the cheapest"
-        which += "" if each is None else " from each clip to each clip"
-        note = f"drawn: {which}, {len(arcs)} of {len(costs)} transitions"
+        note = f"drawn: {_selection(each)}, {len(arcs)} of {len(costs)} transitions"
         ax.annotate(note, (1, 0), (0, -48), "axes fraction", "offset points", ha="right", va="top", size=9)
     ax.set_yticks([-clip for clip in range(len(clips))], [motion.name for motion in clips])
     ax.set(xlabel="time in the clip (s)", ylim=(0.4 - len(clips), 0.7))
     ax.spines[["top", "right", "left"]].set_visible(False)
-    return transitions
+    return lines
 
 
+def _on_timeline(frames: Indices, fps: float) -> Array:
+    """Return the positions (seconds, row) of frames (clip, frame), shape (..., 2)."""
+    return np.asarray(frames[..., ::-1] / [fps, -1])
+
+
+def _draw_bars(motion_graph: MotionGraph, stretches: Indices, ax: Axes) -> None:
+    """Draw clips as thin lines, and on them the stretches in the graph, (E, 2, 2), as bars."""
+    clips = motion_graph.clips
+    fps = clips[0].fps
+    lines = [[(0, -clip), (len(motion) / fps, -clip)] for clip, motion in enumerate(clips)]
+    ax.add_collection(LineCollection(lines, colors=QUIET, linewidths=1, zorder=0))
+    colours = [SOURCES[clip % len(SOURCES)] for clip in stretches[:, 0, 0]]
+    bars = list(_on_timeline(stretches, fps))
+    ax.add_collection(LineCollection(bars, colors=colours, linewidths=5, capstyle="butt"))
+
+
+def _selection(each: int | None) -> str:  # reads: name: as in `timeline`
+    """Describe in words the transitions that are drawn."""
+    if each is None:
+        return "the cheapest"
+    number = f"{each} " if each > 1 else ""
+    return f"the {number}cheapest from each clip to each clip"
+
+
+# reads: name: as in `timeline`
 def cheapest(pairs: Indices, costs: Array, each: int | None) -> Iterator[int]:
-    """Give the numbers of transitions by cost, the lowest first; from each clip to each, at most `each`."""
-    seen: Counter[tuple[int, ...]] = Counter()
+    """Yield the numbers of transitions by cost, the lowest first, at most `each` from each clip to each clip.
+
+    Parameters
+    ----------
+    pairs : shape (E, 2), the clip that a transition leaves, and the one that it enters.
+    costs : shape (E,).
+    each : the largest number for each pair; None for all.
+    """
+    counts: Counter[tuple[int, ...]] = Counter()
     for number in np.argsort(costs, kind="stable").tolist():
         pair = tuple(pairs[number].tolist())
-        seen[pair] += 1
-        if each is None or seen[pair] <= each:
+        counts[pair] += 1
+        if each is None or counts[pair] <= each:
             yield number
 
 
 def _draw_ends(arcs: Array, ax: Axes) -> None:
-    """Draw the nodes of arcs: rings where they leave, discs where they enter."""
-    for at, face, label in ((0, "white", "leaves"), (-1, MARK, "enters")):
-        x, y = arcs[:, at].T
+    """Draw the ends of arcs: rings where transitions leave, discs where they enter."""
+    for point, face, label in ((0, "white", "leaves"), (-1, MARK, "enters")):
+        x, y = arcs[:, point].T
         ax.plot(x, y, "o", color=face, markeredgecolor=MARK, markersize=4.5, label=label, zorder=2)
     ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2, frameon=False, fontsize=9)
 
 
 def _arcs(ends: Array) -> Array:
-    """Bend lines (E, 2, 2) upwards where both ends lie in one clip, off its bar: (E, 13, 2)."""
-    t = np.linspace(0, 1, 13)[:, None]
-    start, end = ends[:, :1], ends[:, 1:]
-    lift = np.where(start[..., 1:] == end[..., 1:], [0, 0.45], 0)
+    """Draw lines (E, 2, 2) as points (E, 13, 2), bent upwards if both ends are in one clip."""
+    t = np.linspace(0, 1, POINTS)[:, None]
+    start = ends[:, :1]
+    end = ends[:, 1:]
+    lift = np.where(start[..., 1:] == end[..., 1:], [0, LIFT], 0)
     return start + t * (end - start) + 4 * t * (1 - t) * lift
 
 
@@ -122,8 +156,8 @@ def node_link(
     Parameters
     ----------
     graph : 1 to 100 nodes.
-    places : where to put the nodes, {node: (x, y)}; on a circle by default.
-    kept : the graph after pruning; nodes that are not in it are drawn pale, such edges dashed.
+    places : the positions of the nodes, {node: (x, y)}; on a circle by default.
+    kept : the graph after pruning; other nodes are drawn pale, other edges dashed.
     ax : axes; new ones by default.
 
     Returns
@@ -149,23 +183,12 @@ def node_link(
         nodes = f"1 to {MOST_NODES} nodes, this one has {len(graph)}"
         raise MocapError(f"Nodes and arrows show graphs of {nodes}: `plotting.timeline` shows large ones.")
     ax = ax or plt.figure(figsize=(4, 4), layout="constrained").add_subplot()
-    places, ink = places or nx.circular_layout(graph), COLOURS["middle"]
+    places = places or nx.circular_layout(graph)
     kept = graph if kept is None else kept
-    at = np.array([places[node] for node in graph], float)
-    faces = [ink if node in kept else "#E8E8E8" for node in graph]
-    discs = ax.scatter(at[:, 0], at[:, 1], s=420, c=faces, edgecolors=ink, zorder=2)
-    words: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 9, "zorder": 3}
-    for node, place in zip(graph, at, strict=True):
-        name = ",".join(map(str, node)) if isinstance(node, tuple) else str(node)
-        ax.annotate(name, place, color="white" if node in kept else ink, **words)
+    discs = _draw_nodes(graph, places, kept, ax)
     arrows = []
-    for a, b in graph.edges():
-        # An arrow bends to its left, so that it and the arrow back are apart; a loop goes over its node.
-        way: Any = _round_above if np.array_equal(places[a], places[b]) else "arc3,rad=0.15"
-        shape: dict[str, Any] = {"arrowstyle": "-|>", "mutation_scale": 12, "shrinkA": 11, "shrinkB": 11}
-        arrow = FancyArrowPatch(places[a], places[b], connectionstyle=way, linewidth=1.2, zorder=1, **shape)  # type: ignore[arg-type]
-        stays = kept.has_edge(a, b)
-        arrow.set(color=ink if stays else QUIET, linestyle="-" if stays else "--")
+    for start, end in graph.edges():
+        arrow = _arrow(places[start], places[end], is_kept=kept.has_edge(start, end))
         ax.add_patch(arrow)
         arrows.append(arrow)
     ax.set(aspect="equal")
@@ -174,7 +197,33 @@ def node_link(
     return discs, arrows
 
 
-def _round_above(start: Sequence[float], _: object, *, shrinkA: float, **__: object) -> Path:
+def _draw_nodes(graph: nx.DiGraph, places: Places, kept: nx.DiGraph, ax: Axes) -> PathCollection:
+    """Draw nodes as discs with their names, pale if they are not in `kept`."""
+    ink = COLOURS["middle"]
+    centres = np.array([places[node] for node in graph], float)
+    faces = [ink if node in kept else PALE for node in graph]
+    discs = ax.scatter(centres[:, 0], centres[:, 1], s=420, c=faces, edgecolors=ink, zorder=2)
+    look: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 9, "zorder": 3}
+    for node, centre in zip(graph, centres, strict=True):
+        name = ",".join(map(str, node)) if isinstance(node, tuple) else str(node)
+        ax.annotate(name, centre, color="white" if node in kept else ink, **look)
+    return discs
+
+
+def _arrow(start: Sequence[float], end: Sequence[float], *, is_kept: bool) -> FancyArrowPatch:
+    """Make the arrow of an edge, dashed if it is not kept.
+
+    It bends to its left, so that it does not cover the arrow back; a loop goes over the top of its node.
+    """
+    look: dict[str, Any] = {"arrowstyle": "-|>", "mutation_scale": 12, "shrinkA": 11, "shrinkB": 11}
+    look |= {"linewidth": 1.2, "zorder": 1}
+    look["connectionstyle"] = _loop if np.array_equal(start, end) else "arc3,rad=0.15"
+    look["color"] = COLOURS["middle"] if is_kept else QUIET
+    look["linestyle"] = "-" if is_kept else "--"
+    return FancyArrowPatch(start, end, **look)  # type: ignore[arg-type]
+
+
+def _loop(start: Sequence[float], _: object, *, shrinkA: float, **__: object) -> Path:
     """Draw a loop over the top of a disc of radius `shrinkA`, pixels."""
     corners = np.array([(-0.5, 0.8), (-1.5, 2.8), (1.5, 2.8), (0.5, 0.95)])
     return Path(start + shrinkA * corners, [Path.MOVETO, Path.CURVE4, Path.CURVE4, Path.CURVE4])

@@ -1,4 +1,4 @@
-"""Grids as images: distances of windows with minima; walks as rows."""
+"""Grids as images: distance grids with their minima, and walks as rows of boxes."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -20,14 +20,14 @@ STEPS = LinearSegmentedColormap.from_list("steps", ["#E4E4E4", QUIET])
 def distance_image(
     grid: Grid, *, fps: float, minima: ArrayLike = (), names: Sequence[str] = ("", ""), ax: Axes | None = None
 ) -> AxesImage:
-    """Draw a distance grid, dark where the windows are alike, with its minima marked [KGP02, Fig. 3].
+    """Draw a distance grid, dark where windows are similar, with its minima marked [KGP02, Fig. 3].
 
     Parameters
     ----------
     grid : D, shape (n, m), square metres, as from `matching.distance_grid`.
     fps : frames per second; the axes are in seconds, from the start of each window.
     minima : shape (N, 2), rows (i, j) to mark.
-    names : of the motion in the rows, and of that in the columns.
+    names : of the motions in the rows and in the columns.
     ax : axes; new ones by default.
 
     Returns
@@ -81,7 +81,8 @@ def walk_rows(costs: ArrayLike, *, highest: float, ax: Axes | None = None) -> Ax
     ax = ax or plt.figure(figsize=(6, 4), layout="constrained").add_subplot()
     values = np.asarray(costs, float)
     look: dict[str, Any] = {"vmin": 0, "aspect": "auto", "interpolation": "nearest"}
-    ax.imshow(np.ma.masked_where(np.isnan(values), np.zeros(values.shape)), cmap=STEPS, vmax=1, **look)
-    taken = np.ma.masked_where(~(values > 0), np.nan_to_num(values))
+    steps = np.ma.masked_where(np.isnan(values), np.zeros(values.shape))
+    ax.imshow(steps, cmap=STEPS, vmax=1, **look)
+    transitions = np.ma.masked_where(~(values > 0), np.nan_to_num(values))
     ax.set(xlabel="step of the walk", ylabel="walk")
-    return ax.imshow(taken, cmap=SEAMS, vmax=highest, **look)
+    return ax.imshow(transitions, cmap=SEAMS, vmax=highest, **look)

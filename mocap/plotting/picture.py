@@ -1,4 +1,4 @@
-"""Pictures as notebooks keep them: a small PNG, and a sentence for readers who do not see it."""
+"""Pictures in notebooks: a small PNG, and a sentence for readers who do not see it."""
 
 from __future__ import annotations
 
@@ -18,18 +18,19 @@ from PIL.PngImagePlugin import PngInfo
 from mocap.errors import MocapError
 
 DPI = 110
-COLOURS = 256  # in the palette: the loss is hardly seen, and the file is less than half as large
+COLOURS = 256  # in the palette: the loss is hardly visible, and the file is less than half as large
 SLIDE = (1168, 480)  # pixels that a slide has for a picture, across and down
-LETTERS = 21  # pixels of the smallest letters there
+LETTERS = 21  # pixels, the size of the smallest letters there
+POINTS = 72  # points of type in an inch
 
 
-def show(drawn: Any, alt: str) -> Picture:  # noqa: ANN401 (whatever a plotting function gives)
+def show(drawn: Any, alt: str) -> Picture:  # noqa: ANN401 (whatever a plotting function returns)
     """Show a picture as the last line of a cell, with a sentence that describes it.
 
     Parameters
     ----------
-    drawn : what a function of `plotting` gives: artists, axes or a figure; the whole figure is shown.
-    alt : a sentence that says what the picture shows, for readers who do not see it.
+    drawn : artists, axes or a figure, as the functions of `plotting` return them; the whole figure is shown.
+    alt : a sentence that describes the picture, for readers who do not see it.
 
     Returns
     -------
@@ -37,7 +38,7 @@ def show(drawn: Any, alt: str) -> Picture:  # noqa: ANN401 (whatever a plotting 
 
     Raises
     ------
-    MocapError : without a sentence, and where `drawn` is on no figure.
+    MocapError : without a sentence, and if `drawn` is on no figure.
 
     Examples
     --------
@@ -55,12 +56,12 @@ def show(drawn: Any, alt: str) -> Picture:  # noqa: ANN401 (whatever a plotting 
 
 @dataclass(frozen=True)
 class Picture:
-    """What `show` returns: a PNG and its sentence; a notebook shows both.
+    """A PNG and the sentence that describes it; a notebook shows both.
 
     Parameters
     ----------
     picture : the PNG, as bytes.
-    alt : a sentence that says what the picture shows.
+    alt : a sentence that describes the picture.
 
     Examples
     --------
@@ -83,46 +84,65 @@ class Picture:
 
 
 def figure_of(drawn: Any) -> Figure:  # noqa: ANN401
-    """Find the figure that holds artists, axes, or lists of them.
+    """Find the figure of artists, axes, or lists of them.
 
     Raises
     ------
-    MocapError : where no figure holds them.
+    MocapError : if they are on no figure.
     """
     parts = [drawn]
     while parts:
         part = parts.pop(0)
         if isinstance(part, list | tuple | np.ndarray):
             parts[:0] = getattr(part, "flat", part)
-        elif isinstance(figure := getattr(part, "figure", None), Figure):
+            continue
+        figure = getattr(part, "figure", None)
+        if isinstance(figure, Figure):
             return figure
     raise MocapError(f"A picture must be given as a figure, or artists on one, not as {drawn!r:.99}.")
 
 
 def legible(figure: Figure, room: tuple[int, int] = SLIDE) -> Figure:
-    """Enlarge letters that a slide with room for so many pixels would show too small; return the figure."""
-    least = 72 * LETTERS / np.min(room / figure.get_size_inches())  # points
+    """Enlarge the letters that would be too small on a slide, and return the figure.
+
+    Parameters
+    ----------
+    figure : the figure, which is changed.
+    room : the space on the slide, pixels across and down.
+    """
+    pixels_per_inch = np.min(room / figure.get_size_inches())
+    smallest = POINTS * LETTERS / pixels_per_inch
     for text in figure.findobj(Text):
-        text.set_fontsize(max(text.get_fontsize(), least))
+        text.set_fontsize(max(text.get_fontsize(), smallest))
     return figure
 
 
 def letters_of(figure: Figure) -> float:
-    """Give the size of a figure's smallest letters, inches."""
-    written = (text for text in figure.findobj(Text) if text.get_visible() and text.get_text().strip())
-    return min((float(text.get_fontsize()) for text in written), default=np.inf) / 72
+    """Return the size of a figure's smallest visible letters, inches; infinite without letters."""
+    texts = [text for text in figure.findobj(Text) if text.get_visible() and text.get_text().strip()]
+    return min((float(text.get_fontsize()) for text in texts), default=np.inf) / POINTS
 
 
 def small_png(figure: Figure, **notes: str) -> bytes:
-    """Draw a figure as a PNG of few colours, with notes inside."""
-    figure.savefig(full := io.BytesIO(), format="png", dpi=DPI, pil_kwargs={"compress_level": 1})
-    return few_colours(Image.open(full), letters_of(figure) * DPI, **notes)
+    """Draw a figure as a PNG of few colours, with notes in its metadata."""
+    png = io.BytesIO()
+    figure.savefig(png, format="png", dpi=DPI, pil_kwargs={"compress_level": 1})
+    return few_colours(Image.open(png), letters_of(figure) * DPI, **notes)
 
 
 def few_colours(picture: Image.Image, letters: float = np.inf, **notes: str) -> bytes:
-    """Encode a picture as a PNG of few colours, which says how many pixels its smallest letters have."""
-    few, inside = picture.convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE), PngInfo()
+    """Encode a picture as a PNG of few colours.
+
+    Parameters
+    ----------
+    picture : the picture.
+    letters : the size of its smallest letters, pixels, which is noted in the metadata.
+    notes : further metadata, by name.
+    """
+    quantized = picture.convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE)
+    metadata = PngInfo()
     for name, note in {"letters": f"{letters:.1f}", **notes}.items():
-        inside.add_text(name, note)
-    few.save(small := io.BytesIO(), "png", optimize=True, pnginfo=inside)
-    return small.getvalue()
+        metadata.add_text(name, note)
+    png = io.BytesIO()
+    quantized.save(png, "png", optimize=True, pnginfo=metadata)
+    return png.getvalue()

@@ -1,4 +1,4 @@
-"""Bodies drawn as lines on 3D axes with a ground, and where the camera looks.
+"""Bodies drawn as lines on 3D axes with a ground, and the zoom of the camera.
 
 The world's (z, x, y) are matplotlib's (x, y, z): its third axis points up, ours is y.
 """
@@ -16,11 +16,13 @@ from mocap.plotting.bodies import bones, head_joints
 from mocap.plotting.style import COLOURS, FLOOR
 
 TALL = 1.9  # metres above the ground that pictures show
-ZOOM = 1.55  # of the camera, where nothing has to be brought inside the picture
+ZOOM = 1.55  # of the camera, unless points would be outside the picture
+SPACING = 0.5  # metres between the lines of the ground
+FILL = 0.92  # of the picture's width and height that points may take
 
 
 def to_picture(points: ArrayLike) -> Array:
-    """Turn y-up world coordinates, shape (..., 3), into matplotlib's z-up ones, without mirroring.
+    """Convert y-up world coordinates, shape (..., 3), to matplotlib's z-up ones, without mirroring.
 
     Examples
     --------
@@ -38,8 +40,8 @@ def ground_axes(
     Parameters
     ----------
     centre : its middle (x, z), metres.
-    reach : metres from there to each side.
-    tall : metres above the ground that are seen.
+    reach : half the side of the square, metres.
+    tall : the height of the visible space, metres.
     ax : 3D axes; by default they fill a new figure.
 
     Examples
@@ -58,37 +60,45 @@ def ground_axes(
     ax.set_proj_type("persp", focal_length=0.6)
     ax.set_box_aspect((2 * reach, 2 * reach, tall), zoom=ZOOM)
     ax.set_zlim(0, tall)
-    x, z = centre = np.asarray(centre, float)
-    ax.set(xlim=(z - reach, z + reach), ylim=(x - reach, x + reach))
-    along, across = (np.arange(np.ceil((c - reach) * 2), np.floor((c + reach) * 2) + 1) / 2 for c in centre)
-    lines = [[(x0, 0, z - reach), (x0, 0, z + reach)] for x0 in along]
-    lines += [[(x - reach, 0, z0), (x + reach, 0, z0)] for z0 in across]
-    # The limits stay, and where there is no line matplotlib 3.9 finds none.
+    x_low, z_low = np.asarray(centre, float) - reach
+    x_high, z_high = np.asarray(centre, float) + reach
+    ax.set(xlim=(z_low, z_high), ylim=(x_low, x_high))
+    lines = [[(x, 0, z_low), (x, 0, z_high)] for x in _multiples(x_low, x_high)]
+    lines += [[(x_low, 0, z), (x_high, 0, z)] for z in _multiples(z_low, z_high)]
+    # The limits stay as they are: matplotlib 3.9 finds none if there is no line.
     ax.add_collection3d(Line3DCollection(to_picture(lines), colors=FLOOR, lw=0.8, zorder=0), autolim=False)
     return ax
 
 
+def _multiples(low: float, high: float) -> Array:
+    """Return the multiples of `SPACING` from `low` to `high`."""
+    return np.arange(np.ceil(low / SPACING), np.floor(high / SPACING) + 1) * SPACING
+
+
 def keep_inside(ax: Axes3D, points: Array) -> None:
     """Zoom out until all points, shape (..., 3), metres, are inside the picture; never zoom in."""
-    flat, zoom = to_picture(points).reshape(-1, 3), ZOOM
+    coordinates = to_picture(points).reshape(-1, 3)
+    zoom = ZOOM
     spans = np.ptp([ax.get_xlim(), ax.get_ylim(), ax.get_zlim()], axis=1)
-    for _ in range(3):  # in perspective, the first step is only nearly right
+    for _ in range(3):  # in perspective, a step is only nearly right
         ax.apply_aspect()
-        across, up, _ = proj3d.proj_transform(*flat.T, ax.get_proj())
-        seen = ax.transAxes.inverted().transform(ax.transData.transform(np.stack([across, up], axis=-1)))
-        zoom /= max(1.0, 2 * float(np.abs(seen - 0.5).max()) / 0.92)
+        across, up, _ = proj3d.proj_transform(*coordinates.T, ax.get_proj())
+        pixels = ax.transData.transform(np.stack([across, up], axis=-1))
+        positions = ax.transAxes.inverted().transform(pixels)  # from 0 to 1 inside the picture
+        extent = 2 * float(np.abs(positions - 0.5).max())
+        zoom /= max(1.0, extent / FILL)
         ax.set_box_aspect(spans, zoom=zoom)
 
 
 class StickFigure:
-    """A body drawn as lines on 3D axes: left and right in colours of their own, the head as a dot.
+    """A body drawn as lines on 3D axes: its left and its right side in two colours, the head as a dot.
 
     Parameters
     ----------
     skeleton : the body.
     ax : 3D axes, as from `ground_axes`.
     alpha : 1 for a solid body, less for a ghost.
-    colour : one for all bones, to tell two bodies apart; by default left, right and middle have their own.
+    colour : one for all bones, to tell two bodies apart; by default that of their side.
 
     Examples
     --------
@@ -108,17 +118,18 @@ class StickFigure:
     def __init__(self, skeleton: Skeleton, ax: Axes3D, alpha: float = 1.0, colour: str | None = None) -> None:
         starts, ends, sides = bones(skeleton)
         order = np.argsort([list(COLOURS).index(side) for side in sides], kind="stable")
-        self.ends, self.head = np.stack([starts, ends], axis=1)[order], head_joints(skeleton)
+        self.ends = np.stack([starts, ends], axis=1)[order]
+        self.head = head_joints(skeleton)
         colours = [colour or COLOURS[side] for side in sides[order]]
-        nowhere = np.zeros((len(order), 2, 3))
-        self.bones = Line3DCollection(nowhere, colors=colours, linewidths=2.4, alpha=alpha, zorder=3)
+        lines = np.zeros((len(order), 2, 3))  # until there is a pose
+        self.bones = Line3DCollection(lines, colors=colours, linewidths=2.4, alpha=alpha, zorder=3)
         ax.add_collection3d(self.bones)
         dot = colour or COLOURS["middle"]
         (self.dot,) = ax.plot([], [], [], "o", color=dot, markersize=11, alpha=alpha, zorder=3)
         self.figure = ax.figure
 
     def pose(self, points: Array) -> list[Artist]:
-        """Move to the joint positions `points`, shape (J, 3), metres, and return the artists that moved."""
+        """Draw the pose with joint positions `points`, shape (J, 3), metres, and return the moved artists."""
         self.bones.set_segments(to_picture(points[self.ends]))
         if self.head:
             self.dot.set_data_3d(*to_picture(points[self.head].mean(axis=0))[:, None])

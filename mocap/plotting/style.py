@@ -2,30 +2,39 @@
 
 Each colour has one meaning in the whole course: blue and vermilion are the left and the right of a body and
 nothing else, purple is a seam or a transition, orange is the path that was walked, black the path that was
-asked for.
+requested.
 """
 
 COLOURS = {"left": "#0072B2", "right": "#D55E00", "middle": "#333333"}
 """The colour of each side of a body."""
 
 SOURCES = ("#009E73", "#56B4E9", "#8A6D00", "#332288", "#DDCC77", "#882255", "#666666")
-"""One colour after the other for clips, characters and stretches of a walk."""
+"""The colours of clips, characters and stretches of a walk, in order."""
 
 CURVES = ("#009E73", "#882255", "#56B4E9", "#8A6D00")
-"""For curves that share axes: first the method that the text is about, second what it is compared with."""
+"""The colours of curves that share axes: first the method of the text, second the one it is compared with."""
 
-PATH, ASKED, MARK = "#E69F00", "#000000", "#CC79A7"
-"""A path that was walked, a path that was asked for, and seams or transitions."""
+PATH = "#E69F00"
+"""The colour of a path that was walked."""
+
+ASKED = "#000000"
+"""The colour of a path that was requested."""
+
+MARK = "#CC79A7"
+"""The colour of seams and transitions."""
 
 ASTRAY = "#B00020"
-"""Where a walk leaves the path that was asked for."""
+"""The colour of a walk where it leaves the requested path."""
 
-FLOOR, QUIET = "#DDDDDD", "#999999"
-"""The ground's lines, and whatever matters less."""
+FLOOR = "#DDDDDD"
+"""The colour of the lines on the ground."""
+
+QUIET = "#999999"
+"""The colour of less important parts."""
 
 
 def source_colours(names: list[str]) -> dict[str, str]:
-    """Give each different name a colour, in the order of first appearance.
+    """Assign a colour to each different name, in the order of first appearance.
 
     Examples
     --------
@@ -36,7 +45,7 @@ def source_colours(names: list[str]) -> dict[str, str]:
 
 
 def own_colour(number: int, count: int) -> str | None:
-    """Give one of several characters its colour; one alone has the colours of its sides.
+    """Return the colour of one of several characters; None for a single one, whose sides are coloured.
 
     Examples
     --------

@@ -62,7 +62,7 @@ def test_below_the_smallest_threshold_there_is_no_walk():
     whole = build(CLIPS, window=WINDOW, threshold=least * 1.0001)
     before = set(whole.graph)
     assert 0 < len(prune(whole).graph) < len(before) and set(whole.graph) == before
-    refused("add clips that start and end alike", smallest_threshold, [wave(8)], window=8, kind=NoWalk)
+    refused("add clips with similar starts and ends", smallest_threshold, [wave(8)], window=8, kind=NoWalk)
 
 
 def labelled(frames, switch, **settings):
@@ -216,7 +216,7 @@ def test_the_suggestion_is_the_lowest_that_keeps_enough():
     levels, rest = np.array([1.0, 2, 3, 4]), np.arange(4)
     curve = ThresholdCurve(levels, rest, rest, rest, np.array([0, 50, 95, 100]), levels, levels)
     assert curve.suggest() == 3 and curve._replace(frames=np.array([0, 90, 89, 100])).suggest() == 2
-    refused("At none of these", curve._replace(frames=np.zeros(4, int)).suggest, kind=NoWalk)
+    refused("no cycle at any of these", curve._replace(frames=np.zeros(4, int)).suggest, kind=NoWalk)
 
 
 def curve_of(found, clips=CLIPS, window=WINDOW, thresholds=(0.05,)):
@@ -225,8 +225,8 @@ def curve_of(found, clips=CLIPS, window=WINDOW, thresholds=(0.05,)):
 
 test_what_makes_no_curve = refusals(
     ("Thresholds must be numbers", lambda: curve_of(made_up(0, 5), thresholds=[0.1, np.nan])),
-    ("windows that lie outside", curve_of, made_up(0, 5), CLIPS[:1]),
-    ("windows that lie outside", curve_of, made_up(0, 5), CLIPS, 80),
+    ("windows outside", curve_of, made_up(0, 5), CLIPS[:1]),
+    ("windows outside", curve_of, made_up(0, 5), CLIPS, 80),
 )
 
 
