@@ -7,8 +7,7 @@ import os
 from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
-
-from mocap._shared.records import NamedTuple
+from typing import NamedTuple
 
 
 class Origin(NamedTuple):

@@ -27,6 +27,7 @@ SHORT_RECORDS = {
     "Leg",
     "Listing",
     "NamedSet",
+    "Origin",
     "PlanarTransform",
     "ReadOptions",
     "Record",
