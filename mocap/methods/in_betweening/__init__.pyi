@@ -1,0 +1,3 @@
+from .end_bending import bend_to as bend_to
+from .in_betweens import InBetween as InBetween
+from .in_betweens import in_between as in_between
