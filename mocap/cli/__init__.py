@@ -9,6 +9,7 @@ Reading order
 5. `clips`: `mocap info`, `view`, `judge`, `convert` and `find`
 6. `data`: `mocap data` lists and downloads clips of other labs
 7. `edits`: `mocap warp`, `bend`, `loop`, `blend` and `retarget`
-8. `course`: `mocap course` hands out, marks, publishes and runs the notebooks; `mocap lab` opens them
-9. `main`: all of them under one name
+8. `in_betweens`: `mocap inbetween` fills the time between two clips
+9. `course`: `mocap course` hands out, marks, publishes and runs the notebooks; `mocap lab` opens them
+10. `main`: all of them under one name
 """

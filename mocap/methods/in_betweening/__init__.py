@@ -15,6 +15,7 @@ Reading order
 2. `two_sided_search`: frames similar to two poses, and walks from both that meet
 3. `end_poses`: ends that become the poses, and feet that stand still
 4. `in_betweens`: the whole: search, bend, fade
+5. `interpolation`: gaps so short that a curve does better
 
 References
 ----------

@@ -8,7 +8,7 @@ from mocap.body.planar import lay_on, place
 from mocap.datasets import samples
 from mocap.errors import NoWalk
 from mocap.graphs import compile_graph
-from mocap.methods.in_betweening import in_between, in_betweens
+from mocap.methods.in_betweening import fill_gap, in_between, in_betweens
 from mocap.synthesis.walk_to_motion import require_walk
 from tests.bundled import walking
 from tests.conftest import SWEEP
@@ -69,8 +69,29 @@ def test_poses_of_a_clip_that_is_not_in_the_graph_are_met_at_its_own_rate():
 
 def test_what_cannot_be_met_is_refused(monkeypatch):
     graph, clip = compile_graph(walking()), walking().source.clips[0]
-    with pytest.raises(NoWalk, match=r"No walk leads from one pose to the other in 2\.0 s"):
+    with pytest.raises(NoWalk, match=r"from one pose to the other, 30\.0 m in 2\.0 s"):
         in_between(graph, place(clip[40:], 0.0, (0, 0)), ending(clip, 200, (0, 30), 0.0), 2.0)
     monkeypatch.setattr(in_betweens, "POSE", 1e-6)
     with pytest.raises(NoWalk, match=r"The first pose of .* m is the limit"):
         in_between(graph, resample(samples.sample("walk_straight"), 30)[30:], clip, 2.0)
+
+
+@pytest.mark.parametrize("seconds", [1.0, 2.5])
+def test_a_gap_continues_the_motion_on_both_sides(seconds):
+    """A clip that is not in the graph: the root keeps its speed at both ends, within 0.15 m/s."""
+    clip = samples.sample("walk_straight")[100:900]
+    stop = 240 + round(seconds * 120)
+    found = quietly(fill_gap, compile_graph(walking()), clip[:241], clip[stop:], seconds).motion
+    for frame, asked in ((0, 240), (-1, stop)):
+        assert np.linalg.norm(found.root_positions[frame] - clip.root_positions[asked]) < 1e-6
+        assert rotations.angle_between(found.rotations[frame], clip.rotations[asked]).max() < 1e-6
+    speeds = np.linalg.norm(np.diff(found.root_positions, axis=0), axis=1) * found.fps
+    beside = np.linalg.norm(np.diff(clip.root_positions, axis=0), axis=1) * clip.fps
+    assert abs(speeds[0] - beside[239]) < 0.15 and abs(speeds[-1] - beside[stop]) < 0.15
+    assert slide(found) <= 1e-4
+
+
+def test_a_gap_beside_single_frames_is_filled():
+    clip = walking().source.clips[0]
+    found = quietly(fill_gap, compile_graph(walking()), clip[200:201], clip[260:261], 2.0).motion
+    np.testing.assert_allclose(found.root_positions[[0, -1]], clip.root_positions[[200, 260]], atol=1e-6)
