@@ -132,7 +132,11 @@ def _graph(
 ) -> "MotionGraph":
     """Load the graph to take motion from, or build one of some clips and both sides."""
     if path is None:
-        clips = [*building.load(sources), *sides]
+        long = [side for side in sides if side.duration >= building.window]  # the others make no transition
+        clips = [*building.load(sources), *long]
+        if not clips:
+            window = f"a transition of {building.window:.2f} s"
+            raise MocapError(f"START and END are shorter than {window}: give --clips to take motion from.")
         # Both sides of a gap have one name, and a clip may bear it as well.
         return building.build([replace(clip, name=f"{n} {clip.name}") for n, clip in enumerate(clips)])
     from mocap.graphs.storage import find_origins  # the help needs no NumPy
