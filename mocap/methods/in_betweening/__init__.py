@@ -14,8 +14,9 @@ Reading order
 1. `end_bending`: a walk bent and retimed so that it ends where it must
 2. `two_sided_search`: frames similar to two poses, and walks from both that meet
 3. `end_poses`: ends that become the poses, and feet that stand still
-4. `in_betweens`: the whole: search, bend, fade
-5. `interpolation`: gaps so short that a curve does better
+4. `planted_feet`: the last millimetre by which feet slide
+5. `in_betweens`: the whole: search, bend, fade
+6. `interpolation`: gaps so short that a curve does better
 
 References
 ----------

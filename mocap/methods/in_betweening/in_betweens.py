@@ -20,6 +20,7 @@ from mocap.graphs.edge_tables import Edge
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.methods.in_betweening.end_bending import MOST_TURN, Arrived, bend_to
 from mocap.methods.in_betweening.end_poses import meet_poses, stand
+from mocap.methods.in_betweening.planted_feet import put_back
 from mocap.methods.in_betweening.two_sided_search import Candidates, Joined, TwoSided, find_candidates
 from mocap.synthesis.walk_to_motion import to_motion, with_plants
 
@@ -31,7 +32,7 @@ POSE = 0.1  # metres: the RMS distance by which joints may be moved where the en
 
 # Times that feet are cleaned up and ends brought to the poses. The clean-up may release what it should hold
 # at the ends, by up to 1° of a joint; feet then slide by up to 0.3 mm. After the second round most do not.
-# Where a straight leg makes the clean-up lower the root near an end, 1 mm is left; more rounds do not help.
+# Where a straight leg makes the clean-up lower the root near an end, 1 mm is left, which `put_back` removes.
 ROUNDS = 2
 
 
@@ -135,7 +136,7 @@ def _connect(
     motion = meet_poses(replace(arrived.motion, name="in between"), start, end)
     for _ in range(ROUNDS):
         motion = meet_poses(stand(motion), start, end, speed=False)
-    return InBetween(motion, walk, arrived)
+    return InBetween(put_back(motion), walk, arrived)
 
 
 def _arriving(

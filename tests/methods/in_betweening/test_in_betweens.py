@@ -52,7 +52,8 @@ def asked_anywhere(seed):
 
 
 def test_what_no_walk_gives_is_bent_and_still_met():
-    for seed in range(1, 7 if SWEEP else 3):
+    """Request 18 ends on a straight leg: without its last step it slides by 0.74 mm."""
+    for seed in (*range(1, 13), 18) if SWEEP else (1, 18):
         met(*asked_anywhere(seed))
 
 
