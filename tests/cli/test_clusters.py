@@ -73,3 +73,11 @@ def test_workers_of_another_version_are_refused(clips, run, monkeypatch, cluster
     monkeypatch.setattr(clusters, "_version_reader", lambda: lambda: "0.1.0")
     told = run(f"graph a.bvh -o g.npz --cluster {cluster.scheduler_address}", 2).err
     assert f"have mocap 0.1.0: install {mocap.__version__} there" in told
+
+
+def test_threads_give_the_same_graph(clips, run):
+    run("graph a.bvh b.bvh -o one.npz --threshold 5 --jobs 1")
+    run("graph a.bvh b.bvh -o three.npz --threshold 5 --jobs 3")
+    one, three = (arrays(clips / name) for name in ("one.npz", "three.npz"))
+    for name, values in one.items():
+        np.testing.assert_array_equal(values, three[name], err_msg=name)
