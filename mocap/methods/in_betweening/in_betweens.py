@@ -100,14 +100,18 @@ def fill_gap(graph: CompiledGraph, first: Motion, second: Motion, seconds: float
     """
     starts = find_candidates(graph, first, direction=-1, limit=POSE)
     ends = find_candidates(graph, second, direction=1, limit=POSE)
-    start = concatenate([first[-1:], *_next_frame(first[-2:-1], first[-1:])])
-    end = concatenate([*_next_frame(second[1:2], second[:1]), second[:1]])
+    start = first[-1:]
+    if len(first) > 1:
+        start = concatenate([start, _next_frame(first[-2:-1], start)])
+    end = second[:1]
+    if len(second) > 1:
+        end = concatenate([_next_frame(second[1:2], end), end])
     return _connect(graph, (starts, ends), (start, end), seconds)
 
 
-def _next_frame(earlier: Motion, pose: Motion) -> list[Motion]:
-    """Continue with the velocity from one frame to the next, for a frame; none for no earlier frame."""
-    return [displaced(pose, difference(pose, earlier))] if len(earlier) else []
+def _next_frame(earlier: Motion, pose: Motion) -> Motion:
+    """Continue for a frame with the velocity from one frame to the next."""
+    return displaced(pose, difference(pose, earlier))
 
 
 def _connect(
