@@ -32,7 +32,7 @@ datasets   clips to start with: bundled ones, the CMU database (01, 10, 11)
 graphs     motion graphs: build, prune, choose a threshold, save (05, 06)
 synthesis  walks through a graph, at random or by search, and their motions (07)
 steering   walks that follow a wish, and characters that get a new command in any frame (08, 12, 17, 18)
-methods    match webs, parametric graphs, motion matching, group graphs (16 to 19)
+methods    match webs, parametric graphs, motion matching, group graphs, in-betweens (16 to 19)
 plotting   pictures, by matplotlib (00 to 19)
 widgets    players and experiments for notebooks (00 to 19)
 course     the notebooks: checks of exercises, marks, pages, slides, the laboratory

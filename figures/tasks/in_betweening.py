@@ -8,13 +8,13 @@ from collections.abc import Iterator
 from functools import cache
 
 import numpy as np
-from in_betweens import in_between
 
 from mocap._shared.arrays import Array
 from mocap.body import Motion, rotations
 from mocap.body.kinematics import forward_kinematics
 from mocap.body.planar import lay_on, place
 from mocap.errors import MocapError
+from mocap.methods.in_betweening import in_between
 from tasks import BANDAI, CMU_16, HOMEWORK, WALKS, Case, graph, without
 
 CLIPS = {

@@ -3,16 +3,22 @@
 import math
 import warnings
 from collections.abc import Sequence
+from contextlib import nullcontext
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from mocap import datasets, editing, graphs, quality, synthesis, widgets
 from mocap._shared.atomic import make_folder, require_folder
+from mocap.cli.clusters import connect
 from mocap.cli.options import Building, Seed, bar, check_out, number, require_other, tell, write_out
 from mocap.cli.typed_commands import Group
 from mocap.datasets.clip_origins import Origin
 from mocap.errors import MocapError, MocapWarning, NoWalk, warn
 from mocap.files.conversion import find_files
+
+if TYPE_CHECKING:
+    from mocap.body.motion import Motion
+    from mocap.graphs.motion_graph import MotionGraph
 
 SHOWN = 7  # names of clips
 
@@ -37,35 +43,47 @@ def demo(
     seconds : duration of the new walk.
     """
     require_folder(out)
-    require_other(out / "walk.bvh", found := find_files(clips))
-    motions = building.load(found) if clips else [datasets.sample(name) for name in datasets.SAMPLES]
+    paths = find_files(clips)
+    require_other(out / "walk.bvh", paths)
+    motions = building.load(paths) if clips else [datasets.sample(name) for name in datasets.SAMPLES]
     whole = building.build(motions, bar("comparing"))
     try:
         pruned = graphs.prune(whole)
     except NoWalk as error:
         from mocap.graphs.thresholds import smallest_threshold  # the help needs no NumPy
 
-        least = math.ceil(1e4 * smallest_threshold(whole.clips, window=whole.window)) / 100
-        asked = f"a threshold of {building.threshold:g} cm"
-        raise NoWalk(f"No walk is left at {asked}; these clips need at least {least:g} cm.") from error
+        needed = math.ceil(1e4 * smallest_threshold(whole.clips, window=whole.window)) / 100
+        threshold = f"a threshold of {building.threshold:g} cm"
+        raise NoWalk(f"No walk is left at {threshold}; these clips need at least {needed:g} cm.") from error
     edges = synthesis.random_walk(pruned, seconds=seconds, seed=seed)
     walk = synthesis.to_motion(pruned, edges)
+    _tell_of_graphs(whole, pruned)
     costs = [100 * seam.cost for seam in synthesis.seams(pruned, edges)]
-    names, frames = [clip.name for clip in whole.clips], sum(map(len, whole.clips))
-    shown = ", ".join(names if len(names) <= SHOWN else [*names[:SHOWN], f"… {names[-1]}"])
-    tell(clips=f"{len(names)}: {shown}", frames=f"{frames} at {whole.fps:g} Hz, {frames / whole.fps:.1f} s")
-    tell(body=f"{len(walk.skeleton)} joints, {quality.inspect(whole.clips[0]).height:.2f} m tall")
-    tell(candidates=f"{whole.count('transition') // 2} pairs of windows alike")
-    rows = [(e.count("transition"), len(e.graph), e.graph.number_of_edges()) for e in (whole, pruned)]
-    print(f"{'':<12} {'whole':>8}{'pruned':>8}")
-    for name, *counts in zip(("transitions", "nodes", "edges"), *rows, strict=True):
-        tell(**{name: "".join(f"{count:8}" for count in counts)})
     tell(**{"new walk": f"{walk.duration:.1f} s, {quality.inspect(walk).path:.1f} m"})
     tell(seams=f"{len(costs)}, the worst {max(costs, default=0.0):.1f} cm RMS")
     make_folder(out)
     write_out(walk, out / "walk.bvh")
     widgets.save_animation(walk, out / "walk.gif", progress=bar("drawing"))
     tell(wrote=out / "walk.gif")
+
+
+def _tell_of_graphs(whole: "MotionGraph", pruned: "MotionGraph") -> None:
+    """Print the clips of a graph, and its size before and after pruning."""
+    names = [clip.name for clip in whole.clips]
+    frames = sum(map(len, whole.clips))
+    shown = ", ".join(names if len(names) <= SHOWN else [*names[:SHOWN], f"… {names[-1]}"])
+    body = whole.clips[0]
+    tell(clips=f"{len(names)}: {shown}")
+    tell(frames=f"{frames} at {whole.fps:g} Hz, {frames / whole.fps:.1f} s")
+    tell(body=f"{len(body.skeleton)} joints, {quality.inspect(body).height:.2f} m tall")
+    tell(candidates=f"{whole.count('transition') // 2} pairs of windows alike")
+    print(f"{'':<12} {'whole':>8}{'pruned':>8}")
+    pair = (whole, pruned)
+    rows = {"transitions": [graph.count("transition") for graph in pair]}
+    rows["nodes"] = [graph.graph.number_of_nodes() for graph in pair]
+    rows["edges"] = [graph.graph.number_of_edges() for graph in pair]
+    for name, counts in rows.items():
+        tell(**{name: "".join(f"{count:8}" for count in counts)})
 
 
 def build(
@@ -77,6 +95,8 @@ def build(
     whole: bool = False,
     mirror: bool = False,
     graphml: Path | None = None,
+    jobs: Annotated[int | None, number(1, 1024, int)] = None,
+    cluster: str | None = None,
 ) -> None:
     """Build a motion graph, prune it and save it.
 
@@ -88,28 +108,25 @@ def build(
     whole : do not prune.
     mirror : add the mirror image of every clip: turns to both sides.
     graphml : a second file to write, .graphml, for other tools.
+    jobs : threads that compare clips (default: all cores that this process may use).
+    cluster (ADDRESS) : compare clips on the workers of a Dask scheduler, as in tcp://10.0.0.5:8786; the graph
+        is the same.
 
     Notes
     -----
     Example: mocap graph clips/ --mirror -o graph.npz
     """
+    if jobs and cluster:
+        raise MocapError("--jobs says how many threads work here, --cluster works elsewhere: give one.")
     if by_labels and whole:
         raise MocapError("--by-labels says how to prune, --whole not to prune: give one of them.")
-    found = find_files(clips)
-    check_out("graph", out, found, [".npz"])
+    paths = find_files(clips)
+    check_out("graph", out, paths, [".npz"])
     if graphml:
-        check_out("graph for other tools", graphml, found, [".graphml"])
-    motions = building.load(found)
-    origins = [Origin(file, building.skeleton, building.scale) for file in found]
-    if mirror:
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always", MocapWarning)
-            motions += [editing.mirror(clip) for clip in motions]
-        if caught:  # where bodies are lopsided, one warning is enough
-            more = f" So it is with {len(caught) - 1} more." if len(caught) > 1 else ""
-            warn(f"{caught[0].message}{more}")
-        origins += [origin._replace(mirrored=True) for origin in origins]
-    graph = building.build(motions, bar("comparing"))
+        check_out("graph for other tools", graphml, paths, [".graphml"])
+    with connect(cluster) if cluster else nullcontext() as executor:
+        motions, origins = _read_clips(paths, building, mirror=mirror)
+        graph = building.build(motions, bar("comparing"), jobs=jobs, executor=executor)
     if not whole:
         graph = graphs.prune(graph, by_labels=by_labels)
     print(graphs.summary(graph.graph, fps=graph.fps).table())
@@ -120,6 +137,23 @@ def build(
 
         write_graphml(graph, graphml)
         tell(wrote=graphml)
+
+
+def _read_clips(
+    paths: "Sequence[Path]", building: Building, *, mirror: bool
+) -> "tuple[list[Motion], list[Origin]]":
+    """Read clips, and add their mirror images; return them with the places that they were read from."""
+    motions = building.load(paths)
+    origins = [Origin(path, building.skeleton, building.scale) for path in paths]
+    if not mirror:
+        return motions, origins
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", MocapWarning)
+        motions += [editing.mirror(clip) for clip in motions]
+    if caught:  # one warning of lopsided bodies is enough
+        count = f" So it is with {len(caught) - 1} more." if len(caught) > 1 else ""
+        warn(f"{caught[0].message}{count}")
+    return motions, origins + [origin._replace(mirrored=True) for origin in origins]
 
 
 def info(file: Path) -> None:
@@ -133,11 +167,11 @@ def info(file: Path) -> None:
     """
     from mocap.graphs.storage import read  # the help needs no NumPy
 
-    found = read(file)
-    for name, frames in zip(found.names, found.frames, strict=True):
-        tell(clip=f"{name}: {frames} frames at {found.fps:g} Hz, {frames / found.fps:.1f} s")
-    tell(window=f"{found.window} frames, {found.window / found.fps:.2f} s")
-    print(graphs.summary(found.graph, fps=found.fps).table())
+    stored = read(file)
+    for name, frames in zip(stored.names, stored.frames, strict=True):
+        tell(clip=f"{name}: {frames} frames at {stored.fps:g} Hz, {frames / stored.fps:.1f} s")
+    tell(window=f"{stored.window} frames, {stored.window / stored.fps:.2f} s")
+    print(graphs.summary(stored.graph, fps=stored.fps).table())
 
 
 TEXT = """Build a motion graph and save it, or describe a saved one.

@@ -15,6 +15,7 @@ from mocap.cli.course import COURSE, lab
 from mocap.cli.data import DATA
 from mocap.cli.edits import bend, blend, loop, retarget, warp
 from mocap.cli.graph import GRAPH, demo
+from mocap.cli.in_betweens import inbetween
 from mocap.cli.options import as_options
 from mocap.cli.typed_commands import Group, Run, add_commands, call
 from mocap.cli.walk import crowd, page, walk
@@ -23,7 +24,7 @@ from mocap.files import formats
 
 LONGEST = 150  # letters of a sentence about options, which may quote what was typed
 ACTIONS = (*GRAPH.commands, "-h", "--help")  # before any other word, `build` may be left out
-CLIPS: tuple[Run, ...] = (blend, info, judge, convert, warp, bend, loop, find, crowd, retarget)
+CLIPS: tuple[Run, ...] = (blend, info, judge, convert, warp, bend, loop, find, crowd, retarget, inbetween)
 COMMANDS: dict[str, Run | Group] = {"demo": demo, "graph": GRAPH, "walk": walk, "page": page}
 COMMANDS |= {run.__name__: run for run in CLIPS}
 COMMANDS |= {"data": DATA, "view": view, "course": COURSE, "lab": lab}

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 from mocap import body, files, graphs
 from mocap._shared.atomic import require_writable
@@ -16,6 +16,8 @@ from mocap._shared.progress import Progress
 from mocap.errors import MocapError, printable
 
 if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
     from mocap.body.motion import Motion
     from mocap.files.recordings import Recording
     from mocap.graphs.motion_graph import MotionGraph
@@ -106,13 +108,23 @@ class Building(Sources):
     window: Annotated[float, number(0, 60), "seconds of a transition"] = 1 / 3
     threshold: Annotated[float, CM, "largest distance of a match, cm"] = 4.0
 
-    def build(self, clips: "Sequence[Motion]", progress: Progress = iter) -> "MotionGraph":
-        """Build the graph of some clips, not pruned yet."""
+    def build(
+        self,
+        clips: "Sequence[Motion]",
+        progress: Progress = iter,
+        *,
+        jobs: int | None = None,
+        executor: "Executor | None" = None,
+    ) -> "MotionGraph":
+        """Build the graph of some clips, not pruned yet, in threads of this process or by an executor."""
         frames = round(self.window * self.fps)
         if frames < 2:
             raise MocapError(f"A window needs two frames or more, got {self.window:g} s at {self.fps:g} Hz.")
         clips = [body.resample(clip, self.fps) for clip in clips]
-        return graphs.build(clips, window=frames, threshold=self.threshold / 100, progress=progress)
+        workers: dict[str, Any] = {"executor": executor, "progress": progress}
+        if jobs is not None:
+            workers["jobs"] = jobs
+        return graphs.build(clips, window=frames, threshold=self.threshold / 100, **workers)
 
 
 def bar(label: str) -> Progress:

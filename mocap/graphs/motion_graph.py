@@ -6,7 +6,8 @@ each edge plays some frames, and the frames of a walk are those of its edges in 
 """
 
 from collections.abc import Iterator, Sequence
-from concurrent.futures import Executor
+from concurrent.futures import Executor, ThreadPoolExecutor
+from contextlib import nullcontext
 from itertools import pairwise
 from os import PathLike
 
@@ -99,6 +100,7 @@ def build(  # noqa: PLR0913 (the parameters of `find_transitions`)
     threshold: Thresholds,
     joint_weights: ArrayLike | None = None,
     progress: Progress = iter,
+    jobs: int | None = None,
     executor: Executor | None = None,
 ) -> MotionGraph:
     """Build the motion graph of some clips: find the transitions, and cut the clips where they touch.
@@ -112,6 +114,7 @@ def build(  # noqa: PLR0913 (the parameters of `find_transitions`)
     threshold : every transition has an RMS distance of the points below this, metres; or one threshold for
         each pair of labels, as for `matching.find_transitions`.
     joint_weights, progress, executor : as for `matching.find_transitions`.
+    jobs : threads to work in, unless there is an executor; by default one.
 
     Raises
     ------
@@ -133,14 +136,15 @@ def build(  # noqa: PLR0913 (the parameters of `find_transitions`)
     _require_names(clips)
     check_frames(window, "A window", clips[0].fps if len(clips) else None)
     check_threshold(threshold)
-    transitions = find_transitions(
-        clips,
-        window=window,
-        below=threshold,
-        joint_weights=joint_weights,
-        progress=progress,
-        executor=executor,
-    )
+    with ThreadPoolExecutor(jobs) if jobs and executor is None else nullcontext(executor) as workers:
+        transitions = find_transitions(
+            clips,
+            window=window,
+            below=threshold,
+            joint_weights=joint_weights,
+            progress=progress,
+            executor=workers,
+        )
     return from_transitions(clips, transitions, window=window)
 
 

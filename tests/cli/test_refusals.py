@@ -91,6 +91,7 @@ FILES = {
     "bend": "a.bvh --along l.csv -o w.bvh",
     "blend": "a.bvh a.bvh",
     "retarget": "a.bvh --to a.bvh -o r",
+    "inbetween": "a.bvh --gap 10-15 -o w.bvh",
     "warp": "a.bvh --keys k.txt -o w.bvh --loose-feet",
 }
 

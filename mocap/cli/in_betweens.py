@@ -1,0 +1,163 @@
+"""The command that fills the time between two motions: `mocap inbetween`."""
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from mocap import body, graphs
+from mocap.cli.options import Building, bar, check_out, number, require_other, tell, write_out
+from mocap.errors import MocapError
+from mocap.files.conversion import find_files
+from mocap.methods import in_betweening
+
+if TYPE_CHECKING:
+    from mocap.body.motion import Motion
+    from mocap.graphs.motion_graph import MotionGraph
+    from mocap.methods.in_betweening.end_bending import Arrived
+
+# A moment of a clip: "1.5s" is a second and "45" a frame, as in the keys of `mocap warp`.
+MOMENT = r"(\d{1,9}|\d{1,9}(?:\.\d{1,9})?s)"
+
+
+def inbetween(
+    start: Path,
+    end: Path | None = None,
+    *,
+    seconds: Annotated[float | None, number(0.01, 60)] = None,
+    gap: str | None = None,
+    ahead: Annotated[float | None, number(0, 100)] = None,
+    graph: Path | None = None,
+    clips: Sequence[Path] = (),
+    building: Building,
+    alone: bool = False,
+    out: Path = Path("inbetween.bvh"),
+) -> None:
+    """Fill the time between two clips, or a gap in one, with motion that fits.
+
+    Make the motion from the last pose of START to the first pose of END, each at its position, in the given
+    time; or with --gap make a part of START anew. The motion is a walk through the motion graph of these
+    clips, or of --clips, or of --graph, bent and retimed until it arrives. Gaps shorter than 0.33 s are
+    interpolated: they are too short for a step.
+
+    Parameters
+    ----------
+    start (START) : a motion file; the new motion sets out from its last pose.
+    end (END) : a motion file of the same body; the new motion arrives at its first pose.
+    seconds : time from START to END.
+    gap (FROM-TO) : the part of START to make anew, in seconds as in 1.5s-2.5s, or frames as in 45-75; the
+        poses at both ends stay.
+    ahead (METRES) : put END so far ahead of START, facing as START does (default: at its own position).
+    graph : an .npz file from `mocap graph` to take motion from; its clips are where they were.
+    clips (CLIP) : motion files, or folders of them, to take motion from (default: START and END).
+    alone : write the new motion alone, without START and END.
+    out : file to write.
+
+    Notes
+    -----
+    Example: mocap inbetween start.bvh end.bvh --seconds 1.5 --clips walks/ -o whole.bvh
+    Example: mocap inbetween walk.bvh --gap 1.5s-2.5s -o mended.bvh
+    """
+    if (end is None) == (gap is None):
+        raise MocapError("Give END and --seconds, or --gap with START alone: where the motion is missing.")
+    if (end is None) != (seconds is None):
+        raise MocapError("--seconds belongs to END: the time between two clips. A --gap has its own.")
+    if ahead is not None and end is None:
+        raise MocapError("--ahead belongs to END: a gap ends where START goes on.")
+    if graph and clips:
+        raise MocapError("--graph and --clips both say where to take motion from: give one of them.")
+    files = [start, end] if end else [start]
+    sources = find_files(clips) if clips else []
+    check_out("whole motion", out, [*files, *sources])
+    first, second, time = _sides(building.load(files), gap, seconds, ahead)
+    frames = max(1, round(time * first.fps))
+    if time < in_betweening.SHORTEST:
+        between = in_betweening.interpolate(first, second, frames)
+        tell(between=f"{time:.2f} s, interpolated")
+    else:
+        whole_graph = _graph(graph, sources, building, [first, second], out)
+        filling = in_betweening.fill_gap(graphs.compile_graph(whole_graph), first, second, time)
+        between = _at_rate(filling.motion, first.fps, frames)
+        tell(between=f"{time:.2f} s, {_changes(filling.arrived)}")
+    whole = between if alone else body.concatenate([first[:-1], between, second[1:]])
+    write_out(whole, out, details=f": {len(whole)} frames, {whole.duration:.2f} s")
+
+
+def _sides(
+    motions: "Sequence[Motion]", gap: str | None, seconds: float | None, ahead: float | None
+) -> "tuple[Motion, Motion, float]":
+    """Return the motions on both sides of what is missing, of one rate, and the seconds between them."""
+    first = motions[0]
+    if gap is not None:
+        begin, stop = _frames(gap, first)
+        return first[: begin + 1], first[stop:], (stop - begin) / first.fps
+    second = body.resample(motions[1], first.fps)
+    if ahead is not None:
+        heading = float(body.heading(first.rotations[-1, 0]))
+        step = [ahead * math.sin(heading), ahead * math.cos(heading)]
+        second = body.place(second, heading, first.root_positions[-1, [0, 2]] + step)
+    return first, second, seconds or 0.0
+
+
+def _frames(gap: str, clip: "Motion") -> tuple[int, int]:
+    """Read the frames at both ends of a gap.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")  # 120 Hz
+    >>> _frames("1.5s-2.5s", walk), _frames("45-75", walk)
+    ((180, 300), (45, 75))
+    """
+    parts = re.fullmatch(f"{MOMENT}-{MOMENT}", gap.strip())
+    if not parts:
+        raise MocapError(f"Where is the gap '{gap[:40]}'? Write FROM-TO, as in 1.5s-2.5s or frames 45-75.")
+    begin, stop = (_frame(moment, clip.fps) for moment in parts.groups())
+    last = len(clip) - 1
+    if not 0 <= begin < stop - 1 < last:
+        held = f"'{clip.name[:60]}' has frames 0 to {last}, {clip.duration:.2f} s"
+        raise MocapError(f"{held}: a gap lies within, with a frame or more to make, got {begin}-{stop}.")
+    return begin, stop
+
+
+def _frame(moment: str, fps: float) -> int:
+    """Read a moment as a frame."""
+    return round(float(moment.removesuffix("s")) * (fps if moment.endswith("s") else 1.0))
+
+
+def _graph(
+    path: Path | None, sources: Sequence[Path], building: Building, sides: "Sequence[Motion]", out: Path
+) -> "MotionGraph":
+    """Load the graph to take motion from, or build one of some clips and both sides."""
+    if path is None:
+        long = [side for side in sides if side.duration >= building.window]  # the others make no transition
+        clips = [*building.load(sources), *long]
+        if not clips:
+            window = f"a transition of {building.window:.2f} s"
+            raise MocapError(f"START and END are shorter than {window}: give --clips to take motion from.")
+        # Both sides of a gap have one name, and a clip may bear it as well.
+        return building.build([replace(clip, name=f"{n} {clip.name}") for n, clip in enumerate(clips)])
+    from mocap.graphs.storage import find_origins  # the help needs no NumPy
+
+    require_other(out, [origin.path for origin in find_origins(path)])
+    return graphs.load(path, skeleton=building.skeleton, progress=bar("reading"))
+
+
+def _at_rate(motion: "Motion", fps: float, frames: int) -> "Motion":
+    """Show a motion in another number of frames, at another rate."""
+    import numpy as np  # the help needs no NumPy
+
+    from mocap.editing.retiming import at_frames
+
+    moments = np.linspace(0, len(motion) - 1, frames + 1)
+    return replace(at_frames(motion, moments), fps=fps)
+
+
+def _changes(arrived: "Arrived") -> str:
+    """Describe the changes of the walk."""
+    turned = math.degrees(max(abs(arrived.turned.min()), abs(arrived.turned.max())))
+    steps = f"steps × {arrived.steps.min():.2f} to {arrived.steps.max():.2f}"
+    pace = f"pace × {arrived.pace.min():.2f} to {arrived.pace.max():.2f}"
+    return f"a walk turned by up to {turned:.0f}° per second, {steps}, {pace}"

@@ -1,0 +1,191 @@
+"""A walk that is bent and retimed so that it ends at a position, with a heading, after a number of frames.
+
+As in path editing [Gle01], the body is held relative to a frame that moves along a path, and the path is
+changed. Here the frame is the root itself, and only the end of the new path is known. The path is turned by
+φ(t), and its steps become σ(t) times as long. Both are smooth and as small as possible:
+
+    min ∫ TURN φ̇² + STRETCH (ln σ)² dt   with   g(0) + ∫ σ exp(iφ) dg = the target,   φ(T) = Δ
+
+At both ends φ̇ = 0 and σ = 1, so that the walk starts and ends with its own velocity. All of this is ours.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.optimize import minimize
+
+from mocap._shared.arrays import Array, Points
+from mocap._shared.records import NamedTuple
+from mocap.body import rotations
+from mocap.body.motion import Motion
+from mocap.body.planar import on_ground
+from mocap.editing.displacements import spline_basis
+from mocap.editing.retiming import at_frames
+
+# Limits of the changes to a walk.
+MOST_TURN = float(np.radians(60))  # radians per second of turning, added to the walk's own
+MOST_STEPS = 1.25  # times: steps become longer or shorter by at most this factor
+MOST_PACE = 1.25  # times: the walk is played faster or slower by at most this factor
+
+# Costs of the changes.
+TURN = 0.5  # times the squared radians per second of added turning, times seconds
+STRETCH = 8.0  # times the squared logarithms of the step factor and of the pace, times seconds
+
+WITHIN = 0.98  # of the limit of turning, because only some frames are constrained
+SOLVER_ROUNDS = 30  # iterations; 5 to 15 are enough if there is a solution
+KNOTS = 0.3  # seconds between the knots of φ and ln σ
+FEWEST_SPANS = 10  # spans between knots
+MOST_SPANS = 40  # spans between knots
+LEVEL = 3  # splines at each end that stay 0: there φ and ln σ are level
+PER_SPAN = 4  # frames between two knots at which the turning is constrained
+RISE = 0.15  # the part of a walk, at each end, over which its time reaches the new pace
+
+
+class Arrived(NamedTuple):
+    """A walk of F frames that was bent and retimed, and the size of these changes.
+
+    `turned` (F - 1,): the added turning, radians per second; `steps` (F - 1,): the factor of the steps'
+    lengths; `pace` (F - 1,): the factor of the speed of playing; `lack`: the distance between its end and the
+    target, metres; `price`: the cost of the changes.
+    """
+
+    motion: Motion
+    turned: Array
+    steps: Array
+    pace: Array
+    lack: float
+    price: float
+
+
+def level_rise(count: int) -> Array:
+    """Return a curve from 0 to 1 that is level at both ends and linear between them.
+
+    Examples
+    --------
+    >>> level_rise(5).round(3)
+    array([0.  , 0.24, 0.5 , 0.76, 1.  ])
+    """
+    u = (np.arange(count - 1) + 0.5) / (count - 1)
+    edge = np.minimum(np.minimum(u, 1 - u) / RISE, 1.0)
+    rate = edge**2 * (3 - 2 * edge)
+    return np.concatenate([[0.0], np.cumsum(rate) / rate.sum()])
+
+
+def bend_to(motion: Motion, frames: int, end: complex, turn: float) -> Arrived:
+    """Play a walk in another number of frames, and bend it so that its root ends at a ground point, turned.
+
+    If `MOST_TURN` and `MOST_STEPS` admit no solution, the end is missed or the turning is faster.
+
+    Parameters
+    ----------
+    motion : 2 frames or more; at both ends it keeps its own pace.
+    frames : of the new motion, 2 or more.
+    end : the position of its last root, z + ix, metres.
+    turn : radians by which its last frame is turned.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")[:481:4]
+    >>> bent = bend_to(walk, 130, on_ground(walk.root_positions[-1]) + 0.5j, 0.3)
+    >>> bool(bent.lack < 1e-4), bool(np.degrees(abs(bent.turned).max()) < 30), len(bent.motion)
+    (True, True, 130)
+    """
+    moments = np.arange(frames) + (len(motion) - frames) * level_rise(frames)
+    pace = np.diff(moments)
+    motion = motion if len(motion) == frames else at_frames(motion, moments)
+    path = _BentPath(on_ground(motion.root_positions), turn, motion.fps)
+    best = path.solve(end, limited=False)
+    if np.abs(path.turned(best)).max() > MOST_TURN:
+        best = path.solve(end, limited=True)
+    phi = path.angles(best)
+    points = path.points(best)
+    roots = motion.root_positions.copy()
+    roots[:, 2] = points.real
+    roots[:, 0] = points.imag
+    turns = motion.rotations.copy()
+    turns[:, 0] = rotations.multiply(rotations.about_y(phi), turns[:, 0])
+    turned = np.diff(phi) * motion.fps
+    sigma = path.step_factors(best)
+    logs = np.concatenate([np.log(sigma), np.log(pace)])
+    price = (TURN * (turned @ turned) + STRETCH * (logs @ logs)) / motion.fps
+    bent = replace(motion, root_positions=roots, rotations=turns)
+    return Arrived(bent, turned, sigma, pace, float(abs(points[-1] - end)), float(price))
+
+
+class _BentPath:
+    """The path of a walk of F frames as a function of x (2 K,): the splines of φ, then those of ln σ."""
+
+    def __init__(self, ground: Points, turn: float, fps: float) -> None:
+        self.ground = ground
+        self.fps = fps
+        frames = len(ground)
+        spans = int(np.clip(round((frames - 1) / fps / KNOTS), FEWEST_SPANS, MOST_SPANS))
+        self.basis = spline_basis(frames, (frames - 1) / spans).toarray()[:, LEVEL:-LEVEL]  # (F, K)
+        self.middle = (self.basis[1:] + self.basis[:-1]) / 2
+        self.rate = np.diff(self.basis, axis=0)
+        self.even = turn * level_rise(frames)
+        self.count = self.basis.shape[1]
+        self.constrained = slice(None, None, max(1, (frames - 1) // (PER_SPAN * spans)))
+
+    def solve(self, end: complex, *, limited: bool) -> Array:
+        """Find x by sequential quadratic programming, with or without the limit of turning."""
+        log_limit = np.log(MOST_STEPS)
+        free = [(None, None)] * self.count
+        bounds = free + [(-log_limit, log_limit)] * self.count
+        constraints = [{"type": "eq", "fun": lambda x: self.residual(x, end), "jac": self.residual_jacobian}]
+        if limited:
+            constraints.append(self._turn_limit())
+        settings = {"method": "SLSQP", "options": {"maxiter": SOLVER_ROUNDS, "ftol": 1e-6}}
+        start = np.zeros(2 * self.count)
+        solution = minimize(self.cost, start, jac=True, bounds=bounds, constraints=constraints, **settings)
+        return np.asarray(solution.x)
+
+    def _turn_limit(self) -> dict[str, object]:
+        """Return the constraint that the turning stays within its limit to either side."""
+        rate = self.rate[self.constrained] * self.fps
+        jacobian = np.block([[-rate, 0 * rate], [rate, 0 * rate]])
+        even = self.turned(np.zeros(2 * self.count))[self.constrained]
+        room = WITHIN * MOST_TURN - np.concatenate([even, -even])
+        return {"type": "ineq", "fun": lambda x: room + jacobian @ x, "jac": lambda _: jacobian}
+
+    def turned(self, x: Array) -> Array:
+        """Return the added turning, (F - 1,), radians per second."""
+        return np.asarray((np.diff(self.even) + self.rate @ x[: self.count]) * self.fps)
+
+    def angles(self, x: Array) -> Array:
+        """Return φ, shape (F,), radians."""
+        return np.asarray(self.even + self.basis @ x[: self.count])
+
+    def step_factors(self, x: Array) -> Array:
+        """Return σ, shape (F - 1,)."""
+        return np.asarray(np.exp(self.middle @ x[self.count :]))
+
+    def points(self, x: Array) -> Points:
+        """Return the ground points of the path, shape (F,)."""
+        phi = self.angles(x)
+        turned = np.exp(0.5j * (phi[1:] + phi[:-1]))  # of each step, by the mean of φ at its ends
+        steps = self.step_factors(x) * turned * np.diff(self.ground)
+        return np.asarray(self.ground[0] + np.concatenate([[0.0], np.cumsum(steps)]))
+
+    def cost(self, x: Array) -> tuple[float, Array]:
+        """Return the cost and its gradient."""
+        turned = self.turned(x)
+        log = self.middle @ x[self.count :]
+        cost = (TURN * (turned @ turned) + STRETCH * (log @ log)) / self.fps
+        by_angles = TURN * (self.rate.T @ turned)
+        by_steps = STRETCH / self.fps * (self.middle.T @ log)
+        return float(cost), 2 * np.concatenate([by_angles, by_steps])
+
+    def residual(self, x: Array, end: complex) -> Array:
+        """Return the vector from the target to the end of the path, (2,), metres."""
+        lack = self.points(x)[-1] - end
+        return np.array([lack.real, lack.imag])
+
+    def residual_jacobian(self, x: Array) -> Array:
+        """Return the derivative of `residual`, shape (2, 2 K)."""
+        along = np.diff(self.points(x)) @ self.middle
+        columns = np.concatenate([1j * along, along])
+        return np.stack([columns.real, columns.imag])

@@ -1,0 +1,362 @@
+"""A search from two poses at once: walks from the start and walks back to the end, which meet half-way.
+
+A search from one side finds many walks that pass near the end and few that end in its pose. Therefore walks
+grow from both sides. Every node at which one of each kind ends joins two of them: n walks from each side give
+up to n² walks. This is the bidirectional search of I. Pohl (1971) with beams for its two fronts.
+
+The walks are `States`: `along` is their length in metres, and `hop` the edge of their last step. Positions
+are in the world: p ↦ turn · p + move places the clip of a walk's last node. If walk a from the start meets
+walk b from the end, b's clip should be placed as a's is. The difference is what remains to be bent.
+
+The steps are `States` as well, walks of one edge each. Their points are the N nodes of the graph, then the K
+frames similar to the start, points N to N + K - 1, and then those similar to the end.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.ndimage import minimum_filter1d
+
+from mocap._shared.arrays import Array, Indices, Points, ranges
+from mocap._shared.records import NamedTuple
+from mocap.body.motion import Motion
+from mocap.body.planar import PlanarTransform
+from mocap.errors import NoWalk
+from mocap.graphs.compiled_graph import CompiledGraph
+from mocap.graphs.edge_tables import clip_rows
+from mocap.matching.point_clouds import align, point_cloud
+from mocap.methods.in_betweening.end_bending import MOST_PACE, MOST_STEPS, MOST_TURN, RISE, STRETCH, TURN
+from mocap.steering.layered_search import LayeredSearch, States, standing, start_states
+
+AHEAD = 0.1  # seconds from a pose to the one before or after it, and between two candidates at least
+CANDIDATES = 6  # frames of the clips that are tried for each pose
+
+# Costs of a walk beside `TURN` and `STRETCH`. A seam costs as much as a second turned by 57° per second.
+SEAM = 0.5  # for each seam
+MATCH = 300.0  # times the squared distance of a seam, m²
+POSE = 100.0  # times the squared distance of the end poses, m²
+
+PEAK = 1.4  # times: the maximum of a smooth change that is level at both ends, over its mean
+BEYOND = 100.0  # for each radian per second, or unit of a step's logarithm, estimated beyond its limit
+
+LAYER = 0.1  # seconds; walks in one layer compete
+WIDTH = 400  # walks that stay in a layer
+CELL = 0.1  # metres: walks at one node in one cell are similar
+ANGLE = 0.15  # radians: the same for their directions
+MEET = 3000  # walks from the start that are joined with those from the end
+PAIRS = 3_000_000  # joins that are compared, at most
+
+
+class Candidates(NamedTuple):
+    """K frames similar to a pose, and the planar transforms that align their clips with it.
+
+    `stretch` (K,): the edge that plays the frame; `since` (K,): its number among the edge's frames; `turn`
+    and `move` (K,): p ↦ turn · p + move aligns its clip with the pose; `distance` (K,): metres.
+    """
+
+    stretch: Indices
+    since: Indices
+    turn: Points
+    move: Points
+    distance: Array
+
+
+def pose_at(motion: Motion, direction: int, frames: int = 0) -> Motion:
+    """Return the frame `frames` after a motion's first one, or for direction -1 before its last one."""
+    number = frames if direction > 0 else len(motion) - 1 - frames
+    return motion[number : number + 1]
+
+
+def find_candidates(graph: CompiledGraph, motion: Motion, *, direction: int, limit: float) -> Candidates:
+    """Find the frames of a graph's clips most similar to a motion's first or last pose and its velocity.
+
+    The distance is the one of [KGP02, Eqs. 1-4] over two poses that are 0.1 s apart, or over one pose if the
+    motion is shorter. The frames are at least 0.1 s apart as well.
+
+    Parameters
+    ----------
+    graph : the compiled graph.
+    motion : begins or ends with the pose.
+    direction : 1 for its first frame, as for a start; -1 for its last one, as for an end.
+    limit : the largest distance, metres.
+
+    Raises
+    ------
+    NoWalk : if no frame is within the limit.
+    SkeletonMismatch : for a pose of another skeleton.
+    """
+    clips = graph.source.clips
+    clips[0].skeleton.require_same(motion.skeleton)
+    step = max(1, round(AHEAD * graph.fps))
+    pose_step = max(1, round(AHEAD * motion.fps))
+    poses = [pose_at(motion, direction, frames) for frames in (0, pose_step) if frames < len(motion)]
+    rows = np.flatnonzero(~graph.blended[graph.of])
+    frames = graph.here[rows]  # (N, 2), clips and frames
+    clouds = np.concatenate([point_cloud(clip) for clip in clips])
+    offsets = [np.array([0, n * direction * step]) for n in range(len(poses))]
+    points = np.concatenate([clouds[clip_rows(clips, frames + offset)] for offset in offsets], axis=1)
+    target = np.concatenate([point_cloud(pose)[0] for pose in poses])
+    target = np.broadcast_to(target, points.shape)
+    aligned = align(target, points)
+    transforms = PlanarTransform(*(np.asarray(part)[:, None] for part in aligned))
+    squares = ((transforms.apply_points(points) - target) ** 2).sum(axis=-1)
+    distance = np.sqrt(squares.mean(axis=-1))
+    chosen = _separate_minima(distance, clip_rows(clips, frames) + step * frames[:, 0], step)
+    nearest = distance[chosen[0]]
+    if nearest > limit:
+        pose = f"The {'first' if direction > 0 else 'last'} pose of '{motion.name:.60}'"
+        excess = f"is {nearest:.2f} m off the nearest pose of the clips, and {limit:g} m is the limit"
+        raise NoWalk(f"{pose} {excess}: take a pose more like theirs.")
+    chosen = chosen[distance[chosen] <= limit]
+    edge = graph.of[rows[chosen]]
+    since = rows[chosen] - graph.first[edge]
+    return Candidates(edge, since, aligned.turn[chosen], aligned.move[chosen], distance[chosen])
+
+
+def _separate_minima(distance: Array, lane: Indices, step: int) -> Indices:
+    """Return the `CANDIDATES` smallest distances, each the minimum among the frames within `step` of it.
+
+    `lane` numbers the frames; the lanes of two clips are further apart than `step`.
+    """
+    lanes = np.full(int(lane.max()) + 1, np.inf)
+    lanes[lane] = distance
+    minima = minimum_filter1d(lanes, 2 * step + 1, mode="constant", cval=np.inf)
+    chosen = np.flatnonzero(distance == minima[lane])
+    return chosen[np.argsort(distance[chosen], kind="stable")[:CANDIDATES]]
+
+
+class Joined(NamedTuple):
+    """A walk from start to end: its edges, and the frames that it plays of them.
+
+    `edges`: numbers in the compiled graph; `first`: the frames of the first edge that it leaves out;
+    `frames`: from the start to the end; `place`: aligns the first clip with the start; `end`: the ground
+    point that the last frame's root must reach; `turn`: the angle by which it must be turned there, radians;
+    `cost`: of its seams, and of the poses at its ends.
+    """
+
+    edges: Indices
+    first: int
+    frames: int
+    place: PlanarTransform
+    end: complex
+    turn: float
+    cost: float
+
+
+class TwoSided:
+    """A search between two poses; `best` returns the walks that need the least bending and the fewest seams.
+
+    Parameters
+    ----------
+    graph : the compiled graph.
+    ends : the frames similar to the start, and those similar to the end.
+    frames : from the start to the end.
+    """
+
+    def __init__(self, graph: CompiledGraph, ends: tuple[Candidates, Candidates], frames: int) -> None:
+        self.graph = graph
+        self.frames = frames
+        self.starts, self.ends = ends
+        self.steps = steps_between(graph, *ends)
+        # Where the root is at each point, in the coordinates of its clip.
+        roots = [graph.ground[graph.first[end.stretch] + end.since] for end in ends]
+        self.roots = np.concatenate([graph.at, *roots])
+        self.speed = float(np.percentile(graph.step * graph.fps, 75))
+        self.begin = self._first_position(self.starts, roots[0])
+        self.finish = self._first_position(self.ends, roots[1])
+
+    @staticmethod
+    def _first_position(end: Candidates, roots: Points) -> complex:
+        """Return the ground point of the best candidate's root."""
+        return complex(end.move[0] + end.turn[0] * roots[0])
+
+    def best(self, count: int) -> list[Joined]:
+        """Join the walks of both sides, and return those of lowest cost; none if no two of them meet."""
+        nodes = len(self.graph.nodes)
+        forward = _Front(self, self.steps, self.starts, nodes)
+        forward.aim(self.finish, self.frames / 2)
+        backward = _Front(self, self._reversed_steps(), self.ends, nodes + len(self.starts.distance))
+        backward.aim(self.begin, (MOST_PACE - 0.5) * self.frames)
+        for front in (forward, backward):
+            for _ in front:
+                pass
+        middle = States.join(forward.arrived)
+        middle = middle.take(np.argsort(middle.cost, kind="stable")[:MEET])
+        ending = States.join(backward.history)
+        first, second = pairs_at_nodes(middle.node, ending.node)
+        price = self.prices(middle.take(first), ending.take(second))
+        order = np.argsort(price, kind="stable")
+        order = order[np.isfinite(price[order])]
+        _, cheapest = np.unique(first[order], return_index=True)  # the best end of each walk from the start
+        chosen = order[np.sort(cheapest)[:count]]
+        pairs = zip(first[chosen].tolist(), second[chosen].tolist(), strict=True)
+        return [self.join(forward.trace(middle, a), backward.trace(ending, b)) for a, b in pairs]
+
+    def _reversed_steps(self) -> States:
+        """Return the same steps, walked from the point that they enter to the point that they leave."""
+        turn = self.steps.turn.conj()
+        move = -turn * self.steps.move
+        return self.steps._replace(node=self.steps.trail, trail=self.steps.node, turn=turn, move=move)
+
+    def prices(self, first: States, second: States) -> Array:
+        """Estimate the cost of each pair of walks that meet, including that of the bending.
+
+        The end is off by a turn Δ and by a vector. A turn that grows evenly removes the first, and turns the
+        line from start to end by Δ/2. The remaining offset across this line, by an angle a, takes a curve
+        there and back, ∫ φ̇² = 12 a² / T. The offset along it, a fraction r of the metres walked, takes longer
+        steps or a bend of ∫ φ̇² = 24 r / T, since the chord of an arc of θ is shorter than the arc by θ² / 24.
+        Only longer steps lead further than the metres walked.
+        """
+        seconds = self.frames / self.graph.fps
+        turn = second.turn * first.turn.conj()
+        end = turn.conj() * (self.finish - second.move) + first.move
+        angle = np.angle(turn)
+        metres = np.maximum(first.along + second.along, 0.1)
+        line = (end - self.begin) * np.exp(0.5j * angle)
+        target = self.finish - self.begin
+        across = np.abs(((target - line) * np.exp(-1j * np.angle(line))).imag) / metres
+        along = np.abs(abs(target) - np.abs(line)) / metres
+        longer = np.log(np.maximum(abs(target) / metres, 1.0))
+        pace = np.log(np.maximum((first.frames + second.frames) / self.frames, 1e-3))
+        price = first.cost + second.cost + STRETCH * seconds * (pace**2 + longer**2)
+        price += TURN / seconds * (angle**2 + 12 * across**2)
+        price += np.minimum(STRETCH * seconds * along**2, TURN / seconds * 24 * along)
+        turning = PEAK * (np.abs(angle) + 6 * across) / seconds
+        price += BEYOND * np.maximum(turning - MOST_TURN, 0.0)
+        price += BEYOND * np.maximum(PEAK * longer - np.log(MOST_STEPS), 0.0)
+        return np.where(np.abs(pace) <= (1 - RISE) * np.log(MOST_PACE), price, np.inf)
+
+    def join(self, forward: States, backward: States) -> Joined:
+        """List the edges of two walks that meet."""
+        graph = self.graph
+        edges = np.concatenate([forward.hop[1:], backward.hop[:0:-1]])
+        point = int(backward.node[0])
+        start = int(forward.node[0]) - len(graph.nodes)
+        end = point - len(graph.nodes) - len(self.starts.distance)
+        start_turn = complex(self.starts.turn[start])
+        end_turn = complex(self.ends.turn[end])
+        turn = float(np.angle(end_turn / (start_turn * np.prod(graph.turn[edges]))))
+        place = PlanarTransform.from_complex(start_turn, complex(self.starts.move[start]))
+        target = complex(self.ends.move[end] + end_turn * self.roots[point])
+        frames = int(forward.frames[-1] + backward.frames[-1])
+        cost = float(forward.cost[-1] + backward.cost[-1])
+        return Joined(edges, int(self.starts.since[start]), frames, place, target, turn, cost)
+
+
+def pairs_at_nodes(first: Indices, second: Indices) -> tuple[Indices, Indices]:
+    """Pair every walk of one side with those of the other that end at the same node, `PAIRS` at most.
+
+    Parameters
+    ----------
+    first, second : the nodes at which the walks of both sides end, (N,) and (M,).
+
+    Returns
+    -------
+    The rows of the pairs in both.
+
+    Examples
+    --------
+    >>> [rows.tolist() for rows in pairs_at_nodes(np.array([7, 4]), np.array([4, 7, 4]))]
+    [[0, 1, 1], [1, 0, 2]]
+    """
+    order = np.argsort(second, kind="stable")
+    begin = np.searchsorted(second[order], first, "left")
+    stop = np.searchsorted(second[order], first, "right")
+    count = np.where(np.cumsum(stop - begin) > PAIRS, 0, stop - begin)
+    return np.repeat(np.arange(len(count)), count), order[ranges(begin, count)]
+
+
+class _Front(LayeredSearch):
+    """The walks of one side, from the points `first` and those after it."""
+
+    def __init__(self, search: TwoSided, steps: States, seeds: Candidates, first: int) -> None:
+        nodes = first + np.arange(len(seeds.distance))
+        super().__init__(start_states(nodes, seeds.turn, seeds.move), WIDTH)
+        self.search = search
+        self.aim(0j, 0.0)
+        self.steps = steps.take(np.argsort(steps.trail, kind="stable"))
+        self.offsets = np.searchsorted(self.steps.trail, np.arange(len(search.roots) + 1))
+
+    def aim(self, goal: complex, frames: float) -> None:
+        """Set the ground point that the walks lead to, and the length from which they are complete."""
+        self.goal = goal
+        self.longest = frames
+
+    def expand(self, states: States) -> States:
+        """Lengthen every walk by every step that leaves its point."""
+        count = np.diff(self.offsets)[states.node]
+        rows = np.repeat(np.arange(len(count)), count)
+        step = ranges(self.offsets[states.node], count)
+        return states.then(rows, self.steps.take(step))
+
+    def score(self, states: States) -> Array:
+        """Rate walks by their cost, and by the longer steps needed to reach the goal in time."""
+        position = states.move + states.turn * self.search.roots[states.node]
+        remaining = np.maximum(self.search.frames - states.frames, 1) / self.search.graph.fps
+        reach = self.search.speed * remaining
+        shortfall = np.log(np.maximum(np.abs(self.goal - position) / reach, 1.0))
+        return np.asarray(states.cost + STRETCH * remaining * shortfall**2)
+
+    def cells(self, states: States) -> Indices:
+        """Return the point, and cells of the ground and of directions."""
+        return standing(states, self.search.roots, CELL, ANGLE)
+
+    def layers(self, states: States) -> Indices:
+        """Count layers of `LAYER` seconds."""
+        return states.frames // max(1, round(LAYER * self.search.graph.fps))
+
+    def still_going(self, states: States) -> States:
+        """Put aside every walk that is long enough, since any of them may be joined."""
+        is_long = states.frames >= self.longest
+        self.arrived.append(states.take(is_long))
+        return states.take(~is_long)
+
+
+class _Parts(NamedTuple):
+    """Parts of edges: the points that they leave and enter, the first frame and the one after the last."""
+
+    origin: Indices
+    target: Indices
+    edge: Indices
+    begin: Indices
+    stop: Indices
+    cost: Array
+
+    @staticmethod
+    def join(groups: list[_Parts]) -> _Parts:
+        """Put several groups into one."""
+        return _Parts._make(np.concatenate(columns) for columns in zip(*groups, strict=True))
+
+
+def steps_between(graph: CompiledGraph, starts: Candidates, ends: Candidates) -> States:
+    """List all edges of a graph as steps, with those from each start to the next node, and to each end.
+
+    Each is a walk of one step from the point `trail` to the point `node`, along the edge `hop`.
+    """
+    number = {node: n for n, node in enumerate(graph.nodes)}
+    origin = np.array([number[edge[0]] for edge in graph.edges])
+    edges = np.arange(len(graph.edges))
+    seam = np.where(graph.blended, SEAM + MATCH * graph.cost**2, 0.0)
+    whole = _Parts(origin, graph.target, edges, 0 * edges, graph.frames, seam)
+    begin = starts.stretch
+    start = len(graph.nodes) + np.arange(len(begin))
+    start_cost = POSE * starts.distance**2
+    leaving = _Parts(start, graph.target[begin], begin, starts.since, graph.frames[begin], start_cost)
+    finish = ends.stretch
+    end = len(graph.nodes) + len(begin) + np.arange(len(finish))
+    end_cost = POSE * ends.distance**2
+    arriving = _Parts(origin[finish], end, finish, 0 * finish, ends.since, end_cost)
+    # An end on the same stretch as a start, after it.
+    is_later = starts.since[:, None] <= ends.since
+    a, b = np.nonzero((begin[:, None] == finish) & is_later)
+    cost = start_cost[a] + end_cost[b]
+    on_both = begin[a]
+    direct = _Parts(start[a], end[b], on_both, starts.since[a], ends.since[b], cost)
+    parts = _Parts.join([whole, leaving, arriving, direct])
+    metres = np.concatenate([[0.0], np.cumsum(graph.step)])
+    row = graph.first[parts.edge]
+    along = metres[row + parts.stop] - metres[row + parts.begin]
+    turn = graph.turn[parts.edge]
+    move = graph.move[parts.edge]
+    frames = parts.stop - parts.begin
+    return States(parts.target, turn, move, along, frames, parts.cost, parts.origin, parts.edge)
