@@ -14,7 +14,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap.body.skeleton import Skeleton
-from mocap.errors import MocapError
+from mocap.errors import MocapError, Remedy
 
 # Hip, knee, ankle and shoulder, elbow, wrist of the left side, as files name them; each column is looked up
 # by itself, and a prefix up to a colon is ignored.
@@ -82,9 +82,11 @@ def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
         name = skeleton.names[bare[0]]
         raise MocapError(f"The foot '{name}' has no joint or end site that could be its ball.")
     if not legs:
-        joints, known = (", ".join(names) for names in (skeleton.names, dict(LIMBS)))
-        helps = "Name each by hand: legs=[name_leg(skeleton, hip, knee, ankle, ball), ...]."
-        raise MocapError(f"No legs found among {shorten(joints, 38)}: tried {shorten(known, 40)}. {helps}")
+        joints = shorten(", ".join(skeleton.names), 38)
+        candidates = shorten(", ".join(dict(LIMBS)), 40)
+        problem = f"No legs found among {joints}: tried {candidates}."
+        by_hand = "name each by hand, {}[name_leg(skeleton, hip, knee, ankle, ball), ...]"
+        raise MocapError(problem, remedy=Remedy(by_hand, "legs"))
     whole = [[*joints, skeleton.children(joints[2])[0]] for joints in legs]
     return tuple(name_leg(skeleton, *(skeleton.names[joint] for joint in leg)) for leg in whole)
 
@@ -121,7 +123,8 @@ def name_leg(skeleton: Skeleton, hip: str, knee: str, ankle: str, ball: str) -> 
     >>> name_leg(SKELETON, "lfemur", "ltibia", "lfoot", "ltoes")
     Leg(hip=2, knee=3, ankle=4, ball=5)
     """
-    leg, names = Leg(*(skeleton.index(name) for name in (hip, knee, ankle, ball))), skeleton.names
+    leg = Leg(*(skeleton.index(name) for name in (hip, knee, ankle, ball)))
+    names = skeleton.names
     for above, below in pairwise(leg):
         if skeleton.parents[below] != above:
             hangs = f"'{names[below]}' hangs on '{names[skeleton.parents[below]]}', not on '{names[above]}'"
@@ -172,29 +175,39 @@ def roles(skeleton: Skeleton) -> dict[str, int]:
     try:
         limbs = zip(SIDES * 2, [*find_legs(skeleton), *find_pair(skeleton, "arms")], strict=False)
     except MocapError as error:
-        raise MocapError(f"{str(error).split(' Name each')[0]} Rename the joints.") from None
-    found: dict[str, int] = {}
+        raise MocapError(f"{error.problem()} Rename the joints.") from None
+    joint_of: dict[str, int] = {}
     for side, joints in limbs:
         parts = LEG if isinstance(joints, Leg) else ARM
-        found |= {f"{side} {part}": joint for part, joint in zip(parts, joints, strict=True)}
+        joint_of |= {f"{side} {part}": joint for part, joint in zip(parts, joints, strict=True)}
     names = [name.rsplit(":", 1)[-1].lower() for name in skeleton.names]
     heads = [joint for joint, name in enumerate(names) if name == "head"]
-    found |= {"head": heads[0]} if heads else {}
-    found |= _trunk(skeleton, found)
-    return {role: found[role] for role in ROLES if role in found}
+    joint_of |= {"head": heads[0]} if heads else {}
+    joint_of |= _trunk(skeleton, joint_of)
+    return {role: joint_of[role] for role in ROLES if role in joint_of}
 
 
 def _trunk(skeleton: Skeleton, limbs: Mapping[str, int]) -> dict[str, int]:
     """Find the trunk by the tree: what the limbs and the head hang on."""
-    up = {role: skeleton.path_to_root(joint)[1:] for role, joint in limbs.items()}
-    pelvis, chest = (
-        max(set(up.get(f"left {part}", ())) & set(up.get(f"right {part}", ())), default=0)
-        for part in ("hip", "shoulder")
-    )
-    if pelvis not in (above := skeleton.path_to_root(chest)[1:]):  # no arms, or they hang on the pelvis
+    ancestors = {role: skeleton.path_to_root(joint)[1:] for role, joint in limbs.items()}
+
+    def fork(part: str) -> int:
+        """Return the joint at which the paths from both sides to the root meet."""
+        left, right = (set(ancestors.get(f"{side} {part}", ())) for side in SIDES)
+        return max(left & right, default=0)
+
+    pelvis = fork("hip")
+    chest = fork("shoulder")
+    spine = skeleton.path_to_root(chest)[1:]
+    if pelvis not in spine:  # no arms, or they hang on the pelvis
         return {"pelvis": pelvis}
     trunk = {"pelvis": pelvis, "chest": chest}
-    # The first joint on the way from the chest to a limb, and from the pelvis to the chest.
-    ways = {"neck": up.get("head", []), **{f"{side} clavicle": up[f"{side} shoulder"] for side in SIDES}}
-    trunk |= {role: way[way.index(chest) - 1] for role, way in ways.items() if chest in way[1:]}
-    return trunk | ({"waist": above[above.index(pelvis) - 1]} if above[0] != pelvis else {})
+    # The first joint on the path from the chest to a limb, and from the pelvis to the chest.
+    paths = {"neck": ancestors.get("head", [])}
+    paths |= {f"{side} clavicle": ancestors[f"{side} shoulder"] for side in SIDES}
+    for role, path in paths.items():
+        if chest in path[1:]:
+            trunk[role] = path[path.index(chest) - 1]
+    if spine[0] != pelvis:
+        trunk["waist"] = spine[spine.index(pelvis) - 1]
+    return trunk

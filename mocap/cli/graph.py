@@ -37,29 +37,32 @@ def demo(
     seconds : duration of the new walk.
     """
     require_folder(out)
-    require_other(out / "walk.bvh", found := find_files(clips))
-    motions = building.load(found) if clips else [datasets.sample(name) for name in datasets.SAMPLES]
+    sources = find_files(clips)
+    require_other(out / "walk.bvh", sources)
+    motions = building.load(sources) if clips else [datasets.sample(name) for name in datasets.SAMPLES]
     whole = building.build(motions, bar("comparing"))
     try:
         pruned = graphs.prune(whole)
     except NoWalk as error:
         from mocap.graphs.thresholds import smallest_threshold  # the help needs no NumPy
 
-        least = math.ceil(1e4 * smallest_threshold(whole.clips, window=whole.window)) / 100
-        asked = f"a threshold of {building.threshold:g} cm"
-        raise NoWalk(f"No walk is left at {asked}; these clips need at least {least:g} cm.") from error
+        smallest = math.ceil(1e4 * smallest_threshold(whole.clips, window=whole.window)) / 100  # cm
+        threshold = f"a threshold of {building.threshold:g} cm"
+        raise NoWalk(f"No walk is left at {threshold}; these clips need at least {smallest:g} cm.") from error
     edges = synthesis.random_walk(pruned, seconds=seconds, seed=seed)
     walk = synthesis.to_motion(pruned, edges)
     costs = [100 * seam.cost for seam in synthesis.seams(pruned, edges)]
-    names, frames = [clip.name for clip in whole.clips], sum(map(len, whole.clips))
+    names = [clip.name for clip in whole.clips]
+    frames = sum(map(len, whole.clips))
     shown = ", ".join(names if len(names) <= SHOWN else [*names[:SHOWN], f"… {names[-1]}"])
-    tell(clips=f"{len(names)}: {shown}", frames=f"{frames} at {whole.fps:g} Hz, {frames / whole.fps:.1f} s")
+    tell(clips=f"{len(names)}: {shown}")
+    tell(frames=f"{frames} at {whole.fps:g} Hz, {frames / whole.fps:.1f} s")
     tell(body=f"{len(walk.skeleton)} joints, {quality.inspect(whole.clips[0]).height:.2f} m tall")
     tell(candidates=f"{whole.count('transition') // 2} pairs of windows alike")
-    rows = [(e.count("transition"), len(e.graph), e.graph.number_of_edges()) for e in (whole, pruned)]
     print(f"{'':<12} {'whole':>8}{'pruned':>8}")
-    for name, *counts in zip(("transitions", "nodes", "edges"), *rows, strict=True):
-        tell(**{name: "".join(f"{count:8}" for count in counts)})
+    tell(transitions=f"{whole.count('transition'):8}{pruned.count('transition'):8}")
+    tell(nodes=f"{len(whole.graph):8}{len(pruned.graph):8}")
+    tell(edges=f"{whole.graph.number_of_edges():8}{pruned.graph.number_of_edges():8}")
     tell(**{"new walk": f"{walk.duration:.1f} s, {quality.inspect(walk).path:.1f} m"})
     tell(seams=f"{len(costs)}, the worst {max(costs, default=0.0):.1f} cm RMS")
     make_folder(out)
@@ -95,19 +98,19 @@ def build(
     """
     if by_labels and whole:
         raise MocapError("--by-labels says how to prune, --whole not to prune: give one of them.")
-    found = find_files(clips)
-    check_out("graph", out, found, [".npz"])
+    sources = find_files(clips)
+    check_out("graph", out, sources, [".npz"])
     if graphml:
-        check_out("graph for other tools", graphml, found, [".graphml"])
-    motions = building.load(found)
-    origins = [Origin(file, building.skeleton, building.scale) for file in found]
+        check_out("graph for other tools", graphml, sources, [".graphml"])
+    motions = building.load(sources)
+    origins = [Origin(file, building.skeleton, building.scale) for file in sources]
     if mirror:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always", MocapWarning)
             motions += [editing.mirror(clip) for clip in motions]
         if caught:  # where bodies are lopsided, one warning is enough
-            more = f" So it is with {len(caught) - 1} more." if len(caught) > 1 else ""
-            warn(f"{caught[0].message}{more}")
+            number = f" So it is with {len(caught) - 1} more." if len(caught) > 1 else ""
+            warn(f"{caught[0].message}{number}")
         origins += [origin._replace(mirrored=True) for origin in origins]
     graph = building.build(motions, bar("comparing"))
     if not whole:
@@ -133,11 +136,11 @@ def info(file: Path) -> None:
     """
     from mocap.graphs.storage import read  # the help needs no NumPy
 
-    found = read(file)
-    for name, frames in zip(found.names, found.frames, strict=True):
-        tell(clip=f"{name}: {frames} frames at {found.fps:g} Hz, {frames / found.fps:.1f} s")
-    tell(window=f"{found.window} frames, {found.window / found.fps:.2f} s")
-    print(graphs.summary(found.graph, fps=found.fps).table())
+    content = read(file)
+    for name, frames in zip(content.names, content.frames, strict=True):
+        tell(clip=f"{name}: {frames} frames at {content.fps:g} Hz, {frames / content.fps:.1f} s")
+    tell(window=f"{content.window} frames, {content.window / content.fps:.2f} s")
+    print(graphs.summary(content.graph, fps=content.fps).table())
 
 
 TEXT = """Build a motion graph and save it, or describe a saved one.
@@ -148,5 +151,4 @@ where its clips are. The word `build` may be left out. For a folder of clips cal
 Notes
 -----
 Example: mocap graph clips/ --mirror -o graph.npz"""
-USAGE = "mocap graph [build] CLIPS... -o graph.npz\n       mocap graph info graph.npz"
-GRAPH = Group(TEXT, {"build": build, "info": info}, USAGE)
+GRAPH = Group(TEXT, {"build": build, "info": info}, build)

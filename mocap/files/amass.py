@@ -21,7 +21,7 @@ from mocap._shared.archives import Member, open_archive
 from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from mocap.errors import FormatError, MocapError, warn
+from mocap.errors import FormatError, MocapError, Remedy, warn
 from mocap.files.recordings import Recording
 
 _JOINTS: dict[str, Any] = tomllib.loads(Path(__file__).with_name("smpl.toml").read_text("utf-8"))
@@ -84,8 +84,8 @@ def read(path: str | Path, *, fps: float | None = None) -> Recording:
                 got = f"others in frame {fine.argmin()}"
                 raise FormatError(path, None, f"finite numbers below 1e6 in '{key}'", got)
         betas = members.get("betas")
-        few = betas is not None and betas.dtype.kind in "fiu" and math.prod(betas.shape) <= WIDTH
-        shaped = betas is not None and few and betas.read().any()
+        plausible = betas is not None and betas.dtype.kind in "fiu" and math.prod(betas.shape) <= WIDTH
+        shaped = betas is not None and plausible and betas.read().any()
     if shaped:
         so = "the bones are those of the mean body, so feet may stand some centimetres off the ground"
         warn(f"{path}: betas, the shape of the body, are ignored: {so}.")
@@ -100,19 +100,19 @@ def _count(path: str | Path, members: Mapping[str, Member], key: str) -> int:
     """Count the frames of an array, which has rows of numbers, as many as are read, or more."""
     if key not in members:
         raise FormatError(path, None, "arrays 'poses' and 'trans', as AMASS archives have", f"no '{key}'")
-    found = members[key]
-    if len(found.shape) != 2 or found.shape[1] < WIDTHS[key] or found.dtype.kind not in "fiu":
-        raise FormatError(path, None, f"{WIDTHS[key]} numbers for each frame in '{key}'", str(found))
-    return found.shape[0]
+    member = members[key]
+    if len(member.shape) != 2 or member.shape[1] < WIDTHS[key] or member.dtype.kind not in "fiu":
+        raise FormatError(path, None, f"{WIDTHS[key]} numbers for each frame in '{key}'", str(member))
+    return member.shape[0]
 
 
 def _rate(path: str | Path, members: Mapping[str, Member]) -> float:
     key = next((key for key in RATES if key in members), None)
     if key is None:
-        raise FormatError(path, None, f"'{RATES[0]}'", "none: give fps=")
-    found = members[key]
-    rate = found.read().item() if math.prod(found.shape) == 1 and found.dtype.kind in "fiu" else None
+        raise FormatError(path, None, f"'{RATES[0]}'", "none", remedy=Remedy("give {}", "fps"))
+    member = members[key]
+    rate = member.read().item() if math.prod(member.shape) == 1 and member.dtype.kind in "fiu" else None
     if rate is None or not 0 < rate < 1e6:
-        got = str(found) if rate is None else str(rate)
+        got = str(member) if rate is None else str(rate)
         raise FormatError(path, None, f"one number above 0 in '{key}'", got)
     return float(rate)

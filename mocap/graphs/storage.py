@@ -21,7 +21,7 @@ from mocap.body.planar import PlanarTransform
 from mocap.datasets.clip_origins import Origin, find_again, is_origin
 from mocap.datasets.samples import FPS, FRAMES_IN_0_1, SAMPLES, sample
 from mocap.editing.mirroring import mirror
-from mocap.errors import FormatError, MocapError, shortened, warn
+from mocap.errors import FormatError, MocapError, Remedy, shortened, warn
 from mocap.files.conversion import is_clip
 from mocap.files.load_save import load as load_motion
 from mocap.graphs.motion_graph import MotionGraph
@@ -294,7 +294,8 @@ def find_origins(path: str | Path) -> list[Origin]:
     for name, text in itertools.zip_longest(content.names, content.origins):
         origin = find_again(text, folder) if text else None
         if origin is None and name not in neighbours:
-            raise MocapError(f"The clip '{shortened(name)}' is no longer where {path} found it: give clips=.")
+            lost = f"The clip '{shortened(name)}' is no longer where {path} found it."
+            raise MocapError(lost, remedy=Remedy("give {}", "clips"))
         places.append(origin or Origin(neighbours[name]))
     return places
 

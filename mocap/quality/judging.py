@@ -35,9 +35,11 @@ from mocap.quality.seam_measures import LEAP, MOSTLY, USUAL, Spread, feet_of, ju
 WINDOW = 1 / 3  # seconds: jumps in a window are compared with those in the clips' windows
 FLAT = 0.1  # seconds of a smooth curve, from which a joint trembles
 STILL = 0.02  # m/s: a jump of velocity that one who stands still makes
-SLOWEST, SLOW = 25, 0.5  # percentile of the frames in which a foot skates; the least speed of a body, m/s
+SLOWEST = 25  # percentile of the frames in which a foot skates
+SLOW = 0.5  # m/s: the least speed of a body
 ALOFT = 25.0  # centimetres; in 153 clips the lowest joint comes down to 12.5 cm at least, also on stairs
-SHORTEST, TALLEST = 0.75, 2.5  # metres, of one who walks; a grown body in inches, read as cm, is 0.7 at most
+SHORTEST = 0.75  # metres, of one who walks; a grown body in inches, read as cm, is 0.7 at most
+TALLEST = 2.5  # metres
 
 
 class Measure(NamedTuple):
@@ -53,7 +55,7 @@ class Measure(NamedTuple):
     value: float
     limit: float
     unit: str
-    where: str = ""
+    where: str = ""  # reads: name: a field that JSON files have
 
     @property
     def ratio(self) -> float:
@@ -63,36 +65,42 @@ class Measure(NamedTuple):
 
 def measure_smoothness(motion: Motion, places: Array, against: Sequence[Motion]) -> Iterator[Measure]:
     """Measure jolts and trembling; `places` are the joints' positions, (F, J, 3)."""
-    own, fps = jumps(motion), motion.fps
-    usual, limit, unit = float(np.percentile(own, MOSTLY)), LEAP, "times usual"
+    velocity_jumps = jumps(motion)
+    fps = motion.fps
+    usual = float(np.percentile(velocity_jumps, MOSTLY))
+    limit = LEAP
+    unit = "times usual"
     if against:
         clips = Spread(tuple(jumps(resample(clip, fps)) for clip in against))
         usual = float(np.percentile(clips.within(max(2, round(WINDOW * fps))), USUAL))
-        limit, unit = 1.5, "times the clips'"
-    frame = 1 + int(own[1:-1].argmax())
-    apart = np.linalg.norm(np.diff(places[frame - 1 : frame + 2], 2, axis=0), axis=-1)
-    most = motion.skeleton.names[int(apart.max(axis=0).argmax())]
-    yield Measure("jolt", float(own.max()) / max(usual, STILL), limit, unit, f"frame {frame}, most '{most}'")
+        limit = 1.5
+        unit = "times the clips'"
+    frame = 1 + int(velocity_jumps[1:-1].argmax())
+    changes = np.linalg.norm(np.diff(places[frame - 1 : frame + 2], 2, axis=0), axis=-1)
+    joint = motion.skeleton.names[int(changes.max(axis=0).argmax())]
+    ratio = float(velocity_jumps.max()) / max(usual, STILL)
+    yield Measure("jolt", ratio, limit, unit, f"frame {frame}, most '{joint}'")
     points = point_cloud(motion)
     window = max(5, 2 * round(FLAT * fps / 2) + 1)
     window = min(window, len(points) - 1 + len(points) % 2)
-    off = np.sqrt(((points - savgol_filter(points, window, 3, axis=0)) ** 2).sum(-1).mean(-1))
-    yield Measure("tremble", 1000 * float(np.median(off)), 3.0, "mm")
+    distances = np.sqrt(((points - savgol_filter(points, window, 3, axis=0)) ** 2).sum(-1).mean(-1))
+    yield Measure("tremble", 1000 * float(np.median(distances)), 3.0, "mm")
 
 
 def measure_joints(motion: Motion, places: Array) -> Iterator[Measure]:
     """Measure where joints go, how fast they turn, and whether left and right are alike."""
-    skeleton, local = motion.skeleton, motion.rotations
+    skeleton = motion.skeleton
+    local = motion.rotations
 
-    def most(values: Array, first: int = 0) -> str:
+    def largest(values: Array, first: int = 0) -> str:
         """Say at which joint and in which frame values (F, J) are largest, if they start at a frame."""
         frame, joint = np.unravel_index(int(values.argmax()), values.shape)
         return f"'{skeleton.names[int(joint)]}', frame {frame + first}"
 
     depths = -places[..., 1]
-    yield Measure("sunk", 100 * max(0.0, float(depths.max())), 100 * UNDER, "cm", most(depths))
+    yield Measure("sunk", 100 * max(0.0, float(depths.max())), 100 * UNDER, "cm", largest(depths))
     turns = np.degrees(rotations.angle_between(local[1:], local[:-1])) * motion.fps
-    yield Measure("turn", float(turns.max()), float(np.degrees(FAST)), "°/s", most(turns, first=1))
+    yield Measure("turn", float(turns.max()), float(np.degrees(FAST)), "°/s", largest(turns, first=1))
     partners = [skeleton.partner(joint) for joint in range(len(skeleton))]
     if partners != list(range(len(skeleton))):
         lengths = np.linalg.norm(skeleton.offsets, axis=-1)
@@ -107,18 +115,21 @@ def measure_limbs(motion: Motion, places: Array, legs: Sequence[Leg]) -> Iterato
     """Measure feet that slide or skate, where there are `legs`, and joints that bend too far."""
     if legs:
         slides = plant_slides(mark_plants(motion, legs), feet_of(legs), positions=places)
-        far = max(slides, key=lambda slide: slide.far, default=None)
-        where = f"'{far.joint}', frames {far.start} to {far.stop - 1}" if far else "no foot stands"
-        yield Measure("slide", mean_slide(slides), 2.5, "cm", where)
-        feet, roots = places[:, feet_of(legs)][..., [0, 2]], motion.root_positions[:, [0, 2]]
+        longest = max(slides, key=lambda slide: slide.far, default=None)
+        place = "no foot stands"
+        if longest:
+            place = f"'{longest.joint}', frames {longest.start} to {longest.stop - 1}"
+        yield Measure("slide", mean_slide(slides), 2.5, "cm", place)
+        feet = places[:, feet_of(legs)][..., [0, 2]]
+        roots = motion.root_positions[:, [0, 2]]
         slowest = (np.linalg.norm(np.diff(feet, axis=0), axis=-1) * motion.fps).min(axis=1)
         speed = max(SLOW, float(np.linalg.norm(np.diff(roots, axis=0), axis=-1).mean()) * motion.fps)
         yield Measure("skate", 100 * float(np.percentile(slowest, SLOWEST)) / speed, 8.0, "% of speed")
     if bends := joint_bends(motion, legs):
         worst = max(bends, key=lambda bend: float(bend.share.max()))
         frame = int(worst.share.argmax())
-        how = f"'{worst.joint}' {worst.way} by {worst.angles[frame]:.0f}°, frame {frame}"
-        yield Measure("bent", float(worst.share[frame]), 1.0, "of its limit", how)
+        bend = f"'{worst.joint}' {worst.way} by {worst.angles[frame]:.0f}°, frame {frame}"
+        yield Measure("bent", float(worst.share[frame]), 1.0, "of its limit", bend)
 
 
 def measure_body(
@@ -129,19 +140,20 @@ def measure_body(
     A body is compared with the smallest and the tallest people; one who lies down is as long as tall.
     """
     if stretch is not None:
-        far, joint = max(((far, joint) for joint, far in stretch.items()), default=(0.0, ""))
-        yield Measure("bones", 1000 * far, 5.0, "mm", f"'{joint}'")
+        change, joint = max(((change, joint) for joint, change in stretch.items()), default=(0.0, ""))
+        yield Measure("bones", 1000 * change, 5.0, "mm", f"'{joint}'")
     if path is not None:
-        off, _ = cKDTree(path.resampled(0.01).points).query(motion.root_positions[:, [0, 2]])
-        where = f"{100 * off.max():.0f} cm in frame {off.argmax()}"
-        yield Measure("path", 100 * float(off.mean()), 15.0, "cm", where)  # as `steering.follow_path` warns
+        distances, _ = cKDTree(path.resampled(0.01).points).query(motion.root_positions[:, [0, 2]])
+        worst = f"{100 * distances.max():.0f} cm in frame {distances.argmax()}"
+        yield Measure("path", 100 * float(distances.mean()), 15.0, "cm", worst)  # as `follow_path` warns
     height = height_of(places)
     if not SHORTEST <= height <= TALLEST:
         height = float(np.median(np.ptp(places, axis=1).max(axis=-1)))
     times = max(SHORTEST / max(height, 1e-9), height / TALLEST)
     inches = f"; {2.54 * height:.3g} m if it is in inches" if SHORTEST / 2 < height < SHORTEST else ""
-    value, where = (times, f"{height:.3g} m tall{inches}") if times > 1 else (0.0, "")
-    yield Measure("size", value, 1.0, "of its limit", where)
+    is_odd = times > 1
+    size = f"{height:.3g} m tall{inches}" if is_odd else ""
+    yield Measure("size", times if is_odd else 0.0, 1.0, "of its limit", size)
 
 
 class Judgement(NamedTuple):
@@ -179,8 +191,8 @@ class Judgement(NamedTuple):
     def as_dict(self) -> dict[str, Any]:
         """Give plain numbers and texts, for JSON."""
         rows = [measure._asdict() | {"ratio": measure.ratio} for measure in self.measures]
-        more = {"left_out": list(self.left_out), "worst": self.worst.name, "score": self.score}
-        return self._asdict() | {"measures": rows} | more
+        summary = {"left_out": list(self.left_out), "worst": self.worst.name, "score": self.score}
+        return self._asdict() | {"measures": rows} | summary
 
 
 def judge(
@@ -235,17 +247,16 @@ def judge(
     try:
         legs = find_legs(motion.skeleton)
     except MocapError as error:
-        legs, left_out = (), (f"feet and knees: {error}",)
+        legs = ()
+        left_out = (f"feet and knees: {error.problem()}",)
     places = joint_positions(motion)
-    measures = (
-        *measure_smoothness(motion, places, against),
-        *measure_joints(motion, places),
-        *measure_limbs(motion, places, legs),
-        *measure_body(motion, places, path, stretch),
-    )
+    measures = [*measure_smoothness(motion, places, against), *measure_joints(motion, places)]
+    measures += measure_limbs(motion, places, legs)
+    measures += measure_body(motion, places, path, stretch)
     lengths = np.linalg.norm(motion.skeleton.offsets[1:], axis=-1).tolist()
-    bones, height = dict(zip(motion.skeleton.names[1:], lengths, strict=True)), height_of(places)
-    return Judgement(motion.name, len(motion), motion.fps, measures, left_out, height, bones)
+    bones = dict(zip(motion.skeleton.names[1:], lengths, strict=True))
+    height = height_of(places)
+    return Judgement(motion.name, len(motion), motion.fps, tuple(measures), left_out, height, bones)
 
 
 def judgement_table(judgements: Sequence[Judgement]) -> str:
@@ -264,9 +275,11 @@ def judgement_table(judgements: Sequence[Judgement]) -> str:
     heads = " ".join(f"{name:>7}" for name in ["height", *names])
     rows = [f"{'name':<{width}} {'score':>5} {heads}  worst"]
     for judged in sorted(judgements, key=lambda judged: (judged.score, judged.worst.ratio)):
-        ratios, worst = {measure.name: f"{measure.ratio:.2f}" for measure in judged.measures}, judged.worst
+        ratios = {measure.name: f"{measure.ratio:.2f}" for measure in judged.measures}
+        worst = judged.worst
         cells = [f"{ratios.get(name, '-'):>{max(7, len(name))}}" for name in names]
         numbers = " ".join([f"{f'{judged.height:.3g} m':>7}", *cells])
-        said = f"{worst.name} {worst.value:.3g} {worst.unit} {worst.where and f'({worst.where})'}".rstrip()
-        rows.append(f"{shortened(judged.name, 40):<{width}} {judged.score:>5.1f} {numbers}  {said}")
+        place = f" ({worst.where})" if worst.where else ""
+        flaw = f"{worst.name} {worst.value:.3g} {worst.unit}{place}"
+        rows.append(f"{shortened(judged.name, 40):<{width}} {judged.score:>5.1f} {numbers}  {flaw}")
     return "\n".join(rows)
