@@ -1,5 +1,6 @@
 """The commands `mocap course`, for those who teach from the notebooks or write them, and `mocap lab`."""
 
+import signal
 import sys
 from collections.abc import Sequence
 from functools import partial
@@ -193,6 +194,7 @@ def lab(
     ----------
     folder : folder for a copy of the notebooks; those that it holds already stay as they are.
     """
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)  # `open_course` waits on after a KeyboardInterrupt
     return int(open_course(folder, jupyter))
 
 

@@ -1,5 +1,6 @@
 """The command `mocap`, or `python -m mocap`."""
 
+import re
 import signal
 import sys
 import threading
@@ -63,7 +64,13 @@ def completion(shell: Literal["bash", "zsh", "fish"]) -> None:
 
     Example: mocap completion bash
     """
-    print(root().generate_completion(shell=shell))
+    script = root().generate_completion(shell=shell)
+    if (
+        shell == "zsh"
+    ):  # which looks for the script in a folder of its own, unless the script registers itself
+        functions = re.findall(r"^(_\w+)\(\)", script, re.MULTILINE)
+        script += f"\ncompdef {functions[0]} mocap"
+    print(script)
 
 
 GRAPHS: Commands = {"demo": demo, "graph": GRAPH, "walk": walk, "page": page, "crowd": crowd}

@@ -1,5 +1,7 @@
 """What a command cannot do is one sentence, status 2, and a folder as it was; hostile values too."""
 
+import ast
+import re
 import tomllib
 from pathlib import Path
 
@@ -59,6 +61,10 @@ def contents(folder):
     return {path: path.read_bytes() if path.is_file() else None for path in folder.rglob("*")}
 
 
+ROOT = Path(__file__).parents[2]
+PYTHON = re.compile(r"\b[a-z_]{2,}=|\bmocap\.(?!npz)[a-z]\w*|\b[a-z_]{2,}\(")  # a keyword, a name, a call
+OPTION = re.compile(r"(^|\s)--?[a-z]")
+RAISED = ("MocapError", "FormatError", "NoWalk", "SkeletonMismatch", "Remedy", "missing", "warn")
 REFUSED = tomllib.loads(Path(__file__).with_name("refused.toml").read_text("utf-8"))["REFUSED"]
 
 
@@ -69,7 +75,32 @@ def test_what_cannot_be_is_one_sentence_and_leaves_nothing(folder, monkeypatch, 
     told = run(line, 2).err
     assert message in told
     assert told.startswith("mocap: ") and told.count("\n") == 1 and len(told) <= 300
+    assert not PYTHON.search(told)
     assert contents(folder) == before
+
+
+def texts_of_errors(path):
+    """Yield the texts in what a file raises or warns of."""
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        if isinstance(node, ast.Raise) or (isinstance(node, ast.Call) and ast.unparse(node.func) in RAISED):
+            parts = (part.value for part in ast.walk(node) if isinstance(part, ast.Constant))
+            yield from (part for part in parts if isinstance(part, str))
+
+
+def test_no_error_in_python_names_an_option():
+    rooms = [path for path in (ROOT / "mocap").rglob("*.py") if path.parent.name != "cli"]
+    texts = {text: path for path in rooms for text in texts_of_errors(path)}
+    assert len(texts) > 500
+    assert {text for text in texts if OPTION.search(text)} == set()
+    commands = {text for path in (ROOT / "mocap" / "cli").glob("*.py") for text in texts_of_errors(path)}
+    assert any(OPTION.search(text) for text in commands)  # it would be noticed
+
+
+def test_no_error_of_a_command_names_a_parameter():
+    texts = {text for path in (ROOT / "mocap" / "cli").glob("*.py") for text in texts_of_errors(path)}
+    assert {text for text in texts if PYTHON.search(text)} == set()
+    for told in ("no rate: give fps=.", "see mocap.load", "call name_leg(skeleton, hip)", "give legs=[...]"):
+        assert PYTHON.search(told)
 
 
 COMMANDS = {
