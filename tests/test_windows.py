@@ -224,7 +224,7 @@ def test_each_command_says_its_help(folder, code_page):
     told = parts(done.stdout, code_page)
     assert len(told) == len(COMMANDS)
     for line, (status, text) in zip(COMMANDS, told, strict=True):
-        assert status == 0 and f"usage: mocap {line}" in text.replace(" [build]", " build"), text
+        assert status == 0 and f"Usage: mocap {line}" in text.replace(" [build]", " build"), text
 
 
 @pytest.mark.parametrize(
@@ -308,7 +308,7 @@ def test_a_pool_has_no_more_processes_than_windows_can_wait_for(monkeypatch, tmp
         raise MocapError("enough")
 
     monkeypatch.setattr(conversion.os, "cpu_count", lambda: 128)
-    monkeypatch.setattr(conversion, "ProcessPoolExecutor", pool)
+    monkeypatch.setattr("concurrent.futures.ProcessPoolExecutor", pool)
     pairs = [(tmp_path / f"{n}.amc", tmp_path / f"{n}.bvh") for n in range(100)]
     with pytest.raises(MocapError, match="enough"):
         conversion.convert(pairs, load_save.load)

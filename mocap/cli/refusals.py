@@ -70,7 +70,9 @@ def _unknown_command(error: cyclopts.CycloptsError, program: str, root: cyclopts
     """Say that there is no such command; the name of one inside a group may have been meant, too."""
     word = (error.unused_tokens or [""])[0]
     if word.startswith("-"):
-        return f"{program} has no option {_quoted(word)}: write options after the name of a command."
+        meant = suggestion(word, ["--help", "--version"])
+        advice = "." if meant else ": write options after the name of a command."
+        return f"{program} has no option {_quoted(word)}{advice}{meant}"
     app = error.app or root
     names = command_names(app)
     close = get_close_matches(word, names, 1, ALIKE) or [
