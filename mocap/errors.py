@@ -2,7 +2,9 @@
 
 import sys
 import warnings
+from collections.abc import Mapping
 from pathlib import Path
+from typing import NamedTuple
 
 
 def shortened(text: str, length: int = 80) -> str:
@@ -32,11 +34,71 @@ def printable(text: object) -> str:
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in str(text))
 
 
+class Remedy(NamedTuple):
+    """What helps against an error by way of a parameter, which has another name on a command line.
+
+    Parameters
+    ----------
+    text : what to do, with {} for the parameter's name.
+    parameter : its name in Python.
+
+    Examples
+    --------
+    >>> Remedy("give {}", "fps").worded("--fps")
+    'give --fps'
+    """
+
+    text: str
+    parameter: str
+
+    def worded(self, name: str) -> str:
+        """Return what to do, with this name for the parameter."""
+        return self.text.replace("{}", name)
+
+
 class MocapError(ValueError):
-    """The base of all errors raised on purpose: the input, not the program, is at fault."""
+    """The base of all errors raised on purpose: the input, not the program, is at fault.
+
+    Parameters
+    ----------
+    message : the value, and what is needed.
+    remedy : the parameter that would help. `str` names it as in Python, a command by its option.
+
+    Examples
+    --------
+    >>> error = MocapError("'walk.npz' has no frame rate.", remedy=Remedy("give {}", "fps"))
+    >>> print(error)
+    'walk.npz' has no frame rate: give fps=.
+    >>> print(error.worded({"fps": "--fps"}))
+    'walk.npz' has no frame rate: give --fps.
+    >>> print(error.worded({}))
+    'walk.npz' has no frame rate.
+    """
+
+    def __init__(self, *message: object, remedy: Remedy | None = None) -> None:
+        self.remedy = remedy
+        super().__init__(*message)
+
+    def problem(self) -> str:
+        """Return the message without the remedy."""
+        return printable(super().__str__())
+
+    def worded(self, names: Mapping[str, str]) -> str:
+        """Return the message for those who know parameters by these names; a remedy without one is left out.
+
+        Parameters
+        ----------
+        names : the name of each parameter that is available, by its name in Python.
+        """
+        problem = self.problem()
+        if self.remedy is None or self.remedy.parameter not in names:
+            return problem
+        end = "." if problem.endswith(".") else ""
+        return f"{problem.removesuffix('.')}: {self.remedy.worded(names[self.remedy.parameter])}{end}"
 
     def __str__(self) -> str:
-        return printable(super().__str__())
+        parameter = self.remedy.parameter if self.remedy else ""
+        return self.worded({parameter: f"{parameter}="})
 
 
 class FormatError(MocapError):
@@ -49,6 +111,7 @@ class FormatError(MocapError):
     path : the file.
     line : the line's number, from 1; None for the whole file.
     expected, got : what the format asks for, and what the file holds.
+    remedy : as for `MocapError`.
 
     Examples
     --------
@@ -56,14 +119,17 @@ class FormatError(MocapError):
     walk.amc, line 7: expected 3 numbers for 'lfemur', got 2
     """
 
-    def __init__(self, path: str | Path, line: int | None, expected: str, got: str) -> None:
+    def __init__(
+        self, path: str | Path, line: int | None, expected: str, got: str, *, remedy: Remedy | None = None
+    ) -> None:
         self.path = Path(path)
         self.line = line
         self.expected = expected
         self.got = got
-        super().__init__(path, line, expected, got)
+        super().__init__(path, line, expected, got, remedy=remedy)
 
-    def __str__(self) -> str:
+    def problem(self) -> str:
+        """Return the message without the remedy."""
         place = printable(self.path) + ("" if self.line is None else f", line {self.line}")
         expected = shortened(self.expected, 110)
         return f"{place}: expected {expected}, got {shortened(self.got, min(80, 165 - len(expected)))}"

@@ -3,7 +3,6 @@
 `windows/sitecustomize.py` hides it, and says what this can tell of Windows and what it cannot.
 """
 
-import argparse
 import contextlib
 import os
 import shutil
@@ -16,9 +15,10 @@ import pytest
 from nbformat.v4 import new_code_cell, new_notebook
 from walking import generate_walk
 
-from mocap.cli.main import _parser, main
+from mocap.cli.main import main
 from mocap.errors import MocapError
 from mocap.files import conversion, load_save
+from tests.cli.listing import LEAVES
 from tests.strategies import wave
 
 ROOT = Path(__file__).parents[1]
@@ -39,17 +39,7 @@ for line in sys.argv[1:]:
 """
 
 
-def leaves(parser, words=()):
-    """Yield each command that has none below it, as it is typed."""
-    groups = [action for action in parser._actions if isinstance(action, argparse._SubParsersAction)]
-    if not groups:
-        yield " ".join(words)
-    for group in groups:
-        for name, below in group.choices.items():
-            yield from leaves(below, (*words, name))
-
-
-COMMANDS = sorted(leaves(_parser()))
+COMMANDS = sorted(LEAVES)
 NOWHERE = "'→²-é.bvh'"  # a file that is missing; cp1252 has no →, cp950 no é
 REFUSED = {
     "demo": NOWHERE,
@@ -80,6 +70,7 @@ REFUSED = {
     "course mark": "handed-in",
     "course run": NOWHERE,
     "lab": "a.bvh/x",
+    "completion": "→",
 }
 HEAVY = {line for line in REFUSED if line.startswith("course ")} - {"course lite", "course mark"}  # imports
 WORKS = {
@@ -108,6 +99,7 @@ WORKS = {
     "course board": "-o board",
     "course run": "note.ipynb",
     "lab": "lab -- --version",
+    "completion": "bash",
 }
 # What needs a network, JupyterLite, or the means of Linux; they are in REFUSED.
 NEVER = {"data fetch", "course lite", "course mark"}
@@ -232,7 +224,7 @@ def test_each_command_says_its_help(folder, code_page):
     told = parts(done.stdout, code_page)
     assert len(told) == len(COMMANDS)
     for line, (status, text) in zip(COMMANDS, told, strict=True):
-        assert status == 0 and f"usage: mocap {line}" in text.replace(" [build]", " build"), text
+        assert status == 0 and f"Usage: mocap {line}" in text.replace(" [build]", " build"), text
 
 
 @pytest.mark.parametrize(
@@ -316,7 +308,7 @@ def test_a_pool_has_no_more_processes_than_windows_can_wait_for(monkeypatch, tmp
         raise MocapError("enough")
 
     monkeypatch.setattr(conversion.os, "cpu_count", lambda: 128)
-    monkeypatch.setattr(conversion, "ProcessPoolExecutor", pool)
+    monkeypatch.setattr("concurrent.futures.ProcessPoolExecutor", pool)
     pairs = [(tmp_path / f"{n}.amc", tmp_path / f"{n}.bvh") for n in range(100)]
     with pytest.raises(MocapError, match="enough"):
         conversion.convert(pairs, load_save.load)

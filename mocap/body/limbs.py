@@ -14,7 +14,9 @@ import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap.body.skeleton import Skeleton
-from mocap.errors import MocapError
+from mocap.errors import MocapError, Remedy
+
+LEGS_BY_HAND = Remedy("name each by hand, {}[name_leg(skeleton, hip, knee, ankle, ball), ...]", "legs")
 
 # Hip, knee, ankle and shoulder, elbow, wrist of the left side, as files name them. Legs and arms are looked
 # up separately, and a prefix up to a colon is ignored.
@@ -77,16 +79,16 @@ def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
 
     Notebook: 04b-feet
     """
-    return _find_legs(skeleton, "Name each by hand: legs=[name_leg(skeleton, hip, knee, ankle, ball), ...].")
+    return _find_legs(skeleton, remedy=LEGS_BY_HAND)
 
 
-def _find_legs(skeleton: Skeleton, remedy: str) -> tuple[Leg, ...]:
-    """Find the left and the right leg; the error for unknown names advises `remedy`."""
+def _find_legs(skeleton: Skeleton, advice: str = "", remedy: Remedy | None = None) -> tuple[Leg, ...]:
+    """Find the left and the right leg; the error for unknown names ends with the advice or the remedy."""
     pair = find_pair(skeleton, "legs")
     if not pair:
         joints = shorten(", ".join(skeleton.names), 38)
         names = shorten(", ".join(dict(LIMBS)), 40)
-        raise MocapError(f"No legs found among {joints}: tried {names}. {remedy}")
+        raise MocapError(f"No legs found among {joints}: tried {names}.{advice}", remedy=remedy)
     legs = [Leg(hip, knee, ankle, _ball(skeleton, ankle)) for hip, knee, ankle in pair]
     for leg in legs:
         _require_leg(skeleton, leg)
@@ -195,7 +197,7 @@ def roles(skeleton: Skeleton) -> dict[str, int]:
     Notebook: 13-retargeting
     """
     joints: dict[str, int] = {}
-    for side, leg in zip(SIDES, _find_legs(skeleton, "Rename the joints."), strict=True):
+    for side, leg in zip(SIDES, _find_legs(skeleton, advice=" Rename the joints."), strict=True):
         joints |= {f"{side} {part}": joint for part, joint in zip(LEG, leg, strict=True)}
     for side, arm in zip(SIDES, find_pair(skeleton, "arms"), strict=False):  # there may be none
         joints |= {f"{side} {part}": joint for part, joint in zip(ARM, arm, strict=True)}

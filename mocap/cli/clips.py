@@ -4,17 +4,14 @@ import math
 import re
 import sys
 import tempfile
-import webbrowser
 from collections.abc import Sequence
-from dataclasses import asdict
-from functools import partial
 from json import dumps
 from pathlib import Path
 from typing import Annotated, Literal
 
 from mocap import files, quality, widgets
 from mocap._shared.atomic import make_folder, require_folder, require_writable
-from mocap.cli.options import CM, Reading, Sources, Unit, as_options, bar, tell, tell_of_failures
+from mocap.cli.options import CM, Reading, Sources, Unit, bar, tell, tell_of_failures
 from mocap.errors import MocapError, printable
 from mocap.files import conversion
 from mocap.files.conversion import find_files
@@ -34,6 +31,7 @@ def info(file: Path, *, joints: bool = False, reading: Reading) -> None:
     file : a motion file.
     joints : list the names of the joints, too.
     """
+    reading.require_skeleton_of_use(file)
     motion, angles, _ = reading.read(file)
     print(quality.inspect(motion, angles).table())
     if joints:
@@ -51,6 +49,8 @@ def view(clip: Path, *, out: Path | None = None, reading: Reading) -> None:
     clip : a motion file.
     out : an .html, .gif, .mp4 or .png to write; opens no browser.
     """
+    import webbrowser  # it takes a while
+
     if out:
         require_writable(out)
     motion = reading.load(clip)
@@ -89,17 +89,16 @@ def judge(
     -----
     Example: mocap judge made.bvh --against clips/ --path line.csv
     """
-    from mocap.files.load_save import read  # the help needs no NumPy
     from mocap.files.path_files import load_path
     from mocap.quality.judging import judgement_table
 
-    clips = [files.load(clip, **asdict(reading)) for clip in find_files(against)]
+    clips = [reading.load_any(clip) for clip in find_files(against)]
     line = load_path(path, scale=unit) if path else None
     judgements = []
     problems = []
     for file in bar("judging")(find_files(motions, deep=True)):
         try:
-            motion, _, stretch = read(file, reading.skeleton, reading.fps, reading.scale, math.inf)
+            motion, _, stretch = reading.read(file, math.inf)
             judgements.append(quality.judge(motion, against=clips, path=line, stretch=stretch))
         except MocapError as error:
             problems.append(str(error))
@@ -109,7 +108,7 @@ def judge(
         print(judgement_table(judgements))
     omissions = [text for judgement in judgements for text in judgement.left_out]
     for problem in dict.fromkeys([*omissions, *problems]):
-        print(f"mocap: {printable(as_options(problem))}", file=sys.stderr)
+        print(f"mocap: {printable(problem)}", file=sys.stderr)
     return 2 if problems else 0
 
 
@@ -131,8 +130,7 @@ def convert(source: Path, target: Path, *, reading: Reading, to: Literal["bvh", 
     Example: mocap convert clips/ out/ --to glb
     """
     pairs = conversion.plan(source, target, f".{to}")
-    load = partial(files.load, **asdict(reading))
-    failed = conversion.convert(pairs, load, progress=bar("converting"))
+    failed = conversion.convert(pairs, reading.load_any, progress=bar("converting"))
     return tell_of_failures("converted", len(pairs), failed)
 
 

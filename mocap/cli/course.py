@@ -2,11 +2,12 @@
 
 import signal
 import sys
-from argparse import SUPPRESS
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import Annotated
+
+from cyclopts import Parameter
 
 from mocap._shared.atomic import require_writable, write_file
 from mocap.cli.options import bar, number
@@ -18,6 +19,7 @@ from mocap.course.opening import build_lite, open_course, stored
 from mocap.errors import printable
 
 Points = Annotated[Path | None, "a .toml file of lines EXERCISE = POINTS (default: 1 each)"]
+ALL_BEHIND = Parameter(consume_multiple=True, allow_leading_hyphen=True, show=False)  # also with hyphens
 HANDOUT = Path("mocap-handout")
 Moving = Annotated[bool, "run the notebooks (minutes) and record the experiments' sliders"]
 
@@ -151,7 +153,6 @@ def mark(
     worth = marking.grades.read_points(points)
     students = marking.grades.read_roster(roster)
     require_writable(out)
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends it as Ctrl-C does
     marks: list[marking.grades.Mark] = []
     grades: list[marking.grades.Grade] = []
     for marks_of_notebook in marking.mark(folder, bar("marking"), partial(print, file=sys.stderr), jobs):
@@ -182,7 +183,7 @@ def run(notebooks: Sequence[Path] = ()) -> None:
 def lab(
     folder: Path = Path("mocap-course"),
     *,
-    jupyter: Annotated[Sequence[str], {"nargs": "...", "help": SUPPRESS}] = (),
+    jupyter: Annotated[Sequence[str], ALL_BEHIND] = (),
 ) -> int:
     """Open the course in JupyterLab.
 
@@ -193,6 +194,7 @@ def lab(
     ----------
     folder : folder for a copy of the notebooks; those that it holds already stay as they are.
     """
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)  # `open_course` waits on after a KeyboardInterrupt
     return int(open_course(folder, jupyter))
 
 

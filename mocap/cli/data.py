@@ -1,16 +1,13 @@
 """The commands for clips of other labs: `mocap data list`, `sets` and `fetch`."""
 
-import signal
-import threading
-from collections.abc import Iterator
-from contextlib import contextmanager
-from typing import Annotated
+from typing import Annotated, Literal
 
 from mocap import datasets
 from mocap.cli.options import bar, number
 from mocap.cli.typed_commands import Group
-from mocap.datasets.named_sets import SETS, clips_of, fetch_set
 from mocap.errors import MocapError
+
+SetName = Literal["lafan1", "bandai_namco", "100style"]  # the keys of `named_sets.SETS`
 
 
 def list_trials(
@@ -35,6 +32,8 @@ def list_trials(
 
 def list_sets() -> None:
     """List the named sets that datasets.from_set reads, with their licences and joints."""
+    from mocap.datasets.named_sets import SETS, clips_of
+
     for name, row in SETS.items():
         print(f"{name:<12} {row.title}")
         rows = {"licence": row.licence, "allows": row.allows, "address": row.address}
@@ -43,7 +42,7 @@ def list_sets() -> None:
         print("\n".join(f"{'':<12} {key:<8} {value}" for key, value in rows.items()))
 
 
-def fetch(set: Annotated[str, {"choices": list(SETS)}], *, accept: bool = False) -> None:
+def fetch(set: SetName, *, accept: bool = False) -> None:
     """Download all clips of a named set, once.
 
     Download all clips of a named set, unless they are at hand. A download that broke off, or that Ctrl-C
@@ -54,26 +53,14 @@ def fetch(set: Annotated[str, {"choices": list(SETS)}], *, accept: bool = False)
     set : its name.
     accept : accept the licence that the set is under.
     """
+    from mocap.datasets.named_sets import SETS, fetch_set
+
     named_set = SETS[set]
     if not accept:
         print(named_set.terms())
         raise MocapError(f"If you accept this licence, add --accept: {named_set.size()} to download.")
-    with sigterm_as_ctrl_c():
-        clips = fetch_set(set, bar("fetching"))
+    clips = fetch_set(set, bar("fetching"))
     print(f"{len(clips)} clips are at hand")
-
-
-@contextmanager
-def sigterm_as_ctrl_c() -> Iterator[None]:
-    """Raise KeyboardInterrupt when the system asks the process to end (SIGTERM), in the main thread."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    handler = signal.signal(signal.SIGTERM, signal.default_int_handler)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, handler)
 
 
 DATA = Group(

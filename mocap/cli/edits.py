@@ -10,7 +10,7 @@ from mocap import blending, body, editing, feet, quality
 from mocap._shared.atomic import require_folder
 from mocap.cli import options
 from mocap.cli.options import TURN, Clean, Reading, Unit, bar, check_out, number, tell, write_out
-from mocap.errors import MocapError, warn
+from mocap.errors import MocapError, Remedy, warn
 from mocap.files.conversion import convert, find_files, require_apart
 
 if TYPE_CHECKING:
@@ -46,12 +46,17 @@ def warp(
     Notes
     -----
     keys, one in each line of FILE; what follows a # is left out:
-      at 1.5s lhand 0.10 0.25 0   second 1.5: the joint is moved, metres to the body's left, up and ahead
-      at 180 lhand 0.10 0.25 0    the same at frame 180; more joints may be moved at one moment
-      at 1s same                  from there on, or up to there, the pose is as it was
-      at 1s level                 the same, and the change stands still there: at take-off and landing
+      at 1.5s lhand 0.10 0.25 0   second 1.5: the joint is moved, in metres to
+                                  the body's left, up and ahead
+      at 180 lhand 0.10 0.25 0    the same at frame 180; more joints may be
+                                  moved at one moment
+      at 1s same                  from there on, or up to there, the pose is as
+                                  it was
+      at 1s level                 the same, and the change stands still there:
+                                  at take-off and landing
       at 2s lhand 0 0.5 0 level   a pose may be level, too
-      time 2.5 2                  the clip's second 2 is shown at second 2.5; two such lines or more
+      time 2.5 2                  the clip's second 2 is shown at second 2.5;
+                                  two such lines or more
 
     `mocap info IN --joints` lists the names of the joints. Where FILE does not say it, the motion is as it
     was --window seconds before the first pose and after the last one.
@@ -67,7 +72,7 @@ def warp(
         try:
             body.find_legs(motion.skeleton)
         except MocapError as error:
-            raise MocapError(f"{str(error).partition(':')[0]}: give --loose-feet.") from None
+            raise MocapError(error.problem(), remedy=Remedy("give {}", "loose_feet")) from None
         motion = feet.mark_plants(motion)
     warped = warp_plans.warp(motion, plan, window=window, feet=not loose_feet)
     poses = sum(map(len, plan.wishes.values()))

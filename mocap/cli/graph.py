@@ -182,5 +182,4 @@ where its clips are. The word `build` may be left out. For a folder of clips cal
 Notes
 -----
 Example: mocap graph clips/ --mirror -o graph.npz"""
-USAGE = "mocap graph [build] CLIPS... -o graph.npz\n       mocap graph info graph.npz"
-GRAPH = Group(TEXT, {"build": build, "info": info}, USAGE)
+GRAPH = Group(TEXT, {"build": build, "info": info}, build)

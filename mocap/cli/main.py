@@ -1,111 +1,236 @@
 """The command `mocap`, or `python -m mocap`."""
 
-import argparse
-import errno
-import os
 import re
+import signal
 import sys
+import threading
+import time
+import traceback
 import warnings
-from collections.abc import Sequence
-from typing import NoReturn
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from inspect import BoundArguments
+from itertools import chain, takewhile
+from typing import Any, Literal
+
+import cyclopts
 
 import mocap
+from mocap.cli import help_pages, refusals
 from mocap.cli.clips import convert, find, info, judge, view
 from mocap.cli.course import COURSE, lab
 from mocap.cli.data import DATA
 from mocap.cli.edits import bend, blend, loop, retarget, warp
 from mocap.cli.graph import GRAPH, demo
 from mocap.cli.in_betweens import inbetween
-from mocap.cli.options import as_options
-from mocap.cli.typed_commands import Group, Run, add_commands, call
+from mocap.cli.messages import VERBOSITY, Verbosity, note, say, saying
+from mocap.cli.options import named_options
+from mocap.cli.streams import PatientOutput, prepared_streams
+from mocap.cli.typed_commands import Commands, Group, make_root, option_names
 from mocap.cli.walk import crowd, page, walk
-from mocap.errors import MocapError, MocapWarning, printable, shortened
+from mocap.errors import MocapError, MocapWarning, shortened
 from mocap.files import formats
 
-LONGEST = 150  # letters of a sentence about options, which may quote what was typed
-ACTIONS = (*GRAPH.commands, "-h", "--help")  # before any other word, `build` may be left out
-CLIPS: tuple[Run, ...] = (blend, info, judge, convert, warp, bend, loop, find, crowd, retarget, inbetween)
-COMMANDS: dict[str, Run | Group] = {"demo": demo, "graph": GRAPH, "walk": walk, "page": page}
-COMMANDS |= {run.__name__: run for run in CLIPS}
-COMMANDS |= {"data": DATA, "view": view, "course": COURSE, "lab": lab}
+# Exit statuses
+DONE = 0
+UNEXPECTED = 1
+REFUSED = 2
+INTERRUPTED = 130
+PIPE_CLOSED = 141
+
+SHARED_FLAGS = ("-q", "--quiet", "-v", "--verbose", "--debug")  # those of `Verbosity`
+HELP_FLAGS = {"-h", "--help"}
+ENDS_OF_OPTIONS = ("--", "--jupyter")
+RAISE: Any = {"exit_on_error": False, "print_error": False}
+NOWHERE: Any = object()  # a console for errors, which are printed here: that of `rich` takes 0.1 s to load
+EPILOGUE = (
+    "mocap COMMAND --help lists what a command takes. All take -q (no progress and no warnings), -v (what is "
+    "read, and how long each stage takes) and --debug (the traceback of an error)."
+)
 
 
-class _Parser(argparse.ArgumentParser):
-    def error(self, message: str) -> NoReturn:
-        """Raise, so that bad options are one sentence like all other errors."""
-        shown = message if len(message) <= LONGEST else f"{message[:LONGEST]}…"
-        raise MocapError(f"{shown} (see {self.prog} --help)")
+def completion(shell: Literal["bash", "zsh", "fish"]) -> None:
+    """Print the script by which a shell completes commands, options and choices.
+
+    Parameters
+    ----------
+    shell : bash, zsh or fish.
+
+    Notes
+    -----
+    Where to put it:
+      bash  source <(mocap completion bash)    as a line of ~/.bashrc
+      zsh   source <(mocap completion zsh)     of ~/.zshrc, after compinit
+      fish  mocap completion fish | source     of ~/.config/fish/config.fish
+
+    Example: mocap completion bash
+    """
+    script = root().generate_completion(shell=shell)
+    if shell == "zsh":  # it looks for the script in a folder of its own, unless the script registers itself
+        functions = re.findall(r"^(_\w+)\(\)", script, re.MULTILINE)
+        script += f"\ncompdef {functions[0]} mocap"
+    print(script)
 
 
-def _parser() -> argparse.ArgumentParser:
-    description = f"New human motion out of captured motion. Motion files are {formats.listed()}."
-    parser = _Parser(prog="mocap", description=description)
-    parser.add_argument("--version", action="version", version=f"mocap {mocap.__version__}")
-    parser.set_defaults(parser=parser)
-    add_commands(parser, COMMANDS)
-    return parser
+GRAPHS: Commands = {"demo": demo, "graph": GRAPH, "walk": walk, "page": page, "crowd": crowd}
+CLIPS: Commands = {"info": info, "view": view, "judge": judge, "convert": convert, "find": find}
+EDITS: Commands = {run.__name__: run for run in (warp, bend, loop, blend, inbetween, retarget)}
+COURSES: Commands = {"data": DATA, "course": COURSE, "lab": lab}
+COMMANDS: dict[str, Commands] = {
+    "Motion graphs": GRAPHS,
+    "Clips": CLIPS,
+    "Edits": EDITS,
+    "Data and course": COURSES,
+    "Shell": {"completion": completion},
+}
+"""All commands, in the groups in which `mocap --help` lists them."""
 
 
-def _written_out(words: list[str]) -> list[str]:
-    """Write abbreviations in full: `build` after `mocap graph`, and the option that `--` of `mocap lab` is.
+def root(wanted: str | None = None) -> cyclopts.App:
+    """Make the command that has all others.
+
+    Parameters
+    ----------
+    wanted : the name of the one that has to be complete; the others can only be listed then. All by default.
+    """
+    text = f"New human motion out of captured motion. Motion files are {formats.listed()}."
+    version = f"mocap {mocap.__version__}"
+    return make_root("mocap", text, COMMANDS, Verbosity, version=version, epilogue=EPILOGUE, wanted=wanted)
+
+
+def in_order(words: Sequence[str]) -> list[str]:
+    """Put words in the order in which they are parsed.
+
+    `-q`, `-v` and `--debug` may stand before the name of a command, a group alone shows its help, and the
+    words after the `--` of `mocap lab` are an option's.
 
     Examples
     --------
-    >>> _written_out(["graph", "clips/"]), _written_out(["graph", "info", "graph.npz"])
-    (['graph', 'build', 'clips/'], ['graph', 'info', 'graph.npz'])
-    >>> _written_out(["lab", "mine", "--", "--no-browser"])
+    >>> in_order(["-q", "info", "walk.bvh"]), in_order(["graph"])
+    (['info', 'walk.bvh', '-q'], ['graph', '--help'])
+    >>> in_order(["lab", "mine", "--", "--no-browser"])
     ['lab', 'mine', '--jupyter', '--no-browser']
     """
-    if words[:1] == ["graph"] and words[1:] and words[1] not in ACTIONS:
-        return ["graph", "build", *words[1:]]
-    return ["--jupyter" if word == "--" and words[0] == "lab" else word for word in words]
-
-
-def _say(message: Warning | str, *_place: object, **_options: object) -> None:
-    """Write an error or a warning as one line, with the names that options have on a command line."""
-    text = as_options(printable(message))
-    text = re.sub(r"\S{200,}", lambda word: shortened(word[0]), text)  # endless names
-    print(f"mocap: {text}", file=sys.stderr)
-
-
-def _pipe_is_closed(error: Exception) -> bool:
-    """Return whether the reader has seen enough, as with `mocap data list | head`.
-
-    Windows reports that as an invalid argument of a file without a name.
-    """
-    invalid = isinstance(error, OSError) and error.errno == errno.EINVAL and error.filename is None
-    return isinstance(error, BrokenPipeError) or (os.name == "nt" and invalid)
+    leading = [*takewhile(lambda word: word in SHARED_FLAGS or not word.startswith("-"), words)]
+    flags = [word for word in leading if word in SHARED_FLAGS]
+    names = [word for word in leading if word not in SHARED_FLAGS]
+    rest = [*names, *words[len(leading) :]]
+    groups = [name for listed in COMMANDS.values() for name, run in listed.items() if isinstance(run, Group)]
+    if not rest or rest in ([group] for group in groups):
+        return [*rest, "--help"]
+    end = rest.index("--") if "--" in rest else len(rest)
+    last = rest[end:]
+    if last and rest[0] == "lab":
+        last = ["--jupyter", *last[1:]]
+    return [*rest[:end], *flags, *last]
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command and return its exit status.
 
-    It is 0, 2 for bad input, 130 after Ctrl-C, or 141 after a closed pipe.
+    It is 0, 2 for bad input, 1 for an error that was not expected, 130 after Ctrl-C or SIGTERM, or 141 after
+    a closed pipe.
 
     Parameters
     ----------
     arguments : the words after `mocap`; those of the command line by default.
     """
-    if hasattr(sys.stdout, "reconfigure"):
-        sys.stdout.reconfigure(errors="replace")  # a terminal that knows no ° shows ?
+    words = [*(sys.argv[1:] if arguments is None else arguments)]
+    with prepared_streams() as output:
+        try:
+            status = _run(words)
+            output.flush()
+        except BaseException as error:
+            status = _tell(error, debug="--debug" in words)
+            _end(output)
+        if output.abandoned:
+            output.discard()
+            return PIPE_CLOSED
+        return status
+
+
+def _end(output: PatientOutput) -> None:
+    """Print what was said before an error, if that is possible."""
     try:
-        words = _written_out(sys.argv[1:] if arguments is None else [*arguments])
-        options, unknown = _parser().parse_known_args(words)
-        if unknown:
-            options.parser.error(f"unrecognized arguments: {' '.join(unknown)}")
-        with warnings.catch_warnings():
+        output.flush()
+    except MocapError:
+        output.discard()
+
+
+def _run(words: Sequence[str]) -> int:
+    """Parse the words and call the command."""
+    ordered = in_order(words)
+    if ordered[0] == "--version":
+        print(f"mocap {mocap.__version__}")
+        return DONE
+    app = root(ordered[0])
+    if HELP_FLAGS & {*takewhile(lambda word: word not in ENDS_OF_OPTIONS, ordered)}:
+        ordered = [word for word in ordered if word not in HELP_FLAGS]
+        names, apps, rest = app.parse_commands(ordered)
+        if apps[-1].default_command or not rest:
+            print(help_pages.page(apps[-1], " ".join(["mocap", *names])))
+            return DONE
+    try:
+        command, bound, _ = app.parse_args(ordered, error_console=NOWHERE, **RAISE)
+    except cyclopts.CycloptsError as error:
+        raise MocapError(refusals.explain(error, root())) from error
+    start = time.perf_counter()
+    chosen = dict(chain.from_iterable(named.items() for named in COMMANDS.values()))[ordered[0]]
+    if isinstance(chosen, Group):
+        refusals.require_meant(ordered[1:], ordered[0], [*chosen.commands])
+    with _sigterm_as_ctrl_c(), saying(_take_verbosity(bound)), warnings.catch_warnings():
+        if VERBOSITY.get().quiet:
+            warnings.simplefilter("ignore", MocapWarning)
+        else:
             warnings.simplefilter("always", MocapWarning)
-            warnings.showwarning = _say
-            status = int(call(options.run, options) or 0)
-            sys.stdout.flush()
-            return status
-    except (MocapError, OSError) as error:  # of the system: such as a name that is too long
-        if _pipe_is_closed(error):
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-            return 141
-        _say(str(error))
-        return 2
-    except KeyboardInterrupt as interruption:
-        advice = getattr(interruption, "__notes__", [])
-        _say(" ".join(["interrupted; no half-written file is left.", *advice]))
-        return 130
+        warnings.showwarning = _show_warning
+        with named_options(option_names(command)):
+            status = command(*bound.args, **bound.kwargs)
+        seconds = time.perf_counter() - start
+        note(f"done in {seconds:.1f} s, {time.process_time():.1f} s of processor time")
+    return int(status or DONE)
+
+
+def _take_verbosity(bound: BoundArguments) -> Verbosity:
+    """Take the options that all commands share out of the values for a command."""
+    names = ("quiet", "verbose", "debug")
+    return Verbosity(**{name: bound.arguments.pop(name) for name in names if name in bound.arguments})
+
+
+def _show_warning(message: Warning | str, *_place: object, **_options: object) -> None:
+    """Write a warning as one line."""
+    say(message)
+
+
+def _tell(error: BaseException, *, debug: bool) -> int:
+    """Write an error as one sentence, after its traceback if that was asked for; return the exit status."""
+    if isinstance(error, SystemExit):
+        raise error
+    if debug:
+        traceback.print_exception(error)
+    if isinstance(error, KeyboardInterrupt):
+        say(" ".join(["interrupted; no half-written file is left.", *getattr(error, "__notes__", [])]))
+        return INTERRUPTED
+    if isinstance(error, MocapError | OSError):  # of the system: such as a name that is too long
+        say(error)
+        return REFUSED
+    if isinstance(error, MemoryError):
+        say("out of memory: try fewer or shorter clips, or a lower frame rate (--debug shows where it was).")
+        return UNEXPECTED
+    kind = type(error).__name__
+    shown = shortened(f"{error}", 80) or "no further text"
+    say(f"unexpected {kind}: {shown}. This is a bug; the same with --debug shows where.")
+    return UNEXPECTED
+
+
+@contextmanager
+def _sigterm_as_ctrl_c() -> Iterator[None]:
+    """Raise KeyboardInterrupt when the system asks the process to end (SIGTERM), in the main thread."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    handler = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, handler)

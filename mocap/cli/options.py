@@ -1,10 +1,10 @@
 """What the commands share: options declared once, a progress bar, clips that are read, and files to write."""
 
-import argparse
 import math
 import os
-import re
-from collections.abc import Callable, Iterable, Sequence
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from mocap import body, files, graphs
 from mocap._shared.atomic import require_writable
 from mocap._shared.progress import Progress
+from mocap.cli.messages import VERBOSITY, note
 from mocap.errors import MocapError, printable
 
 if TYPE_CHECKING:
@@ -32,7 +33,7 @@ def number(low: float, high: float, kind: Callable[[str], float] = float) -> Cal
     4.5
     >>> number(0, 10, int)("nan")
     Traceback (most recent call last):
-    argparse.ArgumentTypeError: 'nan' is not a whole number from 0 to 10
+    mocap.errors.MocapError: 'nan' is not a whole number from 0 to 10
     """
     expected = f"a whole number from {low} to {high}" if kind is int else f"a number from {low:g} to {high:g}"
 
@@ -42,7 +43,7 @@ def number(low: float, high: float, kind: Callable[[str], float] = float) -> Cal
         except ValueError:
             value = math.nan
         if not low <= value <= high:
-            raise argparse.ArgumentTypeError(f"{text[:40]!r} is not {expected}")
+            raise MocapError(f"{text[:40]!r} is not {expected}")
         return value
 
     return read
@@ -58,6 +59,39 @@ Clean = Annotated[bool, "clean up footskate: planted feet stand still"]
 Seed = Annotated[int, number(0, 2**32 - 1, int), "seed of what is drawn at random"]
 
 
+# The options that set the parameters of `files.load`, which its errors name.
+READING = {"skeleton": "--skeleton", "fps": "--fps", "scale": "--scale"}
+SOURCES = READING | {"fps": "--fps to mocap convert"}  # here --fps is the rate of a graph, or is missing
+
+
+@contextmanager
+def named_options(names: Mapping[str, str]) -> Iterator[None]:
+    """Name options in an error that names parameters.
+
+    Examples
+    --------
+    >>> from mocap.errors import Remedy
+    >>> with named_options({"fps": "--fps"}):
+    ...     raise MocapError("no rate", remedy=Remedy("give {}", "fps"))
+    Traceback (most recent call last):
+    mocap.errors.MocapError: no rate: give --fps
+    """
+    try:
+        yield
+    except MocapError as error:
+        if error.remedy is None:
+            raise
+        raise MocapError(error.worded(names)) from error
+
+
+@contextmanager
+def timed_reading(path: Path) -> Iterator[None]:
+    """Note with `-v` which file is read, and how long that takes."""
+    start = time.perf_counter()
+    yield
+    note(f"read {path} in {time.perf_counter() - start:.2f} s")
+
+
 @dataclass(frozen=True)
 class Reading:
     """How one clip is read; the options of a command that has such a parameter."""
@@ -66,22 +100,38 @@ class Reading:
     fps: Annotated[float | None, RATE, "frames per second (default: as in the file; 120 for .amc)"] = None
     scale: Annotated[float | None, LENGTH, "metres per unit (default: 0.01; for .amc as in the .asf)"] = None
 
-    def read(self, path: Path) -> "Recording":
-        """Read a clip; raise MocapError as `files.load`, and for a skeleton that the clip does not need."""
+    def read(self, path: Path, stretch: float | None = None) -> "Recording":
+        """Read a clip; raise MocapError as `files.load` does, with the names of options.
+
+        Parameters
+        ----------
+        path : the clip.
+        stretch : metres by which bones may change their length; by default as for `files.load`.
+        """
         from mocap.files.load_save import read  # the help needs no NumPy
         from mocap.files.rigid_bones import STRETCH
 
+        limit = STRETCH if stretch is None else stretch
+        with named_options(READING), timed_reading(path):
+            return read(path, self.skeleton, self.fps, self.scale, limit)
+
+    def require_skeleton_of_use(self, path: Path) -> None:
+        """Raise for a skeleton that a clip does not need."""
         if self.skeleton and path.suffix.lower() in (".bvh", ".npz"):
             raise MocapError(f"--skeleton is for .amc clips; {path} needs none.")
-        return read(path, self.skeleton, self.fps, self.scale, STRETCH)
 
     def load(self, path: Path) -> "Motion":
         """Read a clip, and warn of a body of another size than people's."""
         from mocap.quality.clip_flaws import warn_of_size
 
+        self.require_skeleton_of_use(path)
         motion = self.read(path).motion
         warn_of_size([motion])
         return motion
+
+    def load_any(self, path: Path) -> "Motion":
+        """Read one of several clips, of which not all need the skeleton."""
+        return self.read(path).motion
 
 
 @dataclass(frozen=True)
@@ -95,9 +145,14 @@ class Sources:
         """Read the clips that `find_files` found, and warn of bodies of other sizes than people's."""
         from mocap.quality.clip_flaws import warn_of_size
 
-        clips = [files.load(path, skeleton=self.skeleton, scale=self.scale) for path in bar("reading")(paths)]
+        with named_options(SOURCES):
+            clips = [self._load(path) for path in bar("reading")(paths)]
         warn_of_size(clips)
         return clips
+
+    def _load(self, path: Path) -> "Motion":
+        with timed_reading(path):
+            return files.load(path, skeleton=self.skeleton, scale=self.scale)
 
 
 @dataclass(frozen=True)
@@ -130,6 +185,8 @@ class Building(Sources):
 def bar(label: str) -> Progress:
     """Show a progress bar on a terminal, for work that takes longer than a second; erase it at the end.
 
+    With `-v`, say how long it took.
+
     Examples
     --------
     >>> list(bar("counting")([1, 2, 3]))
@@ -137,7 +194,19 @@ def bar(label: str) -> Progress:
     """
     from tqdm import tqdm  # imported here, so that `mocap --help` stays quick
 
-    return partial(tqdm, desc=label, delay=1.0, leave=False, disable=None)
+    verbosity = VERBOSITY.get()
+    show = partial(tqdm, desc=label, delay=1.0, leave=False, disable=verbosity.quiet or None)
+    return partial(_timed, label, show) if verbosity.verbose else show
+
+
+def _timed(label: str, show: Progress, items: Sequence[Any]) -> Iterator[Any]:
+    """Yield the items, and note how many there were and how long they took."""
+    start = time.perf_counter()
+    count = 0
+    for item in show(items):
+        yield item
+        count += 1
+    note(f"{label}: {count} in {time.perf_counter() - start:.1f} s")
 
 
 def tell(**rows: object) -> None:
@@ -192,16 +261,5 @@ def tell_of_failures(verb: str, count: int, problems: Sequence[str], place: str 
     """Print the count of files that succeeded, and each problem; return the exit status of the command."""
     tell(**{verb: f"{count - len(problems)} of {count}{place}"})
     for problem in problems:
-        tell(failed=as_options(problem))
+        tell(failed=problem)
     return 2 if problems else 0
-
-
-def as_options(message: str) -> str:
-    """Return a message with the names that its arguments have on a command line.
-
-    Examples
-    --------
-    >>> as_options("no rate: give fps=")
-    'no rate: give --fps'
-    """
-    return re.sub(r"\b(skeleton|scale|fps|clips)=(?=\W|$)", r"--\1", message)

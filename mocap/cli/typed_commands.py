@@ -2,105 +2,297 @@
 
 A parameter by position is an argument, one by keyword an option. Its annotation says what it takes. Its help
 stands in the docstring, as in `name (METAVAR) : text`, or in the annotation, where commands share an option.
-A dataclass among the annotations stands for an option for each of its fields.
+A dataclass among the annotations stands for an option for each of its fields. `cyclopts` does the rest: it
+parses the words, reads values, finds what is wrong, and writes the completion of shells.
 """
 
-import argparse
+import ast
 import inspect
 import re
-import shutil
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import is_dataclass
+import textwrap
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, is_dataclass
+from functools import partial
 from pathlib import Path
-from textwrap import fill
-from typing import Annotated, Any, Literal, NamedTuple, get_args, get_origin
+from typing import Annotated, Any, NamedTuple, cast, get_args, get_origin
+
+import cyclopts
+from cyclopts import App, Parameter, Token
 
 Run = Callable[..., int | None]
 _PARAMETER = re.compile(r"^(\w+)(?: \((\S+)\))? : (.*(?:\n +.*)*)", re.MULTILINE)
+PLAIN_WORDS = Parameter(  # no `--no-clean`, no JSON for lists, and the last one of repeated options counts
+    negative=(), json_list=False, json_dict=False, allow_repeating=True
+)
+OPTIONS = cyclopts.Group("Options")
+SEVERAL = Parameter(consume_multiple=(1, None))  # an option takes all words up to the next option
+AT_MOST_ONE = Parameter(consume_multiple=(0, 1))
+ONE_EACH = Parameter(consume_multiple=False)  # an option is repeated for each of its values
 
 
 class Group(NamedTuple):
-    """Commands under one name, and the text of its help."""
+    """Commands under one name, the text of its help, and the command that the name alone stands for."""
 
     text: str
     commands: "Mapping[str, Run | Group]"
-    usage: str | None = None
+    default: Run | None = None
 
 
-def add_commands(above: argparse.ArgumentParser, commands: Mapping[str, Run | Group]) -> None:
-    """Make a parser for each command, and name it in its options: an error shows its usage."""
-    parsers: Any = above.add_subparsers(title="commands", required=True, metavar="COMMAND", prog=above.prog)
-    for name, run in commands.items():
-        whole = f"{inspect.getdoc(run)}" if callable(run) else run.text
-        text, _, notes = whole.partition("\n\nNotes\n-----\n")
-        about, _, parameters = text.partition("\n\nParameters\n----------\n")
-        first, _, more = about.partition("\n\n")
-        texts = {"help": first[0].lower() + first[1:].rstrip("."), "description": _filled(more or first)}
-        parser = parsers.add_parser(
-            name, epilog=_filled(notes), formatter_class=argparse.RawDescriptionHelpFormatter, **texts
-        )
-        parser.set_defaults(parser=parser, run=run)
-        if callable(run):
-            helps = {name: more for name, *more in _PARAMETER.findall(parameters)}
-            for parameter in _parameters(run):
-                _add_argument(parser, parameter, *helps.get(parameter.name, ()))
-        else:
-            parser.usage = run.usage
-            add_commands(parser, run.commands)
+Commands = dict[str, Run | Group]
 
 
-def _filled(text: str) -> str:
-    """Fill each paragraph by itself, but leave those with indented lines as they stand."""
-    width = shutil.get_terminal_size().columns - 2
-    return "\n\n".join(part if "\n " in part else fill(part, width) for part in text.split("\n\n"))
+class Help(NamedTuple):
+    """The parts of a command's docstring."""
+
+    summary: str
+    parameters: Mapping[str, tuple[str, str]]  # a name to be shown, or "", and the text
+    notes: str
 
 
-def _parameters(made: Any) -> Iterator[inspect.Parameter]:  # noqa: ANN401 (or a dataclass)
-    """Yield the parameters of a function; instead of one that takes a dataclass, its fields, as options."""
-    for parameter in inspect.signature(made).parameters.values():
-        if is_dataclass(kind := parameter.annotation):
-            yield from (field.replace(kind=field.KEYWORD_ONLY) for field in _parameters(kind))
+@dataclass(frozen=True)
+class OptionalValue:
+    """An option that may stand without its value, and what it then means."""
+
+    value: float
+
+
+def make_root(
+    name: str,
+    text: str,
+    commands: Mapping[str, Commands],
+    shared: type,
+    *,
+    version: str,
+    epilogue: str,
+    wanted: str | None = None,
+) -> App:
+    """Make the command that has all others, in groups.
+
+    Parameters
+    ----------
+    name, text, version, epilogue : of the program.
+    commands : the title of each group, and its commands by name.
+    shared : as for `make_command`.
+    wanted : the name of the only command that gets its parameters; all do by default.
+    """
+    app = App(
+        name=name,
+        help=text,
+        version=version,
+        help_epilogue=epilogue,
+    )
+    for place, (title, runs) in enumerate(commands.items()):
+        group = cyclopts.Group(title, sort_key=place)
+        for inner, (word, run) in enumerate(runs.items()):
+            if wanted in (None, word):
+                app.command(make_command(word, run, shared, group=group, sort_key=inner))
+            else:
+                app.command(App(name=word, help=read_help(run).summary, group=group, sort_key=inner))
+    return app
+
+
+def make_command(name: str, run: Run | Group, shared: type, **settings: Any) -> App:  # noqa: ANN401 (of an App)
+    """Make a command of a typed function, or of a group of them.
+
+    Parameters
+    ----------
+    name : the word that calls it.
+    run : the function, or the group.
+    shared : a dataclass of options that all commands have; the command itself does not get them.
+    settings : of the `App`, such as the `group` in which it is listed.
+    """
+    default = run.default if isinstance(run, Group) else run
+    text = read_help(run)
+    command = App(
+        name=name, help=text.summary, help_epilogue=text.notes, group_parameters=OPTIONS, **settings
+    )
+    if default:
+        command.default(_take_words(default, read_help(default), shared))
+    if isinstance(run, Group):
+        for place, (below, inner) in enumerate(run.commands.items()):
+            command.command(make_command(below, inner, shared, sort_key=place))
+    return command
+
+
+def command_names(app: App, *, deep: bool = False) -> list[str]:
+    """List the commands of an app; with `deep`, those inside its groups, as in `data fetch`."""
+    names = []
+    for name in app:
+        below = app[name]
+        if name.startswith("-"):
+            continue
+        inner = command_names(below, deep=True) if deep else []
+        names += [f"{name} {word}" for word in inner]
+        if below.default_command or not inner:
+            names.append(name)
+    return names
+
+
+def read_docstring(thing: Any) -> str:  # noqa: ANN401 (a function or a class)
+    """Return a docstring, which `python -OO` leaves out, and which is then read in the source."""
+    if thing.__doc__ is not None:
+        return inspect.getdoc(thing) or ""
+    try:
+        (definition,) = ast.parse(textwrap.dedent(inspect.getsource(thing))).body
+    except OSError:  # there is no source: the command works without a help text
+        return ""
+    return ast.get_docstring(cast(ast.FunctionDef, definition)) or ""
+
+
+def read_help(run: Run | Group) -> Help:
+    """Divide a command's docstring: what it does, its parameters, and notes for the end of the page.
+
+    Examples
+    --------
+    >>> def greet(name):
+    ...     '''Say hello.
+    ...
+    ...     Parameters
+    ...     ----------
+    ...     name (NAME) : who is greeted.
+    ...     '''
+    >>> read_help(greet)
+    Help(summary='Say hello.', parameters={'name': ('NAME', 'who is greeted')}, notes='')
+    """
+    whole = run.text if isinstance(run, Group) else read_docstring(run)
+    text, _, notes = whole.partition("\n\nNotes\n-----\n")
+    summary, _, parameters = text.partition("\n\nParameters\n----------\n")
+    helps = {
+        name: (shown, " ".join(words.split()).removesuffix("."))
+        for name, shown, words in _PARAMETER.findall(parameters)
+    }
+    return Help(summary, helps, notes)
+
+
+def _take_words(run: Run, text: Help, shared: type) -> Run:
+    """Make the function that is called with what was typed: its parameters have no dataclasses.
+
+    Its keywords include the shared options, which the caller takes out of them first.
+    """
+    plain = [*_flatten(run), *_as_options(shared)]
+    parameters = [_describe(parameter, text) for parameter in plain]
+    extras = [(parameter.name, extra) for parameter in plain for extra in _split(parameter)[1]]
+    alone = {name: extra for name, extra in extras if isinstance(extra, OptionalValue)}
+    positional = [parameter.name for parameter in parameters if parameter.kind is parameter.POSITIONAL_ONLY]
+
+    def take(*arguments: object, **options: object) -> int | None:
+        typed = dict(zip(positional, arguments, strict=False)) | options
+        typed |= {name: extra.value for name, extra in alone.items() if typed.get(name) == []}
+        status: int | None = call(run, typed)
+        return status
+
+    # What `inspect.signature` and `typing.get_type_hints` read of a function.
+    vars(take)["__signature__"] = inspect.Signature(parameters)
+    take.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
+    take.__doc__ = None
+    return take
+
+
+def call(target: Any, typed: Mapping[str, object]) -> Any:  # noqa: ANN401 (or a dataclass)
+    """Call a command, or make a dataclass, with those values that were typed."""
+    parameters = inspect.signature(target).parameters
+    values: dict[str, Any] = {}
+    for name, parameter in parameters.items():
+        if is_dataclass(parameter.annotation):
+            values[name] = call(parameter.annotation, typed)
+        elif name in typed:
+            values[name] = typed[name]
+    positional = [name for name in values if parameters[name].kind is inspect.Parameter.POSITIONAL_ONLY]
+    arguments = [values.pop(name) for name in positional]
+    return target(*arguments, **values)
+
+
+def _flatten(run: Run) -> Iterator[inspect.Parameter]:
+    """Yield the parameters of a command; instead of one that takes a dataclass, its fields, as options."""
+    for parameter in inspect.signature(run).parameters.values():
+        if is_dataclass(parameter.annotation):
+            yield from _as_options(parameter.annotation)
+        elif parameter.kind is parameter.POSITIONAL_OR_KEYWORD:
+            yield parameter.replace(kind=parameter.POSITIONAL_ONLY)
         else:
             yield parameter
 
 
-def _add_argument(
-    parser: argparse.ArgumentParser, parameter: inspect.Parameter, metavar: str = "", text: str = ""
-) -> None:
-    """Say to argparse what an annotation says; `Annotated` adds a reader, a help text, further settings."""
-    name, default, kind, extras = parameter.name, parameter.default, parameter.annotation, list[Any]()
-    if get_origin(kind) is Annotated:
-        kind, *extras = get_args(kind)
-    needed = default is parameter.empty
-    settings: dict[str, Any] = {} if needed else {"default": default}
-    if kind is bool:
-        settings["action"] = "store_true"
-    elif get_origin(kind) is Literal:
-        settings["choices"] = get_args(kind)
-    else:
-        settings["type"] = (*get_args(kind), kind)[0]  # of `Path | None` and `Sequence[Path]` a Path
-    if get_origin(kind) is Sequence:
-        settings["nargs"] = "+"
-    for extra in extras:
-        key = "help" if isinstance(extra, str) else "type"
-        settings |= extra if isinstance(extra, dict) else {key: extra}
-    settings |= {"metavar": metavar} if metavar else {}
-    settings |= {"help": " ".join(text.split()).rstrip(".")} if text else {}
-    if isinstance(default, str | Path | int | float) and kind is not bool:
-        shown = f"{default:.3g}" if isinstance(default, float) else f"{default}"
-        settings["help"] += f" (default: {shown})"
+def _as_options(fields: Any) -> Iterable[inspect.Parameter]:  # noqa: ANN401 (a dataclass)
+    """Return the fields of a dataclass as parameters by keyword."""
+    parameters = inspect.signature(fields).parameters.values()
+    return [parameter.replace(kind=parameter.KEYWORD_ONLY) for parameter in parameters]
+
+
+def _describe(parameter: inspect.Parameter, text: Help) -> inspect.Parameter:
+    """Say to `cyclopts` what a docstring and an annotation say; the docstring comes first."""
+    kind, extras = _split(parameter)
+    is_list = get_origin(kind) is Sequence
+    settings = [PLAIN_WORDS, Parameter(show_default=_shown_default(parameter.default))]
+    settings += [SEVERAL] if is_list and parameter.kind is parameter.KEYWORD_ONLY else []
+    settings += [_setting(extra, is_list) for extra in extras]
+    shown, words = text.parameters.get(parameter.name, ("", ""))
+    settings += [Parameter(help=words)] if words else []
     if parameter.kind is parameter.KEYWORD_ONLY:
-        flags = [*(["-o"] if name == "out" else []), f"--{name.replace('_', '-')}"]
-        parser.add_argument(*flags, required=needed, **settings)
-    else:
-        many = {} if needed else {"nargs": "*" if "nargs" in settings else "?"}
-        parser.add_argument(name, **settings | many)
+        flags = [*(["-o"] if parameter.name == "out" else []), option_of(parameter.name)]
+        settings.append(Parameter(name=flags, metavar=shown or parameter.name.upper()))
+    elif shown:
+        settings.append(Parameter(name=shown))
+    if any(isinstance(extra, OptionalValue) for extra in extras):
+        kind = list[float]
+    return parameter.replace(annotation=Annotated[kind, Parameter.combine(*settings)])
 
 
-def call(made: Any, options: argparse.Namespace) -> Any:  # noqa: ANN401
-    """Call a command, or make a dataclass, with the values that its options were given."""
-    values: dict[str, Any] = {}
-    for name, parameter in inspect.signature(made).parameters.items():
-        kind = parameter.annotation
-        values[name] = call(kind, options) if is_dataclass(kind) else getattr(options, name)
-    return made(**values)
+def _split(parameter: inspect.Parameter) -> tuple[Any, list[object]]:
+    """Divide an annotation into what a parameter takes, and what `Annotated` adds to it."""
+    if get_origin(parameter.annotation) is not Annotated:
+        return parameter.annotation, []
+    kind, *extras = get_args(parameter.annotation)
+    return kind, extras
+
+
+def _shown_default(value: object) -> bool | str:
+    """Return a default value as a help page shows it; none for a flag, or for nothing.
+
+    Examples
+    --------
+    >>> _shown_default(1 / 3), _shown_default("bvh"), _shown_default(None)
+    ('0.333', 'bvh', False)
+    """
+    if isinstance(value, bool) or not isinstance(value, str | Path | int | float):
+        return False
+    return f"{value:.3g}" if isinstance(value, float) else f"{value}"
+
+
+def _setting(extra: object, is_list: bool) -> Parameter:
+    """Return what an extra of `Annotated` means: a help text, an `OptionalValue`, a reader of words."""
+    if isinstance(extra, Parameter):
+        return extra
+    if isinstance(extra, str):
+        return Parameter(help=extra)
+    if isinstance(extra, OptionalValue):
+        return AT_MOST_ONE
+    assert callable(extra)
+    return Parameter(converter=partial(_convert, extra, is_list))
+
+
+def _convert(read: Callable[[str], object], is_list: bool, _kind: object, words: Sequence[Token]) -> object:
+    """Read the words of an option: all of them, or the last, where it was typed more than once."""
+    values = [read(word.value) for word in words]
+    return values if is_list else values[-1]
+
+
+def option_names(command: Callable[..., object]) -> dict[str, str]:
+    """Return the option of each parameter of a command that is taken by keyword."""
+    parameters = inspect.signature(command).parameters.values()
+    return {
+        parameter.name: option_of(parameter.name)
+        for parameter in parameters
+        if parameter.kind is parameter.KEYWORD_ONLY
+    }
+
+
+def option_of(name: str) -> str:
+    """Return the option of a parameter.
+
+    Examples
+    --------
+    >>> option_of("by_labels")
+    '--by-labels'
+    """
+    return f"--{name.replace('_', '-')}"

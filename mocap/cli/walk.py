@@ -13,6 +13,7 @@ from mocap import body, datasets, editing, files, graphs, plotting, steering, wi
 from mocap._shared.atomic import make_folder, replacing, require_folder, write_file
 from mocap.cli import options
 from mocap.cli.options import TURN, Building, Clean, Seed, Skeleton, Sources, Unit, bar, number, tell
+from mocap.cli.typed_commands import ONE_EACH, OptionalValue
 from mocap.errors import MocapError, MocapWarning, NoWalk
 from mocap.files.conversion import find_files
 from mocap.methods import groups
@@ -33,8 +34,8 @@ def walk(
     clips: Sequence[Path] = (),
     sources: Sources,
     unit: Unit = None,
-    label: Annotated[Sequence[str], {"action": "append", "nargs": None, "default": []}] = (),
-    bend: Annotated[float | None, TURN, {"nargs": "?", "const": 100.0}] = None,
+    label: Annotated[Sequence[str], ONE_EACH] = (),
+    bend: Annotated[float | None, TURN, OptionalValue(100.0)] = None,
     width: Annotated[int | None, number(1, 10_000, int)] = None,
     clean: Clean = False,
     seed: Annotated[int | None, number(0, 2**32 - 1, int)] = None,
@@ -64,30 +65,34 @@ def walk(
     -----
     Example: mocap walk graph.npz --path line.csv --bend -o walk.bvh
     """
-    if (path is None) == (random is None):
-        raise MocapError("Give one of --path and --random: where to walk, or for how long.")
-    if random is not None and (label or width or unit or bend):
+    _require_one(path, random)
+    if random is not None and any((label, width, unit, bend)):
         raise MocapError("--label, --bend, --width and --unit belong to --path, not to --random.")
     if random is None and seed is not None:
         raise MocapError("--seed belongs to --random: a walk along a path leaves nothing to chance.")
-    if sources.scale and not clips:
-        raise MocapError("--scale belongs to --clips: the graph remembers the unit of its own clips.")
     options.check_out("walk", out)
     from mocap.files.path_files import load_path  # the help needs no NumPy
     from mocap.synthesis.random_walks import dump
 
-    seconds, line = _seconds(random or "1s"), load_path(path, scale=unit) if path else None
+    seconds = _seconds(random or "1s")
+    line = load_path(path, scale=unit) if path else None
     wishes = steering.Wishes(labels=[_label(text) for text in label])
-    found = _graph(graph, clips, sources, out)
+    motions = _graph(graph, clips, sources, out)
     if line is None:
-        frames = dump(found, out, seconds=seconds, seed=seed or 0, clean=clean, progress=bar("writing"))
-        tell(walked=f"{frames / found.fps:.1f} s at random", wrote=out)
+        frames = dump(motions, out, seconds=seconds, seed=seed or 0, clean=clean, progress=bar("writing"))
+        tell(walked=f"{frames / motions.fps:.1f} s at random", wrote=out)
         return 0
     settings = steering.Settings(width=width or 100, progress=bar("searching"))
-    followed = steering.follow_path(found, line, wishes, settings=settings, bend=math.radians(bend or 0))
+    followed = steering.follow_path(motions, line, wishes, settings=settings, bend=math.radians(bend or 0))
     tell(walked=followed.report())
     options.write_out(followed.motion(clean=clean or bool(bend)), out)
     return 130 if followed.found.stopped else 0
+
+
+def _require_one(path: Path | None, random: str | None) -> None:
+    """Raise unless a walk has either a path or a duration."""
+    if (path is None) == (random is None):
+        raise MocapError("Give one of --path and --random: where to walk, or for how long.")
 
 
 def page(graph: Path, *, out: Path = Path("walk.html"), skeleton: Skeleton = None) -> None:
@@ -107,9 +112,9 @@ def page(graph: Path, *, out: Path = Path("walk.html"), skeleton: Skeleton = Non
     options.check_out("page", out, formats=[".html"])
     from mocap.widgets.walking_page import walk_page  # the help needs no NumPy
 
-    made = walk_page(graphs.load(graph, skeleton=skeleton, progress=bar("reading")))
-    write_file(out, made)
-    tell(wrote=f"{out}, {len(made) / 1e6:.2f} MB")
+    text = walk_page(graphs.load(graph, skeleton=skeleton, progress=bar("reading")))
+    write_file(out, text)
+    tell(wrote=f"{out}, {len(text) / 1e6:.2f} MB")
 
 
 def _seconds(text: str) -> float:
@@ -120,8 +125,8 @@ def _seconds(text: str) -> float:
     >>> _seconds("60s"), _seconds("1.5min"), _seconds("2")
     (60.0, 90.0, 2.0)
     """
-    found = re.fullmatch(r"(\d+\.?\d*|\.\d+)\s*(s|min|h)?", text.strip())
-    seconds = float(found[1]) * UNITS[found[2] or "s"] if found else 0.0
+    parts = re.fullmatch(r"(\d+\.?\d*|\.\d+)\s*(s|min|h)?", text.strip())
+    seconds = float(parts[1]) * UNITS[parts[2] or "s"] if parts else 0.0
     if not 0 < seconds <= LONGEST:
         raise MocapError(f"How long is '{text[:40]}'? Write 60s, 10min or 1h, up to 24h.")
     return seconds
@@ -141,7 +146,9 @@ def _graph(path: Path, clips: Sequence[Path], sources: Sources, out: Path) -> "g
     from mocap.editing.mirroring import mirrored_name  # the help needs no NumPy
     from mocap.graphs.storage import find_origins, read
 
-    found = read(path)
+    if sources.scale and not clips:
+        raise MocapError("--scale belongs to --clips: the graph remembers the unit of its own clips.")
+    content = read(path)
     files_read = find_files(clips) if clips else [origin.path for origin in find_origins(path)]
     options.require_other(out, files_read)
     with warnings.catch_warnings():
@@ -149,16 +156,16 @@ def _graph(path: Path, clips: Sequence[Path], sources: Sources, out: Path) -> "g
         warnings.filterwarnings("ignore", lopsided, MocapWarning)
         if not clips:
             return graphs.load(path, skeleton=sources.skeleton, progress=bar("reading"))
-        given = sources.load(files_read)
-        given += [editing.mirror(c) for c in given if mirrored_name(c.name) in found.names]
-    return graphs.load(path, given)
+        motions = sources.load(files_read)
+        motions += [editing.mirror(clip) for clip in motions if mirrored_name(clip.name) in content.names]
+    return graphs.load(path, motions)
 
 
 def crowd(
     *,
     members: Annotated[int, number(2, 48, int)] = 6,
     through: Path,
-    around: Path | None = None,
+    around: Path | None = None,  # reads: name: the option's name
     out: Path,
     graph: Path | None = None,
     skeleton: Skeleton = None,
@@ -190,26 +197,24 @@ def crowd(
     require_folder(out)
     from mocap.files.text import load_rows  # the help needs no NumPy
 
-    points = load_rows(through)
     discs: Any = load_rows(around, ("x", "z", "radius")) if around else []
-    scene = groups.Scene(
-        tuple(complex(z, x) for x, z in points),
-        tuple((complex(z, x), float(radius)) for x, z, radius in discs),
-    )
+    points = tuple(complex(z, x) for x, z in load_rows(through))
+    obstacles = tuple((complex(z, x), float(radius)) for x, z, radius in discs)
+    scene = groups.Scene(points, obstacles)
     scene.check(0j)
     walks = _walks(graph, skeleton)
     group = groups.build_group(members, seed=seed)
-    plan, found = _plan(group, scene)
-    how = f"{found.expanded} states" if found else "steered, which is quicker"
-    tell(planned=f"{(len(plan.places) - 1) / groups.RATE:.1f} s for {members} members, {how}")
+    plan, search = _plan(group, scene)
+    effort = f"{search.expanded} states" if search else "steered, which is quicker"
+    tell(planned=f"{(len(plan.places) - 1) / groups.RATE:.1f} s for {members} members, {effort}")
     walkers = groups.walk_group(walks, plan, progress=bar("walking"))
     tell(walked=walkers.report())
     make_folder(out)
     for count, motion in enumerate(walkers.motions, 1):
         files.save(motion, out / f"member-{count:02}.{to}")
-    with replacing(out / "plan.png") as beside:
+    with replacing(out / "plan.png") as picture:
         drawn = plotting.draw_group_plan(plan.places, scene.points, scene.discs, near=scene.near)
-        drawn.savefig(beside, bbox_inches="tight")
+        drawn.savefig(picture, bbox_inches="tight")
     if not no_film:  # a .gif of half the frames is three times as large as an .mp4 even so
         name, fps = ("crowd.mp4", 25.0) if find_spec("imageio_ffmpeg") else ("crowd.gif", 12.5)
         widgets.save_animation(walkers.motions, out / name, discs=discs, fps=fps, progress=bar("drawing"))

@@ -20,7 +20,7 @@ from mocap.body.motion import Motion, require_alike, resample
 from mocap.datasets.clip_origins import Origin, find_again, is_origin
 from mocap.datasets.samples import FPS, FRAMES_IN_0_1, SAMPLES, sample
 from mocap.editing.mirroring import mirror
-from mocap.errors import MocapError, shortened
+from mocap.errors import MocapError, Remedy, shortened
 from mocap.files.conversion import is_clip
 from mocap.files.load_save import load
 
@@ -96,7 +96,8 @@ def find_files_of(references: ClipReferences, path: str | Path) -> list[Origin]:
     for name, text in itertools.zip_longest(references.names, references.origins):
         origin = find_again(text, folder) if text else None
         if origin is None and name not in neighbours:
-            raise MocapError(f"The clip '{shortened(name)}' is no longer where {path} found it: give clips=.")
+            lost = f"The clip '{shortened(name)}' is no longer where {path} found it."
+            raise MocapError(lost, remedy=Remedy("give {}", "clips"))
         places.append(origin or Origin(neighbours[name]))
     return places
 

@@ -22,7 +22,7 @@ from mocap._shared.archives import Member, open_archive
 from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from mocap.errors import FormatError, MocapError, warn
+from mocap.errors import FormatError, MocapError, Remedy, warn
 from mocap.files.recordings import Recording
 
 _JOINTS: dict[str, Any] = tomllib.loads(Path(__file__).with_name("smpl.toml").read_text("utf-8"))
@@ -127,7 +127,7 @@ def _rate(path: str | Path, members: Mapping[str, Member]) -> float:
     """Read the frame rate, under its newer or its older name."""
     key = next((key for key in RATES if key in members), None)
     if key is None:
-        raise FormatError(path, None, f"'{RATES[0]}'", "none: give fps=")
+        raise FormatError(path, None, f"'{RATES[0]}'", "none", remedy=Remedy("give {}", "fps"))
     array = members[key]
     if math.prod(array.shape) != 1 or array.dtype.kind not in REAL_NUMBERS:
         raise FormatError(path, None, f"one number above 0 in '{key}'", str(array))

@@ -2,7 +2,6 @@
 
 import os
 from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -134,6 +133,8 @@ def convert(
     """
     if len(pairs) == 1:
         return list(filter(None, [_convert(load, *pairs[0])]))
+    from concurrent.futures import BrokenExecutor, ProcessPoolExecutor  # they take a while
+
     from mocap._shared.tasks import serve
 
     workers = min(len(pairs), os.cpu_count() or 1, MOST_WORKERS)

@@ -11,7 +11,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from mocap.errors import FormatError, MocapError
+from mocap.errors import FormatError, MocapError, Remedy
 
 if TYPE_CHECKING:
     from mocap.files.recordings import Recording
@@ -74,7 +74,9 @@ def skeleton_beside(path: Path) -> Path:
     problem = "none"
     if skeletons:
         problem = f"{'several that fit' if fitting else 'none that fits'} ({names})"
-    raise FormatError(path, None, "its .asf file beside it, or named by skeleton=", problem)
+    raise FormatError(
+        path, None, "its .asf file beside it", problem, remedy=Remedy("name it by {}", "skeleton")
+    )
 
 
 def read_bvh(path: Path, options: ReadOptions) -> Recording:
@@ -90,7 +92,8 @@ def read_npz(path: Path, options: ReadOptions) -> Recording:
     from mocap.files import amass
 
     if options.scale not in (None, 1.0):
-        raise MocapError(f"All .npz files are in metres: leave out scale={options.scale:g}.")
+        problem = f"All .npz files are in metres, got a scale of {options.scale:g} for {path}."
+        raise MocapError(problem, remedy=Remedy("leave out {}", "scale"))
     return amass.read(path, fps=options.fps)
 
 

@@ -304,7 +304,7 @@ def judge(
     try:
         legs = find_legs(motion.skeleton)
     except MocapError as error:
-        left_out = (f"feet and knees: {error}",)
+        left_out = (f"feet and knees: {error.problem()}",)
     positions = joint_positions(motion)
     measures = [
         *measure_smoothness(motion, positions, against),

@@ -95,9 +95,25 @@ def test_convert_a_folder_and_name_what_failed(folder, run):
     assert same("out/more/b.bvh", "clips/more/b.BVH")
 
 
-def test_what_fails_names_options_not_arguments(folder, run, monkeypatch):
-    monkeypatch.setattr("mocap.files.conversion.convert", lambda *_, **__: ["no rate: give fps="])
-    assert "no rate: give --fps" in run("convert clips/a.bvh arm.glb", 2).out
+def write_poses(path):
+    """Write an AMASS archive without a frame rate."""
+    np.savez(path, poses=np.zeros((60, 66)), trans=np.zeros((60, 3)))
+
+
+def test_what_fails_names_options_not_arguments(folder, run):
+    for name in ("rest/a.npz", "rest/b.npz"):
+        (folder / "rest").mkdir(exist_ok=True)
+        write_poses(name)
+    for line in ("convert rest/a.npz arm.glb", "convert rest out", "judge rest", "info rest/a.npz"):
+        said = run(line, 2)
+        assert "a.npz: expected 'mocap_framerate', got none: give --fps" in said.out + said.err
+
+
+def test_a_remedy_that_a_command_lacks_is_another_command(folder, run):
+    """`mocap graph --fps` is the rate of the graph, not of its clips."""
+    write_poses("a.npz")
+    for line in ("graph a.npz -o g.npz", "find a.npz a.npz"):
+        assert run(line, 2).err.endswith("'mocap_framerate', got none: give --fps to mocap convert\n")
 
 
 def test_plans_that_make_no_sense_are_refused(folder, run):

@@ -53,7 +53,7 @@ def test_the_skeleton_that_fits_is_found(folder, skeletons, length):
 
 
 CANDIDATES = [
-    ({}, r"named by skeleton=, got none$"),
+    ({}, r"its .asf file beside it, got none: name it by skeleton=$"),
     ({"a": ("tail", 1), "b": ("tail", 1)}, r"none that fits \(a.ASF, b.ASF\)"),
     ({"a": ("spine", 1), "b": ("spine", 2)}, r"several that fit \(a.ASF, b.ASF\)"),
 ]
@@ -94,7 +94,10 @@ test_other_formats_and_options_that_make_no_sense_are_refused = refusals(
     ("files.asf.read_skeleton reads it", load_save.load, "walk.asf"),
     (r"mocap writes .bvh and .glb", load_save.save, wave(3), "b.fbx"),
     (r"Cannot read walk.GLB: mocap writes .glb, and reads .amc", load_save.load, "walk.GLB"),
-    ("All .npz files are in metres: leave out scale=2", partial(load_save.load, "walk.npz", scale=2.0)),
+    (
+        "in metres, got a scale of 2 for walk.npz: leave out scale=.",
+        partial(load_save.load, "walk.npz", scale=2.0),
+    ),
     *(
         (f"{option} must be a number above 0", partial(load_save.load, "walk.bvh", **{option: value}))
         for option in ("fps", "scale")

@@ -1,0 +1,60 @@
+"""What a command says beside its results, on the standard error: warnings, stages, errors.
+
+`-q` leaves out progress and warnings, `-v` adds what is read and how long each stage takes.
+"""
+
+import re
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass
+from typing import Annotated
+
+from cyclopts import Group, Parameter
+
+from mocap.errors import MocapError, printable, shortened
+
+LONGEST_WORD = 200  # characters of a name in a message
+COMMON = Group("Options of all commands", sort_key=99)
+
+
+@dataclass(frozen=True)
+class Verbosity:
+    """How much a command says: the options that all commands have."""
+
+    quiet: Annotated[bool, Parameter(alias="-q", group=COMMON), "show no progress and no warnings"] = False
+    verbose: Annotated[
+        bool, Parameter(alias="-v", group=COMMON), "say what is read, and how long each stage takes"
+    ] = False
+    debug: Annotated[bool, Parameter(group=COMMON), "show the traceback of an error"] = False
+
+    def __post_init__(self) -> None:
+        if self.quiet and self.verbose:
+            raise MocapError("--quiet says less and --verbose says more: give one of them.")
+
+
+NORMAL = Verbosity()
+VERBOSITY = ContextVar("VERBOSITY", default=NORMAL)
+
+
+@contextmanager
+def saying(verbosity: Verbosity) -> Iterator[None]:
+    """Set how much is said in a `with` block."""
+    token = VERBOSITY.set(verbosity)
+    try:
+        yield
+    finally:
+        VERBOSITY.reset(token)
+
+
+def say(message: object) -> None:
+    """Write one line: names hold no line ends there, and are not endless."""
+    text = re.sub(rf"\S{{{LONGEST_WORD},}}", lambda word: shortened(word[0]), printable(message))
+    print(f"mocap: {text}", file=sys.stderr)
+
+
+def note(message: str) -> None:
+    """Write a line with `-v` only."""
+    if VERBOSITY.get().verbose:
+        say(message)

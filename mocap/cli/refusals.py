@@ -1,0 +1,138 @@
+"""What is told of words that fit no command: one sentence that says what may have been meant."""
+
+import os
+from collections.abc import Iterable, Sequence
+from difflib import get_close_matches
+from typing import Literal, get_args, get_origin
+
+import cyclopts
+
+from mocap.cli.typed_commands import command_names
+from mocap.errors import MocapError, shortened
+
+LONGEST = 60  # characters of a word that is quoted
+ALIKE = 0.6  # of two words, as `difflib` measures it; "conver" and "convert" have 0.92
+
+
+def explain(error: cyclopts.CycloptsError, root: cyclopts.App) -> str:
+    """Return the sentence for words that cannot be understood.
+
+    Parameters
+    ----------
+    error : what `cyclopts` found.
+    root : the command that has all others.
+    """
+    program = " ".join(["mocap", *(error.command_chain or ())])
+    return f"{_problem(error, program, root).removesuffix('.')} (see {program} --help)"
+
+
+def require_meant(words: Sequence[str], group: str, commands: Iterable[str]) -> None:
+    """Raise for the word after a group that is neither a file nor a command, but looks like a command.
+
+    Parameters
+    ----------
+    words : those after the name of the group, which stands for one of its commands if none is named.
+    group : its name.
+    commands : the commands in it.
+
+    Examples
+    --------
+    >>> require_meant(["inof", "graph.npz"], "graph", ["build", "info"])
+    Traceback (most recent call last):
+    mocap.errors.MocapError: 'inof' is no file and no command. Did you mean 'info'? (see mocap graph --help)
+    """
+    if not words or words[0] in commands or os.path.lexists(words[0]):
+        return
+    if meant := get_close_matches(words[0], commands, 1, ALIKE):
+        problem = f"{_quoted(words[0])} is no file and no command.{_meant(meant)}"
+        raise MocapError(f"{problem} (see mocap {group} --help)")
+
+
+def _problem(error: cyclopts.CycloptsError, program: str, root: cyclopts.App) -> str:
+    """Return the sentence without the pointer to the help."""
+    match error:
+        case cyclopts.UnknownCommandError():
+            return _unknown_command(error, program, root)
+        case cyclopts.UnknownOptionError():
+            word = error.token.keyword or error.token.value
+            names = [name for argument in error.argument_collection for name in argument.names]
+            return f"{program} has no option {_quoted(word)}.{suggestion(word, [*names, '--help'])}"
+        case cyclopts.MissingArgumentError():
+            return _missing(error, program)
+        case cyclopts.UnusedCliTokensError():
+            return f"{program} takes no further argument, got {_quoted((error.unused_tokens or [''])[0])}."
+        case cyclopts.CoercionError():
+            return _not_a_value(error)
+    return shortened(str(error), 2 * LONGEST)
+
+
+def _unknown_command(error: cyclopts.CycloptsError, program: str, root: cyclopts.App) -> str:
+    """Say that there is no such command; the name of one inside a group may have been meant, too."""
+    word = (error.unused_tokens or [""])[0]
+    if word.startswith("-"):
+        meant = suggestion(word, ["--help", "--version"])
+        advice = "." if meant else ": write options after the name of a command."
+        return f"{program} has no option {_quoted(word)}{advice}{meant}"
+    app = error.app or root
+    names = command_names(app)
+    close = get_close_matches(word, names, 1, ALIKE) or [
+        name for name in command_names(root, deep=True) if name.split()[-1] == word
+    ]
+    return f"{program} has no command {_quoted(word)}.{_meant(close)}"
+
+
+def _missing(error: cyclopts.MissingArgumentError, program: str) -> str:
+    """Say which argument is missing, or which option needs a value."""
+    assert error.argument is not None
+    names = " or ".join(error.argument.names)
+    if error.keyword or any(token.keyword for token in error.argument.tokens):
+        return f"{error.keyword or names} needs a value."
+    return f"{program} needs {names}."
+
+
+def _not_a_value(error: cyclopts.CoercionError) -> str:
+    """Say what an option takes, and which of its choices may have been meant."""
+    name = error.argument.name if error.argument else ""
+    word = error.token.value if error.token else ""
+    if error.token and error.token.keyword:
+        name = error.token.keyword
+    if error.msg:
+        return f"{name}: {shortened(str(error.msg), 2 * LONGEST)}."
+    kind = error.target_type
+    if get_origin(kind) is Literal:
+        choices = [str(choice) for choice in get_args(kind)]
+        return f"{name}: {_quoted(word)} is none of {', '.join(choices)}.{suggestion(word, choices)}"
+    expected = KINDS.get(kind, "a value that fits")
+    return f"{name}: {_quoted(word)} is not {expected}."
+
+
+KINDS: dict[object, str] = {
+    bool: "true or false",
+    int: "a whole number",
+    float: "a number",
+}
+
+
+def suggestion(word: str, names: Iterable[str]) -> str:
+    """Return a question for what may have been meant, or nothing.
+
+    Examples
+    --------
+    >>> suggestion("--skelton", ["--scale", "--skeleton"])
+    " Did you mean '--skeleton'?"
+    >>> suggestion("--sk", ["--scale", "--skeleton"])
+    " Did you mean '--skeleton'?"
+    >>> suggestion("--colour", ["--scale", "--skeleton"])
+    ''
+    """
+    names = list(names)
+    beginnings = [name for name in names if len(word) > len("--") and name.startswith(word)]
+    return _meant(beginnings or get_close_matches(word, names, 1, ALIKE))
+
+
+def _meant(names: list[str]) -> str:
+    return f" Did you mean '{names[0]}'?" if names else ""
+
+
+def _quoted(word: str) -> str:
+    return f"'{shortened(word, LONGEST)}'"
