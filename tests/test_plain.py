@@ -61,7 +61,9 @@ def test_transitions_are_the_same_pairs_costs_and_places(both):
     assert [found[:4] for found in slow] == [(t.source, t.leave, t.target, t.enter) for t in quick]
     assert np.allclose([found[4] for found in slow], quick.cost, atol=1e-9)
     lays = np.array([found[5] for found in slow])
-    assert np.allclose(lays, np.stack([quick.transform.turn, quick.transform.move], axis=1), atol=1e-9)
+    assert np.allclose(
+        lays, np.stack([quick.transform.rotation, quick.transform.translation], axis=1), atol=1e-9
+    )
 
 
 def test_distance_grid_and_its_minima(clips):
@@ -75,7 +77,7 @@ def test_align(clips):
     one, other = (plain.windows(clip) for clip in clips)
     turn, move = plain.align(one[3], other[8])
     assert np.allclose(
-        [turn, move], [(quick := matching.align(one[3], other[8])).turn, quick.move], atol=1e-12
+        [turn, move], [(quick := matching.align(one[3], other[8])).rotation, quick.translation], atol=1e-12
     )
 
 
@@ -149,7 +151,7 @@ def test_branch_and_bound(seed):
 def compiled(clips):
     """Give the pruned graph of some clips in both forms."""
     found = matching.find_transitions(clips, window=K, below=plain.BELOW)
-    lays = zip(found.transform.turn.tolist(), found.transform.move.tolist(), strict=True)
+    lays = zip(found.transform.rotation.tolist(), found.transform.translation.tolist(), strict=True)
     slow = [(t.source, t.leave, t.target, t.enter, t.cost, lay) for t, lay in zip(found, lays, strict=True)]
     quick = graphs.prune(graphs.from_transitions(clips, found, window=K))
     return clips, plain.prune(plain.cut_and_join(clips, slow)), graphs.compile_graph(quick)

@@ -84,7 +84,7 @@ def score(case: Case, answer: Motion) -> tuple[float, float, float]:
     made, real = (motion.at(np.linspace(0, len(motion) - 1, MOMENTS)) for motion in (answer, case.truth))
     points, others = point_cloud(real), point_cloud(made)
     laid = align(points, others)
-    turn, move = np.asarray(laid.turn)[:, None], np.asarray(laid.move)[:, None]
+    turn, move = np.asarray(laid.rotation)[:, None], np.asarray(laid.translation)[:, None]
     ground = np.abs(turn * on_ground(others) + move - on_ground(points)) ** 2
     pose = np.sqrt((ground + (others - points)[..., 1] ** 2).mean(axis=1)).mean()
     ends, turns = zip(*(end(motion) for motion in (made, real)), strict=True)

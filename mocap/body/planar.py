@@ -4,8 +4,8 @@ A captured motion stays the same motion wherever on the ground it happens and wh
 Therefore only these three numbers may change when one clip is aligned with another [KGP02, 3.1].
 
 A point (x, z) on the ground is also the complex number z + ix. A rotation about +y by θ is then a product
-with exp(iθ), and a planar transform is p ↦ turn · p + move. Only this module knows which part is x and which
-is z.
+with exp(iθ), and a planar transform is p ↦ rotation · p + translation. Only this module knows which part is
+x and which is z.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array, Points
+from mocap._shared.deprecation import deprecated
 from mocap._shared.quantities import check_radians
 from mocap.body import rotations
 from mocap.body.motion import Motion, require_motion
@@ -60,7 +61,7 @@ class PlanarTransform(NamedTuple):
     >>> quarter = PlanarTransform(np.pi / 2, 1.0, 0.0)
     >>> quarter.apply_points([0.0, 0.5, 1.0]).round(6) + 0.0
     array([2. , 0.5, 0. ])
-    >>> complex(np.round(quarter.turn * on_ground([0.0, 0.5, 1.0]) + quarter.move, 6))
+    >>> complex(np.round(quarter.rotation * on_ground([0.0, 0.5, 1.0]) + quarter.translation, 6))
     2j
 
     Notebook: 03-transforms
@@ -71,19 +72,31 @@ class PlanarTransform(NamedTuple):
     z: Numbers
 
     @classmethod
-    def from_complex(cls, turn: complex | Points, move: complex | Points) -> PlanarTransform:
-        """Build the transform p ↦ turn · p + move of ground points z + ix; |turn| is 1."""
-        return cls(np.angle(turn), move.imag, move.real)
+    def from_complex(cls, rotation: complex | Points, translation: complex | Points) -> PlanarTransform:
+        """Build the transform p ↦ rotation · p + translation of ground points z + ix; |rotation| is 1."""
+        return cls(np.angle(rotation), translation.imag, translation.real)
 
     @property
-    def turn(self) -> Points:
+    def rotation(self) -> Points:
         """The rotation as a complex number, exp(i · angle)."""
         return np.exp(1j * np.asarray(self.angle))
 
     @property
-    def move(self) -> Points:
+    def translation(self) -> Points:
         """The translation as a complex number, z + ix."""
         return np.asarray(self.z) + 1j * np.asarray(self.x)
+
+    @property
+    @deprecated("PlanarTransform.turn", since="0.2", removed_in="0.3", instead="PlanarTransform.rotation")
+    def turn(self) -> Points:
+        """The former name of `rotation`."""
+        return self.rotation
+
+    @property
+    @deprecated("PlanarTransform.move", since="0.2", removed_in="0.3", instead="PlanarTransform.translation")
+    def move(self) -> Points:
+        """The former name of `translation`."""
+        return self.translation
 
     def apply_points(self, points: ArrayLike) -> Array:
         """Transform points, shape (..., 3): x' = x cos θ + z sin θ + x₀, z' = z cos θ - x sin θ + z₀."""
@@ -94,9 +107,9 @@ class PlanarTransform(NamedTuple):
         new_z = z * cos - x * sin + self.z
         return np.stack(np.broadcast_arrays(new_x, y, new_z), -1)
 
-    def apply_frames(self, roots: ArrayLike, turns: Array) -> tuple[Array, Array]:
+    def apply_frames(self, roots: ArrayLike, quaternions: Array) -> tuple[Array, Array]:
         """Transform frames of root positions (..., 3) and rotations (..., J, 4); only roots change."""
-        transformed = turns.copy()
+        transformed = quaternions.copy()
         transformed[..., 0, :] = rotations.multiply(rotations.about_y(self.angle), transformed[..., 0, :])
         return self.apply_points(roots), transformed
 

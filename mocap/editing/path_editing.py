@@ -204,7 +204,7 @@ def start_at(path: GroundPath, ride: Ride) -> GroundPath:
     """
     old, new = (moving_frames(line, [0.0]) for line in (ride.path, path))
     moved = old @ new.inverse()
-    return GroundPath(from_ground(moved.turn * on_ground(path.points) + moved.move))
+    return GroundPath(from_ground(moved.rotation * on_ground(path.points) + moved.translation))
 
 
 def on_path(

@@ -7,11 +7,11 @@ table of names; only a head is known by its name.
 
 import re
 from collections.abc import Iterator
-from typing import NamedTuple
 
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices
+from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.skeleton import Skeleton
 

@@ -1,6 +1,7 @@
 """A motion graph as arrays, for searches that evaluate thousands of edges at once.
 
-Ground points are complex numbers z + ix, and planar transforms are p ↦ turn · p + move, as in `body.planar`.
+Ground points are complex numbers z + ix, and planar transforms are p ↦ rotation · p + translation, as in
+`body.planar`.
 """
 
 from __future__ import annotations
@@ -162,11 +163,11 @@ def _roots_on_edges(graph: MotionGraph, edges: EdgeTable, roots: Points) -> tupl
 
     Roots are blended as in [KGP02, Eq. 5].
     """
-    turn = edges.turn[edges.of]
-    move = edges.move[edges.of]
+    rotation = edges.rotation[edges.of]
+    translation = edges.translation[edges.of]
     leaving = roots[clip_rows(graph.clips, edges.here)]
     entering = roots[clip_rows(graph.clips, edges.there)]
-    ground = edges.alpha * leaving + (1 - edges.alpha) * (turn * entering + move)
+    ground = edges.alpha * leaving + (1 - edges.alpha) * (rotation * entering + translation)
     step = np.abs(np.diff(ground, prepend=0))
     # The frame before an edge's first is one of the clip that the edge leaves.
     previous = clip_rows(graph.clips, edges.here[edges.first] - np.array([0, 1]))
@@ -174,23 +175,25 @@ def _roots_on_edges(graph: MotionGraph, edges: EdgeTable, roots: Points) -> tupl
     return ground, step
 
 
-def walk_track(graph: CompiledGraph, edges: Indices, turn: complex, move: complex) -> tuple[Points, Indices]:
+def walk_track(
+    graph: CompiledGraph, edges: Indices, rotation: complex, translation: complex
+) -> tuple[Points, Indices]:
     """Compute the position of the root in every frame of a walk, and the rows of these frames.
 
     Parameters
     ----------
     graph : the compiled graph.
     edges : numbers of edges; each starts where the one before ends.
-    turn, move : the planar transform p ↦ turn · p + move of the first edge's clip.
+    rotation, translation : the planar transform p ↦ rotation · p + translation of the first edge's clip.
 
     Returns
     -------
     The positions, shape (F,), and the rows of the frames among those of all edges, shape (F,).
     """
-    # Each edge composes the transform of its clip with its own: turn · turn_e, and move + turn · move_e.
-    turns = np.cumprod([turn, *graph.turn[edges]])[:-1]
-    moves = move + np.concatenate([[0], np.cumsum(turns * graph.move[edges])[:-1]])
+    # The transforms of a clip and an edge compose to r · r_e and t + r · t_e.
+    rotations = np.cumprod([rotation, *graph.rotation[edges]])[:-1]
+    translations = translation + np.concatenate([[0], np.cumsum(rotations * graph.translation[edges])[:-1]])
     frames = graph.frames[edges]
     rows = ranges(graph.first[edges], frames)
-    positions = np.repeat(moves, frames) + np.repeat(turns, frames) * graph.ground[rows]
+    positions = np.repeat(translations, frames) + np.repeat(rotations, frames) * graph.ground[rows]
     return positions, rows

@@ -34,8 +34,9 @@ class EdgeTable:
     ----------
     first, frames : shape (E,), the row of an edge's first frame, and the number of its frames.
     cost, blended : shape (E,), the cost, and whether an edge is a transition; a stretch of clip costs 0.
-    angle, turn, move : shape (E,), the planar transform p ↦ turn · p + move that aligns the clip that an edge
-        enters with the clip that it leaves, and its angle in radians; the identity on a stretch of clip.
+    angle, rotation, translation : shape (E,), the planar transform p ↦ rotation · p + translation that
+        aligns the clip that an edge enters with the clip that it leaves, and its angle in radians; the
+        identity on a stretch of clip.
     of : shape (F,), the edge that a frame belongs to.
     here, there : shape (F, 2), a frame of the clip that the edge leaves, and of the one that it enters, each
         as (clip, frame); the same on a stretch of clip.
@@ -47,8 +48,8 @@ class EdgeTable:
     cost: Array
     blended: Mask
     angle: Array
-    turn: Points
-    move: Points
+    rotation: Points
+    translation: Points
     of: Indices
     here: Indices  # reads: name: `steering` reads this field
     there: Indices  # reads: name: `steering` reads this field
@@ -95,8 +96,8 @@ def edge_table(motion_graph: MotionGraph, edges: Sequence[Edge]) -> EdgeTable:
     transforms = np.array([edge.get("transform", IDENTITY) for edge in data], float).reshape(-1, 3)
     aligning = PlanarTransform(*transforms.T)
     angle = np.asarray(aligning.angle)
-    turn = aligning.turn
-    move = aligning.move
+    rotation = aligning.rotation
+    translation = aligning.translation
     first = np.asarray(np.cumsum(frames) - frames, np.intp)
     of = np.repeat(np.arange(len(edges)), frames)
     elapsed = np.arange(len(of)) - first[of]  # frames since the edge's first
@@ -114,8 +115,8 @@ def edge_table(motion_graph: MotionGraph, edges: Sequence[Edge]) -> EdgeTable:
         cost=cost,
         blended=blended,
         angle=angle,
-        turn=turn,
-        move=move,
+        rotation=rotation,
+        translation=translation,
         of=of,
         here=leaving,
         there=entering,

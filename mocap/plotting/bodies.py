@@ -1,7 +1,7 @@
 """Bodies as lines on flat axes: poses, film strips, and whole walks in a picture, as in [KGP02, Fig. 1]."""
 
 from collections.abc import Iterable, Sequence
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array, Indices
+from mocap._shared.records import NamedTuple
 from mocap.body import Motion, Skeleton, joint_positions
 from mocap.matching.point_clouds import distinct_joints
 from mocap.plotting.style import ASKED, COLOURS, FLOOR, MARK, PATH, QUIET, own_colour, source_colours

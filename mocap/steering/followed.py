@@ -122,7 +122,7 @@ class Followed:
 
 def account(graph: CompiledGraph, path: GroundPath, route: Route, found: Found) -> Followed:
     """Measure how far a walk is from its path, and find the frames without the label asked for."""
-    body, rows = walk_track(graph, found.edges, found.turn, found.move)
+    body, rows = walk_track(graph, found.edges, found.rotation, found.translation)
     label = route.label[route.point(found.along)]
     bears = graph.bears[label, rows] if graph.label_names else np.zeros(len(rows), bool)
     # The distance is that from the path within 0.5 m of where the body should be, shape (F, pieces).
@@ -133,7 +133,7 @@ def account(graph: CompiledGraph, path: GroundPath, route: Route, found: Found) 
     share = np.clip((away * piece.conj()).real / np.abs(piece) ** 2, 0, 1)
     off = np.abs(away - share * piece).min(axis=1)
     at_length = np.abs(body - route.at(np.cumsum(graph.progress[rows])))
-    walk, place = [graph.edges[edge] for edge in found.edges], (found.turn, found.move)
+    walk, place = [graph.edges[edge] for edge in found.edges], (found.rotation, found.translation)
     laid = (walk, PlanarTransform.from_complex(*place), from_ground(body), found.along)
     return Followed(graph.source, path, *laid, off, at_length, (label >= 0) & ~bears, found)
 
@@ -170,13 +170,13 @@ def own_paths(graph: CompiledGraph) -> tuple[CompiledGraph, Array]:
     steps[np.cumsum([0, *map(len, clips[:-1])])] = 0.0
     starts, weight = graph.first, 1 - graph.alpha
     here, there = clip_rows(clips, graph.here), clip_rows(clips, graph.there)
-    other = heads[there] + np.angle(graph.turn)[graph.of]
+    other = heads[there] + np.angle(graph.rotation)[graph.of]
     apart = (other - heads[here] + np.pi) % (2 * np.pi) - np.pi
     head = heads[here] + np.where(weight > 0, weight * apart, 0.0)
     turns = np.diff(head, prepend=0.0)
     turns[starts] = head[starts] - heads[clip_rows(clips, graph.here[starts] - np.array([0, 1]))]
     step = graph.alpha * steps[here] + weight * steps[there]
-    laid = graph.turn[graph.of] * points[there] + graph.move[graph.of]
+    laid = graph.rotation[graph.of] * points[there] + graph.translation[graph.of]
     ground = graph.alpha * points[here] + weight * laid
     going = heads[clip_rows(clips, np.array(graph.nodes))]
     return replace(graph, ground=ground, step=step, going=going), turns

@@ -141,7 +141,9 @@ class Controller:
         (source, source_frame), (target, target_frame), alpha = self._blended_frames()
         edge = self.edges[0]
         source_feet = self._feet[source][source_frame]
-        target_feet = self.graph.turn[edge] * self._feet[target][target_frame] + self.graph.move[edge]
+        target_feet = (
+            self.graph.rotation[edge] * self._feet[target][target_frame] + self.graph.translation[edge]
+        )
         feet = alpha * source_feet + (1 - alpha) * target_feet
         return np.asarray(self.turn * feet + self.move)
 
@@ -154,7 +156,7 @@ class Controller:
         self.turn = rotation * self.turn
         self.move = rotation * (self.move - point) + point
         self.end_turn *= rotation
-        self.walks = self.walks._replace(turn=rotation * self.walks.turn)
+        self.walks = self.walks._replace(rotation=rotation * self.walks.rotation)
 
     @cached_property
     def _feet(self) -> list[Points]:
@@ -172,8 +174,8 @@ class Controller:
     def _next_transform(self) -> tuple[complex, complex]:
         """Return the transform of the clip that the edge under way leads to."""
         edge = self.edges[0]
-        turn = complex(self.graph.turn[edge])
-        move = complex(self.graph.move[edge])
+        turn = complex(self.graph.rotation[edge])
+        move = complex(self.graph.translation[edge])
         return self.turn * turn, self.move + self.turn * move
 
     def _placed(self, node: Node, turn: complex, move: complex) -> tuple[Array, Array]:
@@ -202,7 +204,7 @@ class Controller:
             return
         steps = self.hops.take(hop)
         seconds = steps.frames / self.fps
-        error = short.turn[row] * self.displacements[hop] - velocity * seconds
+        error = short.rotation[row] * self.displacements[hop] - velocity * seconds
         cost = (error.real**2 + error.imag**2) / seconds + steps.cost
         if label >= 0:
             cost += LABEL * self.seconds_without[label, hop]
@@ -222,7 +224,7 @@ class Controller:
         last = self.edges[-1]
         self.frame = 0
         self.node = int(self.graph.target[last])
-        self.end_turn = self.turn * complex(self.graph.turn[last])
+        self.end_turn = self.turn * complex(self.graph.rotation[last])
         self._restart()
 
 
@@ -231,7 +233,7 @@ def _displacements(graph: CompiledGraph) -> Points:
     hops = graph.hops
     starts = np.repeat(graph.at, np.diff(hops.first))
     targets = graph.target[hops.last]
-    ends = graph.turn[hops.last] * graph.at[targets] + graph.move[hops.last]
+    ends = graph.rotation[hops.last] * graph.at[targets] + graph.translation[hops.last]
     return ends - starts
 
 

@@ -5,7 +5,8 @@ and it tries few of them before the time is over. But what a walk can still do d
 place and its direction. So here all walks advance together, a layer at a time: a few centimetres of a path,
 or a tenth of a second. The time is linear in the number of layers.
 
-Ground points are complex numbers z + ix, and p ↦ turn · p + move lays the clip of a walk's last node.
+Ground points are complex numbers z + ix, and p ↦ rotation · p + translation is the transform of the clip of a
+walk's last node.
 """
 
 from __future__ import annotations
@@ -42,8 +43,8 @@ class States(NamedTuple):
     """
 
     node: Indices
-    turn: Points  # with move, places the node's clip
-    move: Points
+    rotation: Points  # with `translation`, the transform of the node's clip
+    translation: Points
     along: Array  # metres
     frames: Indices
     cost: Array
@@ -59,12 +60,12 @@ class States(NamedTuple):
 
         The longer walks' `trail` are the rows of those that they continue, their `hop` is the step's.
         """
-        turn = self.turn[rows] * steps.turn
-        move = self.move[rows] + self.turn[rows] * steps.move
+        rotation = self.rotation[rows] * steps.rotation
+        translation = self.translation[rows] + self.rotation[rows] * steps.translation
         along = self.along[rows] + steps.along
         frames = self.frames[rows] + steps.frames
         cost = self.cost[rows] + steps.cost
-        return States(steps.node, turn, move, along, frames, cost, trail=rows, hop=steps.hop)
+        return States(steps.node, rotation, translation, along, frames, cost, trail=rows, hop=steps.hop)
 
     @staticmethod
     def join(parts: Sequence[States]) -> States:
@@ -72,12 +73,14 @@ class States(NamedTuple):
         return States._make(np.concatenate(values) for values in zip(*parts, strict=True))
 
 
-def start_states(nodes: Indices, turn: Points, move: Points) -> States:
-    """Start a walk at each of some nodes, whose clips are placed by p ↦ turn · p + move."""
+def start_states(nodes: Indices, rotation: Points, translation: Points) -> States:
+    """Start a walk at each of some nodes, whose clips are transformed by p ↦ rotation · p + translation."""
     zero = np.zeros(len(nodes))
     no_frames = np.zeros(len(nodes), np.intp)
     start = np.full(len(nodes), -1, np.intp)  # no state and no hop leads here
-    return States(nodes, turn, move, along=zero, frames=no_frames, cost=zero, trail=start, hop=start)
+    return States(
+        nodes, rotation, translation, along=zero, frames=no_frames, cost=zero, trail=start, hop=start
+    )
 
 
 def hop_states(graph: CompiledGraph, along: Array, price: Array) -> States:
@@ -92,17 +95,17 @@ def hop_states(graph: CompiledGraph, along: Array, price: Array) -> States:
     last = graph.hops.last
     frames = graph.hops.frames
     numbers = np.arange(len(along))
-    transform = (graph.turn[last], graph.move[last])
+    transform = (graph.rotation[last], graph.translation[last])
     return States(graph.target[last], *transform, along, frames, price[last], numbers, numbers)
 
 
-def standing(states: States, roots: Points, place: float, turn: float) -> Indices:
-    """Round the state of walks to whole numbers (4, N): node, and cells of `place` metres and `turn` radians.
+def standing(states: States, roots: Points, cell: float, sector: float) -> Indices:
+    """Round the state of walks to integers (4, N): node, and cells of `cell` metres and `sector` radians.
 
     `roots`, shape (nodes,), are the root's positions at the nodes, in the coordinates of their clips.
     """
-    body = (states.move + states.turn * roots[states.node]) / place
-    cells = np.floor(np.array([body.real, body.imag, np.angle(states.turn) / turn]) + ON_BORDER)
+    body = (states.translation + states.rotation * roots[states.node]) / cell
+    cells = np.floor(np.array([body.real, body.imag, np.angle(states.rotation) / sector]) + ON_BORDER)
     return np.concatenate([states.node[None], cells.astype(np.intp)])
 
 

@@ -224,8 +224,8 @@ def start_of(graph: CompiledGraph, route: Route, wishes: Wishes) -> States:
     """Start at the first point of the route, at every node or the one asked for, in the route's direction."""
     nodes = np.arange(len(graph.nodes)) if wishes.start is None else np.array([graph.index(wishes.start)])
     first = route.points[: int(0.3 / route.spacing) + 2]
-    turn = np.exp(1j * (np.angle(first[-1] - first[0]) - graph.going[nodes]))
-    return start_states(nodes, turn, first[0] - turn * graph.at[nodes])
+    rotation = np.exp(1j * (np.angle(first[-1] - first[0]) - graph.going[nodes]))
+    return start_states(nodes, rotation, first[0] - rotation * graph.at[nodes])
 
 
 def _require_labels(graph: CompiledGraph, labels: Sequence[str], starts: Indices) -> None:
@@ -301,7 +301,7 @@ def follow_as_2002(  # noqa: PLR0913 (a path, wishes, and three limits)
     path = as_path(path)
     route = make_route(compiled, path, wishes)
     start = start_of(compiled, route, wishes)
-    stand = Stand(complex(start.turn[0]), complex(start.move[0]))
+    stand = Stand(complex(start.rotation[0]), complex(start.translation[0]))
     walks = GroundWalks(compiled)
     node = compiled.nodes[int(start.node[0])]
     limits = {"budget": budget, "deadline": deadline}
@@ -309,9 +309,9 @@ def follow_as_2002(  # noqa: PLR0913 (a path, wishes, and three limits)
     if not result.walk:
         raise NoWalk(f"The search was {result.stopped} before its first step.")
     edges = np.array([walks.number[edge] for edge in result.walk])
-    along = np.cumsum(compiled.progress[walk_track(compiled, edges, stand.turn, stand.move)[1]])
+    along = np.cumsum(compiled.progress[walk_track(compiled, edges, stand.rotation, stand.translation)[1]])
     counts = result.expanded, result.cut, result.stopped
-    walk = Found(edges, stand.turn, stand.move, along, result.cost, *counts)
+    walk = Found(edges, stand.rotation, stand.translation, along, result.cost, *counts)
     followed = account(compiled, path, route, walk)
     if result.stopped == OUT_OF_TIME:
         _tell_deadline(followed, deadline)

@@ -40,14 +40,15 @@ watching: ContextVar[Watch] = ContextVar("watching", default=lambda search, stat
 class Found(NamedTuple):
     """The best walk found.
 
-    `edges` are numbers in the compiled graph; the first one's clip is placed by p ↦ turn · p + move. `along`
-    gives each frame's progress along the path, metres. `expanded` counts the walks that were lengthened,
-    `cut` those that were dropped. `stopped` is "", or the reason why the search ended early.
+    `edges` are numbers in the compiled graph; the transform of the first one's clip is
+    p ↦ rotation · p + translation. `along` is each frame's progress along the path, metres. `expanded` is the
+    number of walks that were extended, `cut` of those that were dropped. `stopped` is "", or the reason why
+    the search ended early.
     """
 
     edges: Indices
-    turn: complex
-    move: complex
+    rotation: complex
+    translation: complex
     along: Array
     cost: float
     expanded: int
@@ -121,7 +122,7 @@ class PathSearch(LayeredSearch):
     def line(self, states: States) -> Points:
         """Return the positions on the ground that the first of some walks has passed, one for each hop."""
         steps = self.trace(states, 0)
-        return np.asarray(steps.move + steps.turn * self.graph.at[steps.node])
+        return np.asarray(steps.translation + steps.rotation * self.graph.at[steps.node])
 
     def expand(self, states: States) -> States:
         """Lengthen every walk by every hop that leaves its node.
@@ -142,11 +143,11 @@ class PathSearch(LayeredSearch):
         direction = route.directions[point]
         is_timed = np.isfinite(route.clock).any()
         if route.own:
-            turn = np.exp(-1j * route.own.going[longer.node]) * direction
-            longer = longer._replace(turn=turn, move=route.at(longer.along) - turn * root)
+            rotation = np.exp(-1j * route.own.going[longer.node]) * direction
+            longer = longer._replace(rotation=rotation, translation=route.at(longer.along) - rotation * root)
             in_time = longer.frames <= (longer.along / SLOWEST + GRACE) * self.graph.fps
             return longer.take(in_time | is_timed)
-        error = longer.move + longer.turn * root - route.points[point]
+        error = longer.translation + longer.rotation * root - route.points[point]
         abreast = np.clip((error * direction.conj()).real, -hops.along, hops.along)
         least_progress = np.where(is_timed, 0.0, LEAST / self.graph.fps * hops.frames)
         progress = np.maximum(hops.along + route.wishes.slide * abreast, least_progress)
@@ -175,7 +176,7 @@ class PathSearch(LayeredSearch):
         row, number, along = self.frames_along(hop, states.along[chosen])
         walk = chosen[number]
         first = np.cumsum(graph.hops.frames[hop]) - graph.hops.frames[hop]
-        body = states.move[walk] + states.turn[walk] * graph.ground[row]
+        body = states.translation[walk] + states.rotation[walk] * graph.ground[row]
         if route.own:
             costs = self._bending_costs(route.own, row, along)
         else:
@@ -221,11 +222,11 @@ class PathSearch(LayeredSearch):
         route = self.route
         node = states.node
         line = route.points[route.point(states.along[:, None] + self.ahead[node])]
-        if_played = states.move[:, None] + states.turn[:, None] * graph.ahead[node]
+        if_played = states.translation[:, None] + states.rotation[:, None] * graph.ahead[node]
         ahead = line if route.own else if_played
         costs = _square(ahead - line)
         if len(route.others):  # to give way takes longer: look up to three times as far
-            body = states.move + states.turn * graph.at[node]
+            body = states.translation + states.rotation * graph.at[node]
             last = ahead[:, -1:]
             farther = last + (last - body[:, None]) * GIVING_WAY
             frames = (GIVING_WAY + 1) * round(graph.fps * AHEAD[-1])
@@ -265,10 +266,10 @@ class PathSearch(LayeredSearch):
         hops = walk.hop[1:]
         edges = self.graph.hops.edges(hops)
         _, _, along = self.frames_along(hops, walk.along[:-1])
-        turn = complex(walk.turn[0])
-        move = complex(walk.move[0])
+        rotation = complex(walk.rotation[0])
+        translation = complex(walk.translation[0])
         cost = float(walk.cost[-1])
-        return Found(edges, turn, move, along, cost, self.expanded, self.cut, stopped)
+        return Found(edges, rotation, translation, along, cost, self.expanded, self.cut, stopped)
 
 
 def too_slow(graph: CompiledGraph, nearest: str = "") -> NoWalk:

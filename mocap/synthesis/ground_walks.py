@@ -1,7 +1,8 @@
 """Walks as they run on the ground, for searches that price where the root is [KGP02, 4.2].
 
 Ground points are complex numbers z + ix: z runs ahead, x to the left. A walk's clip is placed by
-p ↦ turn · p + move. An edge turns and moves what comes after it, so both are running products and sums.
+p ↦ rotation · p + translation. An edge rotates and translates what comes after it, so the transform of a
+clip is a running product.
 """
 
 import math
@@ -20,13 +21,13 @@ Price = Callable[[Points, int, SearchEdge], float]
 
 
 class Stand(NamedTuple):
-    """Where a walk has led: what comes next is placed by p ↦ turn · p + move.
+    """Where a walk has led: what comes next is placed by p ↦ rotation · p + translation.
 
     So many `frames` are walked; and where a path is followed, it is `along` metres along it.
     """
 
-    turn: complex
-    move: complex
+    rotation: complex
+    translation: complex
     frames: int = 0
     along: float = 0.0
 
@@ -60,21 +61,24 @@ class GroundWalks:
 
     def start(self, number: int) -> tuple[Node, Stand]:
         """Stand at a node of this number, at the origin, and move straight ahead."""
-        turn = np.exp(-1j * self.graph.going[number])
-        return self.graph.nodes[number], Stand(turn, -turn * self.graph.at[number])
+        rotation = np.exp(-1j * self.graph.going[number])
+        return self.graph.nodes[number], Stand(rotation, -rotation * self.graph.at[number])
 
     def step(self, stand: Stand, edge: SearchEdge) -> tuple[slice, Points, Stand]:
         """Walk along an edge: the rows of its frames among those of all, the root there, where it leads."""
         graph, e = self.graph, self.number[edge]
         rows = slice(graph.first[e], graph.first[e] + graph.frames[e])
-        turn, move = stand.turn * graph.turn[e], stand.move + stand.turn * graph.move[e]
-        after = Stand(turn, move, stand.frames + int(graph.frames[e]), stand.along)
-        return rows, stand.turn * graph.ground[rows] + stand.move, after
+        rotation, translation = (
+            stand.rotation * graph.rotation[e],
+            stand.translation + stand.rotation * graph.translation[e],
+        )
+        after = Stand(rotation, translation, stand.frames + int(graph.frames[e]), stand.along)
+        return rows, stand.rotation * graph.ground[rows] + stand.translation, after
 
     def points(self, walk: Sequence[SearchEdge], stand: Stand) -> Points:
         """Give the root in each frame of a walk."""
         edges = np.array([self.number[edge] for edge in walk])
-        return walk_track(self.graph, edges, stand.turn, stand.move)[0]
+        return walk_track(self.graph, edges, stand.rotation, stand.translation)[0]
 
     def problem(self, price: Price, *, frames: float = math.inf) -> Problem:
         """Make a search problem: each edge costs what `price` says; a walk of so many frames is complete."""

@@ -220,8 +220,8 @@ def places(edges: EdgeTable, place: PlanarTransform = IDENTITY) -> PlanarTransfo
     ([0.0, 0.0, 1.0], [0.0, 1.0, 1.0])
     """
     angle = np.cumsum([place.angle, *edges.angle])
-    steps = edges.move * np.exp(1j * angle[:-1])
-    moved = np.cumsum([place.move, *steps])
+    steps = edges.translation * np.exp(1j * angle[:-1])
+    moved = np.cumsum([place.translation, *steps])
     return PlanarTransform(angle, moved.imag, moved.real)
 
 

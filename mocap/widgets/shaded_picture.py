@@ -7,14 +7,13 @@ found in closed form. Camera, light and colours are the player's.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from matplotlib.colors import to_rgb
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image, ImageDraw
 
 from mocap._shared.arrays import Array, Indices
+from mocap._shared.records import NamedTuple
 
 YAW = 0.7  # radians
 PITCH = 0.25  # radians, downwards

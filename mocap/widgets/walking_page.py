@@ -107,8 +107,8 @@ def _row(graph: MotionGraph, labels: list[str], nodes: tuple[Node, Node], edge: 
     transform = edge["transform"]
     source_root = complex(*graph.clips[source].root_positions[leave, ZX])
     target_root = complex(*graph.clips[target].root_positions[enter - graph.window, ZX])
-    offset = transform.turn * target_root + transform.move - source_root
-    angle = round(np.angle(transform.turn) / STEPS["turn"])
+    offset = transform.rotation * target_root + transform.translation - source_root
+    angle = round(np.angle(transform.rotation) / STEPS["turn"])
     return [kind + 1, angle, round(offset.real / STEPS["move"]), round(offset.imag / STEPS["move"])]
 
 

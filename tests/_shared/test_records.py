@@ -24,15 +24,19 @@ SHORT_RECORDS = {
     "Deprecation",
     "Format",
     "Joint",
+    "Kind",
     "Leg",
     "Listing",
     "NamedSet",
     "Origin",
+    "Part",
     "PlanarTransform",
     "ReadOptions",
     "Record",
+    "Remedy",
     "Segment",
     "Trial",
+    "_Pen",
 }
 
 

@@ -27,8 +27,10 @@ def test_transforms_form_a_group_and_keep_heights_and_distances(a, b, c):
     assert left.apply_points(POINTS) == pytest.approx(right.apply_points(POINTS), abs=1e-9)
     for same in (a @ IDENTITY, IDENTITY @ a):
         assert same.apply_points(POINTS) == pytest.approx(a.apply_points(POINTS), abs=1e-9)
-    assert a.turn * on_ground(POINTS) + a.move == pytest.approx(on_ground(a.apply_points(POINTS)), abs=1e-9)
-    both = PlanarTransform.from_complex(a.turn * b.turn, a.turn * b.move + a.move)
+    assert a.rotation * on_ground(POINTS) + a.translation == pytest.approx(
+        on_ground(a.apply_points(POINTS)), abs=1e-9
+    )
+    both = PlanarTransform.from_complex(a.rotation * b.rotation, a.rotation * b.translation + a.translation)
     assert both.apply_points(POINTS) == pytest.approx((a @ b).apply_points(POINTS), abs=1e-9)
     assert from_ground(on_ground(POINTS)) == pytest.approx(POINTS[..., [0, 2]])
 

@@ -52,9 +52,9 @@ def as_packed(graph):
         if edge["kind"] == "transition":
             here = plain.ground(graph.clips[start[0]].root_positions[start[1]])
             there = plain.ground(graph.clips[end[0]].root_positions[end[1] - 10])
-            off = edge["transform"].turn * there + edge["transform"].move - here
+            off = edge["transform"].rotation * there + edge["transform"].translation - here
             off = (np.rint(off.real / STEPS["move"]) + 1j * np.rint(off.imag / STEPS["move"])) * STEPS["move"]
-            turn = np.exp(1j * np.rint(np.angle(edge["transform"].turn) / STEPS["turn"]) * STEPS["turn"])
+            turn = np.exp(1j * np.rint(np.angle(edge["transform"].rotation) / STEPS["turn"]) * STEPS["turn"])
             here, there = (clips[clip].root_positions[at] for clip, at in (start, (end[0], end[1] - 10)))
             lay = turn, plain.ground(here) + off - turn * plain.ground(there)
         key = rounded.add_edge(start, end, kind=edge["kind"], frames=edge["frames"], transform=lay)

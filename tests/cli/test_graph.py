@@ -180,7 +180,7 @@ def test_where_the_way_is_closed_it_sets_out_to_a_side_but_does_not_search_there
     asked = []
 
     def refuse(group, scene, *, start, most=4000):
-        asked.append((most, round(float(np.angle(start.turn / 1j)), 6)))
+        asked.append((most, round(float(np.angle(start.rotation / 1j)), 6)))
         raise NoWalk(f"refused {len(asked)}")
 
     monkeypatch.setattr("mocap.methods.groups.lead_group", refuse)

@@ -130,7 +130,7 @@ def test_without_cuts_and_prices_it_finds_what_branch_and_bound_finds():
     for node in (3, 200, 500):
         start = at_nodes(GRAPH, [node], 0.2)
         found = path_search.find_walk(GRAPH, route, start, exact)
-        stand = Stand(complex(start.turn[0]), complex(start.move[0]))
+        stand = Stand(complex(start.rotation[0]), complex(start.translation[0]))
         problem = path_problem(GroundWalks(GRAPH), route)
         best = branch_and_bound(problem, GRAPH.nodes[node], stand)
         # A hop may ride on past the end of the path, to which the paper's walk stops: never for less.
@@ -201,7 +201,7 @@ def test_it_is_told_how_far_the_farthest_walk_came():
 
 
 def test_walks_stand_alike_by_node_place_turn_and_where_others_walk_by_time():
-    apart = {"node": 1, "move": 0.2, "turn": np.exp(0.2j), "frames": 30}
+    apart = {"node": 1, "translation": 0.2, "rotation": np.exp(0.2j), "frames": 30}
     one = start_states(np.array([7]), np.ones(1, complex), np.zeros(1, complex))
     two = [one._replace(**{field: getattr(one, field) * 0 + value}) for field, value in apart.items()]
     for others, told in (((), 4), ([np.zeros((9, 2))], 5)):
@@ -234,7 +234,7 @@ def test_a_hop_costs_what_its_frames_are_off():
         rows, _ = graph.hops.rows(hop[[number]])
         along = start.along[walk] + np.cumsum(np.maximum(graph.step[rows], 0.3 / 30))
         for count, (row, metres) in enumerate(zip(rows, along, strict=True)):
-            body = start.move[walk] + start.turn[walk] * graph.ground[row]
+            body = start.translation[walk] + start.rotation[walk] * graph.ground[row]
             off = abs(body - route.at(np.array([metres]))[0]) ** 2
             cost += off + 100 * off**2
             point = route.point(np.array([metres]))[0]
@@ -267,7 +267,7 @@ def test_the_promise_of_a_walk_is_bounded_by_what_a_transition_could_save():
 def test_others_are_seen_up_to_three_times_as_far_ahead_as_the_clip(times, seen):
     """Someone is there only at the moment at which the walk would be, if it went straight on."""
     walk = at_nodes(GRAPH, [5])
-    body, end = (walk.move + walk.turn * points[5] for points in (GRAPH.at, GRAPH.ahead[:, -1]))
+    body, end = (walk.translation + walk.rotation * points[5] for points in (GRAPH.at, GRAPH.ahead[:, -1]))
     frame = times * round(GRAPH.fps * AHEAD[-1])
     other = np.full((frame + 2, 2), 1000.0)
     place = (body + times * (end - body))[0]

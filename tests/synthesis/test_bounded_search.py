@@ -206,8 +206,8 @@ def test_it_starts_at_the_origin_and_straight_ahead(graph):
         _, points, after = walks.step(start, edge)
         assert abs(points[0]) < 0.1
         assert after.frames == len(points)
-        assert start.turn * walks.graph.at[number] + start.move == pytest.approx(0)
-        assert np.angle(start.turn * np.exp(1j * walks.graph.going[number])) == pytest.approx(0)
+        assert start.rotation * walks.graph.at[number] + start.translation == pytest.approx(0)
+        assert np.angle(start.rotation * np.exp(1j * walks.graph.going[number])) == pytest.approx(0)
 
 
 def test_a_problem_asks_its_price_for_every_edge_and_ends_after_so_many_frames(graph):

@@ -172,7 +172,7 @@ def play_group(graph: GroupGraph, walk: Sequence[int], start: PlanarTransform = 
     if not len(walk):
         raise MocapError("A walk of a group has one clip or more, got none.")
     clips = [graph.clips[number] for number in walk]
-    node, turn, move = clips[0].start, start.turn, start.move
+    node, turn, move = clips[0].start, start.rotation, start.translation
     order, places, velocities = np.arange(graph.members), [], []
     for clip in clips:
         if node != clip.start:

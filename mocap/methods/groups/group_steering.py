@@ -115,10 +115,10 @@ def lead_group(
 
 def _steered(graph: GroupGraph, scene: Scene, start: PlanarTransform, limit: float) -> Configuration | None:
     """Steer by all of `TRIED` side by side; take the first that is there in time, clear as a plan."""
-    places, velocities = (np.tile(start.turn * part, (AVOID.size, 1)) for part in graph.nodes[0])
+    places, velocities = (np.tile(start.rotation * part, (AVOID.size, 1)) for part in graph.nodes[0])
     frames: list[Configuration] = []
     there: Mask = np.zeros(len(places), bool)
-    for now, passed in _steering(Configuration(places + start.move, velocities), scene, TRIED, 0):
+    for now, passed in _steering(Configuration(places + start.translation, velocities), scene, TRIED, 0):
         if there.all() or len(frames) > limit * RATE:
             break
         frames.append(now)

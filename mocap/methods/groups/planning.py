@@ -261,9 +261,10 @@ def plan_group(
 
     Notebook: 19-group-graphs
     """
-    scene.check(complex(start.move), start.turn * graph.nodes[0].places + start.move)
+    scene.check(complex(start.translation), start.rotation * graph.nodes[0].places + start.translation)
     search = Search(graph, scene)
-    waiting = [(0.0, 0, State(0, complex(start.turn), complex(start.move)))]  # promise, count, state
+    state = State(0, complex(start.rotation), complex(start.translation))
+    waiting = [(0.0, 0, state)]  # promise, count, state
     count = 0
     farthest = 0  # points passed
     seen: set[tuple[float, ...]] = set()

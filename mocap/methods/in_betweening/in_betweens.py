@@ -151,6 +151,6 @@ def _arriving(
         walk = [graph.edges[edge] for edge in candidate.edges]
         played = to_motion(source, walk, place=candidate.place)
         played = played[candidate.first : candidate.first + candidate.frames + 1]
-        arrived = bend_to(played, frames + 1, candidate.end, candidate.turn)
+        arrived = bend_to(played, frames + 1, candidate.end, candidate.angle)
         if arrived.lack <= POSE / 2 and np.abs(arrived.turned).max() <= MOST_TURN:
             yield candidate.cost + arrived.price, walk, arrived

@@ -5,8 +5,8 @@ grow from both sides. Every node at which one of each kind ends joins two of the
 up to n² walks. This is the bidirectional search of I. Pohl (1971) with beams for its two fronts.
 
 The walks are `States`: `along` is their length in metres, and `hop` the edge of their last step. Positions
-are in the world: p ↦ turn · p + move places the clip of a walk's last node. If walk a from the start meets
-walk b from the end, b's clip should be placed as a's is. The difference is what remains to be bent.
+are in the world: p ↦ rotation · p + translation transforms the clip of a walk's last node. If walk a from the
+start meets walk b from the end, b's clip should have the transform of a's. The difference remains to be bent.
 
 The steps are `States` as well, walks of one edge each. Their points are the N nodes of the graph, then the K
 frames similar to the start, points N to N + K - 1, and then those similar to the end.
@@ -50,14 +50,15 @@ PAIRS = 3_000_000  # joins that are compared, at most
 class Candidates(NamedTuple):
     """K frames similar to a pose, and the planar transforms that align their clips with it.
 
-    `stretch` (K,): the edge that plays the frame; `since` (K,): its number among the edge's frames; `turn`
-    and `move` (K,): p ↦ turn · p + move aligns its clip with the pose; `distance` (K,): metres.
+    `stretch` (K,): the edge that plays the frame; `since` (K,): its number among the edge's frames;
+    `rotation` and `translation` (K,): p ↦ rotation · p + translation aligns its clip with the pose;
+    `distance` (K,): metres.
     """
 
     stretch: Indices
     since: Indices
-    turn: Points
-    move: Points
+    rotation: Points
+    translation: Points
     distance: Array
 
 
@@ -110,7 +111,7 @@ def find_candidates(graph: CompiledGraph, motion: Motion, *, direction: int, lim
     chosen = chosen[distance[chosen] <= limit]
     edge = graph.of[rows[chosen]]
     since = rows[chosen] - graph.first[edge]
-    return Candidates(edge, since, aligned.turn[chosen], aligned.move[chosen], distance[chosen])
+    return Candidates(edge, since, aligned.rotation[chosen], aligned.translation[chosen], distance[chosen])
 
 
 def _separate_minima(distance: Array, lane: Indices, step: int) -> Indices:
@@ -130,7 +131,7 @@ class Joined(NamedTuple):
 
     `edges`: numbers in the compiled graph; `first`: the frames of the first edge that it leaves out;
     `frames`: from the start to the end; `place`: aligns the first clip with the start; `end`: the ground
-    point that the last frame's root must reach; `turn`: the angle by which it must be turned there, radians;
+    point that the last frame's root must reach; `angle`: the rotation that it needs there, radians;
     `cost`: of its seams, and of the poses at its ends.
     """
 
@@ -139,7 +140,7 @@ class Joined(NamedTuple):
     frames: int
     place: PlanarTransform
     end: complex
-    turn: float
+    angle: float
     cost: float
 
 
@@ -168,7 +169,7 @@ class TwoSided:
     @staticmethod
     def _first_position(end: Candidates, roots: Points) -> complex:
         """Return the ground point of the best candidate's root."""
-        return complex(end.move[0] + end.turn[0] * roots[0])
+        return complex(end.translation[0] + end.rotation[0] * roots[0])
 
     def best(self, count: int) -> list[Joined]:
         """Join the walks of both sides, and return those of lowest cost; none if no two of them meet."""
@@ -194,9 +195,11 @@ class TwoSided:
 
     def _reversed_steps(self) -> States:
         """Return the same steps, walked from the point that they enter to the point that they leave."""
-        turn = self.steps.turn.conj()
-        move = -turn * self.steps.move
-        return self.steps._replace(node=self.steps.trail, trail=self.steps.node, turn=turn, move=move)
+        rotation = self.steps.rotation.conj()
+        translation = -rotation * self.steps.translation
+        return self.steps._replace(
+            node=self.steps.trail, trail=self.steps.node, rotation=rotation, translation=translation
+        )
 
     def prices(self, first: States, second: States) -> Array:
         """Estimate the cost of each pair of walks that meet, including that of the bending.
@@ -208,9 +211,9 @@ class TwoSided:
         Only longer steps lead further than the metres walked.
         """
         seconds = self.frames / self.graph.fps
-        turn = second.turn * first.turn.conj()
-        end = turn.conj() * (self.finish - second.move) + first.move
-        angle = np.angle(turn)
+        rotation = second.rotation * first.rotation.conj()
+        end = rotation.conj() * (self.finish - second.translation) + first.translation
+        angle = np.angle(rotation)
         metres = np.maximum(first.along + second.along, 0.1)
         line = (end - self.begin) * np.exp(0.5j * angle)
         target = self.finish - self.begin
@@ -233,14 +236,14 @@ class TwoSided:
         point = int(backward.node[0])
         start = int(forward.node[0]) - len(graph.nodes)
         end = point - len(graph.nodes) - len(self.starts.distance)
-        start_turn = complex(self.starts.turn[start])
-        end_turn = complex(self.ends.turn[end])
-        turn = float(np.angle(end_turn / (start_turn * np.prod(graph.turn[edges]))))
-        place = PlanarTransform.from_complex(start_turn, complex(self.starts.move[start]))
-        target = complex(self.ends.move[end] + end_turn * self.roots[point])
+        start_rotation = complex(self.starts.rotation[start])
+        end_rotation = complex(self.ends.rotation[end])
+        angle = float(np.angle(end_rotation / (start_rotation * np.prod(graph.rotation[edges]))))
+        place = PlanarTransform.from_complex(start_rotation, complex(self.starts.translation[start]))
+        target = complex(self.ends.translation[end] + end_rotation * self.roots[point])
         frames = int(forward.frames[-1] + backward.frames[-1])
         cost = float(forward.cost[-1] + backward.cost[-1])
-        return Joined(edges, int(self.starts.since[start]), frames, place, target, turn, cost)
+        return Joined(edges, int(self.starts.since[start]), frames, place, target, angle, cost)
 
 
 def pairs_at_nodes(first: Indices, second: Indices) -> tuple[Indices, Indices]:
@@ -271,7 +274,7 @@ class _Front(LayeredSearch):
 
     def __init__(self, search: TwoSided, steps: States, seeds: Candidates, first: int) -> None:
         nodes = first + np.arange(len(seeds.distance))
-        super().__init__(start_states(nodes, seeds.turn, seeds.move), WIDTH)
+        super().__init__(start_states(nodes, seeds.rotation, seeds.translation), WIDTH)
         self.search = search
         self.aim(0j, 0.0)
         self.steps = steps.take(np.argsort(steps.trail, kind="stable"))
@@ -291,7 +294,7 @@ class _Front(LayeredSearch):
 
     def score(self, states: States) -> Array:
         """Rate walks by their cost, and by the longer steps needed to reach the goal in time."""
-        position = states.move + states.turn * self.search.roots[states.node]
+        position = states.translation + states.rotation * self.search.roots[states.node]
         remaining = np.maximum(self.search.frames - states.frames, 1) / self.search.graph.fps
         reach = self.search.speed * remaining
         shortfall = np.log(np.maximum(np.abs(self.goal - position) / reach, 1.0))
@@ -356,7 +359,7 @@ def steps_between(graph: CompiledGraph, starts: Candidates, ends: Candidates) ->
     metres = np.concatenate([[0.0], np.cumsum(graph.step)])
     row = graph.first[parts.edge]
     along = metres[row + parts.stop] - metres[row + parts.begin]
-    turn = graph.turn[parts.edge]
-    move = graph.move[parts.edge]
+    rotation = graph.rotation[parts.edge]
+    translation = graph.translation[parts.edge]
     frames = parts.stop - parts.begin
-    return States(parts.target, turn, move, along, frames, parts.cost, parts.origin, parts.edge)
+    return States(parts.target, rotation, translation, along, frames, parts.cost, parts.origin, parts.edge)

@@ -133,9 +133,9 @@ class MotionMatcher:
         """Play another frame: align its track with that of the current one; the residual is the offset."""
         table = self.database
         frame = self.frame
-        turn = complex(self.place.turn * np.exp(1j * (table.heading[frame] - table.heading[new])))
+        turn = complex(self.place.rotation * np.exp(1j * (table.heading[frame] - table.heading[new])))
         turn /= abs(turn)
-        target = self.place.turn * table.ground[frame] + self.place.move
+        target = self.place.rotation * table.ground[frame] + self.place.translation
         place = PlanarTransform.from_complex(turn, complex(target - turn * table.ground[new]))
         root, turns = self._placed(self.place, frame)
         motion = table.motion

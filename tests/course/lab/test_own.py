@@ -86,7 +86,7 @@ def test_nodes_edges_and_transforms_are_the_packages(graph, theirs):
                 if other["kind"] == "transition"
             )
             assert data["cost"] == pytest.approx(cost, abs=1e-9)
-            assert np.allclose(data["transform"], [laid.turn, laid.move], atol=1e-9)
+            assert np.allclose(data["transform"], [laid.rotation, laid.translation], atol=1e-9)
 
 
 def test_with_the_same_weights_the_walk_is_the_packages_motion_and_stays_on_its_path(graph, theirs, by):
