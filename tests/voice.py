@@ -3,9 +3,9 @@
     python tests/voice.py           # each place where a private word stands for a term
     python tests/voice.py --count   # how often, by room, and the patterns of docstrings and comments
 
-The left column of `TERMS` holds words that this project used where the field has a term of its own. A name that
-users see (a function, a class, a parameter, a field) has none of them, except where `EXCEPTIONS` says why the word
-is right there. Rooms that are worded together with the next change of their methods are in `WAITING`.
+The left column of `TERMS` holds words that this project used where the field has a term of its own. A name
+that users see (a function, a class, a parameter, a field) has none of them, except where `EXCEPTIONS` says why
+the word is right there. Rooms that are worded together with the next change of their methods are in `WAITING`.
 """
 
 import argparse
