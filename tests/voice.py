@@ -4,8 +4,8 @@
     python tests/voice.py --count   # how often, by room, and the patterns of docstrings and comments
 
 The left column of `TERMS` holds words that this project used where the field has a term of its own. A name
-that users see (a function, a class, a parameter, a field) has none of them, except where `EXCEPTIONS` says why
-the word is right there. Rooms that are worded together with the next change of their methods are in `WAITING`.
+that users see (a function, a class, a parameter, a field) has none of them, except where `EXCEPTIONS` says
+why the word is right there. Rooms that are worded with the next change of their methods are in `WAITING`.
 """
 
 import argparse
