@@ -122,7 +122,7 @@ def test_random_walks_and_their_motions(clips, both):
         assert walk == synthesis.random_walk(quick, seconds=8, seed=seed)
         turn, move = np.exp(1j * seed), seed * (3 - 4j)
         place = body.PlanarTransform.from_complex(turn, move)
-        played(plain.to_motion(clips, slow, walk, turn, move), synthesis.to_motion(quick, walk, place=place))
+        played(plain.to_motion(clips, slow, walk, turn, move), synthesis.to_motion(quick, walk, start=place))
 
 
 def test_components_of_a_long_chain():

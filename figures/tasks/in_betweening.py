@@ -12,7 +12,7 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.body import Motion, rotations
 from mocap.body.kinematics import forward_kinematics
-from mocap.body.planar import lay_on, place
+from mocap.body.planar import align_frames, place
 from mocap.errors import MocapError
 from mocap.methods.in_betweening import in_between
 from tasks import BANDAI, CMU_16, HOMEWORK, WALKS, Case, graph, without
@@ -58,7 +58,7 @@ def cases(collection: str, clips: list[Motion]) -> Iterator[Case]:
 def laid(window: Motion) -> Motion:
     """Lay a window so that its last past frame stands at the origin and faces +x."""
     last = window[PAST - 1 : PAST]
-    return lay_on(last, place(last, np.pi / 2, (0, 0))).apply_motion(window)
+    return align_frames(last, place(last, np.pi / 2, (0, 0))).apply_motion(window)
 
 
 @cache

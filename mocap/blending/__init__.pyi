@@ -1,8 +1,8 @@
 from .clocks import frame_times as frame_times
+from .joining import align_window as align_window
 from .joining import blend as blend
 from .joining import inertialize as inertialize
 from .joining import join as join
-from .joining import lay_window_on as lay_window_on
 from .mixing import crossfade as crossfade
 from .mixing import ground_course as ground_course
 from .mixing import mix as mix

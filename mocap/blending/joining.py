@@ -62,7 +62,7 @@ def blend(a: Motion, b: Motion, weights: ArrayLike) -> Motion:
     return replace(a, root_positions=roots, rotations=quaternions, labels=labels, contacts=contacts)
 
 
-def lay_window_on(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
+def align_window(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
     """Align b with a so that the windows from frames j and i agree best [KGP02, Eqs. 2-4].
 
     Raises
@@ -74,7 +74,7 @@ def lay_window_on(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
     >>> from mocap.body.skeleton import Skeleton
     >>> dot = Skeleton(["root"], [-1], [[0, 0, 0]])
     >>> a, b = (Motion(dot, [[x, 1, 0]] * 2, [[[1, 0, 0, 0]]] * 2, 30.0) for x in (5, 0))
-    >>> lay_window_on(a, 0, b, 0, 2).root_positions
+    >>> align_window(a, 0, b, 0, 2).root_positions
     array([[5., 1., 0.],
            [5., 1., 0.]])
 
@@ -145,7 +145,7 @@ def join(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
 
     Notebook: 04-blending
     """
-    b = lay_window_on(a, i, b, j, window)
+    b = align_window(a, i, b, j, window)
     mixed = blend(a[i : i + window], b[j : j + window], cubic_weights(window))
     return splice(a, i, mixed, b, j + window)
 
@@ -183,7 +183,7 @@ def inertialize(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
 
     Notebook: 09b-blend-window
     """
-    b = lay_window_on(a, i, b, j, window)
+    b = align_window(a, i, b, j, window)
     first = -1 if min(i, j) > 0 else 0
     last = 1 if window > 1 else 0
     frames = np.arange(first, last + 1)  # relative to the cut

@@ -163,7 +163,7 @@ def heading(quaternions: ArrayLike) -> Array:
     return np.asarray(np.arctan2(2 * w * y, w * w - y * y))
 
 
-def lay_on(motion: Motion, target: Motion, frame: int = 0) -> PlanarTransform:
+def align_frames(motion: Motion, target: Motion, frame: int = 0) -> PlanarTransform:
     """Return the planar transform that aligns a motion's first frame with a frame of another.
 
     It rotates by the difference of the two headings, then moves the root over the ground to the other root.
@@ -179,7 +179,7 @@ def lay_on(motion: Motion, target: Motion, frame: int = 0) -> PlanarTransform:
     >>> dot = Skeleton(["root"], [-1], [[0, 0, 0]])
     >>> here = Motion(dot, [[5, 1, 5]], [[[1, 0, 0, 0]]], 30.0)
     >>> there = Motion(dot, [[2, 2, 3]], [rotations.about_y([0.5])], 30.0)
-    >>> lay_on(here, there).apply_motion(here).root_positions.round(6)
+    >>> align_frames(here, there).apply_motion(here).root_positions.round(6)
     array([[2., 1., 3.]])
 
     Notebook: 03b-angles

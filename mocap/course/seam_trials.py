@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mocap._shared.arrays import Array
-from mocap.blending.joining import blend, inertialize, lay_window_on, splice
+from mocap.blending.joining import align_window, blend, inertialize, splice
 from mocap.blending.weights import cubic_weights
 from mocap.body.motion import Motion
 from mocap.matching.point_clouds import point_cloud
@@ -157,7 +157,7 @@ def passage(
     middles = ((match.source, match.leave + MATCHED // 2), (match.target, match.enter + MATCHED // 2))
     first, second = (clips[clip][middle - beside : middle + beside] for clip, middle in middles)
     start = beside - window // 2
-    laid = lay_window_on(first, start, second, start, window)
+    laid = align_window(first, start, second, start, window)
     if weights is None:
         return Passage(inertialize(first, start, second, start, window), first, laid, start, np.zeros(window))
     mixed = blend(first[start : start + window], laid[start : start + window], weights(window))

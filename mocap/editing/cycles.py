@@ -17,7 +17,7 @@ from mocap._shared.ties import first_least
 from mocap.blending.joining import join
 from mocap.body import rotations
 from mocap.body.motion import Motion, concatenate, resample
-from mocap.body.planar import PlanarTransform, heading, lay_on
+from mocap.body.planar import PlanarTransform, align_frames, heading
 from mocap.editing.path_editing import plants_kept
 from mocap.errors import MocapError, MocapWarning, shortened, warn
 from mocap.feet.footplants import mark_plants
@@ -231,7 +231,7 @@ def _cleaned(cycle: Motion) -> Motion:
     if kept < 1:
         released = f"'{shortened(cycle.name)}': {1 - kept:.0%} of the planted frames are let go"
         warn(f"{released}: to hold them would move the root by more than 2 cm, stretch a leg or jolt a knee.")
-    return lay_on(cleaned, cycle).apply_motion(cleaned)
+    return align_frames(cleaned, cycle).apply_motion(cleaned)
 
 
 def repeated(cycle: Motion, times: int) -> Motion:
@@ -261,5 +261,5 @@ def repeated(cycle: Motion, times: int) -> Motion:
     copies = [cycle]
     for _ in range(times - 1):
         last = copies[-1]
-        copies.append(lay_on(cycle, last, len(last) - 1).apply_motion(cycle))
+        copies.append(align_frames(cycle, last, len(last) - 1).apply_motion(cycle))
     return concatenate([*(copy[:-1] for copy in copies), copies[-1][-1:]])

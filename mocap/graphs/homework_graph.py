@@ -19,7 +19,7 @@ from mocap._shared.arrays import Array
 from mocap.blending.joining import blend
 from mocap.blending.weights import sine_weights
 from mocap.body.motion import Motion, concatenate, require_alike
-from mocap.body.planar import IDENTITY, lay_on
+from mocap.body.planar import IDENTITY, align_frames
 from mocap.errors import MocapError, NoWalk
 from mocap.matching.distance_grids import check_window
 from mocap.matching.other_metrics import Metric, euler_grid
@@ -275,7 +275,7 @@ def segment_motion(clips: Sequence[Motion], graph: nx.DiGraph, walk: Sequence[in
             pieces.append(segment if transform is IDENTITY else transform.apply_motion(segment))
             continue
         tail = pieces[-1][-window:]
-        transform = lay_on(segment, tail)
+        transform = align_frames(segment, tail)
         aligned = transform.apply_motion(segment)
         mixed = blend(tail, aligned[:window], sine_weights(window))
         pieces[-1:] = [pieces[-1][:-window], mixed, aligned[window:]]

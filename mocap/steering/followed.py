@@ -67,7 +67,7 @@ class Followed:
         """Give the motion along the path, its feet cleaned if `clean` says so; by default if it is bent."""
         if self.bent:
             return replace(self.bent.laid if clean is False else self.bent.motion, name=name)
-        return to_motion(self.graph, self.walk, name=name, place=self.place, clean=bool(clean))
+        return to_motion(self.graph, self.walk, name=name, start=self.place, clean=bool(clean))
 
     @property
     def seconds(self) -> float:

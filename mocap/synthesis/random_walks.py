@@ -18,7 +18,7 @@ from mocap.files import bvh
 from mocap.files.load_save import save
 from mocap.graphs.edge_tables import Edge, edge_table, require_node
 from mocap.graphs.motion_graph import MotionGraph, Node, require_graph
-from mocap.synthesis.walk_to_motion import places, to_motion, with_plants
+from mocap.synthesis.walk_to_motion import to_motion, transforms_along, with_plants
 
 MARGIN = 5.0  # seconds: longer than any footplant of a walk, and than the reach of any correction
 LONGEST = 3600.0  # seconds of a walk that is made in memory
@@ -157,8 +157,8 @@ def stream(motion_graph: MotionGraph, *, seconds: float, seed: int = 0) -> Itera
     """
     place = IDENTITY
     for walk in cut_walk(motion_graph, wander(motion_graph, seed=seed), seconds, PIECE):
-        yield to_motion(motion_graph, walk, place=place)
-        ends = places(edge_table(motion_graph, walk), place)
+        yield to_motion(motion_graph, walk, start=place)
+        ends = transforms_along(edge_table(motion_graph, walk), place)
         place = PlanarTransform(*(float(np.asarray(numbers)[-1]) for numbers in ends))
 
 

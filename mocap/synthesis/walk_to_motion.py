@@ -1,4 +1,4 @@
-"""Turn a walk into a motion: gather its frames, place them, and blend its transitions.
+"""Turn a walk into a motion: gather its frames, transform them, and blend its transitions.
 
 A walk is a list of edges, each of which starts where the one before ends; an edge is (start node, end node,
 key). The frames of a walk are those of its edges in order. Every frame is one frame of a clip, or a blend of
@@ -117,14 +117,14 @@ def to_motion(
     walk: Sequence[Edge],
     *,
     name: str = "walk",
-    place: PlanarTransform = IDENTITY,
+    start: PlanarTransform = IDENTITY,
     clean: bool = False,
 ) -> Motion:
-    """Play a walk: copy the stretches of clip, blend the transitions, and place each where the last one ends.
+    """Play a walk: copy the stretches of clips, align each with the one before it, and blend the transitions.
 
     In the paper: [KGP02, 4.1].
 
-    Every frame is moved by the product of the transforms of all transitions before it [KGP02, 4.1]. All
+    Every frame is transformed by the product of the transforms of all transitions before it [KGP02, 4.1]. All
     frames are gathered, placed and blended at once, so the time is linear in the walk's length. A walk
     without transitions repeats its clip bit for bit.
 
@@ -133,7 +133,7 @@ def to_motion(
     motion_graph : the graph.
     walk : edges; each starts where the one before ends.
     name : the new motion's name.
-    place : moves the whole motion; by default it starts where its first clip is.
+    start : the transform of the first clip; by default it stays where it is.
     clean : whether to remove footskate by `feet.clean_up`; footplants are marked first where no clip has
         contacts.
 
@@ -164,20 +164,22 @@ def to_motion(
     if clean:
         motion_graph = with_plants(motion_graph)
     edges = edge_table(motion_graph, walk)
-    transforms = places(edges, place)
-    roots, turns = _placed(motion_graph, edges.here, transforms, edges.of)
+    transforms = transforms_along(edges, start)
+    roots, local_rotations = _transformed_frames(motion_graph, edges.here, transforms, edges.of)
     mixed = edges.blended[edges.of]
-    # The target clip is placed by the transition's transform, in the blend and after it.
-    target_roots, target_turns = _placed(motion_graph, edges.there[mixed], transforms, edges.of[mixed] + 1)
+    # The target clip has the transition's transform, in the blend and after it.
+    target_roots, target_rotations = _transformed_frames(
+        motion_graph, edges.there[mixed], transforms, edges.of[mixed] + 1
+    )
     alpha = edges.alpha[mixed, None]
     roots[mixed] = alpha * roots[mixed] + (1 - alpha) * target_roots
-    turns[mixed] = rotations.slerp(target_turns, turns[mixed], alpha)
+    local_rotations[mixed] = rotations.slerp(target_rotations, local_rotations[mixed], alpha)
     visited, number = np.unique(edges.owner[:, 0], return_inverse=True)
     owner = np.stack([number, edges.owner[:, 1]], axis=1)
     labels = gather_marks([motion_graph.clips[clip].labels for clip in visited], owner)
     contacts = gather_marks([motion_graph.clips[clip].contacts for clip in visited], owner)
     clip = motion_graph.clips[0]
-    motion = Motion(clip.skeleton, roots, turns, clip.fps, name, labels, contacts)
+    motion = Motion(clip.skeleton, roots, local_rotations, clip.fps, name, labels, contacts)
     return clean_up(motion) if clean else motion
 
 
@@ -197,44 +199,45 @@ def with_plants(motion_graph: MotionGraph) -> MotionGraph:
     return replace(motion_graph, clips=tuple(map(mark_plants, motion_graph.clips)))
 
 
-def places(edges: EdgeTable, place: PlanarTransform = IDENTITY) -> PlanarTransform:
-    """Multiply the transforms along a walk of n edges: n + 1 places, one before each edge and one at the end.
+def transforms_along(edges: EdgeTable, start: PlanarTransform = IDENTITY) -> PlanarTransform:
+    """Compose the transforms along a walk of n edges: n + 1 of them, before each edge and at the end.
 
-    Both the angle and the translation are running sums. With ground points as complex numbers z + ix, a turn
-    by θ is a product with exp(iθ): the translation of an edge is turned by the angles before it, then added.
+    Both the angle and the translation are running sums. With ground points as complex numbers z + ix, a
+    rotation by θ is a product with exp(iθ): the translation of an edge is rotated by the angles before it,
+    then added.
 
     Parameters
     ----------
     edges : the walk's edges, from `graphs.edge_tables.edge_table`.
-    place : where the walk starts.
+    start : the transform of the first clip.
 
     Examples
     --------
-    Two transitions, each of which turns left by 90° and moves 1 m forward:
+    Two transitions, each of which rotates to the left by 90° and translates 1 m forward:
 
     >>> from mocap import datasets, graphs, matching
     >>> back = matching.Transition(0, 60, 0, 10, 0.02, PlanarTransform(np.pi / 2, 0.0, 1.0))
     >>> graph = graphs.from_transitions([datasets.sample("walk_circle")], [back], window=10)
-    >>> x, z = places(edge_table(graph, 2 * [((0, 60), (0, 20), 0)]))[1:]
+    >>> x, z = transforms_along(edge_table(graph, 2 * [((0, 60), (0, 20), 0)]))[1:]
     >>> x.round(6).tolist(), z.round(6).tolist()
     ([0.0, 0.0, 1.0], [0.0, 1.0, 1.0])
     """
-    angle = np.cumsum([place.angle, *edges.angle])
+    angle = np.cumsum([start.angle, *edges.angle])
     steps = edges.translation * np.exp(1j * angle[:-1])
-    moved = np.cumsum([place.translation, *steps])
+    moved = np.cumsum([start.translation, *steps])
     return PlanarTransform(angle, moved.imag, moved.real)
 
 
-def _placed(
-    motion_graph: MotionGraph, frames: Indices, places: PlanarTransform, chosen: Indices
+def _transformed_frames(
+    motion_graph: MotionGraph, frames: Indices, transforms: PlanarTransform, chosen: Indices
 ) -> tuple[Array, Array]:
-    """Gather frames (F, 2), move each by its place `places[chosen]`; return root positions and rotations."""
+    """Gather frames (F, 2), apply `transforms[chosen]`, and return root positions and rotations."""
     joints = len(motion_graph.clips[0].skeleton)
     roots = np.empty((len(frames), 3))
-    turns = np.empty((len(frames), joints, 4))
+    local_rotations = np.empty((len(frames), joints, 4))
     for clip in np.unique(frames[:, 0]):
         of_clip = frames[:, 0] == clip
         roots[of_clip] = motion_graph.clips[clip].root_positions[frames[of_clip, 1]]
-        turns[of_clip] = motion_graph.clips[clip].rotations[frames[of_clip, 1]]
-    place = PlanarTransform(*(np.asarray(numbers)[chosen] for numbers in places))
-    return place.apply_frames(roots, turns)
+        local_rotations[of_clip] = motion_graph.clips[clip].rotations[frames[of_clip, 1]]
+    transform = PlanarTransform(*(np.asarray(field)[chosen] for field in transforms))
+    return transform.apply_frames(roots, local_rotations)

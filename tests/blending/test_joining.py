@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap.blending.joining import blend, inertialize, join, lay_window_on
+from mocap.blending.joining import align_window, blend, inertialize, join
 from mocap.blending.weights import cubic_weights, linear_weights, sine_weights
 from mocap.body import Motion, Skeleton, rotations
 from mocap.errors import MocapError, SkeletonMismatch
@@ -26,7 +26,7 @@ both = pytest.mark.parametrize("way", [join, inertialize])
 @given(i=st.integers(0, 100), j=st.integers(0, 70), window=st.integers(1, 20))
 def test_before_the_window_it_is_a_and_after_it_b_laid_on(way, i, j, window):
     joined = way(A, i, B, j, window)
-    laid = lay_window_on(A, i, B, j, window)
+    laid = align_window(A, i, B, j, window)
     assert len(joined) == i + len(B) - j
     assert np.array_equal(joined.root_positions[:i], A.root_positions[:i])
     assert np.array_equal(joined.rotations[:i], A.rotations[:i])
@@ -36,7 +36,7 @@ def test_before_the_window_it_is_a_and_after_it_b_laid_on(way, i, j, window):
 
 def test_a_join_is_the_blend_of_the_two_windows():
     """As in [KGP02, 3.3], [WP95, joining]."""
-    laid = lay_window_on(A, LEAVE, B, ENTER, 8)
+    laid = align_window(A, LEAVE, B, ENTER, 8)
     joined = join(A, LEAVE, B, ENTER, 8)
     mixed = blend(A[LEAVE : LEAVE + 8], laid[ENTER : ENTER + 8], cubic_weights(8))
     assert np.array_equal(joined.rotations[LEAVE : LEAVE + 8], mixed.rotations)
@@ -45,7 +45,7 @@ def test_a_join_is_the_blend_of_the_two_windows():
 @given(st.sampled_from([*GRIDS]), st.integers(0, 112), st.integers(0, 82), planar)
 def test_the_windows_agree_as_well_as_the_distance_grid_says(window, i, j, transform):
     """As in [KGP02, Eqs. 2-4]."""
-    laid = lay_window_on(A, i, transform.apply_motion(B), j, window)
+    laid = align_window(A, i, transform.apply_motion(B), j, window)
     gaps = point_cloud(A)[i : i + window] - point_cloud(laid)[j : j + window]
     assert (gaps**2).sum(-1).mean() == pytest.approx(GRIDS[window][i, j], abs=1e-9)
 
@@ -67,7 +67,7 @@ def test_marks_come_from_the_larger_weight():
 
 
 def test_the_offset_dies_away_by_the_quintic():
-    laid = lay_window_on(A, 60, B, 20, 16)
+    laid = align_window(A, 60, B, 20, 16)
     gap = A.root_positions[59:62] - laid.root_positions[19:22]
     x, v = gap[1], (gap[2] - gap[0]) / 2
     # Six coefficients from six equations: place and speed at u = 0; at u = 1 all zero, up to the jerk.

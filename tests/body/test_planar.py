@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from mocap.body import euler, rotations
 from mocap.body.kinematics import forward_kinematics, joint_positions, velocities
-from mocap.body.planar import IDENTITY, PlanarTransform, from_ground, heading, lay_on, on_ground, place
+from mocap.body.planar import IDENTITY, PlanarTransform, align_frames, from_ground, heading, on_ground, place
 from tests.refusals import refusals, refused
 from tests.strategies import planar, random_motion, seeds
 
@@ -88,7 +88,7 @@ test_a_place_must_be_one = refusals(
 @given(seeds, seeds)
 def test_a_motion_laid_on_another_has_its_heading_and_place(seed, other):
     motion, target = random_motion(seed), random_motion(other)
-    laid = lay_on(motion, target, 2).apply_motion(motion)
+    laid = align_frames(motion, target, 2).apply_motion(motion)
     assert laid.root_positions[0, [0, 2]] == pytest.approx(target.root_positions[2, [0, 2]], abs=1e-9)
     turned = np.exp(1j * heading(laid.rotations[0, 0]))
     assert turned == pytest.approx(np.exp(1j * heading(target.rotations[2, 0])), abs=1e-6)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from mocap.blending.joining import blend, lay_window_on, splice
+from mocap.blending.joining import align_window, blend, splice
 from mocap.blending.weights import cubic_weights, linear_weights
 from mocap.body import GroundPath, joint_positions, resample
 from mocap.course.lab.showing import inspector
@@ -54,7 +54,7 @@ def test_the_seam_and_its_jolts_are_those_of_the_package(resting, weights):
     page.locator("[data-tab=seam]").click()
     page.locator(".kinds").select_option(weights.__name__.removesuffix("_weights"))
     found = np.array(page.evaluate(f"{IT}.seam.map((frame) => frame.places)"))
-    laid = lay_window_on(WALKS[0], 56, WALKS[1], 20, 10)
+    laid = align_window(WALKS[0], 56, WALKS[1], 20, 10)
     joined = splice(WALKS[0], 56, blend(WALKS[0][56:66], laid[20:30], weights(10)), laid, 30)
     before, after = page.evaluate(f"[{IT}.before, {IT}.after]")
     part = joined[56 - before : 66 + after]

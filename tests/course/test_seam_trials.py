@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mocap.blending import cubic_weights, inertialize, join, lay_window_on, linear_weights
+from mocap.blending import align_window, cubic_weights, inertialize, join, linear_weights
 from mocap.blending.joining import blend, splice
 from mocap.body import resample
 from mocap.course.seam_trials import Passage, choose_matches, passage, walk_costs
@@ -52,7 +52,7 @@ def test_a_passage_is_the_join_at_the_middle_of_the_match(window):
 
 def walked(window, weights=cubic_weights):
     """Blend two moments of a walk; the window starts at frame 10 of 100."""
-    second = lay_window_on(WALK, 500, WALK, 242, window)
+    second = align_window(WALK, 500, WALK, 242, window)
     mixed = blend(WALK[500 : 500 + window], second[242 : 242 + window], weights(window))
     joined = splice(WALK, 500, mixed, second, 242 + window)
     return Passage(joined[490:590], WALK[490:590], second[232:332], 10, weights(window))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mocap.body import concatenate, joint_positions, resample
-from mocap.body.planar import heading, lay_on
+from mocap.body.planar import align_frames, heading
 from mocap.datasets import samples
 from mocap.editing.cycles import Loop, find_loop, loop, repeated
 from mocap.errors import MocapWarning
@@ -50,7 +50,7 @@ def test_one_stride_is_found(name):
 def test_rounds_go_on_without_a_jump(straight, clean):
     clip = resample(samples.sample("walk_circle"), 60)
     cycle = loop(clip, find_loop(clip), straight=straight, clean=clean)
-    first, last = lay_on(cycle, cycle, len(cycle) - 1).apply_motion(cycle[:1]), cycle[-1:]
+    first, last = align_frames(cycle, cycle, len(cycle) - 1).apply_motion(cycle[:1]), cycle[-1:]
     assert np.abs(joint_positions(first) - joint_positions(last)).max() < 1e-9
     rounds = repeated(cycle, 4)
     for order in (2, 3):  # velocities, and accelerations

@@ -273,7 +273,7 @@ def test_the_track_is_the_root_of_the_motion():
     edges = np.array([number[edge] for edge in walk])
     turn, move = np.exp(0.7j), 3 + 4j
     track, rows = walk_track(GRAPH, edges, complex(turn), move)
-    motion = to_motion(GRAPH.source, walk, place=PlanarTransform(0.7, 4.0, 3.0))
+    motion = to_motion(GRAPH.source, walk, start=PlanarTransform(0.7, 4.0, 3.0))
     assert track == pytest.approx(on_ground(motion.root_positions), abs=1e-9)
     assert np.abs(np.diff(track)) == pytest.approx(GRAPH.step[rows][1:], abs=1e-9)
 

@@ -21,7 +21,7 @@ from mocap.graphs.edge_tables import edge_table
 from mocap.matching.transitions import Transition
 from mocap.synthesis import random_walks
 from mocap.synthesis.random_walks import cleaned, dump, random_walk, stream, wander
-from mocap.synthesis.walk_to_motion import places, seams, sources, to_motion, with_plants
+from mocap.synthesis.walk_to_motion import seams, sources, to_motion, transforms_along, with_plants
 from tests.bundled import bundled
 from tests.refusals import refusals
 from tests.strategies import seeds, wave
@@ -89,7 +89,7 @@ test_bad_walks_are_refused = refusals(
 def test_ten_thousand_edges_do_not_drift():
     """Against places multiplied up one by one in 50 digits."""
     walk = [edge for edge, _ in zip(wander(GRAPH, settle=0.0), range(10_000), strict=False)]
-    place = places(edge_table(GRAPH, walk))
+    place = transforms_along(edge_table(GRAPH, walk))
     with localcontext(prec=50):
         x = z = angle = Decimal(0)
         for edge in walk:

@@ -18,9 +18,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from PIL import Image
 
-from mocap.blending.joining import join, lay_window_on
+from mocap.blending.joining import align_window, join
 from mocap.body.motion import Motion
-from mocap.body.planar import lay_on, place
+from mocap.body.planar import align_frames, place
 from mocap.course.lab.sensitivity import sentence
 from mocap.errors import MocapError
 from mocap.matching.transitions import Transition, Transitions
@@ -197,10 +197,10 @@ def make_pairs(clips: Sequence[Motion], matches: Transitions, window: int, seed:
             for clip, at in ((match.source, match.leave), (match.target, match.enter))
         )
         start = seam_at - window // 2
-        second = lay_window_on(first, start, second, start, window)
+        second = align_window(first, start, second, start, window)
         joined = join(first, start, second, start, window)
         control, other = (first, second) if rng.random() < 0.5 else (second, first)
-        ahead = lay_on(first[seam_at:], place(first[seam_at:], 0.0, (0.0, 0.0)))
+        ahead = align_frames(first[seam_at:], place(first[seam_at:], 0.0, (0.0, 0.0)))
         films = ahead.apply_motion(joined), ahead.apply_motion(control)
         pairs.append(Pair(*films, bool(rng.random() < 0.5), match, ahead.apply_motion(other)))
     return pairs

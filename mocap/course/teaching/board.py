@@ -20,7 +20,7 @@ from mocap import datasets, graphs, matching, plotting
 from mocap._shared.atomic import make_folder, write_file
 from mocap._shared.progress import Progress
 from mocap.body import GroundPath, Motion, arcs, resample, rotations
-from mocap.body.planar import lay_on
+from mocap.body.planar import align_frames
 from mocap.course import diagrams
 from mocap.plotting.picture import few_colours
 
@@ -71,7 +71,7 @@ def _minima() -> Steps:
 
 def _laid() -> Steps:
     first, second = _walks(66)
-    yield diagrams.alignment(first, second[20:], lay_on(second[20:], first, len(first) - 1))
+    yield diagrams.alignment(first, second[20:], align_frames(second[20:], first, len(first) - 1))
 
 
 def _alpha() -> Steps:

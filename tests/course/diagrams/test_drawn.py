@@ -8,7 +8,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from mocap import Motion, datasets, graphs, resample
-from mocap.blending import cubic_weights, join, lay_window_on
+from mocap.blending import align_window, cubic_weights, join
 from mocap.body import GroundPath, PlanarTransform, Skeleton, arcs, rotations
 from mocap.course import diagrams
 from mocap.course.diagrams.layers import STRIDE
@@ -44,7 +44,7 @@ def fitted(points, angle):
 
 
 def added(*terms):
-    parts = WALK[490:560], lay_window_on(WALK, 500, WALK, 233, 12)[223:293]
+    parts = WALK[490:560], align_window(WALK, 500, WALK, 233, 12)[223:293]
     blended = Passage(join(WALK, 500, WALK, 233, 12)[490:560], *parts, 10, cubic_weights(12))
     return diagrams.added_by_blend(terms)(blended, *[blended.gap[1:-1]] * len(terms))
 

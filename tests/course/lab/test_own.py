@@ -96,7 +96,7 @@ def test_with_the_same_weights_the_walk_is_the_packages_motion_and_stays_on_its_
         kind, between = graph.graph.edges[start, end, key]["kind"], theirs.graph.get_edge_data(start, end)
         keys.append((start, end, next(key for key, data in between.items() if data["kind"] == kind)))
     place = body.PlanarTransform.from_complex(*walk[1:])
-    package = synthesis.to_motion(theirs, keys, place=place)
+    package = synthesis.to_motion(theirs, keys, start=place)
     ours = changed(graph, pages=pages_of(changed(by, quintic=cubic_weights), WINDOW)).play(walk)
     assert np.allclose(ours.root_positions, package.root_positions, atol=1e-9)
     assert np.abs((ours.rotations * package.rotations).sum(-1)).min() > 1 - 1e-12

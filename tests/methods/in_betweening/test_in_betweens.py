@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mocap.body import resample, rotations
-from mocap.body.planar import lay_on, place
+from mocap.body.planar import align_frames, place
 from mocap.datasets import samples
 from mocap.errors import NoWalk
 from mocap.graphs import compile_graph
@@ -36,7 +36,7 @@ def met(start, end, seconds):
 def ending(motion, frame, position, direction):
     """Lay a motion so that it ends with a frame at a place."""
     now = motion[frame : frame + 1]
-    return lay_on(now, place(now, direction, position)).apply_motion(motion[: frame + 1])
+    return align_frames(now, place(now, direction, position)).apply_motion(motion[: frame + 1])
 
 
 def asked_anywhere(seed):
