@@ -75,8 +75,10 @@ def build(  # noqa: PLR0913 (the parameters of `find_transitions`)
     window: int,
     threshold: Thresholds,
     joint_weights: ArrayLike | None = None,
+    taper: ArrayLike | None = None,
     progress: Progress = iter,
     executor: Executor | None = None,
+    jobs: int | None = None,
 ) -> MotionGraph:
     """Build the motion graph of some clips: find the transitions, and cut the clips where they touch.
 
@@ -88,7 +90,7 @@ def build(  # noqa: PLR0913 (the parameters of `find_transitions`)
     window : frames in a transition, about a third of a second.
     threshold : every transition has an RMS distance of the points below this, metres; or one threshold for
         each pair of labels, as for `matching.find_transitions`.
-    joint_weights, progress, executor : as for `matching.find_transitions`.
+    joint_weights, taper, progress, executor, jobs : as for `matching.find_transitions`.
 
     Raises
     ------
@@ -113,8 +115,10 @@ def build(  # noqa: PLR0913 (the parameters of `find_transitions`)
         window=window,
         below=threshold,
         joint_weights=joint_weights,
+        taper=taper,
         progress=progress,
         executor=executor,
+        jobs=jobs,
     )
     return from_transitions(clips, transitions, window=window)
 
