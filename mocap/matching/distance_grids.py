@@ -36,7 +36,7 @@ from mocap.matching.point_clouds import point_cloud, require_near, unit_weights
 Floats = NDArray[np.floating[Any]]
 
 SMALL = 500_000  # entries up to which a grid is not worth a thread: some 10 ms
-TILE = 128, 320  # rows and columns worked on at a time: few enough to stay in a core's cache
+TILE = 256, 640  # rows and columns worked on at a time: few enough to stay in a core's cache
 
 # m²: distances D that differ by less are equal, but for rounding, which is some 1e-14 m² for a body that
 # walks. Windows that are alike have a D of 1e-4 to 1e-2 m². A D below this one is 0: its root, less than a
@@ -161,12 +161,13 @@ def window_vectors(
     return ground, cloud.heights[frames] * root_weights
 
 
-def cloud_distances(a: Cloud, b: Cloud) -> Floats:
+def cloud_distances(a: Cloud, b: Cloud, *, zero_below: float = 0.0) -> Floats:
     """Measure D between all windows of two clouds, by the three steps at the head of this module.
 
     Parameters
     ----------
     a, b : `Cloud.part`s of n and m windows.
+    zero_below : a D below this is 0, m².
 
     Returns
     -------
@@ -187,7 +188,9 @@ def cloud_distances(a: Cloud, b: Cloud) -> Floats:
     grid += a.sizes[:, None]
     grid += b.sizes
     grid -= np.abs(ground)
-    return np.asarray(np.maximum(grid, 0, out=grid))
+    if grid.min(initial=np.inf) < zero_below:  # which is rare, and quicker to see than to mend
+        grid[grid < zero_below] = 0.0
+    return grid
 
 
 def frame_sums(a: NDArray[Any], b: NDArray[Any], weights: Array) -> NDArray[Any]:
@@ -323,23 +326,8 @@ def distance_grid(  # noqa: PLR0913 (what to compare, what each point and frame 
     is_symmetric = np.array_equal(points_a, points_b)
     zero_below = EQUAL if dtype == np.float64 else 0.0
     windows_a = whole_windows(points_a)
-    windows_b = whole_windows(points_b)
-    grid = tiled_distances(windows_a, windows_b, upper=is_symmetric, zero_below=zero_below, jobs=jobs)
-    if is_symmetric:
-        _mirror(grid)
-    return grid
-
-
-def _mirror(grid: Floats) -> None:
-    """Write what is above the diagonal below it, by blocks that stay in a core's cache."""
-    block_rows, _ = TILE
-    for start in range(0, len(grid), block_rows):
-        block = slice(start, start + block_rows)
-        below_block = slice(start + block_rows, None)
-        grid[below_block, block] = grid[block, below_block].T
-        corner = grid[block, block]
-        below_diagonal = np.tril_indices(len(corner), -1)
-        corner[below_diagonal] = corner.T[below_diagonal]
+    windows_b = windows_a if is_symmetric else whole_windows(points_b)
+    return tiled_distances(windows_a, windows_b, mirror=is_symmetric, zero_below=zero_below, jobs=jobs)
 
 
 def _checked_points(clip: Motion | ArrayLike, window: int) -> Floats:
@@ -359,8 +347,14 @@ def _checked_points(clip: Motion | ArrayLike, window: int) -> Floats:
     return points
 
 
-def tiled_distances(
-    a: Cloud, b: Cloud, *, upper: bool = False, zero_below: float = 0.0, jobs: int | None = 1
+def tiled_distances(  # noqa: PLR0913 (what to measure, what to leave out, and where to work)
+    a: Cloud,
+    b: Cloud,
+    *,
+    upper: bool = False,
+    mirror: bool = False,
+    zero_below: float = 0.0,
+    jobs: int | None = 1,
 ) -> Floats:
     """Measure D between all windows of two clouds, by tiles.
 
@@ -368,6 +362,7 @@ def tiled_distances(
     ----------
     a, b : `Cloud.part`s of n and m windows.
     upper : leave out tiles that are below the diagonal; they are infinite.
+    mirror : measure what is above the diagonal, and write it below, too; for two clouds of the same points.
     zero_below : a D below this is 0, m².
     jobs : threads, as for `distance_grid`.
 
@@ -385,14 +380,14 @@ def tiled_distances(
 
     def measure_row_of_tiles(row: int) -> None:
         part_of_a = slice(row, min(row + tile_rows, rows))
+        for column in range(row if upper or mirror else 0, columns, tile_columns):
+            part_of_b = slice(column, min(column + tile_columns, columns))
+            distances = cloud_distances(a.part(part_of_a), b.part(part_of_b), zero_below=zero_below)
+            grid[part_of_a, part_of_b] = distances
         if upper:
             grid[part_of_a, :row] = np.inf
-        for column in range(row if upper else 0, columns, tile_columns):
-            part_of_b = slice(column, min(column + tile_columns, columns))
-            distances = cloud_distances(a.part(part_of_a), b.part(part_of_b))
-            if zero_below:
-                distances[distances < zero_below] = 0.0
-            grid[part_of_a, part_of_b] = distances
+        if mirror:
+            _mirror(grid, part_of_a)
 
     tasks = [(row,) for row in range(0, rows, tile_rows)]
     threads = thread_count(jobs) if rows * columns > SMALL else 1
@@ -400,6 +395,15 @@ def tiled_distances(
         for _ in run_in_order(measure_row_of_tiles, tasks, None, threads):
             pass
     return grid
+
+
+def _mirror(grid: Floats, block: slice) -> None:
+    """Write what a block of rows holds above the diagonal below it."""
+    later = slice(block.stop, None)
+    grid[later, block] = grid[block, later].T
+    corner = grid[block, block]
+    below_diagonal = np.tril_indices(len(corner), -1)
+    corner[below_diagonal] = corner.T[below_diagonal]
 
 
 def check_window(window: int, frames: int, name: str) -> None:

@@ -43,7 +43,7 @@ from mocap.matching.distance_grids import Cloud, window_vectors
 Singles = NDArray[np.float32]
 Number = TypeVar("Number", np.float64, np.complex128)
 
-SAMPLE = 400  # windows that choose the directions: any orthonormal ones are right, these are good
+SAMPLE = 256  # windows that choose the directions: any orthonormal ones are right, these are good
 GROUND_DIRECTIONS = 10  # of the vectors g, which make 100 numbers of G
 HEIGHT_DIRECTIONS = 40  # of the vectors y
 DIRECTIONS = 48  # of f: more leave hardly fewer pairs

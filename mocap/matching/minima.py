@@ -43,7 +43,7 @@ from mocap.matching.near_pairs import (
 AT_ONCE = 1024  # pairs measured together, to limit the memory
 BLOCK = 1280  # windows on a side of a block that is measured by products
 WIDE_BLOCK = 8192  # windows on a side of a block that is searched by the bound
-FEW = 4000  # windows up to which products are quicker
+FEW = 5000  # windows up to which products are quicker
 
 # Rows and columns from an entry to its eight neighbours, in reading order: the first four are before it.
 NEIGHBOURS = ((-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1))

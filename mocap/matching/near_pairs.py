@@ -27,7 +27,7 @@ from mocap.matching.lower_bound import (
 
 LEAF = 128  # windows in a leaf at most
 TOGETHER = 1024  # pairs measured at a time, to stay in a core's cache
-SAMPLE = 1000  # windows that tell whether few pairs are near
+SAMPLE = 600  # windows that tell whether few pairs are near
 SPARSE = 0.05  # fraction of near pairs up to which they are measured one by one
 
 

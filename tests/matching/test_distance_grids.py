@@ -112,8 +112,8 @@ def test_tiles_cover_a_grid_once(rows, columns, upper):
     )
     worked = []
 
-    def kept(*parts):
-        worked.append(cloud_distances(*parts))
+    def kept(*parts, **options):
+        worked.append(cloud_distances(*parts, **options))
         return worked[-1]
 
     with pytest.MonkeyPatch.context() as patch:

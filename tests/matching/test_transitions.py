@@ -365,7 +365,7 @@ def test_the_bound_is_taken_for_many_windows_of_which_few_pairs_are_near(monkeyp
     choose_bound = minima._choose_bound
     monkeypatch.setattr(minima, "_choose_bound", choose)
     clips = [wave(300, name="a", period=90)]
-    for few, below in ((4000, 0.01), (200, 0.01), (200, 5.0), (200, np.inf)):
+    for few, below in ((5000, 0.01), (200, 0.01), (200, 5.0), (200, np.inf)):
         monkeypatch.setattr(minima, "FEW", few)
         find_transitions(clips, window=8, below=below)
     assert bounds == [False, True, False, False]
