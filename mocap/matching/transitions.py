@@ -115,7 +115,7 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
     Of two searches the quicker is taken. Up to 5 000 windows, or if a sample of them says that more than one
     pair in twenty may be below the threshold, all pairs are measured: four times the time for twice the
     frames. Otherwise a lower bound of the distance rules out most pairs: of many kinds of motion, twice the
-    frames take 3 to 3.3 times the time (exponent 1.7). The minima are the same.
+    frames take 3.4 times the time (exponent 1.75). The minima are the same.
 
     Parameters
     ----------
