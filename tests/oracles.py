@@ -33,9 +33,9 @@ def _windows(points, window, weights):
     return [np.ascontiguousarray(part * np.sqrt(weights)) for part in (x, y, z)]
 
 
-def distance_oracle(a, b, window, weights=None):
+def distance_oracle(a, b, window, weights=None, taper=None):
     """The distance grid of points (F, P, 3), row by row: one window of a against all of b at a time."""
-    w = np.tile(unit_weights(weights, a.shape[1]) / window, window)
+    w = np.outer(unit_weights(taper, window), unit_weights(weights, a.shape[1])).ravel()
     xb, yb, zb = _windows(b, window, w)
     sizes = sum((part**2).sum(1) for part in (xb, yb, zb))
     rows = []

@@ -176,10 +176,10 @@ class Building(Sources):
         if frames < 2:
             raise MocapError(f"A window needs two frames or more, got {self.window:g} s at {self.fps:g} Hz.")
         clips = [body.resample(clip, self.fps) for clip in clips]
-        workers: dict[str, Any] = {"executor": executor, "progress": progress}
-        if jobs is not None:
-            workers["jobs"] = jobs
-        return graphs.build(clips, window=frames, threshold=self.threshold / 100, **workers)
+        threshold = self.threshold / 100
+        return graphs.build(
+            clips, window=frames, threshold=threshold, progress=progress, executor=executor, jobs=jobs
+        )
 
 
 def bar(label: str) -> Progress:

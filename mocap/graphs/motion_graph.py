@@ -6,8 +6,7 @@ each edge plays some frames, and the frames of a walk are those of its edges in 
 """
 
 from collections.abc import Iterator, Sequence
-from concurrent.futures import Executor, ThreadPoolExecutor
-from contextlib import nullcontext
+from concurrent.futures import Executor
 from itertools import pairwise
 from os import PathLike
 
@@ -99,9 +98,10 @@ def build(  # noqa: PLR0913 (the parameters of `find_transitions`)
     window: int,
     threshold: Thresholds,
     joint_weights: ArrayLike | None = None,
+    taper: ArrayLike | None = None,
     progress: Progress = iter,
-    jobs: int | None = None,
     executor: Executor | None = None,
+    jobs: int | None = None,
 ) -> MotionGraph:
     """Build the motion graph of some clips: find the transitions, and cut the clips where they touch.
 
@@ -113,8 +113,7 @@ def build(  # noqa: PLR0913 (the parameters of `find_transitions`)
     window : frames in a transition, about a third of a second.
     threshold : every transition has an RMS distance of the points below this, metres; or one threshold for
         each pair of labels, as for `matching.find_transitions`.
-    joint_weights, progress, executor : as for `matching.find_transitions`.
-    jobs : threads to work in, unless there is an executor; by default one.
+    joint_weights, taper, progress, executor, jobs : as for `matching.find_transitions`.
 
     Raises
     ------
@@ -136,15 +135,16 @@ def build(  # noqa: PLR0913 (the parameters of `find_transitions`)
     _require_names(clips)
     check_frames(window, "A window", clips[0].fps if len(clips) else None)
     check_threshold(threshold)
-    with ThreadPoolExecutor(jobs) if jobs and executor is None else nullcontext(executor) as workers:
-        transitions = find_transitions(
-            clips,
-            window=window,
-            below=threshold,
-            joint_weights=joint_weights,
-            progress=progress,
-            executor=workers,
-        )
+    transitions = find_transitions(
+        clips,
+        window=window,
+        below=threshold,
+        joint_weights=joint_weights,
+        taper=taper,
+        progress=progress,
+        executor=executor,
+        jobs=jobs,
+    )
     return from_transitions(clips, transitions, window=window)
 
 

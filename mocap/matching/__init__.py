@@ -9,13 +9,17 @@ Reading order (notebooks 02, 05, 15)
 1. `point_clouds`: the points a motion drives, and how to align two clouds of them
 2. `distance_grids`: all windows against all, by matrix products
 3. `other_metrics`: the homework's two metrics, and why they fail; `Metric`, the signature that all have
-4. `minima`: the entries of a grid that are lower than all eight neighbours, however large it is
-5. `transitions`: where one clip can pass into another
-6. `time_paths`: which frame of one clip belongs to which of another
+4. `lower_bound`: a bound of the distance that is nearly as large, with its derivation
+5. `near_pairs`: the few pairs of windows that the bound leaves, and their distances
+6. `minima`: the entries of a grid that are lower than all eight neighbours, however large it is
+7. `transitions`: where one clip can pass into another
+8. `time_paths`: which frame of one clip belongs to which of another
 
 References
 ----------
 .. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
+.. [FRM94] C. Faloutsos, M. Ranganathan, Y. Manolopoulos, *Fast Subsequence Matching in Time-Series
+   Databases*, SIGMOD 1994, doi 10.1145/191839.191925.
 .. [KG03] L. Kovar, M. Gleicher, *Flexible Automatic Motion Blending with Registration Curves*, SCA 2003,
    doi 10.5555/846276.846307.
 .. [SC78] H. Sakoe, S. Chiba, *Dynamic Programming Algorithm Optimization for Spoken Word Recognition*, IEEE

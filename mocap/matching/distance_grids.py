@@ -23,11 +23,12 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
+from numpy.lib.stride_tricks import as_strided, sliding_window_view
 from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array
 from mocap._shared.records import NamedTuple
+from mocap._shared.tasks import one_blas_thread, run_in_order, thread_count
 from mocap.body.motion import Motion, require_alike
 from mocap.body.planar import on_ground
 from mocap.errors import MocapError
@@ -35,6 +36,7 @@ from mocap.matching.point_clouds import point_cloud, require_near, unit_weights
 
 Floats = NDArray[np.floating[Any]]
 
+SMALL = 500_000  # entries up to which a grid is not worth a thread: some 10 ms
 TILE = 256, 640  # rows and columns worked on at a time: few enough to stay in a core's cache
 
 # m²: distances D that differ by less are equal, but for rounding, which is some 1e-14 m² for a body that
@@ -51,6 +53,7 @@ class Cloud(NamedTuple):
     paths : (F, k), complex; the frames' centroids in the window that starts at a frame, from their mean.
     sizes : (F,), S of that window; infinite where it would run off the clip's end.
     centres : (F,), complex, 128 bits; the centroid of that window.
+    frame_weights : (k,), of the frames within a window; they add up to one.
     """
 
     heights: Floats
@@ -58,21 +61,31 @@ class Cloud(NamedTuple):
     paths: NDArray[np.complexfloating[Any, Any]]
     sizes: Floats
     centres: NDArray[np.complex128]
+    frame_weights: Array
 
     @property
     def window(self) -> int:
         """The frames k of a window."""
-        return int(self.paths.shape[1])
+        return len(self.frame_weights)
 
     def part(self, windows: slice) -> "Cloud":
         """Take the windows that start at these frames, with all frames that they cover."""
         frames = slice(windows.start, windows.stop + self.window - 1)
         heights = self.heights[frames]
         ground = self.ground[frames]
-        return Cloud(heights, ground, self.paths[windows], self.sizes[windows], self.centres[windows])
+        paths = self.paths[windows]
+        return Cloud(heights, ground, paths, self.sizes[windows], self.centres[windows], self.frame_weights)
 
 
-def cloud(points: Array, level: Array, weights: Array, window: int, dtype: type[np.floating[Any]]) -> Cloud:
+def cloud(  # noqa: PLR0913 (the points, what they are measured from, and what each counts)
+    points: Array,
+    level: Array,
+    weights: Array,
+    window: int,
+    dtype: type[np.floating[Any]],
+    *,
+    taper: ArrayLike | None = None,
+) -> Cloud:
     """Prepare a clip for matching.
 
     Parameters
@@ -80,11 +93,16 @@ def cloud(points: Array, level: Array, weights: Array, window: int, dtype: type[
     points : shape (F, P, 3), metres.
     level : shape (P,), metres: heights to measure from, the same for all clips to be compared.
     weights : shape (P,), of the points; they add up to one.
-    window : frames of a window, which count alike.
+    window : frames k of a window.
     dtype : the precision of the result; the work is done in 64 bits.
+    taper : shape (k,), weights of the frames in a window, of any scale; equal ones by default.
+
+    Raises
+    ------
+    MocapError : for a taper that is not of the window's length, negative, or all 0.
     """
     root_weights = np.sqrt(weights)
-    frame_weights = np.full(window, 1 / window)
+    frame_weights = unit_weights(taper, window)
     heights = (points[..., 1] - level) * root_weights
     ground = on_ground(points)
     centroids = ground @ weights  # (F,)
@@ -108,15 +126,49 @@ def cloud(points: Array, level: Array, weights: Array, window: int, dtype: type[
         paths.astype(complex_dtype),
         sizes.astype(dtype),
         centres,
+        frame_weights,
     )
 
 
-def cloud_distances(a: Cloud, b: Cloud) -> Floats:
+def join(clouds: Sequence[Cloud]) -> Cloud:
+    """Put clouds of the same window one after the other."""
+    heights = np.concatenate([part.heights for part in clouds])
+    ground = np.concatenate([part.ground for part in clouds])
+    paths = np.concatenate([part.paths for part in clouds])
+    sizes = np.concatenate([part.sizes for part in clouds])
+    centres = np.concatenate([part.centres for part in clouds])
+    return Cloud(heights, ground, paths, sizes, centres, clouds[0].frame_weights)
+
+
+def window_vectors(
+    cloud: Cloud, starts: NDArray[np.intp]
+) -> tuple[NDArray[np.complexfloating[Any, Any]], Floats]:
+    """Return whole windows as vectors, multiplied by the roots of all weights.
+
+    Parameters
+    ----------
+    cloud : the clip or clips.
+    starts : shape (N,), the first frames of the windows.
+
+    Returns
+    -------
+    The points on the ground and their frames' centroids, complex, shape (N, k, P + 1), and the heights,
+    shape (N, k, P). Their squares add up to S.
+    """
+    frames = starts[:, None] + np.arange(cloud.window)
+    root_weights = np.sqrt(cloud.frame_weights).astype(cloud.heights.dtype)[:, None]
+    centroids = cloud.paths[starts][..., None]
+    ground = np.concatenate([cloud.ground[frames] * root_weights, centroids], axis=2)
+    return ground, cloud.heights[frames] * root_weights
+
+
+def cloud_distances(a: Cloud, b: Cloud, *, zero_below: float = 0.0) -> Floats:
     """Measure D between all windows of two clouds, by the three steps at the head of this module.
 
     Parameters
     ----------
     a, b : `Cloud.part`s of n and m windows.
+    zero_below : a D below this is 0, m².
 
     Returns
     -------
@@ -130,15 +182,49 @@ def cloud_distances(a: Cloud, b: Cloud) -> Floats:
     array([[0. , 0.5],
            [0.5, 0. ]])
     """
-    frame_weight = a.heights.dtype.type(1 / a.window)
-    ground = diagonal_sum(a.ground @ b.ground.conj().T, a.window) * frame_weight
-    ground += a.paths @ b.paths.conj().T
-    grid: Floats = np.abs(ground)
-    grid += diagonal_sum(a.heights @ b.heights.T, a.window) * frame_weight
-    grid *= -2
+    # Factors are applied before the products, to arrays that are smaller than the grid.
+    ground = frame_sums(2 * a.ground, b.ground.conj(), a.frame_weights)
+    ground += (2 * a.paths) @ b.paths.conj().T
+    grid: Floats = frame_sums(-2 * a.heights, b.heights, a.frame_weights)
     grid += a.sizes[:, None]
     grid += b.sizes
-    return np.asarray(np.maximum(grid, 0, out=grid))
+    grid -= np.abs(ground)
+    if grid.min(initial=np.inf) < zero_below:  # which is rare, and quicker to see than to mend
+        grid[grid < zero_below] = 0.0
+    return grid
+
+
+def frame_sums(a: NDArray[Any], b: NDArray[Any], weights: Array) -> NDArray[Any]:
+    """Add up weights[f] · (a[i + f] · b[j + f]) over the frames f, for all pairs of windows i and j.
+
+    Equal weights take about log₂ k additions for each pair, others k.
+
+    Parameters
+    ----------
+    a, b : shapes (n + k - 1, P) and (m + k - 1, P), frames.
+    weights : shape (k,).
+
+    Returns
+    -------
+    Shape (n, m).
+
+    Examples
+    --------
+    >>> frame_sums(np.array([[1.0], [2], [3]]), np.array([[1.0], [10]]), np.array([0.25, 0.75]))
+    array([[15.25],
+           [23. ]])
+    """
+    exact_weights = weights.astype(a.real.dtype)
+    window = len(weights)
+    if np.ptp(weights) == 0:
+        return diagonal_sum((exact_weights[0] * a) @ b.T, window)
+    products = a @ b.T
+    rows = len(a) - window + 1
+    columns = len(b) - window + 1
+    sums = np.zeros((rows, columns), products.dtype)
+    for frame, weight in enumerate(exact_weights):
+        sums += weight * products[frame : frame + rows, frame : frame + columns]
+    return sums
 
 
 def diagonal_sum(products: NDArray[Any], window: int) -> NDArray[Any]:
@@ -150,18 +236,36 @@ def diagonal_sum(products: NDArray[Any], window: int) -> NDArray[Any]:
     array([[4, 6],
            [0, 8]])
     """
-    if window == 1:
-        return products
-    half = window // 2
-    sums = diagonal_sum(products, half)
-    sums = sums[:-half, :-half] + sums[half:, half:]  # over 2 · half frames
-    if window % 2:
-        sums = sums[:-1, :-1] + products[window - 1 :, window - 1 :]
+    rows, columns = products.shape
+    row_by_row = products.ravel()
+    next_on_diagonal = columns + 1  # entries further: one row down and one column to the right
+    sums = _strided_sum(row_by_row, window, next_on_diagonal)
+    # The sums at the end of a row, which run on into the next row, are left out.
+    shape = (rows - window + 1, columns - window + 1)
+    return np.asarray(as_strided(sums, shape, (columns * sums.itemsize, sums.itemsize)))
+
+
+def _strided_sum(values: NDArray[Any], count: int, step: int) -> NDArray[Any]:
+    """Add up values[n], values[n + step], ... `count` of them, for all n; in a new array if count > 1."""
+    if count == 1:
+        return values
+    half = count // 2
+    sums = _strided_sum(values, half, step)
+    sums = sums[: -half * step] + sums[half * step :]  # of 2 · half values
+    if count % 2:
+        sums = sums[:-step]
+        sums += values[(count - 1) * step :]
     return np.asarray(sums)
 
 
-def distance_grid(
-    a: Motion | ArrayLike, b: Motion | ArrayLike, *, window: int, joint_weights: ArrayLike | None = None
+def distance_grid(  # noqa: PLR0913 (what to compare, what each point and frame counts, and where to work)
+    a: Motion | ArrayLike,
+    b: Motion | ArrayLike,
+    *,
+    window: int,
+    joint_weights: ArrayLike | None = None,
+    taper: ArrayLike | None = None,
+    jobs: int | None = None,
 ) -> Floats:
     """Measure the point cloud distance between all windows of two clips [KGP02, Eq. 1], [KGP02, 3.1].
 
@@ -175,7 +279,11 @@ def distance_grid(
         32 bits, twice as fast; everything else in 64.
     window : frames k in a window.
     joint_weights : shape (P,), not negative, one for each point in the order of `distinct_joints`; equal ones
-        by default. The frames of a window count alike; the paper lets them taper off as well.
+        by default.
+    taper : shape (k,), not negative, weights of the frames in a window, as the w_i of the paper, which may
+        taper off towards its ends; equal ones by default. Others take longer for long windows.
+    jobs : threads; by default one for each core that the process may use. The result is the same, bit for
+        bit. A grid of few tiles needs no threads.
 
     Returns
     -------
@@ -188,7 +296,8 @@ def distance_grid(
     Raises
     ------
     SkeletonMismatch, MocapError : for different skeletons or rates, clips shorter than the window, points
-        that are not finite or do not match, and weights that are negative, all 0 or of the wrong shape.
+        that are not finite or do not match, weights that are negative, all 0 or of the wrong shape, and jobs
+        that are not at least 1.
 
     Examples
     --------
@@ -203,6 +312,7 @@ def distance_grid(
         a, b = require_alike([a, b])
     points_a = _checked_points(a, window)
     points_b = _checked_points(b, window)
+    thread_count(jobs)
     count = points_a.shape[1]
     if count != points_b.shape[1]:
         raise MocapError(f"Clouds of {count} and {points_b.shape[1]} points do not match.")
@@ -211,16 +321,14 @@ def distance_grid(
     level = (points_a[..., 1].mean(0, float) + points_b[..., 1].mean(0, float)) / 2
 
     def whole_windows(points: Floats) -> Cloud:
-        prepared = cloud(points.astype(float), level, weights, window, dtype)
+        prepared = cloud(points.astype(float), level, weights, window, dtype, taper=taper)
         return prepared.part(slice(len(points) - window + 1))
 
     is_symmetric = np.array_equal(points_a, points_b)
-    grid = tiled_distances(whole_windows(points_a), whole_windows(points_b), upper=is_symmetric)
-    if dtype == np.float64:
-        grid[grid < EQUAL] = 0.0
-    if is_symmetric:
-        return np.triu(grid) + np.triu(grid, 1).T
-    return grid
+    zero_below = EQUAL if dtype == np.float64 else 0.0
+    windows_a = whole_windows(points_a)
+    windows_b = windows_a if is_symmetric else whole_windows(points_b)
+    return tiled_distances(windows_a, windows_b, mirror=is_symmetric, zero_below=zero_below, jobs=jobs)
 
 
 def _checked_points(clip: Motion | ArrayLike, window: int) -> Floats:
@@ -240,8 +348,24 @@ def _checked_points(clip: Motion | ArrayLike, window: int) -> Floats:
     return points
 
 
-def tiled_distances(a: Cloud, b: Cloud, *, upper: bool = False) -> Floats:
-    """Measure D between all windows of two clouds, by tiles; with `upper`, those below the diagonal are inf.
+def tiled_distances(  # noqa: PLR0913 (what to measure, what to leave out, and where to work)
+    a: Cloud,
+    b: Cloud,
+    *,
+    upper: bool = False,
+    mirror: bool = False,
+    zero_below: float = 0.0,
+    jobs: int | None = 1,
+) -> Floats:
+    """Measure D between all windows of two clouds, by tiles.
+
+    Parameters
+    ----------
+    a, b : `Cloud.part`s of n and m windows.
+    upper : leave out tiles that are below the diagonal; they are infinite.
+    mirror : measure what is above the diagonal, and write it below, too; for two clouds of the same points.
+    zero_below : a D below this is 0, m².
+    jobs : threads, as for `distance_grid`.
 
     Examples
     --------
@@ -253,13 +377,34 @@ def tiled_distances(a: Cloud, b: Cloud, *, upper: bool = False) -> Floats:
     rows = len(a.sizes)
     columns = len(b.sizes)
     tile_rows, tile_columns = TILE
-    grid = np.full((rows, columns), np.inf, a.heights.dtype)
-    for row in range(0, rows, tile_rows):
+    grid = np.empty((rows, columns), a.heights.dtype)
+
+    def measure_row_of_tiles(row: int) -> None:
         part_of_a = slice(row, min(row + tile_rows, rows))
-        for column in range(row if upper else 0, columns, tile_columns):
+        for column in range(row if upper or mirror else 0, columns, tile_columns):
             part_of_b = slice(column, min(column + tile_columns, columns))
-            grid[part_of_a, part_of_b] = cloud_distances(a.part(part_of_a), b.part(part_of_b))
+            distances = cloud_distances(a.part(part_of_a), b.part(part_of_b), zero_below=zero_below)
+            grid[part_of_a, part_of_b] = distances
+        if upper:
+            grid[part_of_a, :row] = np.inf
+        if mirror:
+            _mirror(grid, part_of_a)
+
+    tasks = [(row,) for row in range(0, rows, tile_rows)]
+    threads = thread_count(jobs) if rows * columns > SMALL else 1
+    with one_blas_thread():
+        for _ in run_in_order(measure_row_of_tiles, tasks, None, threads):
+            pass
     return grid
+
+
+def _mirror(grid: Floats, block: slice) -> None:
+    """Write what a block of rows holds above the diagonal below it."""
+    later = slice(block.stop, None)
+    grid[later, block] = grid[block, later].T
+    corner = grid[block, block]
+    below_diagonal = np.tril_indices(len(corner), -1)
+    corner[below_diagonal] = corner.T[below_diagonal]
 
 
 def check_window(window: int, frames: int, name: str) -> None:

@@ -1,8 +1,16 @@
 """The local minima of a distance grid: pairs of windows that are more alike than all their neighbours.
 
-A grid that is too large to hold is cut into blocks, one for a worker at a time.
+A grid that is too large to hold is cut into blocks, one for a worker at a time. Two searches find the same
+minima:
+
+1. *By products*: all pairs of a block are measured by matrix products, and searched by `local_minima`.
+2. *By the bound* of `lower_bound`: only near pairs are measured, as `near_pairs` says. A neighbour that was
+   not measured costs more than the threshold, and therefore more than any minimum.
+
+`find_minima` takes the second one if there are many windows, of which few pairs are near.
 """
 
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Executor
 from typing import Any
 
@@ -12,13 +20,31 @@ from numpy.typing import ArrayLike, NDArray
 from mocap._shared.arrays import Array, Indices
 from mocap._shared.progress import Progress
 from mocap._shared.records import NamedTuple
-from mocap._shared.tasks import run_in_order
+from mocap._shared.tasks import one_blas_thread, run_in_order
 from mocap.body.planar import from_ground
 from mocap.errors import MocapError
-from mocap.matching.distance_grids import EQUAL, Cloud, Floats, tiled_distances
+from mocap.matching.distance_grids import EQUAL, Cloud, Floats, tiled_distances, window_vectors
+from mocap.matching.lower_bound import (
+    Directions,
+    projections,
+    sample_directions,
+    squared_length,
+    squared_reach,
+)
+from mocap.matching.near_pairs import (
+    SPARSE,
+    Leaves,
+    cut_into_leaves,
+    is_sparse,
+    near_pairs,
+    pair_distances,
+    sort_by_diagonal,
+)
 
 AT_ONCE = 1024  # pairs measured together, to limit the memory
-BLOCK = 1280  # windows on a side of a block
+BLOCK = 1280  # windows on a side of a block that is measured by products
+WIDE_BLOCK = 8192  # windows on a side of a block that is searched by the bound
+FEW = 5000  # windows up to which products are quicker
 
 # Rows and columns from an entry to its eight neighbours, in reading order: the first four are before it.
 NEIGHBOURS = ((-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1))
@@ -59,15 +85,72 @@ def local_minima(grid: ArrayLike, below: float = np.inf, *, equal: float = EQUAL
         raise MocapError(f"The grid holds NaN at {np.argwhere(np.isnan(values))[0].tolist()}.")
     padded = np.pad(values.astype(np.result_type(values, np.float32), copy=False), 1, constant_values=np.inf)
     rows, columns = np.divmod(np.flatnonzero(values < below), values.shape[1])
+
+    def neighbours(entries: Indices, down: int, right: int) -> NDArray[Any]:
+        return np.asarray(padded[rows[entries] + 1 + down, columns[entries] + 1 + right])
+
+    lowest = _lowest(values[rows, columns], neighbours, equal)
+    return np.stack([rows[lowest], columns[lowest]], axis=-1)
+
+
+def _lowest(
+    values: NDArray[Any], neighbours: Callable[[Indices, int, int], NDArray[Any]], equal: float
+) -> Indices:
+    """Find the entries that are lower than all eight neighbours.
+
+    Parameters
+    ----------
+    values : shape (N,), of the entries.
+    neighbours : returns the values so many rows down and columns to the right of entries.
+    equal : as for `local_minima`.
+
+    Returns
+    -------
+    Indices of entries, in their order.
+    """
+    lowest = np.arange(len(values))
     for down, right in NEIGHBOURS:
-        entries = values[rows, columns]
-        neighbours = padded[rows + 1 + down, columns + 1 + right]
+        entries = values[lowest]
+        beside_entries = neighbours(lowest, down, right)
         is_earlier = (down, right) < (0, 0)
-        lower = entries < neighbours - equal if is_earlier else entries <= neighbours + equal
-        # The first neighbour already rules out most entries.
-        rows = rows[lower]
-        columns = columns[lower]
-    return np.stack([rows, columns], axis=-1)
+        is_lower = entries < beside_entries - equal if is_earlier else entries <= beside_entries + equal
+        lowest = lowest[is_lower]  # the first neighbour already rules out most entries
+    return lowest
+
+
+def listed_minima(pairs: Indices, values: Floats, *, equal: float = EQUAL) -> Indices:
+    """Find the local minima of a grid of which only some entries are listed, as `local_minima` does.
+
+    Parameters
+    ----------
+    pairs : rows and columns, shape (2, N), sorted as by `sort_by_diagonal`. Entries that are not listed count
+        as infinite.
+    values : shape (N,).
+    equal : as for `local_minima`.
+
+    Returns
+    -------
+    Rows and columns, shape (N, 2), in reading order.
+
+    Examples
+    --------
+    >>> listed_minima(np.array([[0, 0, 0], [0, 1, 9]]), np.array([3.0, 2.0, 5.0])).tolist()
+    [[0, 1], [0, 9]]
+    """
+    rows, columns = pairs
+    diagonals = columns - rows
+    length = rows.max(initial=0) + 3  # of a diagonal; what is next to its ends is on no other diagonal
+    keys = diagonals * length + rows  # ascending
+    infinite_end = np.append(values, np.inf)
+    no_key = np.append(keys, np.iinfo(keys.dtype).max)
+
+    def neighbours(entries: Indices, down: int, right: int) -> NDArray[Any]:
+        wanted = keys[entries] + (right - down) * length + down
+        places = np.searchsorted(keys, wanted)
+        return np.where(no_key[places] == wanted, infinite_end[places], np.inf)
+
+    lowest = pairs[:, _lowest(values, neighbours, equal)]
+    return lowest[:, np.lexsort(lowest[::-1])].T
 
 
 def fit(a: Cloud, b: Cloud, i: Indices, j: Indices) -> Array:
@@ -95,22 +178,13 @@ def fit(a: Cloud, b: Cloud, i: Indices, j: Indices) -> Array:
     if len(i) > AT_ONCE:
         parts = [slice(start, start + AT_ONCE) for start in range(0, len(i), AT_ONCE)]
         return np.concatenate([fit(a, b, i[part], j[part]) for part in parts], axis=1)
-    ground_a, heights_a = _whole_windows(a, i)
-    ground_b, heights_b = _whole_windows(b, j)
+    ground_a, heights_a = window_vectors(a, i)
+    ground_b, heights_b = window_vectors(b, j)
     angle = np.angle((ground_a * ground_b.conj()).sum((1, 2)))
     residual = ground_a - np.exp(1j * angle)[:, None, None] * ground_b
     square = (np.abs(residual) ** 2).sum((1, 2)) + ((heights_a - heights_b) ** 2).sum((1, 2))
     translation = a.centres[i] - np.exp(1j * angle.astype(float)) * b.centres[j]
     return np.stack([np.sqrt(square), angle, *from_ground(translation).T])
-
-
-def _whole_windows(cloud: Cloud, starts: Indices) -> tuple[NDArray[Any], Floats]:
-    """Return points on the ground and their frames' centroids, (N, k, P + 1), and heights, (N, k, P)."""
-    root_weight = cloud.heights.dtype.type(np.sqrt(1 / cloud.window))
-    frames = starts[:, None] + np.arange(cloud.window)
-    centroids = cloud.paths[starts][..., None]
-    ground = np.concatenate([cloud.ground[frames] * root_weight, centroids], axis=2)
-    return ground, cloud.heights[frames] * root_weight
 
 
 class Side(NamedTuple):
@@ -119,15 +193,22 @@ class Side(NamedTuple):
     windows : the windows whose minima the block finds.
     cloud : these, and one window more at each end if there is one: the neighbours of the outermost.
     first : the first window of `cloud`.
+    leaves : the windows of `cloud`, numbered from 0, for the search by the bound.
     """
 
     windows: range
     cloud: Cloud
     first: int
+    leaves: Leaves | None = None
 
 
 def find_minima(
-    cloud: Cloud, below: float, *, progress: Progress = iter, executor: Executor | None = None
+    cloud: Cloud,
+    below: float,
+    *,
+    progress: Progress = iter,
+    executor: Executor | None = None,
+    jobs: int | None = None,
 ) -> Array:
     """Find the local minima of the distances between all windows of a cloud, above the diagonal.
 
@@ -135,7 +216,7 @@ def find_minima(
     ----------
     cloud : all clips one after the other.
     below : only minima whose RMS distance is under this one, metres.
-    progress, executor : as for `find_transitions`.
+    progress, executor, jobs : as for `find_transitions`.
 
     Returns
     -------
@@ -154,23 +235,88 @@ def find_minima(
            [4.  ],
            [0.01]])
     """
-    count = len(cloud.sizes) - cloud.window + 1
+    with one_blas_thread():
+        bound = _choose_bound(cloud, below)
+        size = WIDE_BLOCK if bound else BLOCK
+        count = len(cloud.sizes) - cloud.window + 1
+        starts = range(0, count, size)
+        cuts = ((cloud, range(start, min(start + size, count)), bound) for start in starts)
+        sides = dict(zip(starts, run_in_order(_side, cuts, None, jobs), strict=True))
+        reach = _reach(cloud, below, sides.values()) if bound else 0.0
 
-    def side(start: int) -> Side:
-        windows = range(start, min(start + BLOCK, count))
-        first = max(windows.start - 1, 0)
-        stop = min(windows.stop + 1, count)
-        return Side(windows, cloud.part(slice(first, stop)), first)
-
-    pairs = [(row, column) for row in range(0, count, BLOCK) for column in range(row, count, BLOCK)]
-    tasks = ((side(row), side(column), below) for row, column in progress(pairs))
-    return np.concatenate(list(run_in_order(_block_minima, tasks, executor)), axis=1)
+        pairs = [(row, column) for row in starts for column in range(row, count, size)]
+        tasks = ((sides[row], sides[column], below, reach) for row, column in progress(pairs))
+        minima = list(run_in_order(_block_minima, tasks, executor, jobs))
+    return np.concatenate(minima, axis=1)
 
 
-def _block_minima(a: Side, b: Side, below: float) -> Array:
+def _choose_bound(cloud: Cloud, below: float) -> Directions | None:
+    """Return directions for the search by the bound, or None if the search by products is quicker."""
+    if np.count_nonzero(np.isfinite(cloud.sizes)) <= FEW:
+        return None
+    directions = sample_directions(cloud)
+    return directions if is_sparse(cloud, directions, below) else None
+
+
+def _side(cloud: Cloud, windows: range, bound: Directions | None) -> Side:
+    """Cut a side of blocks out of a cloud."""
+    first = max(windows.start - 1, 0)
+    stop = min(windows.stop + 1, len(cloud.sizes) - cloud.window + 1)
+    part = cloud.part(slice(first, stop))
+    if bound is None:
+        return Side(windows, part, first)
+    whole_windows = np.flatnonzero(np.isfinite(part.sizes))
+    return Side(windows, part, first, cut_into_leaves(whole_windows, projections(part, whole_windows, bound)))
+
+
+def _reach(cloud: Cloud, below: float, sides: Iterable[Side]) -> float:
+    """Return the squared reach of the projections in the leaves of all sides."""
+    longest = max(squared_length(side.leaves.places) for side in sides if side.leaves)
+    return squared_reach(cloud, below, longest)
+
+
+def _block_minima(a: Side, b: Side, below: float, reach: float) -> Array:
     """Find the minima of a block, the unit of work of one worker."""
+    with one_blas_thread():  # also in a process of its own
+        pairs = _near_pairs(a, b, reach)
+        if pairs is not None:
+            distances = pair_distances(a.cloud, b.cloud, pairs)
+            is_low = distances < below**2
+            return _fits(a, b, listed_minima(pairs[:, is_low], distances[is_low]))
+        blocks = [(row, column) for row in _cut(a) for column in _cut(b) if row.first <= column.first]
+        return np.concatenate([_minima_by_products(row, column, below) for row, column in blocks], axis=1)
+
+
+def _near_pairs(a: Side, b: Side, reach: float) -> Indices | None:
+    """Find the near pairs of a block, sorted by diagonal; None if all are measured by products."""
+    if a.leaves is None or b.leaves is None:
+        return None
+    # Neighbours of windows that do not overlap may overlap by two frames.
+    shift = a.cloud.window - 2 - (b.first - a.first)
+    at_most = SPARSE * len(a.windows) * len(b.windows)
+    pairs = near_pairs(a.leaves, b.leaves, reach, shift=shift, at_most=at_most)
+    return None if pairs is None else sort_by_diagonal(pairs)
+
+
+def _cut(side: Side) -> Iterator[Side]:
+    """Cut a side into sides of blocks that are measured by products."""
+    end = side.first + len(side.cloud.sizes)
+    for start in range(side.windows.start, side.windows.stop, BLOCK):
+        windows = range(start, min(start + BLOCK, side.windows.stop))
+        first = max(start - 1, side.first)
+        stop = min(windows.stop + 1, end)
+        yield Side(windows, side.cloud.part(slice(first - side.first, stop - side.first)), first)
+
+
+def _minima_by_products(a: Side, b: Side, below: float) -> Array:
+    """Find the minima of a block among all its pairs."""
     grid = tiled_distances(a.cloud, b.cloud, upper=a.windows == b.windows)
-    i, j = local_minima(grid, below**2).T
+    return _fits(a, b, local_minima(grid, below**2))
+
+
+def _fits(a: Side, b: Side, minima: Indices) -> Array:
+    """Align the minima of a block that are its own, and not those of a block beside it."""
+    i, j = minima.T
     rows = i + a.first
     columns = j + b.first
     kept = (rows >= a.windows.start) & (rows < a.windows.stop)

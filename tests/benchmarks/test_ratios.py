@@ -9,15 +9,18 @@ ratio, and a function that prepares the work.
 import os
 import subprocess
 import sys
+import time
 from dataclasses import replace
 from functools import cache, partial
 
+import many_clips
 import numpy as np
 import pytest
 from asked_lines import heart, sine, spiral
 from walking import generate_walk
 
 from mocap import datasets, editing, load, save
+from mocap._shared.tasks import blas
 from mocap.blending import blend, inertialize, join, mix, register
 from mocap.body import SHAPES, GroundPath, Motion, PlanarTransform, circle, resample, s_curve
 from mocap.body.kinematics import forward_kinematics
@@ -27,6 +30,7 @@ from mocap.feet import clean_up, mark_plants
 from mocap.files.path_files import load_path
 from mocap.graphs import build, from_transitions, prune, prune_graph, threshold_curve
 from mocap.matching import distance_grid, point_cloud, time_path
+from mocap.matching import minima as minima_of_grids
 from mocap.matching.transitions import Transitions, find_transitions
 from mocap.methods.match_webs import blend_of, build_web, search, weights_for
 from mocap.steering import Controller, FootTurner, follow_path, measure_delay
@@ -404,6 +408,33 @@ BESIDE_BARE = [
     ("all pairs of windows of 40, in windows of 10", 1.5, long_windows),
     ("transitions, in a product of matrices", 12, minima),
 ]
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_a_grid_takes_at_most_four_products_in_wall_time(real_data, jobs, dtype):
+    """On one thread and on two, for the product as for the grid; the fastest of nine runs of each."""
+    clouds, _ = point_clouds(real_data, dtype)
+    grid = partial(distance_grid, clouds, clouds, window=10, jobs=jobs)
+    works = {"grid": grid, "product": product_of_pairs(clouds)}
+    seconds = {name: [] for name in works}
+    with blas().limit(limits=jobs):
+        for name in 9 * list(works):
+            start = time.perf_counter()
+            works[name]()
+            seconds[name].append(time.perf_counter() - start)
+    name = f"all pairs in {np.dtype(dtype).itemsize * 8} bits on {jobs} threads, in a product of matrices"
+    hold(name, min(seconds["grid"]) / min(seconds["product"]), 4)
+
+
+def test_the_bound_takes_a_sixth_of_all_pairs_of_many_kinds_of_motion(real_data, monkeypatch):
+    """Of 20 000 frames, in 64 bits; of 80 000 it takes a seventeenth."""
+    clips = many_clips.clips_of(real_data / "cmu", 20_000)
+    search = partial(find_transitions, clips, window=10, below=0.04, jobs=1)
+    by_bound = fastest(search, repeats=2)[0]
+    monkeypatch.setattr(minima_of_grids, "FEW", 10**9)
+    by_products = fastest(search, repeats=1)[0]
+    hold("transitions by the bound, in those of all pairs", by_bound / by_products, 1 / 6)
 
 
 @rows(BESIDE_BARE)

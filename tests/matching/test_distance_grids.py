@@ -32,14 +32,33 @@ def random_points(seed, frames, points=6, reach=1.0):
     return np.random.default_rng(seed).normal(size=(frames, points, 3)) * reach
 
 
-@given(seeds, st.integers(1, 7), st.booleans())
-def test_the_grid_is_the_loop_over_windows(seed, window, weighted):
-    """As in [KGP02, Eq. 1], with equal weights or any."""
+@given(seeds, st.integers(1, 7), st.booleans(), st.booleans())
+def test_the_grid_is_the_loop_over_windows(seed, window, weighted, tapered):
+    """As in [KGP02, Eq. 1], with equal weights or any, of the points and of the frames in a window."""
     a, b, random = random_points(seed, 9), random_points(seed + 1, 7), np.random.default_rng(seed)
     weights = random.random(6) + np.eye(6)[0] if weighted else None
-    grid = distance_grid(a, b, window=window, joint_weights=weights)
-    expected = distance_oracle(a, b, window, weights)
+    taper = random.random(window) + np.eye(window)[0] if tapered else None
+    grid = distance_grid(a, b, window=window, joint_weights=weights, taper=taper)
+    expected = distance_oracle(a, b, window, weights, taper)
     assert grid == pytest.approx(expected, abs=1e-12)
+
+
+def test_a_taper_of_one_frame_compares_that_frame():
+    a, b = random_points(0, 9), random_points(1, 7)
+    last = distance_grid(a, b, window=3, taper=[0, 0, 1])
+    assert last == pytest.approx(distance_grid(a[2:], b[2:], window=1), abs=1e-12)
+    equal = distance_grid(a, b, window=3, taper=[7, 7, 7])
+    assert equal == pytest.approx(distance_grid(a, b, window=3), abs=1e-15)
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_any_number_of_threads_gives_the_same_grid_bit_for_bit(dtype, monkeypatch):
+    monkeypatch.setattr(distance_grids, "SMALL", 0)
+    monkeypatch.setattr(distance_grids, "TILE", (16, 24))
+    a, b = random_points(0, 90).astype(dtype), random_points(1, 70).astype(dtype)
+    for others in (a, b):
+        alone, default, several = (distance_grid(a, others, window=3, jobs=jobs) for jobs in (1, None, 5))
+        assert np.array_equal(alone, default) and np.array_equal(alone, several)
 
 
 @given(seeds, st.integers(1, 12), st.sampled_from([0.0, 1.0, 100.0, 3e4]), planar)
@@ -93,8 +112,8 @@ def test_tiles_cover_a_grid_once(rows, columns, upper):
     )
     worked = []
 
-    def kept(*parts):
-        worked.append(cloud_distances(*parts))
+    def kept(*parts, **options):
+        worked.append(cloud_distances(*parts, **options))
         return worked[-1]
 
     with pytest.MonkeyPatch.context() as patch:

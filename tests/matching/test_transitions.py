@@ -2,22 +2,26 @@
 
 import os
 import signal
+import threading
 from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mocap import datasets, resample
 from mocap._shared import tasks
 from mocap.body import Motion, Skeleton
 from mocap.errors import SkeletonMismatch
 from mocap.graphs.motion_graph import build
-from mocap.matching import distance_grids, minima, transitions
-from mocap.matching.distance_grids import Cloud, cloud, cloud_distances, distance_grid
+from mocap.matching import distance_grids, minima, near_pairs, transitions
+from mocap.matching.distance_grids import cloud, cloud_distances, distance_grid, join
 from mocap.matching.minima import find_minima, local_minima
 from mocap.matching.transitions import find_transitions, join_clouds
+from tests.bundled import walks_of_16
 from tests.refusals import refusals
 from tests.strategies import random_motion, seeds, wave
 
@@ -42,8 +46,8 @@ WALKS = [replace(clip, labels={"walk": True}) for clip in CLIPS]
 FAR = replace(CLIPS[1], root_positions=CLIPS[1].root_positions + 1e6)
 
 
-def search(clips, below):
-    return find_transitions(clips, window=8, below=below)
+def search(clips, below, **options):
+    return find_transitions(clips, window=8, below=below, **options)
 
 
 test_what_has_no_transitions_is_refused = refusals(
@@ -56,6 +60,10 @@ test_what_has_no_transitions_is_refused = refusals(
     (SkeletonMismatch, "joint", search, [CLIPS[0], random_motion(0, frames=20)], 0.1),
     ("resample one first", search, [CLIPS[0], replace(CLIPS[1], fps=60.0)], 0.1),
     (r"within 1e[+]06 m; 'b' holds", search, [CLIPS[0], FAR], 0.1),
+    ("Weights must be 8 numbers", partial(search, taper=np.ones(7)), CLIPS, 0.1),
+    ("jobs is a whole number of threads, at least 1, or None", partial(search, jobs=0), CLIPS, 0.1),
+    ("or None for all cores, got 1.5", partial(search, jobs=1.5), CLIPS, 0.1),
+    ("or None for all cores, got 0", partial(distance_grid, window=8, jobs=0), *CLIPS),
 )
 
 
@@ -92,7 +100,7 @@ def test_transitions_are_a_sequence_of_records():
 
 def test_few_frames_are_compared_in_64_bits_and_many_in_32(monkeypatch):
     used = []
-    joined = lambda *given: used.append(given[-1]) or join_clouds(*given)  # noqa: E731
+    joined = lambda *given, **options: used.append(given[-1]) or join_clouds(*given, **options)  # noqa: E731
     monkeypatch.setattr(transitions, "join_clouds", joined)
     for few in (120, 119):  # the clips have 120
         monkeypatch.setattr(transitions, "FEW", few)
@@ -188,7 +196,16 @@ def clouds(lengths, window, seed):
         cloud(smooth_points(seed + n, length), np.zeros(4), EQUAL, window, np.float32)
         for n, length in enumerate(lengths)
     ]
-    return Cloud(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))
+    return join(parts)
+
+
+def by_bound(patch, block, sparse=np.inf, leaf=5):
+    """Search by the bound, in blocks of this size of which all are sparse enough, or only some."""
+    patch.setattr(minima, "FEW", 0)
+    patch.setattr(minima, "WIDE_BLOCK", block)
+    patch.setattr(minima, "SPARSE", sparse)
+    patch.setattr(minima, "is_sparse", lambda *_: True)
+    patch.setattr(near_pairs, "LEAF", leaf)
 
 
 @given(
@@ -197,16 +214,19 @@ def clouds(lengths, window, seed):
     st.lists(st.integers(4, 30), min_size=1, max_size=4),
     st.integers(1, 4),
     st.integers(3, 40),
+    st.sampled_from(["by products", "by the bound", "some blocks by the bound"]),
 )
-def test_blocks_and_tiles_do_not_show(below, seed, lengths, window, block):
-    """Minima at every border are found once, whichever way the grid is cut."""
+def test_blocks_and_tiles_do_not_show(below, seed, lengths, window, block, way):
+    """Minima at every border are found once, whichever way the grid is cut and searched."""
     whole = clouds(lengths, window, seed)
     count = sum(lengths) - window + 1
     grid = cloud_distances(*[whole.part(slice(0, count))] * 2)
     expected = [[i, j] for i, j in local_minima(grid, below**2).tolist() if j - i >= window]
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(minima, "BLOCK", block)
+        patch.setattr(minima, "BLOCK", block if way == "by products" else 4)
         patch.setattr(distance_grids, "TILE", (5, 7))
+        if way != "by products":
+            by_bound(patch, block, 0.2 if way == "some blocks by the bound" else np.inf)
         found = find_minima(whole, below)
     order = np.lexsort(found[1::-1])
     i, j = found[:2].astype(int)
@@ -265,13 +285,121 @@ def test_weights_of_joints_are_those_of_the_grid():
     assert graph.count("transition") == len(found)
 
 
+def costs(found):
+    rows = zip(*(column.tolist() for column in found.columns[:4]), strict=True)
+    return dict(zip(rows, found.cost.tolist(), strict=True))
+
+
+@pytest.mark.parametrize("block", [30, 1000])
+def test_a_taper_is_that_of_the_grid_in_both_searches(block, monkeypatch):
+    taper = {"taper": [1, 2, 3, 4, 4, 3, 2, 1]}
+    grid = distance_grid(*CLIPS, window=8, **taper)
+    expected = local_minima(grid, 0.01).tolist()
+    found = find_transitions(CLIPS, window=8, below=0.1, **taper)
+    by_bound(monkeypatch, block)
+    again = find_transitions(CLIPS, window=8, below=0.1, **taper)
+    assert costs(found).keys() == costs(again).keys()
+    for each in (found, again):
+        across = each[(each.source == 0) & (each.target == 1)]
+        assert np.stack([across.leave, across.enter], 1).tolist() == expected
+        assert across.cost == pytest.approx(np.sqrt(grid[across.leave, across.enter]), abs=1e-7)
+    assert costs(found).keys() != costs(find_transitions(CLIPS, window=8, below=0.1)).keys()
+    graph = build(CLIPS, window=8, threshold=0.1, **taper)
+    assert graph.count("transition") == len(found)
+
+
+@given(
+    seeds,
+    st.lists(st.integers(8, 60), min_size=1, max_size=4),
+    st.sampled_from([0.05, 0.3, 1.0]),
+    st.booleans(),
+    st.integers(9, 80),
+)
+def test_the_bound_finds_the_transitions_of_all_pairs(seed, lengths, below, weighted, block):
+    """Of motions that swing, and that change at random: with weights and with labels, too."""
+    clips = [wave(length, phase=n, name=str(n), seed=seed + n) for n, length in enumerate(lengths)]
+    clips = [replace(clip, labels={"even": np.arange(len(clip)) % 2 == 0, "all": True}) for clip in clips]
+    random = np.random.default_rng(seed)
+    options = {"window": 8, "below": {("all", "all"): below, ("even", "all"): below / 2}}
+    if weighted:
+        options |= {"joint_weights": random.random(4) + 0.1, "taper": random.random(8) + 0.1}
+    expected = costs(find_transitions(clips, **options))
+    with pytest.MonkeyPatch.context() as patch:
+        by_bound(patch, block)
+        found = costs(find_transitions(clips, **options))
+    assert found.keys() == expected.keys()
+    assert list(found.values()) == pytest.approx(list(expected.values()), abs=1e-12)
+
+
+@pytest.mark.parametrize("below", [0.02, 0.1])
+def test_the_bound_finds_the_transitions_of_the_bundled_clips(below, monkeypatch):
+    clips = [resample(datasets.sample(name), 30) for name in ("walk_curve_1", "walk_circle", "sneak")]
+    expected = costs(find_transitions(clips, window=10, below=below))
+    by_bound(monkeypatch, 500, leaf=100)
+    found = costs(find_transitions(clips, window=10, below=below))
+    assert found.keys() == expected.keys() and len(found) > 10
+    assert list(found.values()) == pytest.approx(list(expected.values()), abs=1e-12)
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_the_bound_finds_the_transitions_of_captured_clips(real_data, dtype, monkeypatch):
+    clips = walks_of_16(real_data)[:8]
+    monkeypatch.setattr(transitions, "FEW", 0 if dtype == np.float32 else 10**9)
+    expected = costs(find_transitions(clips, window=10, below=0.06))
+    by_bound(monkeypatch, 1000, leaf=100)
+    found = costs(find_transitions(clips, window=10, below=0.06))
+    same_pairs = found.keys() & expected.keys()
+    # In 32 bits flat valleys may have their minimum a few frames further: few of a thousand.
+    allowed = 0 if dtype == np.float64 else 0.01 * len(expected)
+    assert len(found.keys() ^ expected.keys()) <= allowed and len(expected) > 200
+    assert max(abs(found[pair] - expected[pair]) for pair in same_pairs) < 1e-6
+
+
+def test_the_bound_is_taken_for_many_windows_of_which_few_pairs_are_near(monkeypatch):
+    bounds = []
+
+    def choose(*given):
+        bounds.append(choose_bound(*given) is not None)
+        return
+
+    choose_bound = minima._choose_bound
+    monkeypatch.setattr(minima, "_choose_bound", choose)
+    clips = [wave(300, name="a", period=90)]
+    for few, below in ((5000, 0.01), (200, 0.01), (200, 5.0), (200, np.inf)):
+        monkeypatch.setattr(minima, "FEW", few)
+        find_transitions(clips, window=8, below=below)
+    assert bounds == [False, True, False, False]
+
+
+def test_stopped_by_ctrl_c_no_thread_works_on(monkeypatch):
+    monkeypatch.setattr(minima, "BLOCK", 10)
+    before = threading.active_count()
+    seen = []
+
+    def interrupted(pairs):
+        for number, pair in enumerate(pairs):
+            if number == 5:
+                raise KeyboardInterrupt
+            seen.append(pair)
+            yield pair
+
+    with pytest.raises(KeyboardInterrupt):
+        find_transitions(CLIPS, window=8, below=0.1, jobs=3, progress=interrupted)
+    assert len(seen) == 5 and threading.active_count() == before
+
+
 @pytest.mark.parametrize(
     ("executor", "workers"),
     [(ThreadPoolExecutor, 3), pytest.param(ProcessPoolExecutor, 2, marks=pytest.mark.sweep)],
 )
-def test_any_number_of_workers_gives_the_same_bit_for_bit(executor, workers, monkeypatch):
+@pytest.mark.parametrize("is_bound", [False, True])
+def test_any_number_of_workers_gives_the_same_bit_for_bit(executor, workers, is_bound, monkeypatch):
     monkeypatch.setattr(minima, "BLOCK", 40)
-    here = find_transitions(CLIPS, window=8, below=0.1)
+    if is_bound:
+        by_bound(monkeypatch, 40)
+    here = find_transitions(CLIPS, window=8, below=0.1, jobs=1)
+    for jobs in (None, 2, 5):
+        assert same(here, find_transitions(CLIPS, window=8, below=0.1, jobs=jobs))
     with executor(workers) as pool:
         there = find_transitions(CLIPS, window=8, below=0.1, executor=pool)
-    assert all(np.array_equal(a, b) for a, b in zip(here.columns, there.columns, strict=True))
+    assert same(here, there)
