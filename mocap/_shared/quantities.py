@@ -1,6 +1,7 @@
 """Checks of numbers that callers pass: their kind, their unit, and how to write what is meant."""
 
 import math
+from collections.abc import Mapping
 from numbers import Real
 from typing import Any
 
@@ -58,7 +59,7 @@ def check_threshold(metres: Any) -> None:  # noqa: ANN401
     Traceback (most recent call last):
     mocap.errors.MocapError: A threshold of 4 m lets any two poses meet: it is in metres, 0.04 for 4 cm.
     """
-    for distance in metres.values() if isinstance(metres, dict) else [metres]:
+    for distance in metres.values() if isinstance(metres, Mapping) else [metres]:
         check_number(distance, "A threshold")
         if FARTHEST_WINDOW < distance < math.inf:
             centimetres = f"{distance / 100:g} for {distance:g} cm"

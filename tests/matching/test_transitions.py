@@ -151,7 +151,7 @@ def test_a_cost_is_below_its_threshold():
     for below, count in ((0.5, 0), (0.5 + 1e-9, 2)):
         assert len(find_transitions([clip], window=1, below=below)) == count
         other = replace(clip, labels={"on": True}, name="b")
-        pairs = {("up", "up"): below, ("on", "on"): 9.0}
+        pairs = {("up", "up"): below, ("on", "on"): np.inf}
         found = find_transitions([clip, other], window=1, below=pairs)
         assert np.count_nonzero((found.source == 0) & (found.target == 0)) == count
 
@@ -365,7 +365,7 @@ def test_the_bound_is_taken_for_many_windows_of_which_few_pairs_are_near(monkeyp
     choose_bound = minima._choose_bound
     monkeypatch.setattr(minima, "_choose_bound", choose)
     clips = [wave(300, name="a", period=90)]
-    for few, below in ((5000, 0.01), (200, 0.01), (200, 5.0), (200, np.inf)):
+    for few, below in ((5000, 0.01), (200, 0.01), (200, 1.0), (200, np.inf)):
         monkeypatch.setattr(minima, "FEW", few)
         find_transitions(clips, window=8, below=below)
     assert bounds == [False, True, False, False]
