@@ -35,21 +35,23 @@ def printable(text: object) -> str:
 
 
 class Remedy(NamedTuple):
-    """What helps against an error by way of a parameter, which has another name on a command line.
+    """What helps against an error: a parameter, which a command calls otherwise, or a call in Python.
 
     Parameters
     ----------
     text : what to do, with {} for the parameter's name.
-    parameter : its name in Python.
+    parameter : its name in Python; "" for a call, which commands leave out.
 
     Examples
     --------
     >>> Remedy("give {}", "fps").worded("--fps")
     'give --fps'
+    >>> MocapError("got a motion graph", remedy=Remedy("graphs.load reads it")).worded({"fps": "--fps"})
+    'got a motion graph'
     """
 
     text: str
-    parameter: str
+    parameter: str = ""
 
     def worded(self, name: str) -> str:
         """Return what to do, with this name for the parameter."""

@@ -24,7 +24,7 @@ import numpy.lib.format as npy
 from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.atomic import replacing
-from mocap.errors import FormatError, MocapError
+from mocap.errors import FormatError, MocapError, Remedy
 
 Arrays = dict[str, NDArray[Any]]
 Layout = Mapping[str, tuple[type, tuple[int | str, ...]]]
@@ -287,7 +287,7 @@ def read_archive(path: str | Path, kind: Kind) -> Arrays:
     """
     with open_archive(path, kind.wanted) as members:
         if kind_of(members) != kind.name:
-            raise FormatError(path, None, kind.wanted, described(members))
+            raise other_kind(path, kind.wanted, members)
         version = members["version"].read()
         if int(version) > kind.version:
             raise FormatError(path, None, kind.wanted, f"version {version}, which a newer mocap wrote")
@@ -306,10 +306,19 @@ def kind_of(members: Mapping[str, Member]) -> str:
     return AMASS if {"poses", "trans"} <= set(members) else ""
 
 
-def described(members: Mapping[str, Member]) -> str:
-    """Name the kind of a file and the function that reads it, for an error."""
+def other_kind(path: str | Path, expected: str, members: Mapping[str, Member]) -> FormatError:
+    """Return the error for a file of another kind: what it is, and in Python the function that reads it.
+
+    Parameters
+    ----------
+    path : the file.
+    expected : what it should be.
+    members : its arrays, by name.
+    """
     kind = kind_of(members)
-    return f"{kind}, which {LOADERS[kind]} reads" if kind in LOADERS else "an .npz of another kind"
+    if kind not in LOADERS:
+        return FormatError(path, None, expected, "an .npz of another kind")
+    return FormatError(path, None, expected, kind, remedy=Remedy(f"{LOADERS[kind]} reads it"))
 
 
 def _checked(path: str | Path, kind: Kind, members: Mapping[str, Member]) -> list[str]:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
-from mocap.errors import MocapError, shortened
+from mocap.errors import MocapError, Remedy, shortened
 
 FARTHEST_WINDOW = 1.0  # metres (RMS): windows of people are 0.2 m apart at random, so nobody means more
 FULL_TURN = 2 * math.pi  # radians
@@ -85,8 +85,8 @@ def check_radians(angle: Any, name: str, *, largest: float = FULL_TURN) -> None:
     """
     check_number(angle, name)
     if abs(angle) > largest and math.isfinite(angle):
-        degrees = f"write np.radians({angle:g}) for {angle:g} degrees"
-        raise MocapError(f"{name} is in radians, got {angle:g}: {degrees}.")
+        degrees = Remedy(f"write np.radians({angle:g}) for {angle:g} degrees")
+        raise MocapError(f"{name} is in radians, got {angle:g}.", remedy=degrees)
 
 
 def check_frames(count: Any, name: str, fps: float | None = None) -> None:  # noqa: ANN401

@@ -11,6 +11,7 @@ from typing import Annotated, Any, Literal
 
 from mocap import body, datasets, editing, files, graphs, plotting, steering, widgets
 from mocap._shared.atomic import make_folder, replacing, require_folder, write_file
+from mocap._shared.deadlines import OUT_OF_TIME
 from mocap.cli import options
 from mocap.cli.options import TURN, Building, Clean, Seed, Skeleton, Sources, Unit, bar, number, tell
 from mocap.cli.typed_commands import ONE_EACH, OptionalValue
@@ -37,6 +38,7 @@ def walk(
     label: Annotated[Sequence[str], ONE_EACH] = (),
     bend: Annotated[float | None, TURN, OptionalValue(100.0)] = None,
     width: Annotated[int | None, number(1, 10_000, int)] = None,
+    deadline: str | None = None,
     clean: Clean = False,
     seed: Annotated[int | None, number(0, 2**32 - 1, int)] = None,
 ) -> int:
@@ -59,22 +61,22 @@ def walk(
     bend (DEGREES) : lay the walk on the path, turned by up to so many degrees per second (without a number:
         100).
     width : walks that the search keeps at a time (default: 100).
+    deadline (TIME) : duration, such as 5s, after which the search ends with the best walk so far.
     seed : seed of the random walk (default: 0).
 
     Notes
     -----
     Example: mocap walk graph.npz --path line.csv --bend -o walk.bvh
     """
-    _require_one(path, random)
-    if random is not None and any((label, width, unit, bend)):
-        raise MocapError("--label, --bend, --width and --unit belong to --path, not to --random.")
-    if random is None and seed is not None:
-        raise MocapError("--seed belongs to --random: a walk along a path leaves nothing to chance.")
+    _require_one(path, random, seed)
+    if random is not None and any((label, width, unit, bend, deadline)):
+        raise MocapError("--label, --bend, --width, --unit and --deadline belong to --path, not to --random.")
     options.check_out("walk", out)
     from mocap.files.path_files import load_path  # the help needs no NumPy
     from mocap.synthesis.random_walks import dump
 
     seconds = _seconds(random or "1s")
+    longest_search = math.inf if deadline is None else _seconds(deadline)
     line = load_path(path, scale=unit) if path else None
     wishes = steering.Wishes(labels=[_label(text) for text in label])
     motions = _graph(graph, clips, sources, out)
@@ -82,17 +84,19 @@ def walk(
         frames = dump(motions, out, seconds=seconds, seed=seed or 0, clean=clean, progress=bar("writing"))
         tell(walked=f"{frames / motions.fps:.1f} s at random", wrote=out)
         return 0
-    settings = steering.Settings(width=width or 100, progress=bar("searching"))
+    settings = steering.Settings(width=width or 100, progress=bar("searching"), deadline=longest_search)
     followed = steering.follow_path(motions, line, wishes, settings=settings, bend=math.radians(bend or 0))
     tell(walked=followed.report())
     options.write_out(followed.motion(clean=clean or bool(bend)), out)
-    return 130 if followed.found.stopped else 0
+    return 0 if followed.found.stopped in ("", OUT_OF_TIME) else 130
 
 
-def _require_one(path: Path | None, random: str | None) -> None:
-    """Raise unless a walk has either a path or a duration."""
+def _require_one(path: Path | None, random: str | None, seed: int | None) -> None:
+    """Raise unless a walk has either a path or a duration, and a seed only with a duration."""
     if (path is None) == (random is None):
         raise MocapError("Give one of --path and --random: where to walk, or for how long.")
+    if random is None and seed is not None:
+        raise MocapError("--seed belongs to --random: a walk along a path leaves nothing to chance.")
 
 
 def page(graph: Path, *, out: Path = Path("walk.html"), skeleton: Skeleton = None) -> None:

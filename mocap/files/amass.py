@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mocap._shared.archives import Member, open_archive
+from mocap._shared.archives import LOADERS, Member, kind_of, open_archive, other_kind
 from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
@@ -29,6 +29,7 @@ _JOINTS: dict[str, Any] = tomllib.loads(Path(__file__).with_name("smpl.toml").re
 SKELETON = replace(Skeleton.from_table(_JOINTS), dofs=["xyz"] * len(_JOINTS))
 PELVIS = np.array([0.0, -0.223, 0.028])  # metres: the pelvis for `trans` 0, in the archive's own axes
 
+WANTED = "an AMASS archive with poses and trans"
 RATES = ("mocap_framerate", "mocap_frame_rate")
 WIDTH = 3 * len(SKELETON)  # numbers of a pose that are read
 WIDTHS = {"poses": WIDTH, "trans": 3}  # numbers of a frame that are read
@@ -67,13 +68,15 @@ def read(path: str | Path, *, fps: float | None = None) -> Recording:
     Raises
     ------
     MocapError, FormatError : for a file that cannot be read, and for arrays that are missing, of another
-        shape, or not finite.
+        shape, or not finite; for a graph or another file that mocap saved, with the function that reads it.
 
     Warns
     -----
     MocapWarning : if the file gives the body a shape.
     """
-    with open_archive(path, "an AMASS archive with poses and trans", ROOM) as members:
+    with open_archive(path, WANTED, ROOM) as members:
+        if "poses" not in members and kind_of(members) in LOADERS:
+            raise other_kind(path, WANTED, members)
         frames = _count_frames(path, members, "poses")
         translations = _count_frames(path, members, "trans")
         if frames != translations:

@@ -5,6 +5,7 @@ from importlib import import_module
 import numpy as np
 import pytest
 
+import mocap
 from mocap._shared.archives import AMASS, LOADERS, Kind, Part, numbered, pack, read_archive, write_archive
 from mocap.errors import FormatError
 from mocap.graphs import storage
@@ -104,7 +105,7 @@ def test_a_kind_opened_by_the_loader_of_another_names_its_own(tmp_path, name):
     path = tmp_path / "a.npz"
     pack(path, {"format": np.array(f"mocap: {name}"), "version": np.array(1)})
     for other in KINDS:
-        words = f"expected {other} saved by mocap, .* got {name}, which {LOADERS[name]} reads$"
+        words = f"expected {other} saved by mocap, .* got {name}: {LOADERS[name]} reads it$"
         if other == name:
             words = "one without"
         refused(words, function(LOADERS[other]), path, kind=FormatError)
@@ -113,10 +114,18 @@ def test_a_kind_opened_by_the_loader_of_another_names_its_own(tmp_path, name):
 @pytest.mark.parametrize("name", KINDS)
 def test_an_amass_archive_is_for_another_loader(tmp_path, name):
     pack(tmp_path / "a.npz", {"poses": np.zeros((2, 156)), "trans": np.zeros((2, 3))})
-    words = f"expected {name} saved by mocap, .* got an AMASS archive, which mocap.load reads$"
+    words = f"expected {name} saved by mocap, .* got an AMASS archive: mocap.load reads it$"
     refused(words, function(LOADERS[name]), tmp_path / "a.npz", kind=FormatError)
     pack(tmp_path / "a.npz", {"rows": np.zeros(2)})
     refused("got an .npz of another kind$", function(LOADERS[name]), tmp_path / "a.npz", kind=FormatError)
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_a_file_that_is_no_motion_names_its_loader(tmp_path, name):
+    path = tmp_path / "a.npz"
+    pack(path, {"format": np.array(f"mocap: {name}"), "version": np.array(1)})
+    words = f"expected an AMASS archive with poses and trans, got {name}: {LOADERS[name]} reads it$"
+    refused(words, mocap.load, path, kind=FormatError)
 
 
 def function(loader):

@@ -12,6 +12,7 @@ from mocap.errors import NoWalk
 from mocap.files import load_save
 from mocap.graphs import storage
 from mocap.methods.groups.planning import Scene
+from mocap.steering.path_search import watching
 from tests.bundled import bundled
 from tests.files.glb_reader import Glb
 
@@ -129,6 +130,32 @@ def test_it_wanders_and_writes_gltf_for_engines(folder, run):
     read = Glb((folder / "out.glb").read_bytes())
     assert read.nodes[0]["name"] == "root"
     assert max(times[-1] for times, _ in read.curves().values()) > 5.9
+
+
+def test_a_deadline_ends_the_search_with_the_best_walk_so_far(folder, run, monkeypatch):
+    clock = iter(range(10**9))  # a second goes by whenever the search reads the clock
+    monkeypatch.setattr("mocap._shared.deadlines.monotonic", lambda: float(next(clock)))
+    said = run("walk graph.npz --path path.csv --deadline 0.2min -o short.bvh")
+    assert "mocap: The deadline of 12 s ended the search: the walk covers " in said.err
+    said = run("walk graph.npz --path path.csv --deadline 24h -o whole.bvh")
+    assert "deadline" not in said.err
+    short, whole = load_save.load("short.bvh"), load_save.load("whole.bvh")
+    assert len(short) < 0.9 * len(whole)
+
+
+def test_ctrl_c_ends_the_search_with_another_status_than_a_deadline(folder, run):
+    rounds = iter(range(10**9))
+
+    def stop(search, walks):
+        if next(rounds) == 8:
+            raise KeyboardInterrupt
+
+    token = watching.set(stop)
+    try:
+        run("walk graph.npz --path path.csv --deadline 24h -o short.bvh", 130)
+    finally:
+        watching.reset(token)
+    assert 0 < load_save.load("short.bvh").duration < 4
 
 
 def test_clips_are_found_beside_the_graph(clips, run):

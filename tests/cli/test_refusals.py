@@ -10,6 +10,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from mocap._shared.archives import pack
 from mocap.body.motion import resample
 from mocap.cli.main import main
 from mocap.datasets import samples
@@ -54,6 +55,9 @@ def folder(tmp_path_factory):
     clip = load_save.load(place / "a.bvh")
     storage.save(prune(build([clip], window=10, threshold=0.05)), place / "g.npz")
     storage.save(bundled("walk_circle", "walk_curve_1"), place / "walks.npz")
+    for kind, name in {"a match web": "web.npz", "a group motion graph": "group.npz"}.items():
+        pack(place / name, {"format": np.array(f"mocap: {kind}"), "version": np.array(1)})
+    pack(place / "amass.npz", {"poses": np.zeros((2, 66)), "trans": np.zeros((2, 3))})
     return place
 
 
@@ -62,7 +66,7 @@ def contents(folder):
 
 
 ROOT = Path(__file__).parents[2]
-PYTHON = re.compile(r"\b[a-z_]{2,}=|\bmocap\.(?!npz)[a-z]\w*|\b[a-z_]{2,}\(")  # a keyword, a name, a call
+PYTHON = re.compile(r"\b[a-z_]{2,}=|\b(mocap|np)\.(?!npz)[a-z]\w*|\b[a-z_]{2,}\(|\.load")  # names, calls
 OPTION = re.compile(r"(^|\s)--?[a-z]")
 RAISED = ("MocapError", "FormatError", "NoWalk", "SkeletonMismatch", "Remedy", "missing", "warn")
 REFUSED = tomllib.loads(Path(__file__).with_name("refused.toml").read_text("utf-8"))["REFUSED"]
@@ -99,7 +103,8 @@ def test_no_error_in_python_names_an_option():
 def test_no_error_of_a_command_names_a_parameter():
     texts = {text for path in (ROOT / "mocap" / "cli").glob("*.py") for text in texts_of_errors(path)}
     assert {text for text in texts if PYTHON.search(text)} == set()
-    for told in ("no rate: give fps=.", "see mocap.load", "call name_leg(skeleton, hip)", "give legs=[...]"):
+    shown = ["no rate: give fps=.", "see mocap.load", "call name_leg(skeleton, hip)", "give legs=[...]"]
+    for told in [*shown, "graphs.load reads it", "write np.radians for it"]:
         assert PYTHON.search(told)
 
 

@@ -10,11 +10,13 @@ import sys
 import time
 import zipfile
 from contextlib import contextmanager
+from typing import get_args
 
 import numpy as np
 import pytest
 
 from mocap.body import Motion, Skeleton, find_legs, joint_positions, resample
+from mocap.cli.data import SetName
 from mocap.datasets import cmu_database, downloads, named_sets, resumed_downloads
 from mocap.datasets.named_sets import HASHES, SETS, clips_of, fetch_set, from_set
 from mocap.editing.stances import stance_of
@@ -35,6 +37,10 @@ def body_of(known):
 
 def still(known, at=1.0):
     return Motion(body_of(known), at * np.ones((3, 3)), np.tile([1.0, 0, 0, 0], (3, 9, 1)), known.fps)
+
+
+def test_the_command_offers_each_named_set_and_no_other():
+    assert sorted(get_args(SetName)) == sorted(SETS)
 
 
 @pytest.fixture
