@@ -210,6 +210,9 @@ COMPLETED = {
     },
     "from mocap import datasets\ndatasets.cmu('16_15').root_p": {"root_positions"},
     "from mocap.methods import match_webs\nmatch_webs.": {"build_web", "search", "MotionSpace"},
+    "from mocap import widgets\nwidgets.draw_path(follow, [[0, 0]]).": {"path", "player", "error", "frame"},
+    "from mocap import widgets\nwidgets.handles(ax, [[0, 0]]).": {"value", "limits", "count"},
+    "from mocap import widgets\nwidgets.steered(characters).": {"command", "delays"},
     "from mocap import graphs\ngraphs.build(clips, exec": {"executor="},
 }
 

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from mocap._shared.arrays import Array, frozen
 from mocap._shared.easing import quintic_step
 from mocap.blending import mix
-from mocap.blending.clocks import Registration, checked
+from mocap.blending.clocks import Registration, checked, require_registration
 from mocap.body.motion import Motion
 from mocap.errors import MocapWarning
 from mocap.steering.layered_search import States
@@ -72,7 +72,7 @@ class LivePlayer(AnyWidget):
         display_live(self.player._repr_mimebundle_(), self)
 
 
-def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
+def draw_path(follow: Follow, path: ArrayLike) -> LivePlayer:
     """Show a canvas on which the reader draws a path, and a walk along it.
 
     Parameters
@@ -162,7 +162,7 @@ class Mixer:
     """
 
     def __init__(self, registration: Registration, weights: ArrayLike = ()) -> None:
-        count = len(registration.clips)
+        count = len(require_registration(registration).clips)
         start = np.asarray(weights, float)
         if not start.size:
             start = np.full(count, 1 / count)
@@ -188,7 +188,7 @@ class Mixer:
             mixed += float(quintic_step((t - begin) / EASE)) * (weights - mixed)
         return mixed
 
-    def _blend_player(self) -> Any:  # noqa: ANN401
+    def _blend_player(self) -> Player:
         """Return a player of the blend with its weights so far."""
         blend = mix(self.registration, self.weights, fps=FPS)
         return play(blend, alt="A blend whose weights sliders change.")

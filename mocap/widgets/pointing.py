@@ -3,6 +3,8 @@
 They lie on the picture that an experiment draws, so the reader drags the very thing that answers.
 """
 
+from __future__ import annotations
+
 import io
 from pathlib import Path
 from typing import Any
@@ -23,7 +25,7 @@ WHITE = "#FFFFFF"
 INK = "#222222"
 
 
-def handles(ax: Axes, points: ArrayLike) -> Any:  # noqa: ANN401
+def handles(ax: Axes, points: ArrayLike) -> Handles:
     """Make a control of points on axes: its value is a tuple of (across, up), in the units of the axes.
 
     `explore` shows it on the picture that `draw` returns. Let `draw` move artists of the figure of these axes

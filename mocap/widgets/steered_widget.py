@@ -77,7 +77,7 @@ def steered(
     speeds: tuple[float, float] = (0.5, 1.6),
     labels: Sequence[str] = (),
     alt: str = "",
-) -> Any:  # noqa: ANN401
+) -> Steered:
     """Show characters side by side that the reader steers: one command for all, by mouse, keys or touch.
 
     The command goes from the browser to Python and comes back as steps. The line below the pictures shows the
