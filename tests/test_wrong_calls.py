@@ -12,9 +12,25 @@ import numpy as np
 import pytest
 
 import mocap
-from mocap import blending, body, datasets, editing, files, graphs, matching, steering, synthesis
+from mocap import (
+    blending,
+    body,
+    datasets,
+    editing,
+    feet,
+    files,
+    graphs,
+    matching,
+    plotting,
+    quality,
+    steering,
+    synthesis,
+    widgets,
+)
 
 LONGEST = 200  # characters of a sentence
+ROOMS = (blending, body, datasets, editing, feet, files, graphs, matching, plotting, quality, steering)
+ROOMS += (synthesis, widgets)
 
 CALLS = {
     # What is passed
@@ -74,6 +90,148 @@ CALLS = {
         "synthesis.to_motion(edges, graph)",
         "This takes a MotionGraph, got a list",
         "synthesis.to_motion(graph, edges)",
+    ),
+    "a path to judge": (
+        "quality.judge('walk.bvh')",
+        "mocap.load('walk.bvh')",
+        "quality.judge(mocap.load('walk.bvh'))",
+    ),
+    "a list to judge": ("quality.judge([walk])", "pass one of them", "quality.judge([walk][0])"),
+    "a motion to judge against": (
+        "quality.judge(walk, against=walk)",
+        "write [motion], in brackets",
+        "quality.judge(walk, against=[walk])",
+    ),
+    "a file for the path of a judgement": (
+        "quality.judge(walk, path='path.csv')",
+        "files.load_path('path.csv')",
+        "quality.judge(walk, path=[[0, 0], [0, 3]])",
+    ),
+    "a path to mark footplants": (
+        "feet.mark_plants('walk.bvh')",
+        "mocap.load('walk.bvh')",
+        "feet.mark_plants(mocap.load('walk.bvh'))",
+    ),
+    "a list to clean up": ("feet.clean_up([walk])", "pass one of them", "feet.clean_up([walk][0])"),
+    "a path to play": (
+        "widgets.play('walk.bvh')",
+        "mocap.load('walk.bvh')",
+        "widgets.play(mocap.load('walk.bvh'))",
+    ),
+    "a list to play": (
+        "widgets.play([walk, walk])",
+        "got a list of 2: write play(*clips)",
+        "widgets.play(*[walk, walk])",
+    ),
+    "a motion to mix": (
+        "blending.mix(walk)",
+        "got a Motion: blending.register([first, second])",
+        "blending.mix(blending.register([walk, walk]), [0.5, 0.5])",
+    ),
+    "motions to mix": (
+        "blending.mix([walk, walk], [0.5, 0.5])",
+        "This takes a Registration, got a list of 2",
+        "blending.mix(blending.register([walk, walk]), [0.5, 0.5])",
+    ),
+    "a blend without weights": (
+        "blending.mix(blending.register([walk, walk]))",
+        "blending.mix(registration, [0.5, 0.5])",
+        "blending.mix(blending.register([walk, walk]), [0.5, 0.5])",
+    ),
+    "motions for a crossfade": (
+        "blending.crossfade([walk, walk])",
+        "blending.register([first, second])",
+        "blending.crossfade(blending.register([walk, walk]))",
+    ),
+    "a list for its points": (
+        "matching.point_cloud([walk])",
+        "pass one of them",
+        "matching.point_cloud([walk][0])",
+    ),
+    "the number of a person for a trial": (
+        "datasets.cmu(16)",
+        "cmu(subject=16) are all trials of a person",
+        "datasets.trials(subject=16)",
+    ),
+    "a list of trials": (
+        "datasets.cmu(['16_15', '16_16'])",
+        'A trial is named as in cmu("16_15"), got a list of 2',
+        "datasets.trials(subject=16)",
+    ),
+    "points for waypoints": (
+        "steering.through_waypoints(graph, [(0, 0), (0, 2)])",
+        "write [Waypoint(x, z) for x, z in points]",
+        "steering.through_waypoints(graph, [steering.Waypoint(x, z) for x, z in [(0, 0), (0, 2)]])",
+    ),
+    "one waypoint": (
+        "steering.through_waypoints(graph, steering.Waypoint(0, 2))",
+        "[Waypoint(0, 0), Waypoint(0, 4)]",
+        "steering.through_waypoints(graph, [steering.Waypoint(0, 0), steering.Waypoint(0, 2)])",
+    ),
+    "a drawing without frames": (
+        "plotting.flat_bodies(walk)",
+        "such as flat_bodies(motion, [0, 289])",
+        "plotting.flat_bodies(walk, [0, 289])",
+    ),
+    "a list to draw": (
+        "plotting.flat_bodies([walk], [0])",
+        "pass one of them",
+        "plotting.flat_bodies([walk][0], [0])",
+    ),
+    "one frame to draw": (
+        "plotting.flat_bodies(walk, 10)",
+        "This takes a list of frames",
+        "plotting.flat_bodies(walk, [10])",
+    ),
+    "a frame that is not there": (
+        "plotting.flat_bodies(walk, [0, 5000])",
+        "from 0 to 289",
+        "plotting.flat_bodies(walk, [0, 289])",
+    ),
+    "a view that is not there": (
+        "plotting.flat_bodies(walk, [0], 'top')",
+        "view is 'side' or 'front', got the text 'top'",
+        "plotting.flat_bodies(walk, [0], 'front')",
+    ),
+    "networkx's graph without a rate": (
+        "graphs.summary(graph.graph)",
+        "pass the MotionGraph itself, or fps=",
+        "graphs.summary(graph)",
+    ),
+    "clips to summarise": (
+        "graphs.summary([walk])",
+        "graphs.build(clips, window=10, threshold=0.04)",
+        "graphs.summary(graph)",
+    ),
+    "a file's name before the graph": (
+        "graphs.save('graph.npz', graph)",
+        "graphs.save(graph, 'graph.npz')",
+        "graphs.save(graph, 'graph.npz')",
+    ),
+    "a motion to save as a graph": (
+        "graphs.save(walk, 'graph.npz')",
+        "This takes a MotionGraph, got a Motion",
+        "graphs.save(graph, 'graph.npz')",
+    ),
+    "a skeleton to retarget to": (
+        "editing.retarget(walk, walk.skeleton)",
+        "got a Skeleton: editing.wear(motion, skeleton)",
+        "editing.wear(walk, walk.skeleton)",
+    ),
+    "one stance to retarget to": (
+        "editing.retarget(walk, editing.stance_of(walk))",
+        "body and source, got None",
+        "editing.retarget(walk, editing.stance_of(walk), editing.stance_of(walk))",
+    ),
+    "a number of rounds for a cycle": (
+        "editing.loop(walk, 1)",
+        "editing.repeated(editing.loop(motion), times)",
+        "editing.repeated(editing.loop(walk), 1)",
+    ),
+    "a path for a cycle": (
+        "editing.loop('walk.bvh')",
+        "mocap.load('walk.bvh')",
+        "editing.loop(mocap.load('walk.bvh'))",
     ),
     "frame numbers for edges": (
         "synthesis.to_motion(graph, [0, 1, 2])",
@@ -291,8 +449,7 @@ def names(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
         "mocap": mocap,
         "np": np,
         "Path": Path,
-        **{room.__name__.split(".")[-1]: room for room in (blending, body, editing, files, graphs)},
-        **{room.__name__.split(".")[-1]: room for room in (matching, steering, synthesis)},
+        **{room.__name__.split(".")[-1]: room for room in ROOMS},
     }
 
 

@@ -14,4 +14,5 @@
 12. `faces`: the names of a room, imported at their first use; the room of a name that a room lacks
 13. `records`: classes with named fields that print in one line, and are compared and pickled by their fields
 14. `quantities`: checks of numbers that callers pass: their kind and their unit
+15. `arguments`: checks of the arguments of a call, including those that are missing
 """

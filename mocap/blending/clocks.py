@@ -10,6 +10,7 @@ from scipy.integrate import cumulative_trapezoid
 from scipy.interpolate import CubicHermiteSpline
 
 from mocap._shared.arrays import Array, Points, frozen, runs
+from mocap._shared.quantities import described
 from mocap._shared.records import dataclass
 from mocap.blending.timewarps import Curve
 from mocap.body.motion import Motion
@@ -156,6 +157,22 @@ class Registration:
         whole_frames = np.arange(len(self.centres[clip]))
         x, z = (np.interp(frames, whole_frames, coordinates) for coordinates in self.centres[clip].T)
         return on_ground(np.stack([x, z], axis=-1))
+
+
+def require_registration(registration: object) -> Registration:
+    """Return a registration as it is; raise for anything else, with the call that makes one.
+
+    Examples
+    --------
+    >>> require_registration([])
+    Traceback (most recent call last):
+    mocap.errors.MocapError: This takes a Registration, got a list of 0: blending.register([first, second])
+    makes one.
+    """
+    if isinstance(registration, Registration):
+        return registration
+    needs = f"This takes a Registration, got {described(registration)}"
+    raise MocapError(f"{needs}: blending.register([first, second]) makes one.")
 
 
 def frame_times(

@@ -9,9 +9,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from mocap._shared.arguments import checked_by
 from mocap._shared.arrays import Array, Mask, Points
 from mocap._shared.records import NamedTuple
-from mocap.blending.clocks import Registration, Weights, frame_times
+from mocap.blending.clocks import Registration, Weights, frame_times, require_registration
 from mocap.body import rotations
 from mocap.body.motion import Motion, gather_marks, turning
 from mocap.body.planar import from_ground, on_ground
@@ -29,6 +30,14 @@ class Course(NamedTuple):
     centres: Points
 
 
+def _require_weights(registration: object = None, weights: object = None, **_options: object) -> None:
+    """Raise unless there are a registration and weights."""
+    require_registration(registration)
+    if weights is None:
+        raise MocapError("A blend takes a weight for each clip: blending.mix(registration, [0.5, 0.5]).")
+
+
+@checked_by(_require_weights)
 def mix(
     registration: Registration,
     weights: Weights,
@@ -64,7 +73,7 @@ def mix(
 
     Raises
     ------
-    MocapError : as by `frame_times`.
+    MocapError : for what is no registration, missing weights, and as by `frame_times`.
 
     Examples
     --------
@@ -201,6 +210,7 @@ def crossfade(registration: Registration, *, seconds: float = 1.0) -> Motion:
 
     Notebook: 15-registration
     """
+    require_registration(registration)
     if len(registration.clips) != 2:
         raise MocapError(f"A crossfade needs two registered clips, got {len(registration.clips)}.")
     first, last = registration.span

@@ -7,7 +7,7 @@ from mocap.body import rotations
 from mocap.body.joint_trees import GlobalPoses as GlobalPoses
 from mocap.body.joint_trees import place_joints
 from mocap.body.joint_trees import velocities as velocities
-from mocap.body.motion import Motion
+from mocap.body.motion import Motion, require_motion
 
 # The largest ratio of a hinge's second singular value to its first. The knees of six sources have 0.008 at
 # most; those of puppy, which are no hinges, 0.45.
@@ -40,6 +40,7 @@ def forward_kinematics(motion: Motion) -> GlobalPoses:
 
     Notebook: 13-retargeting
     """
+    require_motion(motion)
     return place_joints(motion.skeleton, motion.root_positions, motion.rotations)
 
 

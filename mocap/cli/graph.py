@@ -129,7 +129,7 @@ def build(
         graph = building.build(motions, bar("comparing"), jobs=jobs, executor=executor)
     if not whole:
         graph = graphs.prune(graph, by_labels=by_labels)
-    print(graphs.summary(graph.graph, fps=graph.fps).table())
+    print(graphs.summary(graph).table())
     graphs.save(graph, out, origins)
     tell(wrote=out)
     if graphml:

@@ -12,6 +12,7 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple, overload
 
+from mocap._shared.quantities import described
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.datasets.downloads import fetch
@@ -117,8 +118,9 @@ def cmu(
 
     Raises
     ------
-    MocapError : for a trial that is not listed, or a file that cannot be downloaded, with what to do instead;
-        with `skeleton`, for what `editing.wear` refuses, such as a trial in which a foot never stands.
+    MocapError : for a trial that is not listed or not named by a text; for a file that cannot be downloaded,
+        with what to do instead; with `skeleton`, for what `editing.wear` refuses, such as a trial in which a
+        foot never stands.
 
     Examples
     --------
@@ -130,6 +132,7 @@ def cmu(
     """
     if clip is None and subject is None and kind is None:
         raise MocapError('Which trials? Name one, as in cmu("16_15"), or give subject= or kind=.')
+    _require_name(clip)
     motions = []
     for name in [trial.name for trial in trials(subject, kind)] if clip is None else [clip]:
         folder = name.split("_")[0]
@@ -139,6 +142,14 @@ def cmu(
         motion = load(fetch_listed(f"{folder}/{name}.amc"), skeleton=asf, fps=120.0)
         motions.append(motion if skeleton is None else wear(motion, skeleton))
     return motions if clip is None else motions[0]
+
+
+def _require_name(clip: object) -> None:
+    """Raise unless a trial is named by a text, or not at all."""
+    if clip is None or isinstance(clip, str):
+        return
+    all_trials = f"; cmu(subject={clip}) are all trials of a person" if isinstance(clip, int) else ""
+    raise MocapError(f'A trial is named as in cmu("16_15"), got {described(clip)}{all_trials}.')
 
 
 def fetch_listed(name: str) -> Path:

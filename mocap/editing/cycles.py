@@ -12,11 +12,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from mocap._shared.quantities import described
 from mocap._shared.records import NamedTuple
 from mocap._shared.ties import first_least
 from mocap.blending.joining import join
 from mocap.body import rotations
-from mocap.body.motion import Motion, concatenate, resample
+from mocap.body.motion import Motion, concatenate, require_motion, resample
 from mocap.body.planar import PlanarTransform, align_frames, heading
 from mocap.editing.path_editing import plants_kept
 from mocap.errors import MocapError, MocapWarning, shortened, warn
@@ -84,6 +85,7 @@ def find_loop(motion: Motion, *, seconds: tuple[float, float] = (0.4, 3.0)) -> L
     >>> [find_loop(walk, seconds=bounds)[:2] for bounds in ((2.0, 3.0), (0.2, 0.2))]  # two strides; the least
     [(872, 1133), (820, 844)]
     """
+    require_motion(motion)
     slow = resample(motion, COARSE) if motion.fps > COARSE else motion
     if not SEAM <= seconds[0] <= seconds[1] < np.inf:
         raise MocapError(f"A cycle lasts {SEAM:g} s or more, from one bound to a larger one; got {seconds}.")
@@ -175,7 +177,8 @@ def loop(  # reads: name: `found` is a parameter that users may give by its name
 
     Raises
     ------
-    MocapError : for frames that leave no room for the seam, and with `clean` for legs that are not found.
+    MocapError : for frames that leave no room for the seam, what is no motion or no cycle, and with `clean`
+        for legs that are not found.
 
     Warns
     -----
@@ -192,6 +195,12 @@ def loop(  # reads: name: `found` is a parameter that users may give by its name
     >>> len(loop(walk, Loop(0, 24, 0, 0))), len(loop(walk, Loop(400, 455, 0, 0)))  # the seam takes 24 frames
     (25, 56)
     """
+    require_motion(motion)
+    if not isinstance(found, tuple | None):
+        remedy = "editing.repeated(editing.loop(motion), times) repeats one"
+        raise MocapError(
+            f"found is a cycle from editing.find_loop(motion), got {described(found)}: {remedy}."
+        )
     first, last, *_ = found or find_loop(motion)
     window = max(2, round(SEAM * motion.fps))
     if not 0 <= first < last < len(motion) - window or last - first < window:

@@ -12,11 +12,13 @@ from itertools import pairwise
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from mocap._shared.arguments import checked_by
 from mocap._shared.arrays import Array
+from mocap._shared.quantities import described
 from mocap.body import rotations
 from mocap.body.kinematics import forward_kinematics, joint_positions
 from mocap.body.limbs import FEET, SIDES, heading_by_hips
-from mocap.body.motion import Motion
+from mocap.body.motion import Motion, require_motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.bodies import body_of
 from mocap.editing.edits import mark_met
@@ -162,6 +164,18 @@ STILL = 0.001
 MOST = 0.5  # of a leg: hips that move by more to take the steps jump; a child's do at 3 times its own steps
 
 
+def _require_stances(
+    motion: object = None, body: object = None, source: object = None, **_options: object
+) -> None:
+    """Raise unless a motion comes with the stances of both bodies."""
+    require_motion(motion)
+    for stance in (body, source):
+        if not isinstance(stance, Stance):
+            needs = "This takes the stances of both bodies, body and source"
+            raise MocapError(f"{needs}, got {described(stance)}: editing.wear(motion, skeleton) finds them.")
+
+
+@checked_by(_require_stances)
 def retarget(motion: Motion, body: Stance, source: Stance, *, scale: float | None = None) -> Motion:
     """Let another body wear a motion, with its feet planted on the floor where the old feet were planted.
 
@@ -185,7 +199,7 @@ def retarget(motion: Motion, body: Stance, source: Stance, *, scale: float | Non
 
     Raises
     ------
-    MocapError : for contacts that are missing, and pins that no pose can meet.
+    MocapError : for what is no stance, contacts that are missing, and pins that no pose can meet.
     SkeletonMismatch : for a motion of another skeleton than the source's.
 
     Warns

@@ -16,7 +16,7 @@ from mocap._shared.arrays import runs as runs  # which the room exports
 from mocap._shared.records import NamedTuple
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import Leg, find_legs
-from mocap.body.motion import Motion
+from mocap.body.motion import Motion, require_motion
 from mocap.errors import MocapError
 
 # Seconds. No foot comes to stand, nor takes a step, in less. With 0.1 the worst F1 falls to 0.945; with
@@ -30,7 +30,8 @@ GRAVITY = 9.81  # metres per second squared
 # slowly but does not stand. With the ball's shares for the ankle, the mean F1 under noise of half a
 # millimetre falls from 0.91 to 0.82. With the ankle's shares for the ball, a foot stands for only 38 % of a
 # walk.
-ANKLE, BALL = (0.2, 0.3), (0.45, 0.55)
+ANKLE = (0.2, 0.3)
+BALL = (0.45, 0.55)
 
 # Percent of the frames. Even a runner's feet stand for longer. With 5 or 20, feet stand for 1 % less or
 # more of a walk.
@@ -82,7 +83,7 @@ def mark_plants(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
 
     Raises
     ------
-    MocapError : for legs that cannot be found, and for a clip that is too short.
+    MocapError : for what is no motion, legs that cannot be found, and for a clip that is too short.
 
     Examples
     --------
@@ -94,24 +95,28 @@ def mark_plants(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
 
     Notebook: 04b-feet
     """
+    require_motion(motion)
     legs = find_legs(motion.skeleton) if legs is None else legs
     span = max(1, int(SPAN * motion.fps))
     if len(motion) <= 2 * span:
-        few = f"'{motion.name}' has {len(motion)}"
-        raise MocapError(f"To tell standing from swinging takes more than {2 * span} frames; {few}.")
+        needs = f"To tell standing from swinging takes more than {2 * span} frames"
+        raise MocapError(f"{needs}; '{motion.name}' has {len(motion)}.")
     joints = [joint for leg in legs for joint in (leg.ankle, leg.ball)]
     positions = joint_positions(motion)[:, joints]  # (F, 2 · legs, 3)
     lengths = np.max([leg.lengths(motion.skeleton) for leg in legs], axis=0)
-    length, from_place = lengths[:2].sum(), FROM_PLACE * lengths[2]
-    speeds, heights = _slower_speeds(positions, span, motion.fps), positions[..., 1]
+    length = lengths[:2].sum()
+    from_place = FROM_PLACE * lengths[2]
+    speeds = _slower_speeds(positions, span, motion.fps)
+    heights = positions[..., 1]
     swinging = np.sqrt(GRAVITY * length)
     # A clip made by arithmetic stands still to the last digit, and a logarithm needs a number above 0.
-    least, most = np.finfo(float).eps, STANDING_AT_MOST
-    standing = swinging * np.clip(np.percentile(speeds[:, 1::2], SLOWEST) / swinging, least, most)
+    ratio = np.percentile(speeds[:, 1::2], SLOWEST) / swinging
+    standing = swinging * np.clip(ratio, np.finfo(float).eps, STANDING_AT_MOST)
     low = heights < _low_enough(heights, speeds, length)
     marks = {}
     for column, joint in enumerate(joints):
-        enter, leave = (standing ** (1 - share) * swinging**share for share in (ANKLE, BALL)[column % 2])
+        shares = (ANKLE, BALL)[column % 2]
+        enter, leave = (standing ** (1 - share) * swinging**share for share in shares)
         slow = hysteresis(speeds[:, column], low[:, column], enter, leave)
         slow &= _near_place(positions[:, column], slow, from_place)
         marks[motion.skeleton.names[joint]] = settle(slow, least_frames(motion.fps))
@@ -121,8 +126,8 @@ def mark_plants(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
 def _slower_speeds(positions: Array, span: int, fps: float) -> Array:
     """Measure the slower of the mean speeds over the span before and the span after each frame, (F, N)."""
     speed = np.linalg.norm(positions[span:] - positions[:-span], axis=-1) * fps / span
-    beyond = np.full((span, positions.shape[1]), np.inf)
-    slower = np.minimum(np.concatenate([speed, beyond]), np.concatenate([beyond, speed]))
+    past_the_ends = np.full((span, positions.shape[1]), np.inf)
+    slower = np.minimum(np.concatenate([speed, past_the_ends]), np.concatenate([past_the_ends, speed]))
     return np.where(slower < STILL, 0.0, slower)
 
 
@@ -136,11 +141,11 @@ def _low_enough(heights: Array, speeds: Array, length: float) -> Array:
 
 def _near_place(path: Array, slow: Mask, distance: float) -> Mask:
     """Mark where a joint's path (F, 3) is within `distance` of its median in each run of `slow`."""
-    near = np.zeros(len(slow), bool)
+    marks = np.zeros(len(slow), bool)
     for start, stop in runs(slow):
-        places = path[start:stop]
-        near[start:stop] = np.linalg.norm(places - np.median(places, axis=0), axis=1) < distance
-    return near
+        positions = path[start:stop]
+        marks[start:stop] = np.linalg.norm(positions - np.median(positions, axis=0), axis=1) < distance
+    return marks
 
 
 def hysteresis(values: Array, allowed: Mask, enter: float, leave: float) -> Mask:
@@ -223,7 +228,8 @@ def find_footprints(motion: Motion) -> list[Footprint]:
 
     Notebook: 12-path-editing
     """
-    points, prints = joint_positions(motion)[..., [0, 2]], []
+    points = joint_positions(motion)[..., [0, 2]]
+    prints = []
     for name, down in motion.contacts.items():
         joint = motion.skeleton.index(name)
         for start, end in runs(down).tolist():
@@ -253,8 +259,10 @@ def standing_tracks(motion: Motion) -> Array:
 
     Notebook: 12-path-editing
     """
-    points, gap = joint_positions(motion)[..., [0, 2]], np.full((1, 2), np.nan)
+    points = joint_positions(motion)[..., [0, 2]]
+    gap = np.full((1, 2), np.nan)
     lines = [np.zeros((0, 2))]
     for name, down in motion.contacts.items():
-        lines += [np.where(down[:, None], points[:, motion.skeleton.index(name)], np.nan), gap]
+        track = points[:, motion.skeleton.index(name)]
+        lines += [np.where(down[:, None], track, np.nan), gap]
     return np.concatenate(lines)

@@ -20,7 +20,7 @@ from scipy.ndimage import binary_propagation, maximum_filter1d
 from mocap._shared.arrays import Array, Mask, runs
 from mocap.body.kinematics import forward_kinematics
 from mocap.body.limbs import Leg, find_legs
-from mocap.body.motion import Motion
+from mocap.body.motion import Motion, require_motion
 from mocap.errors import MocapError, shortened, warn
 from mocap.feet.ankle_targets import FootTarget, foot_target
 from mocap.feet.footplants import least_frames, settle
@@ -74,6 +74,7 @@ def clean_up(
 
     Notebook: 04b-feet
     """
+    require_motion(motion)
     legs = find_legs(motion.skeleton) if legs is None else legs
     own, span = forward_kinematics(motion), least_frames(motion.fps)
     tracks = [track_leg(motion, leg, own) for leg in legs]

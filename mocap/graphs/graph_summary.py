@@ -6,10 +6,11 @@ import networkx as nx
 import numpy as np
 
 from mocap._shared.atomic import replacing
+from mocap._shared.quantities import check_number
 from mocap._shared.records import NamedTuple
 from mocap.errors import MocapError, printable
 from mocap.graphs.components import Labels, reached
-from mocap.graphs.motion_graph import MotionGraph, Node
+from mocap.graphs.motion_graph import MotionGraph, Node, require_graph
 from mocap.graphs.pruning import name
 
 
@@ -50,13 +51,17 @@ class Summary(NamedTuple):
         return "\n".join(f"{printable(heading):<12} {printable(text)}" for heading, text in rows)
 
 
-def summary(graph: nx.MultiDiGraph, *, fps: float) -> Summary:
-    """Summarise the graph of a `MotionGraph`.
+def summary(graph: MotionGraph | nx.MultiDiGraph, *, fps: float | None = None) -> Summary:
+    """Summarise a motion graph.
 
     Parameters
     ----------
-    graph : its `graph`, pruned or not.
-    fps : frames per second of its clips.
+    graph : pruned or not; also a networkx graph such as `MotionGraph.graph`.
+    fps : frames per second of its clips; a `MotionGraph` has its own.
+
+    Raises
+    ------
+    MocapError : for a networkx graph without `fps`, and what is no graph.
 
     Examples
     --------
@@ -65,7 +70,7 @@ def summary(graph: nx.MultiDiGraph, *, fps: float) -> Summary:
     >>> back = matching.Transition(0, 60, 0, 10, 0.02, body.PlanarTransform(0, 0, 0))
     >>> graph = graphs.from_transitions([clip], [back], window=10)
     >>> graph = graphs.prune(graph)
-    >>> print(summary(graph.graph, fps=30).table())
+    >>> print(summary(graph).table())
     frames       40 of the clips, 1.3 s
     nodes        2, with 1.00 edges out of each
     edges        2, of them 1 transitions
@@ -73,6 +78,12 @@ def summary(graph: nx.MultiDiGraph, *, fps: float) -> Summary:
 
     Notebook: 05b-choice-points
     """
+    if not isinstance(graph, nx.MultiDiGraph):
+        fps = fps or require_graph(graph).fps
+        graph = graph.graph
+    if fps is None:
+        raise MocapError("A networkx graph has no frame rate: pass the MotionGraph itself, or fps=.")
+    check_number(fps, "fps")
     kinds = [kind for _, _, kind in graph.edges(data="kind")]
     waits = _waits(graph)
     frames = len(waits)

@@ -18,8 +18,9 @@ from mocap.body.planar import PlanarTransform
 from mocap.datasets import clip_references
 from mocap.datasets.clip_origins import Origin
 from mocap.datasets.clip_references import MOST_FRAMES, ClipReferences
-from mocap.errors import warn
-from mocap.graphs.motion_graph import MotionGraph
+from mocap.errors import MocapError, warn
+from mocap.files.load_save import require_path
+from mocap.graphs.motion_graph import MotionGraph, require_graph
 
 FRAMES = 3  # column of `edges`
 # The arrays of the file, with C clips, N nodes, E edges, T transitions and L labels.
@@ -61,7 +62,7 @@ def save(motion_graph: MotionGraph, path: str | Path, origins: Sequence[Origin] 
 
     Raises
     ------
-    MocapError : for another suffix, and where the file cannot be written.
+    MocapError : for another suffix, what is no graph, and where the file cannot be written.
 
     Examples
     --------
@@ -75,6 +76,10 @@ def save(motion_graph: MotionGraph, path: str | Path, origins: Sequence[Origin] 
 
     Notebook: 05b-choice-points
     """
+    if isinstance(path, MotionGraph):
+        raise MocapError("The graph comes first: graphs.save(graph, 'graph.npz').")
+    require_graph(motion_graph)
+    require_path(path)
     arrays = clip_references.arrays_of_clips(motion_graph.clips, origins, path)
     arrays |= {"window": motion_graph.window} | _arrays_of_graph(motion_graph.graph)
     write_archive(path, GRAPH, arrays)

@@ -10,9 +10,13 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
+from mocap._shared.arguments import checked_by
 from mocap._shared.arrays import Array, Indices
+from mocap._shared.quantities import described
 from mocap._shared.records import NamedTuple
 from mocap.body import Motion, Skeleton, joint_positions
+from mocap.body.motion import require_motion
+from mocap.errors import MocapError
 from mocap.matching.point_clouds import distinct_joints
 from mocap.plotting.style import ASKED, COLOURS, FLOOR, MARK, PATH, QUIET, own_colour, source_colours
 
@@ -81,6 +85,22 @@ def draw_body(
     return body
 
 
+def _require_frames(
+    motion: object = None, frames: object = None, view: object = "side", *_looks: object, **_options: object
+) -> None:
+    """Raise unless a motion comes with a list of its frames, and a view that there is."""
+    count = len(require_motion(motion))
+    example = f"such as flat_bodies(motion, [0, {count - 1}])"
+    if isinstance(frames, int | str) or not isinstance(frames, Iterable):
+        raise MocapError(f"This takes a list of frames, {example}, got {described(frames)}.")
+    for frame in frames:
+        if not isinstance(frame, int | np.integer) or not -count <= frame < count:
+            raise MocapError(f"Frames are whole numbers from 0 to {count - 1}, {example}, got {frame}.")
+    if view not in ("side", "front"):
+        raise MocapError(f"view is 'side' or 'front', got {described(view)}; axes are given as ax=.")
+
+
+@checked_by(_require_frames)
 def flat_bodies(
     motion: Motion,
     frames: Sequence[int],
@@ -98,6 +118,10 @@ def flat_bodies(
         walker comes towards the reader, so the left side of the body, at +x, is on the right.
     alpha : 1 for solid bodies, less for ghosts.
     ax : flat axes; by default new ones.
+
+    Raises
+    ------
+    MocapError : for what is no motion, frames that it does not have, and another view.
 
     Examples
     --------

@@ -19,13 +19,13 @@ import numpy as np
 from scipy.signal import savgol_filter
 from scipy.spatial import cKDTree
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, VectorsLike
 from mocap._shared.records import NamedTuple, dataclass
 from mocap.body import rotations
-from mocap.body.ground_path import GroundPath
+from mocap.body.ground_path import GroundPath, as_path
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import Leg, find_legs
-from mocap.body.motion import Motion, resample
+from mocap.body.motion import Motion, require_motion, require_motions, resample
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened
 from mocap.feet.footplants import mark_plants
@@ -255,7 +255,7 @@ def judge(
     motion: Motion,
     *,
     against: Sequence[Motion] = (),
-    path: GroundPath | None = None,
+    path: GroundPath | VectorsLike | None = None,
     stretch: Mapping[str, float] | None = None,
 ) -> Judgement:
     """Measure a motion and compare each number with its limit.
@@ -279,13 +279,13 @@ def judge(
     ----------
     motion : F frames, at least 12.
     against : the clips of which it was made, if any; they are resampled to its frame rate.
-    path : the path that it should follow.
+    path : the path that it should follow, or its points (x, z), metres.
     stretch : the changes of the bones' lengths in the motion's file, metres, by joint, as
         `files.load_save.read` returns them; a motion that was loaded has rigid bones.
 
     Raises
     ------
-    MocapError : for a motion that is too short.
+    MocapError : for a motion that is too short, and what is no motion.
 
     Examples
     --------
@@ -296,6 +296,9 @@ def judge(
     >>> [measure.name for measure in judge(gliding).measures if measure.ratio > 1]
     ['slide', 'skate']
     """
+    require_motion(motion)
+    against = require_motions(against)
+    line = None if path is None else as_path(path)
     if len(motion) < 12:
         name = shortened(motion.name)
         raise MocapError(f"To judge '{name}' takes 12 frames or more, it has {len(motion)}.")
@@ -311,7 +314,7 @@ def judge(
         *measure_joints(motion, positions),
         *measure_limbs(motion, positions, legs),
     ]
-    measures += measure_body(motion, positions, path, stretch)
+    measures += measure_body(motion, positions, line, stretch)
     lengths = np.linalg.norm(motion.skeleton.offsets[1:], axis=-1).tolist()
     bones = dict(zip(motion.skeleton.names[1:], lengths, strict=True))
     height = height_of(positions)

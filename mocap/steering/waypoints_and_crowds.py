@@ -4,15 +4,16 @@ A crowd is a few characters whose paths are given and cross. A group that stays 
 way among obstacles is planned by `groups`.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
 from mocap._shared.arrays import Array
+from mocap._shared.quantities import described
 from mocap._shared.records import NamedTuple
 from mocap._shared.ties import first_least
 from mocap.body.ground_path import GroundPath, spline
-from mocap.errors import warn
+from mocap.errors import MocapError, warn
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.steering.followed import Followed
@@ -74,7 +75,8 @@ def through_waypoints(
 
     Raises
     ------
-    NoWalk, MocapError : as for `steering.follow_path`, such as for a later waypoint at 0 s.
+    NoWalk, MocapError : as for `steering.follow_path`, such as for a later waypoint at 0 s; for points that
+        are no waypoints.
 
     Examples
     --------
@@ -87,6 +89,7 @@ def through_waypoints(
 
     Notebook: 08b-steering
     """
+    _require_waypoints(waypoints)
     points = np.array([(point.x, point.z) for point in waypoints], float).reshape(-1, 2)
     path = spline(points)
     passed = [0]  # the point of the path where it first passes each waypoint, in their order
@@ -108,6 +111,17 @@ def through_waypoints(
         late = np.nan if point.seconds is None else seconds - point.seconds
         arrivals.append(Arrival(distance, seconds, late))
     return followed, arrivals
+
+
+def _require_waypoints(waypoints: object) -> None:
+    """Raise for one waypoint instead of a list, and for points (x, z) in it."""
+    needs = "Waypoints are a list of steering.Waypoint(x, z)"
+    if isinstance(waypoints, Waypoint) or not isinstance(waypoints, Iterable):
+        raise MocapError(f"{needs}, got {described(waypoints)}: write [Waypoint(0, 0), Waypoint(0, 4)].")
+    for waypoint in waypoints:
+        if not isinstance(waypoint, Waypoint):
+            remedy = "write [Waypoint(x, z) for x, z in points]"
+            raise MocapError(f"{needs}, got {described(waypoint)} in it: {remedy}.")
 
 
 class Crowd(NamedTuple):

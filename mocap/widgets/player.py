@@ -18,8 +18,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array, Indices, runs
+from mocap._shared.quantities import described
 from mocap._shared.records import dataclass
 from mocap.body import Motion, Skeleton, joint_positions
+from mocap.body.motion import require_motion
 from mocap.errors import MocapError
 from mocap.feet.footplants import find_footprints, mark_plants
 from mocap.plotting.bodies import bodies_along, bones, film_strip, head_joints
@@ -177,7 +179,7 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
 
     Raises
     ------
-    MocapError : without a motion.
+    MocapError : without a motion, and for what is no motion, such as a list of motions.
 
     Examples
     --------
@@ -189,6 +191,10 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     """
     if not motions:
         raise MocapError("There is no motion to play.")
+    for motion in motions:
+        if isinstance(motion, list | tuple):
+            raise MocapError(f"Motions are played one by one, got {described(motion)}: write play(*clips).")
+        require_motion(motion)
     seam_frames = tuple(seam if isinstance(seam, int) else seam.frame for seam in seams)
     points = np.reshape(np.asarray(path, float), (-1, 2))
     astray = runs(np.asarray(off, float) > FAR)
@@ -223,6 +229,7 @@ class Player(Embedded):
     follow: bool
     said: str
     scripts = (*SHADED, *SHARED, Path(__file__).with_name("player.js"))
+    __repr__ = Embedded.__repr__  # a record would print its fields
 
     @property
     def alt(self) -> str:

@@ -2,6 +2,7 @@
 
 import networkx as nx
 import numpy as np
+from matplotlib.figure import Figure
 from tqdm import tqdm
 
 import mocap
@@ -59,7 +60,8 @@ graph = graphs.prune(graphs.build([walk, other], window=10, threshold=0.04, prog
 count = graph.count("transition") + nx.number_of_nodes(graph.graph)
 graphs.save(graph, "graph.npz")
 again = graphs.load("graph.npz")
-summary = graphs.summary(again.graph, fps=again.fps)
+summary = graphs.summary(again)
+bare_summary = graphs.summary(again.graph, fps=again.fps)
 trials = datasets.trials(subject=16)
 edges = synthesis.random_walk(graph, seconds=4, seed=1)
 walked = synthesis.to_motion(graph, edges, name="walked", clean=True)
@@ -78,6 +80,7 @@ mirrored = editing.mirror(walk)
 bent: editing.Bent = editing.bend(walk, [[0, 0], [0, 2.5]])
 worn = editing.wear(walk, walk.skeleton)
 pinned = editing.pin(walk, "rhand", [10, 11], [0.1, 1.2, 0.3])
+astray = quality.judge(walk, path=[[0, 0], [0, 2.5]], against=[other]).score
 worst = max(quality.judge(walk).measures, key=lambda measure: measure.ratio)
 plan = plotting.draw_group_plan(np.arange(5)[:, None] * 1j + [0.0, 1.0], [0j, 4j])
 wants = motion_matching.Wants(future=0.5)
@@ -91,4 +94,12 @@ three = groups.load_group("group.npz").members
 # Pictures
 figure = plotting.flat_bodies(walk, [0, 10, 20], view="front").figure
 player = widgets.play(walk, other, path=[[0.0, 0.0], [0.0, 6.0]], alt="Two walks.")
+canvas = widgets.draw_path(lambda path: walk[: 10 * len(path)], [(0, 0), (0, 3)])
+shown: widgets.Player = canvas.player
+failure: Exception | None = canvas.error
+frame: int = canvas.frame
+points = widgets.handles(Figure().add_subplot(xlim=(3, -3), ylim=(0, 6)), [[0, 1], [0, 3]])
+count_of_points: int = points.count
+walkers = widgets.steered({"graph": steering.Controller(graph)}, speeds=(0.6, 0.9))
+delays: dict[str, list[float]] = walkers.delays
 film = widgets.save_animation([walk[:10]], "walk.gif")

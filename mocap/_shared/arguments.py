@@ -1,0 +1,45 @@
+"""Checks of the arguments of a call, including those that are missing."""
+
+from collections.abc import Callable
+from functools import wraps
+from typing import Any, TypeVar, cast
+
+Call = TypeVar("Call", bound=Callable[..., Any])
+
+
+def checked_by(check: Callable[..., object]) -> Callable[[Call], Call]:
+    """Make a decorator that calls `check` with the arguments of a function before the function itself.
+
+    Python raises TypeError for a missing argument, which does not show the right call. A check has the
+    default None for each parameter, and can therefore raise `MocapError` instead. Type checkers see the
+    parameters of the function.
+
+    Parameters
+    ----------
+    check : takes the arguments of the function; its result is ignored.
+
+    Examples
+    --------
+    >>> def require_two(first=None, second=None):
+    ...     if second is None:
+    ...         raise MocapError("This takes two numbers, as in add(1, 2).")
+    >>> @checked_by(require_two)
+    ... def add(first, second):
+    ...     return first + second
+    >>> from mocap.errors import MocapError
+    >>> add(1)
+    Traceback (most recent call last):
+    mocap.errors.MocapError: This takes two numbers, as in add(1, 2).
+    >>> add(1, 2)
+    3
+    """
+
+    def decorate(function: Call) -> Call:
+        @wraps(function)
+        def checked(*arguments: object, **options: object) -> object:
+            check(*arguments, **options)
+            return function(*arguments, **options)
+
+        return cast(Call, checked)
+
+    return decorate
