@@ -106,7 +106,7 @@ def branch_and_bound(  # noqa: PLR0913 (a problem, a start, and three limits)
     *,
     horizon: float = np.inf,
     budget: float = np.inf,
-    deadline: float = np.inf,
+    deadline: float | Deadline = np.inf,
 ) -> SearchResult:
     """Find the cheapest walk that is complete, or at least `horizon` frames long [KGP02, Eq. 8].
 
@@ -116,7 +116,7 @@ def branch_and_bound(  # noqa: PLR0913 (a problem, a start, and three limits)
     node, state : where the walk starts, and the state of an empty walk.
     horizon : frames to look ahead.
     budget : the largest number of walks to expand. Ctrl-C also stops the search.
-    deadline : seconds of wall time after which the search stops.
+    deadline : seconds of wall time after which the search stops, or a moment that several searches share.
 
     Returns
     -------
@@ -141,13 +141,7 @@ def branch_and_bound(  # noqa: PLR0913 (a problem, a start, and three limits)
 
     Notebook: 07-walks-and-search
     """
-    return _search(problem, node, state, horizon, budget, Deadline(deadline))
-
-
-def _search(  # noqa: PLR0913 (a problem, a start, and three limits)
-    problem: Problem, node: Hashable, state: State, horizon: float, budget: float, deadline: Deadline
-) -> SearchResult:
-    """Search as `branch_and_bound` does, up to a deadline that several searches share."""
+    end = deadline if isinstance(deadline, Deadline) else Deadline(deadline)
     longest = _root(problem, node, state)
     best: Branch | None = None
     stack = [longest]
@@ -164,14 +158,14 @@ def _search(  # noqa: PLR0913 (a problem, a start, and three limits)
                 best = branch
             elif expanded >= budget:
                 stopped = "out of nodes"
-            elif deadline.is_over:
+            elif end.is_over:
                 stopped = OUT_OF_TIME
             else:
                 expanded += 1
                 stack += children(problem, branch)  # the cheapest last, to be popped first
     except KeyboardInterrupt:
         stopped = "interrupted"
-    if not (best or stopped):
+    if best is None and not stopped:
         raise NoWalk(f"Every walk from node {node} ends too early: prune the graph first.")
     last = best or longest
     return SearchResult(last.walk(), last.cost, last.state, best is not None, expanded, cut, stopped)
@@ -268,7 +262,7 @@ def search_ahead(  # noqa: PLR0913 (a problem, a start, and three limits)
     expanded = cut = 0
     stopped = ""
     while not problem.done(state) and stopped not in ("interrupted", OUT_OF_TIME):
-        best = _search(problem, node, state, ahead, budget, end)
+        best = branch_and_bound(problem, node, state, horizon=ahead, budget=budget, deadline=end)
         expanded += best.expanded
         cut += best.cut
         stopped = best.stopped or stopped
