@@ -650,7 +650,7 @@ def _draw_blends(ax: Axes) -> None:
 
 
 def draw_match_webs() -> Figure:
-    """Draw paths along the valleys of two walks, and a space of walking cycles with three wishes."""
+    """Draw paths along the valleys of two walks, and a space of walking cycles with three targets."""
     figure = plt.figure(figsize=(9.4, 3.9), layout="constrained")
     valleys, cycles = figure.subplots(1, 2)
     walks = []
@@ -676,7 +676,7 @@ def _draw_valleys(ax: Axes, *, slow: Motion, brisk: Motion) -> None:
 
 
 def _draw_cycles(ax: Axes, walks: list[Motion]) -> None:
-    """Draw the turns and speeds of walking cycles and of their blends, and three wishes with what they got.
+    """Draw the turns and speeds of walking cycles and of their blends, and three targets with their results.
 
     The cycles are the matches of one from the middle walk.
     """
@@ -689,23 +689,23 @@ def _draw_cycles(ax: Axes, walks: list[Motion]) -> None:
     examples, blends = np.split(np.asarray(space.values), [len(matches)])
     ax.scatter(*blends.T, s=8, color=plotting.QUIET)
     ax.scatter(*examples.T, s=42, color=plotting.COLOURS["middle"])
-    wishes = [(20, 1.0), (-25, 1.3), (60, 1.5)]
-    weights = [match_webs.weights_for(space, wish) for wish in wishes]
+    targets = [(20, 1.0), (-25, 1.3), (60, 1.5)]
+    weights = [match_webs.weights_for(space, target) for target in targets]
     results = [_turn_and_speed(match_webs.blend_of(cycles, row)) for row in weights]
-    _draw_errors(ax, np.array(wishes), np.array(results))
+    _draw_errors(ax, np.array(targets), np.array(results))
     ax.set(xlabel="turn of a cycle (degrees)", ylabel="speed (m/s)", title="asked and got")
 
 
 def _turn_and_speed(cycle: Motion) -> tuple[float, float]:
     """Measure by how many degrees a cycle turns to the left, and its mean speed in m/s."""
-    return np.degrees(match_webs.turn(cycle)), match_webs.mean_speed(cycle)
+    return np.degrees(match_webs.heading_change(cycle)), match_webs.mean_speed(cycle)
 
 
-def _draw_errors(ax: Axes, wishes: Array, results: Array) -> None:
-    """Draw wishes as crosses, results as dots, both shape (N, 2), and arrows from wishes to results."""
-    ax.scatter(*wishes.T, s=70, color=plotting.ASKED, marker="+", zorder=3)
+def _draw_errors(ax: Axes, targets: Array, results: Array) -> None:
+    """Draw targets as crosses, results as dots, both shape (N, 2), and arrows from targets to results."""
+    ax.scatter(*targets.T, s=70, color=plotting.ASKED, marker="+", zorder=3)
     units = {"angles": "xy", "scale_units": "xy", "scale": 1}  # arrows end where they point to
-    ax.quiver(*wishes.T, *(results - wishes).T, color=plotting.PATH, width=0.008, **units)
+    ax.quiver(*targets.T, *(results - targets).T, color=plotting.PATH, width=0.008, **units)
     ax.scatter(*results.T, s=26, color=plotting.PATH, zorder=3)
 
 
@@ -827,14 +827,14 @@ def draw_groups() -> Figure:
     figure, (match, plan, steered) = plt.subplots(1, 3, figsize=(10, 4.4), width_ratios=(1.2, 1, 1))
     figure.set_layout_engine("constrained")
     graph = groups.build_group(12)
-    first, second = (graph.nodes[node].places[:7] for node in (0, 3))
+    first, second = (graph.nodes[node].positions[:7] for node in (0, 3))
     _draw_group_match(match, first, second)
     rocks = [(rock, 1.3) for rock in (12 - 2.5j, 12, 12 + 2.5j, 9.5 - 3.6j, 9.5 + 3.6j)]
     scene = groups.Scene((20 + 0j,), tuple(rocks))
     walk = groups.plan_group(graph, scene)
     frames = round(walk.seconds * groups.RATE) + 1
-    planned_paths = groups.play_group(graph, walk.clips).places[:frames]
-    steered_paths = groups.steer_group(graph.nodes[0], scene, limit=20)[0].places
+    planned_paths = groups.play_group(graph, walk.clips).positions[:frames]
+    steered_paths = groups.steer_group(graph.nodes[0], scene, limit=20)[0].positions
     for ax, paths in ((plan, planned_paths), (steered, steered_paths)):
         plotting.draw_group_plan(paths, scene.points, scene.discs, ax=ax)
         ax.set(xlim=(10, -10), ylim=(-3, 23), ylabel="")

@@ -81,7 +81,7 @@ long as simulating as many seconds.
 
 
 def cpu(work: object, *args: object, **settings: object) -> tuple[object, float]:
-    """Run something, and say which CPU time it took."""
+    """Run something, and return its result and CPU time, seconds."""
     begun = time.process_time()
     result = work(*args, **settings)
     return result, time.process_time() - begun
@@ -97,27 +97,29 @@ def assignment(members: int) -> float:
 def row(members: int) -> str:
     """Measure one size of a group."""
     flock, simulated = cpu(groups.simulate, members, SECONDS)
-    found, clustered = cpu(groups.cluster, flock, nodes=6, reach=0.5)
-    graph, joined = cpu(groups.make_clips, found.nodes)
+    clusters, clustered = cpu(groups.cluster, flock, nodes=6, reach=0.5)
+    graph, joined = cpu(groups.make_clips, clusters.nodes)
     room = 0.25 * np.sqrt(members)  # a larger group takes more room
-    scene = groups.Scene(
-        (12 + 3j, 24 + 0j), ((7 - 2j - 1j * room, 0.6), (18 + 3j + 1j * room, 0.6)), near=1.5
-    )
+    first_disc = (7 - 2j - 1j * room, 0.6)
+    second_disc = (18 + 3j + 1j * room, 0.6)
+    scene = groups.Scene((12 + 3j, 24 + 0j), (first_disc, second_disc), radius=1.5)
     try:
         plan, planned = cpu(groups.plan_group, graph, scene)
-        walk, text = plan.clips, f"{1e3 * planned:.0f}"
+        walk = plan.clips
+        milliseconds = f"{1e3 * planned:.0f}"
     except MocapError as error:
         print(error)
-        walk, text = groups.random_group_walk(graph, 8), "–"
+        walk = groups.random_group_walk(graph, 8)
+        milliseconds = "–"
     played, took = cpu(groups.play_group, graph, walk)
     cells = [
         members,
-        len(found.nodes),
-        f"{found.covered:.0%}",
+        len(clusters.nodes),
+        f"{clusters.covered:.0%}",
         f"{len(graph.clips)} of {graph.tried}",
     ]
-    cells += [f"{1e3 * simulated / (SECONDS + 20):.2f}", f"{clustered:.2f}", f"{joined:.2f}", text]
-    cells += [f"{1e3 * took / (len(played.places) / groups.RATE):.3f}", f"{assignment(members):.0f}"]
+    cells += [f"{1e3 * simulated / (SECONDS + 20):.2f}", f"{clustered:.2f}", f"{joined:.2f}", milliseconds]
+    cells += [f"{1e3 * took / (len(played.positions) / groups.RATE):.3f}", f"{assignment(members):.0f}"]
     return "| " + " | ".join(map(str, cells)) + " |\n"
 
 
@@ -126,41 +128,52 @@ def thousand() -> str:
     random = np.random.default_rng(0)
     grid = 1.3 * np.stack(np.divmod(np.arange(1000), 32), axis=-1)
     spread = np.array([0.35, 0.35, 0.7 * 0.3, 0.7 * 0.3])
-    one, other = (np.pad(grid, ((0, 0), (0, 2))) + spread * random.normal(size=(1000, 4)) for _ in "ab")
-    other = random.permutation(other)
-    costs, took = cpu(cdist, one, other, "sqeuclidean")
+    still = np.pad(grid, ((0, 0), (0, 2)))
+    first = still + spread * random.normal(size=(1000, 4))
+    second = still + spread * random.normal(size=(1000, 4))
+    second = random.permutation(second)
+    costs, took = cpu(cdist, first, second, "sqeuclidean")
     best, assigned = cpu(linear_sum_assignment, costs)
     lines = f"| all | {1e3 * took:.1f} | {1e3 * assigned:.1f} | 1 |\n"
     for count in NEAREST:
-        (far, who), searched = cpu(lambda k: KDTree(other).query(one, k), count)
-        starts = np.arange(0, far.size + 1, count)
-        table = csr_array((far.ravel() ** 2, who.ravel(), starts), shape=(1000, 1000))
+        (distances, members), searched = cpu(lambda k: KDTree(second).query(first, k), count)
+        starts = np.arange(0, distances.size + 1, count)
+        table = csr_array((distances.ravel() ** 2, members.ravel(), starts), shape=(1000, 1000))
         order, matched = cpu(min_weight_full_bipartite_matching, table)
-        share = costs[order].sum() / costs[best].sum()
-        lines += f"| {count} | {1e3 * searched:.1f} | {1e3 * matched:.1f} | {share:.4f} |\n"
+        ratio = costs[order].sum() / costs[best].sum()
+        lines += f"| {count} | {1e3 * searched:.1f} | {1e3 * matched:.1f} | {ratio:.4f} |\n"
     return lines
 
 
 def passing(graph: groups.GroupGraph) -> tuple[object, ...]:
-    """Plan a group around another that comes towards it, and without minding it."""
-    first = groups.play_group(graph, groups.plan_group(graph, groups.Scene((24 + 0j,))).clips).places
+    """Plan a group around another one that comes towards it, and without regard to it."""
+    first = groups.play_group(graph, groups.plan_group(graph, groups.Scene((24 + 0j,))).clips).positions
     back = PlanarTransform(np.pi, 0.0, 24.0)
 
-    def gap(found: GroupWalk) -> float:
-        places = groups.play_group(graph, found.clips, back).places[: round(found.seconds * groups.RATE) + 1]
-        others = first[np.minimum(np.arange(len(places)), len(first) - 1)]
-        return float(np.abs(places[:, :, None] - others[:, None]).min())
+    def distance(plan: GroupWalk) -> float:
+        frames = round(plan.seconds * groups.RATE) + 1
+        positions = groups.play_group(graph, plan.clips, back).positions[:frames]
+        others = first[np.minimum(np.arange(len(positions)), len(first) - 1)]  # reads: name: of `Scene`
+        return float(np.abs(positions[:, :, None] - others[:, None]).min())
 
     alone, quick = cpu(groups.plan_group, graph, groups.Scene((0j,)), start=back)
     careful, slow = cpu(groups.plan_group, graph, groups.Scene((0j,), others=(first,)), start=back)
     spared = careful.spared / (careful.spared + careful.tested)
-    found = (f"{careful.seconds:.0f} s of walking", 1e3 * quick, f"{alone.seconds:.0f} s of walking", spared)
-    return graph.members, gap(alone), gap(careful), 1e3 * slow, *found
+    searches = (
+        f"{careful.seconds:.0f} s of walking",
+        1e3 * quick,
+        f"{alone.seconds:.0f} s of walking",
+        spared,
+    )
+    return graph.members, distance(alone), distance(careful), 1e3 * slow, *searches
 
 
 def crowded(graph: groups.GroupGraph) -> tuple[object, ...]:
-    """Count in how many scenes a way is found, and a steered one; compare CPU times."""
-    scenes, counts, searching, simulating = range(60), np.zeros(3, int), 0.0, 0.0
+    """Count in how many scenes a path is found, and a steered one; compare CPU times."""
+    scenes = range(60)
+    counts = np.zeros(3, int)
+    searching = 0.0
+    simulating = 0.0
     for seed in scenes:
         draw = np.random.default_rng(seed)
         discs = draw.uniform(5, 15, 8) + 1j * draw.uniform(-5, 5, 8)
@@ -168,13 +181,13 @@ def crowded(graph: groups.GroupGraph) -> tuple[object, ...]:
         flock, passed = groups.steer_group(graph.nodes[0], scene, rules=groups.Flock(whim=0.0))
         clear = passed == 1 and groups.clearances(flock, scene).min() >= scene.body
         try:
-            found, took = cpu(groups.plan_group, graph, scene)
+            plan, took = cpu(groups.plan_group, graph, scene)
         except MocapError:
             counts += [False, clear, clear]
             continue
-        counts += [True, clear, clear and len(flock.places) / groups.RATE < found.seconds]
+        counts += [True, clear, clear and len(flock.positions) / groups.RATE < plan.seconds]
         searching += took
-        simulating += cpu(groups.simulate, graph.members, found.seconds)[1]
+        simulating += cpu(groups.simulate, graph.members, plan.seconds)[1]
     return len(scenes), *counts, searching / simulating
 
 
@@ -185,11 +198,13 @@ def main() -> None:
     for members in MEMBERS:
         rows.append(row(members))
         print(rows[-1], end="")
-    few, many = (assignment(members) for members in (12, 96))
-    power = np.log(many / few) / np.log(8)
+    assigned_12, assigned_96 = (assignment(members) for members in (12, 96))
+    ratio = assigned_96 / assigned_12
+    power = np.log(ratio) / np.log(8)
     table = f"| {' | '.join(COLUMNS)} |\n{'|---' * len(COLUMNS)}|\n" + "".join(rows)
     twelve = groups.build_group(12)
-    tail = TAIL.format(many / few, power, "5, 10 or 20", thousand(), *passing(twelve), 12, *crowded(twelve))
+    numbers = (*passing(twelve), 12, *crowded(twelve))
+    tail = TAIL.format(ratio, power, "5, 10 or 20", thousand(), *numbers)
     (FOLDER / "groups.md").write_text(HEAD + table + tail, "utf-8")
 
 

@@ -56,7 +56,7 @@ class Noise:
         return [self.clip(motion) for motion in CLIPS[name]()]
 
     def group(self, group):
-        return groups.Configuration(self.numbers(group.places), self.numbers(group.velocities))
+        return groups.Configuration(self.numbers(group.positions), self.numbers(group.velocities))
 
 
 WALK = sample("walk_straight")
@@ -240,7 +240,7 @@ ALONG = groups.Configuration(np.array([1 + 0j, -1 + 0j]), np.ones(2, complex))
 def compared(noise):
     """Lay two who go one behind the other on two who go side by side: either may be the left one."""
     match = compare(noise.group(ACROSS), noise.group(ALONG))
-    return match.order.tolist(), np.round(complex(match.turn), 6)
+    return match.order.tolist(), np.round(complex(match.rotation), 6)
 
 
 @cache
@@ -267,7 +267,7 @@ def planned(noise, points, discs=()):
 def led(noise, points):
     scene = groups.Scene(tuple(noise.numbers(np.array(points, complex)).tolist()))
     flock, plan = groups.lead_group(remade(noise), scene)
-    return len(flock.places), plan and plan.clips
+    return len(flock.positions), plan and plan.clips
 
 
 def mirrored_plan(noise):
@@ -276,10 +276,10 @@ def mirrored_plan(noise):
     twins = [
         replace(
             clip,
-            places=clip.places.conj(),
+            positions=clip.positions.conj(),
             velocities=clip.velocities.conj(),
-            turn=clip.turn.conjugate(),
-            move=clip.move.conjugate(),
+            rotation=clip.rotation.conjugate(),
+            translation=clip.translation.conjugate(),
         )
         for clip in made.clips
     ]

@@ -1,9 +1,10 @@
 """Lead twelve through walls with one gap, through corridors and random discs, and to points all around.
 
-There: 100 when the middle of the group comes within a metre of it. Takes: seconds until then. Nearest two:
-how near members come to each other, metres. Rim: how near to a disc's rim. `steered` has no plan; it has 24
-goes with other figures and whims, of which the quickest counts that keeps clear, 0.60 and 0.30 m, or if none
-does, the quickest. `the quicker` is the plan or, if that is as clear, steered without whims.
+There: 100 if the middle of the group comes within a metre of the goal. Takes: seconds until then. Nearest
+two: least distance of two members, metres. Rim: least distance from a disc's rim. `steered` has no plan. Of
+its 24 runs with other parameters and whims, the fastest one counts that keeps 0.60 m between members and
+0.30 m from discs, or if none does, the fastest. `the quicker` is the plan or, if that is as clear, a flock
+without whims.
 """
 
 from collections.abc import Iterator
@@ -36,10 +37,16 @@ CLIPS: dict[str, tuple[str, ...]] = {
     "random discs": (),
     "all around": (),
 }
-MEMBERS, WIDTHS, SPOTS, SEEDS, LIMIT = 12, (4.0, 3.0, 2.5, 2.0), (12, 16), range(24), 90.0
+MEMBERS = 12
+WIDTHS = (4.0, 3.0, 2.5, 2.0)  # of gaps, metres
+CORRIDOR_WIDTHS = WIDTHS[:3]
+CORRIDOR = 10  # length, metres
+SPOTS = (12, 16)  # distance of a gap, metres
+SEEDS = range(24)
+LIMIT = 90.0  # seconds of steering
 MEASURES = {"there, %": False, "takes, s": True, "nearest two, m": False, "rim, m": False}
 BASELINES = ("steered",)
-GOES = [  # rules and seeds of whims
+RUNS = [  # rules and seeds of whims
     (Flock(avoid=avoid, gather=gather, whim=whim), seed)
     for avoid in (0.8, 1.2, 2.0)
     for gather in (0.35, 1.0)
@@ -48,37 +55,49 @@ GOES = [  # rules and seeds of whims
 
 
 def scenes(collection: str) -> Iterator[tuple[str, Scene]]:
-    """Yield walls with a gap, and with a corridor behind it, or discs at random and a goal."""
-    if collection in ("gaps", "corridors of 10 m"):
-        length = 10 if collection.startswith("corridors") else 0
-        for width in WIDTHS[: 3 if length else 4]:
-            for spot in SPOTS:
-                wall = [spot + 1j * side * (width / 2 + 0.6 + 1.1 * n) for side in (-1, 1) for n in range(12)]
-                wall += [
-                    spot + 1j * side * (width / 2 + 0.6) + z for side in (-1, 1) for z in range(1, length + 1)
-                ]
-                goal = spot + 14 + length + 0j
-                yield f"{collection[:3]}-{width}-{spot}", Scene((goal,), tuple((disc, 0.6) for disc in wall))
-        return
+    """Yield walls with a gap, and with a corridor behind it, or random discs and a goal."""
+    if collection == "gaps":
+        yield from walls("gap", WIDTHS, 0)
+    elif collection == "corridors of 10 m":
+        yield from walls("cor", CORRIDOR_WIDTHS, CORRIDOR)
+    else:
+        yield from random_scenes(in_front=collection == "random discs")
+
+
+def walls(name: str, widths: tuple[float, ...], length: int) -> Iterator[tuple[str, Scene]]:
+    """Yield walls of discs with a gap, and a corridor of this length behind it."""
+    for width in widths:
+        rim = width / 2 + 0.6
+        for spot in SPOTS:
+            wall = [spot + 1j * side * (rim + 1.1 * n) for side in (-1, 1) for n in range(12)]
+            wall += [spot + 1j * side * rim + z for side in (-1, 1) for z in range(1, length + 1)]
+            goal = spot + 14 + length + 0j
+            yield f"{name}-{width}-{spot}", Scene((goal,), tuple((disc, 0.6) for disc in wall))
+
+
+def random_scenes(*, in_front: bool) -> Iterator[tuple[str, Scene]]:
+    """Yield random discs: in front of a goal straight ahead, or all around with a goal anywhere."""
     for seed in SEEDS:
-        draw, goal = np.random.default_rng(seed), 24 + 0j
-        if collection == "random discs":
+        draw = np.random.default_rng(seed)
+        goal = 24 + 0j
+        if in_front:
             discs = draw.uniform(6, 18, 7) + 1j * draw.uniform(-6, 6, 7)
         else:
             goal = complex(draw.uniform(8, 24) * np.exp(1j * draw.uniform(-np.pi, np.pi)))
             discs = draw.uniform(-18, 18, 9) + 1j * draw.uniform(-18, 18, 9)
-            discs = discs[(np.abs(discs) > 5) & (np.abs(discs - goal) > 4)]
+            is_free = (np.abs(discs) > 5) & (np.abs(discs - goal) > 4)
+            discs = discs[is_free]
         yield f"discs-{seed}", Scene((goal,), tuple((complex(disc), 1.0) for disc in discs))
 
 
 def cases(collection: str, clips: list[Motion]) -> Iterator[Case]:
     """Yield scenes: points (z, x) to pass, discs (z, x, radius), and where members start (z, x)."""
-    start = group().nodes[0].places
+    start = group().nodes[0].positions
     for name, scene in scenes(collection):
         discs = [[disc.real, disc.imag, radius] for disc, radius in scene.discs]
         points = [[point.real, point.imag] for point in scene.points]
-        given = {"points": points, "discs": discs, "start": np.stack([start.real, start.imag], axis=1)}
-        yield Case(collection, name, given, scene)
+        members = np.stack([start.real, start.imag], axis=1)
+        yield Case(collection, name, {"points": points, "discs": discs, "start": members}, scene)
 
 
 @cache
@@ -87,45 +106,49 @@ def group() -> GroupGraph:
     return build_group(MEMBERS)
 
 
-def flat(places: Array) -> Array:
-    """Give places (F, N) as rows of z and x, (F, 2 N)."""
-    return np.concatenate([places.real, places.imag], axis=1)
+def flat(positions: Array) -> Array:
+    """Write complex positions (F, N) as rows of z and x, (F, 2 N)."""
+    return np.concatenate([positions.real, positions.imag], axis=1)
 
 
 def steered(case: Case) -> Array:
-    """Steer 24 times, and take the quickest that comes there; one that keeps clear, if any does."""
-    ways: list[tuple[bool, int, Array]] = []
-    for rules, seed in GOES:
+    """Steer 24 times, and return the fastest run that arrives; one without collisions, if there is any."""
+    runs: list[tuple[bool, int, Array]] = []
+    for rules, seed in RUNS:
         flock, points = steer_group(group().nodes[0], case.truth, rules=rules, seed=seed, limit=LIMIT)
         if points == len(case.truth.points):
-            apart, rim = nearest_two(flock.places).min(), clearances(flock, case.truth).min()
-            ways.append((apart < APART or rim < case.truth.body, len(flock.places), flat(flock.places)))
-    if not ways:
+            distance = nearest_two(flock.positions).min()
+            clearance = clearances(flock, case.truth).min()
+            collides = distance < APART or clearance < case.truth.body
+            runs.append((collides, len(flock.positions), flat(flock.positions)))
+    if not runs:
         raise NoWalk("Steered, the group does not come there.")
-    return min(ways, key=lambda way: way[:2])[2]
+    return min(runs, key=lambda run: run[:2])[2]
 
 
 def planned(case: Case) -> Array:
-    """Plan a way and walk it."""
+    """Plan a path and walk it."""
     plan = plan_group(group(), case.truth)
-    return flat(play_group(group(), plan.clips).places[: round(plan.seconds * RATE) + 1])
+    frames = round(plan.seconds * RATE) + 1
+    return flat(play_group(group(), plan.clips).positions[:frames])
 
 
 def quicker(case: Case) -> Array:
-    """Take the plan, or a steered way that is quicker and as clear."""
-    return flat(lead_group(group(), case.truth)[0].places)
+    """Return the plan, or a steered flock that is faster and as clear."""
+    return flat(lead_group(group(), case.truth)[0].positions)
 
 
 METHODS = {"steered": steered, "planned": planned, "the quicker": quicker}
 
 
 def score(case: Case, answer: Array) -> tuple[float, float, float, float]:
-    """Measure a way: rows of ten per second, all z before all x."""
+    """Measure trajectories: rows of ten per second, all z before all x."""
     if answer.shape[1] != 2 * MEMBERS:
         raise MocapError(f"{case.name} asks for rows of {2 * MEMBERS} numbers, got {answer.shape}.")
-    places = answer[:, :MEMBERS] + 1j * answer[:, MEMBERS:]
-    near = np.abs(places.mean(axis=1) - case.truth.points[-1]) <= case.truth.near + 1e-6
-    apart = np.abs(places[:, :, None] - places[:, None]) + 9 * np.eye(MEMBERS)
-    rim = clearances(Configuration(places, np.zeros_like(places)), case.truth).min()
-    soon = near.argmax() / RATE if near.any() else np.nan
-    return 100.0 * near.any(), float(soon), float(apart.min()), float(rim)
+    positions = answer[:, :MEMBERS] + 1j * answer[:, MEMBERS:]
+    is_at_goal = np.abs(positions.mean(axis=1) - case.truth.points[-1]) <= case.truth.radius + 1e-6
+    arrives = bool(is_at_goal.any())
+    seconds = is_at_goal.argmax() / RATE if arrives else np.nan
+    distance = nearest_two(positions).min()
+    clearance = clearances(Configuration(positions, np.zeros_like(positions)), case.truth).min()
+    return 100.0 if arrives else 0.0, float(seconds), float(distance), float(clearance)

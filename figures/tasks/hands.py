@@ -12,7 +12,8 @@ import numpy as np
 from mocap import editing
 from mocap._shared.arrays import Array
 from mocap.body import Motion, joint_positions, place
-from mocap.methods.match_webs import hand_target, sample_space, turn, weights_for
+from mocap.methods.match_webs import hand_target, sample_space, weights_for
+from mocap.methods.match_webs import heading_change as turn
 from mocap.methods.parametric_graphs import cut_actions, cut_strides
 from tasks import HOMEWORK, WALKS, Case
 

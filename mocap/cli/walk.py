@@ -210,14 +210,14 @@ def crowd(
     group = groups.build_group(members, seed=seed)
     plan, search = _plan(group, scene)
     effort = f"{search.expanded} states" if search else "steered, which is quicker"
-    tell(planned=f"{(len(plan.places) - 1) / groups.RATE:.1f} s for {members} members, {effort}")
+    tell(planned=f"{(len(plan.positions) - 1) / groups.RATE:.1f} s for {members} members, {effort}")
     walkers = groups.walk_group(walks, plan, progress=bar("walking"))
     tell(walked=walkers.report())
     make_folder(out)
     for count, motion in enumerate(walkers.motions, 1):
         files.save(motion, out / f"member-{count:02}.{to}")
     with replacing(out / "plan.png") as picture:
-        drawn = plotting.draw_group_plan(plan.places, scene.points, scene.discs, near=scene.near)
+        drawn = plotting.draw_group_plan(plan.positions, scene.points, scene.discs, radius=scene.radius)
         drawn.savefig(picture, bbox_inches="tight")
     if not no_film:  # a .gif of half the frames is three times as large as an .mp4 even so
         name, fps = ("crowd.mp4", 25.0) if find_spec("imageio_ffmpeg") else ("crowd.gif", 12.5)

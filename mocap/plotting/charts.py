@@ -125,13 +125,12 @@ def path_from_above(motion: Motion, *, colour: str = PATH, ax: Axes | None = Non
     return path + start
 
 
-# reads: name: `near` is a public parameter
 def draw_group_plan(
-    places: Points,
+    positions: Points,
     points: Sequence[complex] = (),
     discs: Sequence[tuple[complex, float]] = (),
     *,
-    near: float = 1.0,
+    radius: float = 1.0,
     ax: Axes | None = None,
 ) -> Figure:
     """Draw the paths of the members of a group, seen from above: z upwards, x to the left.
@@ -141,10 +140,10 @@ def draw_group_plan(
 
     Parameters
     ----------
-    places : their positions, shape (F, N), complex z + ix, metres.
-    points : to pass in order; each is numbered, and has a circle of `near` metres.
+    positions : of the members, shape (F, N), complex z + ix, metres.
+    points : to pass in order; each is numbered, and has a circle of `radius` metres.
     discs : obstacles, centre and radius.
-    near : the radius around a point within which it counts as passed, metres.
+    radius : the distance from a point within which it counts as passed, metres.
     ax : axes to draw on; by default those of a new figure that pyplot does not manage.
 
     Examples
@@ -157,15 +156,19 @@ def draw_group_plan(
     Notebook: 19-group-graphs
     """
     ax = seen_from_above(ax or Figure(figsize=(7, 7), layout="constrained").add_subplot())
-    for number, path in enumerate(np.asarray(places).T):
+    for number, path in enumerate(np.asarray(positions).T):
         ax.plot(path.imag, path.real, color=SOURCES[number % len(SOURCES)], linewidth=1.2)
-    for frame in np.linspace(0, len(places) - 1, 6).round().astype(int):
+    for frame in np.linspace(0, len(positions) - 1, 6).round().astype(int):
         inside = "black" if frame else "white"
-        ax.scatter(places[frame].imag, places[frame].real, s=14, color=inside, edgecolors="black", zorder=3)
-    for centre, radius in discs:
-        ax.add_patch(Circle((centre.imag, centre.real), radius, color=QUIET, zorder=2))
+        ax.scatter(
+            positions[frame].imag, positions[frame].real, s=14, color=inside, edgecolors="black", zorder=3
+        )
+    for centre, disc_radius in discs:
+        ax.add_patch(Circle((centre.imag, centre.real), disc_radius, color=QUIET, zorder=2))
     for number, point in enumerate(points, 1):
-        ax.add_patch(Circle((point.imag, point.real), near, fill=False, color=ASKED, linestyle=":", zorder=2))
+        ax.add_patch(
+            Circle((point.imag, point.real), radius, fill=False, color=ASKED, linestyle=":", zorder=2)
+        )
         ax.annotate(str(number), (point.imag, point.real), ha="center", va="center", color=ASKED)
     ax.grid(color=FLOOR)
     return figure_of(ax)

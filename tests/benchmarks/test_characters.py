@@ -120,6 +120,6 @@ def test_twelve_characters_take_a_few_yardsticks_for_each_second():
     group = graph()
     plan = groups.play_group(group, groups.random_group_walk(group, 15, seed=2))
     compiled = graphs.compile_graph(bundled(*WALKS))
-    seconds = (len(plan.places) - 1) / groups.RATE
+    seconds = (len(plan.positions) - 1) / groups.RATE
     walk = partial(groups.walk_group, compiled, plan)
     hold("twelve characters, yardsticks per second", ratio(walk, yardstick, 1) / seconds, 20)

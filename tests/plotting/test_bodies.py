@@ -66,7 +66,7 @@ def small_graph():
 
 def plan():
     places = np.linspace(0, 6, 50)[:, None] + np.array([0j, 1.5j, -1.5j])
-    figure = plotting.draw_group_plan(places, [6 + 0j, 9 + 1j], [(3 + 4j, 0.5)], near=0.8)
+    figure = plotting.draw_group_plan(places, [6 + 0j, 9 + 1j], [(3 + 4j, 0.5)], radius=0.8)
     return plotting.draw_group_plan(np.ones((5, 1), complex), ax=figure.axes[0])
 
 

@@ -84,7 +84,7 @@ astray = quality.judge(walk, path=[[0, 0], [0, 2.5]], against=[other]).score
 worst = max(quality.judge(walk).measures, key=lambda measure: measure.ratio)
 plan = plotting.draw_group_plan(np.arange(5)[:, None] * 1j + [0.0, 1.0], [0j, 4j])
 wants = motion_matching.Wants(future=0.5)
-scene = groups.Scene((0j, 8 + 0j), near=1.5)
+scene = groups.Scene((0j, 8 + 0j), radius=1.5)
 match_webs.save_web(match_webs.build_web([walk, other], below=0.05), "web.npz")
 web = match_webs.load_web("web.npz", [walk, other])
 group = groups.build_group(3, nodes=2, corridors=(), simulated=40, reach=0.4)

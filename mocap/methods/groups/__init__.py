@@ -1,25 +1,25 @@
 """Group motion graphs: a crowd that was planned, after [LCF05].
 
-The same idea as a motion graph, one storey higher. A pose is where all members of a group are and how they
-move; a clip is a few seconds of the whole group, simulated beforehand; nodes are configurations that come
-again and again. A search strings clips together, so that the group passes points and keeps clear of
-obstacles. Then each member's way is walked by a character of a motion graph.
+A motion graph one level higher. A pose is a configuration: the positions and velocities of all members of a
+group. A clip is a few seconds of the whole group, simulated beforehand. Nodes are configurations that recur.
+A search finds a sequence of clips that passes points and avoids obstacles. Then a character of a motion graph
+follows the path of each member.
 
-Take this where a group stays together and must find its way. `steering.walk_crowd` is for a few characters
-whose paths are given and cross.
+Use this room if a group stays together and must find its path. `steering.walk_crowd` is for a few characters
+whose given paths cross.
 
-Only the abstract of [LCF05] could be had. From it are: nodes by clustering, clips that join them by
-constrained simulation, and a search that known bounds make easy. All else is ours.
+Only the abstract of [LCF05] was available. From it are: nodes by clustering, clips that join them by
+constrained simulation, and a search that known bounds make fast. All else is ours.
 
 Reading order (notebook 19)
 ---------------------------
 1. `flocking`: walking people simulated by three rules
-2. `configurations`: when do two groups stand and move alike, and which moments come again?
+2. `configurations`: the distance between two groups, and the configurations that recur
 3. `group_clips`: clips that lead from node to node, by constrained simulation
-4. `group_graphs`: the graph, and what a walk through it plays
+4. `group_graphs`: the graph, and the trajectories of a walk through it
 5. `group_storage`: save a graph to .npz, and read it again
-6. `planning`: where to go, what stands in the way, and a search for the way
-7. `group_steering`: the same without a plan, and the quicker of the two
+6. `planning`: points, obstacles, and a search for a path
+7. `group_steering`: steering without a plan, and the faster of both
 8. `group_walkers`: a character of a motion graph for each member
 
 References

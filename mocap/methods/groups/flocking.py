@@ -1,8 +1,9 @@
-"""A flock of walking people, simulated by Reynolds's three rules [Rey87], with whims of their own.
+"""A flock of walking people, simulated by Reynolds' three rules [Rey87], with whims of each member.
 
-Each member keeps away from those who are near, stays with those it sees, and goes as they go. It also steers
-towards a wish, and keeps a pace. The figures are those of walking people, not of birds [ours]. Without whims
-a flock settles into a lattice that hardly ever changes, so that there is nothing to build a graph of.
+Members are repelled by those who are near, drawn to those in sight, and align their velocities with them.
+Each also steers towards a desired velocity and keeps a pace. The numbers are those of walking people, not of
+birds [ours]. Without whims a flock settles into a lattice that hardly changes, and a graph of it would be
+small.
 
 Points on the ground are complex, z + ix, ten of them per second.
 """
@@ -16,24 +17,38 @@ from mocap._shared.records import NamedTuple
 from mocap.errors import MocapError
 
 RATE = 10.0  # frames per second
-SETTLE = 20.0  # seconds that are left out at the start
+SETTLE = 20.0  # seconds of a simulation before its first frame
 APART = 0.6  # metres; members nearer than this collide
-MARGIN = 0.03  # metres, by which simulated members keep further apart
+MARGIN = 0.03  # metres that simulated members keep beyond APART
 WALL_FORCE = 3.0  # m/s² per metre too near to a wall
 BODY = 0.35  # metres that a member keeps from a wall
-HELD = 0.02  # metres by which a wall puts a member back, in each pass
-FREELY = 0.7  # share of a corridor's half in which no member minds the wall
+HELD = 0.02  # metres by which a wall moves a member back, in each pass
+FREELY = 0.7  # fraction of a corridor's half-width in which the walls exert no force
+SEPARATIONS = 3  # passes per frame that separate members who are too near
+LINE_PULL = 0.3  # radians of heading per metre from a corridor's line
+
+DIRECTION_TIME = 2.0  # seconds in which the direction of a whim decays
+PACE_TIME = 4.0  # seconds in which the pace of a whim decays
+PACE_WHIM = 0.35  # drift of the pace, as a fraction of that of the direction
+PACES = (0.6, 1.4)  # lowest and highest pace of a whim, as fractions of the group's
+
+RATE_TIME = 3.0  # seconds in which the group's rate of turning decays
+RATE_DRIFT = 0.25  # rad/s per √s
+FASTEST_TURN = 0.5  # rad/s of the group's heading
+
+SELF = 1e9  # metres; a distance of each member from itself at which no rule applies
+STILL = 1e-9  # m/s, or m/s²; a divisor for members that do not move
 
 Disc = tuple[complex, float]
 """An obstacle: its centre on the ground and its radius, metres."""
 
 
 class Flock(NamedTuple):
-    """The rules' figures; lengths in metres, speeds in m/s, accelerations in m/s².
+    """Parameters of the flocking rules; lengths in metres, speeds in m/s, accelerations in m/s².
 
-    Those nearer than `space` are kept away from, those within `sight` are stayed and gone with; `separate`,
-    `gather`, `align`, `steer` and `keep` weigh the rules. `whim` is how much each member's wish drifts. Discs
-    nearer than `avoid` push away. Flocks side by side may differ in `gather` and `avoid`, (K, 1).
+    Members repel within `space`; they align and cohere within `sight`. `separate`, `gather`, `align`, `steer`
+    and `keep` are the weights of the rules. `whim` scales the drift of each member's desired velocity. Discs
+    nearer than `avoid` repel. Flocks side by side may differ in `gather` and `avoid`, (K, 1).
 
     Examples
     --------
@@ -57,7 +72,7 @@ class Flock(NamedTuple):
 
 
 class Configuration(NamedTuple):
-    """Where N members are and how they move: `places` and `velocities`, (..., N) complex each.
+    """The `positions` and `velocities` of N members, (..., N) complex each.
 
     Leading axes hold other configurations: frames, ten per second, or runs side by side.
 
@@ -67,133 +82,153 @@ class Configuration(NamedTuple):
     np.complex128(1+0j)
     """
 
-    places: Points
+    positions: Points
     velocities: Points
 
 
 def whims(shape: tuple[int, ...], rules: Flock, random: np.random.Generator) -> Iterator[Points]:
-    """Yield frame by frame each member's own wish: a direction and a pace that drift about the group's.
+    """Yield the whims of the members frame by frame: a direction and a pace that drift about the group's.
+
+    Both are Ornstein-Uhlenbeck processes, which decay in two and in four seconds.
 
     Parameters
     ----------
     shape : of the members, with any leading axes for runs side by side.
-    rules : how much they drift.
-    random : draws them.
+    rules : `whim` scales the drift.
+    random : draws the whims.
 
     Yields
     ------
-    Complex numbers of that shape: a direction times a share of the pace.
+    Complex numbers of that shape: a direction times a fraction of the pace.
     """
-    step, root = 1 / RATE, np.sqrt(1 / RATE) * rules.whim
-    direction, mood = np.zeros(shape), np.zeros(shape)
+    step = 1 / RATE
+    drift = np.sqrt(1 / RATE) * rules.whim
+    direction = np.zeros(shape)
+    pace = np.zeros(shape)
     while True:
-        direction += -step * direction / 2.0 + root * random.normal(size=shape)
-        mood += -step * mood / 4.0 + root * 0.35 * random.normal(size=shape)
-        yield np.asarray(np.exp(1j * direction) * np.clip(1 + mood, 0.6, 1.4))
+        direction += -step * direction / DIRECTION_TIME + drift * random.normal(size=shape)
+        pace += -step * pace / PACE_TIME + drift * PACE_WHIM * random.normal(size=shape)
+        yield np.asarray(np.exp(1j * direction) * np.clip(1 + pace, *PACES))
 
 
-def steering_force(now: Configuration, wish: Points, rules: Flock, besides: Points | float = 0.0) -> Points:
-    """Work out each member's acceleration by the rules [Rey87], m/s².
+def steering_force(
+    group: Configuration, desired: Points, rules: Flock, external: Points | float = 0.0
+) -> Points:
+    """Compute the acceleration of each member by the flocking rules [Rey87], m/s².
 
-    separate · Σ ê (space - d) / space over those nearer than `space`, gather · (mean place - p) and
-    align · (mean velocity - v) over those in sight, steer · (wish - v̂) and keep · (pace - |v|) v̂ [ours],
-    cut at `accelerate`.
+    separate · Σ ê (space - d) / space over those nearer than `space`, gather · (mean position - p) and
+    align · (mean velocity - v) over those in sight, steer · (desired direction - v̂) and
+    keep · (desired pace - |v|) v̂ [ours], limited to `accelerate`.
 
     Parameters
     ----------
-    now : places and velocities, (..., N); each leading axis holds other runs.
-    wish : (..., N), direction times share of the pace.
-    rules : the figures.
-    besides : (..., N), what else accelerates the members: discs, walls, or a place to reach.
+    group : positions and velocities, (..., N); leading axes hold independent runs.
+    desired : (..., N), the desired direction times a fraction of the pace.
+    rules : the parameters.
+    external : (..., N), other accelerations: of discs, of walls, or towards a goal.
 
     Examples
     --------
-    Two walk side by side at their pace. At 0.3 m they push each other away as hard as they can, at 0.7 m with
-    3 · 0.5 - 0.35 · 0.7 m/s². At 3 m they are drawn together by 0.35 · 3 m/s², and at 5 m they see nobody:
+    Two walk side by side at their pace. At 0.3 m they repel each other with the largest force, at 0.7 m with
+    3 · 0.5 - 0.35 · 0.7 m/s². At 3 m they attract each other by 0.35 · 3 m/s², and 5 m is out of sight:
 
     >>> pairs = np.array([0, 1j]) * [[0.3], [0.7], [3.0], [5.0]]
     >>> force = steering_force(Configuration(pairs, 1.1 + 0 * pairs), 1 + 0 * pairs, Flock())
     >>> force[:, 1].imag.round(3).tolist()
     [1.5, 1.255, -1.05, 0.0]
     """
-    places, velocities = now
-    gap = places[..., :, None] - places[..., None, :]
-    far = np.abs(gap) + 1e9 * np.eye(places.shape[-1])
-    seen = far < rules.sight
-    count = np.maximum(seen.sum(-1), 1)
-    away = np.where(far < rules.space, gap / far * (rules.space - far) / rules.space, 0).sum(-1)
+    velocities = group.velocities
+    direction = np.sign(velocities)  # of length 1, and 0 for 0
+    pace_error = np.abs(desired) * rules.pace - np.abs(velocities)
+    force = _flocking_force(group, rules)
+    force = force + rules.steer * (np.sign(desired) - direction) + external
+    force = force + rules.keep * pace_error * direction
+    return np.asarray(force * np.minimum(1, rules.accelerate / np.maximum(np.abs(force), STILL)))
+
+
+def _flocking_force(group: Configuration, rules: Flock) -> Points:
+    """Compute the accelerations by separation, cohesion and alignment, (..., N)."""
+    positions, velocities = group
+    offsets, distances = _offsets(positions)
+    in_sight = distances < rules.sight
+    count = np.maximum(in_sight.sum(-1), 1)
+    repulsion = offsets / distances * (rules.space - distances) / rules.space
+    separation = np.where(distances < rules.space, repulsion, 0).sum(-1)
     # Not by @, whose threads spin: at 96 members they take longer than the sums.
-    middle = np.einsum("...ij,...j->...i", seen, places) / count - places
-    alike = np.einsum("...ij,...j->...i", seen, velocities) / count - velocities
-    ahead = np.sign(velocities)  # of length 1, and 0 for 0
-    force = rules.separate * away + np.where(seen.any(-1), rules.gather * middle + rules.align * alike, 0)
-    force = force + rules.steer * (np.sign(wish) - ahead) + besides
-    force = force + rules.keep * (np.abs(wish) * rules.pace - np.abs(velocities)) * ahead
-    return np.asarray(force * np.minimum(1, rules.accelerate / np.maximum(np.abs(force), 1e-9)))
+    cohesion = np.einsum("...ij,...j->...i", in_sight, positions) / count - positions
+    alignment = np.einsum("...ij,...j->...i", in_sight, velocities) / count - velocities
+    attraction = rules.gather * cohesion + rules.align * alignment
+    return np.asarray(rules.separate * separation + np.where(in_sight.any(-1), attraction, 0))
+
+
+def _offsets(positions: Points) -> tuple[Points, Array]:
+    """Compute the offsets of member i from member j, (..., N, N), and distances, which exclude i = j."""
+    offsets = positions[..., :, None] - positions[..., None, :]
+    return offsets, np.abs(offsets) + SELF * np.eye(positions.shape[-1])
 
 
 def advance(
-    now: Configuration, wish: Points, rules: Flock, besides: Points | float = 0.0, room: float = np.inf
+    group: Configuration, desired: Points, rules: Flock, external: Points | float = 0.0, room: float = np.inf
 ) -> Configuration:
-    """Go on by one frame; those who come too near are put apart, half each, in three passes [ours].
+    """Advance a flock by one frame; members who are too near are separated in three passes [ours].
 
-    Who is further than `room` from the line x = 0 is put back to it by up to 2 cm a pass: harder, and the
-    members would be jerked.
+    A member farther than `room` from the line x = 0 is moved back by up to 2 cm a pass. Larger steps would
+    be visible as jerks.
 
     Examples
     --------
     >>> still = Configuration(np.array([0j, 5j]), np.array([1 + 0j, 1 + 0j]))
-    >>> advance(still, np.ones(2, complex), Flock(whim=0)).places.real.round(2)
+    >>> advance(still, np.ones(2, complex), Flock(whim=0)).positions.real.round(2)
     array([0.1, 0.1])
     """
-    velocities = now.velocities + steering_force(now, wish, rules, besides) / RATE
+    velocities = group.velocities + steering_force(group, desired, rules, external) / RATE
     speeds = np.abs(velocities)
-    velocities = velocities * np.clip(speeds, rules.slowest, rules.fastest) / np.maximum(speeds, 1e-9)
-    places = now.places + velocities / RATE
-    for _ in range(3):
-        places = places + push_apart(places, APART + MARGIN)
-        beyond = places.imag - np.clip(places.imag, -room, room)
-        places = places - 1j * np.clip(beyond, -HELD, HELD)
-    return Configuration(places, (places - now.places) * RATE)
+    velocities = velocities * np.clip(speeds, rules.slowest, rules.fastest) / np.maximum(speeds, STILL)
+    positions = group.positions + velocities / RATE
+    for _ in range(SEPARATIONS):
+        positions = positions + push_apart(positions, APART + MARGIN)
+        excess = positions.imag - np.clip(positions.imag, -room, room)
+        positions = positions - 1j * np.clip(excess, -HELD, HELD)
+    return Configuration(positions, (positions - group.positions) * RATE)
 
 
-def push_apart(places: Points, apart: float) -> Points:
-    """Say how far each member must move, (..., N), so that no two are nearer than `apart`: half each.
+def push_apart(positions: Points, distance: float) -> Points:
+    """Compute the displacements (..., N) that separate members nearer than a distance, half each.
 
     Examples
     --------
     >>> push_apart(np.array([0j, 0.4 + 0j]), 0.6).round(2)
     array([-0.1+0.j,  0.1+0.j])
     """
-    gap = places[..., :, None] - places[..., None, :]
-    far = np.abs(gap) + 1e9 * np.eye(places.shape[-1])
-    return np.asarray(np.where(far < apart, gap / far * (apart - far) / 2, 0).sum(-1))
+    offsets, distances = _offsets(positions)
+    pushes = offsets / distances * (distance - distances) / 2
+    return np.asarray(np.where(distances < distance, pushes, 0).sum(-1))
 
 
 def simulate(
     count: int, seconds: float, *, corridor: float = np.inf, rules: Flock | None = None, seed: int = 0
 ) -> Configuration:
-    """Let a flock wander over open ground, or walk along a corridor [LCF05, simulation].
+    """Simulate a flock that wanders over open ground, or walks along a corridor [LCF05, simulation].
 
     Parameters
     ----------
-    count : members, from 2 on.
-    seconds : how long, after 20 seconds that are left out.
-    corridor : metres between two walls, left and right of the line x = 0; there the group keeps to the line.
-    rules : their figures.
+    count : number of members, at least 2.
+    seconds : duration, after the first 20 seconds, which are left out.
+    corridor : metres between two walls, left and right of the line x = 0; there the group follows the line.
+    rules : parameters of the members.
     seed : of the start, the drifting heading of the group, and the whims.
 
     Raises
     ------
-    MocapError : for fewer than two members, and a corridor in which nobody can walk.
+    MocapError : for fewer than two members, and a corridor that is too narrow to walk in.
 
     Examples
     --------
     >>> flock = simulate(6, 30)
-    >>> flock.places.shape, bool(nearest_two(flock.places).min() > APART)
+    >>> flock.positions.shape, bool(nearest_two(flock.positions).min() > APART)
     ((300, 6), True)
     >>> narrow = simulate(6, 30, corridor=2.0)
-    >>> bool(np.ptp(narrow.places.imag, axis=1).mean() < 1.5)
+    >>> bool(np.ptp(narrow.positions.imag, axis=1).mean() < 1.5)
     True
 
     Notebook: 19-group-graphs
@@ -202,25 +237,32 @@ def simulate(
         raise MocapError(f"A group has two members or more, got {count}.")
     if not corridor > 2 * BODY + APART:
         raise MocapError(f"A corridor is wider than {2 * BODY + APART:g} m, got {corridor} m.")
-    count, rules, random = int(count), rules or Flock(), np.random.default_rng(seed)
-    start = random.normal(0, 1.5, (2, count))
-    now = Configuration(start[0] + 1j * start[1], np.ones(count, complex))
-    wishes, heading, bend, frames = whims((count,), rules, random), 0.0, 0.0, []
-    room, wall = corridor / 2 - BODY, np.zeros(count, complex)
+    members = int(count)
+    rules = rules or Flock()
+    random = np.random.default_rng(seed)
+    start = random.normal(0, 1.5, (2, members))  # metres
+    group = Configuration(start[0] + 1j * start[1], np.ones(members, complex))
+    member_whims = whims((members,), rules, random)
+    heading = 0.0
+    turning_rate = 0.0  # rad/s
+    room = corridor / 2 - BODY
+    wall_force = np.zeros(members, complex)
+    frames = []
     for _ in range(round((seconds + SETTLE) * RATE)):
-        bend += -bend / 3.0 / RATE + np.sqrt(1 / RATE) * 0.25 * random.normal()
-        heading += np.clip(bend, -0.5, 0.5) / RATE
+        drift = np.sqrt(1 / RATE) * RATE_DRIFT * random.normal()
+        turning_rate += -turning_rate / RATE_TIME / RATE + drift
+        heading += np.clip(turning_rate, -FASTEST_TURN, FASTEST_TURN) / RATE
         if room < np.inf:
-            beside = now.places.imag
-            heading = -0.3 * np.clip(beside.mean(), -1, 1)
-            wall = -1j * WALL_FORCE * (beside - np.clip(beside, -FREELY * room, FREELY * room))
-        now = advance(now, np.exp(1j * heading) * next(wishes), rules, wall, room)
-        frames.append(now)
+            lateral = group.positions.imag
+            heading = -LINE_PULL * np.clip(lateral.mean(), -1, 1)
+            wall_force = -1j * WALL_FORCE * (lateral - np.clip(lateral, -FREELY * room, FREELY * room))
+        group = advance(group, np.exp(1j * heading) * next(member_whims), rules, wall_force, room)
+        frames.append(group)
     return Configuration(*np.swapaxes(frames[round(SETTLE * RATE) :], 0, 1))
 
 
-def nearest_two(places: Points) -> Array:
-    """Measure the least distance of any two members in each frame, (F,) of (F, N); inf for one alone.
+def nearest_two(positions: Points) -> Array:
+    """Measure the least distance of any two members in each frame, (F,) of (F, N); inf for one member.
 
     Examples
     --------
@@ -229,5 +271,6 @@ def nearest_two(places: Points) -> Array:
 
     Notebook: 19-group-graphs
     """
-    gap = np.abs(places[..., :, None] - places[..., None, :])
-    return np.asarray(np.where(np.eye(places.shape[-1], dtype=bool), np.inf, gap).min(axis=(-2, -1)))
+    distances = np.abs(positions[..., :, None] - positions[..., None, :])
+    is_self = np.eye(positions.shape[-1], dtype=bool)
+    return np.asarray(np.where(is_self, np.inf, distances).min(axis=(-2, -1)))

@@ -1,9 +1,10 @@
-"""Group motion graphs: nodes are configurations, and clips of the whole group join them [LCF05]."""
+"""Group motion graphs: nodes are configurations, and edges are clips of the whole group [LCF05]."""
 
 from collections.abc import Sequence
 
 import numpy as np
 
+from mocap._shared.arrays import Points
 from mocap._shared.records import dataclass
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import MocapError, warn
@@ -12,14 +13,14 @@ from mocap.methods.groups.flocking import APART, Configuration, simulate
 from mocap.methods.groups.group_clips import HARDEST, GroupClip, clips_from
 
 CORRIDORS = (2.5, 2.0, 1.7)  # metres from wall to wall
-COLUMN = 60.0  # seconds in each
+COLUMN = 60.0  # seconds of simulation in each corridor
 
 
 @dataclass(frozen=True, eq=False)
 class GroupGraph:
     """Configurations of N members as nodes, and clips that lead from one to another.
 
-    `tried` counts all clips that were made; those that nobody could walk are left out.
+    `tried` counts all clips that were made; clips with collisions or high accelerations are left out.
 
     Examples
     --------
@@ -34,8 +35,8 @@ class GroupGraph:
 
     @property
     def members(self) -> int:
-        """How many walk."""
-        return int(self.nodes[0].places.shape[-1])
+        """The number of members."""
+        return int(self.nodes[0].positions.shape[-1])
 
     def leaving(self, node: int) -> list[int]:
         """List the numbers of the clips that leave a node."""
@@ -43,12 +44,12 @@ class GroupGraph:
 
 
 def make_clips(nodes: Sequence[Configuration], *, seed: int = 0) -> GroupGraph:
-    """Join nodes by clips of four seconds, for each ordered pair, bend and shift aside [ours, after LCF05].
+    """Join nodes by clips of four seconds, for each ordered pair, bend and lateral shift [ours, after LCF05].
 
     Parameters
     ----------
-    nodes : configurations, each seen from itself.
-    seed : of the members' whims.
+    nodes : configurations, each as from `seen_from_itself`.
+    seed : of the whims of the members.
 
     Returns
     -------
@@ -56,7 +57,7 @@ def make_clips(nodes: Sequence[Configuration], *, seed: int = 0) -> GroupGraph:
 
     Raises
     ------
-    MocapError : for a node that stands, and where no clip is kept.
+    MocapError : for a node that stands still, and if no clip is kept.
 
     Warns
     -----
@@ -65,19 +66,25 @@ def make_clips(nodes: Sequence[Configuration], *, seed: int = 0) -> GroupGraph:
     Notebook: 19-group-graphs
     """
     for node in nodes:
-        seen_from_itself(node)  # refuses who stands
+        seen_from_itself(node)  # raises for a node that stands still
     random = np.random.default_rng(seed)
-    made = [clips_from(start, nodes, random) for start in range(len(nodes))]
-    clips, tried = tuple(clip for kept, _ in made for clip in kept), sum(count for _, count in made)
+    clips: list[GroupClip] = []
+    tried = 0
+    for start in range(len(nodes)):
+        kept_clips, count = clips_from(start, nodes, random)
+        clips += kept_clips
+        tried += count
     if not clips:
-        why = f"members come nearer than {APART:g} m, or need more than {HARDEST:g} m/s²"
-        raise MocapError(f"None of {tried} clips can be kept: {why}.")
-    if missing := len(nodes) ** 2 - len({(clip.start, clip.end) for clip in clips}):
-        warn(f"No clip joins {missing} of {len(nodes) ** 2} pairs of nodes.")
-    return GroupGraph(tuple(nodes), clips, tried)
+        reason = f"members come nearer than {APART:g} m, or need more than {HARDEST:g} m/s²"
+        raise MocapError(f"None of {tried} clips can be kept: {reason}.")
+    pairs = len(nodes) ** 2
+    joined = len({(clip.start, clip.end) for clip in clips})
+    if joined < pairs:
+        warn(f"No clip joins {pairs - joined} of {pairs} pairs of nodes.")
+    return GroupGraph(tuple(nodes), tuple(clips), tried)
 
 
-def build_group(  # noqa: PLR0913 (how many, how long and how fine)
+def build_group(  # noqa: PLR0913 (sizes, durations and distances)
     members: int,
     *,
     nodes: int = 8,
@@ -88,16 +95,16 @@ def build_group(  # noqa: PLR0913 (how many, how long and how fine)
 ) -> GroupGraph:
     """Build a group motion graph: simulate, cluster, and join the nodes by clips [LCF05, graph].
 
-    A group that only ever walked over open ground has no narrow node, and passes no gap narrower than
-    itself. So it also walks a minute through corridors; what comes again there are *columns*, as further
-    nodes [ours].
+    A group that walked only over open ground has no narrow node, and cannot pass a gap narrower than itself.
+    It is therefore also simulated for a minute in each corridor. The configurations that recur there are
+    *columns*, which are added to the nodes [ours].
 
     Parameters
     ----------
-    members : from 2 on.
+    members : number of members, at least 2.
     nodes, reach : as for `cluster`, on open ground.
-    corridors : metres from wall to wall; one column or two come of each; none: the group stays wide.
-    simulated : seconds of flocking over open ground to take the nodes from.
+    corridors : metres from wall to wall; each adds one or two columns. Without any, the group stays wide.
+    simulated : seconds of flocking over open ground from which the nodes are chosen.
     seed : as for `simulate`.
 
     Raises
@@ -113,20 +120,24 @@ def build_group(  # noqa: PLR0913 (how many, how long and how fine)
     >>> graph = build_group(3, nodes=2, corridors=(), simulated=40.0, reach=0.4)
     >>> sorted({(clip.start, clip.end) for clip in graph.clips})
     [(0, 0), (0, 1), (1, 0), (1, 1)]
-    >>> len(graph.clips), graph.tried  # four pairs, five bends, three shifts aside
+    >>> len(graph.clips), graph.tried  # four pairs, five bends, three shifts
     (60, 60)
 
     Notebook: 19-group-graphs
     """
-    found = cluster(simulate(members, simulated, seed=seed), nodes=nodes, reach=reach).nodes
+    configurations = cluster(simulate(members, simulated, seed=seed), nodes=nodes, reach=reach).nodes
     for width in corridors:
-        narrow = simulate(members, COLUMN, corridor=width, seed=seed)
-        found += cluster(narrow, nodes=2, reach=reach).nodes
-    return make_clips(found, seed=seed)
+        columns = simulate(members, COLUMN, corridor=width, seed=seed)
+        configurations += cluster(columns, nodes=2, reach=reach).nodes
+    return make_clips(configurations, seed=seed)
 
 
 def random_group_walk(graph: GroupGraph, clips: int, *, start: int = 0, seed: int = 0) -> list[int]:
-    """Wander through the graph: the numbers of clips, each chosen evenly among those that leave its node.
+    """Return a random walk: the numbers of clips, each drawn uniformly from those that leave its node.
+
+    Raises
+    ------
+    MocapError : for a node that no clip leaves.
 
     Examples
     --------
@@ -136,9 +147,12 @@ def random_group_walk(graph: GroupGraph, clips: int, *, start: int = 0, seed: in
 
     Notebook: 19-group-graphs
     """
-    random, node, walk = np.random.default_rng(seed), start, []
+    random = np.random.default_rng(seed)
+    node = start
+    walk: list[int] = []
     for _ in range(clips):
-        if not (leaving := graph.leaving(node)):
+        leaving = graph.leaving(node)
+        if not leaving:
             raise MocapError(f"No clip leaves node {node}.")
         walk.append(int(random.choice(leaving)))
         node = graph.clips[walk[-1]].end
@@ -146,25 +160,26 @@ def random_group_walk(graph: GroupGraph, clips: int, *, start: int = 0, seed: in
 
 
 def play_group(graph: GroupGraph, walk: Sequence[int], start: PlanarTransform = IDENTITY) -> Configuration:
-    """Put clips in a row: where every member goes, one column for each from start to end [LCF05, playing].
+    """Concatenate clips to the trajectories of all members, one column for each member [LCF05, playing].
 
-    Places, turns *and the members' numbers* multiply up: the member in slot s of a clip's start goes on in
-    slot `order[s]` of the next. Without this members would jump by metres at each seam.
+    The planar transforms of the clips are multiplied, *and so are the orders of the members*: the member that
+    ends in slot `order[s]` of a clip continues from that slot in the next clip. Without the orders, members
+    would jump by metres between clips.
 
     Parameters
     ----------
-    graph : whose clips.
-    walk : numbers of clips, each leaving the node where the one before ends.
-    start : how the first configuration lies on the ground; as it is seen by itself by default.
+    graph : the graph of the clips.
+    walk : numbers of clips, each leaving the node where the previous one ends.
+    start : the transform of the first node to the ground; the identity by default.
 
     Raises
     ------
-    MocapError : for no clips, and clips that do not follow one another.
+    MocapError : for an empty walk, and for clips that do not follow one another.
 
     Examples
     --------
     >>> graph = build_group(3, nodes=2, corridors=(), simulated=40.0, reach=0.4)
-    >>> play_group(graph, random_group_walk(graph, 5)).places.shape
+    >>> play_group(graph, random_group_walk(graph, 5)).positions.shape
     (201, 3)
 
     Notebook: 19-group-graphs
@@ -172,14 +187,24 @@ def play_group(graph: GroupGraph, walk: Sequence[int], start: PlanarTransform = 
     if not len(walk):
         raise MocapError("A walk of a group has one clip or more, got none.")
     clips = [graph.clips[number] for number in walk]
-    node, turn, move = clips[0].start, start.rotation, start.translation
-    order, places, velocities = np.arange(graph.members), [], []
+    node = clips[0].start
+    rotation = start.rotation
+    translation = start.translation
+    slots = np.arange(graph.members)  # slot of each member at the start of a clip
+    positions: list[Points] = []
+    velocities: list[Points] = []
     for clip in clips:
         if node != clip.start:
             raise MocapError(f"A group at node {node} cannot go on by a clip that leaves {clip.start}.")
-        places.append((turn * clip.places + move)[:, order])
-        velocities.append((turn * clip.velocities)[:, order])
-        node, order = clip.end, clip.order[order]
-        turn, move = turn * clip.turn, turn * clip.move + move
-    rows = ([*(frames[:-1] for frames in part), part[-1][-1:]] for part in (places, velocities))
-    return Configuration(*map(np.concatenate, rows))
+        positions.append((rotation * clip.positions + translation)[:, slots])
+        velocities.append((rotation * clip.velocities)[:, slots])
+        node = clip.end
+        slots = clip.order[slots]
+        translation = rotation * clip.translation + translation
+        rotation = rotation * clip.rotation
+    return Configuration(_concatenate(positions), _concatenate(velocities))
+
+
+def _concatenate(clips: Sequence[Points]) -> Points:
+    """Concatenate the frames of clips; the last frame of each is the first one of the next."""
+    return np.concatenate([*(frames[:-1] for frames in clips), clips[-1][-1:]])

@@ -1,6 +1,6 @@
-"""The same without a plan: a flock that steers to the next point, away from obstacles; and the quicker way.
+"""Group steering without a plan: a flock steers to the next point, away from obstacles; the faster of both.
 
-On open ground steering is all one needs. In a pocket of obstacles it stays for ever.
+Steering is enough on open ground. In a pocket of obstacles the flock does not get out.
 """
 
 from collections.abc import Iterator, Sequence
@@ -16,8 +16,12 @@ from mocap.methods.groups.planning import MOST, GroupWalk, Scene, plan_group
 
 DISC_FORCE = 3.0  # m/s² per metre
 LIMIT = 120.0  # seconds
-AVOID, GATHER = np.meshgrid((0.8, 1.2, 1.6, 2.0), (0.0, 0.35, 1.0, 2.0))
-TRIED = Flock(whim=0.0, avoid=AVOID.reshape(-1, 1), gather=GATHER.reshape(-1, 1))
+AVOIDANCES = (0.8, 1.2, 1.6, 2.0)  # metres from a disc, as `Flock.avoid`
+COHESIONS = (0.0, 0.35, 1.0, 2.0)  # weights, as `Flock.gather`
+FLOCKS = len(AVOIDANCES) * len(COHESIONS)  # that are steered side by side
+AVOID = np.tile(AVOIDANCES, len(COHESIONS))[:, None]
+GATHER = np.repeat(COHESIONS, len(AVOIDANCES))[:, None]
+TRIED = Flock(whim=0.0, avoid=AVOID, gather=GATHER)
 
 
 def steer_group(
@@ -27,58 +31,65 @@ def steer_group(
 
     Parameters
     ----------
-    start : where its members are and how they move.
-    scene : where to go.
+    start : positions and velocities of the members.
+    scene : points, obstacles and other groups; other groups are not avoided.
     rules, seed : as for `simulate`.
-    limit : seconds after which it ends.
+    limit : seconds after which the simulation ends.
 
     Returns
     -------
-    Where the members go, and how many points they passed.
+    The trajectories of the members, and the number of points that were passed.
 
     Examples
     --------
-    On open ground steering is enough. After three seconds it has not yet come to the first point:
+    Steering is enough on open ground. After three seconds the first point has not been reached:
 
     >>> start = Configuration(np.array([0j, 1j, -1j]), np.ones(3, complex))
     >>> for limit in (60.0, 3.0):
     ...     flock, passed = steer_group(start, Scene((10 + 2j, 18 - 3j)), limit=limit)
-    ...     print(passed, len(flock.places))
+    ...     print(passed, len(flock.positions))
     2 241
     0 31
 
     Notebook: 19-group-graphs
     """
-    scene.check(complex(start.places.mean()))
+    scene.check(complex(start.positions.mean()))
     frames = []
-    for now, passed in _steering(start, scene, rules or Flock(), seed):
-        frames.append(now)
+    for flock, passed in _steering(start, scene, rules or Flock(), seed):
+        frames.append(flock)
         if passed == len(scene.points) or len(frames) > limit * RATE:
             break
     return Configuration(*np.swapaxes(frames, 0, 1)), int(passed)
 
 
 def _steering(
-    now: Configuration, scene: Scene, rules: Flock, seed: int
+    flock: Configuration, scene: Scene, rules: Flock, seed: int
 ) -> Iterator[tuple[Configuration, Indices]]:
-    """Yield frame by frame where flocks that steer are, (..., N), and how many points each has passed."""
-    points, goals = np.array(scene.points), np.zeros(now.places.shape[:-1], int)
-    for wish in whims(now.places.shape, rules, np.random.default_rng(seed)):
-        yield now, goals
-        goal = points[np.minimum(goals, len(points) - 1)]
-        ahead = np.exp(1j * np.angle(goal - now.places.mean(axis=-1)))
-        now = advance(now, ahead[..., None] * wish, rules, away_from(scene.discs, now.places, rules.avoid))
-        goals = goals + ((np.abs(now.places.mean(axis=-1) - goal) < scene.near) & (goals < len(points)))
+    """Yield flocks that steer, (..., N), frame by frame, and the number of points that each has passed."""
+    points = np.array(scene.points)
+    passed = np.zeros(flock.positions.shape[:-1], int)
+    for whim in whims(flock.positions.shape, rules, np.random.default_rng(seed)):
+        yield flock, passed
+        goal = points[np.minimum(passed, len(points) - 1)]
+        direction = np.exp(1j * np.angle(goal - flock.positions.mean(axis=-1)))
+        repulsion = away_from(scene.discs, flock.positions, rules.avoid)
+        flock = advance(flock, direction[..., None] * whim, rules, repulsion)
+        is_near = np.abs(flock.positions.mean(axis=-1) - goal) < scene.radius
+        passed = passed + (is_near & (passed < len(points)))
 
 
 def lead_group(
-    graph: GroupGraph, scene: Scene, *, start: PlanarTransform = IDENTITY, most: int = MOST
+    graph: GroupGraph,
+    scene: Scene,
+    *,
+    start: PlanarTransform = IDENTITY,
+    most: int = MOST,  # reads: name: users give it as a keyword
 ) -> tuple[Configuration, GroupWalk | None]:
-    """Take the quicker of two ways that keep clear: the planned one, or that of a flock that steers [ours].
+    """Return the faster of two collision-free solutions: a plan, or a flock that steers [ours].
 
-    Clips turn by 1.2 rad in four seconds, so to a goal aside or behind a flock without whims comes sooner.
-    Sixteen steer side by side, which stay together and avoid discs more or less. The first that is there, and
-    kept clear of discs and of others as a plan does, leads.
+    A clip turns by at most 1.2 rad in four seconds. A flock without whims therefore arrives sooner at a goal
+    to the side or behind. Sixteen flocks with different cohesion and distances from discs steer side by side.
+    The first that arrives wins, if it kept the distances from discs and other members that a plan keeps.
 
     Parameters
     ----------
@@ -86,11 +97,12 @@ def lead_group(
 
     Returns
     -------
-    Where the members go until the middle passes the last point, and the plan; None where the flock steers.
+    The trajectories of the members until the group's middle passes the last point, and the plan; None if the
+    flock steers.
 
     Raises
     ------
-    MocapError, NoWalk : as `plan_group`, where the flock does not come there either.
+    MocapError, NoWalk : as `plan_group`, if no flock arrives either.
 
     Examples
     --------
@@ -98,7 +110,7 @@ def lead_group(
     >>> graph = build_group(3, nodes=2, corridors=(), simulated=40.0, reach=0.4)
     >>> goal_behind = Scene((-9 + 0j,))
     >>> flock, plan = lead_group(graph, goal_behind)
-    >>> plan is None, (len(flock.places) - 1) / RATE, plan_group(graph, goal_behind).seconds
+    >>> plan is None, (len(flock.positions) - 1) / RATE, plan_group(graph, goal_behind).seconds
     (True, 10.6, 18.8)
     """
     try:
@@ -110,52 +122,63 @@ def lead_group(
     if steered := _steered(graph, scene, start, plan.seconds):
         return steered, None
     played = play_group(graph, plan.clips, start)
-    return Configuration(*(part[: round(plan.seconds * RATE) + 1] for part in played)), plan
+    frames = round(plan.seconds * RATE) + 1
+    return Configuration(*(field[:frames] for field in played)), plan
 
 
 def _steered(graph: GroupGraph, scene: Scene, start: PlanarTransform, limit: float) -> Configuration | None:
-    """Steer by all of `TRIED` side by side; take the first that is there in time, clear as a plan."""
-    places, velocities = (np.tile(start.rotation * part, (AVOID.size, 1)) for part in graph.nodes[0])
+    """Steer all flocks of `TRIED` side by side; return the first that arrives in time without a collision."""
+    positions, velocities = (np.tile(start.rotation * field, (FLOCKS, 1)) for field in graph.nodes[0])
+    starts = Configuration(positions + start.translation, velocities)
     frames: list[Configuration] = []
-    there: Mask = np.zeros(len(places), bool)
-    for now, passed in _steering(Configuration(places + start.translation, velocities), scene, TRIED, 0):
-        if there.all() or len(frames) > limit * RATE:
+    has_arrived: Mask = np.zeros(FLOCKS, bool)
+    for flocks, passed in _steering(starts, scene, TRIED, seed=0):
+        if has_arrived.all() or len(frames) > limit * RATE:
             break
-        frames.append(now)
-        for row in np.flatnonzero(~there & (passed == len(scene.points))):
-            there[row] = True
-            flock = Configuration(*np.swapaxes([[part[row] for part in frame] for frame in frames], 0, 1))
-            gaps, clock = [nearest_two(flock.places).min()], np.arange(len(frames))
-            for other in scene.others:
-                members = other[np.minimum(clock, len(other) - 1)]
-                gaps.append(np.abs(flock.places[:, :, None] - members[:, None]).min())
-            if min(gaps) >= APART and (clearances(flock, scene) >= scene.body).all():
+        frames.append(flocks)
+        for row in np.flatnonzero(~has_arrived & (passed == len(scene.points))):
+            has_arrived[row] = True
+            rows = [[field[row] for field in frame] for frame in frames]
+            flock = Configuration(*np.swapaxes(rows, 0, 1))
+            if _is_clear(flock, scene):
                 return flock
     return None
 
 
-def away_from(discs: Sequence[Disc], places: Points, avoid: float | Array = 2.0) -> Points:
-    """Accelerate members (..., N) away from discs nearer than `avoid`, by 3 m/s² for each metre.
+def _is_clear(flock: Configuration, scene: Scene) -> bool:
+    """Check whether a flock keeps the distances of a plan: between members, from other groups and discs."""
+    distances = [nearest_two(flock.positions).min()]
+    frames = np.arange(len(flock.positions))
+    for group in scene.others:
+        members = group[np.minimum(frames, len(group) - 1)]
+        distances.append(np.abs(flock.positions[:, :, None] - members[:, None]).min())
+    return bool(min(distances) >= APART and (clearances(flock, scene) >= scene.body).all())
+
+
+def away_from(discs: Sequence[Disc], positions: Points, avoid: float | Array = 2.0) -> Points:
+    """Compute the accelerations of members (..., N) away from discs nearer than `avoid`, 3 m/s² per metre.
 
     Examples
     --------
     Members 1, 1.9 and 2.1 m from the rim, and one inside:
 
-    >>> away_from([(1.5 + 0j, 0.5)], np.array([0j, -0.9 + 0j, -1.1 + 0j, 1.25 + 0j])).real.round(2).tolist()
+    >>> members = np.array([0j, -0.9 + 0j, -1.1 + 0j, 1.25 + 0j])
+    >>> away_from([(1.5 + 0j, 0.5)], members).real.round(2).tolist()
     [-3.0, -0.3, 0.0, -6.75]
 
-    Of the flocks that `lead_group` steers some avoid a rim half a metre off more, some less:
+    Flocks side by side, whose members are half a metre from the rim, may differ in `avoid`:
 
-    >>> away_from([(1 + 0j, 0.5)], np.zeros((4, 1)), AVOID[0, :, None]).real.round(2).ravel().tolist()
-    [-0.9, -2.1, -3.3, -4.5]
+    >>> away_from([(1 + 0j, 0.5)], np.zeros((2, 1)), np.array([[0.8], [2.0]])).real.round(2).tolist()
+    [[-0.9], [-4.5]]
     """
-    off = places[..., None] - np.array([centre for centre, _ in discs], complex)
-    near = np.expand_dims(avoid, -1) - np.abs(off) + np.array([radius for _, radius in discs])
-    return np.asarray((DISC_FORCE * np.maximum(near, 0) * np.sign(off)).sum(axis=-1))
+    offsets = positions[..., None] - np.array([centre for centre, _ in discs], complex)
+    radii = np.array([radius for _, radius in discs])
+    depths = np.expand_dims(avoid, -1) - np.abs(offsets) + radii
+    return np.asarray((DISC_FORCE * np.maximum(depths, 0) * np.sign(offsets)).sum(axis=-1))
 
 
 def clearances(flock: Configuration, scene: Scene) -> Array:
-    """Measure how far the nearest member comes from each disc's rim, metres; below 0 inside it.
+    """Measure the least distance of any member from the rim of each disc, metres; negative inside.
 
     Examples
     --------
@@ -164,4 +187,4 @@ def clearances(flock: Configuration, scene: Scene) -> Array:
 
     Notebook: 19-group-graphs
     """
-    return np.array([np.abs(flock.places - centre).min() - radius for centre, radius in scene.discs])
+    return np.array([np.abs(flock.positions - centre).min() - radius for centre, radius in scene.discs])

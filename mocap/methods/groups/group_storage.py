@@ -18,7 +18,8 @@ FARTHEST = 1e6  # metres, and metres per second
 ROUNDING = 1e-6  # metres, by which a clip may miss its nodes
 UNIT = 1e-9  # by which the length of a rotation may differ from 1
 # The arrays of the file, with K nodes, C clips, F + 1 frames of each (here F), and N members.
-# Places and velocities are complex, as in `Configuration`; ends, orders and transforms as in `GroupClip`.
+# Positions and velocities are complex, as in `Configuration`; ends, orders and transforms as in `GroupClip`.
+# The keys keep their first names: "places" are positions, "turns" rotations, "moves" translations.
 # reads: statement: a table
 ARRAYS: Layout = {
     "node_places": (complex, ("K", "N")),
@@ -62,10 +63,10 @@ def save_group(graph: GroupGraph, path: str | Path) -> None:
     """
     clips = graph.clips
     nodes = Configuration(*(np.array(field) for field in zip(*graph.nodes, strict=True)))
-    arrays = {"node_places": nodes.places, "node_velocities": nodes.velocities, "tried": graph.tried}
+    arrays = {"node_places": nodes.positions, "node_velocities": nodes.velocities, "tried": graph.tried}
     arrays |= {"starts": [clip.start for clip in clips], "ends": [clip.end for clip in clips]}
-    arrays |= {"turns": [clip.turn for clip in clips], "moves": [clip.move for clip in clips]}
-    for key, field in (("places", "places"), ("velocities", "velocities"), ("orders", "order")):
+    arrays |= {"turns": [clip.rotation for clip in clips], "moves": [clip.translation for clip in clips]}
+    for key, field in (("places", "positions"), ("velocities", "velocities"), ("orders", "order")):
         arrays[key] = np.array([getattr(clip, field) for clip in clips])
     write_archive(path, GROUP, arrays)
 
@@ -90,30 +91,30 @@ def load_group(path: str | Path) -> GroupGraph:
     nodes = tuple(map(Configuration, arrays["node_places"], arrays["node_velocities"]))
     columns = [arrays[key].tolist() for key in ("starts", "ends", "turns", "moves")]
     clips = []
-    for number, (start, end, turn, move) in enumerate(zip(*columns, strict=True)):
-        places, velocities, order = (arrays[key][number] for key in ("places", "velocities", "orders"))
-        clips.append(GroupClip(start, end, places, velocities, order, turn, move))
+    for number, (start, end, rotation, translation) in enumerate(zip(*columns, strict=True)):
+        positions, velocities, order = (arrays[key][number] for key in ("places", "velocities", "orders"))
+        clips.append(GroupClip(start, end, positions, velocities, order, rotation, translation))
     return GroupGraph(nodes, tuple(clips), int(arrays["tried"]))
 
 
 def _rules(arrays: Arrays) -> Rules:
     """Yield what must hold; each rule needs those before it."""
-    places = arrays["node_places"]
+    positions = arrays["node_places"]
     velocities = arrays["node_velocities"]
     clips, frames, members = arrays["places"].shape
     numbers = (array for array in arrays.values() if array.dtype.kind == "c")
     yield "numbers are finite and not above a million", [_is_near(array) for array in numbers]
-    yield "there are nodes and clips, of two members or more", len(places) and clips and members >= 2
+    yield "there are nodes and clips, of two members or more", len(positions) and clips and members >= 2
     yield "clips have frames", frames > 1
     yield "nodes go somewhere", np.abs(velocities.mean(axis=1)) >= SLOWEST
     yield "as many clips were tried or more", arrays["tried"] >= clips
     ends = np.stack([arrays["starts"], arrays["ends"]])
-    yield "clips lead from node to node", (ends >= 0) & (ends < len(places))
+    yield "clips lead from node to node", (ends >= 0) & (ends < len(positions))
     yield "members keep their numbers apart", np.sort(arrays["orders"]) == np.arange(members)
     yield "rotations have length 1", np.abs(np.abs(arrays["turns"]) - 1) < UNIT
-    first = arrays["places"][:, 0] - places[arrays["starts"]]
+    first = arrays["places"][:, 0] - positions[arrays["starts"]]
     yield "clips begin at their nodes", np.abs(first) < ROUNDING
-    goals = np.take_along_axis(places[arrays["ends"]], arrays["orders"], axis=1)
+    goals = np.take_along_axis(positions[arrays["ends"]], arrays["orders"], axis=1)
     aligned = arrays["turns"][:, None] * goals + arrays["moves"][:, None]
     yield "clips end at their nodes", np.abs(arrays["places"][:, -1] - aligned) < ROUNDING
 

@@ -1,4 +1,4 @@
-"""Characters for a group: each member's way is walked by a motion graph, in place and in time."""
+"""Characters for a group: a motion graph follows the path of each member, in space and time."""
 
 import warnings
 
@@ -20,12 +20,12 @@ from mocap.steering.path_following import follow_path
 from mocap.steering.path_objective import Settings, Wishes
 from mocap.synthesis.walk_to_motion import with_plants
 
-LATE = 1.0  # m² per s²: in time, at 0.9 seams per second
-EVERY = 1.0  # seconds between the places that are passed in time
-KEPT = 0.9  # a smaller share of planted frames is warned of
-NARROW = 40  # walks in a beam
-BEYOND = 3.0  # seconds by which each way is carried on
-MOVES = 0.05  # metres per second or more, to have a direction
+LATE = 1.0  # m² per s² of delay
+EVERY = 1.0  # seconds between the positions that have a time
+KEPT = 0.9  # fraction of planted frames; a warning is given of less
+NARROW = 40  # beam width
+BEYOND = 3.0  # seconds by which each path is extended
+MOVES = 0.05  # metres in a second; a slower member has no direction
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,23 +35,23 @@ class GroupWalkers:
     Parameters
     ----------
     motions : one per member, F frames each.
-    kept : the share of planted frames that the clean-up kept.
-    wanted : shape (F, N), complex: where each should be in each frame.
+    kept : the fraction of planted frames that the clean-up kept.
+    targets : shape (F, N), complex: the planned position of each member in each frame.
     """
 
     motions: tuple[Motion, ...]
     kept: float
-    wanted: Points
+    targets: Points
 
     @property
     def tracks(self) -> Points:
-        """Where each root is, (F, N) complex."""
+        """The positions of the roots on the ground, (F, N) complex."""
         return np.stack([on_ground(motion.root_positions) for motion in self.motions], axis=1)
 
     @property
-    def off(self) -> Array:
-        """Metres from where each should be by then, (F, N)."""
-        return np.asarray(np.abs(self.tracks - self.wanted))
+    def errors(self) -> Array:
+        """The distances of the roots from their targets, (F, N), metres."""
+        return np.asarray(np.abs(self.tracks - self.targets))
 
     @property
     def nearest(self) -> float:
@@ -59,35 +59,35 @@ class GroupWalkers:
         return float(nearest_two(self.tracks).min())
 
     def report(self) -> str:
-        """Say in one line how well the characters keep to the plan."""
-        off = 100 * self.off
-        return (
-            f"{len(self.motions)} characters, {len(off) / self.motions[0].fps:.1f} s, {off.mean():.1f} cm "
-            f"from where they should be by then (95 % within {np.percentile(off, 95):.0f} cm), "
-            f"{self.nearest:.2f} m apart at least, {self.kept:.0%} of the planted frames kept"
-        )
+        """Summarise in one line the errors and distances of the characters."""
+        centimetres = 100 * self.errors
+        seconds = len(centimetres) / self.motions[0].fps
+        characters = f"{len(self.motions)} characters, {seconds:.1f} s"
+        mean = f"{centimetres.mean():.1f} cm from the plan"
+        percentile = f"95 % within {np.percentile(centimetres, 95):.0f} cm"
+        distance = f"{self.nearest:.2f} m apart at least"
+        return f"{characters}, {mean} ({percentile}), {distance}, {self.kept:.0%} of the planted frames kept"
 
 
 def walk_group(
     graph: MotionGraph | CompiledGraph, flock: Configuration, *, bend: bool = True, progress: Progress = iter
 ) -> GroupWalkers:
-    """Walk each member's way by a character of a motion graph, in place and in time [ours].
+    """Follow the trajectory of each member with a character of a motion graph [ours].
 
-    Each member's way is a path to follow, with a place to pass in each second: the bare lines would bring
-    characters to 0.15 m of each other, although the members keep 0.9 m. With `bend` each walk is then put
-    into the frame that moves as its member does, as in `editing.on_path` [ours]; at last the feet are
-    cleaned.
+    Each character follows a path with a target time every second. That alone would bring characters to 0.15 m
+    of each other, although the members keep 0.9 m. With `bend` each walk is then transformed to the moving
+    frames of its member's path, as in `editing.on_path` [ours]. Finally the feet are cleaned.
 
     Parameters
     ----------
     graph : pruned.
-    flock : where the members go, as `play_group` gives it.
-    bend : put each walk exactly onto its member's way.
+    flock : trajectories of the members, as from `play_group`.
+    bend : bend each walk exactly onto its member's path.
     progress : wraps the members, to show a bar.
 
     Returns
     -------
-    One motion per member, which all last as long as the plan.
+    One motion per member, all of the duration of the plan.
 
     Raises
     ------
@@ -95,7 +95,7 @@ def walk_group(
 
     Warns
     -----
-    MocapWarning : where more than a tenth of the planted frames had to be let go.
+    MocapWarning : if more than a tenth of the planted frames were released.
 
     Examples
     --------
@@ -105,52 +105,68 @@ def walk_group(
     >>> steps = 0.09 * np.arange(41)[:, None]
     >>> plan = Configuration(steps + [0j, 1.5j], np.full((41, 2), 0.9 + 0j))
     >>> walkers = walk_group(graph, plan)
-    >>> for said in walkers.report().split(", "):
-    ...     print(said)
+    >>> for part in walkers.report().split(", "):
+    ...     print(part)
     2 characters
     4.0 s
-    3.7 cm from where they should be by then (95 % within 8 cm)
+    3.7 cm from the plan (95 % within 8 cm)
     1.50 m apart at least
     100% of the planted frames kept
 
     Notebook: 19-group-graphs
     """
-    frames, members = flock.places.shape
+    frames, members = flock.positions.shape
     if not members or frames <= RATE:
         got = f"{members} and {max(frames - 1, 0) / RATE:g} s: does it lead away from where the group starts?"
         raise MocapError(f"A plan that is walked has a member or more and lasts 1 s or more, got {got}")
     source = graph.source if isinstance(graph, CompiledGraph) else graph
     marked = with_plants(source)
     compiled = compile_graph(graph if marked is source else marked)
-    with warnings.catch_warnings(action="ignore", category=MocapWarning):  # one is given for all together
-        walked = [_walk_one(compiled, places, bend=bend) for places in progress(list(flock.places.T))]
-    motions = tuple(motion for motion, _ in walked)
-    kept = float(np.mean([share for _, share in walked]))
+    trajectories = list(flock.positions.T)
+    with warnings.catch_warnings(action="ignore", category=MocapWarning):  # one warning is given for all
+        walks = [_walk_one(compiled, trajectory, bend=bend) for trajectory in progress(trajectories)]
+    motions = tuple(motion for motion, _ in walks)
+    kept = float(np.mean([fraction for _, fraction in walks]))
     if kept < KEPT:
-        warn(f"{1 - kept:.0%} of the planted frames were let go: these clips take other steps than the plan.")
-    seconds, clock = np.arange(len(motions[0])) / compiled.fps, np.arange(frames) / RATE
-    wanted = np.stack([np.interp(seconds, clock, places) for places in flock.places.T], axis=1)
-    return GroupWalkers(motions, kept, wanted)
+        released = f"{1 - kept:.0%} of the planted frames were released"
+        warn(f"{released}: the steps of these clips differ from those of the plan.")
+    seconds = np.arange(len(motions[0])) / compiled.fps
+    plan_seconds = np.arange(frames) / RATE
+    targets = np.stack([np.interp(seconds, plan_seconds, path) for path in trajectories], axis=1)
+    return GroupWalkers(motions, kept, targets)
 
 
-def _walk_one(graph: CompiledGraph, places: Points, *, bend: bool) -> tuple[Motion, float]:
-    """Walk one member's way, (F,) complex at ten places per second; say which share of plants is kept."""
-    # Carried on straight, so that a walk along it lasts until its end and does not wait there.
-    step = (places[-1] - places[-11]) / 10 if abs(places[-1] - places[-11]) > MOVES else MOVES
-    further = np.concatenate([places, places[-1] + step * np.arange(1, round(BEYOND * RATE) + 1)])
-    path = GroundPath(from_ground(further))
-    along = np.minimum(np.concatenate([[0.0], np.cumsum(np.abs(np.diff(further)))]), path.length)  # rounding
-    some = np.arange(0, len(further), round(EVERY * RATE))
-    times = [(float(along[k]), float(k / RATE)) for k in some]
-    # A walk that is put onto its way need not be searched for so thoroughly.
+def _walk_one(graph: CompiledGraph, trajectory: Points, *, bend: bool) -> tuple[Motion, float]:
+    """Follow a trajectory (F,) at ten frames per second; return the walk, and the fraction of kept plants."""
+    extended = _extended(trajectory)
+    path = GroundPath(from_ground(extended))
+    along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(extended)))])
+    along = np.minimum(along, path.length)  # because of rounding
+    timed = range(0, len(extended), round(EVERY * RATE))
+    times = [(float(along[frame]), float(frame / RATE)) for frame in timed]
+    # A walk that is bent onto its path afterwards needs no thorough search.
     settings = Settings(late=LATE, width=NARROW if bend else None, tries=1 if bend else 3)
-    found = follow_path(graph, path, Wishes(times=times), settings=settings)
-    walked = found.motion()[: round((len(places) - 1) / RATE * graph.fps) + 1]
+    walk = follow_path(graph, path, Wishes(times=times), settings=settings).motion()
+    walk = walk[: round((len(trajectory) - 1) / RATE * graph.fps) + 1]
     if bend:
-        ride = ride_of(walked)
-        seconds = np.arange(len(walked)) / graph.fps
-        asked = moving_frames(path, np.interp(seconds, np.arange(len(further)) / RATE, along))
-        own = moving_frames(ride.path, ride.along)
-        walked = (asked @ own.inverse()).apply_motion(walked)
-    cleaned = clean_up(walked)
-    return cleaned, plants_kept(cleaned, walked)
+        seconds = np.arange(len(walk)) / graph.fps
+        planned_along = np.interp(seconds, np.arange(len(extended)) / RATE, along)
+        walk = _bend_onto(walk, path, planned_along)
+    cleaned = clean_up(walk)
+    return cleaned, plants_kept(cleaned, walk)
+
+
+def _extended(trajectory: Points) -> Points:
+    """Extend a trajectory straight ahead, so that a walk along it does not wait at its end."""
+    last_second = trajectory[-1] - trajectory[-11]
+    step = last_second / 10 if abs(last_second) > MOVES else MOVES
+    steps = np.arange(1, round(BEYOND * RATE) + 1)
+    return np.concatenate([trajectory, trajectory[-1] + step * steps])
+
+
+def _bend_onto(walk: Motion, path: GroundPath, along: Array) -> Motion:
+    """Transform each frame of a walk from the moving frames of its own path to those of another one."""
+    source = ride_of(walk)
+    target_frames = moving_frames(path, along)
+    source_frames = moving_frames(source.path, source.along)
+    return (target_frames @ source_frames.inverse()).apply_motion(walk)

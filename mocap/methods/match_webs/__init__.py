@@ -1,19 +1,19 @@
-"""From one example of a motion to all others like it, and to a space of blends between them.
+"""Match webs: all motions similar to one example, and parameterised spaces of their blends [KG04].
 
-A set of clips holds the same action many times, and no two times alike in numbers. But each has a near
-neighbour. So the search goes in steps: what is like the query, then what is like that. The *match web* holds
-all long paths of frames that are alike, found once, so that each step is a lookup [KG04]. What is found is
-laid on one clock (`blending.register`) and becomes a *space*: ask for a turn of 40° at 1.3 m/s, or for a hand
-at a place, and get the weights of the blend that does it.
+A set of clips contains the same action many times, and the numbers of any two instances may differ much. But
+each instance has a near neighbour. The search therefore proceeds in steps: motions similar to the query, then
+motions similar to those. The *match web* stores all long paths of similar frames, found once, so that each
+step is a lookup [KG04]. The matches are registered to one clock (`blending.register`) and become a *space*:
+for a target, such as a turn of 40° at 1.3 m/s or a position of the hand, it has the weights of a blend.
 
-Reading order (notebooks 16)
-----------------------------
-1. `local_alignment`: valleys of a grid, and paths through it that begin and end anywhere; piece by piece
+Reading order (notebook 16)
+---------------------------
+1. `local_alignment`: minima of a distance grid, and paths through it that begin and end anywhere
 2. `webs`: `MatchWeb`, all paths of a set of clips, found once
 3. `web_storage`: save a web to .npz, and read it again
-4. `match_search`: what is like the query, and what is like that
-5. `motion_spaces`: what a motion does, in a number or a few; blends of examples, drawn at random and measured
-6. `wishes`: from a wish back to weights
+4. `match_search`: motions similar to a query, step by step
+5. `motion_spaces`: measures of a motion; random blends of examples, and their measures
+6. `target_weights`: blend weights for a target
 
 References
 ----------

@@ -5,10 +5,10 @@ from .match_search import search as search
 from .motion_spaces import MotionSpace as MotionSpace
 from .motion_spaces import blend_of as blend_of
 from .motion_spaces import hand_target as hand_target
+from .motion_spaces import heading_change as heading_change
 from .motion_spaces import mean_speed as mean_speed
 from .motion_spaces import sample_space as sample_space
-from .motion_spaces import turn as turn
+from .target_weights import weights_for as weights_for
 from .web_storage import load_web as load_web
 from .web_storage import save_web as save_web
 from .webs import build_web as build_web
-from .wishes import weights_for as weights_for

@@ -1,9 +1,9 @@
-"""Long stretches along which two clips are alike: local alignment in the grid of their distances.
+"""Local alignment in a distance grid: long paths of similar frames of two clips.
 
-A grid of costs is below 0 where two clips are more alike than asked, and above 0 where they are less. A path
-may begin and end anywhere, and ends where its sum is lowest [SW81]. So it follows what is alike, and crosses
-what is not only as long as it has earned enough to pay for that. The dynamic programme is that of
-`matching.time_paths`, where every cell may begin a path:
+Costs are negative for frames that are more similar than a limit, and positive for others. A path may begin
+and end anywhere, and ends where its sum is lowest [SW81]. It therefore follows similar frames, and crosses
+others as long as its sum stays negative. The dynamic programme is that of `matching.time_paths`, where every
+cell may begin a path:
 
     A[j] = 2 c + min(0, M₋[j - 1]),    all other states as there.
 """
@@ -22,9 +22,9 @@ from mocap.matching import distance_grids
 from mocap.matching.distance_grids import Cloud, Floats, tiled_distances
 from mocap.matching.time_paths import origins, path_sums, trace
 
-# Metres: distances of windows that differ by no more are equal, but for rounding, which is some 1e-13 m.
+# Metres: distances of windows that differ by no more are equal, except for rounding, about 1e-13 m.
 EQUAL = 1e-9
-# Metres: sums along a path, or their means, that differ by less rank alike; the first one found is better.
+# Metres: sums along a path, or their means, that differ by less are equal; the first path found is better.
 RANKS = 1e-6
 
 
@@ -33,13 +33,13 @@ def minima_1d(grid: ArrayLike) -> Mask:
 
     In the paper: [KG04, minima].
 
-    Where two clips move alike at any pace, the grid has a valley. Its floor consists of such minima [KG04];
-    of local minima in two dimensions a valley has only a few.
+    If two clips move similarly at any pace, the grid has a valley. Its floor consists of such minima [KG04].
+    It has only a few local minima in two dimensions.
 
     Parameters
     ----------
     grid : shape (n, m), metres; cells beyond the border count as infinite, and infinite cells are no minima.
-        A cell that is higher by a nanometre is as high.
+        Differences of a nanometre are ignored.
 
     Returns
     -------
@@ -75,7 +75,7 @@ def local_paths(costs: ArrayLike, *, slope: int = 2, least: int = 1) -> Iterator
     ----------
     costs : shape (n, m); a cell adds its cost once for each frame by which it advances the path. Infinite
         cells are never crossed.
-    slope : how many steps down, or to the right, may follow each other.
+    slope : largest number of steps down, or to the right, in a row.
     least : frames that a path advances in each of the two clips.
 
     Yields
@@ -157,10 +157,10 @@ def apart(paths: Iterable[NDArray[Any]], *, near: int) -> list[NDArray[Any]]:
 ROWS = 600  # windows; with COLUMNS, the sides of the part of the grid that is worked on at a time
 COLUMNS = 4000  # windows
 OVERLAP = 300  # windows that two parts of a long clip share, 10 s: no query is longer
-SLOPE = 2  # frames of one clip at most in a row that lie on one frame of the other
+SLOPE = 2  # largest number of frames of one clip that are aligned with one frame of the other
 LEAST = 9  # frames that a path advances in each clip, 0.3 s
-NEAR = 3  # frames; a path of which more than half lies so close to a better one is left out
-OFF_MINIMUM = 0.5  # by how much a cell that is no one-dimensional minimum costs more, in units of `below`
+NEAR = 3  # frames; a path is left out if more than half of it is this near to a better one
+OFF_MINIMUM = 0.5  # additional cost of a cell that is no one-dimensional minimum, in units of `below`
 DISTANCE = 2  # column of a path with the RMS distances; 0 and 1 are its windows
 
 
@@ -169,8 +169,8 @@ def find_paths(cloud: Cloud, starts: Indices, below: float, progress: Progress) 
 
     Parameters
     ----------
-    cloud : all windows of some clips in a row.
-    starts : where each clip begins, and where the last ends.
+    cloud : all windows of the clips, one clip after the other.
+    starts : first window of each clip, and the end of the last clip.
     below : the mean distance that a path may have, metres.
     progress : as for `build_web`.
     """
@@ -182,7 +182,7 @@ def find_paths(cloud: Cloud, starts: Indices, below: float, progress: Progress) 
     paths: list[Array] = []
     for tile in progress(tiles):
         paths += _paths_in_tile(cloud, tile, below)
-    if np.diff(starts).max() > ROWS:  # then parts of a clip may have found the same
+    if np.diff(starts).max() > ROWS:  # two parts of one clip may have found the same path
         sums = [float((path[:, DISTANCE] - below).sum()) for path in paths]
         paths = apart((paths[number] for number in in_order(sums, RANKS)), near=NEAR)
     return paths
@@ -210,7 +210,7 @@ def pieces(starts: Sequence[int], size: int, overlap: int) -> list[slice]:
 
     Parameters
     ----------
-    starts : where each clip begins, and where the last one ends.
+    starts : first window of each clip, and the end of the last clip.
     size : windows in a piece, at most.
     overlap : windows that two parts of a clip share.
 

@@ -1,4 +1,4 @@
-"""What is like a query, and what is like that: the search in steps of [KG04]."""
+"""Search in steps: motions similar to a query, then motions similar to those [KG04]."""
 
 from __future__ import annotations
 
@@ -17,21 +17,21 @@ from mocap.matching.point_clouds import point_cloud
 from mocap.methods.match_webs.local_alignment import LEAST, RANKS
 from mocap.methods.match_webs.webs import MatchWeb
 
-SAME = 0.5  # share of the union of two stretches above which they are one match
-COVER = 0.9  # share of the stretch that a path must cover; over the rest it is carried on straight
+SAME = 0.5  # overlap of two stretches, as a fraction of their union, above which they are one match
+COVER = 0.9  # fraction of a stretch that a path must cover; over the rest it is extended straight
 LEAK = 5  # a step leaks if it finds more than so many times the matches of the previous step
 FEW = 20  # matches; a step that finds no more does not leak
 
 
 class Match(NamedTuple):
-    """A stretch of a clip that is like the query, or like another match.
+    """A stretch of a clip that is similar to the query, or to another match.
 
-    clip, start, stop : which clip, and its own frames [start, stop).
+    clip, start, stop : number of the clip, and its frames [start, stop).
     cost : mean RMS distance to the match that found it, metres; 0 for the query itself.
     via : the number of the match that found it; -1 for the query.
-    generation : how many steps it is from the query.
-    rows, frames : shape (K,): frames of the query's clip, and the frames of this one that lie on them,
-        through all matches between.
+    generation : number of steps from the query.
+    rows, frames : shape (K,): frames of the query's clip, and the frames of this clip that are aligned with
+        them, through all matches in between.
     """
 
     clip: int
@@ -55,34 +55,34 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
     still: float = 0.05,
     keep: Callable[[Motion], bool] | None = None,
 ) -> list[Match]:
-    """Find what is like a query, then what is like that, until nothing new turns up [KG04, search in steps].
+    """Find motions similar to a query, then to those, until none is new [KG04, search in steps].
 
-    One step finds the nearest matches alone: motions that are the same to us differ by more than motions that
-    are not. But between two that differ there are others [KG04]. The bound on lengths is ours: a wrong match
-    is a query too, and the first one is mostly a slow motion laid on a quick one, or the reverse.
+    One step finds only the nearest matches: two motions of one kind may differ more than two of different
+    kinds. But there are others between them [KG04]. The bound on lengths is ours: a wrong match becomes a
+    query, and the first one usually aligns a slow motion with a fast one, or the reverse.
 
-    Steps help where one kind has many looks, such as punches at many targets, or slow and brisk walks. Where
-    all of a kind look alike, such as strides at one pace, one step finds as much, and cannot leak. Steps harm
-    where one kind passes into another, as turns by 90° into turns by 45°: then say by `keep` what is asked.
+    Steps help if the motions of one kind vary, such as punches at many targets, or slow and brisk walks. If
+    they are similar, such as strides at one pace, one step finds as much, and cannot leak. Steps harm if one
+    kind passes into another, as turns by 90° into turns by 45°: restrict the matches by `keep`.
 
     Parameters
     ----------
     web : as from `build_web`.
-    clip, frames : the query: the number of a clip, and its own frames.
-    below : the mean RMS distance that a match may have from what found it, metres; by default the web's own.
-        Try some, and take one where the number of matches stays level: a little above, one wrong match brings
-        in all of its kind, and hundreds are found.
-    lengths : the shortest and the longest match, as shares of the query's length.
-    steps : how often to search, the first time with the query; by default until nothing new turns up.
-    still : what moves less than this is not searched from, metres RMS about the mean place of each point: to
-        stand still is like itself at any time. (Ours; the paper has no such bound.)
-    keep : says of the motion of a match whether it is what is asked for, by its turn for example; those that
-        are not are neither given nor searched from (ours).
+    clip, frames : the query: the number of a clip, and its frames.
+    below : the mean RMS distance that a match may have from the match that found it, metres; by default that
+        of the web. Choose a value around which the number of matches is constant: above it, one wrong match
+        brings in all of its kind, and hundreds are found.
+    lengths : the shortest and the longest match, as fractions of the query's length.
+    steps : number of steps, the first one with the query; by default until no match is new.
+    still : matches that move less than this are not searched from, metres RMS about the mean position of each
+        point: standing still is similar to itself at any time. (Ours; the paper has no such bound.)
+    keep : a predicate of the motion of a match, by its change of heading for example; matches that do not
+        satisfy it are neither returned nor searched from (ours).
 
     Returns
     -------
-    The query, then its matches step by step, each step from the nearest on. What overlaps a match by more
-    than half of their union is that match.
+    The query, then its matches step by step, the nearest of each step first. A stretch that overlaps a match
+    by more than half of their union is that match.
 
     Raises
     ------
@@ -110,7 +110,7 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
     limit = web.below if below is None else below
     if limit > web.below:
         raise MocapError(f"This web goes up to {100 * web.below:g} cm: build another for {100 * limit:g} cm.")
-    shortest, longest = (share * (query.stop - query.start) for share in lengths)
+    shortest, longest = (fraction * (query.stop - query.start) for fraction in lengths)
     matches = [query]
     spans = np.array([query[1:3]])  # start and stop of each match
     newest = [0]  # numbers of the matches that the last step found
@@ -143,7 +143,7 @@ def _is_new(match: Match, spans: NDArray[Any]) -> bool:
 
 
 def _query(web: MatchWeb, clip: int, frames: slice) -> Match:
-    """Count the query, as all matches while they are searched for, in the numbering of all frames.
+    """Return the query as a match in the numbering of all frames, as during the search.
 
     Examples
     --------
@@ -169,7 +169,7 @@ def _query(web: MatchWeb, clip: int, frames: slice) -> Match:
 
 
 def _spread(web: MatchWeb, match: Match) -> float:
-    """Compute the RMS distance of the points of a match from their mean places, metres.
+    """Compute the RMS distance of the points of a match from their mean positions, metres.
 
     Examples
     --------
@@ -189,7 +189,7 @@ def _spread(web: MatchWeb, match: Match) -> float:
 
 
 def _in_own_frames(web: MatchWeb, query: int, match: Match) -> Match:
-    """Count a match in the own frames of its clip and of the query's clip."""
+    """Convert a match to the frames of its clip and of the query's clip."""
     start, stop = np.round(web.own_frame(match.clip, match[1:3])).astype(int).tolist()
     stop = min(stop, len(web.clips[match.clip]))
     rows = web.own_frame(query, match.rows)
@@ -202,7 +202,7 @@ def _warn(matches: Sequence[Match], still_count: int) -> None:
     messages = []
     if still_count:
         still = f"{still_count} of {len(matches)} matches hardly move, so nothing was searched from them"
-        messages.append(f"{still}: to stand still is like itself at any time.")
+        messages.append(f"{still}: standing still is similar to itself at any time.")
     if len(matches) == 1:
         messages.append("The query found only itself: raise the limit, or take another query.")
     counts = np.bincount([match.generation for match in matches])

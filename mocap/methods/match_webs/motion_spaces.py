@@ -1,7 +1,8 @@
-"""A space of motions: blends of examples, sampled, to be asked for what they do [KG04].
+"""Parameterised spaces of motions: random blends of examples, and their measured parameters [KG04].
 
-Any function of a `Motion` can measure what it does, in a number or a few. Here are three: how far it turns,
-how fast it goes, and where the hand reaches. The nodes of parametric graphs are such spaces, too.
+Any function of a `Motion` that returns one or several numbers can be the measure. Three are here: the change
+of heading, the mean speed, and the position that the hand reaches. The nodes of parametric graphs are also
+such spaces.
 """
 
 from __future__ import annotations
@@ -24,21 +25,23 @@ from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform, heading, on_ground
 from mocap.errors import MocapError, shortened
 
-FPS = 30.0  # of the blends that are measured
+FPS = 30.0  # frame rate of the blends that are measured
+TINY = 1e-9  # weights below this are 0
 
-E = TypeVar("E")  # a `Registration`, or examples on one grid of phases that `blend` themselves
+E = TypeVar("E")  # a `Registration`, or examples on a grid of phases, with a method `blend`
 
 Measure = Callable[[Motion], ArrayLike]
-"""Reads one number or a few off a motion."""
+"""A function that measures one or several numbers of a motion."""
 
 
-def turn(motion: Motion) -> float:
-    """Measure how far the body turns from the first frame to the last, radians, to the left.
+def heading_change(motion: Motion) -> float:
+    """Measure the change of heading from the first frame to the last, radians, positive to the left.
 
     Examples
     --------
     >>> from mocap.datasets.samples import sample
-    >>> np.degrees([turn(sample(f"walk_5m_0.8_{way}")) for way in (120, 0, -120)]).round(1).tolist()
+    >>> walks = [sample(f"walk_5m_0.8_{degrees}") for degrees in (120, 0, -120)]
+    >>> np.degrees([heading_change(walk) for walk in walks]).round(1).tolist()
     [114.7, 4.7, -104.7]
 
     Notebook: 16-match-webs
@@ -48,30 +51,35 @@ def turn(motion: Motion) -> float:
 
 
 def mean_speed(motion: Motion) -> float:
-    """Measure how fast the root goes over the ground on average, metres per second.
+    """Measure the mean speed of the root over the ground, metres per second.
 
     Examples
     --------
     >>> from mocap.datasets.samples import sample
-    >>> round(mean_speed(walk := sample("walk_5m_1.4_0")), 2), mean_speed(walk[:1])
+    >>> walk = sample("walk_5m_1.4_0")
+    >>> round(mean_speed(walk), 2), mean_speed(walk[:1])
     (1.4, 0.0)
 
     Notebook: 16-match-webs
     """
-    way = np.abs(np.diff(on_ground(motion.root_positions))).sum()
-    return float(way / max(motion.duration, 1 / motion.fps))
+    length = np.abs(np.diff(on_ground(motion.root_positions))).sum()
+    return float(length / max(motion.duration, 1 / motion.fps))
 
 
 def hand_target(
-    motion: Motion, hand: str = "rhand", shoulder: str = "rhumerus", *, at: float | None = None
+    motion: Motion,
+    hand: str = "rhand",
+    shoulder: str = "rhumerus",
+    *,
+    at: float | None = None,  # reads: name: users give it as a keyword
 ) -> Array:
-    """Measure where a hand is at one moment, from where the body stands and faces at the start.
+    """Measure the position of a hand at one moment, relative to the position and heading at the start.
 
     Parameters
     ----------
     motion : such as a punch.
     hand, shoulder : names of joints; by default those of the right arm in Acclaim files.
-    at : the moment, as a share of the frames; by default that in which the arm is longest.
+    at : the moment, as a fraction of the frames; by default that at which the arm is longest.
 
     Returns
     -------
@@ -79,13 +87,13 @@ def hand_target(
 
     Raises
     ------
-    MocapError : for a joint that is not there.
+    MocapError : for a joint that the skeleton does not have.
 
     Examples
     --------
     >>> from mocap.datasets.samples import sample
-    >>> second = sample("walk_straight")[:120]
-    >>> hand_target(second).round(2).tolist(), hand_target(second, at=0.5).round(2).tolist()
+    >>> walk = sample("walk_straight")[:120]
+    >>> hand_target(walk).round(2).tolist(), hand_target(walk, at=0.5).round(2).tolist()
     ([-0.15, 0.77, 0.69], [-0.14, 0.77, 0.57])
 
     Notebook: 16-match-webs
@@ -95,30 +103,31 @@ def hand_target(
     arms = np.linalg.norm(points[:, tip] - points[:, root], axis=1)
     moment = arms.argmax() if at is None else round(at * (len(motion) - 1))
     x, _, z = motion.root_positions[0]
-    away = points[moment, tip] - [x, 0, z]
-    return PlanarTransform(-float(heading(motion.rotations[0, 0])), 0.0, 0.0).apply_points(away)
+    offset = points[moment, tip] - [x, 0, z]
+    to_local = PlanarTransform(-float(heading(motion.rotations[0, 0])), 0.0, 0.0)
+    return to_local.apply_points(offset)
 
 
 def random_weights(
-    values: ArrayLike, count: int, *, spread: float = 0.1, near: int | None = None, seed: int = 0
+    values: ArrayLike, count: int, *, spread: float = 0.1, neighbours: int | None = None, seed: int = 0
 ) -> Array:
     """Draw the weights of random blends of d + 1 examples each, for a measure of d numbers.
 
     In the paper: [KG04, accessible region].
 
-    One example is drawn at random, and d of those nearest to it. Their weights are even on the simplex, which
-    is then stretched about its middle: w = (1 + (d + 1) δ) Dirichlet(1, …, 1) - δ. So they add up to one, and
-    none is below -δ; a draw with one above 1 + δ is drawn again [KG04 samples so too, as far as recalled; the
-    stretch is ours]. Even numbers divided by their sum would crowd in the middle, and weights cut off at
-    -δ … 1 + δ would not add up to one.
+    One example is drawn at random, and d of those nearest to it. Their weights are uniform on the simplex,
+    which is then scaled about its centre: w = (1 + (d + 1) δ) Dirichlet(1, …, 1) - δ. They add up to one, and
+    none is below -δ; a draw with one above 1 + δ is rejected [the sampling is that of KG04, as far as
+    recalled; the scaling is ours]. Uniform numbers divided by their sum would concentrate in the centre, and
+    weights clipped to -δ … 1 + δ would not add up to one.
 
     Parameters
     ----------
     values : shape (C, d), the measure of each example.
-    count : of blends.
+    count : number of blends.
     spread : δ, not negative.
-    near : from how many of the nearest examples the others are drawn, d or more; from all by default.
-    seed : another one gives other blends.
+    neighbours : number of nearest examples that the d are drawn from, at least d; all by default.
+    seed : of the random numbers.
 
     Returns
     -------
@@ -149,8 +158,8 @@ def random_weights(
     weights = np.zeros((count, examples))
     for row in weights:
         first = rng.integers(examples)
-        others = ranked[first][ranked[first] != first][:near]
-        chosen = np.append(first, rng.choice(others, numbers, replace=False))
+        nearest = ranked[first][ranked[first] != first][:neighbours]
+        chosen = np.append(first, rng.choice(nearest, numbers, replace=False))
         while row.max() > 1 + spread or not row.any():
             row[chosen] = (1 + len(chosen) * spread) * rng.dirichlet(np.ones(len(chosen))) - spread
     return weights
@@ -158,14 +167,16 @@ def random_weights(
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MotionSpace(Generic[E]):
-    """Samples of what blends of examples do.
+    """Sampled blends of examples, and their measured values.
 
+    Parameters
+    ----------
     examples : C examples on one clock: registered clips, or those on a grid of `parametric_graphs`.
     weights : shape (S, C), of the samples.
     values : shape (S, d), the measure of each sample.
-    scale : shape (d,), how much of each number counts as far as one of the others.
-    parameters : d names of what it is asked by, such as "turn"; a node of a parametric graph has them.
-    low, high : shape (d,), the range it is asked in; by default that of the values.
+    scale : shape (d,), amounts of each number that count as equal distances.
+    parameters : names of the d numbers, such as "turn"; for a node of a parametric graph.
+    low, high : shape (d,), the range of targets; by default that of the values.
     """
 
     examples: E
@@ -177,18 +188,19 @@ class MotionSpace(Generic[E]):
     high: Array = field(default_factory=lambda: np.empty(0))
 
     def __post_init__(self) -> None:
-        ends = {"low": self.values.min(axis=0), "high": self.values.max(axis=0)}
+        limits = {"low": self.values.min(axis=0), "high": self.values.max(axis=0)}
         for key in ("weights", "values", "scale", "low", "high"):
-            own = getattr(self, key)
-            object.__setattr__(self, key, frozen(own if len(own) else ends[key], np.float64))
+            array = getattr(self, key)
+            object.__setattr__(self, key, frozen(array if len(array) else limits[key], np.float64))
 
     def __repr__(self) -> str:
-        examples, (samples, numbers) = self.weights.shape[1], self.values.shape
+        examples = self.weights.shape[1]
+        samples, numbers = self.values.shape
         return f"MotionSpace({examples} examples, {samples} samples of {numbers} numbers)"
 
     @property
     def reached(self) -> Array:
-        """What the samples within the range come to, (R, d).
+        """The values of the samples within the range, (R, d).
 
         Examples
         --------
@@ -196,7 +208,8 @@ class MotionSpace(Generic[E]):
         >>> space.reached.tolist(), space.high.tolist()
         ([[1.0], [2.0]], [2.0])
         """
-        return self.values[((self.values >= self.low) & (self.values <= self.high)).all(axis=1)]
+        is_inside = (self.values >= self.low) & (self.values <= self.high)
+        return self.values[is_inside.all(axis=1)]
 
 
 def sample_space(
@@ -207,19 +220,19 @@ def sample_space(
     scale: ArrayLike | None = None,
     parameters: tuple[str, ...] = (),
 ) -> MotionSpace[E]:
-    """Blend examples at random, and measure each blend: samples of a space of motions [KG04, sampling].
+    """Sample a space of motions: measure random blends of examples [KG04, sampling].
 
-    What a blend does is no simple function of its weights: the hand of half of two punches is not half-way
-    between their targets. So blends are made and measured. Where the samples are is what can be reached.
+    The measure is no simple function of the weights: the hand of the mean of two punches is not half-way
+    between their targets. Therefore blends are made and measured. The samples cover the accessible region.
 
     Parameters
     ----------
     examples : registered clips, from `blending.register`; or examples on a grid, such as those of
         `methods.parametric_graphs.cut_actions`, whose space can be a node of a graph.
-    measure : a function of a `Motion` that gives d numbers, such as `turn` or `hand_target`.
-    count : of random blends, beside the examples. 0 leaves the examples alone.
-    scale : shape (d,): amounts of each number that count as equally far, such as 10° and 0.1 m/s. By default
-        half the range of the samples' values.
+    measure : a function of a `Motion` that returns d numbers, such as `heading_change` or `hand_target`.
+    count : number of random blends, in addition to the examples.
+    scale : shape (d,): amounts of each number that count as equal distances, such as 10° and 0.1 m/s;
+        by default half the range of the samples' values.
     parameters : the names of the d numbers, for a node of a graph.
 
     Returns
@@ -228,7 +241,7 @@ def sample_space(
 
     Raises
     ------
-    MocapError : for fewer than d + 1 examples, and a measure that gives NaN, or more numbers now than then.
+    MocapError : for fewer than d + 1 examples, and a measure that returns NaN, or varying shapes.
 
     Examples
     --------
@@ -240,28 +253,42 @@ def sample_space(
 
     Notebook: 16-match-webs
     """
-    own: Any = examples
-    registered = isinstance(examples, Registration)
-    blend = partial(blend_of, own, fps=FPS, rounds=0) if registered else own.blend
-    alone = np.eye(len(own.clips if registered else own))
-    known = _measured(blend, measure, alone)
-    weights = random_weights(known, count)
-    values = np.concatenate([known, _measured(blend, measure, weights, known.shape[1])])
+    blend, number = _blender(examples)
+    unit_weights = np.eye(number)
+    example_values = _measured(blend, measure, unit_weights)
+    weights = random_weights(example_values, count)
+    blend_values = _measured(blend, measure, weights, example_values.shape[1])
+    values = np.concatenate([example_values, blend_values])
+    all_weights = np.concatenate([unit_weights, weights])
+    return MotionSpace(examples, all_weights, values, _scale_of(values, scale), parameters)
+
+
+def _blender(examples: object) -> tuple[Callable[[Array], Motion], int]:
+    """Return the function that blends examples by weights, and the number of examples."""
+    if isinstance(examples, Registration):
+        return partial(blend_of, examples, fps=FPS, rounds=0), len(examples.clips)
+    on_grid: Any = examples
+    return on_grid.blend, len(on_grid)
+
+
+def _scale_of(values: Array, scale: ArrayLike | None) -> Array:
+    """Return the scale of a space (d,), by default half the range of its values, or 1 if they are equal."""
+    if scale is not None:
+        return np.asarray(scale, float)
     width = np.ptp(values, axis=0) / 2
-    given = np.where(width > 0, width, 1.0) if scale is None else np.asarray(scale, float)
-    return MotionSpace(examples, np.concatenate([alone, weights]), values, given, parameters)
+    return np.where(width > 0, width, 1.0)
 
 
 def blend_of(
     registration: Registration, weights: ArrayLike, *, fps: float | None = None, rounds: int = 1
 ) -> Motion:
-    """Blend registered clips as `blending.mix` does, by way of those alone whose weight is not 0.
+    """Blend the registered clips whose weights are not 0, as `blending.mix` does.
 
     Parameters
     ----------
     registration : of C clips, such as that of a space.
     weights : shape (C,), such as from `weights_for`.
-    fps : frames per second; the clips' own by default.
+    fps : frames per second; by default that of the clips.
     rounds : as for `blending.mix`.
 
     Raises
@@ -279,13 +306,13 @@ def blend_of(
     Notebook: 16-match-webs
     """
     w = checked(weights, len(registration.clips))
-    some = np.flatnonzero(np.abs(w) > 1e-9)
-    of_clips = ("clips", "times", "angles", "centres")
-    parts = {part: tuple(getattr(registration, part)[n] for n in some) for part in of_clips}
-    parts["contacts"] = tuple((joint, ends[:, some]) for joint, ends in registration.contacts)
-    reference = int(np.abs(w[some]).argmax())
-    few = replace(registration, reference=reference, costs=registration.costs[some], **parts)
-    return mix(few, w[some] / w[some].sum(), fps=fps, rounds=rounds)
+    used = np.flatnonzero(np.abs(w) > TINY)
+    fields = ("clips", "times", "angles", "centres")
+    parts = {key: tuple(getattr(registration, key)[number] for number in used) for key in fields}
+    parts["contacts"] = tuple((joint, ends[:, used]) for joint, ends in registration.contacts)
+    reference = int(np.abs(w[used]).argmax())
+    reduced = replace(registration, reference=reference, costs=registration.costs[used], **parts)
+    return mix(reduced, w[used] / w[used].sum(), fps=fps, rounds=rounds)
 
 
 def _measured(blend: Callable[[Array], Motion], measure: Measure, rows: Array, numbers: int = 0) -> Array:

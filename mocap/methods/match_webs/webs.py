@@ -1,4 +1,4 @@
-"""The match web of a set of clips: all long paths of frames that are alike, found once and kept."""
+"""The match web of a set of clips: all long paths of similar frames, found once and stored."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ NAMED = 4  # clips that a warning names; it counts the others
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MatchWeb:
-    """All long paths of frames that are alike in a set of clips.
+    """All long paths of similar frames in a set of clips.
 
     Parameters
     ----------
     clips : the motions, each at its own rate.
-    starts : shape (C + 1,): where each clip's frames begin, at the web's rate, in the numbering of all.
-    below : how it was built, as for `build_web`.
+    starts : shape (C + 1,): first frame of each clip, at the web's rate, in the numbering of all frames.
+    below : the limit of distances, as for `build_web`.
     cells : shape (N, 2): pairs of frames in the numbering of all, path after path, the earlier frame first.
         A pair is the middle of two windows.
     costs : shape (N,), the RMS distance of each pair of windows, metres.
-    offsets : shape (P + 1,): where each path begins in `cells`.
+    offsets : shape (P + 1,): first cell of each path.
     """
 
     clips: tuple[Motion, ...]
@@ -76,20 +76,20 @@ class MatchWeb:
 
 
 def build_web(clips: Sequence[Motion], *, below: float = 0.12, progress: Progress = iter) -> MatchWeb:
-    """Find all long paths of frames that are alike in a set of clips [KG04, match web].
+    """Find all long paths of similar frames in a set of clips [KG04, match web].
 
-    The distance is that of `matching.find_transitions`. How paths are found, see `local_paths`: a cell that
+    The distance is that of `matching.find_transitions`, and the paths are those of `local_paths`. A cell that
     is no one-dimensional minimum costs more, so that paths follow the floors of valleys.
 
     Parameters
     ----------
     clips : motions of one skeleton and one frame rate.
-    below : the mean RMS distance that a path may have, metres. A search can ask for less, but not for more.
+    below : the mean RMS distance that a path may have, metres. A search can only use a lower limit.
     progress : wraps the pairs of pieces as they are worked through, to show a bar.
 
     Returns
     -------
-    The web. A path stands for both of its clips, so each pair of clips is compared once. Stretches of one
+    The web. A path serves both of its clips, so each pair of clips is compared once. Stretches of one
     clip that begin within 0.3 s of each other are not compared.
 
     Raises
@@ -107,7 +107,7 @@ def build_web(clips: Sequence[Motion], *, below: float = 0.12, progress: Progres
     >>> web, bool(web.costs.mean() < 0.05)
     (MatchWeb(1 clips, 8 paths, below 5 cm), True)
 
-    At 30 Hz a clip takes 14 frames at least, here 53 at 120 Hz:
+    A clip needs at least 14 frames at 30 Hz, here 53 at 120 Hz:
 
     >>> build_web([sample("walk_straight")[:53]])
     MatchWeb(1 clips, 0 paths, below 12 cm)

@@ -12,7 +12,8 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
 from mocap.matching.distance_grids import cloud, cloud_distances
-from mocap.methods.match_webs.wishes import shares_for, weights_for
+from mocap.methods.match_webs.target_weights import sample_weights as shares_for
+from mocap.methods.match_webs.target_weights import weights_for
 from mocap.methods.parametric_graphs.stride_spaces import Space
 
 HALF = 5  # a window is 11 frames, a third of a second at 30 Hz, about its centre

@@ -8,7 +8,7 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap._shared.records import NamedTuple, dataclass
 from mocap.errors import MocapError, NoWalk
-from mocap.methods.match_webs.wishes import nearest_samples, neighbour_weights
+from mocap.methods.match_webs.target_weights import nearest_samples, neighbour_weights
 from mocap.methods.parametric_graphs.made_motions import optimal_transitions
 from mocap.methods.parametric_graphs.stride_spaces import Space, draw_parameters, place_evenly, said
 

@@ -10,7 +10,7 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.errors import MocapError
 from mocap.methods.match_webs.motion_spaces import MotionSpace
-from mocap.methods.match_webs.wishes import nearest_samples
+from mocap.methods.match_webs.target_weights import nearest_samples
 from mocap.methods.parametric_graphs.examples import Examples, mixed_way
 
 Space = MotionSpace[Examples]

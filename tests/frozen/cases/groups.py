@@ -41,14 +41,14 @@ def flock_between_walls():
 def clips_of_group():
     clips = group().clips
     places, velocities = (
-        np.concatenate([getattr(clip, part) for clip in clips]) for part in ("places", "velocities")
+        np.concatenate([getattr(clip, part) for clip in clips]) for part in ("positions", "velocities")
     )
     return {
         "nodes": numbers([(clip.start, clip.end) for clip in clips], "clip", "end"),
         **tracks(places, velocities),
         "orders": numbers([clip.order for clip in clips], "clip", "slot"),
-        "rotations": numbers([clip.turn for clip in clips], "clip"),
-        "translations": numbers([clip.move for clip in clips], "clip", unit="m"),
+        "rotations": numbers([clip.rotation for clip in clips], "clip"),
+        "translations": numbers([clip.translation for clip in clips], "clip", unit="m"),
     }
 
 
@@ -79,7 +79,7 @@ def walked_group():
     walked = groups.walk_group(walking(), groups.simulate(2, 3, seed=2))
     return {
         "tracks": numbers(walked.tracks, FRAME, "member", unit="m"),
-        "targets": numbers(walked.wanted, FRAME, "member", unit="m"),
+        "targets": numbers(walked.targets, FRAME, "member", unit="m"),
     }
 
 
@@ -110,5 +110,5 @@ def matched_groups():
 @case("group that bends")
 def bending_group():
     flock = groups.simulate(3, 4)
-    end = groups.Configuration(flock.places[-1] + [1, 2j, -1], flock.velocities[-1] * 1j)
+    end = groups.Configuration(flock.positions[-1] + [1, 2j, -1], flock.velocities[-1] * 1j)
     return {"positions": numbers(groups.bend_to(flock, end), FRAME, "member", unit="m")}

@@ -152,7 +152,7 @@ def parameters():
     spaces = {"walk": space(), "hand": hands(strides(), 20)}
     spaces["any"] = match_webs.sample_space(
         strides("walk_curve_1"),
-        lambda blend: [match_webs.turn(blend), match_webs.mean_speed(blend)],
+        lambda blend: [match_webs.heading_change(blend), match_webs.mean_speed(blend)],
         count=30,
         parameters=("turn", "speed"),
     )

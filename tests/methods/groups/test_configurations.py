@@ -1,4 +1,4 @@
-"""A flock walks as people do; groups are matched by the best order, and by a good turn, against all."""
+"""A flock walks as people do; groups are matched by the best order, and by a good rotation, against all."""
 
 from itertools import permutations
 
@@ -21,7 +21,7 @@ def drawn(count, pairs, seed=1):
     places, velocities = flock(count, 400.0)
     seen, _, _ = seen_from_itself(Configuration(places, velocities))
     rows = np.random.default_rng(seed).choice(len(places), (2, pairs))
-    return tuple(Configuration(seen.places[row], seen.velocities[row]) for row in rows)
+    return tuple(Configuration(seen.positions[row], seen.velocities[row]) for row in rows)
 
 
 def test_the_match_is_as_good_as_the_best_of_all_orders():
@@ -34,15 +34,15 @@ def test_the_match_is_as_good_as_the_best_of_all_orders():
 
 
 def test_a_group_turned_moved_and_renumbered_is_the_same_and_its_mirror_image_is_not():
-    group = Configuration(flock().places[500], flock().velocities[500])
+    group = Configuration(flock().positions[500], flock().velocities[500])
     shuffled = np.random.default_rng(0).permutation(12)
-    places, velocities = group.places * np.exp(2j) + 3 - 4j, group.velocities * np.exp(2j)
+    places, velocities = group.positions * np.exp(2j) + 3 - 4j, group.velocities * np.exp(2j)
     other = Configuration(places[shuffled], velocities[shuffled])
     match = compare(group, other)
     assert match.rms < 1e-9
     np.testing.assert_array_equal(shuffled[match.order], np.arange(12))
-    assert match.turn == pytest.approx(np.exp(-2j))
-    mirrored = Configuration(group.places.conj(), group.velocities.conj())
+    assert match.rotation == pytest.approx(np.exp(-2j))
+    mirrored = Configuration(group.positions.conj(), group.velocities.conj())
     assert compare(group, mirrored, starts=ALL_AROUND).rms > 0.3
 
 
@@ -50,19 +50,21 @@ def test_the_match_says_how_to_lay_the_second_on_the_first():
     first, second = drawn(12, 5)
     match = compare(first, second)
     for row in range(5):
-        there = match.turn[row] * second.places[row][match.order[row]] + match.move[row]
-        going = match.turn[row] * second.velocities[row][match.order[row]]
+        there = match.rotation[row] * second.positions[row][match.order[row]] + match.translation[row]
+        going = match.rotation[row] * second.velocities[row][match.order[row]]
         change = SECONDS * np.abs(first.velocities[row] - going)
-        square = np.abs(first.places[row] - there) ** 2 + change**2
+        square = np.abs(first.positions[row] - there) ** 2 + change**2
         assert np.sqrt(square.mean()) == pytest.approx(match.rms[row])
 
 
 def test_seen_from_itself_a_group_stands_in_the_middle_and_goes_ahead():
-    group = Configuration(flock().places, flock().velocities)
-    seen, turn, move = seen_from_itself(group)
-    np.testing.assert_allclose(seen.places.mean(axis=-1), 0, atol=1e-12)
+    group = Configuration(flock().positions, flock().velocities)
+    seen, rotation, translation = seen_from_itself(group)
+    np.testing.assert_allclose(seen.positions.mean(axis=-1), 0, atol=1e-12)
     np.testing.assert_allclose(np.angle(seen.velocities.mean(axis=-1)), 0, atol=1e-12)
-    np.testing.assert_allclose(turn[:, None] * seen.places + move[:, None], group.places, atol=1e-9)
+    np.testing.assert_allclose(
+        rotation[:, None] * seen.positions + translation[:, None], group.positions, atol=1e-9
+    )
 
 
 def lined_up(count, velocities=1):
@@ -94,7 +96,7 @@ def test_each_node_has_the_most_others_near():
 
 
 def test_where_nodes_cover_little_it_says_so():
-    told(r"1 nodes are within 0.3 m of \d+% of what was", cluster, flock(12, 60.0), nodes=1, reach=0.3)
+    told(r"1 nodes are within 0.3 m of \d+% of the simulation", cluster, flock(12, 60.0), nodes=1, reach=0.3)
 
 
 def test_it_ends_where_all_are_covered():
@@ -121,10 +123,10 @@ def test_each_rule_pulls_where_it_should():
     """As in [LCF05, simulation]."""
     quiet = dict.fromkeys(("separate", "gather", "align", "steer", "keep"), 0.0)
     two = Configuration(np.array([0j, 1 + 0j]), np.array([1 + 0j, 1j]))
-    wish = np.array([1 + 0j, 1 + 0j])
+    desired = np.array([1 + 0j, 1 + 0j])
 
     def force(**weights):
-        return steering_force(two, wish, Flock(**{**quiet, **weights}))
+        return steering_force(two, desired, Flock(**{**quiet, **weights}))
 
     assert force(separate=1)[0].real < 0 < force(separate=1)[1].real
     np.testing.assert_allclose(force(gather=1), [1, -1])
@@ -145,11 +147,11 @@ def test_runs_side_by_side_are_the_runs_one_by_one():
     random = np.random.default_rng(1)
     places = random.normal(size=(4, 5)) + 1j * random.normal(size=(4, 5))
     velocities = np.exp(1j * random.normal(size=(4, 5)))
-    wish = np.exp(1j * random.normal(size=(4, 5)))
-    together = advance(Configuration(places, velocities), wish, Flock())
+    desired = np.exp(1j * random.normal(size=(4, 5)))
+    together = advance(Configuration(places, velocities), desired, Flock())
     for row in range(4):
-        alone = advance(Configuration(places[row], velocities[row]), wish[row], Flock())
-        np.testing.assert_allclose(together.places[row], alone.places, atol=1e-12)
+        alone = advance(Configuration(places[row], velocities[row]), desired[row], Flock())
+        np.testing.assert_allclose(together.positions[row], alone.positions, atol=1e-12)
         np.testing.assert_allclose(together.velocities[row], alone.velocities, atol=1e-12)
 
 

@@ -89,7 +89,7 @@ def test_a_damaged_file_is_refused_with_what_is_wrong(saved, tmp_path, change, w
 
 def test_a_graph_whose_clips_do_not_lead_from_node_to_node_is_not_written(tmp_path):
     group = graph(6, 6)
-    clip = replace(group.clips[0], move=group.clips[0].move + 1)
+    clip = replace(group.clips[0], translation=group.clips[0].translation + 1)
     broken = GroupGraph(group.nodes, (clip,), 1)
     words = "Cannot save a group motion graph: expected that clips end at their nodes"
     refused(words, save_group, broken, tmp_path / "group.npz")

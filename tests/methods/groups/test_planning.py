@@ -27,9 +27,9 @@ def walked(found, start=IDENTITY):
 
 def passed(flock, scene):
     """Count the points that the middle passes, in order."""
-    middle, goal = flock.places.mean(axis=1), 0
+    middle, goal = flock.positions.mean(axis=1), 0
     for place in middle:
-        while goal < len(scene.points) and abs(place - scene.points[goal]) < scene.near:
+        while goal < len(scene.points) and abs(place - scene.points[goal]) < scene.radius:
             goal += 1
     return goal
 
@@ -38,7 +38,7 @@ def all_is_well(flock, scene):
     """Whoever is passed, clear and apart goes well."""
     assert passed(flock, scene) == len(scene.points)
     assert clearances(flock, scene).min() >= scene.body - 1e-9
-    assert nearest_two(flock.places).min() >= APART
+    assert nearest_two(flock.positions).min() >= APART
 
 
 def planned(scene, **settings):
@@ -59,9 +59,9 @@ def best_of_steered(scene, best, seeds, avoids=(0.8, 1.2, 2.0), gathers=(0.35, 1
     for avoid, gather, seed in product(avoids, gathers, seeds):
         rules = Flock(avoid=avoid, gather=gather, whim=0.0 if seed is None else 0.5)
         flock, points = steer_group(graph().nodes[0], scene, rules=rules, seed=seed or 0, limit=best)
-        clear = clearances(flock, scene).min() >= scene.body and nearest_two(flock.places).min() >= APART
+        clear = clearances(flock, scene).min() >= scene.body and nearest_two(flock.positions).min() >= APART
         if points == len(scene.points) and clear:
-            best = (len(flock.places) - 1) / RATE
+            best = (len(flock.positions) - 1) / RATE
     return best
 
 
@@ -73,7 +73,7 @@ def test_whoever_leads_by_the_quicker_way_is_never_later_than_steered(scene):
     """Plans alone are later in half of the scenes: clips turn by 1.2 rad in four seconds, a flock at once."""
     flock, _ = lead_group(graph(), scene)
     all_is_well(flock, scene)
-    seconds = (len(flock.places) - 1) / RATE
+    seconds = (len(flock.positions) - 1) / RATE
     assert seconds <= best_of_steered(scene, seconds, [None])
     assert seconds <= best_of_steered(scene, seconds, range(3), [2.0], [0.35])
     assert seconds <= best_of_steered(scene, seconds, range(3)) + 0.25  # of 18 with whims one may be lucky
@@ -88,10 +88,10 @@ def test_a_flock_that_would_not_keep_clear_does_not_lead():
     assert lead_group(graph(), pocket(1.5))[1]
     aside = around(0)._replace(discs=())
     flock, plan = lead_group(graph(), aside)
-    met = flock.places[80].mean() + np.zeros((1, 1))
-    assert plan is None and np.abs(flock.places - met).min() < APART
+    met = flock.positions[80].mean() + np.zeros((1, 1))
+    assert plan is None and np.abs(flock.positions - met).min() < APART
     careful, plan = lead_group(graph(), aside._replace(others=(met,)))
-    assert plan and np.abs(careful.places - met).min() >= APART
+    assert plan and np.abs(careful.positions - met).min() >= APART
     with pytest.raises(NoWalk, match="the limit of 100 states ended the search"):
         lead_group(graph(), pocket(4.5), most=100)
 
@@ -106,7 +106,7 @@ def test_a_plan_leaves_the_pocket_that_steering_never_leaves():
     scene = pocket(1.5)
     planned(scene, weight=3.0)
     stuck, points = steer_group(graph().nodes[0], scene, limit=60.0)
-    assert points == 0 and stuck.places[-1].real.mean() < 16
+    assert points == 0 and stuck.positions[-1].real.mean() < 16
 
 
 def test_more_weight_finds_a_way_with_fewer_states():
@@ -119,12 +119,12 @@ def test_two_groups_pass_each_other():
     first = walked(plan_group(graph(), Scene((24 + 0j,))))
     back = PlanarTransform(np.pi, 0.0, 24.0)
     alone = plan_group(graph(), Scene((0j,)), start=back)
-    careful = plan_group(graph(), Scene((0j,), others=tuple(first.places.T[:, :, None])), start=back)
+    careful = plan_group(graph(), Scene((0j,), others=tuple(first.positions.T[:, :, None])), start=back)
 
     def least(found):
         flock = walked(found, back)
-        frames = np.minimum(np.arange(len(flock.places)), len(first.places) - 1)
-        return np.abs(flock.places[:, :, None] - first.places[frames][:, None]).min()
+        frames = np.minimum(np.arange(len(flock.positions)), len(first.positions) - 1)
+        return np.abs(flock.positions[:, :, None] - first.positions[frames][:, None]).min()
 
     assert least(alone) < APART <= least(careful)
     assert careful.spared > 0
@@ -133,10 +133,10 @@ def test_two_groups_pass_each_other():
 def test_what_a_refusal_advises_helps():
     """Turned by half a radian, past a point beside the pocket, through a gap as it says, or as fewer."""
     rock = Scene((20 + 0j,), ((4.2 + 0j, 1.5),))
-    with pytest.raises(NoWalk, match=r"closed every way\. Start farther off or turned, take fewer members"):
+    with pytest.raises(NoWalk, match=r"closed every path\. Start farther off or turned, take fewer members"):
         plan_group(graph(), rock)
     assert plan_group(graph(), rock, start=PlanarTransform(-0.5, 0.0, 0.0)) and plan_group(graph(3), rock)
-    with pytest.raises(NoWalk, match="Set a point on the way, allow more states"):
+    with pytest.raises(NoWalk, match="Add a point before it, allow more states"):
         plan_group(graph(), pocket(4.5), most=100)
     scene = pocket(4.5)
     assert plan_group(graph(), Scene((10 + 8j, *scene.points), scene.discs), most=100)
@@ -164,21 +164,21 @@ def plan(*scene, **settings):
 test_scenes_that_make_no_sense_or_have_no_way_are_refused = refusals(
     *((words, lambda scene=scene: plan_group(graph(), scene)) for scene, words in SCENES),
     *((words, lambda scene=scene: steer_group(graph().nodes[0], scene)) for scene, words in SCENES),
-    (NoWalk, "No way past point 1 of 1 was found: obstacles closed every way", plan, (20 + 0j,), RING),
+    (NoWalk, "No path past point 1 of 1 was found: obstacles closed every path", plan, (20 + 0j,), RING),
     (NoWalk, "past point 2 of 2 was found: the limit of 5 states", lambda: plan((4 + 0j, 20 + 0j), most=5)),
     (
         NoWalk,
         r"Member 4 starts -0.20 m from the rim .*: 0.3 m is the least",
-        lambda: plan((9 + 0j,), ((complex(graph().nodes[0].places[3]), 0.2),)),
+        lambda: plan((9 + 0j,), ((complex(graph().nodes[0].positions[3]), 0.2),)),
     ),
 )
 
 
-def free_one_by_one(group, node, turn, move, frame, scene):
+def free_one_by_one(group, node, rotation, translation, frame, scene):
     """Lay each clip on the ground, and look at all members in all frames; `Search` looks at once."""
     kept = []
     for number in group.leaving(node):
-        places = turn * group.clips[number].places + move
+        places = rotation * group.clips[number].positions + translation
         clear = all((np.abs(places - spot) >= size + scene.body).all() for spot, size in scene.discs)
         for other in scene.others:
             there = other[np.minimum(frame + np.arange(len(places)), len(other) - 1)]
@@ -223,14 +223,14 @@ def walkers():
 
 def test_each_is_where_it_should_be_by_then():
     """The sway of the hips is part of it."""
-    assert walkers().off.mean() <= 0.05 and np.percentile(walkers().off, 95) <= 0.10
+    assert walkers().errors.mean() <= 0.05 and np.percentile(walkers().errors, 95) <= 0.10
     assert walkers().nearest >= 0.75
     assert "6 characters, 13.7 s" in walkers().report()
 
 
 def test_they_last_as_long_as_the_plan_and_wanted_is_the_led():
-    assert {len(motion) for motion in walkers().motions} == {len(walkers().wanted)}
-    np.testing.assert_allclose(walkers().wanted[::3], led().places, atol=1e-9)
+    assert {len(motion) for motion in walkers().motions} == {len(walkers().targets)}
+    np.testing.assert_allclose(walkers().targets[::3], led().positions, atol=1e-9)
 
 
 def test_planted_feet_stand():
@@ -248,9 +248,9 @@ def test_they_face_where_they_go():
 
 def test_the_bare_lines_bring_them_together_and_out_of_time():
     """Without bending, characters of slow clips come late."""
-    two = Configuration(led().places[:81, :2], led().velocities[:81, :2])
+    two = Configuration(led().positions[:81, :2], led().velocities[:81, :2])
     loose, bent = (walk_group(bundled("sneak"), two, bend=bend) for bend in (False, True))
-    assert loose.off.mean() > 3 * bent.off.mean()
+    assert loose.errors.mean() > 3 * bent.errors.mean()
 
 
 @pytest.mark.parametrize(("some", "got"), [(np.s_[:10, :], "6 and 0.9 s"), (np.s_[:, :0], "0 and 13.7 s")])
@@ -260,10 +260,10 @@ def test_a_plan_for_nobody_or_of_less_than_a_second_is_refused(some, got):
 
 
 def test_who_stands_at_the_end_is_carried_on_all_the_same():
-    places = led().places.copy()
+    places = led().positions.copy()
     places[-11:] = places[-11]
     walked = walk_group(bundled("walk_circle", "walk_curve_1"), Configuration(places[:, :2], places[:, :2]))
-    assert len(walked.motions[0]) == len(walked.wanted)
+    assert len(walked.motions[0]) == len(walked.targets)
 
 
 def test_a_way_of_any_length_can_be_walked():
@@ -271,5 +271,5 @@ def test_a_way_of_any_length_can_be_walked():
     group = graph(6, 6)
     for seed in range(4):
         played = play_group(group, random_group_walk(group, 1, seed=seed))
-        one = Configuration(played.places[:, :1], played.velocities[:, :1])
-        assert walk_group(bundled("walk_circle", "walk_curve_1"), one).off.mean() < 0.1
+        one = Configuration(played.positions[:, :1], played.velocities[:, :1])
+        assert walk_group(bundled("walk_circle", "walk_curve_1"), one).errors.mean() < 0.1

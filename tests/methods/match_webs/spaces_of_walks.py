@@ -8,7 +8,7 @@ from walking import generate_walk
 
 from mocap.blending.registering import register
 from mocap.body import arcs
-from mocap.methods.match_webs import build_web, cut_out, mean_speed, sample_space, search, turn
+from mocap.methods.match_webs import build_web, cut_out, heading_change, mean_speed, sample_space, search
 from tests.methods.match_webs.conftest import cycles
 
 # Seconds · 30: about where the hand of 02_05 is at the target.
@@ -18,7 +18,7 @@ SPEEDS, TURNS = (0.8, 1.1, 1.4), (-120, 0, 120)
 
 def gait(motion):
     """Degrees that the body turns, and metres per second."""
-    return np.degrees(turn(motion)), mean_speed(motion)
+    return np.degrees(heading_change(motion)), mean_speed(motion)
 
 
 @cache

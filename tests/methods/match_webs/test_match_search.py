@@ -5,7 +5,7 @@ from scipy.spatial.transform import Rotation
 from mocap import datasets
 from mocap.body import Motion, Skeleton
 from mocap.errors import MocapWarning
-from mocap.methods.match_webs import build_web, cut_out, match_search, search, turn
+from mocap.methods.match_webs import build_web, cut_out, heading_change, match_search, search
 from mocap.methods.match_webs.match_search import Match, crossings
 from tests.methods.match_webs.conftest import common, cycles, judge
 from tests.methods.match_webs.spaces_of_walks import PUNCHES
@@ -102,11 +102,11 @@ def test_what_is_not_asked_for_is_neither_given_nor_searched_from(bundled):
     query = cycles(bundled.clips[1], 2 / 3, 13 / 6)[2]
     every, kept = (
         search(bundled.web, 1, query, below=0.05, keep=keep)
-        for keep in (None, lambda motion: turn(motion) > 0.2)
+        for keep in (None, lambda motion: heading_change(motion) > 0.2)
     )
-    turned = [match for match in every if turn(cut_out(bundled.web, match)) > 0.2]
+    turned = [match for match in every if heading_change(cut_out(bundled.web, match)) > 0.2]
     assert len(turned) < 0.8 * len(every)
-    assert all(turn(cut_out(bundled.web, match)) > 0.2 for match in kept)
+    assert all(heading_change(cut_out(bundled.web, match)) > 0.2 for match in kept)
     assert 0.8 * len(turned) <= len(kept) and all(kept[match.via].cost >= 0 for match in kept[1:])
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from mocap.body import Motion, concatenate, joint_positions, resample, rotations
 from mocap.datasets import samples
-from mocap.methods.match_webs import hand_target, mean_speed, sample_space, turn, weights_for
+from mocap.methods.match_webs import hand_target, heading_change, mean_speed, sample_space, weights_for
 from mocap.methods.match_webs.motion_spaces import random_weights
 from mocap.methods.parametric_graphs import build_parametric, cut_actions, cut_strides, make_space
 from mocap.methods.parametric_graphs.made_motions import optimal_transitions
@@ -58,7 +58,7 @@ def space(feet="lrl", degrees=12):
 def by_turn_and_speed():
     """Strides asked by two numbers, blended three at a time."""
     return sample_space(
-        strides(), lambda blend: [turn(blend), mean_speed(blend)], parameters=("turn", "speed")
+        strides(), lambda blend: [heading_change(blend), mean_speed(blend)], parameters=("turn", "speed")
     )
 
 

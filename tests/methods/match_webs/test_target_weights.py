@@ -14,9 +14,16 @@ from mocap import load
 from mocap._shared.arrays import runs
 from mocap.blending import mix, register
 from mocap.body import Motion, PlanarTransform, Skeleton, arcs, heading, rotations
-from mocap.methods.match_webs import blend_of, hand_target, mean_speed, sample_space, turn, weights_for
+from mocap.methods.match_webs import (
+    blend_of,
+    hand_target,
+    heading_change,
+    mean_speed,
+    sample_space,
+    weights_for,
+)
 from mocap.methods.match_webs.motion_spaces import MotionSpace, random_weights
-from mocap.methods.match_webs.wishes import nearest_samples, neighbour_weights
+from mocap.methods.match_webs.target_weights import nearest_samples, neighbour_weights
 from tests.methods.match_webs.spaces_of_walks import gait, space
 from tests.refusals import refusals, refused, told
 
@@ -33,11 +40,11 @@ def linear_space(numbers=2, seed=0, count=120):
 
 @settings(max_examples=15)
 @given(st.integers(1, 3), st.integers(0, 99), st.sampled_from(METHODS))
-def test_weights_add_up_to_one_and_stay_in_range_for_every_wish(numbers, seed, method):
+def test_weights_add_up_to_one_and_stay_in_range_for_every_target(numbers, seed, method):
     made = linear_space(numbers, seed)
     reach = 10 * np.abs(made.values).max()
-    for wish in np.random.default_rng(seed).uniform(-reach, reach, (70, numbers)):
-        weights = weights_for(made, wish, method=method)
+    for target in np.random.default_rng(seed).uniform(-reach, reach, (70, numbers)):
+        weights = weights_for(made, target, method=method)
         assert abs(weights.sum() - 1) < 1e-12
         assert weights.min() >= -0.1 - 1e-12 and weights.max() <= 1.1 + 1e-12
 
@@ -49,10 +56,10 @@ def test_convex_weights_are_exact_for_a_linear_measure_and_those_of_neighbours_a
     off = {method: [] for method in METHODS}
     for _ in range(40):
         near = nearest_samples(made.values[[rng.integers(6, 126)]], made.values, made.scale, 12)[0][0]
-        wish = rng.dirichlet(np.ones(4)) @ made.values[near[:4]]  # inside the hull of the nearest
+        target = rng.dirichlet(np.ones(4)) @ made.values[near[:4]]  # inside the hull of the nearest
         for method in METHODS:
-            got = weights_for(made, wish, method=method) @ made.values[:6]
-            off[method].append(np.linalg.norm(got - wish))
+            got = weights_for(made, target, method=method) @ made.values[:6]
+            off[method].append(np.linalg.norm(got - target))
     assert max(off["convex"]) < 1e-6
     assert np.mean(off["neighbours"]) > 1e-2
 
@@ -75,28 +82,28 @@ def test_the_weights_of_neighbours_are_those_of_the_paper():
     assert neighbour_weights([0.01, 1, 1])[0] == 1
 
 
-def obtained(made, wishes, **how):
-    """Scaled distances from wishes to what the blends do."""
-    got = [gait(blend_of(made.examples, weights_for(made, wish, **how), fps=30)) for wish in wishes]
-    return np.linalg.norm((np.array(got) - wishes) / made.scale, axis=1)
+def obtained(made, targets, **how):
+    """Scaled distances from targets to what the blends do."""
+    got = [gait(blend_of(made.examples, weights_for(made, target, **how), fps=30)) for target in targets]
+    return np.linalg.norm((np.array(got) - targets) / made.scale, axis=1)
 
 
 def test_walks_turn_and_go_as_asked():
     """Wishes are what other blends do; the unit is 10° and 0.1 m/s."""
     made = space(100)
     rows = random_weights(made.values[: len(made.examples.clips)], 25, spread=0, seed=9)
-    wishes = np.array([gait(blend_of(made.examples, row, fps=30)) for row in rows])
-    convex, plain = (obtained(made, wishes, method=method).mean() for method in METHODS)
+    targets = np.array([gait(blend_of(made.examples, row, fps=30)) for row in rows])
+    convex, plain = (obtained(made, targets, method=method).mean() for method in METHODS)
     assert convex <= 0.1
     assert plain >= 3 * convex
 
 
 def test_out_of_reach_the_blend_stays_at_the_edge():
     made = space(100)
-    wishes = np.array([[90.0, 1.1], [0, 2.2], [-70, 0.4], [60, 2.0]])
-    nearest = nearest_samples(wishes, made.values, made.scale, 1)[1][:, 0]
+    targets = np.array([[90.0, 1.1], [0, 2.2], [-70, 0.4], [60, 2.0]])
+    nearest = nearest_samples(targets, made.values, made.scale, 1)[1][:, 0]
     for method in METHODS:
-        assert (obtained(made, wishes, method=method) <= 1.1 * nearest).all()
+        assert (obtained(made, targets, method=method) <= 1.1 * nearest).all()
 
 
 def test_asked_without_an_example_the_others_turn_as_it_does():
@@ -112,9 +119,9 @@ def test_asked_without_an_example_the_others_turn_as_it_does():
     assert np.abs(off).mean() <= 2
 
 
-test_hostile_wishes_are_one_sentence = refusals(
-    (r"This space is asked for 2 finite numbers, got \[1.0\]", weights_for, linear_space(), [1.0]),
-    ("asked for 2 finite numbers", weights_for, linear_space(), [1.0, np.nan]),
+test_hostile_targets_are_one_sentence = refusals(
+    (r"A target in this space has 2 finite numbers, got \[1.0\]", weights_for, linear_space(), [1.0]),
+    ("in this space has 2 finite numbers", weights_for, linear_space(), [1.0, np.nan]),
     ('"convex" or "neighbours", got \'rbf\'', lambda: weights_for(linear_space(), [1.0, 2], method="rbf")),
 )
 
@@ -127,7 +134,7 @@ AROUND = 10  # frames at 30 Hz before and after the body turns by more than 25°
 
 
 def degrees(motion):
-    return np.degrees(turn(motion))
+    return np.degrees(heading_change(motion))
 
 
 @pytest.fixture(scope="module")
@@ -236,7 +243,7 @@ def test_two_weights_are_even_over_what_is_allowed():
 
 def test_partners_are_the_nearest_by_scaled_values():
     """As in [KG04, accessible region]."""
-    weights = random_weights(VALUES, 200, near=3, seed=1)
+    weights = random_weights(VALUES, 200, neighbours=3, seed=1)
     scaled = VALUES / VALUES.std(axis=0)
     distance = np.linalg.norm(scaled[:, None] - scaled, axis=-1)
     ranks = distance.argsort(axis=1).argsort(axis=1)
@@ -256,13 +263,13 @@ def walk(degrees, speed=1.2):
 
 @pytest.mark.parametrize("degrees", [-240, -60, 0, 90, 300])
 def test_a_turn_counts_past_half_a_circle_and_to_the_left(degrees):
-    assert np.degrees(turn(walk(degrees))) == pytest.approx(degrees, abs=15)
+    assert np.degrees(heading_change(walk(degrees))) == pytest.approx(degrees, abs=15)
 
 
 def test_measures_do_not_depend_on_where_a_clip_was_captured():
     here = walk(70)
     there = PlanarTransform(2.0, 50.0, -9.0).apply_motion(here)
-    for measure in (turn, mean_speed, hand_target):
+    for measure in (heading_change, mean_speed, hand_target):
         assert np.allclose(measure(here), measure(there), atol=1e-9)
 
 
