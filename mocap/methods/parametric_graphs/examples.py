@@ -185,7 +185,8 @@ class Examples:
         mix = np.arange(len(weights))[:, None]
         number = low - first
         poses = _between(sums[mix, number], sums[mix, number + 1], fraction[..., None, None])
-        return np.asarray(poses / np.linalg.norm(poses, axis=-1, keepdims=True))
+        poses /= np.linalg.norm(poses, axis=-1, keepdims=True)
+        return poses
 
     def require_joinable(self, other: "Examples") -> None:  # reads: name: as in `Skeleton.require_same`
         """Raise SkeletonMismatch or MocapError for examples of another skeleton, rate or marks."""
