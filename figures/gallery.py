@@ -739,7 +739,7 @@ def _draw_next_strides(ax: Axes, space: Space, edge: ParametricEdge) -> None:
     box = edge.look_up(np.zeros(1))
     turns = np.array([0.0, *np.linspace(box.low[0], box.high[0], 7)])
     weights = match_webs.weights_for(space, turns[:, None])
-    ground, _ = parametric_graphs.mixed_way(space.examples, weights)
+    ground, _ = parametric_graphs.mixed_trajectory(space.examples, weights)
     first, last = space.examples.ends
     straight, *followers = ground[:, first : last + 1]
     ax.plot(-straight.imag, straight.real, color=ASKED, linewidth=3, label="a straight stride")

@@ -17,7 +17,8 @@ from mocap.body import Motion, find_legs, joint_positions, place, planar, rotati
 from mocap.errors import MocapWarning
 from mocap.feet import mark_plants
 from mocap.methods.match_webs import MotionSpace
-from mocap.methods.parametric_graphs import cut_strides, make_space, mixed_way
+from mocap.methods.parametric_graphs import cut_strides, make_space
+from mocap.methods.parametric_graphs import mixed_trajectory
 from mocap.methods.parametric_graphs.examples import Examples
 from mocap.methods.parametric_graphs.made_motions import make_motion
 
@@ -70,7 +71,7 @@ def walker(folder: Path) -> Walker:
     """Cut the clips of a folder into steady strides: of two steps that are alike to a factor of 1.6."""
     clips = [mark_plants(mocap.resample(mocap.load(path), 30)) for path in sorted(folder.glob("*.bvh"))]
     strikes, curves = (cut_strides(clips, by=by) for by in ("strikes", "curves"))
-    ground, _ = mixed_way(strikes, np.eye(len(strikes)))
+    ground, _ = mixed_trajectory(strikes, np.eye(len(strikes)))
     first, last = strikes.ends
     ways = [
         np.abs(np.diff(part, axis=1)).sum(axis=1)

@@ -197,7 +197,7 @@ def chosen(noise, name):
     for heading in (0.0, 1.2):
         for _ in range(40):
             character.step(heading, 1.0)
-    return [(one.node, np.round(one.taken, 6).tolist()) for one in character.chosen]
+    return [(one.node, np.round(one.allowed, 6).tolist()) for one in character.chosen]
 
 
 def matched(noise, name):

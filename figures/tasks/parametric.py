@@ -1,7 +1,7 @@
-"""Make a stride that turns as much as asked, from the strides of all clips but the one that it is from.
+"""Make a stride with the turn of a captured one, from the strides of all clips except its own.
 
-Pose: the RMS distance of its points from the captured stride's, each of 25 moments aligned. End: how far from
-where the captured stride ends it does, seen from its start; turn: by how much it turns otherwise.
+Pose: the RMS distance of its points from those of the captured stride, aligned at each of 25 moments. End:
+the distance between the ends of both, relative to their starts. Turn: the difference between their turns.
 """
 
 from collections.abc import Callable, Iterator
@@ -27,7 +27,10 @@ CLIPS = {
         for turn in ("left_180", "left_45", "left_90", "right_45", "right_90", "stright")
     ),
 }
-LEAST, EACH, WIDTH, MOMENTS = np.radians(15), 6, np.radians(14), 25  # of turns asked; strides of a clip
+SMALLEST_TURN = np.radians(15)  # of a captured stride
+EACH = 6  # number of strides of a clip, about
+WIDTH = np.radians(14)  # of the bell of a space
+MOMENTS = 25  # number of frames that are compared
 MEASURES = {"pose, cm": True, "end, cm": True, "turn, °": True}
 BASELINES = ("mean stride", "nearest stride")
 
@@ -36,15 +39,15 @@ def cases(collection: str, clips: list[Motion]) -> Iterator[Case]:
     """Yield strides that turn, evenly spread over each clip."""
     for clip in clips:
         try:
-            own = strides((clip,))
+            captured = strides((clip,))
         except MocapError:  # no whole stride
             continue
-        turning = np.flatnonzero(np.abs(own.values[:, 0]) > LEAST)
-        others = tuple(other for other in clips if other is not clip)
+        turning = np.flatnonzero(np.abs(captured.values[:, 0]) > SMALLEST_TURN)
+        remaining = tuple(source for source in clips if source is not clip)
         for number in turning[:: max(1, len(turning) // EACH)][:EACH]:
-            truth = own.blend(np.eye(len(own))[number])
-            given = {"turn": own.values[[number], :1], "clips": others}
-            yield Case(collection, f"{clip.name}-{number}", given, truth)
+            truth = captured.blend(np.eye(len(captured))[number])
+            data = {"turn": captured.values[[number], :1], "clips": remaining}
+            yield Case(collection, f"{clip.name}-{number}", data, truth)
 
 
 @cache
@@ -63,36 +66,56 @@ def of(weights: Callable[[Examples, float], Array]) -> Callable[[Case], Motion]:
     return method
 
 
-def in_space(examples: Examples, turn: float) -> Array:
-    """Give the weights that a space of strides has for a turn."""
+def mean_weights(examples: Examples, turn: float) -> Array:
+    """Weigh all strides equally, whatever the turn is."""
+    return np.full(len(examples), 1 / len(examples))
+
+
+def nearest_weights(examples: Examples, turn: float) -> Array:
+    """Take the stride with the nearest turn."""
+    nearest = np.abs(examples.values[:, 0] - turn).argmin()
+    return np.asarray(np.eye(len(examples))[nearest])
+
+
+def space_weights(examples: Examples, turn: float) -> Array:
+    """Return the weights of a space of strides for a turn."""
     values = examples.values[:, 0]
     space = make_space(examples, WIDTH, values.min(), values.max())
-    return weights_for(space, [[turn]])[0]
+    return np.asarray(weights_for(space, [[turn]])[0])
 
 
 METHODS = {
-    "mean stride": of(lambda examples, _: np.full(len(examples), 1 / len(examples))),
-    "nearest stride": of(
-        lambda examples, turn: np.eye(len(examples))[np.abs(examples.values[:, 0] - turn).argmin()]
-    ),
-    "space of strides": of(in_space),
+    "mean stride": of(mean_weights),
+    "nearest stride": of(nearest_weights),
+    "space of strides": of(space_weights),
 }
 
 
 def score(case: Case, answer: Motion) -> tuple[float, float, float]:
-    """Compare a stride with the captured one."""
-    made, real = (motion.at(np.linspace(0, len(motion) - 1, MOMENTS)) for motion in (answer, case.truth))
-    points, others = point_cloud(real), point_cloud(made)
-    laid = align(points, others)
-    turn, move = np.asarray(laid.rotation)[:, None], np.asarray(laid.translation)[:, None]
-    ground = np.abs(turn * on_ground(others) + move - on_ground(points)) ** 2
-    pose = np.sqrt((ground + (others - points)[..., 1] ** 2).mean(axis=1)).mean()
-    ends, turns = zip(*(end(motion) for motion in (made, real)), strict=True)
-    off = abs(float(np.degrees(np.angle(np.exp(1j * (turns[0] - turns[1]))))))
-    return 100 * float(pose), 100 * abs(ends[0] - ends[1]), off
+    """Compare a stride with the captured one: the three `MEASURES`."""
+    synthetic = answer.at(np.linspace(0, len(answer) - 1, MOMENTS))
+    captured = case.truth.at(np.linspace(0, len(case.truth) - 1, MOMENTS))
+    synthetic_end, synthetic_turn = end(synthetic)
+    captured_end, captured_turn = end(captured)
+    turn_error = abs(float(np.degrees(np.angle(np.exp(1j * (synthetic_turn - captured_turn))))))
+    return 100 * pose_error(synthetic, captured), 100 * abs(synthetic_end - captured_end), turn_error
+
+
+def pose_error(synthetic: Motion, captured: Motion) -> float:
+    """Average the RMS distances of the points of two motions, aligned frame by frame, metres."""
+    points = point_cloud(captured)
+    synthetic_points = point_cloud(synthetic)
+    transform = align(points, synthetic_points)
+    rotation = np.asarray(transform.rotation)[:, None]
+    translation = np.asarray(transform.translation)[:, None]
+    ground = np.abs(rotation * on_ground(synthetic_points) + translation - on_ground(points)) ** 2
+    heights = (synthetic_points - points)[..., 1] ** 2
+    return float(np.sqrt((ground + heights).mean(axis=1)).mean())
 
 
 def end(motion: Motion) -> tuple[complex, float]:
-    """Say where a motion ends and how far it has turned, seen from its start."""
-    facing, track = heading(motion.rotations[[0, -1], 0]), on_ground(motion.root_positions[[0, -1]])
-    return complex((track[1] - track[0]) * np.exp(-1j * facing[0])), float(facing[1] - facing[0])
+    """Return the ground position of a motion's end relative to its start, and its turn."""
+    facing = heading(motion.rotations[[0, -1], 0])
+    track = on_ground(motion.root_positions[[0, -1]])
+    relative = (track[1] - track[0]) * np.exp(-1j * facing[0])
+    return complex(relative), float(facing[1] - facing[0])

@@ -36,3 +36,8 @@ class Deadline:
     def is_over(self) -> bool:
         """Whether the moment is now or was earlier."""
         return monotonic() >= self.end
+
+    @classmethod
+    def of(cls, limit: "float | Deadline") -> "Deadline":
+        """Return a deadline as it is, and make one of seconds."""
+        return limit if isinstance(limit, Deadline) else cls(limit)

@@ -14,13 +14,15 @@ Reading order (notebooks 08, 12, 17, 18)
  1. `path_objective`: a path, the wishes along it, and their prices
  2. `layered_search`: many walks as arrays, lengthened together
  3. `path_search`: what walks along a path cost, and which of them go on
- 4. `followed`: what was found along a path, as it is or laid on any line, and how well it follows the path
- 5. `path_following`: find a walk along a path, in layers and by the paper's branch and bound
- 6. `waypoints_and_crowds`: places, labels and times to pass; many characters that keep apart
- 7. `characters`: the protocol, the pose that a step gives, a walk by given commands, how soon they are obeyed
- 8. `graph_control`: a character on a motion graph, and how it looks ahead
- 9. `foot_turning`: a character that turns about the foot that stands, beyond what its clips turn
-10. `judged_control`: one protocol for all characters
+ 4. `followed`: the walk that was found along a path, and how well it follows the path
+ 5. `smooth_paths`: the paths of clips and walks without the sway of the root
+ 6. `bent_following`: walks that are bent onto a path
+ 7. `path_following`: find a walk along a path, in layers and by the paper's branch and bound
+ 8. `waypoints_and_crowds`: places, labels and times to pass; many characters that keep apart
+ 9. `characters`: the protocol, the pose that a step gives, a walk by given commands, how soon they are obeyed
+10. `graph_control`: a character on a motion graph, and how it looks ahead
+11. `foot_turning`: a character that turns about the foot that stands, beyond what its clips turn
+12. `judged_control`: one protocol for all characters
 
 References
 ----------

@@ -18,7 +18,8 @@ from mocap.errors import MocapError, NoWalk, warn
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph, walk_track
 from mocap.graphs.components import reached
 from mocap.graphs.motion_graph import MotionGraph
-from mocap.steering.followed import ASTRAY, Followed, account, plan_bending
+from mocap.steering.bent_following import plan_bending
+from mocap.steering.followed import ASTRAY, Followed, measure_walk
 from mocap.steering.layered_search import States, start_states
 from mocap.steering.path_objective import Route, Settings, Wishes, make_route
 from mocap.steering.path_search import SLOWEST, Found, find_walk, too_slow
@@ -108,7 +109,7 @@ def follow_path(
         route, measure = plan_bending(compiled, path, wishes, bend)
     else:
         route = make_route(compiled, path, wishes)
-        measure = partial(account, compiled, path, route)
+        measure = partial(measure_walk, compiled, path, route)
     starts = start_of(compiled, route, wishes)
     _require_labels(compiled, [label for _, label in sorted(wishes.labels)], starts.node)
 
@@ -312,7 +313,7 @@ def follow_as_2002(  # noqa: PLR0913 (a path, wishes, and three limits)
     along = np.cumsum(compiled.progress[walk_track(compiled, edges, stand.rotation, stand.translation)[1]])
     counts = result.expanded, result.cut, result.stopped
     walk = Found(edges, stand.rotation, stand.translation, along, result.cost, *counts)
-    followed = account(compiled, path, route, walk)
+    followed = measure_walk(compiled, path, route, walk)
     if result.stopped == OUT_OF_TIME:
         _tell_deadline(followed, deadline)
     return followed

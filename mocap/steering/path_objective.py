@@ -122,7 +122,7 @@ class Route:
     clock : shape (n,), the time to be there, seconds; nan for any time.
     wishes : the wishes.
     others : shape (K, T), where K others are in each frame.
-    own, turns : where walks are laid on the path, how they go and turn by themselves, from `own_paths`.
+    own, turns : if walks are bent onto the path, the smooth paths of their clips, from `smooth_graph`.
     curvature : shape (n,), there, how the path bends at each point, radians per metre.
 
     Examples
@@ -139,7 +139,7 @@ class Route:
     wishes: Wishes = field(default_factory=Wishes)
     # reads: name: as in `Wishes`
     others: Points = field(default_factory=lambda: np.empty((0, 1), complex))
-    own: CompiledGraph | None = None  # reads: name: as in `own_paths`, which makes it
+    own: CompiledGraph | None = None  # reads: name: public, and goes with the next renaming
     turns: Array = field(default_factory=lambda: np.zeros(0))
     curvature: Array = field(default_factory=lambda: np.zeros(0))
 

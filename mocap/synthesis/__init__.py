@@ -8,7 +8,7 @@ Reading order (notebook 07)
 1. `walk_to_motion`: turn a walk into a motion; its seams and the clips it plays
 2. `random_walks`: choose transitions at random; make hours of motion, piece by piece
 3. `bounded_search`: find the cheapest walk by branch and bound, as the paper does
-4. `ground_walks`: price where a walk leads on the ground
+4. `ground_walks`: trajectories of walks on the ground, for searches
 
 References
 ----------

@@ -141,7 +141,7 @@ def branch_and_bound(  # noqa: PLR0913 (a problem, a start, and three limits)
 
     Notebook: 07-walks-and-search
     """
-    end = deadline if isinstance(deadline, Deadline) else Deadline(deadline)
+    end = Deadline.of(deadline)
     longest = _root(problem, node, state)
     best: Branch | None = None
     stack = [longest]

@@ -1,8 +1,8 @@
-"""Walks as they run on the ground, for searches that price where the root is [KGP02, 4.2].
+"""Trajectories of walks on the ground, for searches whose cost depends on the root's position [KGP02, 4.2].
 
-Ground points are complex numbers z + ix: z runs ahead, x to the left. A walk's clip is placed by
-p ↦ rotation · p + translation. An edge rotates and translates what comes after it, so the transform of a
-clip is a running product.
+Ground points are complex numbers z + ix: z runs ahead, x to the left. A clip of a walk is transformed by
+p ↦ rotation · p + translation. Each edge rotates and translates all later clips, so the transform of a clip
+is a running product.
 """
 
 import math
@@ -17,13 +17,17 @@ from mocap.graphs.motion_graph import MotionGraph, Node
 from mocap.synthesis.bounded_search import Problem, SearchEdge
 
 Price = Callable[[Points, int, SearchEdge], float]
-"""From the root's ground points along an edge, the frames walked before it, and the edge, to its cost."""
+"""The cost of an edge, from the ground points along it, the number of frames before it, and the edge."""
 
 
 class Stand(NamedTuple):
-    """Where a walk has led: what comes next is placed by p ↦ rotation · p + translation.
+    """The state of a walk after some edges: the transform p ↦ rotation · p + translation of the next clip.
 
-    So many `frames` are walked; and where a path is followed, it is `along` metres along it.
+    Parameters
+    ----------
+    rotation, translation : of the transform, complex; |rotation| = 1, and the translation is in metres.
+    frames : number of frames walked.
+    along : metres along the path, if the walk follows one.
     """
 
     rotation: complex
@@ -33,7 +37,7 @@ class Stand(NamedTuple):
 
 
 class GroundWalks:
-    """The walks through a motion graph, seen from above.
+    """The walks through a motion graph as trajectories of the root on the ground.
 
     Parameters
     ----------
@@ -41,7 +45,7 @@ class GroundWalks:
 
     Examples
     --------
-    The walk of 20 frames that strays least from the straight line ahead:
+    The walk of 20 frames that deviates least from the line straight ahead:
 
     >>> from mocap import body, datasets, graphs, synthesis
     >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
@@ -60,31 +64,37 @@ class GroundWalks:
         self.number: dict[SearchEdge, int] = {edge: n for n, edge in enumerate(self.graph.edges)}
 
     def start(self, number: int) -> tuple[Node, Stand]:
-        """Stand at a node of this number, at the origin, and move straight ahead."""
+        """Return the node of a number, and the state that puts its root at the origin, heading along +z."""
         rotation = np.exp(-1j * self.graph.going[number])
         return self.graph.nodes[number], Stand(rotation, -rotation * self.graph.at[number])
 
     def step(self, stand: Stand, edge: SearchEdge) -> tuple[slice, Points, Stand]:
-        """Walk along an edge: the rows of its frames among those of all, the root there, where it leads."""
-        graph, e = self.graph, self.number[edge]
-        rows = slice(graph.first[e], graph.first[e] + graph.frames[e])
-        rotation, translation = (
-            stand.rotation * graph.rotation[e],
-            stand.translation + stand.rotation * graph.translation[e],
-        )
-        after = Stand(rotation, translation, stand.frames + int(graph.frames[e]), stand.along)
-        return rows, stand.rotation * graph.ground[rows] + stand.translation, after
+        """Walk along one edge.
+
+        Returns
+        -------
+        The rows of the edge's frames among those of all edges, the root's ground points in these frames, and
+        the state at the end of the edge.
+        """
+        graph = self.graph
+        number = self.number[edge]
+        frames = graph.frames[number]
+        rows = slice(graph.first[number], graph.first[number] + frames)
+        points = stand.rotation * graph.ground[rows] + stand.translation
+        rotation = stand.rotation * graph.rotation[number]
+        translation = stand.translation + stand.rotation * graph.translation[number]
+        return rows, points, Stand(rotation, translation, stand.frames + int(frames), stand.along)
 
     def points(self, walk: Sequence[SearchEdge], stand: Stand) -> Points:
-        """Give the root in each frame of a walk."""
+        """Return the root's ground point in each frame of a walk, shape (F,)."""
         edges = np.array([self.number[edge] for edge in walk])
         return walk_track(self.graph, edges, stand.rotation, stand.translation)[0]
 
     def problem(self, price: Price, *, frames: float = math.inf) -> Problem:
-        """Make a search problem: each edge costs what `price` says; a walk of so many frames is complete."""
+        """Return a search problem: `price` is the cost of an edge; a walk of `frames` frames is complete."""
 
         def step(stand: Stand, edge: SearchEdge) -> tuple[float, Stand]:
-            _, points, after = self.step(stand, edge)
-            return float(price(points, stand.frames, edge)), after
+            _, points, next_stand = self.step(stand, edge)
+            return float(price(points, stand.frames, edge)), next_stand
 
         return Problem(self.graph.source.graph, step, lambda stand: stand.frames >= frames)

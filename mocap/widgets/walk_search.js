@@ -25,7 +25,7 @@
  * @property {{ metres: number, parts: number, turn: number, move: number }} steps of the numbers
  * @property {Piece[]} figure
  * @property {number[][]} feet [ankle, ball]
- * @property {{ width: number, layer: number, look: number, rescue: number, seam: number }} search how it is set
+ * @property {{ beam_width: number, layer: number, look: number, rescue: number, seam: number }} search how it is set
  * @property {number} nodes
  * @property {number} edges
  * @property {string[]} labels the kinds of motion
@@ -261,8 +261,8 @@ export class Search {
     this.labels = labels;
     this.dead = dead;
     this.end = (line.z.length - 1) / 100;
-    const { width, layer, look, rescue, seam } = graph.about.search;
-    this.width = width;
+    const { beam_width: beamWidth, layer, look, rescue, seam } = graph.about.search;
+    this.beamWidth = beamWidth;
     this.layer = layer;
     this.look = look;
     this.rescue = rescue;
@@ -355,7 +355,7 @@ export class Search {
       ];
       const place = `${walk.node.number} ${here.map((value) => Math.floor(value / 0.1))}`;
       if (!kept.has(place)) kept.set(place, walk);
-      if (kept.size === this.width) break;
+      if (kept.size === this.beamWidth) break;
     }
     return [...kept.values()];
   }

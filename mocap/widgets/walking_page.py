@@ -26,7 +26,7 @@ HERE = Path(__file__).parent
 Node = tuple[int, int]
 # The units of whole numbers: metres of a root, parts of a quaternion, radians and metres of a transition.
 STEPS = {"metres": 0.0005, "parts": 1 / 2048, "turn": 2 * np.pi / 65536, "move": 0.0001}
-SETTINGS = ("WIDTH", "LAYER", "LOOK", "RESCUE", "SEAM")  # of the search in `mocap.plain`
+SETTINGS = ("BEAM_WIDTH", "LAYER", "LOOK", "RESCUE", "SEAM")  # of the search in `mocap.plain`
 # Scripts, each after those that it uses.
 WALKING = ("search", "body", "line", "camera", "scene", "saving", "small", "hands", "page")
 PARTS = ("bodies", *(f"walk_{part}" for part in WALKING))

@@ -17,7 +17,8 @@ from mocap.files.load_save import load
 from mocap.graphs import build, prune
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.steering import Settings, Wishes, follow_path, path_following
-from mocap.steering.followed import own_paths, own_ride, plan_bending
+from mocap.steering.bent_following import plan_bending
+from mocap.steering.smooth_paths import path_of_walk, smooth_graph
 from mocap.synthesis import random_walk, to_motion
 from tests.bundled import sneaking, walking
 from tests.editing.test_path_editing import slide
@@ -185,7 +186,7 @@ def test_dancers_walk_a_line_as_quickly_as_people_or_are_refused_at_once(real_da
 
 
 GRAPH = walking()
-OWN, TURNS = own_paths(GRAPH)
+OWN, TURNS = smooth_graph(GRAPH)
 
 
 def rows_of(edges):
@@ -203,7 +204,7 @@ def test_along_a_clip_it_is_the_clips_own_path():
     far = ride.along[last - 1] - ride.along[max(first - 1, 0)]
     assert OWN.step[rows].sum() == pytest.approx(far, abs=1e-9)
     assert TURNS[rows].sum() == pytest.approx(heads[last - 1] - heads[max(first - 1, 0)], abs=1e-9)
-    joined = own_ride(OWN, edges)
+    joined = path_of_walk(OWN, edges)
     assert joined.path.points == pytest.approx(ride.path.points[first:last], abs=1e-9)
 
 
@@ -211,7 +212,7 @@ def test_a_seam_leads_smoothly_from_path_to_path():
     walk = random_walk(GRAPH.source, seconds=30, seed=2)
     edges = np.array([GRAPH.edges.index(edge) for edge in walk])
     assert GRAPH.blended[edges].sum() > 3
-    ride, ground = own_ride(OWN, edges), on_ground(to_motion(GRAPH.source, walk).root_positions)
+    ride, ground = path_of_walk(OWN, edges), on_ground(to_motion(GRAPH.source, walk).root_positions)
     away = np.abs(ground - on_ground(ride.path.at(ride.along)))
     assert away.max() < 0.1  # the sway: the clips themselves are up to 9 cm off their paths
     assert OWN.step[rows_of(edges)].sum() == pytest.approx(ride.along[-1], rel=0.02)

@@ -16,7 +16,7 @@ from mocap.graphs import build, prune
 from mocap.graphs.compiled_graph import LEAST, compile_graph
 from mocap.steering import followed as following
 from mocap.steering import path_following, waypoints_and_crowds
-from mocap.steering.followed import account
+from mocap.steering.followed import measure_walk
 from mocap.steering.path_following import follow_as_2002, follow_path, path_problem
 from mocap.steering.path_objective import Settings, Wishes, make_route
 from mocap.steering.path_search import find_walk
@@ -102,11 +102,11 @@ def test_what_is_out_of_bounds_is_searched_for_again(monkeypatch):
         return find_walk(graph, route, starts, settings, deadline)
 
     def measure(*args):
-        walks.append(account(*args))
+        walks.append(measure_walk(*args))
         return walks[-1]
 
     monkeypatch.setattr(path_following, "find_walk", search)
-    monkeypatch.setattr(path_following, "account", measure)
+    monkeypatch.setattr(path_following, "measure_walk", measure)
     once = walked(TIGHT, settings=Settings(tries=1))
     assert once.excess > 1 and len(tried) == 1
     better = walked(TIGHT)
@@ -158,7 +158,7 @@ def test_labels_are_had_where_they_are_asked_for():
 
 def test_a_corner_that_no_clip_can_turn_is_cut_and_told(monkeypatch):
     zigzag = GroundPath([[0, 0], [0, 4], [0.5, 0], [1, 4], [1, 8]])
-    monkeypatch.setattr(path_following, "account", lambda *given: warn("seen") or account(*given))
+    monkeypatch.setattr(path_following, "measure_walk", lambda *given: warn("seen") or measure_walk(*given))
     leaves = r"leaves the path (once|\d+ times), the furthest by \d+ cm at"
     with pytest.warns(MocapWarning, match=leaves) as caught:
         followed = follow_path(GRAPH, zigzag)

@@ -14,7 +14,7 @@ from mocap.graphs import build
 from mocap.graphs.compiled_graph import AHEAD, compile_graph
 from mocap.graphs.motion_graph import from_transitions
 from mocap.steering import path_search
-from mocap.steering.followed import plan_bending
+from mocap.steering.bent_following import plan_bending
 from mocap.steering.layered_search import LayeredSearch, States, select, standing, start_states
 from mocap.steering.path_following import follow_path, path_problem, start_of
 from mocap.steering.path_objective import Route, Settings, Wishes, make_route

@@ -1,19 +1,20 @@
-"""Parametric motion graphs: a node is a whole space of motions, an edge says which may follow [HG07].
+"""Parametric motion graphs: a node is a space of motions, an edge the boxes of possible successors [HG07].
 
-In a motion graph a node is a moment of a clip. Here it is all motions of one kind, such as strides by turn
-and speed, or reaches by the place of the hand, each made by blending. An edge gives for each of them a box of
-targets that may follow, and when. So control needs no search: it reads the box, and takes what is nearest to
-the command.
+In a motion graph a node is a frame of a clip. Here it is the space of all motions of one kind, such as
+strides by turn and speed, or reaches by the position of the hand, each made by blending. An edge stores for
+each of them a box of targets that may follow, and the phases of the transition. Control therefore needs no
+search: it looks up the box, and chooses the parameters nearest to the command.
 
 Reading order (notebook 17)
 ---------------------------
 1. `examples`: examples of one action, such as punches, on one grid of phases
-2. `strides`: strides and steps, cut where feet strike; from one kind into another over a stride
-3. `stride_spaces`: ask for a turn, and get the weights of a blend that has it
-4. `made_motions`: motions made out of mixes, and where to leave one and enter another
-5. `parametric_edges`: boxes of targets that may follow; spaces and edges as a graph
-6. `parametric_storage`: save a graph to .npz, and read it again
-7. `parametric_control`: a character that decides once per stride
+2. `strides`: strides and steps, cut where feet strike
+3. `stride_spaces`: from a turn to the weights of a blend that has it
+4. `stride_changes`: strides of one kind that fade into those of another
+5. `made_motions`: motions made by blending, and the best moments to leave one and enter another
+6. `parametric_edges`: boxes of targets that may follow; spaces and edges as a graph
+7. `parametric_storage`: save a graph to .npz, and read it again
+8. `parametric_control`: a character that decides once per stride
 
 References
 ----------

@@ -1,5 +1,5 @@
 from .examples import cut_actions as cut_actions
-from .examples import mixed_way as mixed_way
+from .examples import mixed_trajectory as mixed_trajectory
 from .made_motions import optimal_transitions as optimal_transitions
 from .parametric_control import ParametricController as ParametricController
 from .parametric_edges import ParametricEdge as ParametricEdge

@@ -1,7 +1,7 @@
-"""N examples of one action on one grid of phases, so that phase for phase all of them do the same.
+"""N examples of one action on one grid of phases: at each phase all examples do the same.
 
-A margin on either side of the action leaves room for the windows of transitions. The ground is left out:
-velocities and turning are as the body sees them, so that examples can be mixed.
+A margin before and after the action leaves room for the windows of transitions. Examples store no positions
+on the ground, but velocities and rotation rates relative to the body, which can be mixed.
 """
 
 from collections.abc import Sequence
@@ -23,9 +23,10 @@ from mocap.errors import MocapError
 from mocap.feet.footplants import mark_plants
 from mocap.matching.point_clouds import distinct_joints
 
-MARGIN = 0.38  # of an action, before and after it
+MARGIN = 0.38  # fraction of an action, before and after it
 FINE = 60  # phases per stride
-Cut = tuple[Motion, Array]  # a clip, and its frames (G,) at the phases of a grid
+Cut = tuple[Motion, Array]
+"""A clip, and its frames (G,) at the phases of a grid."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,15 +38,15 @@ class Examples:
     skeleton, fps : of the clips.
     grid : shape (G,), phases; the action, such as a stride, begins at 0 and ends at 1.
     seconds : shape (N, G), since the action began: the time warp.
-    speeds : shape (N, G), complex, metres of ground per phase as seen from the body.
-    turning : shape (N, G), radians per phase.
+    speeds : shape (N, G), complex z + ix, ground velocity relative to the heading, metres per phase.
+    turning : shape (N, G), rotation rate of the heading, radians per phase.
     heights : shape (N, G), of the root, metres.
-    poses : shape (N, G, J, 4), the root's without its heading.
-    contacts : shape (N, G, C), and `contact_names`, C of them.
+    poses : shape (N, G, J, 4), rotations; those of the root are relative to the heading.
+    contacts : shape (N, G, C), of the C joints `contact_names`.
     values : shape (N, 2), the turn in radians and the speed in m/s.
-    sway : radians that the pelvis turns on a straight example without turning: 0 for strides.
-    offset : radians from where the body faces at a strike to where it goes; 0 where no example goes straight.
-    dropped : examples that were left out.
+    sway : rotation of the pelvis in a straight example, radians: 0 for strides.
+    offset : angle from the heading at a strike to the direction of travel, radians; 0 if none is straight.
+    dropped : number of examples that were left out.
     """
 
     skeleton: Skeleton
@@ -68,24 +69,23 @@ class Examples:
 
     @cached_property
     def joints(self) -> list[int]:
-        """The joints that windows are compared by, each place once."""
+        """The joints by which windows are compared, one for each position."""
         return distinct_joints(self.skeleton)
 
     @property
     def ends(self) -> tuple[int, int]:
         """The numbers of phases 0 and 1 on the grid."""
-        first, last = np.searchsorted(self.grid, [-1e-9, 1 - 1e-9])
-        return int(first), int(last)
+        return _ends(self.grid)
 
-    def take(self, which: Mask | Indices) -> "Examples":
-        """Keep some of the examples."""
-        if not len(self.values[which]):
+    def take(self, rows: Mask | Indices) -> "Examples":
+        """Return some of the examples."""
+        if not len(self.values[rows]):
             raise MocapError(f"None of {len(self)} examples is left.")
         parts = ("seconds", "speeds", "turning", "heights", "poses", "contacts", "values")
-        return replace(self, **{part: getattr(self, part)[which] for part in parts})
+        return replace(self, **{part: getattr(self, part)[rows] for part in parts})
 
     def integrated(self, rates: NDArray[Any]) -> NDArray[Any]:
-        """Integrate rates (M, G) over the phases, from phase 0 on.
+        """Integrate rates (M, G) over the phases; the integral is 0 at phase 0.
 
         Examples
         --------
@@ -96,17 +96,18 @@ class Examples:
         >>> strides.ends, strides.integrated(rates)[:, [0, 23, 53, 83, 106]].round(2).tolist()
         ((23, 83), [[-0.38, 0.0, 0.5, 1.0, 1.38], [0.15, 0.0, 0.25, 1.0, 1.91]])
         """
-        step, zero = self.grid[1] - self.grid[0], self.ends[0]
+        step = self.grid[1] - self.grid[0]
+        first, _ = self.ends
         total = np.cumsum((rates[:, 1:] + rates[:, :-1]) / 2 * step, axis=1)
         total = np.concatenate([np.zeros((len(rates), 1)), total], axis=1)
-        return np.asarray(total - total[:, zero : zero + 1])
+        return np.asarray(total - total[:, first : first + 1])
 
     def blend(self, weights: Array) -> Motion:
-        """Blend the action by weights (N,): one frame per phase from 0 to 1, as long as the mix takes.
+        """Blend the action by weights (N,): one frame for each phase from 0 to 1, at the mean duration.
 
         Examples
         --------
-        A foot stands where it does in more than half of the mix, here in both:
+        A foot is in contact if it is in more than half of the mix, here in both examples:
 
         >>> from mocap import body, datasets
         >>> from mocap.methods.parametric_graphs.strides import cut_strides
@@ -118,27 +119,31 @@ class Examples:
         >>> one.sum().tolist(), other.sum().tolist(), blend.contacts["lfoot"].sum().tolist()
         (12, 13, 12)
         """
-        zero, one = self.ends
-        rate = (one - zero) / float(weights @ self.seconds[:, one])
-        return self.motion(weights, np.arange(zero, one + 1.0), rate)[0]
+        first, last = self.ends
+        rate = (last - first) / float(weights @ self.seconds[:, last])
+        return self.motion(weights, np.arange(first, last + 1.0), rate)[0]
 
-    def motion(self, weights: Array, places: Array, fps: float) -> tuple[Motion, Array]:
-        """Blend by weights (N,) at F places between the G phases: the motion, and its heading (F,)."""
-        (roots,), (turns,), (facing,) = self.mixed(weights[None], places[None])
-        marks = np.tensordot(weights, self.contacts[:, np.rint(places).astype(int)], 1) > 0.5
+    def motion(self, weights: Array, positions: Array, fps: float) -> tuple[Motion, Array]:
+        """Blend by weights (N,) at F positions between the G phases: the motion, and its heading (F,)."""
+        (roots,), (poses,), (facing,) = self.mixed(weights[None], positions[None])
+        marks = np.tensordot(weights, self.contacts[:, np.rint(positions).astype(int)], 1) > 0.5
         contacts = dict(zip(self.contact_names, marks.T, strict=True))
-        return Motion(self.skeleton, roots, turns, fps, "blend", contacts=contacts), facing
+        return Motion(self.skeleton, roots, poses, fps, "blend", contacts=contacts), facing
 
-    def mixed(self, weights: Array, places: Array) -> tuple[Array, Array, Array]:
-        """Mix M poses at F places between the G phases: roots (M, F, 3), rotations, headings (M, F).
+    def mixed(self, weights: Array, positions: Array) -> tuple[Array, Array, Array]:
+        """Mix M motions at F positions between the G phases.
 
-        The pose is a normalised sum of quaternions of one sign; heights are sums; the root's velocities are
-        mixed as the body sees them [ours], and integrated.
+        The pose is a normalised sum of quaternions of one sign. Heights are weighted sums. The root's
+        velocities relative to the body are mixed [ours], and integrated.
 
         Parameters
         ----------
         weights : shape (M, N).
-        places : shape (M, F), from 0 to G - 1.
+        positions : shape (M, F), from 0 to G - 1: 2.5 is half-way between the phases numbered 2 and 3.
+
+        Returns
+        -------
+        Root positions (M, F, 3), rotations (M, F, J, 4) and headings (M, F).
 
         Examples
         --------
@@ -147,64 +152,90 @@ class Examples:
         >>> from mocap import body, datasets
         >>> from mocap.methods.parametric_graphs.strides import cut_strides
         >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_1"), 30)])
-        >>> weights, places = np.eye(len(strides))[[0, 2]].mean(axis=0), np.array([23, 53.25, 83, 106])
-        >>> roots, turns, headings = strides.mixed(weights[None], places[None])
+        >>> weights = np.eye(len(strides))[[0, 2]].mean(axis=0)
+        >>> roots, poses, headings = strides.mixed(weights[None], np.array([[23, 53.25, 83, 106]]))
         >>> np.degrees(headings[0]).round().tolist()
         [0.0, 13.0, 34.0, 74.0]
         >>> roots[0].round(2).tolist()
         [[0.0, 0.99, 0.0], [0.03, 0.99, 0.52], [0.22, 1.0, 1.01], [0.52, 0.98, 1.24]]
-        >>> np.linalg.norm(turns, axis=-1).round(9).tolist() == np.ones((1, 4, 38)).tolist()
-        True
+        >>> poses.shape
+        (1, 4, 38, 4)
         """
-        low = np.clip(places.astype(int), 0, len(self.grid) - 2)
-        share, row, used = places - low, np.arange(len(weights))[:, None], np.flatnonzero(weights.any(axis=0))
-        ground, facing = mixed_way(self, weights)
-        ground, facing, heights = (
-            part[row, low] * (1 - share) + part[row, low + 1] * share
-            for part in (ground, facing, weights @ self.heights)
-        )
-        first, some = low.min(), self.poses[used, low.min() : low.max() + 2]
-        poses = (weights[:, used] @ some.reshape(len(used), -1)).reshape(-1, *some.shape[1:])
-        amount = share[..., None, None]
-        turns = poses[row, low - first] * (1 - amount) + poses[row, low - first + 1] * amount
-        turns /= np.linalg.norm(turns, axis=-1, keepdims=True)
-        turns[:, :, 0] = rotations.multiply(rotations.about_y(facing), turns[:, :, 0])
-        return np.stack([ground.imag, heights, ground.real], axis=-1), turns, facing
+        low = np.clip(positions.astype(int), 0, len(self.grid) - 2)
+        fraction = positions - low
+        mix = np.arange(len(weights))[:, None]
 
-    def require_joinable(self, other: "Examples") -> None:
+        def interpolated(values: NDArray[Any]) -> NDArray[Any]:
+            return _between(values[mix, low], values[mix, low + 1], fraction)
+
+        grid_ground, grid_facing = mixed_trajectory(self, weights)
+        ground = interpolated(grid_ground)
+        facing = interpolated(grid_facing)
+        heights = interpolated(weights @ self.heights)
+        poses = self._mixed_poses(weights, low, fraction)
+        poses[:, :, 0] = rotations.multiply(rotations.about_y(facing), poses[:, :, 0])
+        return np.stack([ground.imag, heights, ground.real], axis=-1), poses, facing
+
+    def _mixed_poses(self, weights: Array, low: Indices, fraction: Array) -> Array:
+        """Mix poses, (M, F, J, 4), at a fraction (M, F) of the step from the phases numbered `low` (M, F)."""
+        used = np.flatnonzero(weights.any(axis=0))
+        first = low.min()
+        window = self.poses[used, first : low.max() + 2]
+        sums = (weights[:, used] @ window.reshape(len(used), -1)).reshape(-1, *window.shape[1:])
+        mix = np.arange(len(weights))[:, None]
+        number = low - first
+        poses = _between(sums[mix, number], sums[mix, number + 1], fraction[..., None, None])
+        poses /= np.linalg.norm(poses, axis=-1, keepdims=True)
+        return poses
+
+    def require_joinable(self, other: "Examples") -> None:  # reads: name: as in `Skeleton.require_same`
         """Raise SkeletonMismatch or MocapError for examples of another skeleton, rate or marks."""
         self.skeleton.require_same(other.skeleton)
         if self.fps != other.fps:
             raise MocapError(f"Examples are joined at one rate, got {self.fps:g} and {other.fps:g} Hz.")
-        if odd := set(self.contact_names) ^ set(other.contact_names):
-            raise MocapError(f"Examples are joined with the same marks; some of them lack {min(odd)}.")
+        unshared = set(self.contact_names) ^ set(other.contact_names)
+        if unshared:
+            raise MocapError(f"Examples are joined with the same marks; some of them lack {min(unshared)}.")
 
 
-def on_one_clock(found: Sequence[Cut], within: tuple[int, int]) -> list[Cut]:
-    """Put the frames of all examples on the clock of the one whose turn is the median [KG03].
+def _between(start: NDArray[Any], end: NDArray[Any], fraction: Array) -> NDArray[Any]:
+    """Interpolate linearly: the start at 0, the end at 1."""
+    return np.asarray(start * (1 - fraction) + end * fraction)
 
-    They are registered from the one to the other of two phases, by their numbers. Outside each clip goes on
-    at its own pace: around punches, say, the examples are not one action any more.
+
+def _ends(grid: Array) -> tuple[int, int]:
+    """Return the numbers of the phases 0 and 1 on a grid."""
+    first, last = np.searchsorted(grid, [-1e-9, 1 - 1e-9])
+    return int(first), int(last)
+
+
+def register_cuts(cuts: Sequence[Cut], within: tuple[int, int]) -> list[Cut]:
+    """Register all examples with the one of median rotation, by registration curves [KG03].
+
+    They are registered between two phases, given by their numbers on the grid. Outside of these each clip
+    continues at its own pace: before and after punches, say, the examples are not one action any more.
     """
     first, last = within
-    ends = [(int(frames[first]), int(np.ceil(frames[last]))) for _, frames in found]
-    parts = [clip[a : b + 1] for (clip, _), (a, b) in zip(found, ends, strict=True)]
-    turns = [float(np.ptp(np.unwrap(heading(part.rotations[:, 0])))) for part in parts]
-    middle = int(np.argsort(turns)[len(turns) // 2])
-    clock = (found[middle][1] - ends[middle][0]) / parts[0].fps  # seconds of the reference
-    inner = np.clip(clock, 0, parts[middle].duration)
-    times = register(parts, reference=middle, slack=0.0).times
-    rows = []
-    for (clip, _), (start, _), own in zip(found, ends, times, strict=True):
-        warped = own(inner) + clock - inner
-        rows.append((clip, np.clip(start + warped * clip.fps, 0, len(clip) - 1)))
-    return rows
+    starts = [int(frames[first]) for _, frames in cuts]
+    stops = [int(np.ceil(frames[last])) for _, frames in cuts]
+    parts = [clip[start : stop + 1] for (clip, _), start, stop in zip(cuts, starts, stops, strict=True)]
+    angles = [float(np.ptp(np.unwrap(heading(part.rotations[:, 0])))) for part in parts]
+    reference = int(np.argsort(angles)[len(angles) // 2])
+    _, reference_frames = cuts[reference]
+    clock = (reference_frames - starts[reference]) / parts[0].fps
+    registered_clock = np.clip(clock, 0, parts[reference].duration)
+    curves = register(parts, reference=reference, slack=0.0).times
+    registered = []
+    for (clip, _), start, curve in zip(cuts, starts, curves, strict=True):
+        seconds = curve(registered_clock) + clock - registered_clock
+        registered.append((clip, np.clip(start + seconds * clip.fps, 0, len(clip) - 1)))
+    return registered
 
 
 def cut_actions(clips: Sequence[Motion], spans: Sequence[tuple[int, int]]) -> Examples:
-    """Cut one action out of each clip, register them, and put all on one grid of phases [HG07, examples].
+    """Cut one action out of each clip, register them, and sample all on one grid of phases [HG07, examples].
 
-    At both ends 0.38 of the action is kept for the windows of transitions, which take 0.3 s.
+    Before and after, 0.38 of the action is kept for the windows of transitions, which take 0.3 s.
 
     Parameters
     ----------
@@ -230,62 +261,79 @@ def cut_actions(clips: Sequence[Motion], spans: Sequence[tuple[int, int]]) -> Ex
     clips = require_alike(clips)
     margin = round(MARGIN * FINE)
     grid = np.arange(-margin, FINE + margin + 1) / FINE
-    found = []
+    cuts = []
     for clip, (first, last) in zip(clips, spans, strict=True):
         frames = first + grid * (last - first)
         if not (first < last and frames[0] >= 0 and frames[-1] <= len(clip) - 1):
             action = f"an action from {first} to {last} with its margins takes those"
-            beyond = f"{action} from {frames[0]:.0f} to {frames[-1]:.0f}"
-            raise MocapError(f"'{clip.name}' has {len(clip)} frames; {beyond}: leave it more room, or out.")
-        found.append((clip if clip.contacts else mark_plants(clip), frames))
-    return tabled(on_one_clock(found, (margin, margin + FINE)), grid)
+            need = f"{action} from {frames[0]:.0f} to {frames[-1]:.0f}"
+            raise MocapError(f"'{clip.name}' has {len(clip)} frames; {need}: leave it more room, or out.")
+        cuts.append((clip if clip.contacts else mark_plants(clip), frames))
+    return sample_cuts(register_cuts(cuts, (margin, margin + FINE)), grid)
 
 
-def tabled(found: Sequence[Cut], grid: Array, *, dropped: int = 0) -> Examples:
-    """Take the motion at the frames (G,) of each clip."""
-    step, names = grid[1] - grid[0], tuple(found[0][0].contacts)
-    zero, one = np.searchsorted(grid, [-1e-9, 1 - 1e-9])
-    rows = []
-    for clip, frames in found:
-        posed = clip.at(frames)
-        roots, turns = posed.root_positions, posed.rotations.copy()
-        facing, ground = np.unwrap(heading(turns[:, 0])), on_ground(roots)
-        turns[:, 0] = rotations.multiply(rotations.about_y(-facing), turns[:, 0])
-        near = np.round(frames).astype(int)
-        contact = np.stack([clip.contacts[name][near] for name in names], axis=1)
-        clock = (frames - frames[zero]) / clip.fps
-        way = np.abs(np.diff(ground[zero : one + 1])).sum() / clock[one]
-        speed, spin = np.gradient(ground, step) * np.exp(-1j * facing), np.gradient(facing, step)
-        rows.append((clock, speed, spin, roots[:, 1], turns, contact, [facing[one] - facing[zero], way]))
-    seconds, speeds, turning, heights, poses, contacts, values = map(np.array, zip(*rows, strict=True))
+def sample_cuts(cuts: Sequence[Cut], grid: Array, *, dropped: int = 0) -> Examples:
+    """Sample the motion of each clip at its frames (G,)."""
+    names = tuple(cuts[0][0].contacts)
+    samples = [_sample(clip, frames, grid, names) for clip, frames in cuts]
+    arrays: dict[str, Any] = {}
+    for part in samples[0]:
+        arrays[part] = np.array([sample[part] for sample in samples])
+    poses = arrays["poses"]
     poses[0] = rotations.continuous(poses[0])  # one sign from phase to phase, and for all examples
-    poses *= np.where((poses * poses[0]).sum(axis=-1, keepdims=True) < 0, -1, 1)
-    own = (clip.skeleton, clip.fps, grid, seconds, speeds, turning, heights, poses, contacts, names, values)
-    return Examples(*own, dropped=dropped)
+    products = (poses * poses[0]).sum(axis=-1, keepdims=True)
+    poses *= np.where(products < 0, -1, 1)
+    clip, _ = cuts[-1]
+    arrays |= {"contact_names": names, "dropped": dropped}
+    return Examples(clip.skeleton, clip.fps, grid, **arrays)
 
 
-def mixed_way(examples: Examples, weights: Array) -> tuple[Points, Array]:
-    """Mix velocities as the body sees them, and integrate: θ(u) = ∫ Σ w θ', p(u) = ∫ Σ w v e^{iθ} [ours].
+def _sample(clip: Motion, frames: Array, grid: Array, names: Sequence[str]) -> dict[str, NDArray[Any]]:
+    """Sample one example at some frames (G,): the arrays of `Examples`, without N."""
+    first, last = _ends(grid)
+    step = grid[1] - grid[0]
+    motion = clip.at(frames)
+    facing = np.unwrap(heading(motion.rotations[:, 0]))
+    poses = motion.rotations.copy()
+    poses[:, 0] = rotations.multiply(rotations.about_y(-facing), poses[:, 0])
+    ground = on_ground(motion.root_positions)
+    seconds = (frames - frames[first]) / clip.fps
+    length = np.abs(np.diff(ground[first : last + 1])).sum()
+    nearest = np.round(frames).astype(int)
+    # reads: statement: a table
+    return {
+        "seconds": seconds,
+        "speeds": np.gradient(ground, step) * np.exp(-1j * facing),
+        "turning": np.gradient(facing, step),
+        "heights": motion.root_positions[:, 1],
+        "poses": poses,
+        "contacts": np.stack([clip.contacts[name][nearest] for name in names], axis=1),
+        "values": np.array([facing[last] - facing[first], length / seconds[last]]),
+    }
 
-    Places mixed instead would shorten a half left, half right stride of 90° by a third.
+
+def mixed_trajectory(examples: Examples, weights: Array) -> tuple[Points, Array]:
+    """Mix velocities relative to the body, and integrate: θ(u) = ∫ Σ w θ', p(u) = ∫ Σ w v e^{iθ} [ours].
+
+    To mix positions instead would shorten a mix of strides by 90° to the left and to the right by a third.
 
     Parameters
     ----------
-    examples : N of them.
+    examples : N examples.
     weights : shape (M, N), of M mixes.
 
     Returns
     -------
-    The ground (M, G), complex, and the heading (M, G), both 0 at phase 0.
+    The ground points (M, G), complex, and the headings (M, G), both 0 at phase 0.
 
     Examples
     --------
     >>> from mocap import body, datasets
     >>> from mocap.methods.parametric_graphs.strides import cut_strides
     >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_1"), 30)])
-    >>> ground, heading = mixed_way(strides, np.eye(len(strides))[:1])
-    >>> zero, one = strides.ends
-    >>> np.degrees(heading[0, [zero, one]]).round().tolist(), ground[0, [zero, one]].round(2).tolist()
+    >>> ground, heading = mixed_trajectory(strides, np.eye(len(strides))[:1])
+    >>> first, last = strides.ends
+    >>> np.degrees(heading[0, [first, last]]).round().tolist(), ground[0, [first, last]].round(2).tolist()
     ([0.0, 86.0], [0j, (0.61+0.63j)])
 
     Notebook: 17-parametric-graphs

@@ -1,7 +1,7 @@
-"""Motions made out of mixes, frame by frame, and where to leave one and enter another [HG07, 3.1].
+"""Motions made by blending, and the best moments to leave one and to enter another [HG07, 3.1].
 
-All pairs of 50 × 1000 generated clips are compared at once, by the products of `matching.distance_grids`: a
-whole window is there one frame of many points.
+All pairs of 50 × 1000 generated clips are compared by the matrix products of `matching.distance_grids`. In
+these a whole window is one frame of many points.
 """
 
 import numpy as np
@@ -11,27 +11,26 @@ from mocap._shared.records import dataclass
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
-from mocap.matching.distance_grids import cloud, cloud_distances
-from mocap.methods.match_webs.target_weights import sample_weights as shares_for
-from mocap.methods.match_webs.target_weights import weights_for
+from mocap.matching.distance_grids import Cloud, cloud, cloud_distances
+from mocap.methods.match_webs.target_weights import sample_weights, weights_for
 from mocap.methods.parametric_graphs.stride_spaces import Space
 
-HALF = 5  # a window is 11 frames, a third of a second at 30 Hz, about its centre
-WINDOW = 2 * HALF + 1
-SPAN = 3  # frames around an end at which a transition may be centred
-ROWS = 8  # sources compared in one product
+HALF = 5  # frames of a window on either side of its centre
+WINDOW = 2 * HALF + 1  # frames, a third of a second at 30 Hz
+SPAN = 3  # frames before and after an end at which a transition may be centred
+ROWS = 8  # number of sources compared in one product
 
 
 @dataclass(frozen=True, eq=False)
 class MadeMotion:
-    """A motion of F frames, margins and all, which starts at the origin; `make_motion` shows an example.
+    """A motion of F frames, with its margins, that starts at the origin; `make_motion` shows an example.
 
     Parameters
     ----------
     motion : F frames, with contacts.
     phases : shape (F,).
-    heading : shape (F,), how the body faces.
-    values : shape (d,), what the samples of its space say that it comes to.
+    heading : shape (F,), radians.
+    values : shape (d,), its parameters, interpolated between the samples of its space.
     """
 
     motion: Motion
@@ -40,17 +39,17 @@ class MadeMotion:
     values: Array
 
     def frame(self, phase: float) -> int:
-        """Give the frame nearest to a phase."""
+        """Return the number of the frame nearest to a phase."""
         return int(np.abs(self.phases - phase).argmin())
 
 
-def make_motion(space: Space, asked: Array) -> MadeMotion:
-    """Make the motion that a space has for some parameters, at the rate of its clips.
+def make_motion(space: Space, parameters: Array) -> MadeMotion:
+    """Make the motion of a space with some parameters, at the frame rate of its clips.
 
     Parameters
     ----------
     space : of examples on a grid.
-    asked : shape (d,), parameters.
+    parameters : shape (d,).
 
     Examples
     --------
@@ -64,22 +63,26 @@ def make_motion(space: Space, asked: Array) -> MadeMotion:
     >>> len(made.motion), made.frame(0.0), made.frame(1.0), made.phases[[0, -1]].round(3).tolist()
     (57, 12, 44, [-0.377, 1.36])
     """
-    examples, (near,), (shares,) = space.examples, *shares_for(space, asked[None])
-    weights, values = (shares @ part[near] for part in (space.weights, space.values))
-    seconds, rate = weights @ examples.seconds, examples.fps
-    times = np.arange(np.ceil(seconds[0] * rate), np.floor(seconds[-1] * rate) + 1) / rate
-    places = np.interp(times, seconds, np.arange(len(seconds)))
-    motion, facing = examples.motion(weights, places, rate)
+    examples = space.examples
+    fps = examples.fps
+    (samples,), (sample_weights,) = sample_weights(space, parameters[None])
+    weights = sample_weights @ space.weights[samples]
+    values = sample_weights @ space.values[samples]
+    seconds = weights @ examples.seconds
+    frames = np.arange(np.ceil(seconds[0] * fps), np.floor(seconds[-1] * fps) + 1)
+    times = frames / fps
+    positions = np.interp(times, seconds, np.arange(len(seconds)))
+    motion, facing = examples.motion(weights, positions, fps)
     return MadeMotion(motion, np.interp(times, seconds, examples.grid), facing, values)
 
 
-def near_end(space: Space, asked: Array, phase: float) -> tuple[Array, Array]:
-    """Generate clips only in the F frames around where their action begins or ends.
+def near_end(space: Space, parameters: Array, phase: float) -> tuple[Array, Array]:
+    """Generate clips in the F frames around the beginning or the end of their action only.
 
     Parameters
     ----------
     space : of examples on a grid.
-    asked : shape (M, d), parameters.
+    parameters : shape (M, d).
     phase : 0 or 1.
 
     Returns
@@ -88,7 +91,7 @@ def near_end(space: Space, asked: Array, phase: float) -> tuple[Array, Array]:
 
     Raises
     ------
-    MocapError : for windows that run off the margins by more than a frame; they would hold the last frame.
+    MocapError : for windows that exceed the margins by more than a frame; they would repeat the last frame.
 
     Examples
     --------
@@ -102,33 +105,46 @@ def near_end(space: Space, asked: Array, phase: float) -> tuple[Array, Array]:
     >>> points.shape, phases[0, [0, 8, -1]].round(2).tolist()
     ((1, 17, 31, 3), [0.74, 0.99, 1.24])
     """
-    examples, rate, reach = space.examples, space.examples.fps, HALF + SPAN
-    weights = weights_for(space, asked)
+    examples = space.examples
+    fps = examples.fps
+    reach = HALF + SPAN
+    weights = weights_for(space, parameters)
     seconds = weights @ examples.seconds
-    centre = np.array([round(np.interp(phase, examples.grid, clock) * rate) for clock in seconds])
-    times = (centre[:, None] + np.arange(-reach, reach + 1)) / rate
-    off = np.maximum(seconds[:, 0] - times[:, 0], times[:, -1] - seconds[:, -1])
-    if off.max() > 1 / rate:
-        lasts = f"a motion of {np.ptp(seconds[off.argmax()]):.2f} s, margins and all"
-        raise MocapError(f"A window runs {off.max():.2f} s off {lasts}: cut with a larger margin.")
-    every = np.arange(len(examples.grid))
-    places = np.array([np.interp(t, clock, every) for t, clock in zip(times, seconds, strict=True)])
-    roots, turns, _ = examples.mixed(weights, places)
-    motion = Motion(examples.skeleton, roots.reshape(-1, 3), turns.reshape(-1, *turns.shape[2:]), rate)
-    points = joint_positions(motion)[:, examples.joints].reshape(*places.shape, -1, 3)
-    return points, np.interp(places, every, examples.grid)
+    centres = np.array([round(np.interp(phase, examples.grid, clock) * fps) for clock in seconds])
+    times = (centres[:, None] + np.arange(-reach, reach + 1)) / fps
+    _require_margins(times, seconds, fps)
+    numbers = np.arange(len(examples.grid))
+    positions = np.array([np.interp(t, clock, numbers) for t, clock in zip(times, seconds, strict=True)])
+    roots, poses, _ = examples.mixed(weights, positions)
+    motion = Motion(examples.skeleton, roots.reshape(-1, 3), poses.reshape(-1, *poses.shape[2:]), fps)
+    points = joint_positions(motion)[:, examples.joints].reshape(*positions.shape, -1, 3)
+    return points, np.interp(positions, numbers, examples.grid)
 
 
-def optimal_transitions(source: Space, target: Space, at: Array, to: Array) -> tuple[Array, Array, Array]:
-    """Find for each pair of clips the windows that are nearest [HG07, 3.1].
+def _require_margins(times: Array, seconds: Array, fps: float) -> None:
+    """Raise MocapError if windows at some times (M, F) exceed motions with time warps (M, G) by a frame."""
+    before_start = seconds[:, 0] - times[:, 0]
+    after_end = times[:, -1] - seconds[:, -1]
+    excess = np.maximum(before_start, after_end)
+    largest = excess.max()
+    if largest > 1 / fps:
+        duration = np.ptp(seconds[excess.argmax()])
+        motion = f"a motion of {duration:.2f} s, margins and all"
+        raise MocapError(f"A window runs {largest:.2f} s off {motion}: cut with a larger margin.")
 
-    Windows of 11 frames, centred up to 3 frames from the source's end (the last strike of a stride) and the
-    target's beginning.
+
+def optimal_transitions(
+    source: Space, target: Space, sources: Array, targets: Array
+) -> tuple[Array, Array, Array]:
+    """Find the most similar windows of each pair of clips [HG07, 3.1].
+
+    The windows of 11 frames are centred up to 3 frames from the source's end, such as the last strike of a
+    stride, and from the target's beginning.
 
     Parameters
     ----------
     source, target : spaces of one skeleton and rate.
-    at, to : parameters (M, d) of sources and (N, d') of targets.
+    sources, targets : parameters (M, d) of sources and (N, d') of targets.
 
     Returns
     -------
@@ -144,27 +160,39 @@ def optimal_transitions(source: Space, target: Space, at: Array, to: Array) -> t
     >>> optimal_transitions(space, space, np.array([[0.6]]), np.array([[0.6], [-0.6]]))[0].round(3)
     array([[0.031, 0.039]])
 
-    What it costs to go on from turns by -0.8, 0.6 and 0.8 to one by -0.6, and when to leave and to enter:
+    The cost from turns by -0.8, 0.6 and 0.8 to one by -0.6, and the phases to leave and to enter:
 
     >>> turns = np.linspace(-0.8, 0.8, 9)[:, None]
-    >>> found = optimal_transitions(space, space, turns, turns[1:2])
-    >>> [part[[0, 7, 8], 0].round(2).tolist() for part in found]
+    >>> transitions = optimal_transitions(space, space, turns, turns[1:2])
+    >>> [part[[0, 7, 8], 0].round(2).tolist() for part in transitions]
     [[0.02, 0.04, 0.04], [1.0, 0.96, 0.96], [0.0, -0.06, -0.06]]
 
     Notebook: 17-parametric-graphs
     """
-    (points, leaving), (others, entering) = near_end(source, at, 1.0), near_end(target, to, 0.0)
-    size, count = WINDOW * points.shape[2], 2 * SPAN + 1
-    frames = np.arange(count)[:, None] + np.arange(WINDOW)
-    level, weights = np.tile(points[..., 1].mean(axis=(0, 1)), WINDOW), np.full(size, 1 / size)
-    windows = (some[:, frames].reshape(-1, size, 3) for some in (points, others))
-    a, b = (cloud(every, level, weights, 1, np.float32) for every in windows)
-    cost, best = np.empty((len(at), len(to))), np.empty((len(at), len(to)), int)
-    for start in range(0, len(at), ROWS):
-        rows, part = slice(start * count, (start + ROWS) * count), slice(start, start + ROWS)
-        grid = cloud_distances(a.part(rows), b).reshape(-1, count, len(to), count).transpose(0, 2, 1, 3)
-        flat = grid.reshape(*grid.shape[:2], -1)  # all pairs of windows of two clips
-        best[part], cost[part] = flat.argmin(axis=-1), np.sqrt(flat.min(axis=-1))
-    i, j = np.divmod(best, count)
-    leave = np.take_along_axis(leaving[:, HALF : HALF + count], i, 1)
-    return cost, leave, entering[np.arange(len(to)), HALF + j]
+    points, leaving = near_end(source, sources, 1.0)
+    target_points, entering = near_end(target, targets, 0.0)
+    count = 2 * SPAN + 1  # windows of a clip
+    level = np.tile(points[..., 1].mean(axis=(0, 1)), WINDOW)
+    source_windows = _windows(points, level)
+    target_windows = _windows(target_points, level)
+    cost = np.empty((len(sources), len(targets)))
+    best = np.empty((len(sources), len(targets)), int)
+    for start in range(0, len(sources), ROWS):
+        rows = source_windows.part(slice(start * count, (start + ROWS) * count))
+        grid = cloud_distances(rows, target_windows).reshape(-1, count, len(targets), count)
+        pairs = grid.transpose(0, 2, 1, 3)
+        flat = pairs.reshape(*pairs.shape[:2], -1)  # all pairs of windows of two clips
+        part = slice(start, start + ROWS)
+        best[part] = flat.argmin(axis=-1)
+        cost[part] = np.sqrt(flat.min(axis=-1))
+    leaving_window, entering_window = np.divmod(best, count)
+    leave = np.take_along_axis(leaving[:, HALF : HALF + count], leaving_window, 1)
+    return cost, leave, entering[np.arange(len(targets)), HALF + entering_window]
+
+
+def _windows(points: Array, level: Array) -> Cloud:
+    """Stack the frames of each window of clips (M, F, P, 3) to one cloud of points."""
+    size = WINDOW * points.shape[2]
+    frames = np.arange(2 * SPAN + 1)[:, None] + np.arange(WINDOW)
+    windows = points[:, frames].reshape(-1, size, 3)
+    return cloud(windows, level, np.full(size, 1 / size), 1, np.float32)

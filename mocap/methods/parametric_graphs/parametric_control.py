@@ -1,4 +1,4 @@
-"""Control on a parametric motion graph: one decision per motion, and no search [HG07, 5]."""
+"""Control on a parametric motion graph: one decision per motion, without a search [HG07, 5]."""
 
 import networkx as nx
 import numpy as np
@@ -13,22 +13,28 @@ from mocap.body.motion import Motion, concatenate
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError, NoWalk
 from mocap.matching.point_clouds import align
-from mocap.methods.parametric_graphs.made_motions import HALF, WINDOW, make_motion
-from mocap.methods.parametric_graphs.parametric_edges import Way
+from mocap.methods.parametric_graphs.made_motions import HALF, WINDOW, MadeMotion, make_motion
+from mocap.methods.parametric_graphs.parametric_edges import TargetBox
 from mocap.methods.parametric_graphs.stride_spaces import Space
 from mocap.steering.characters import Pose, require_command
 
-TARGET = ("left", "up", "ahead")  # the parameters of a place of the world, as the body sees it at phase 0
+TARGET = ("left", "up", "ahead")  # the parameters of a position in the world, relative to the body at phase 0
 COMMANDED = ("turn", "speed")  # the parameters that a command sets
-ROUNDS = 8  # of asking for a place, at most: where a motion comes to lie depends on what is asked
-CLOSE = 0.002  # metres: then no more rounds
+ROUNDS = 8  # iterations for a position, at most: where a motion starts depends on its parameters
+CLOSE = 0.002  # metres: a smaller change of the parameters ends the iterations
 
 
 class Chosen(NamedTuple):
-    """A decision: the node, what was wished of it, what its box allows, what it came to, the seam's cost, m.
+    """A decision of a `ParametricController`.
 
-    What nobody asks for is nan in `wished`: there the middle of the box is taken. Asked by turn and speed, a
-    box has corners that no clip fills; there `got` differs from `taken`.
+    Parameters
+    ----------
+    node : of the graph.
+    requested : shape (d,), the parameters by the command; nan for those without a request, which take the
+        middle of the box.
+    allowed : shape (d,), the nearest parameters in the box.
+    reached : shape (d,), the parameters of the motion, which differ in corners of the box without clips.
+    cost : of the transition, metres.
 
     Examples
     --------
@@ -37,23 +43,34 @@ class Chosen(NamedTuple):
     """
 
     node: str
-    wished: Array
-    taken: Array
-    got: Array
+    requested: Array
+    allowed: Array
+    reached: Array
     cost: float
+
+
+class _Seam(NamedTuple):
+    """A transition: its frames in two motions, the windows, the alignment of the second, and the cost."""
+
+    leave: int
+    enter: int
+    source: Motion
+    target: Motion
+    transform: PlanarTransform
+    cost: float  # metres
 
 
 class ParametricController:
     """A character on a parametric motion graph; it fits `steering.Character` [HG07, 5; seam].
 
-    Five frames before a motion is left, it reads which box of targets may follow, takes the parameters in it
-    that are nearest to the command, makes that motion, and blends over 11 frames. All frames until the next
-    decision are made at once, so that most steps only read. Nodes asked by "left", "up" and "ahead" are told
-    their place of the world by `aim`, and are entered by their label [ours].
+    Five frames before a motion is left, the character looks up the box of targets that may follow, chooses
+    the parameters in it nearest to the command, makes that motion, and blends over 11 frames. All frames
+    until the next decision are made at once, so that most steps only read. Nodes with the parameters "left",
+    "up" and "ahead" get their position in the world by `aim`, and are entered by their label [ours].
 
     Parameters
     ----------
-    graph : of spaces that may follow one another for ever.
+    graph : of spaces, in which every node has a successor.
     start : the first node; by default the first of the graph.
 
     Raises
@@ -81,37 +98,39 @@ class ParametricController:
             raise MocapError(f"There is no node '{self.node}'; there are: {', '.join(graph)}.")
         space: Space = graph.nodes[self.node]["space"]
         self.target = np.full(3, np.nan)
-        self.skeleton, self.fps = space.examples.skeleton, space.examples.fps
+        self.skeleton = space.examples.skeleton
+        self.fps = space.examples.fps
         usual = {"turn": 0.0, "speed": float(np.median(space.examples.values[:, 1]))}
-        middle = np.median(space.reached, axis=0)
-        asked = [usual.get(name, own) for name, own in zip(space.parameters, middle, strict=True)]
-        self.parameters = np.clip(asked, space.low, space.high)
+        medians = zip(space.parameters, np.median(space.reached, axis=0), strict=True)
+        parameters = [usual.get(name, median) for name, median in medians]
+        self.parameters = np.clip(parameters, space.low, space.high)
         self.chosen: list[Chosen] = []
-        self.made, self.place = make_motion(space, self.parameters), PlanarTransform(0.0, 0.0, 0.0)
-        self._play([], 0, self.made.frame(0.0))
+        self.current = make_motion(space, self.parameters)
+        self.transform = PlanarTransform(0.0, 0.0, 0.0)
+        self._play([], 0, self.current.frame(0.0))
 
     @property
     def end(self) -> PlanarTransform:
-        """Where and how the body stands when the motion that plays is over, to aim from there."""
-        at = self.made.frame(1.0)
-        x, _, z = self.made.motion.root_positions[at]
-        return self.place @ PlanarTransform(float(self.made.heading[at]), x, z)
+        """The position and heading of the body at the end of the current motion, from which to aim."""
+        last = self.current.frame(1.0)
+        x, _, z = self.current.motion.root_positions[last]
+        return self.transform @ PlanarTransform(float(self.current.heading[last]), x, z)
 
     @property
     def frames_left(self) -> int:
         """The frames until the next decision."""
         return len(self._frames) - self._next
 
-    def aim(self, place: ArrayLike) -> None:
-        """Say where in the world (x, y, z), metres, the hand is to be in the motions that are asked by it.
+    def aim(self, position: ArrayLike) -> None:
+        """Set the target of the hand, a position (x, y, z) in the world, metres.
 
         Raises
         ------
-        MocapError : for a place that is not three finite numbers.
+        MocapError : for a position that is not three finite numbers.
         """
-        target = np.asarray(place, float)
+        target = np.asarray(position, float)
         if target.shape != (3,) or not np.isfinite(target).all():
-            raise MocapError(f"A place of the world is three finite numbers, got {target.tolist()}."[:200])
+            raise MocapError(f"A position is three finite numbers, got {target.tolist()}."[:200])
         self.target = target
 
     def step(self, heading: float, speed: float, label: str = "") -> Pose:
@@ -121,7 +140,7 @@ class ParametricController:
         ----------
         heading : the direction to go in, radians; 0 is +z, π/2 is +x.
         speed : metres per second.
-        label : the node to go to, by the fewest motions; "" for any that walks.
+        label : the node to reach by the fewest motions; "" for any that walks.
 
         Raises
         ------
@@ -131,77 +150,103 @@ class ParametricController:
         require_command(heading, speed)
         if not self.frames_left:
             self._choose(heading, speed, label)
-        frame, motion = self._next, self._frames
+        frame = self._next
+        motion = self._frames
         self._next += 1
         marks = {name: bool(mark[frame]) for name, mark in motion.contacts.items()}
         return Pose(motion.root_positions[frame], motion.rotations[frame], frame in self._blended, marks)
 
-    def _play(self, before: list[Motion], blended: int, first: int) -> None:
-        """Put the frames of the motion from `first` to its decision behind others, whose last are blended."""
+    def _play(self, previous: list[Motion], blended: int, first: int) -> None:
+        """Append the current motion, from `first` to its decision, to others, whose last are blended."""
         edges = self.graph.edges(self.node, data="edge")
-        self.way: dict[str, Way] = {after: edge.look_up(self.parameters) for _, after, edge in edges}
-        soonest = min(self.made.frame(way.leave) for way in self.way.values()) - HALF
-        self._next, self._at = 0, max(soonest, first)
-        start = sum(map(len, before)) - blended
+        self.boxes: dict[str, TargetBox] = {node: edge.look_up(self.parameters) for _, node, edge in edges}
+        soonest = min(self.current.frame(box.leave) for box in self.boxes.values()) - HALF
+        self._decision = max(soonest, first)
+        self._next = 0
+        start = sum(map(len, previous)) - blended
         self._blended = range(start, start + blended)
-        self._frames = concatenate([*before, *self._laid(first, self._at)])
+        self._frames = concatenate([*previous, *self._transformed(first, self._decision)])
 
-    def _laid(self, first: int, stop: int) -> list[Motion]:
-        """Place some frames of the motion: one motion, or none."""
-        return [self.place.apply_motion(self.made.motion[first:stop])] if first < stop else []
+    def _transformed(self, first: int, stop: int) -> list[Motion]:
+        """Return some frames of the current motion in the world: one motion, or none."""
+        return [self.transform.apply_motion(self.current.motion[first:stop])] if first < stop else []
 
     def _choose(self, heading: float, speed: float, label: str) -> None:
         """Choose the next motion, make it, and blend into it."""
-        node = self._towards(label, heading, speed)
-        space, way, place = self.graph.nodes[node]["space"], self.way[node], self.end
-        taken = np.full(len(way.low), np.inf)
+        node = self._next_node(label, heading, speed)
+        space: Space = self.graph.nodes[node]["space"]
+        box = self.boxes[node]
+        transform = self.end
+        parameters = np.full(len(box.low), np.inf)
         for number in range(1 if set(space.parameters) <= set(COMMANDED) else ROUNDS):
-            wished = self._wish(space, place, heading, speed)
-            asked = np.where(np.isnan(wished), (way.low + way.high) / 2, wished)
-            goal = np.clip(asked, way.low, way.high)
-            if np.abs(goal - taken).max() < CLOSE:
+            requested = self._requested(space, transform, heading, speed)
+            complete = np.where(np.isnan(requested), (box.low + box.high) / 2, requested)
+            goal = np.clip(complete, box.low, box.high)
+            if np.abs(goal - parameters).max() < CLOSE:
                 break
-            taken = (taken + goal) / 2 if number else goal  # half of the way: else they swing about the goal
-            made = make_motion(space, taken)
-            centre, into = max(self.made.frame(way.leave), self._at + HALF), made.frame(way.enter)
-            pair = (self.made, centre), (made, into)
-            parts = [one.motion[middle - HALF : middle + HALF + 1] for one, middle in pair]
-            window, facing = (joint_positions(p)[:, space.examples.joints].reshape(-1, 3) for p in parts)
-            lay = align(window, facing)
-            place = self.place @ lay
-        cost = float(np.sqrt(((window - lay.apply_points(facing)) ** 2).sum(axis=1).mean()))
-        self.chosen.append(Chosen(node, wished, taken, made.values, cost))
-        rest, old = self._laid(self._at, centre - HALF), self.place.apply_motion(parts[0])
-        self.node, self.parameters, self.made, self.place = node, taken, made, place
-        mixed = blend(old, self.place.apply_motion(parts[1]), cubic_weights(WINDOW))
-        self._play([*rest, mixed], WINDOW, into + HALF + 1)
+            # After the first, half steps: full steps oscillate about the goal.
+            parameters = (parameters + goal) / 2 if number else goal
+            motion = make_motion(space, parameters)
+            seam = self._seam(box, motion, space.examples.joints)
+            transform = self.transform @ seam.transform
+        self.chosen.append(Chosen(node, requested, parameters, motion.values, seam.cost))
+        rest = self._transformed(self._decision, seam.leave - HALF)
+        source = self.transform.apply_motion(seam.source)
+        self.node = node
+        self.parameters = parameters
+        self.current = motion
+        self.transform = transform
+        mixed = blend(source, transform.apply_motion(seam.target), cubic_weights(WINDOW))
+        self._play([*rest, mixed], WINDOW, seam.enter + HALF + 1)
 
-    def _wish(self, space: Space, start: PlanarTransform, heading: float, speed: float) -> Array:
-        """Say which parameters would obey, for a body that stands at `start`: nan for what is not asked."""
-        missing = (heading - start.angle - space.examples.offset + np.pi) % (2 * np.pi) - np.pi
-        seen = start.inverse().apply_points(self.target)
-        known = {"turn": missing, "speed": speed, **dict(zip(TARGET, seen, strict=True))}
-        return np.array([known.get(name, np.nan) for name in space.parameters])
+    def _seam(self, box: TargetBox, motion: MadeMotion, joints: list[int]) -> _Seam:
+        """Align a motion with the current one by their windows about the frames to enter and to leave."""
+        leave = max(self.current.frame(box.leave), self._decision + HALF)
+        enter = motion.frame(box.enter)
+        source = self.current.motion[leave - HALF : leave + HALF + 1]
+        target = motion.motion[enter - HALF : enter + HALF + 1]
+        source_points = joint_positions(source)[:, joints].reshape(-1, 3)
+        target_points = joint_positions(target)[:, joints].reshape(-1, 3)
+        transform = align(source_points, target_points)
+        differences = source_points - transform.apply_points(target_points)
+        cost = float(np.sqrt((differences**2).sum(axis=1).mean()))
+        return _Seam(leave, enter, source, target, transform, cost)
 
-    def _towards(self, label: str, heading: float, speed: float) -> str:
-        """Choose the node: one on the way to the label, or the one whose box comes nearest to the wish."""
-        graph, spaces = self.graph, self.graph.nodes(data="space")
+    def _requested(self, space: Space, start: PlanarTransform, heading: float, speed: float) -> Array:
+        """Return the parameters that obey the command from a start; nan for those without a request."""
+        turn = (heading - start.angle - space.examples.offset + np.pi) % (2 * np.pi) - np.pi
+        target = start.inverse().apply_points(self.target)
+        requests = {"turn": turn, "speed": speed, **dict(zip(TARGET, target, strict=True))}
+        return np.array([requests.get(name, np.nan) for name in space.parameters])
+
+    def _next_node(self, label: str, heading: float, speed: float) -> str:
+        """Choose the next node: on the shortest path to the label, or with the box nearest to the command."""
+        graph = self.graph
         if label and label not in graph:
             raise NoWalk(f"There is no node '{label}'; there are: {', '.join(graph)}.")
-        # All that obey commands, if one that does may follow.
-        obey = {node for node, space in spaces if not set(space.parameters).isdisjoint(COMMANDED)}
-        goals = [label] if label else [node for node in obey if obey & set(graph.successors(node))]
-        if not label and (ways := [node for node in self.way if node in goals or not goals]):
-            return min(ways, key=lambda node: self._missed(node, heading, speed))
-        far = nx.multi_source_dijkstra_path_length(graph.reverse(copy=False), goals)
-        if not (ways := [node for node in self.way if node in far]):
+        goals = {label} if label else self._commanded_nodes()
+        if not label:
+            candidates = [node for node in self.boxes if node in goals or not goals]
+            if candidates:
+                return min(candidates, key=lambda node: self._shortfall(node, heading, speed))
+        lengths = nx.multi_source_dijkstra_path_length(graph.reverse(copy=False), goals)
+        candidates = [node for node in self.boxes if node in lengths]
+        if not candidates:
             raise NoWalk(f"No motions lead from '{self.node}' to '{label or 'one that walks'}'.")
-        return min(ways, key=lambda node: far[node])
+        return min(candidates, key=lambda node: lengths[node])
 
-    def _missed(self, node: str, heading: float, speed: float) -> float:
-        """Measure how far the best of a box is from the wish, in radians and m/s together."""
-        space, way = self.graph.nodes[node]["space"], self.way[node]
-        wished = self._wish(space, self.end, heading, speed)
-        off = dict(zip(space.parameters, np.abs(wished - np.clip(wished, way.low, way.high)), strict=True))
+    def _commanded_nodes(self) -> set[str]:
+        """Return the nodes that obey commands and that another one which obeys them may follow."""
+        spaces = self.graph.nodes(data="space")
+        obeying = {node for node, space in spaces if not set(space.parameters).isdisjoint(COMMANDED)}
+        return {node for node in obeying if obeying & set(self.graph.successors(node))}
+
+    def _shortfall(self, node: str, heading: float, speed: float) -> float:
+        """Sum the differences in turn, radians, and speed, m/s, of the command from the best in a box."""
+        space: Space = self.graph.nodes[node]["space"]
+        box = self.boxes[node]
+        requested = self._requested(space, self.end, heading, speed)
+        differences = np.abs(requested - np.clip(requested, box.low, box.high))
+        by_name = dict(zip(space.parameters, differences, strict=True))
         usual = np.abs(np.median(space.examples.values[:, 1]) - speed)
-        return float(off.get("turn", 0.0) + off.get("speed", usual))
+        return float(by_name.get("turn", 0.0) + by_name.get("speed", usual))

@@ -70,6 +70,8 @@ EDGE: Layout = {
     "scale": (float, ("d",)),
     "least": (float, ()),
 }
+# The fields of `ParametricEdge` that have another name in files.
+FIELDS = {"at": "sources", "least": "smallest_good"}
 
 
 def save_parametric(graph: nx.DiGraph, path: str | Path) -> None:
@@ -107,7 +109,7 @@ def save_parametric(graph: nx.DiGraph, path: str | Path) -> None:
     for number, (_, space) in enumerate(graph.nodes(data="space")):
         arrays |= numbered("node", number, _arrays_of_space(space))
     for number, (_, _, edge) in enumerate(edges):
-        arrays |= numbered("edge", number, {key: getattr(edge, key) for key in EDGE})
+        arrays |= numbered("edge", number, {key: getattr(edge, FIELDS.get(key, key)) for key in EDGE})
     write_archive(path, PARAMETRIC, arrays)
 
 
@@ -150,8 +152,9 @@ def load_parametric(path: str | Path) -> nx.DiGraph:
         except MocapError as error:
             raise FormatError(path, None, "a tree of joints", f"'{error}'") from error
     for number, (source, target) in enumerate(zip(arrays["sources"], arrays["targets"], strict=True)):
-        fields: dict[str, Any] = PARAMETRIC.part(arrays, "edge", number)
-        fields["least"] = fields["least"].item()
+        part = PARAMETRIC.part(arrays, "edge", number)
+        fields: dict[str, Any] = {FIELDS.get(key, key): array for key, array in part.items()}
+        fields["smallest_good"] = fields["smallest_good"].item()
         graph.add_edge(names[source], names[target], edge=ParametricEdge(**fields))
     return graph
 

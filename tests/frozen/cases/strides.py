@@ -7,7 +7,7 @@ import numpy as np
 from mocap import body, steering
 from mocap.methods import match_webs, motion_matching, parametric_graphs
 from mocap.methods.parametric_graphs.made_motions import make_motion, near_end
-from mocap.methods.parametric_graphs.strides import changing_strides
+from mocap.methods.parametric_graphs.stride_changes import changing_strides
 from tests.bundled import clips, walking
 from tests.frozen.quantities import (
     DIRECTION,

@@ -15,8 +15,8 @@ from mocap.methods.parametric_graphs import build_parametric, cut_actions, cut_s
 from mocap.methods.parametric_graphs.made_motions import optimal_transitions
 from mocap.methods.parametric_graphs.parametric_control import TARGET, ParametricController
 from mocap.methods.parametric_graphs.parametric_edges import build_edge
+from mocap.methods.parametric_graphs.stride_changes import changing_strides
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, measure_mixes
-from mocap.methods.parametric_graphs.strides import changing_strides
 from mocap.quality import plant_slides
 from tests.bundled import clips
 
@@ -44,7 +44,7 @@ def walk_and_jog():
         edges += [(one, name), (name, other)]
     ends = {name: np.percentile(some.values[:, 0], [4, 96]) for name, some in kinds.items()}
     spaces = {name: make_space(some, np.radians(14), *ends[name]) for name, some in kinds.items()}
-    least = max(build_edge(spaces[a], spaces[b], good=np.inf, sampling=SMALL).least for a, b in edges)
+    least = max(build_edge(spaces[a], spaces[b], good=np.inf, sampling=SMALL).smallest_good for a, b in edges)
     return build_parametric(spaces, edges, good=max(0.04, 1.05 * least), sampling=SMALL)
 
 
@@ -95,11 +95,11 @@ def walk_anywhere(character, count, speed=0.8):
     random, left = np.random.default_rng(4), []
 
     def anywhere(space, start, heading, speed):
-        way = next(iter(character.way.values()))
+        way = next(iter(character.boxes.values()))
         left.append((character.node, character.parameters))
         return random.uniform(np.minimum(way.low, way.high), np.maximum(way.low, way.high))
 
-    character._wish = anywhere
+    character._requested = anywhere
     while len(character.chosen) < count:
         character.step(0.0, speed)
     return left
@@ -203,16 +203,16 @@ def act(graph, node, count, seed=1):
         walked = len(character.chosen) - max((n for n, *_ in found), default=0)
         wants = walked >= 5 and len(found) < count
         decides = not character.frames_left
-        if decides and wants and node in character.way:
-            way = character.way[node]
+        if decides and wants and node in character.boxes:
+            way = character.boxes[node]
             inside = reached[((reached >= way.low) & (reached <= way.high)).all(axis=1)]
             character.aim(character.end.apply_points(inside[random.integers(len(inside))]))
         first = len(poses)
         poses.append(character.step(heading, 0.8, node if wants else "walk"))
         if decides and character.node == node:
-            made = character.made
+            made = character.current
             frame = np.interp(0.5, made.phases, np.arange(len(made.phases)))
-            ahead = first + len(character._frames) - (character._at - frame)
+            ahead = first + len(character._frames) - (character._decision - frame)
             found.append((len(character.chosen), ahead, character.target))
             heading += random.uniform(-1, 1)
     marks = {name: np.array([pose.contacts[name] for pose in poses]) for name in poses[0].contacts}

@@ -62,11 +62,11 @@ def test_it_goes_where_it_is_asked_to_go():
 def test_the_wish_is_cut_by_the_box_and_both_are_kept():
     """As in [HG07, 5]."""
     character = ParametricController(built.walking())
-    box = character.way["walk"]
+    box = character.boxes["walk"]
     for _ in range(60):
         character.step(3.0, SPEED)
     first = character.chosen[0]
-    assert first.wished[0] > first.taken[0] == pytest.approx(box.high[0]) and first.node == "walk"
+    assert first.requested[0] > first.allowed[0] == pytest.approx(box.high[0]) and first.node == "walk"
 
 
 def test_frames_left_count_down_to_a_decision():
@@ -148,7 +148,7 @@ def test_seams_of_300_random_targets_cost_what_the_edges_promise():
     assert cost.max() <= bad + 0.01 and (cost > bad).mean() <= 0.02
     spaces = dict(built.walking().nodes(data="space"))
     seams = zip(pairs[:60], character.chosen, strict=False)
-    seams = [(spaces[node], spaces[to.node], at[None], to.taken[None]) for (node, at), to in seams]
+    seams = [(spaces[node], spaces[to.node], at[None], to.allowed[None]) for (node, at), to in seams]
     best = [optimal_transitions(*seam)[0] for seam in seams]
     assert cost[:60].mean() <= 1.15 * np.mean(best)
 
@@ -156,15 +156,15 @@ def test_seams_of_300_random_targets_cost_what_the_edges_promise():
 def test_what_was_got_is_said_and_one_turn_over_and_over_is_no_circle():
     """Seams are aligned by the whole body, and turn it: up to some degrees a stride."""
     character = ParametricController(built.walking())
-    character._wish = lambda *_: np.full(1, np.radians(20))
+    character._requested = lambda *_: np.full(1, np.radians(20))
     facing = []
     while len(character.chosen) < 12:
         before = len(character.chosen)
         character.step(0.0, SPEED)
         if len(character.chosen) > before:
-            facing.append(character.place.angle)
-    got = np.degrees([chosen.got[0] for chosen in character.chosen[3:]])
-    assert np.abs(got - np.degrees(character.chosen[-1].taken[0])).max() <= 1
+            facing.append(character.transform.angle)
+    got = np.degrees([chosen.reached[0] for chosen in character.chosen[3:]])
+    assert np.abs(got - np.degrees(character.chosen[-1].allowed[0])).max() <= 1
     assert built.space().parameters == ("turn",)
     turned = np.degrees(np.diff(np.unwrap(facing)))[3:]
     assert np.abs(turned[-8:].mean() - 20) < 8
@@ -238,7 +238,7 @@ def test_what_blends_do_is_got_when_it_is_asked(node):
 def test_walks_do_not_turn_into_punches_by_themselves():
     spaces = {name: built.acting().nodes[name]["space"] for name in ("walk", "punch", "to_guard")}
     direct, guarded = (
-        build_edge(spaces["walk"], spaces[other], good=np.inf, sampling=built.SMALL).least
+        build_edge(spaces["walk"], spaces[other], good=np.inf, sampling=built.SMALL).smallest_good
         for other in ("punch", "to_guard")
     )
     assert direct > 0.14 > 0.05 > guarded
@@ -250,7 +250,7 @@ def test_without_a_label_one_who_punched_walks_on():
         character.step(0.5, 0.8)
     seen = [chosen.node for chosen in character.chosen]
     assert seen[:2] == ["from_guard", "walk"] and set(seen[1:]) == {"walk"}
-    assert np.isnan(character.chosen[0].wished).all()  # nobody aimed: the middle of the box
+    assert np.isnan(character.chosen[0].requested).all()  # nobody aimed: the middle of the box
 
 
 def test_actions_are_registered_and_their_margins_run_at_their_own_pace():
@@ -273,6 +273,6 @@ test_what_makes_no_sense_is_refused = refusals(
     ("takes those from -1 to 105: leave it more room", cut_actions, [WALK], [(22, 82)]),
     ("leave it more room", cut_actions, [WALK], [(60, 40)]),
     ("takes those from 195 to 301: leave it more room", cut_actions, [WALK], [(218, 278)]),
-    ("A place of the world is three", lambda: ParametricController(built.acting()).aim([1, 2])),
+    ("A position is three", lambda: ParametricController(built.acting()).aim([1, 2])),
     ("three finite numbers", lambda: ParametricController(built.acting()).aim([1, 2, np.nan])),
 )

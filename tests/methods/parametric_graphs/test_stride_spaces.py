@@ -21,10 +21,15 @@ from mocap.methods.parametric_graphs import (
     make_space,
     parametric_edges,
 )
-from mocap.methods.parametric_graphs.examples import on_one_clock
+from mocap.methods.parametric_graphs.examples import register_cuts
 from mocap.methods.parametric_graphs.made_motions import make_motion, near_end, optimal_transitions
 from mocap.methods.parametric_graphs.parametric_edges import BAD, build_edge, shrink_box
-from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, measure_mixes, place_evenly, said
+from mocap.methods.parametric_graphs.stride_spaces import (
+    draw_parameters,
+    measure_mixes,
+    parameter_text,
+    spread_parameters,
+)
 from tests.bundled import clips
 from tests.editing.wishes import bones
 from tests.methods.parametric_graphs import built
@@ -44,8 +49,8 @@ def test_what_is_asked_is_got(feet):
 def test_sources_are_placed_evenly_and_at_the_ends():
     """For several parameters only where the space reaches: the corners of its range may hold no stride."""
     one, both = built.space(), built.by_turn_and_speed()
-    np.testing.assert_allclose(place_evenly(one, 9), np.linspace(one.low, one.high, 9))
-    at = place_evenly(both, 40)
+    np.testing.assert_allclose(spread_parameters(one, 9), np.linspace(one.low, one.high, 9))
+    at = spread_parameters(both, 40)
     assert built.missed(both, at)[:, 0].max() < 2
     for end in ("min", "max"):
         np.testing.assert_array_equal(getattr(at, end)(axis=0), getattr(both.reached, end)(axis=0))
@@ -160,7 +165,7 @@ def test_few_sources_leave_bad_targets_in_the_boxes_between_them_and_few_targets
     """As in [HG07, 4], with means of few strides each, so that costs are uneven."""
     source, samples = built.space(degrees=6), ((5, 300), (50, 300), (5, 20))
     few, many, small = (build_edge(source, source, good=0.02, sampling=sampling) for sampling in samples)
-    assert len(many.at) == 50 and (small.high - small.low).mean() < 0.95 * (few.high - few.low).mean()
+    assert len(many.sources) == 50 and (small.high - small.low).mean() < 0.95 * (few.high - few.low).mean()
     assert built.bad_ones(source, source, few, BAD * 0.02)[0] > 0.12
     assert built.bad_ones(source, source, many, BAD * 0.02)[0] < 0.03
 
@@ -213,16 +218,16 @@ def test_the_side_that_loses_least_moves_and_shares_count_not_metres():
 def test_the_smallest_threshold_is_the_smallest():
     """As in [HG07, no edge]."""
     source = built.space()
-    least = build_edge(source, source, good=np.inf, sampling=built.SMALL).least
+    least = build_edge(source, source, good=np.inf, sampling=built.SMALL).smallest_good
     build_edge(source, source, good=1.001 * least, sampling=built.SMALL)
     with pytest.raises(NoWalk, match=r"Nothing follows turn -?\d+° below 1.0 cm \(the best costs"):
         build_edge(source, source, good=0.01, sampling=built.SMALL)
-    assert build_edge(source, source, good=0.05, sampling=built.SMALL).least == pytest.approx(least)
+    assert build_edge(source, source, good=0.05, sampling=built.SMALL).smallest_good == pytest.approx(least)
 
 
 def test_good_targets_with_bad_ones_all_around_leave_a_box_of_one():
     source = built.space()
-    least = build_edge(source, source, good=np.inf, sampling=built.SMALL).least
+    least = build_edge(source, source, good=np.inf, sampling=built.SMALL).smallest_good
     tight = build_edge(source, source, good=1.0001 * least, bad=1.0001 * least, sampling=built.SMALL)
     assert (tight.low <= tight.high + 1e-9).all()
 
@@ -264,7 +269,7 @@ def test_by_default_all_edges_that_can_be_had_are_there():
 def test_the_example_that_sets_the_clock_keeps_its_frames():
     walks = [resample(generate_walk([[0, 0], [x, 2.5], [2 * x, 4]]), 30) for x in (0.0, 0.5, 1.0)]
     cuts = [(walk, np.linspace(10, 60, 11)) for walk in walks]
-    clocked = on_one_clock(cuts, (2, 8))
+    clocked = register_cuts(cuts, (2, 8))
     _, frames = clocked[1]  # its turn is the median
     assert frames == pytest.approx(cuts[1][1], abs=1e-6)
 
@@ -285,7 +290,7 @@ def test_where_bad_targets_are_all_around_the_best_target_is_the_whole_box(monke
         lambda _, __, at, ___: [np.tile(row, (len(at), 1)) for row in (costs, leave, enter)],
     )
     edge = build_edge(space, space, good=0.02, sampling=(6, count))
-    assert np.array_equal(edge.low, np.tile(crowded[best], (len(edge.at), 1)))
+    assert np.array_equal(edge.low, np.tile(crowded[best], (len(edge.sources), 1)))
     assert np.array_equal(edge.high, edge.low)
     assert edge.leave == pytest.approx(leave[best])
     assert edge.enter == pytest.approx(enter[best])
@@ -300,7 +305,7 @@ def test_the_source_that_nothing_follows_is_named(monkeypatch):
 
     monkeypatch.setattr(parametric_edges, "optimal_transitions", costs_that_rise)
     name = space.parameters[0]
-    worst = said(name, place_evenly(space, 6)[-1, 0])
+    worst = parameter_text(name, spread_parameters(space, 6)[-1, 0])
     refused(
         f"Nothing follows {name} {re.escape(worst)} below 2.0 cm",
         lambda: build_edge(space, space, good=0.02, sampling=(6, 5)),

@@ -1,6 +1,7 @@
 """Strides are cut where feet strike, and mixed by what the body feels, not by where it is."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,8 +15,9 @@ from mocap.feet import clean_up, mark_plants
 from mocap.files import load
 from mocap.methods.parametric_graphs import cut_actions, cut_strides, make_space
 from mocap.methods.parametric_graphs.examples import MARGIN
+from mocap.methods.parametric_graphs.stride_changes import _pairs, changing_strides
 from mocap.methods.parametric_graphs.stride_spaces import measure_mixes
-from mocap.methods.parametric_graphs.strides import changing_strides
+from mocap.methods.parametric_graphs.strides import _example_frames
 from tests.bundled import clips, walks_of_16
 from tests.methods.parametric_graphs.built import jogs, punches, slides, strides
 from tests.refusals import refusals
@@ -131,6 +133,55 @@ def test_only_strides_with_a_label_are_cut():
     assert 3 < len(sneaks) < 0.9 * len(all_)
     assert sneaks.values[:, 1].max() < 0.85 < all_.values[:, 1].max()
     assert len(cut_strides([clip], margin=0.2)) >= len(all_)
+
+
+def marked_strides(left, right, last=60):
+    """Cut strides of 61 frames at 30 Hz by their strikes; frames up to the last one are labelled."""
+    clip = resample(sample("walk_straight"), 30)[:61]
+    frames = np.arange(61)
+    marks = {"lfoot": np.isin(frames, left), "rfoot": np.isin(frames, right)}
+    marked = replace(clip, contacts=marks, labels={"walk": frames <= last})
+    examples = _example_frames(marked, "lrl", "walk", np.array([-0.5, 0, 0.25, 1, 1.5]))
+    return [None if example is None else example.tolist() for example in examples]
+
+
+def test_margins_without_a_strike_are_as_long_as_the_steps_of_the_stride():
+    assert marked_strides([15, 45], [30]) == [[0.0, 15.0, 22.5, 45.0, 60.0]]
+    assert marked_strides([3, 14, 40], [27]) == [None, [3.0, 14.0, 20.5, 40.0, 53.0]]  # limping
+
+
+@pytest.mark.parametrize(("left", "right"), [([0, 14, 44], [29]), ([16, 46], [31])])
+def test_margins_outside_the_clip_make_a_stride_unusable(left, right):
+    assert marked_strides(left, right) == [None]
+
+
+def test_a_step_takes_7_to_30_frames():
+    """That is 0.23 to 1 s at 30 Hz."""
+    assert marked_strides([10, 40], [3, 33, 47]) == [[3.0, 10.0, 21.5, 40.0, 47.0]]
+    assert marked_strides([10, 39], [3, 33, 46]) == [None]
+    assert marked_strides([10, 47], [3, 17, 54]) == [[3.0, 10.0, 13.5, 47.0, 54.0]]
+    assert marked_strides([10, 48], [3, 17, 55]) == [None]
+
+
+def test_strikes_outside_the_stride_bound_its_margins_if_they_are_a_step_away():
+    assert marked_strides([31, 45], [1, 38, 53]) == [[1.0, 31.0, 34.5, 45.0, 53.0]]
+    assert marked_strides([32, 46], [1, 39, 53]) == [[25.0, 32.0, 35.5, 46.0, 53.0]]
+
+
+def test_the_label_lasts_up_to_the_last_strike():
+    assert len(marked_strides([10, 47], [3, 17, 54], last=47)) == 1
+    assert not marked_strides([10, 47], [3, 17, 54], last=46)
+
+
+def test_kinds_are_paired_by_similar_turns_or_in_any_way():
+    """Without any turn allowed, those more than 5° outside the second kind are left out."""
+    first, second = (
+        SimpleNamespace(values=np.radians(turns)[:, None]) for turns in ([29, 31, -19, -21, 0], [25, -15])
+    )
+    similar = _pairs(first, second, any_turn=False)
+    assert [rows.tolist() for rows in similar] == [[2, 4, 0], [1, 1, 0]]
+    paired = _pairs(first, second, any_turn=True)
+    assert [rows.tolist() for rows in paired] == [[3, 2, 4, 0, 1], [1, 0, 1, 0, 1]]
 
 
 def test_it_starts_as_the_first_kind_and_ends_as_the_second():
