@@ -17,8 +17,7 @@ from mocap.body import Motion, find_legs, joint_positions, place, planar, rotati
 from mocap.errors import MocapWarning
 from mocap.feet import mark_plants
 from mocap.methods.match_webs import MotionSpace
-from mocap.methods.parametric_graphs import cut_strides, make_space
-from mocap.methods.parametric_graphs import mixed_trajectory
+from mocap.methods.parametric_graphs import cut_strides, make_space, mixed_trajectory
 from mocap.methods.parametric_graphs.examples import Examples
 from mocap.methods.parametric_graphs.made_motions import make_motion
 

@@ -65,9 +65,9 @@ def make_motion(space: Space, parameters: Array) -> MadeMotion:
     """
     examples = space.examples
     fps = examples.fps
-    (samples,), (sample_weights,) = sample_weights(space, parameters[None])
-    weights = sample_weights @ space.weights[samples]
-    values = sample_weights @ space.values[samples]
+    (samples,), (combination,) = sample_weights(space, parameters[None])
+    weights = combination @ space.weights[samples]
+    values = combination @ space.values[samples]
     seconds = weights @ examples.seconds
     frames = np.arange(np.ceil(seconds[0] * fps), np.floor(seconds[-1] * fps) + 1)
     times = frames / fps
