@@ -14,7 +14,8 @@ from typing import Any
 import networkx as nx
 import numpy as np
 
-from mocap._shared.deadlines import OUT_OF_TIME, Deadline
+from mocap._shared.deadlines import OUT_OF_TIME as OUT_OF_TIME
+from mocap._shared.deadlines import Deadline as Deadline
 from mocap._shared.records import NamedTuple, dataclass
 from mocap._shared.ties import in_order
 from mocap.errors import MocapError, NoWalk
