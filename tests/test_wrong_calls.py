@@ -27,10 +27,11 @@ from mocap import (
     synthesis,
     widgets,
 )
+from mocap.methods import in_betweening, match_webs
 
 LONGEST = 200  # characters of a sentence
 ROOMS = (blending, body, datasets, editing, feet, files, graphs, matching, plotting, quality, steering)
-ROOMS += (synthesis, widgets)
+ROOMS += (synthesis, widgets, in_betweening, match_webs)
 
 CALLS = {
     # What is passed
@@ -253,6 +254,11 @@ CALLS = {
         "graphs.build(clips, window=10, threshold=0.04)",
         "steering.follow_path(graph, [[0, 0], [0, 2]])",
     ),
+    "clips to fill a gap": (
+        "in_betweening.fill_gap([walk], walk[:60], walk[90:], 1)",
+        "graphs.build(clips, window=10, threshold=0.04)",
+        "in_betweening.fill_gap(graph, walk[:60], walk[90:], 1)",
+    ),
     "a path before the graph": (
         "steering.follow_path([[0, 0], [0, 2]], graph)",
         "This takes a MotionGraph",
@@ -377,6 +383,26 @@ CALLS = {
         "prune the graph first",
         "synthesis.random_walk(graphs.prune(whole), seconds=4)",
     ),
+    "an unknown kind of edges": (
+        "graph.count('transitions')",
+        "'clip' and 'transition', got the text 'transitions'",
+        "graph.count('transition')",
+    ),
+    "centimetres for a web": (
+        "match_webs.build_web([walk], below=5)",
+        "0.05 for 5 cm",
+        "match_webs.build_web([walk], below=0.05)",
+    ),
+    "centimetres for a search": (
+        "match_webs.search(web, 0, slice(60, 90), below=5)",
+        "0.05 for 5 cm",
+        "match_webs.search(web, 0, slice(60, 90), below=0.05)",
+    ),
+    "a pair of frames for a query": (
+        "match_webs.search(web, 0, (60, 90))",
+        "a slice such as slice(60, 90), got a tuple of 2",
+        "match_webs.search(web, 0, slice(60, 90))",
+    ),
     # Files
     "a list of files": (
         "mocap.load(['walk.bvh', 'walk.bvh'])",
@@ -445,6 +471,7 @@ def names(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
         "whole": whole,
         "graph": graph,
         "edges": synthesis.random_walk(graph, seconds=1, seed=1),
+        "web": match_webs.build_web([walk], below=0.05),
         "bent": editing.bend(walk[:60], [[0, 0], [0, 2]]),
         "mocap": mocap,
         "np": np,

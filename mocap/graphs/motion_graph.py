@@ -26,6 +26,7 @@ from mocap.matching.minima import fit
 from mocap.matching.transitions import Thresholds, Transition, find_transitions, join_clouds
 
 Node = tuple[int, int]
+KINDS = ("clip", "transition")  # of edges
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +68,9 @@ class MotionGraph:
         return self.clips[0].fps
 
     def count(self, kind: str) -> int:
-        """Count the edges of a kind, "clip" or "transition"."""
+        """Count the edges of a kind, "clip" or "transition"; raise `MocapError` for another kind."""
+        if kind not in KINDS:
+            raise MocapError(f"Edges are of the kinds 'clip' and 'transition', got {described(kind)}.")
         return sum(edge_kind == kind for _, _, edge_kind in self.graph.edges(data="kind"))
 
 
