@@ -4,6 +4,8 @@ A row of `CALLS` is a call, a part of the sentence that answers it, and the righ
 the names of `play`.
 """
 
+import copy
+import pickle
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -430,6 +432,14 @@ CALLS = {
     "a list to save": ("mocap.save([walk], 'w.bvh')", "call it for each", "mocap.save([walk][0], 'w.bvh')"),
     "a missing folder": ("mocap.save(walk, 'none/w.bvh')", "No such file", "mocap.save(walk, 'clips/w.bvh')"),
     # Names
+    "the velocity of a motion": ("walk.velocity", "do you mean motion.velocities?", "walk.velocities"),
+    "a misspelt field of a motion": ("walk.rotation", "do you mean .rotations?", "walk.rotations"),
+    "the joints' names of a motion": ("walk.joint_names", "motion.skeleton.names", "walk.skeleton.names"),
+    "the frames of a motion": ("walk.frames", "len(motion)", "len(walk)"),
+    "a motion that saves itself": ("walk.save", "mocap.save(motion, 'walk.bvh')", "mocap.save"),
+    "a motion that resamples itself": ("walk.resample", "mocap.resample(motion, 30)", "mocap.resample"),
+    "the nodes of a graph": ("graph.nodes", "graph.graph.nodes", "graph.graph.nodes"),
+    "the edges of a graph": ("graph.edges", "graph.graph.edges", "graph.graph.edges"),
     "a joint's name": ("walk.skeleton.index('hand')", "there are: root", "walk.skeleton.index('rhand')"),
     "a name of another room": (
         "graphs.align",
@@ -510,6 +520,13 @@ def test_a_file_of_a_room_is_imported_although_the_room_does_not_list_it():
     scope: dict[str, Any] = {}
     exec("from mocap.graphs import thresholds, pruning as prunes", scope)
     assert scope["thresholds"].__name__ == "mocap.graphs.thresholds"
+
+
+def test_a_suggestion_leaves_hasattr_copies_and_pickles_as_they_are(names):
+    for thing in (names["walk"], names["graph"]):
+        assert not hasattr(thing, "velocity") and not hasattr(thing, "_repr_html_")
+        assert repr(copy.copy(thing)) == repr(copy.deepcopy(thing)) == repr(thing)
+        assert repr(pickle.loads(pickle.dumps(thing))) == repr(thing)
 
 
 def test_there_are_thirty_mistakes_or_more():

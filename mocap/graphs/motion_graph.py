@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from itertools import pairwise
 from os import PathLike
+from typing import TYPE_CHECKING
 
 import networkx as nx
 import numpy as np
@@ -18,6 +19,7 @@ from mocap._shared.collector import uncollected
 from mocap._shared.progress import Progress
 from mocap._shared.quantities import check_frames, check_threshold, described
 from mocap._shared.records import dataclass
+from mocap._shared.suggestions import missing_attribute
 from mocap.body.motion import Motion, require_alike, require_motions
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError
@@ -27,6 +29,14 @@ from mocap.matching.transitions import Thresholds, Transition, find_transitions,
 
 Node = tuple[int, int]
 KINDS = ("clip", "transition")  # of edges
+EXPRESSIONS = {
+    "nodes": "graph.graph.nodes",
+    "edges": "graph.graph.edges",
+    "transitions": 'graph.count("transition")',
+    "save": "graphs.save(graph, 'graph.npz')",
+    "prune": "graphs.prune(graph)",
+}
+"""What may be meant by an attribute that a motion graph does not have."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,6 +71,11 @@ class MotionGraph:
             f"MotionGraph({len(self.clips)} clips, {self.graph.number_of_nodes()} nodes, "
             f"{self.graph.number_of_edges()} edges, {self.count('transition')} of them transitions)"
         )
+
+    if not TYPE_CHECKING:  # type checkers refuse an unknown attribute by themselves
+
+        def __getattr__(self, name: str) -> object:
+            raise missing_attribute(self, name, EXPRESSIONS)
 
     @property
     def fps(self) -> float:

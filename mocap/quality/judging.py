@@ -68,8 +68,9 @@ class Measure(NamedTuple):
 
     Examples
     --------
-    >>> Measure("slide", 5.0, 2.5, "cm", "'lfoot', frame 30").ratio
-    2.0
+    >>> slide = Measure("slide", 5.0, 2.5, "cm", "'lfoot', frame 30")
+    >>> slide, slide.ratio
+    (Measure(slide 5 cm, limit 2.5, 'lfoot', frame 30), 2.0)
     """
 
     name: str
@@ -77,6 +78,10 @@ class Measure(NamedTuple):
     limit: float
     unit: str
     where: str = ""  # reads: name: public, and a key in the JSON of `mocap judge`
+
+    def __repr__(self) -> str:
+        place = f", {self.where}" if self.where else ""
+        return f"Measure({self.name} {self.value:.3g} {self.unit}, limit {self.limit:.3g}{place})"
 
     @property
     def ratio(self) -> float:
@@ -233,6 +238,13 @@ class Judgement(NamedTuple):
     left_out: tuple[str, ...]
     height: float
     bones: Mapping[str, float]
+
+    def __repr__(self) -> str:
+        worst = "nothing measured"
+        if self.measures:
+            measure = self.worst
+            worst = f"worst {measure.name} {measure.value:.3g} {measure.unit}, limit {measure.limit:.3g}"
+        return f"Judgement('{shortened(self.name)}', score {self.score:.3g}, {worst})"
 
     @property
     def worst(self) -> Measure:
