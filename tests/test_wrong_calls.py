@@ -301,6 +301,36 @@ CALLS = {
         "mocap.Motion(skeleton, root_positions, rotations, fps)",
         "mocap.Motion(walk.skeleton, walk.root_positions, walk.rotations, 30)",
     ),
+    "a graph without its parameters": (
+        "graphs.build([walk])",
+        "graphs.build(clips, window=10, threshold=0.04)",
+        "graphs.build([walk], window=10, threshold=0.04)",
+    ),
+    "motions to register without brackets": (
+        "blending.register(walk, walk)",
+        "blending.register([first, second])",
+        "blending.register([walk, walk])",
+    ),
+    "seconds without their name": (
+        "synthesis.random_walk(graph, 5)",
+        "synthesis.random_walk(graph, seconds=5)",
+        "synthesis.random_walk(graph, seconds=5)",
+    ),
+    "the file of an animation first": (
+        "widgets.save_animation('walk.gif', walk)",
+        "widgets.save_animation(motion, 'walk.gif')",
+        "widgets.save_animation(walk[:3], 'walk.gif')",
+    ),
+    "a path to show": (
+        "widgets.save_animation('walk.bvh', 'walk.gif')",
+        "[mocap.load('walk.bvh')]",
+        "widgets.save_animation(walk[:3], 'walk.gif')",
+    ),
+    "the file of a web first": (
+        "match_webs.save_web('web.npz', web)",
+        "match_webs.save_web(web, 'web.npz')",
+        "match_webs.save_web(web, 'web.npz')",
+    ),
     # Units and numbers
     "centimetres for metres": (
         "graphs.build([walk], window=10, threshold=4)",

@@ -15,6 +15,7 @@ import networkx as nx
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mocap._shared.arguments import called_as
 from mocap._shared.collector import uncollected
 from mocap._shared.progress import Progress
 from mocap._shared.quantities import check_frames, check_threshold, described
@@ -110,6 +111,7 @@ def require_graph(graph: object) -> MotionGraph:
     raise MocapError(f"{needs}: the graph comes first, then what is asked of it.")
 
 
+@called_as("graphs.build(clips, window=10, threshold=0.04)")
 def build(  # noqa: PLR0913 (the parameters of `find_transitions`)
     clips: Sequence[Motion],
     *,

@@ -81,12 +81,18 @@ class Measure(NamedTuple):
 
     def __repr__(self) -> str:
         place = f", {self.where}" if self.where else ""
-        return f"Measure({self.name} {self.value:.3g} {self.unit}, limit {self.limit:.3g}{place})"
+        return f"Measure({_with_limit(self)}{place})"
 
     @property
     def ratio(self) -> float:
         """The value, as a multiple of its limit."""
         return self.value / self.limit
+
+
+def _with_limit(measure: Measure) -> str:
+    """Return a measured value with its name, unit and limit, as text."""
+    value = f"{measure.name} {measure.value:.3g} {measure.unit}"
+    return value if measure.unit == "of its limit" else f"{value}, limit {measure.limit:.3g}"
 
 
 def measure_smoothness(motion: Motion, positions: Array, against: Sequence[Motion]) -> Iterator[Measure]:
@@ -242,8 +248,7 @@ class Judgement(NamedTuple):
     def __repr__(self) -> str:
         worst = "nothing measured"
         if self.measures:
-            measure = self.worst
-            worst = f"worst {measure.name} {measure.value:.3g} {measure.unit}, limit {measure.limit:.3g}"
+            worst = f"worst {_with_limit(self.worst)}"
         return f"Judgement('{shortened(self.name)}', score {self.score:.3g}, {worst})"
 
     @property
