@@ -301,6 +301,11 @@ CALLS = {
         "mocap.Motion(skeleton, root_positions, rotations, fps)",
         "mocap.Motion(walk.skeleton, walk.root_positions, walk.rotations, 30)",
     ),
+    "a motion for a stance": (
+        "editing.proportioned(walk, legs=0.5)",
+        "editing.stance_of(motion) finds one",
+        "editing.proportioned(editing.stance_of(walk), legs=0.5)",
+    ),
     "a graph without its parameters": (
         "graphs.build([walk])",
         "graphs.build(clips, window=10, threshold=0.04)",
