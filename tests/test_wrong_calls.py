@@ -4,6 +4,8 @@ A row of `CALLS` is a call, a part of the sentence that answers it, and the righ
 the names of `play`.
 """
 
+import copy
+import pickle
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -27,10 +29,11 @@ from mocap import (
     synthesis,
     widgets,
 )
+from mocap.methods import in_betweening, match_webs
 
 LONGEST = 200  # characters of a sentence
 ROOMS = (blending, body, datasets, editing, feet, files, graphs, matching, plotting, quality, steering)
-ROOMS += (synthesis, widgets)
+ROOMS += (synthesis, widgets, in_betweening, match_webs)
 
 CALLS = {
     # What is passed
@@ -253,6 +256,11 @@ CALLS = {
         "graphs.build(clips, window=10, threshold=0.04)",
         "steering.follow_path(graph, [[0, 0], [0, 2]])",
     ),
+    "clips to fill a gap": (
+        "in_betweening.fill_gap([walk], walk[:60], walk[90:], 1)",
+        "graphs.build(clips, window=10, threshold=0.04)",
+        "in_betweening.fill_gap(graph, walk[:60], walk[90:], 1)",
+    ),
     "a path before the graph": (
         "steering.follow_path([[0, 0], [0, 2]], graph)",
         "This takes a MotionGraph",
@@ -292,6 +300,41 @@ CALLS = {
         "mocap.Motion('walk', walk.root_positions, walk.rotations, 30)",
         "mocap.Motion(skeleton, root_positions, rotations, fps)",
         "mocap.Motion(walk.skeleton, walk.root_positions, walk.rotations, 30)",
+    ),
+    "a motion for a stance": (
+        "editing.proportioned(walk, legs=0.5)",
+        "editing.stance_of(motion) finds one",
+        "editing.proportioned(editing.stance_of(walk), legs=0.5)",
+    ),
+    "a graph without its parameters": (
+        "graphs.build([walk])",
+        "graphs.build(clips, window=10, threshold=0.04)",
+        "graphs.build([walk], window=10, threshold=0.04)",
+    ),
+    "motions to register without brackets": (
+        "blending.register(walk, walk)",
+        "blending.register([first, second])",
+        "blending.register([walk, walk])",
+    ),
+    "seconds without their name": (
+        "synthesis.random_walk(graph, 5)",
+        "synthesis.random_walk(graph, seconds=5)",
+        "synthesis.random_walk(graph, seconds=5)",
+    ),
+    "the file of an animation first": (
+        "widgets.save_animation('walk.gif', walk)",
+        "widgets.save_animation(motion, 'walk.gif')",
+        "widgets.save_animation(walk[:3], 'walk.gif')",
+    ),
+    "a path to show": (
+        "widgets.save_animation('walk.bvh', 'walk.gif')",
+        "[mocap.load('walk.bvh')]",
+        "widgets.save_animation(walk[:3], 'walk.gif')",
+    ),
+    "the file of a web first": (
+        "match_webs.save_web('web.npz', web)",
+        "match_webs.save_web(web, 'web.npz')",
+        "match_webs.save_web(web, 'web.npz')",
     ),
     # Units and numbers
     "centimetres for metres": (
@@ -377,6 +420,26 @@ CALLS = {
         "prune the graph first",
         "synthesis.random_walk(graphs.prune(whole), seconds=4)",
     ),
+    "an unknown kind of edges": (
+        "graph.count('transitions')",
+        "'clip' and 'transition', got the text 'transitions'",
+        "graph.count('transition')",
+    ),
+    "centimetres for a web": (
+        "match_webs.build_web([walk], below=5)",
+        "0.05 for 5 cm",
+        "match_webs.build_web([walk], below=0.05)",
+    ),
+    "centimetres for a search": (
+        "match_webs.search(web, 0, slice(60, 90), below=5)",
+        "0.05 for 5 cm",
+        "match_webs.search(web, 0, slice(60, 90), below=0.05)",
+    ),
+    "a pair of frames for a query": (
+        "match_webs.search(web, 0, (60, 90))",
+        "a slice such as slice(60, 90), got a tuple of 2",
+        "match_webs.search(web, 0, slice(60, 90))",
+    ),
     # Files
     "a list of files": (
         "mocap.load(['walk.bvh', 'walk.bvh'])",
@@ -404,6 +467,14 @@ CALLS = {
     "a list to save": ("mocap.save([walk], 'w.bvh')", "call it for each", "mocap.save([walk][0], 'w.bvh')"),
     "a missing folder": ("mocap.save(walk, 'none/w.bvh')", "No such file", "mocap.save(walk, 'clips/w.bvh')"),
     # Names
+    "the velocity of a motion": ("walk.velocity", "do you mean motion.velocities?", "walk.velocities"),
+    "a misspelt field of a motion": ("walk.rotation", "do you mean .rotations?", "walk.rotations"),
+    "the joints' names of a motion": ("walk.joint_names", "motion.skeleton.names", "walk.skeleton.names"),
+    "the frames of a motion": ("walk.frames", "len(motion)", "len(walk)"),
+    "a motion that saves itself": ("walk.save", "mocap.save(motion, 'walk.bvh')", "mocap.save"),
+    "a motion that resamples itself": ("walk.resample", "mocap.resample(motion, 30)", "mocap.resample"),
+    "the nodes of a graph": ("graph.nodes", "graph.graph.nodes", "graph.graph.nodes"),
+    "the edges of a graph": ("graph.edges", "graph.graph.edges", "graph.graph.edges"),
     "a joint's name": ("walk.skeleton.index('hand')", "there are: root", "walk.skeleton.index('rhand')"),
     "a name of another room": (
         "graphs.align",
@@ -445,6 +516,7 @@ def names(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
         "whole": whole,
         "graph": graph,
         "edges": synthesis.random_walk(graph, seconds=1, seed=1),
+        "web": match_webs.build_web([walk], below=0.05),
         "bent": editing.bend(walk[:60], [[0, 0], [0, 2]]),
         "mocap": mocap,
         "np": np,
@@ -483,6 +555,13 @@ def test_a_file_of_a_room_is_imported_although_the_room_does_not_list_it():
     scope: dict[str, Any] = {}
     exec("from mocap.graphs import thresholds, pruning as prunes", scope)
     assert scope["thresholds"].__name__ == "mocap.graphs.thresholds"
+
+
+def test_a_suggestion_leaves_hasattr_copies_and_pickles_as_they_are(names):
+    for thing in (names["walk"], names["graph"]):
+        assert not hasattr(thing, "velocity") and not hasattr(thing, "_repr_html_")
+        assert repr(copy.copy(thing)) == repr(copy.deepcopy(thing)) == repr(thing)
+        assert repr(pickle.loads(pickle.dumps(thing))) == repr(thing)
 
 
 def test_there_are_thirty_mistakes_or_more():

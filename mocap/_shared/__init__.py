@@ -15,4 +15,5 @@
 13. `records`: classes with named fields that print in one line, and are compared and pickled by their fields
 14. `quantities`: checks of numbers that callers pass: their kind and their unit
 15. `arguments`: checks of the arguments of a call, including those that are missing
+16. `suggestions`: the error for an attribute that is missing, with what may be meant
 """

@@ -1,8 +1,11 @@
 """Checks of the arguments of a call, including those that are missing."""
 
+import inspect
 from collections.abc import Callable
 from functools import wraps
 from typing import Any, TypeVar, cast
+
+from mocap.errors import MocapError
 
 Call = TypeVar("Call", bound=Callable[..., Any])
 
@@ -38,6 +41,42 @@ def checked_by(check: Callable[..., object]) -> Callable[[Call], Call]:
         @wraps(function)
         def checked(*arguments: object, **options: object) -> object:
             check(*arguments, **options)
+            return function(*arguments, **options)
+
+        return cast(Call, checked)
+
+    return decorate
+
+
+def called_as(right_call: str) -> Callable[[Call], Call]:
+    """Make a decorator that answers a call with too many or too few arguments by the right call.
+
+    Parameters
+    ----------
+    right_call : how the function is called.
+
+    Examples
+    --------
+    >>> @called_as("walk(graph, seconds=4)")
+    ... def walk(graph, *, seconds):
+    ...     return seconds
+    >>> walk(None, 4)
+    Traceback (most recent call last):
+    mocap.errors.MocapError: The call is walk(graph, seconds=4): too many positional arguments.
+    >>> walk(None)
+    Traceback (most recent call last):
+    mocap.errors.MocapError: The call is walk(graph, seconds=4): missing a required argument: 'seconds'.
+    """
+
+    def decorate(function: Call) -> Call:
+        signature = inspect.signature(function)
+
+        @wraps(function)
+        def checked(*arguments: object, **options: object) -> object:
+            try:
+                signature.bind(*arguments, **options)
+            except TypeError as error:
+                raise MocapError(f"The call is {right_call}: {error}.") from None
             return function(*arguments, **options)
 
         return cast(Call, checked)

@@ -1,3 +1,4 @@
+from .clocks import Registration as Registration
 from .clocks import frame_times as frame_times
 from .joining import align_window as align_window
 from .joining import blend as blend

@@ -136,6 +136,10 @@ class Registration:
     costs: Array
     contacts: tuple[SharedPlant, ...] = ()
 
+    def __repr__(self) -> str:
+        first, last = self.span
+        return f"Registration({len(self.clips)} clips, {last - first:.3g} s)"
+
     @cached_property
     def durations(self) -> Array:
         """The duration of the span in each clip, seconds, shape (C,)."""

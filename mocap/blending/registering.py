@@ -7,6 +7,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from scipy.ndimage import map_coordinates
 
+from mocap._shared.arguments import called_as
 from mocap._shared.arrays import Array, Indices, frozen
 from mocap.blending.clocks import Registration, match_contacts
 from mocap.blending.mixing import mix
@@ -44,6 +45,7 @@ _Pair = tuple[Curve, Curve, tuple[float, float], float]
 """A clip registered with the reference: its curves of time and angle, their span, and the path's mean."""
 
 
+@called_as("blending.register([first, second])")
 def register(
     clips: Sequence[Motion], *, reference: int = 0, slack: float = 1.2, slope: int = 2
 ) -> Registration:

@@ -14,12 +14,25 @@ from numpy.typing import ArrayLike, NDArray
 from mocap._shared.arrays import Array, Indices, Mask, VectorsLike, frozen, ranges
 from mocap._shared.quantities import check_number, described, numbers_of
 from mocap._shared.records import dataclass, rebuilding, same_fields
+from mocap._shared.suggestions import missing_attribute
 from mocap.body import rotations
 from mocap.body.joint_trees import place_joints, velocities
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, SkeletonMismatch, shortened
 
 Marks = Mapping[str, NDArray[np.bool_]]
+EXPRESSIONS = {
+    "position": "motion.positions",
+    "velocity": "motion.velocities",
+    "frames": "len(motion), the number of frames",
+    "names": "motion.skeleton.names",
+    "joint_names": "motion.skeleton.names",
+    "joints": "motion.skeleton.names",
+    "save": "mocap.save(motion, 'walk.bvh')",
+    "resample": "mocap.resample(motion, 30)",
+}
+"""What may be meant by an attribute that a motion does not have."""
+
 Resampling = TypeVar("Resampling", bound="Callable[..., Motion]")
 
 
@@ -43,9 +56,10 @@ class Motion:
 
     Notes
     -----
-    A motion does not change: its arrays are read-only, and `dataclasses.replace` makes another one. Two
-    motions are equal, `==`, if all fields are: skeleton, every number, rate, name, labels and contacts. Equal
-    motions have one hash. To compare within rounding, use `numpy.allclose` on `positions`.
+    A motion does not change: `motion.fps = 30` and `motion.root_positions[0] = 0` raise. Instead,
+    `dataclasses.replace(motion, fps=30)` makes another motion; an array is copied first, changed, and passed
+    to it. Two motions are equal, `==`, if all fields are: skeleton, every number, rate, name, labels and
+    contacts. Equal motions have one hash. To compare within rounding, use `numpy.allclose` on `positions`.
 
     Examples
     --------
@@ -82,6 +96,11 @@ class Motion:
             labels: Mapping[str, ArrayLike] = ...,
             contacts: Mapping[str, ArrayLike] = ...,
         ) -> None: ...
+
+    else:  # type checkers refuse an unknown attribute by themselves
+
+        def __getattr__(self, name: str) -> object:
+            raise missing_attribute(self, name, EXPRESSIONS)
 
     def __post_init__(self) -> None:
         if not isinstance(self.skeleton, Skeleton):

@@ -4,6 +4,7 @@ from .bending import bend as bend
 from .bodies import body_of as body_of
 from .bodies import keep_turned as keep_turned
 from .bodies import limit_turns as limit_turns
+from .cycles import Loop as Loop
 from .cycles import find_loop as find_loop
 from .cycles import loop as loop
 from .cycles import repeated as repeated

@@ -12,6 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from mocap._shared.arrays import Array
+from mocap._shared.quantities import described
 from mocap._shared.records import dataclass
 from mocap.body import rotations
 from mocap.body.kinematics import forward_kinematics, joint_positions
@@ -23,7 +24,8 @@ from mocap.errors import MocapError
 
 # Degrees. A rest pose stands where the hips are level and the thighs hang, within these. The files at hand
 # keep to 0 and 20 (CMU), 0 and 1 (others), or are 90 and 90 off: their rest poses are no stances.
-LEVEL, HANGING = 30.0, 45.0
+LEVEL = 30.0  # degrees
+HANGING = 45.0  # degrees
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -58,8 +60,8 @@ class Stance:
         for side, leg in zip(SIDES, self.legs, strict=True):
             length = leg.lengths(self.skeleton)[2]
             if not abs(self.drop(side)) < length:
-                over = f"The {side} ankle would stand {100 * self.drop(side):.3g} cm over its ball"
-                raise MocapError(f"{over}; the foot is {100 * length:.3g} cm long.")
+                height = f"The {side} ankle would stand {100 * self.drop(side):.3g} cm over its ball"
+                raise MocapError(f"{height}; the foot is {100 * length:.3g} cm long.")
 
     def __repr__(self) -> str:
         return f"Stance({len(self.skeleton)} joints, legs {self.leg:.2f} m)"
@@ -120,10 +122,10 @@ def stance_of(motion: Motion, *, mean: bool = False) -> Stance:
 
     Notebook: 13-retargeting
     """
-    who = roles(motion.skeleton)
+    joints = roles(motion.skeleton)
     legs = find_legs(motion.skeleton)
     motion = with_plants(motion, legs)
-    heights = standing_heights(motion, who)
+    heights = standing_heights(motion, joints)
     if not mean:
         with suppress(MocapError):
             return stance_of_zero(motion.skeleton, heights)
@@ -138,7 +140,7 @@ def stance_of(motion: Motion, *, mean: bool = False) -> Stance:
             along = (pose.positions[:, leg.ball] - pose.positions[:, leg.ankle])[flat]
             back = rotations.about_y(-np.arctan2(along[:, 0], along[:, 2]))
             turns[foot] = rotations.mean(rotations.multiply(back, world[foot][:, flat]))
-    return Stance(motion.skeleton, who, turns, heights)
+    return Stance(motion.skeleton, joints, turns, heights)
 
 
 def stance_of_zero(skeleton: Skeleton, heights: Mapping[str, float] | float) -> Stance:
@@ -170,14 +172,17 @@ def stance_of_zero(skeleton: Skeleton, heights: Mapping[str, float] | float) -> 
     level = _degrees(rest.bone("right hip", "left hip"), [1, 0, 0])
     hanging = max(_degrees(rest.bone(f"{side} hip", f"{side} knee"), [0, -1, 0]) for side in SIDES)
     if level > LEVEL or hanging > HANGING:
-        off = f"its hips are {level:.0f}° off level, its thighs {hanging:.0f}° off hanging"
-        raise MocapError(f"The rest pose of {skeleton!r} does not stand: {off}; give stance_of a walk.")
+        angles = f"its hips are {level:.0f}° off level, its thighs {hanging:.0f}° off hanging"
+        raise MocapError(f"The rest pose of {skeleton!r} does not stand: {angles}; give stance_of a walk.")
     bones = {side: rest.bone(f"{side} ankle", f"{side} ball") for side in SIDES}
     if not isinstance(heights, Mapping):
-        heights = {role: heights - bones[role.split()[0]][1] * role.endswith("ankle") for role in FEET}
+        rises = {side: bone[1] for side, bone in bones.items()}
+        of_ankles = {f"{side} ankle": heights - rise for side, rise in rises.items()}
+        heights = {role: of_ankles.get(role, heights) for role in FEET}
     stance = replace(rest, heights=heights)
     for (side, bone), leg in zip(bones.items(), stance.legs, strict=True):
-        drop, ahead = stance.drop(side), bone[[0, 2]]
+        drop = stance.drop(side)
+        ahead = bone[[0, 2]]
         ahead = ahead if np.hypot(*ahead) > abs(bone[1]) else np.array([0.0, 1.0])
         ahead = ahead / np.hypot(*ahead) * np.sqrt(bone @ bone - drop**2)
         foot = [joint for joint in range(len(turns)) if leg.ankle in skeleton.path_to_root(joint)]
@@ -185,31 +190,32 @@ def stance_of_zero(skeleton: Skeleton, heights: Mapping[str, float] | float) -> 
     return replace(stance, turns=turns)
 
 
-def _degrees(vector: Array, other: list[int]) -> float:
-    return float(np.degrees(np.arctan2(np.linalg.norm(np.cross(vector, other)), np.dot(vector, other))))
+def _degrees(vector: Array, axis: list[int]) -> float:
+    return float(np.degrees(np.arctan2(np.linalg.norm(np.cross(vector, axis)), np.dot(vector, axis))))
 
 
-def standing_heights(motion: Motion, who: Mapping[str, int]) -> dict[str, float]:
+def standing_heights(motion: Motion, joints: Mapping[str, int]) -> dict[str, float]:
     """Measure how high ankles and balls are while the foot is flat, or they stand: medians, metres, by role.
 
     Parameters
     ----------
     motion : on a floor at y = 0; its `contacts` say when ankles and balls stand.
-    who : the roles of its joints.
+    joints : the roles of its joints.
 
     Raises
     ------
     MocapError : for an ankle or a ball that never stands.
     """
-    down = {role: motion.contacts[motion.skeleton.names[who[role]]] for role in FEET}
-    positions, heights = joint_positions(motion), {}
+    down = {role: motion.contacts[motion.skeleton.names[joints[role]]] for role in FEET}
+    positions = joint_positions(motion)
+    heights = {}
     for role in FEET:
         side = role.split()[0]
         flat = down[f"{side} ankle"] & down[f"{side} ball"]
         frames = flat if flat.any() else down[role]
         if not frames.any():
             raise MocapError(f"In '{motion.name}' the {role} never stands: give the stance of another clip.")
-        heights[role] = float(np.median(positions[frames, who[role], 1]))
+        heights[role] = float(np.median(positions[frames, joints[role], 1]))
     return heights
 
 
@@ -244,10 +250,14 @@ def proportioned(
 
     Notebook: 13-retargeting
     """
+    if not isinstance(stance, Stance):
+        remedy = "editing.stance_of(motion) finds one"
+        raise MocapError(f"This takes a Stance, how a body stands, got {described(stance)}: {remedy}.")
     for name, share in {"legs": legs, "trunk": trunk, "arms": arms, "head": head}.items():
         if not (np.isfinite(share) and share > 0):
             raise MocapError(f"The share of the {name} must be above 0, got {share}.")
-    old, share_below = stance.skeleton, {"hip": legs, "shoulder": arms, "neck": head}
+    old = stance.skeleton
+    share_below = {"hip": legs, "shoulder": arms, "neck": head}
     tops = {joint: share_below.get(role.split()[-1], 0) for role, joint in stance.roles.items()}
     shares = np.full(len(old), float(trunk))
     for joint, above in enumerate(old.parents[1:], start=1):  # a parent stands before its children

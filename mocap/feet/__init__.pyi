@@ -1,4 +1,5 @@
 from .ankle_targets import place_plants as place_plants
+from .footplants import Footprint as Footprint
 from .footplants import find_footprints as find_footprints
 from .footplants import mark_plants as mark_plants
 from .footplants import runs as runs

@@ -9,15 +9,18 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from itertools import pairwise
 from os import PathLike
+from typing import TYPE_CHECKING
 
 import networkx as nx
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mocap._shared.arguments import called_as
 from mocap._shared.collector import uncollected
 from mocap._shared.progress import Progress
 from mocap._shared.quantities import check_frames, check_threshold, described
 from mocap._shared.records import dataclass
+from mocap._shared.suggestions import missing_attribute
 from mocap.body.motion import Motion, require_alike, require_motions
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError
@@ -26,6 +29,15 @@ from mocap.matching.minima import fit
 from mocap.matching.transitions import Thresholds, Transition, find_transitions, join_clouds
 
 Node = tuple[int, int]
+KINDS = ("clip", "transition")  # of edges
+EXPRESSIONS = {
+    "nodes": "graph.graph.nodes",
+    "edges": "graph.graph.edges",
+    "transitions": 'graph.count("transition")',
+    "save": "graphs.save(graph, 'graph.npz')",
+    "prune": "graphs.prune(graph)",
+}
+"""What may be meant by an attribute that a motion graph does not have."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,13 +73,20 @@ class MotionGraph:
             f"{self.graph.number_of_edges()} edges, {self.count('transition')} of them transitions)"
         )
 
+    if not TYPE_CHECKING:  # type checkers refuse an unknown attribute by themselves
+
+        def __getattr__(self, name: str) -> object:
+            raise missing_attribute(self, name, EXPRESSIONS)
+
     @property
     def fps(self) -> float:
         """Frames per second, of all clips."""
         return self.clips[0].fps
 
     def count(self, kind: str) -> int:
-        """Count the edges of a kind, "clip" or "transition"."""
+        """Count the edges of a kind, "clip" or "transition"; raise `MocapError` for another kind."""
+        if kind not in KINDS:
+            raise MocapError(f"Edges are of the kinds 'clip' and 'transition', got {described(kind)}.")
         return sum(edge_kind == kind for _, _, edge_kind in self.graph.edges(data="kind"))
 
 
@@ -92,6 +111,7 @@ def require_graph(graph: object) -> MotionGraph:
     raise MocapError(f"{needs}: the graph comes first, then what is asked of it.")
 
 
+@called_as("graphs.build(clips, window=10, threshold=0.04)")
 def build(  # noqa: PLR0913 (the parameters of `find_transitions`)
     clips: Sequence[Motion],
     *,

@@ -6,4 +6,5 @@ from .point_clouds import point_cloud as point_cloud
 from .time_paths import path_mean as path_mean
 from .time_paths import time_path as time_path
 from .transitions import Transition as Transition
+from .transitions import Transitions as Transitions
 from .transitions import find_transitions as find_transitions

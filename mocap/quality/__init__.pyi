@@ -1,6 +1,8 @@
 from .clip_flaws import inspect as inspect
 from .falling import centre_of_mass as centre_of_mass
 from .falling import gravity as gravity
+from .judging import Judgement as Judgement
+from .judging import Measure as Measure
 from .judging import judge as judge
 from .seam_measures import jumps as jumps
 from .seam_measures import knee_turns as knee_turns

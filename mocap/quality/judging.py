@@ -68,8 +68,9 @@ class Measure(NamedTuple):
 
     Examples
     --------
-    >>> Measure("slide", 5.0, 2.5, "cm", "'lfoot', frame 30").ratio
-    2.0
+    >>> slide = Measure("slide", 5.0, 2.5, "cm", "'lfoot', frame 30")
+    >>> slide, slide.ratio
+    (Measure(slide 5 cm, limit 2.5, 'lfoot', frame 30), 2.0)
     """
 
     name: str
@@ -78,10 +79,20 @@ class Measure(NamedTuple):
     unit: str
     where: str = ""  # reads: name: public, and a key in the JSON of `mocap judge`
 
+    def __repr__(self) -> str:
+        place = f", {self.where}" if self.where else ""
+        return f"Measure({_with_limit(self)}{place})"
+
     @property
     def ratio(self) -> float:
         """The value, as a multiple of its limit."""
         return self.value / self.limit
+
+
+def _with_limit(measure: Measure) -> str:
+    """Return a measured value with its name, unit and limit, as text."""
+    value = f"{measure.name} {measure.value:.3g} {measure.unit}"
+    return value if measure.unit == "of its limit" else f"{value}, limit {measure.limit:.3g}"
 
 
 def measure_smoothness(motion: Motion, positions: Array, against: Sequence[Motion]) -> Iterator[Measure]:
@@ -233,6 +244,12 @@ class Judgement(NamedTuple):
     left_out: tuple[str, ...]
     height: float
     bones: Mapping[str, float]
+
+    def __repr__(self) -> str:
+        worst = "nothing measured"
+        if self.measures:
+            worst = f"worst {_with_limit(self.worst)}"
+        return f"Judgement('{shortened(self.name)}', score {self.score:.3g}, {worst})"
 
     @property
     def worst(self) -> Measure:

@@ -5,6 +5,7 @@ from .characters import steer as steer
 from .followed import Followed as Followed
 from .foot_turning import FootTurner as FootTurner
 from .graph_control import Controller as Controller
+from .judged_control import ControlReport as ControlReport
 from .judged_control import command_headings as command_headings
 from .judged_control import judge_control as judge_control
 from .layered_search import LayeredSearch as LayeredSearch

@@ -58,6 +58,12 @@ class Followed:
     found: Found  # reads: name: public, and users read it
     bent: Bent | None = None
 
+    def __repr__(self) -> str:
+        distances = f"{100 * self.off.mean():.1f} cm off on average, {100 * self.off.max():.1f} cm at worst"
+        seams = f"{self.seams_per_second:.2f} seams per second"
+        part = f"{self.seconds:.1f} s along {self.progress:.0%} of {self.path.length:.1f} m"
+        return f"Followed({part}, {distances}, {seams}{', bent' if self.bent else ''})"
+
     def motion(self, *, name: str = "walk", clean: bool | None = None) -> Motion:
         """Return the motion along the path; `clean` removes foot sliding, by default only of a bent walk."""
         if self.bent:

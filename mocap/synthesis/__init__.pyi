@@ -1,4 +1,5 @@
 from .bounded_search import Problem as Problem
+from .bounded_search import SearchResult as SearchResult
 from .bounded_search import branch_and_bound as branch_and_bound
 from .bounded_search import search_ahead as search_ahead
 from .random_walks import random_walk as random_walk

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from mocap._shared.arguments import called_as
 from mocap._shared.progress import Progress
 from mocap._shared.quantities import check_number
 from mocap.body.motion import Motion, concatenate, turning
@@ -25,6 +26,7 @@ LONGEST = 3600.0  # seconds of a walk that is made in memory
 PIECE = 30.0  # seconds: the least duration of a piece of a long one
 
 
+@called_as("synthesis.random_walk(graph, seconds=5)")
 def random_walk(
     motion_graph: MotionGraph,
     *,

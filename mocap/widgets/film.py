@@ -14,7 +14,7 @@ from PIL import Image
 
 from mocap._shared.atomic import replacing
 from mocap._shared.progress import Progress
-from mocap.body import Motion
+from mocap.body.motion import Motion, require_motions
 from mocap.errors import MocapError, missing
 from mocap.widgets.filmed_scene import FilmedScene
 from mocap.widgets.player import play
@@ -62,10 +62,12 @@ def save_animation(
     ...     save_animation(datasets.sample("walk_straight")[:60], Path(folder, "walk.gif")).stat().st_size > 0
     True
     """
+    if isinstance(path, Motion):
+        raise MocapError("The motion comes first: widgets.save_animation(motion, 'walk.gif').")
+    motions = [motion] if isinstance(motion, Motion) else list(require_motions(motion))
     suffix = Path(path).suffix.lower()
     if suffix not in SUFFIXES:
         raise MocapError(f"An animation is written as {', '.join(SUFFIXES[:-1])} or .html, got '{path}'.")
-    motions = [motion] if isinstance(motion, Motion) else list(motion)
     if not motions:
         raise MocapError("There is no motion to show.")
     if suffix == ".mp4":

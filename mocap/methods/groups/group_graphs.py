@@ -33,6 +33,9 @@ class GroupGraph:
     clips: tuple[GroupClip, ...]
     tried: int
 
+    def __repr__(self) -> str:
+        return f"GroupGraph({len(self.nodes)} nodes, {len(self.clips)} clips)"
+
     @property
     def members(self) -> int:
         """The number of members."""

@@ -12,10 +12,10 @@ from dataclasses import replace
 import numpy as np
 
 from mocap._shared.records import NamedTuple
-from mocap.body.motion import Motion, concatenate
+from mocap.body.motion import Motion, concatenate, require_motion
 from mocap.editing.displacements import difference, displaced
 from mocap.errors import NoWalk
-from mocap.graphs.compiled_graph import CompiledGraph
+from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.edge_tables import Edge
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.methods.in_betweening.end_bending import MOST_TURN, Arrived, bend_to
@@ -48,12 +48,12 @@ class InBetween(NamedTuple):
     arrived: Arrived
 
 
-def in_between(graph: CompiledGraph, start: Motion, end: Motion, seconds: float) -> InBetween:
+def in_between(graph: MotionGraph | CompiledGraph, start: Motion, end: Motion, seconds: float) -> InBetween:
     """Find a motion from one pose to another, each at its position, in a given time.
 
     Parameters
     ----------
-    graph : pruned, and compiled.
+    graph : pruned; for many in-betweens, compiled once by `graphs.compile_graph`.
     start, end : motions of the graph's skeleton, at their positions: from the first frame of one to the last
         frame of the other. Further frames show their velocities. Clips of the graph are met best.
     seconds : from the first frame to the last, rounded to whole frames.
@@ -63,12 +63,15 @@ def in_between(graph: CompiledGraph, start: Motion, end: Motion, seconds: float)
     NoWalk : if no walk arrives although its pace and its steps change by up to a quarter, its turning by up
         to 60° per second and the poses at its ends by up to 10 cm.
     """
-    starts = find_candidates(graph, start, direction=1, limit=POSE)
-    ends = find_candidates(graph, end, direction=-1, limit=POSE)
-    return _connect(graph, (starts, ends), (start, end), seconds)
+    compiled = compile_graph(graph)
+    require_motion(start)
+    require_motion(end)
+    starts = find_candidates(compiled, start, direction=1, limit=POSE)
+    ends = find_candidates(compiled, end, direction=-1, limit=POSE)
+    return _connect(compiled, (starts, ends), (start, end), seconds)
 
 
-def fill_gap(graph: CompiledGraph, first: Motion, second: Motion, seconds: float) -> InBetween:
+def fill_gap(graph: MotionGraph | CompiledGraph, first: Motion, second: Motion, seconds: float) -> InBetween:
     """Find a motion that fills the gap between two motions, each at its position.
 
     As `in_between`, for poses whose past and future are known: a character continues the one motion and
@@ -76,7 +79,7 @@ def fill_gap(graph: CompiledGraph, first: Motion, second: Motion, seconds: float
 
     Parameters
     ----------
-    graph : compiled.
+    graph : as for `in_between`.
     first, second : motions of the graph's skeleton. From the last frame of one to the first of the other.
     seconds : from one to the other. In less than `SHORTEST` seconds `interpolate` does better.
 
@@ -93,20 +96,23 @@ def fill_gap(graph: CompiledGraph, first: Motion, second: Motion, seconds: float
     --------
     >>> from mocap import body, datasets, graphs
     >>> walk = body.resample(datasets.sample("walk_curve_1"), 30)
-    >>> graph = graphs.compile_graph(graphs.build([walk], window=10, threshold=0.04))
+    >>> graph = graphs.build([walk], window=10, threshold=0.04)
     >>> found = fill_gap(graph, walk[:100], walk[130:], 31 / 30)  # frames 99 to 130
     >>> len(found.motion), bool(abs(found.motion.root_positions - walk.root_positions[99:131]).max() < 0.01)
     (32, True)
     """
-    starts = find_candidates(graph, first, direction=-1, limit=POSE)
-    ends = find_candidates(graph, second, direction=1, limit=POSE)
+    compiled = compile_graph(graph)
+    require_motion(first)
+    require_motion(second)
+    starts = find_candidates(compiled, first, direction=-1, limit=POSE)
+    ends = find_candidates(compiled, second, direction=1, limit=POSE)
     start = first[-1:]
     if len(first) > 1:
         start = concatenate([start, _next_frame(first[-2:-1], start)])
     end = second[:1]
     if len(second) > 1:
         end = concatenate([_next_frame(second[1:2], end), end])
-    return _connect(graph, (starts, ends), (start, end), seconds)
+    return _connect(compiled, (starts, ends), (start, end), seconds)
 
 
 def _next_frame(earlier: Motion, pose: Motion) -> Motion:

@@ -1,5 +1,6 @@
 from .local_alignment import local_paths as local_paths
 from .local_alignment import minima_1d as minima_1d
+from .match_search import Match as Match
 from .match_search import cut_out as cut_out
 from .match_search import search as search
 from .motion_spaces import MotionSpace as MotionSpace
@@ -11,4 +12,5 @@ from .motion_spaces import sample_space as sample_space
 from .target_weights import weights_for as weights_for
 from .web_storage import load_web as load_web
 from .web_storage import save_web as save_web
+from .webs import MatchWeb as MatchWeb
 from .webs import build_web as build_web

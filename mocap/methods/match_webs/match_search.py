@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array
+from mocap._shared.quantities import check_threshold, described
 from mocap._shared.records import NamedTuple
 from mocap._shared.ties import in_order
 from mocap.body.motion import Motion
@@ -108,6 +109,7 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
     """
     query = _query(web, clip, frames)
     limit = web.below if below is None else below
+    check_threshold(limit)
     if limit > web.below:
         raise MocapError(f"This web goes up to {100 * web.below:g} cm: build another for {100 * limit:g} cm.")
     shortest, longest = (fraction * (query.stop - query.start) for fraction in lengths)
@@ -154,6 +156,8 @@ def _query(web: MatchWeb, clip: int, frames: slice) -> Match:
     >>> _query(web, 0, slice(0, 36))[:3], _query(web, 0, slice(1122, 1158))[:3]
     ((0, 0, 9), (0, 280, 290))
     """
+    if not isinstance(frames, slice):
+        raise MocapError(f"The query's frames are a slice such as slice(60, 90), got {described(frames)}.")
     motion = web.clips[clip]
     first = frames.start or 0
     last = len(motion) if frames.stop is None else frames.stop

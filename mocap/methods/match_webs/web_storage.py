@@ -11,11 +11,12 @@ import numpy as np
 from mocap._shared.archives import Arrays, Kind, Layout, Rules, read_archive, write_archive
 from mocap._shared.arrays import Indices
 from mocap._shared.progress import Progress
+from mocap._shared.quantities import described
 from mocap.body.motion import Motion
 from mocap.datasets import clip_references
 from mocap.datasets.clip_origins import Origin
 from mocap.datasets.clip_references import MOST_FRAMES
-from mocap.errors import FormatError, shortened
+from mocap.errors import FormatError, MocapError, shortened
 from mocap.methods.match_webs.webs import SHORTEST, MatchWeb
 
 # The arrays of the file, with C clips, N cells, and X offsets: one for each path, and the end.
@@ -57,6 +58,11 @@ def save_web(web: MatchWeb, path: str | Path, origins: Sequence[Origin] = ()) ->
     ...     load_web(f"{folder}/web.npz", clips)
     MatchWeb(1 clips, 8 paths, below 5 cm)
     """
+    if isinstance(path, MatchWeb):
+        raise MocapError("The web comes first: match_webs.save_web(web, 'web.npz').")
+    if not isinstance(web, MatchWeb):
+        remedy = "match_webs.build_web(clips) makes one"
+        raise MocapError(f"This takes a MatchWeb, got {described(web)}: {remedy}.")
     arrays = clip_references.arrays_of_clips(web.clips, origins, path)
     arrays |= {"rate": web.rate, "below": web.below, "lengths": np.diff(web.starts)}
     arrays |= {"cells": web.cells, "costs": web.costs, "offsets": web.offsets}

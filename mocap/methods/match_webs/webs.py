@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array, Indices, frozen
 from mocap._shared.progress import Progress
+from mocap._shared.quantities import check_threshold
 from mocap._shared.records import dataclass
 from mocap.body.motion import Motion, require_alike, resample
 from mocap.errors import MocapError, warn
@@ -94,7 +95,8 @@ def build_web(clips: Sequence[Motion], *, below: float = 0.12, progress: Progres
 
     Raises
     ------
-    SkeletonMismatch, MocapError : for no clips, other skeletons or rates, and clips that are all too short.
+    SkeletonMismatch, MocapError : for no clips, other skeletons or rates, clips that are all too short, and a
+        limit above 1 m.
 
     Warns
     -----
@@ -115,6 +117,7 @@ def build_web(clips: Sequence[Motion], *, below: float = 0.12, progress: Progres
     Notebook: 16-match-webs
     """
     clips = require_alike(clips)
+    check_threshold(below)
     resampled = [resample(clip, MatchWeb.rate) for clip in clips]
     shortest = f"{SHORTEST / MatchWeb.rate:.2g} s"
     long = [clip for clip in resampled if len(clip) >= SHORTEST]

@@ -1,3 +1,4 @@
+from .examples import Examples as Examples
 from .examples import cut_actions as cut_actions
 from .examples import mixed_trajectory as mixed_trajectory
 from .made_motions import optimal_transitions as optimal_transitions
