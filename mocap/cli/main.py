@@ -42,6 +42,9 @@ SHARED_FLAGS = ("-q", "--quiet", "-v", "--verbose", "--debug")  # those of `Verb
 HELP_FLAGS = {"-h", "--help"}
 ENDS_OF_OPTIONS = ("--", "--jupyter")
 RAISE: Any = {"exit_on_error": False, "print_error": False}
+BASH_FILES = 'COMPREPLY=( $(compgen -f -- "${cur}") )'  # how `cyclopts` offers files
+# A folder ends in a slash, without a space after it, and names may hold spaces; bash 3 has no `compopt`.
+FOLDERS_TO_ENTER = "local IFS=$'\\n'; compopt -o filenames 2> /dev/null;"
 NOWHERE: Any = object()  # a console for errors, which are printed here: that of `rich` takes 0.1 s to load
 EPILOGUE = (
     "mocap COMMAND --help lists what a command takes. All take -q (no progress and no warnings), -v (what is "
@@ -54,7 +57,7 @@ def completion(shell: Literal["bash", "zsh", "fish"]) -> None:
 
     Parameters
     ----------
-    shell : bash, zsh or fish.
+    shell : the shell.
 
     Notes
     -----
@@ -69,6 +72,9 @@ def completion(shell: Literal["bash", "zsh", "fish"]) -> None:
     if shell == "zsh":  # it looks for the script in a folder of its own, unless the script registers itself
         functions = re.findall(r"^(_\w+)\(\)", script, re.MULTILINE)
         script += f"\ncompdef {functions[0]} mocap"
+    if shell == "bash":
+        script = script.replace(BASH_FILES, f"{FOLDERS_TO_ENTER} {BASH_FILES}")
+        script = script.replace("complete -F", "complete -o bashdefault -o default -F")
     print(script)
 
 

@@ -57,6 +57,21 @@ def test_as_a_module_a_closed_pipe_is_quiet():
     assert (done.stderr, done.stdout.count("\n")) == ("", 1)
 
 
+def test_ctrl_c_while_the_package_is_loaded_is_one_sentence():
+    code = (
+        "import signal, sys\n"
+        "class Interrupted:\n"
+        "    def find_spec(self, name, *_):\n"
+        "        if name == 'cyclopts': signal.raise_signal(signal.SIGINT)\n"
+        "sys.meta_path.insert(0, Interrupted())\n"
+        "from mocap.__main__ import main\n"
+        "sys.exit(main())"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (130, "")
+    assert done.stderr == "mocap: interrupted before anything was done.\n"
+
+
 def test_a_terminal_that_knows_ascii_only_is_served():
     command = [sys.executable, "-m", "mocap", "warp", "--help"]
     own = os.environ | {"PYTHONIOENCODING": "ascii"}
