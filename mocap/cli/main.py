@@ -24,7 +24,7 @@ from mocap.cli.edits import bend, blend, loop, retarget, warp
 from mocap.cli.graph import GRAPH, demo
 from mocap.cli.in_betweens import inbetween
 from mocap.cli.messages import VERBOSITY, Verbosity, note, say, saying
-from mocap.cli.options import named_options
+from mocap.cli.options import named_options, retargeting_advised
 from mocap.cli.streams import PatientOutput, prepared_streams
 from mocap.cli.typed_commands import Commands, Group, make_root, option_names
 from mocap.cli.walk import crowd, page, walk
@@ -108,12 +108,14 @@ def in_order(words: Sequence[str]) -> list[str]:
     """Put words in the order in which they are parsed.
 
     `-q`, `-v` and `--debug` may stand before the name of a command, a group alone shows its help, and the
-    words after the `--` of `mocap lab` are an option's.
+    words after the `--` of `mocap lab` are an option's. `mocap help` is `mocap --help`.
 
     Examples
     --------
     >>> in_order(["-q", "info", "walk.bvh"]), in_order(["graph"])
     (['info', 'walk.bvh', '-q'], ['graph', '--help'])
+    >>> in_order(["help", "info"])
+    ['info', '--help']
     >>> in_order(["lab", "mine", "--", "--no-browser"])
     ['lab', 'mine', '--jupyter', '--no-browser']
     """
@@ -121,6 +123,8 @@ def in_order(words: Sequence[str]) -> list[str]:
     flags = [word for word in leading if word in SHARED_FLAGS]
     names = [word for word in leading if word not in SHARED_FLAGS]
     rest = [*names, *words[len(leading) :]]
+    if rest[:1] == ["help"]:
+        return [*rest[1:], "--help"]
     groups = [name for listed in COMMANDS.values() for name, run in listed.items() if isinstance(run, Group)]
     if not rest or rest in ([group] for group in groups):
         return [*rest, "--help"]
@@ -179,7 +183,7 @@ def _run(words: Sequence[str]) -> int:
     try:
         command, bound, _ = app.parse_args(ordered, error_console=NOWHERE, **RAISE)
     except cyclopts.CycloptsError as error:
-        raise MocapError(refusals.explain(error, root())) from error
+        raise MocapError(refusals.explain(error, root(), ordered)) from error
     start = time.perf_counter()
     chosen = dict(chain.from_iterable(named.items() for named in COMMANDS.values()))[ordered[0]]
     if isinstance(chosen, Group):
@@ -190,7 +194,7 @@ def _run(words: Sequence[str]) -> int:
         else:
             warnings.simplefilter("always", MocapWarning)
         warnings.showwarning = _show_warning
-        with named_options(option_names(command)):
+        with named_options(option_names(command)), retargeting_advised():
             status = command(*bound.args, **bound.kwargs)
         seconds = time.perf_counter() - start
         note(f"done in {seconds:.1f} s, {time.process_time():.1f} s of processor time")
