@@ -132,7 +132,8 @@ def build(
         raise MocapError("--jobs says how many threads work here, --cluster works elsewhere: give one.")
     if by_labels and whole:
         raise MocapError("--by-labels says how to prune, --whole not to prune: give one of them.")
-    paths = find_files(clips)
+    with timed_stage("finding the clips"):
+        paths = find_files(clips)
     check_out("graph", out, paths, [".npz"])
     if graphml:
         check_out("graph for other tools", graphml, paths, [".graphml"])

@@ -51,6 +51,20 @@ def test_it_says_its_version(capsys):
     assert capsys.readouterr().out == f"mocap {mocap.__version__}\n"
 
 
+def test_help_is_a_command_too(capsys):
+    for words in (["help"], ["help", "graph", "info"]):
+        assert main(words) == 0
+        told = capsys.readouterr().out
+        assert main([*words[1:], "--help"]) == 0
+        assert told == capsys.readouterr().out != ""
+
+
+def test_examples_in_a_help_page_begin_a_line(capsys):
+    assert main(["help", "inbetween"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert sum(line.startswith("Example: mocap inbetween ") for line in lines) == 2
+
+
 def test_as_a_module_a_closed_pipe_is_quiet():
     command = f"'{sys.executable}' -m mocap data list | head -1"
     done = subprocess.run(command, shell=True, capture_output=True, text=True, check=True)
