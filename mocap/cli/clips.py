@@ -10,8 +10,18 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 from mocap import files, quality, widgets
-from mocap._shared.atomic import make_folder, require_folder, require_writable
-from mocap.cli.options import CM, Reading, Sources, Unit, bar, tell, tell_of_failures
+from mocap._shared.atomic import make_folder, require_folder
+from mocap.cli.options import (
+    CM,
+    Reading,
+    Sources,
+    Unit,
+    bar,
+    require_place,
+    tell,
+    tell_of_failures,
+    timed_stage,
+)
 from mocap.errors import MocapError, printable
 from mocap.files import conversion
 from mocap.files.conversion import find_files
@@ -33,7 +43,9 @@ def info(file: Path, *, joints: bool = False, reading: Reading) -> None:
     """
     reading.require_skeleton_of_use(file)
     motion, angles, _ = reading.read(file)
-    print(quality.inspect(motion, angles).table())
+    with timed_stage("measuring"):
+        table = quality.inspect(motion, angles).table()
+    print(table)
     if joints:
         for joint, name in enumerate(motion.skeleton.names):
             print(f"{'  ' * len(motion.skeleton.path_to_root(joint)[1:])}{printable(name)}")
@@ -52,7 +64,7 @@ def view(clip: Path, *, out: Path | None = None, reading: Reading) -> None:
     import webbrowser  # it takes a while
 
     if out:
-        require_writable(out)
+        require_place(out)
     motion = reading.load(clip)
     page = out or Path(tempfile.mkdtemp(prefix="mocap-"), f"{clip.stem}.html")
     widgets.save_animation(motion, page, progress=bar("drawing"))
@@ -131,7 +143,8 @@ def convert(source: Path, target: Path, *, reading: Reading, to: Literal["bvh", 
     """
     pairs = conversion.plan(source, target, f".{to}")
     failed = conversion.convert(pairs, reading.load_any, progress=bar("converting"))
-    return tell_of_failures("converted", len(pairs), failed)
+    place = f" to {target}" if not source.is_dir() else f" to .{to}, in {target}"
+    return tell_of_failures("converted", len(pairs), failed, place)
 
 
 def find(
@@ -197,4 +210,6 @@ def _query(text: str) -> tuple[Path, slice]:
     if not parts or (parts[2] is None and ":" in Path(text).name):
         raise MocapError(f"Which frames are '{text[-60:]}'? Write CLIP:FROM-TO, as in walk.amc:120-250.")
     first, last = (None if part is None else int(part) for part in parts.groups()[1:])
+    if first is not None and last is not None and first >= last:
+        raise MocapError(f"Frames go from the first to a later one: '{first}-{last}' has them the other way.")
     return Path(parts[1]), slice(first, last)

@@ -3,7 +3,6 @@
 import logging
 import re
 from collections.abc import Callable, Iterator
-from concurrent.futures import CancelledError, Executor
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
@@ -11,6 +10,8 @@ import mocap
 from mocap.errors import MocapError, missing, shortened
 
 if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
     from distributed import Client
 
 ADDRESS = r"(tcp|tls|ws|wss)://[^\s:/]+:\d{1,5}"  # as a scheduler prints it when it starts
@@ -19,7 +20,7 @@ RETRIES = 3  # times that a block is computed again when its worker dies
 
 
 @contextmanager
-def connect(address: str) -> Iterator[Executor]:
+def connect(address: str) -> "Iterator[Executor]":
     """Connect to a Dask scheduler, and yield an executor that works on its workers.
 
     Parameters
@@ -34,6 +35,8 @@ def connect(address: str) -> Iterator[Executor]:
     """
     if not re.fullmatch(ADDRESS, address):
         raise MocapError(f"Where is the cluster '{address[:40]}'? Write tcp://HOST:PORT, as dask prints it.")
+    from concurrent.futures import CancelledError  # the help needs none
+
     try:
         import distributed
     except ImportError:

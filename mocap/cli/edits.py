@@ -147,6 +147,8 @@ def loop(
     Example: mocap loop walk.bvh --straight --clean -o loop.bvh
     """
     check_out("cycle", out, [clip])
+    if shortest > longest:
+        raise MocapError(f"--shortest {shortest:g} is longer than --longest {longest:g}.")
     from mocap.editing.cycles import find_loop, repeated  # the help needs no NumPy
 
     motion = reading.load(clip)
@@ -167,10 +169,24 @@ def loop(
     write_out(repeated(cycle, times), out)
 
 
+def _share(text: str) -> float:
+    """Read the share of a clip in a blend.
+
+    Examples
+    --------
+    >>> _share("0.5")
+    0.5
+    """
+    try:
+        return number(-1, 2)(text)
+    except MocapError as error:
+        raise MocapError(f"{error}: give shares such as 0.5 0.5") from None
+
+
 def blend(
     clips: Sequence[Path],
     *,
-    weights: Annotated[Sequence[float], number(-1, 2)] = (),
+    weights: Annotated[Sequence[float], _share] = (),
     fade: Annotated[float | None, number(0.01, 1000)] = None,
     slack: Annotated[float, number(0, 1e4)] = 1.2,
     clean: bool = False,
@@ -196,6 +212,8 @@ def blend(
     Example: mocap blend slow.bvh brisk.bvh --weights 0.3 0.7 -o walk.bvh
     """
     check_out("blend", out, clips)
+    if len(clips) < 2:
+        raise MocapError("Give two clips or more: a blend is made of several.")
     if weights and len(weights) != len(clips):
         raise MocapError(f"{len(clips)} clips need {len(clips)} weights, got {len(weights)}.")
     if fade and (weights or len(clips) != 2):
@@ -240,6 +258,8 @@ def retarget(
     -----
     Example: mocap retarget clips/ --to hero.bvh -o worn/
     """
+    if out.suffix.lower() in (".bvh", ".glb", ".amc", ".npz") and not out.is_dir():
+        raise MocapError(f"-o takes the folder for the new files, got '{out}', which names a file.")
     require_folder(out)
     pairs = [(source, out / f"{source.stem}.{format}") for source in find_files(clips)]
     require_apart(pairs, [to])

@@ -2,18 +2,28 @@
 
 import math
 import warnings
-from collections.abc import Sequence
-from contextlib import nullcontext
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from mocap import datasets, editing, graphs, quality, synthesis, widgets
 from mocap._shared.atomic import make_folder, require_folder
 from mocap.cli.clusters import connect
-from mocap.cli.options import Building, Seed, bar, check_out, number, require_other, tell, write_out
+from mocap.cli.options import (
+    Building,
+    Seed,
+    bar,
+    check_out,
+    number,
+    require_other,
+    tell,
+    timed_stage,
+    write_out,
+)
 from mocap.cli.typed_commands import Group
 from mocap.datasets.clip_origins import Origin
-from mocap.errors import MocapError, MocapWarning, NoWalk, warn
+from mocap.errors import MocapError, MocapWarning, NoWalk, SkeletonMismatch, warn
 from mocap.files.conversion import find_files
 
 if TYPE_CHECKING:
@@ -21,6 +31,8 @@ if TYPE_CHECKING:
     from mocap.graphs.motion_graph import MotionGraph
 
 SHOWN = 7  # names of clips
+LONG_WINDOW = 3.0  # seconds; more may have been meant as frames
+SMALL_THRESHOLD = 0.3  # cm; less may have been meant as metres
 
 
 def demo(
@@ -120,23 +132,45 @@ def build(
         raise MocapError("--jobs says how many threads work here, --cluster works elsewhere: give one.")
     if by_labels and whole:
         raise MocapError("--by-labels says how to prune, --whole not to prune: give one of them.")
-    paths = find_files(clips)
+    with timed_stage("finding the clips"):
+        paths = find_files(clips)
     check_out("graph", out, paths, [".npz"])
     if graphml:
         check_out("graph for other tools", graphml, paths, [".graphml"])
     with connect(cluster) if cluster else nullcontext() as executor:
         motions, origins = _read_clips(paths, building, mirror=mirror)
-        graph = building.build(motions, bar("comparing"), jobs=jobs, executor=executor)
+        with timed_stage("building"), _units_explained(building):
+            graph = building.build(motions, bar("comparing"), jobs=jobs, executor=executor)
     if not whole:
-        graph = graphs.prune(graph, by_labels=by_labels)
-    print(graphs.summary(graph).table())
-    graphs.save(graph, out, origins)
+        with timed_stage("pruning"), _units_explained(building):
+            graph = graphs.prune(graph, by_labels=by_labels)
+    with timed_stage("describing"):
+        table = graphs.summary(graph).table()
+    print(table)
+    with timed_stage("writing"):
+        graphs.save(graph, out, origins)
     tell(wrote=out)
     if graphml:
         from mocap.graphs.graph_summary import write_graphml  # the help needs no NumPy
 
         write_graphml(graph, graphml)
         tell(wrote=graphml)
+
+
+@contextmanager
+def _units_explained(building: Building) -> Iterator[None]:
+    """Add the unit of an option to an error where its value looks like one of another unit."""
+    try:
+        yield
+    except SkeletonMismatch:
+        raise
+    except MocapError as error:
+        advice = ""
+        if building.window > LONG_WINDOW:
+            advice = f" --window is in seconds: {building.window:g} is {building.window:g} s; try 0.33."
+        elif isinstance(error, NoWalk) and building.threshold < SMALL_THRESHOLD:
+            advice = f" --threshold is in cm: {building.threshold:g} is {building.threshold:g} cm; try 4."
+        raise type(error)(f"{error}{advice}") from error
 
 
 def _read_clips(

@@ -58,6 +58,7 @@ def inbetween(
     Notes
     -----
     Example: mocap inbetween start.bvh end.bvh --seconds 1.5 --clips walks/ -o whole.bvh
+
     Example: mocap inbetween walk.bvh --gap 1.5s-2.5s -o mended.bvh
     """
     if (end is None) == (gap is None):

@@ -24,7 +24,7 @@ from mocap.cli.edits import bend, blend, loop, retarget, warp
 from mocap.cli.graph import GRAPH, demo
 from mocap.cli.in_betweens import inbetween
 from mocap.cli.messages import VERBOSITY, Verbosity, note, say, saying
-from mocap.cli.options import named_options
+from mocap.cli.options import named_options, retargeting_advised
 from mocap.cli.streams import PatientOutput, prepared_streams
 from mocap.cli.typed_commands import Commands, Group, make_root, option_names
 from mocap.cli.walk import crowd, page, walk
@@ -42,6 +42,9 @@ SHARED_FLAGS = ("-q", "--quiet", "-v", "--verbose", "--debug")  # those of `Verb
 HELP_FLAGS = {"-h", "--help"}
 ENDS_OF_OPTIONS = ("--", "--jupyter")
 RAISE: Any = {"exit_on_error": False, "print_error": False}
+BASH_FILES = 'COMPREPLY=( $(compgen -f -- "${cur}") )'  # how `cyclopts` offers files
+# A folder ends in a slash, without a space after it, and names may hold spaces; bash 3 has no `compopt`.
+FOLDERS_TO_ENTER = "local IFS=$'\\n'; compopt -o filenames 2> /dev/null;"
 NOWHERE: Any = object()  # a console for errors, which are printed here: that of `rich` takes 0.1 s to load
 EPILOGUE = (
     "mocap COMMAND --help lists what a command takes. All take -q (no progress and no warnings), -v (what is "
@@ -54,7 +57,7 @@ def completion(shell: Literal["bash", "zsh", "fish"]) -> None:
 
     Parameters
     ----------
-    shell : bash, zsh or fish.
+    shell : the shell.
 
     Notes
     -----
@@ -69,6 +72,9 @@ def completion(shell: Literal["bash", "zsh", "fish"]) -> None:
     if shell == "zsh":  # it looks for the script in a folder of its own, unless the script registers itself
         functions = re.findall(r"^(_\w+)\(\)", script, re.MULTILINE)
         script += f"\ncompdef {functions[0]} mocap"
+    if shell == "bash":
+        script = script.replace(BASH_FILES, f"{FOLDERS_TO_ENTER} {BASH_FILES}")
+        script = script.replace("complete -F", "complete -o bashdefault -o default -F")
     print(script)
 
 
@@ -102,12 +108,14 @@ def in_order(words: Sequence[str]) -> list[str]:
     """Put words in the order in which they are parsed.
 
     `-q`, `-v` and `--debug` may stand before the name of a command, a group alone shows its help, and the
-    words after the `--` of `mocap lab` are an option's.
+    words after the `--` of `mocap lab` are an option's. `mocap help` is `mocap --help`.
 
     Examples
     --------
     >>> in_order(["-q", "info", "walk.bvh"]), in_order(["graph"])
     (['info', 'walk.bvh', '-q'], ['graph', '--help'])
+    >>> in_order(["help", "info"])
+    ['info', '--help']
     >>> in_order(["lab", "mine", "--", "--no-browser"])
     ['lab', 'mine', '--jupyter', '--no-browser']
     """
@@ -115,6 +123,8 @@ def in_order(words: Sequence[str]) -> list[str]:
     flags = [word for word in leading if word in SHARED_FLAGS]
     names = [word for word in leading if word not in SHARED_FLAGS]
     rest = [*names, *words[len(leading) :]]
+    if rest[:1] == ["help"]:
+        return [*rest[1:], "--help"]
     groups = [name for listed in COMMANDS.values() for name, run in listed.items() if isinstance(run, Group)]
     if not rest or rest in ([group] for group in groups):
         return [*rest, "--help"]
@@ -173,7 +183,7 @@ def _run(words: Sequence[str]) -> int:
     try:
         command, bound, _ = app.parse_args(ordered, error_console=NOWHERE, **RAISE)
     except cyclopts.CycloptsError as error:
-        raise MocapError(refusals.explain(error, root())) from error
+        raise MocapError(refusals.explain(error, root(), ordered)) from error
     start = time.perf_counter()
     chosen = dict(chain.from_iterable(named.items() for named in COMMANDS.values()))[ordered[0]]
     if isinstance(chosen, Group):
@@ -184,7 +194,7 @@ def _run(words: Sequence[str]) -> int:
         else:
             warnings.simplefilter("always", MocapWarning)
         warnings.showwarning = _show_warning
-        with named_options(option_names(command)):
+        with named_options(option_names(command)), retargeting_advised():
             status = command(*bound.args, **bound.kwargs)
         seconds = time.perf_counter() - start
         note(f"done in {seconds:.1f} s, {time.process_time():.1f} s of processor time")

@@ -14,7 +14,7 @@ from mocap import body, files, graphs
 from mocap._shared.atomic import require_writable
 from mocap._shared.progress import Progress
 from mocap.cli.messages import VERBOSITY, note
-from mocap.errors import MocapError, printable
+from mocap.errors import MocapError, SkeletonMismatch, printable
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -49,6 +49,7 @@ def number(low: float, high: float, kind: Callable[[str], float] = float) -> Cal
     return read
 
 
+SHORTEST_STAGE = 0.05  # seconds; a shorter one is 0.0 s
 LENGTH = number(1e-6, 1e6)  # metres per unit
 CM = number(0.001, 1000)  # centimetres
 RATE = number(1, 1000)  # frames per second
@@ -85,11 +86,62 @@ def named_options(names: Mapping[str, str]) -> Iterator[None]:
 
 
 @contextmanager
+def retargeting_advised() -> Iterator[None]:
+    """Name the command that helps in an error of clips of two bodies.
+
+    Examples
+    --------
+    >>> with retargeting_advised():
+    ...     raise SkeletonMismatch("The skeletons differ in these joints: tail. Retarget one first.")
+    Traceback (most recent call last):
+    mocap.errors.SkeletonMismatch: The skeletons ... joints: tail. mocap retarget lets one body wear both.
+    """
+    try:
+        yield
+    except SkeletonMismatch as error:
+        problem = error.problem().removesuffix(" Retarget one first.")
+        raise SkeletonMismatch(f"{problem} mocap retarget lets one body wear both.") from error
+
+
+@contextmanager
 def timed_reading(path: Path) -> Iterator[None]:
     """Note with `-v` which file is read, and how long that takes."""
     start = time.perf_counter()
     yield
     note(f"read {path} in {time.perf_counter() - start:.2f} s")
+
+
+@contextmanager
+def timed_stage(name: str) -> Iterator[None]:
+    """Note with `-v` how long a stage of the work takes, if that is a tenth of a second or so.
+
+    Parameters
+    ----------
+    name : what is done, as in "measuring".
+    """
+    start = time.perf_counter()
+    yield
+    seconds = time.perf_counter() - start
+    if seconds >= SHORTEST_STAGE:
+        note(f"{name}: {seconds:.1f} s")
+
+
+def require_file(path: Path, advice: str) -> None:
+    """Raise for a folder where a command takes one file.
+
+    Parameters
+    ----------
+    path : what was given.
+    advice : what to give, as in "give one of its files".
+
+    Examples
+    --------
+    >>> require_file(Path(__file__).parent, "give one of its files")
+    Traceback (most recent call last):
+    mocap.errors.MocapError: ...cli is a folder: give one of its files.
+    """
+    if path.is_dir():
+        raise MocapError(f"{path} is a folder: {advice}.")
 
 
 @dataclass(frozen=True)
@@ -108,9 +160,13 @@ class Reading:
         path : the clip.
         stretch : metres by which bones may change their length; by default as for `files.load`.
         """
-        from mocap.files.load_save import read  # the help needs no NumPy
-        from mocap.files.rigid_bones import STRETCH
+        with timed_stage("loading packages"):
+            from mocap.files.load_save import read  # the help needs no NumPy
+            from mocap.files.rigid_bones import STRETCH
 
+        require_file(path, "give one of its files")
+        if path.suffix.lower() == ".asf":
+            raise MocapError(f"{path} is a skeleton without a motion: give an .amc file, or a .bvh.")
         limit = STRETCH if stretch is None else stretch
         with named_options(READING), timed_reading(path):
             return read(path, self.skeleton, self.fps, self.scale, limit)
@@ -143,7 +199,8 @@ class Sources:
 
     def load(self, paths: Sequence[Path]) -> "list[Motion]":
         """Read the clips that `find_files` found, and warn of bodies of other sizes than people's."""
-        from mocap.quality.clip_flaws import warn_of_size
+        with timed_stage("loading packages"):
+            from mocap.quality.clip_flaws import warn_of_size  # the help needs no NumPy
 
         with named_options(SOURCES):
             clips = [self._load(path) for path in bar("reading")(paths)]
@@ -235,6 +292,20 @@ def check_out(
         allowed = " or ".join(filter(None, [", ".join(formats[:-1]), formats[-1]]))
         raise MocapError(f"A {thing} is written as {allowed}, got '{out}'.")
     require_other(out, read)
+    require_place(out)
+
+
+def require_place(out: Path) -> None:
+    """Raise, before any work is done, if a file cannot be written.
+
+    Examples
+    --------
+    >>> require_place(Path("nowhere/walk.bvh"))
+    Traceback (most recent call last):
+    mocap.errors.MocapError: Cannot write nowhere/walk.bvh: there is no folder nowhere.
+    """
+    if not out.parent.is_dir():
+        raise MocapError(f"Cannot write {out}: there is no folder {out.parent}.")
     require_writable(out)
 
 
@@ -253,7 +324,8 @@ def require_other(out: Path, read: Iterable[Path]) -> None:
 
 def write_out(motion: "Motion", out: Path, *, details: str = "") -> None:
     """Write a motion, and print its file and `details` of it."""
-    files.save(motion, out)
+    with timed_stage("writing"):
+        files.save(motion, out)
     tell(wrote=f"{out}{details}")
 
 

@@ -1,6 +1,7 @@
 """What is told of words that fit no command: one sentence that says what may have been meant."""
 
 import os
+import re
 from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 from typing import Literal, get_args, get_origin
@@ -11,19 +12,25 @@ from mocap.cli.typed_commands import command_names
 from mocap.errors import MocapError, shortened
 
 LONGEST = 60  # characters of a word that is quoted
+SYNONYMS = {"--path": "--along", "--along": "--path"}  # the line of `mocap walk` and that of `mocap bend`
 ALIKE = 0.6  # of two words, as `difflib` measures it; "conver" and "convert" have 0.92
 
 
-def explain(error: cyclopts.CycloptsError, root: cyclopts.App) -> str:
+def explain(error: cyclopts.CycloptsError, root: cyclopts.App, words: Sequence[str] = ()) -> str:
     """Return the sentence for words that cannot be understood.
 
     Parameters
     ----------
     error : what `cyclopts` found.
     root : the command that has all others.
+    words : what was typed after `mocap`.
     """
     program = " ".join(["mocap", *(error.command_chain or ())])
-    return f"{_problem(error, program, root).removesuffix('.')} (see {program} --help)"
+    if isinstance(error, cyclopts.MissingArgumentError):
+        problem = _missing(error, program, words)
+    else:
+        problem = _problem(error, program, root)
+    return f"{problem.removesuffix('.')} (see {program} --help)"
 
 
 def require_meant(words: Sequence[str], group: str, commands: Iterable[str]) -> None:
@@ -55,10 +62,7 @@ def _problem(error: cyclopts.CycloptsError, program: str, root: cyclopts.App) ->
             return _unknown_command(error, program, root)
         case cyclopts.UnknownOptionError():
             word = error.token.keyword or error.token.value
-            names = [name for argument in error.argument_collection for name in argument.names]
-            return f"{program} has no option {_quoted(word)}.{suggestion(word, [*names, '--help'])}"
-        case cyclopts.MissingArgumentError():
-            return _missing(error, program)
+            return _unknown_option(word, program, _option_names(error.argument_collection))
         case cyclopts.UnusedCliTokensError():
             return f"{program} takes no further argument, got {_quoted((error.unused_tokens or [''])[0])}."
         case cyclopts.CoercionError():
@@ -81,13 +85,40 @@ def _unknown_command(error: cyclopts.CycloptsError, program: str, root: cyclopts
     return f"{program} has no command {_quoted(word)}.{_meant(close)}"
 
 
-def _missing(error: cyclopts.MissingArgumentError, program: str) -> str:
-    """Say which argument is missing, or which option needs a value."""
+def _option_names(arguments: Iterable[cyclopts.Argument]) -> list[str]:
+    """List the options of a command."""
+    names = [name for argument in arguments for name in argument.names if name.startswith("-")]
+    return [*names, "--help"]
+
+
+def _unknown_option(word: str, program: str, names: Sequence[str]) -> str:
+    """Say that there is no such option, and which one may have been meant."""
+    alias = SYNONYMS.get(word)
+    meant = _meant([alias]) if alias and alias in names else suggestion(word, names)
+    return f"{program} has no option {_quoted(word)}.{meant}"
+
+
+def _missing(error: cyclopts.MissingArgumentError, program: str, words: Sequence[str]) -> str:
+    """Say which argument is missing, or which option needs a value; but first which option is unknown."""
     assert error.argument is not None
     names = " or ".join(error.argument.names)
     if error.keyword or any(token.keyword for token in error.argument.tokens):
-        return f"{error.keyword or names} needs a value."
+        option = error.keyword or names
+        return _below_zero(option, words) or f"{error.keyword or names} needs a value."
+    options = _option_names(error.app.assemble_argument_collection()) if error.app else words
+    typed = [word.partition("=")[0] for word in words if word.startswith("--") and word != "--"]
+    for word in typed:
+        if word not in options:
+            return _unknown_option(word, program, options)
     return f"{program} needs {names}."
+
+
+def _below_zero(option: str, words: Sequence[str]) -> str:
+    """Say that a value such as -5s, which looks like an option, cannot be; nothing for other values."""
+    following = words[words.index(option) + 1 :][:1] if option in words else []
+    if following and re.match(r"-[\d.]", following[0]):
+        return f"{option} takes no value below zero, got {_quoted(following[0])}."
+    return ""
 
 
 def _not_a_value(error: cyclopts.CoercionError) -> str:

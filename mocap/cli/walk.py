@@ -13,12 +13,25 @@ from mocap import body, datasets, editing, files, graphs, plotting, steering, wi
 from mocap._shared.atomic import make_folder, replacing, require_folder, write_file
 from mocap._shared.deadlines import OUT_OF_TIME
 from mocap.cli import options
-from mocap.cli.options import TURN, Building, Clean, Seed, Skeleton, Sources, Unit, bar, number, tell
+from mocap.cli.options import (
+    TURN,
+    Building,
+    Clean,
+    Seed,
+    Skeleton,
+    Sources,
+    Unit,
+    bar,
+    number,
+    tell,
+    timed_stage,
+)
 from mocap.cli.typed_commands import ONE_EACH, OptionalValue
 from mocap.errors import MocapError, MocapWarning, NoWalk
 from mocap.files.conversion import find_files
 from mocap.methods import groups
 
+BUILD_FIRST = "build a graph of it first, by mocap graph {}"
 UNITS = {"s": 1.0, "min": 60.0, "h": 3600.0}
 WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
 TURNS = (0.0, 0.5, -0.5, 1.0, -1.0)  # radians from the way to the first point, tried in this order
@@ -72,22 +85,29 @@ def walk(
     if random is not None and any((label, width, unit, bend, deadline)):
         raise MocapError("--label, --bend, --width, --unit and --deadline belong to --path, not to --random.")
     options.check_out("walk", out)
-    from mocap.files.path_files import load_path  # the help needs no NumPy
-    from mocap.synthesis.random_walks import dump
+    with timed_stage("loading packages"):
+        from mocap.files.path_files import load_path  # the help needs no NumPy
+        from mocap.synthesis.random_walks import dump
 
     seconds = _seconds(random or "1s")
     longest_search = math.inf if deadline is None else _seconds(deadline)
+    options.require_file(graph, BUILD_FIRST.format(graph))
     line = load_path(path, scale=unit) if path else None
     wishes = steering.Wishes(labels=[_label(text) for text in label])
-    motions = _graph(graph, clips, sources, out)
+    with timed_stage("reading the graph"):
+        motions = _graph(graph, clips, sources, out)
     if line is None:
         frames = dump(motions, out, seconds=seconds, seed=seed or 0, clean=clean, progress=bar("writing"))
         tell(walked=f"{frames / motions.fps:.1f} s at random", wrote=out)
         return 0
     settings = steering.Settings(width=width or 100, progress=bar("searching"), deadline=longest_search)
-    followed = steering.follow_path(motions, line, wishes, settings=settings, bend=math.radians(bend or 0))
+    with timed_stage("following the path"):
+        turn = math.radians(bend or 0)
+        followed = steering.follow_path(motions, line, wishes, settings=settings, bend=turn)
     tell(walked=followed.report())
-    options.write_out(followed.motion(clean=clean or bool(bend)), out)
+    with timed_stage("making the motion"):
+        motion = followed.motion(clean=clean or bool(bend))
+    options.write_out(motion, out)
     return 0 if followed.found.stopped in ("", OUT_OF_TIME) else 130
 
 
@@ -114,9 +134,13 @@ def page(graph: Path, *, out: Path = Path("walk.html"), skeleton: Skeleton = Non
     Example: mocap page graph.npz -o walk.html
     """
     options.check_out("page", out, formats=[".html"])
-    from mocap.widgets.walking_page import walk_page  # the help needs no NumPy
+    options.require_file(graph, BUILD_FIRST.format(graph))
+    with timed_stage("loading packages"):
+        from mocap.widgets.walking_page import walk_page  # the help needs no NumPy
 
-    text = walk_page(graphs.load(graph, skeleton=skeleton, progress=bar("reading")))
+    motions = graphs.load(graph, skeleton=skeleton, progress=bar("reading"))
+    with timed_stage("making the page"):
+        text = walk_page(motions)
     write_file(out, text)
     tell(wrote=f"{out}, {len(text) / 1e6:.2f} MB")
 

@@ -65,7 +65,7 @@ def test_view_keeps_a_file_and_opens_nothing(folder, run, monkeypatch):
 
 def test_convert_acclaim(folder, run):
     write_acclaim(load_save.load("clips/a.bvh"), folder / "one.amc")
-    assert run("convert one.amc other.BVH --fps 30").out == "converted    1 of 1\n"
+    assert run("convert one.amc other.BVH --fps 30").out == "converted    1 of 1 to other.BVH\n"
     assert same("clips/a.bvh", "other.BVH")
     assert load_save.load("other.BVH").fps == 30.0
 
@@ -88,7 +88,7 @@ def test_convert_a_folder_and_name_what_failed(folder, run):
     (folder / "clips" / "broken.bvh").write_text("HIERARCHY\n")
     (folder / "clips" / "notes.txt").write_text("no clip")
     told = run("convert clips out", 2).out
-    assert "converted    2 of 3\n" in told
+    assert "converted    2 of 3 to .bvh, in out\n" in told
     assert "failed       clips/broken.bvh: expected a line 'MOTION'" in told
     made = sorted(str(p.relative_to("out")) for p in Path("out").rglob("*.*"))
     assert made == ["a.bvh", "more/b.bvh"]

@@ -91,6 +91,27 @@ class Terminal:
         os.close(self.here)
 
 
+def test_bash_enters_a_folder(script, tmp_path):
+    """After a Tab, bash has written the folder's slash, and no space."""
+    script("bash")
+    for name in ("clips", "my clips", "walk"):
+        (tmp_path / name).mkdir()
+    terminal = Terminal("bash", "--norc", "-i")
+    try:
+        terminal.type("source ./mocap.bash; echo re''ady\n", "\nready")
+        shown = {
+            "view cl": "clips/",
+            "graph my": r"my\ clips/",
+            "walk g.npz --path cl": "clips/",
+            "wal": "walk ",
+        }
+        for line, whole in shown.items():
+            assert f"{whole}|" in terminal.type(f"mocap {line}\t|", r"\|")
+            terminal.type("\x15echo do''ne\n", "done")  # Ctrl-U drops the line
+    finally:
+        terminal.end()
+
+
 def test_zsh_completes_commands_options_and_choices(script):
     """After a Tab, zsh has written the rest of the word."""
     script("zsh")

@@ -108,7 +108,7 @@ def test_bodies_that_differ_are_one_short_sentence_that_says_what_to_do(tmp_path
         turned = np.tile(rotations.IDENTITY, (60, 21, 1))
         load_save.save(Motion(body, np.zeros((60, 3)), turned, 30.0, name), tmp_path / f"{name}.bvh")
     told = run(f"blend {tmp_path}/one_who_walks.bvh {tmp_path}/one_who_runs.bvh -o {tmp_path}/x.bvh", 2).err
-    assert "Retarget one first." in told and len(told) <= 200
+    assert "mocap retarget lets one body wear both." in told and len(told) <= 200
 
 
 @pytest.fixture

@@ -51,10 +51,39 @@ def test_it_says_its_version(capsys):
     assert capsys.readouterr().out == f"mocap {mocap.__version__}\n"
 
 
+def test_help_is_a_command_too(capsys):
+    for words in (["help"], ["help", "graph", "info"]):
+        assert main(words) == 0
+        told = capsys.readouterr().out
+        assert main([*words[1:], "--help"]) == 0
+        assert told == capsys.readouterr().out != ""
+
+
+def test_examples_in_a_help_page_begin_a_line(capsys):
+    assert main(["help", "inbetween"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert sum(line.startswith("Example: mocap inbetween ") for line in lines) == 2
+
+
 def test_as_a_module_a_closed_pipe_is_quiet():
     command = f"'{sys.executable}' -m mocap data list | head -1"
     done = subprocess.run(command, shell=True, capture_output=True, text=True, check=True)
     assert (done.stderr, done.stdout.count("\n")) == ("", 1)
+
+
+def test_ctrl_c_while_the_package_is_loaded_is_one_sentence():
+    code = (
+        "import signal, sys\n"
+        "class Interrupted:\n"
+        "    def find_spec(self, name, *_):\n"
+        "        if name == 'cyclopts': signal.raise_signal(signal.SIGINT)\n"
+        "sys.meta_path.insert(0, Interrupted())\n"
+        "from mocap.__main__ import main\n"
+        "sys.exit(main())"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (130, "")
+    assert done.stderr == "mocap: interrupted before anything was done.\n"
 
 
 def test_a_terminal_that_knows_ascii_only_is_served():
