@@ -71,7 +71,7 @@ def test_cells_are_short_and_told_in_words(name):
     cells = code(name)
     assert max(len(cell.splitlines()) for cell in cells) <= 26
     lines = sum(bool(line.strip()) for cell in cells for line in cell.splitlines())
-    assert 8 <= len(prose(markdown(name)).split()) / lines <= 30
+    assert 7.5 <= len(prose(markdown(name)).split()) / lines <= 30
 
 
 @every_notebook
