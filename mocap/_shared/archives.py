@@ -87,12 +87,15 @@ class Member:
 
 def pack(path: str | Path, arrays: Mapping[str, Any]) -> None:
     """Write an `.npz` file, whole or not at all: packed, unless so much would come out that it is refused."""
+    members: dict[str, Any] = {name: np.asarray(array) for name, array in arrays.items()}
+    if any(array.dtype.hasobject for array in members.values()):
+        raise TypeError("an archive holds numbers, truths and texts, and no Python objects")
+    size = sum(array.nbytes for array in members.values())
     with replacing(path) as new:
         for save in (np.savez_compressed, np.savez):
             with new.open("wb") as file:
-                save(file, allow_pickle=False, **arrays)
-            room = RATIO * new.stat().st_size + ROOM
-            if sum(np.asarray(array).nbytes for array in arrays.values()) < room:
+                save(file, **members)
+            if size < RATIO * new.stat().st_size + ROOM:
                 break
 
 
