@@ -63,7 +63,7 @@ class CompiledGraph(EdgeTable):
 
     @cached_property
     def progress(self) -> Array:
-        """The progress of each frame, metres, (T,): its step, but at least γ [KGP02, 5.1]."""
+        """The progress of each frame, metres, (T,): its step, but at least γ [KGP02, least progress]."""
         return np.maximum(self.step, LEAST / self.fps)
 
     def index(self, node: Node) -> int:
