@@ -188,7 +188,7 @@ class Kind:
 
     @property
     def wanted(self) -> str:
-        """What a file should be, for errors."""
+        """The description of the expected file, for errors."""
         versions = " or ".join(map(str, range(1, self.version + 1)))
         return f"{self.name} saved by mocap, version {versions}"
 

@@ -53,7 +53,7 @@ def is_module(room: str, name: str) -> bool:
 
 
 def missing_name(room: str, name: str, names: list[str]) -> str:
-    """Say in which room a name is, or which name is meant.
+    """Return the sentence for a name that a room lacks: its room, or the nearest name.
 
     Examples
     --------

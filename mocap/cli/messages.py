@@ -21,7 +21,7 @@ COMMON = Group("Options of all commands", sort_key=99)
 
 @dataclass(frozen=True)
 class Verbosity:
-    """How much a command says: the options that all commands have."""
+    """The verbosity of a command: options that all commands have."""
 
     quiet: Annotated[bool, Parameter(alias="-q", group=COMMON), "show no progress and no warnings"] = False
     verbose: Annotated[

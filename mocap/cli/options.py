@@ -146,7 +146,7 @@ def require_file(path: Path, advice: str) -> None:
 
 @dataclass(frozen=True)
 class Reading:
-    """How one clip is read; the options of a command that has such a parameter."""
+    """Options for reading one clip, of a command that has such a parameter."""
 
     skeleton: Skeleton = None
     fps: Annotated[float | None, RATE, "frames per second (default: as in the file; 120 for .amc)"] = None
@@ -192,7 +192,7 @@ class Reading:
 
 @dataclass(frozen=True)
 class Sources:
-    """How many clips are read."""
+    """Options for reading several clips."""
 
     skeleton: Skeleton = None
     scale: Annotated[float | None, LENGTH, "metres per unit of length in .bvh clips (default: 0.01)"] = None
@@ -214,7 +214,7 @@ class Sources:
 
 @dataclass(frozen=True)
 class Building(Sources):
-    """How clips are read and their graph is built; seconds and centimetres."""
+    """Options for reading clips and building their graph; seconds and centimetres."""
 
     fps: Annotated[float, RATE, "frame rate of the graph"] = 30.0
     window: Annotated[float, number(0, 60), "seconds of a transition"] = 1 / 3

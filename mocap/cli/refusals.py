@@ -71,7 +71,7 @@ def _problem(error: cyclopts.CycloptsError, program: str, root: cyclopts.App) ->
 
 
 def _unknown_command(error: cyclopts.CycloptsError, program: str, root: cyclopts.App) -> str:
-    """Say that there is no such command; the name of one inside a group may have been meant, too."""
+    """Word the error for an unknown command, with suggestions from all groups."""
     word = (error.unused_tokens or [""])[0]
     if word.startswith("-"):
         meant = suggestion(word, ["--help", "--version"])
@@ -92,14 +92,14 @@ def _option_names(arguments: Iterable[cyclopts.Argument]) -> list[str]:
 
 
 def _unknown_option(word: str, program: str, names: Sequence[str]) -> str:
-    """Say that there is no such option, and which one may have been meant."""
+    """Word the error for an unknown option, with a suggestion."""
     alias = SYNONYMS.get(word)
     meant = _meant([alias]) if alias and alias in names else suggestion(word, names)
     return f"{program} has no option {_quoted(word)}.{meant}"
 
 
 def _missing(error: cyclopts.MissingArgumentError, program: str, words: Sequence[str]) -> str:
-    """Say which argument is missing, or which option needs a value; but first which option is unknown."""
+    """Word the error for a missing argument or value; an unknown option comes first."""
     assert error.argument is not None
     names = " or ".join(error.argument.names)
     if error.keyword or any(token.keyword for token in error.argument.tokens):
@@ -114,7 +114,7 @@ def _missing(error: cyclopts.MissingArgumentError, program: str, words: Sequence
 
 
 def _below_zero(option: str, words: Sequence[str]) -> str:
-    """Say that a value such as -5s, which looks like an option, cannot be; nothing for other values."""
+    """Word the error for a value such as -5s, which looks like an option; empty for other values."""
     following = words[words.index(option) + 1 :][:1] if option in words else []
     if following and re.match(r"-[\d.]", following[0]):
         return f"{option} takes no value below zero, got {_quoted(following[0])}."
@@ -122,7 +122,7 @@ def _below_zero(option: str, words: Sequence[str]) -> str:
 
 
 def _not_a_value(error: cyclopts.CoercionError) -> str:
-    """Say what an option takes, and which of its choices may have been meant."""
+    """Word the error for a wrong value: what the option takes, and the nearest choice."""
     name = error.argument.name if error.argument else ""
     word = error.token.value if error.token else ""
     if error.token and error.token.keyword:

@@ -220,7 +220,7 @@ def _as_options(fields: Any) -> Iterable[inspect.Parameter]:  # noqa: ANN401 (a 
 
 
 def _describe(parameter: inspect.Parameter, text: Help) -> inspect.Parameter:
-    """Say to `cyclopts` what a docstring and an annotation say; the docstring comes first."""
+    """Describe a parameter to `cyclopts` by its docstring, then by its annotation."""
     kind, extras = _split(parameter)
     is_list = get_origin(kind) is Sequence
     settings = [PLAIN_WORDS, Parameter(show_default=_shown_default(parameter.default))]

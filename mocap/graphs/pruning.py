@@ -100,7 +100,7 @@ class Pruning:
     orphans: tuple[Hashable, ...]
 
     def report(self) -> str:
-        """Say in a few lines what stays, and how many edges are removed for which reason."""
+        """Summarise in a few lines what stays, and the number of edges removed for each reason."""
         lines = [f"kept {self.graph.number_of_nodes()} nodes and {self.graph.number_of_edges()} edges"]
         if len(self.components) > 1:
             lines += [f"  {len(nodes)} nodes: {name(labels)}" for labels, nodes in self.components.items()]

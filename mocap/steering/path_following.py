@@ -194,7 +194,7 @@ def _best_of(
 
 @contextmanager
 def _ending(deadline: Deadline) -> Iterator[None]:
-    """Let a search end without a walk if the deadline is over: it may end before its first step."""
+    """Suppress NoWalk if the deadline is over: a search may end before its first step."""
     try:
         yield
     except NoWalk:

@@ -169,7 +169,7 @@ class Route:
 
     @cached_property
     def bare(self) -> bool:
-        """Whether the path is the only wish."""
+        """True if nothing but the path is asked for."""
         return not len(self.others) and bool((self.label < 0).all() and np.isnan(self.clock).all())
 
 
