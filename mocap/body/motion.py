@@ -21,6 +21,7 @@ from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, SkeletonMismatch, shortened
 
 Marks = Mapping[str, NDArray[np.bool_]]
+SAME_RATE = 1.001e-3  # relative difference of frame rates that are one: 29.97 and 30 Hz
 EXPRESSIONS = {
     "position": "motion.positions",
     "velocity": "motion.velocities",
@@ -384,7 +385,8 @@ def require_alike(motions: Sequence[Motion]) -> tuple[Motion, ...]:
     """Raise unless all motions share one skeleton, but for end sites, and one frame rate.
 
     Files of one laboratory may differ in end sites, which bound the last bones and never turn. All motions
-    get those of the motion with the most joints, the first one of these [ours].
+    get those of the motion with the most joints, the first one of these [ours]. Rates that differ by a
+    thousandth or less, such as 29.97 and 30 Hz, are one: that of the first motion [ours].
 
     Raises
     ------
@@ -408,9 +410,12 @@ def require_alike(motions: Sequence[Motion]) -> tuple[Motion, ...]:
             alike.append(_with_ends(motion, fullest.skeleton))
         except SkeletonMismatch as error:
             raise SkeletonMismatch(f"'{fullest.name}' and '{motion.name}': {error}") from None
-        if motion.fps != motions[0].fps:
+        rate = motions[0].fps
+        if abs(motion.fps - rate) > SAME_RATE * rate:
             rates = f"'{motions[0].name}' runs at {motions[0].fps:g} Hz, '{motion.name}' at {motion.fps:g} Hz"
             raise MocapError(f"{rates}: resample one first.")
+        if motion.fps != rate:
+            alike[-1] = replace(alike[-1], fps=rate)
     return tuple(alike)
 
 

@@ -214,11 +214,13 @@ class Skeleton:
             names = shorten(", ".join(sorted(missing)), 80)
             raise SkeletonMismatch(f"The skeletons differ in these joints: {names}. Retarget one first.")
         if tuple(self.names) != tuple(other.names) or not np.array_equal(self.parents, other.parents):
-            raise SkeletonMismatch("The skeletons have the same joints in another order or tree.")
+            raise SkeletonMismatch(
+                "The skeletons have the same joints in another order or tree. Retarget one first."
+            )
         gaps = np.linalg.norm(self.offsets - other.offsets, axis=-1)
         if gaps.max() > 1e-6:
             worst = f"'{self.names[gaps.argmax()]}' sits {100 * gaps.max():.2g} cm apart"
-            raise SkeletonMismatch(f"The skeletons' bones differ: {worst}.")
+            raise SkeletonMismatch(f"The skeletons' bones differ: {worst}. Retarget one first.")
 
     # reads: name: the other skeleton, as in `__eq__`
     def joints_in(self, other: Skeleton) -> Indices:

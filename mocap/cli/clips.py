@@ -13,10 +13,12 @@ from mocap import files, quality, widgets
 from mocap._shared.atomic import make_folder, require_folder
 from mocap.cli.options import (
     CM,
+    READING,
     Reading,
     Sources,
     Unit,
     bar,
+    load_found,
     require_place,
     tell,
     tell_of_failures,
@@ -42,10 +44,12 @@ def info(file: Path, *, joints: bool = False, reading: Reading) -> None:
     joints : list the names of the joints, too.
     """
     reading.require_skeleton_of_use(file)
-    motion, angles, _ = reading.read(file)
+    motion, angles, _, assumed = reading.read(file)
     with timed_stage("measuring"):
         table = quality.inspect(motion, angles).table()
     print(table)
+    if assumed:
+        print(f"assumed  {assumed.worded(READING[assumed.parameter])}")
     if joints:
         for joint, name in enumerate(motion.skeleton.names):
             print(f"{'  ' * len(motion.skeleton.path_to_root(joint)[1:])}{printable(name)}")
@@ -104,13 +108,13 @@ def judge(
     from mocap.files.path_files import load_path
     from mocap.quality.judging import judgement_table
 
-    clips = [reading.load_any(clip) for clip in find_files(against)]
+    clips, _ = load_found(reading.load_any, find_files(against), against, READING)
     line = load_path(path, scale=unit) if path else None
     judgements = []
     problems = []
-    for file in bar("judging")(find_files(motions, deep=True)):
+    for file in bar("judging")(find_files(motions)):
         try:
-            motion, _, stretch = reading.read(file, math.inf)
+            motion, _, stretch, _ = reading.read(file, math.inf)
             judgements.append(quality.judge(motion, against=clips, path=line, stretch=stretch))
         except MocapError as error:
             problems.append(str(error))
@@ -175,12 +179,13 @@ def find(
         require_folder(out)
     example, frames = _query(query)
     paths = find_files(clips)
-    places = [*(path.resolve() for path in paths), example.resolve()]
-    query_clip = places.index(example.resolve())  # the last one if the example is not among the clips
-    motions = sources.load(paths if query_clip < len(paths) else [*paths, example])
+    is_among_clips = example.resolve() in [path.resolve() for path in paths]
+    motions, paths = sources.load(paths if is_among_clips else [*paths, example], [*clips, example])
+    query_clip = [path.resolve() for path in paths].index(example.resolve())
+    searched = len(motions) if is_among_clips else len(motions) - 1
     web = match_webs.build_web(motions, below=ROOM * below / 100, progress=bar("comparing"))
     matches = match_webs.search(web, query_clip, frames, below=below / 100)
-    shown = [match for match in matches[1:] if match.clip < len(paths)]
+    shown = [match for match in matches[1:] if match.clip < searched]
     print(f"{'clip':<20} {'frames':>13} {'seconds':>8} {'cm':>5} {'step':>5}")
     for match in shown:
         clip = motions[match.clip]

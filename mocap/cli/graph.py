@@ -57,7 +57,9 @@ def demo(
     require_folder(out)
     paths = find_files(clips)
     require_other(out / "walk.bvh", paths)
-    motions = building.load(paths) if clips else [datasets.sample(name) for name in datasets.SAMPLES]
+    motions = [datasets.sample(name) for name in datasets.SAMPLES]
+    if clips:
+        motions, _ = building.load(paths, clips)
     whole = building.build(motions, bar("comparing"))
     try:
         pruned = graphs.prune(whole)
@@ -138,7 +140,7 @@ def build(
     if graphml:
         check_out("graph for other tools", graphml, paths, [".graphml"])
     with connect(cluster) if cluster else nullcontext() as executor:
-        motions, origins = _read_clips(paths, building, mirror=mirror)
+        motions, origins = _read_clips(paths, clips, building, mirror=mirror)
         with timed_stage("building"), _units_explained(building):
             graph = building.build(motions, bar("comparing"), jobs=jobs, executor=executor)
     if not whole:
@@ -174,10 +176,10 @@ def _units_explained(building: Building) -> Iterator[None]:
 
 
 def _read_clips(
-    paths: "Sequence[Path]", building: Building, *, mirror: bool
+    paths: "Sequence[Path]", named: "Sequence[Path]", building: Building, *, mirror: bool
 ) -> "tuple[list[Motion], list[Origin]]":
     """Read clips, and add their mirror images; return them with the places that they were read from."""
-    motions = building.load(paths)
+    motions, paths = building.load(paths, named)
     origins = [Origin(path, building.skeleton, building.scale) for path in paths]
     if not mirror:
         return motions, origins

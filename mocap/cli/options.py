@@ -5,7 +5,7 @@ import os
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -14,7 +14,8 @@ from mocap import body, files, graphs
 from mocap._shared.atomic import require_writable
 from mocap._shared.progress import Progress
 from mocap.cli.messages import VERBOSITY, note
-from mocap.errors import MocapError, SkeletonMismatch, printable
+from mocap.errors import MocapError, SkeletonMismatch, printable, warn
+from mocap.files.conversion import names_apart
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -49,6 +50,7 @@ def number(low: float, high: float, kind: Callable[[str], float] = float) -> Cal
     return read
 
 
+SHOWN_PROBLEMS = 3  # files that are left out, each with its reason; the others are counted
 SHORTEST_STAGE = 0.05  # seconds; a shorter one is 0.0 s
 LENGTH = number(1e-6, 1e6)  # metres per unit
 CM = number(0.001, 1000)  # centimetres
@@ -197,15 +199,15 @@ class Sources:
     skeleton: Skeleton = None
     scale: Annotated[float | None, LENGTH, "metres per unit of length in .bvh clips (default: 0.01)"] = None
 
-    def load(self, paths: Sequence[Path]) -> "list[Motion]":
-        """Read the clips that `find_files` found, and warn of bodies of other sizes than people's."""
+    def load(self, paths: Sequence[Path], named: Sequence[Path]) -> "tuple[list[Motion], list[Path]]":
+        """Read clips as `load_found` does, and warn of bodies of other sizes than people's."""
         with timed_stage("loading packages"):
             from mocap.quality.clip_flaws import warn_of_size  # the help needs no NumPy
 
         with named_options(SOURCES):
-            clips = [self._load(path) for path in bar("reading")(paths)]
+            clips, read = load_found(self._load, paths, named, SOURCES)
         warn_of_size(clips)
-        return clips
+        return clips, read
 
     def _load(self, path: Path) -> "Motion":
         with timed_reading(path):
@@ -237,6 +239,53 @@ class Building(Sources):
         return graphs.build(
             clips, window=frames, threshold=threshold, progress=progress, executor=executor, jobs=jobs
         )
+
+
+def load_found(
+    load: "Callable[[Path], Motion]", paths: Sequence[Path], named: Sequence[Path], names: Mapping[str, str]
+) -> "tuple[list[Motion], list[Path]]":
+    """Read the clips that `find_files` found; one in a folder that cannot be read is left out.
+
+    Parameters
+    ----------
+    load : reads a file.
+    paths : the files.
+    named : the files and folders that the user named; a file that is named must be readable.
+    names : of options, by parameters, for errors.
+
+    Returns
+    -------
+    The clips, named as their files are, and their folders if several files have one name; and their files.
+
+    Raises
+    ------
+    MocapError : for a file that the user named, or when no file can be read.
+
+    Warns
+    -----
+    MocapWarning : for each of the first files that are left out, and how many more there are.
+    """
+    motions: list[Motion] = []
+    read: list[Path] = []
+    problems: list[MocapError] = []
+    for path in bar("reading")(paths):
+        try:
+            motions.append(load(path))
+            read.append(path)
+        except MocapError as error:
+            if path in named:
+                raise
+            problems.append(error)
+    if problems and not motions:
+        raise problems[0]
+    motions = [replace(motion, name=name) for motion, name in zip(motions, names_apart(read), strict=True)]
+    for problem in problems[:SHOWN_PROBLEMS]:
+        warn(f"Left out: {problem.worded(names)}")
+    if len(problems) > SHOWN_PROBLEMS:
+        warn(
+            f"Left out: {len(problems) - SHOWN_PROBLEMS} more files that cannot be read; mocap info says why."
+        )
+    return motions, read
 
 
 def bar(label: str) -> Progress:

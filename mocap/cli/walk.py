@@ -184,7 +184,7 @@ def _graph(path: Path, clips: Sequence[Path], sources: Sources, out: Path) -> "g
         warnings.filterwarnings("ignore", lopsided, MocapWarning)
         if not clips:
             return graphs.load(path, skeleton=sources.skeleton, progress=bar("reading"))
-        motions = sources.load(files_read)
+        motions, _ = sources.load(files_read, clips)
         motions += [editing.mirror(clip) for clip in motions if mirrored_name(clip.name) in content.names]
     return graphs.load(path, motions)
 

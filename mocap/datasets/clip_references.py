@@ -9,6 +9,7 @@ import itertools
 from collections import defaultdict
 from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -152,9 +153,9 @@ def _load_clips(
     if not origins:
         return [sample(name) for name in references.names]
     clips = []
-    for origin in progress(origins):
+    for name, origin in zip(references.names, progress(origins), strict=True):
         clip = load(origin.path, skeleton=skeleton or origin.skeleton, scale=origin.scale)
-        clips.append(mirror(clip) if origin.mirrored else clip)
+        clips.append(replace(mirror(clip) if origin.mirrored else clip, name=name))
     return clips
 
 

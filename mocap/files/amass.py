@@ -23,6 +23,7 @@ from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError, Remedy, warn
+from mocap.files import frame_rates
 from mocap.files.recordings import Recording
 
 _JOINTS: dict[str, Any] = tomllib.loads(Path(__file__).with_name("smpl.toml").read_text("utf-8"))
@@ -137,4 +138,4 @@ def _rate(path: str | Path, members: Mapping[str, Member]) -> float:
     rate = array.read().item()
     if not 0 < rate < LARGEST:
         raise FormatError(path, None, f"one number above 0 in '{key}'", str(rate))
-    return float(rate)
+    return frame_rates.without_noise(float(rate))

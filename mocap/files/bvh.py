@@ -10,7 +10,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from dataclasses import replace
-from decimal import Decimal
 from itertools import chain
 from pathlib import Path
 
@@ -25,7 +24,8 @@ from mocap.body.limbs import find_pair
 from mocap.body.motion import Motion
 from mocap.body.rotations import Z_UP
 from mocap.body.skeleton import Skeleton
-from mocap.errors import FormatError, MocapError, shortened, warn
+from mocap.errors import FormatError, MocapError, Remedy, shortened, warn
+from mocap.files import frame_rates
 from mocap.files.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
 from mocap.files.recordings import Recording
 from mocap.files.rigid_bones import APART, STRETCH, fit
@@ -64,9 +64,10 @@ def read(
 
     Warns
     -----
-    MocapWarning : if bones were fitted, with the changes of their lengths and the distances of the joints
-        from the file; and if legs, recognised by their names, are along z at rest and in most frames: then
-        the motion is rotated so that y is up.
+    MocapWarning : if the header counts other frames than those that follow; if the frame time has too few
+        digits for one frame rate; if bones were fitted, with the changes of their lengths and the distances
+        of the joints from the file; and if legs, recognised by their names, are along z at rest and in most
+        frames: then the motion is rotated so that y is up.
     """
     joints, blocks, rate = _channels(path, fps=fps)
     angles = {}
@@ -149,20 +150,30 @@ def _values(path: str | Path, text: str, times: re.Match[str], width: int) -> Ar
     """Read the frames (F, channels); `times` is the match with their count."""
     line = text.count("\n", 0, times.start(1)) + 1
     count = to_numbers(path, line, [times[1]], "a number of frames", 1)[0]
-    if count < 1 or width == 0:
-        raise FormatError(path, line, "one frame or more", f"{times[1]}, of {width} channels")
+    if width == 0:
+        raise FormatError(path, line, "channels, which have numbers in every frame", "none")
     words = text[times.end() :].split()
     values = quick_numbers(words) if len(words) == count * width else None
-    if values is not None:
-        return values.reshape(-1, width)
-    frames = 0  # complete ones, before the line that is wrong
+    if values is None:
+        values = _rows(path, text, times, width)
+    frames = values.size // width
+    if frames == 0:
+        raise FormatError(path, line, "one frame or more", "none")
+    if frames != count:
+        warn(f"{path}: the header says {count:.15g} frames, and {frames} whole ones follow: all are read.")
+    return values.reshape(frames, width)
+
+
+def _rows(path: str | Path, text: str, times: re.Match[str], width: int) -> Array:
+    """Read the frames one line at a time, and raise at the first line that is not a whole frame."""
+    rows: list[Array] = []
     first_line = text.count("\n", 0, times.end()) + 1
     for number, row in enumerate(text[times.end() :].split("\n"), first_line):
         words = row.split()
         if words:
-            to_numbers(path, number, words, f"{width} numbers after {frames} complete frames", width)
-            frames += 1
-    raise FormatError(path, line, f"'Frames: {frames}', as many as follow", f"'Frames: {times[1]}'")
+            expected = f"{width} numbers after {len(rows)} complete frames"
+            rows.append(to_numbers(path, number, words, expected, width))
+    return np.concatenate([np.empty(0), *rows])
 
 
 def _rate(path: str | Path, text: str, times: re.Match[str]) -> float:
@@ -170,12 +181,12 @@ def _rate(path: str | Path, text: str, times: re.Match[str]) -> float:
     line = text.count("\n", 0, times.start(2)) + 1
     seconds = float(to_numbers(path, line, [times[2]], "seconds", 1)[0])
     if not SHORTEST <= seconds <= LONGEST:
-        raise FormatError(path, line, f"a frame time from {SHORTEST:g} to {LONGEST:g} s", times[2])
-    last_digit = 10.0 ** int(Decimal(times[2]).as_tuple().exponent)
-    whole = max(1, round(1 / seconds))
-    if abs(1 / whole - seconds) < max(0.999 * last_digit, 1e-12):  # truncating loses less than a last digit
-        return float(whole)
-    return 1 / seconds
+        expected = f"a frame time from {SHORTEST:g} to {LONGEST:g} s"
+        raise FormatError(path, line, expected, times[2], remedy=Remedy("give {}", "fps"))
+    rate, is_certain = frame_rates.rate_of(times[2])
+    if not is_certain:
+        warn(f"{path}: a frame time of {times[2]} s has few digits: it is read as {rate:g} Hz.")
+    return rate
 
 
 def _rotation_columns(joint: Joint) -> list[int]:

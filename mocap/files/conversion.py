@@ -1,7 +1,8 @@
 """The search for motion files in folders, and their conversion, several at a time."""
 
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -32,13 +33,12 @@ def is_clip(path: Path) -> bool:
     return suffix in formats.READ and (suffix != ".npz" or is_amass(path))
 
 
-def find_files(paths: Iterable[Path], *, deep: bool = False) -> list[Path]:
-    """List files, and every motion file of folders.
+def find_files(paths: Iterable[Path]) -> list[Path]:
+    """List files, and all motion files in folders and the folders inside them, except hidden ones.
 
     Parameters
     ----------
     paths : files and folders.
-    deep : whether to search the folders inside the folders as well.
 
     Raises
     ------
@@ -52,15 +52,39 @@ def find_files(paths: Iterable[Path], *, deep: bool = False) -> list[Path]:
     clips: list[Path] = []
     for path in paths:
         try:
-            within = path.rglob("*") if deep else path.iterdir()
-            motions = (p for p in within if UNFINISHED not in str(p) and p.is_file() and is_clip(p))
-            inside = sorted(motions) if path.is_dir() else [path]
+            inside = sorted(_motions_in(path)) if path.is_dir() else [path]
         except OSError as error:
             raise MocapError(f"Cannot read {path}: {error.strerror}.") from error
         if not inside:
             raise MocapError(f"The folder {path} holds no {formats.listed('or')} file.")
         clips += inside
     return clips
+
+
+def _motions_in(folder: Path) -> Iterator[Path]:
+    """Yield the motion files in a folder and the folders inside it."""
+    next(folder.iterdir(), None)  # raises for a folder that cannot be read, which `rglob` leaves out
+    for path in folder.rglob("*"):
+        is_hidden = any(part.startswith(".") for part in path.relative_to(folder).parts)
+        if not is_hidden and UNFINISHED not in str(path) and path.is_file() and is_clip(path):
+            yield path
+
+
+def names_apart(paths: Sequence[Path]) -> list[str]:
+    """Name each motion file by its stem; files of one stem also by the folders in which they differ.
+
+    Examples
+    --------
+    >>> names_apart([Path("01/walk.bvh"), Path("02/walk.bvh"), Path("02/run.bvh")])
+    ['01-walk', '02-walk', 'run']
+    """
+    names = [path.stem for path in paths]
+    for depth in range(2, max((len(path.parts) for path in paths), default=0) + 1):
+        repeated = {name for name, count in Counter(names).items() if count > 1}
+        for index, path in enumerate(paths):
+            if names[index] in repeated:
+                names[index] = "-".join(path.with_suffix("").parts[-depth:])
+    return names
 
 
 def plan(source: str | Path, target: str | Path, suffix: str = ".bvh") -> list[tuple[Path, Path]]:
@@ -86,7 +110,7 @@ def plan(source: str | Path, target: str | Path, suffix: str = ".bvh") -> list[t
     target = Path(target)
     pairs = [(source, target)]
     if source.is_dir():
-        clips = find_files([source], deep=True)
+        clips = find_files([source])
         pairs = [(path, (target / path.relative_to(source)).with_suffix(suffix)) for path in clips]
     require_apart(pairs)
     return pairs

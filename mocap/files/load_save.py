@@ -52,7 +52,7 @@ def load(
     --------
     >>> load("walk.fbx")
     Traceback (most recent call last):
-    mocap.errors.MocapError: Cannot read walk.fbx: mocap reads .amc (with .asf), ...
+    mocap.errors.MocapError: Cannot read walk.fbx: in Blender, import it and export Motion Capture ...
 
     Notebook: 01b-motion-files
     """
@@ -80,8 +80,8 @@ def read(
         return formats.READ[suffix].read(path, options)
     if suffix == ".asf":
         raise MocapError(f"{path} is a skeleton without a motion: files.asf.read_skeleton reads it.")
-    if suffix == ".glb":
-        raise MocapError(f"Cannot read {path}: mocap writes .glb, and reads {formats.listed()}.")
+    if suffix in formats.OTHERS:
+        raise MocapError(f"Cannot read {path}: {formats.OTHERS[suffix]}.")
     if suffix == "":
         read_text(path, most=1)  # raises for a file that is not there, and for a folder
     raise MocapError(f"Cannot read {path}: mocap reads {formats.listed()}.")

@@ -3,6 +3,7 @@
 from mocap._shared.arrays import Array
 from mocap._shared.records import NamedTuple
 from mocap.body.motion import Motion
+from mocap.errors import Remedy
 
 
 class Recording(NamedTuple):
@@ -11,8 +12,10 @@ class Recording(NamedTuple):
     angles : of each joint, shape (F, its axes), degrees, as they are in the file; an `.npz` has none.
     stretch : for each joint, the change in length of the bone from its parent in the file, metres: the
         longest minus the shortest. Only a `.bvh` file can have such bones.
+    assumed : what the file does not say, such as its frame rate, as a phrase that ends with a remedy for it.
     """
 
     motion: Motion
     angles: dict[str, Array]
     stretch: dict[str, float]
+    assumed: Remedy | None = None

@@ -19,7 +19,7 @@ from mocap.graphs import build
 from mocap.matching import find_transitions
 from mocap.matching.point_clouds import rms_distance
 from mocap.methods.match_webs import build_web
-from tests.refusals import refusals
+from tests.refusals import refusals, refused
 from tests.strategies import random_motion, seeds, wave
 
 
@@ -210,3 +210,11 @@ def test_velocities_are_central_differences_and_one_sided_at_both_ends():
     assert dot.velocities.shape == dot.positions.shape
     with pytest.raises(MocapError, match="at least two frames"):
         _ = dot[:1].velocities
+
+
+def test_rates_that_differ_by_a_thousandth_are_one():
+    walk = wave(9)
+    ntsc, noisy = replace(walk, fps=29.97 * walk.fps / 30), replace(walk, fps=walk.fps * (1 + 4e-7))
+    alike = require_alike([walk, ntsc, noisy])
+    assert [motion.fps for motion in alike] == [walk.fps] * 3
+    refused("resample one first", require_alike, [walk, replace(walk, fps=1.002 * walk.fps)])
