@@ -11,6 +11,7 @@ from typing import Annotated, Literal
 
 from mocap import files, quality, widgets
 from mocap._shared.atomic import make_folder, require_folder
+from mocap.cli.clip_sets import read_found
 from mocap.cli.options import (
     CM,
     READING,
@@ -18,7 +19,6 @@ from mocap.cli.options import (
     Sources,
     Unit,
     bar,
-    load_found,
     require_place,
     tell,
     tell_of_failures,
@@ -43,13 +43,18 @@ def info(file: Path, *, joints: bool = False, reading: Reading) -> None:
     file : a motion file.
     joints : list the names of the joints, too.
     """
+    from mocap.files.spaces import unit_name  # the help needs no NumPy
+
     reading.require_skeleton_of_use(file)
-    motion, angles, _, assumed = reading.read(file)
+    recording = reading.read(file)
+    motion = recording.motion
     with timed_stage("measuring"):
-        table = quality.inspect(motion, angles).table()
+        table = quality.inspect(motion, recording.angles).table()
     print(table)
-    if assumed:
-        print(f"assumed  {assumed.worded(READING[assumed.parameter])}")
+    if recording.space:
+        print(f"space    {unit_name(recording.space.scale)} a unit, {recording.space.up} up")
+    if recording.assumed:
+        print(f"assumed  {recording.assumed.worded(READING[recording.assumed.parameter])}")
     if joints:
         for joint, name in enumerate(motion.skeleton.names):
             print(f"{'  ' * len(motion.skeleton.path_to_root(joint)[1:])}{printable(name)}")
@@ -108,14 +113,16 @@ def judge(
     from mocap.files.path_files import load_path
     from mocap.quality.judging import judgement_table
 
-    clips, _ = load_found(reading.load_any, find_files(against), against, READING)
+    recordings, _ = read_found(reading.read, find_files(against), against, READING)
+    clips = [recording.motion for recording in recordings]
     line = load_path(path, scale=unit) if path else None
     judgements = []
     problems = []
     for file in bar("judging")(find_files(motions)):
         try:
-            motion, _, stretch, _ = reading.read(file, math.inf)
-            judgements.append(quality.judge(motion, against=clips, path=line, stretch=stretch))
+            recording = reading.read(file, math.inf)
+            judged = quality.judge(recording.motion, against=clips, path=line, stretch=recording.stretch)
+            judgements.append(judged)
         except MocapError as error:
             problems.append(str(error))
     if json:
@@ -180,8 +187,8 @@ def find(
     example, frames = _query(query)
     paths = find_files(clips)
     is_among_clips = example.resolve() in [path.resolve() for path in paths]
-    motions, paths = sources.load(paths if is_among_clips else [*paths, example], [*clips, example])
-    query_clip = [path.resolve() for path in paths].index(example.resolve())
+    motions, origins = sources.load(paths if is_among_clips else [*paths, example], [*clips, example])
+    query_clip = [origin.path.resolve() for origin in origins].index(example.resolve())
     searched = len(motions) if is_among_clips else len(motions) - 1
     web = match_webs.build_web(motions, below=ROOM * below / 100, progress=bar("comparing"))
     matches = match_webs.search(web, query_clip, frames, below=below / 100)

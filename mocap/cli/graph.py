@@ -179,8 +179,7 @@ def _read_clips(
     paths: "Sequence[Path]", named: "Sequence[Path]", building: Building, *, mirror: bool
 ) -> "tuple[list[Motion], list[Origin]]":
     """Read clips, and add their mirror images; return them with the places that they were read from."""
-    motions, paths = building.load(paths, named)
-    origins = [Origin(path, building.skeleton, building.scale) for path in paths]
+    motions, origins = building.load(paths, named)
     if not mirror:
         return motions, origins
     with warnings.catch_warnings(record=True) as caught:

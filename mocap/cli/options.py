@@ -5,17 +5,18 @@ import os
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from mocap import body, files, graphs
 from mocap._shared.atomic import require_writable
 from mocap._shared.progress import Progress
+from mocap.cli.clip_sets import named_apart, read_found, warn_of_space, warn_of_spaces
 from mocap.cli.messages import VERBOSITY, note
-from mocap.errors import MocapError, SkeletonMismatch, printable, warn
-from mocap.files.conversion import names_apart
+from mocap.datasets.clip_origins import Origin
+from mocap.errors import MocapError, SkeletonMismatch, printable
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -50,7 +51,6 @@ def number(low: float, high: float, kind: Callable[[str], float] = float) -> Cal
     return read
 
 
-SHOWN_PROBLEMS = 3  # files that are left out, each with its reason; the others are counted
 SHORTEST_STAGE = 0.05  # seconds; a shorter one is 0.0 s
 LENGTH = number(1e-6, 1e6)  # metres per unit
 CM = number(0.001, 1000)  # centimetres
@@ -58,12 +58,16 @@ RATE = number(1, 1000)  # frames per second
 TURN = number(1, 2800)  # degrees per second; `editing.bend` takes 50 radians per second, 2865 degrees
 Skeleton = Annotated[Path | None, "the .asf file of .amc clips (default: the one beside them that fits)"]
 Unit = Annotated[float | None, LENGTH, "metres per unit of length in the path (default: 1; for .svg 0.01)"]
+Up = Annotated[
+    Literal["y", "z", "-y", "-z", "x", "-x"] | None,
+    "axis of the file that points up (default: as the frames show; y, for .npz z)",
+]
 Clean = Annotated[bool, "clean up footskate: planted feet stand still"]
 Seed = Annotated[int, number(0, 2**32 - 1, int), "seed of what is drawn at random"]
 
 
 # The options that set the parameters of `files.load`, which its errors name.
-READING = {"skeleton": "--skeleton", "fps": "--fps", "scale": "--scale"}
+READING = {"skeleton": "--skeleton", "fps": "--fps", "scale": "--scale", "up": "--up"}
 SOURCES = READING | {"fps": "--fps to mocap convert"}  # here --fps is the rate of a graph, or is missing
 
 
@@ -152,7 +156,8 @@ class Reading:
 
     skeleton: Skeleton = None
     fps: Annotated[float | None, RATE, "frames per second (default: as in the file; 120 for .amc)"] = None
-    scale: Annotated[float | None, LENGTH, "metres per unit (default: 0.01; for .amc as in the .asf)"] = None
+    scale: Annotated[float | None, LENGTH, "metres per unit (default: as the frames show)"] = None
+    up: Up = None
 
     def read(self, path: Path, stretch: float | None = None) -> "Recording":
         """Read a clip; raise MocapError as `files.load` does, with the names of options.
@@ -171,7 +176,9 @@ class Reading:
             raise MocapError(f"{path} is a skeleton without a motion: give an .amc file, or a .bvh.")
         limit = STRETCH if stretch is None else stretch
         with named_options(READING), timed_reading(path):
-            return read(path, self.skeleton, self.fps, self.scale, limit)
+            recording = read(path, self.skeleton, self.fps, self.scale, limit, self.up)
+        warn_of_space(path, recording, READING)
+        return recording
 
     def require_skeleton_of_use(self, path: Path) -> None:
         """Raise for a skeleton that a clip does not need."""
@@ -197,21 +204,47 @@ class Sources:
     """Options for reading several clips."""
 
     skeleton: Skeleton = None
-    scale: Annotated[float | None, LENGTH, "metres per unit of length in .bvh clips (default: 0.01)"] = None
+    scale: Annotated[float | None, LENGTH, "metres per unit of a .bvh (default: as the frames show)"] = None
+    up: Up = None
 
-    def load(self, paths: Sequence[Path], named: Sequence[Path]) -> "tuple[list[Motion], list[Path]]":
-        """Read clips as `load_found` does, and warn of bodies of other sizes than people's."""
+    def load(self, paths: Sequence[Path], named: Sequence[Path]) -> "tuple[list[Motion], list[Origin]]":
+        """Read clips as one set; warn of an unusual space, and of bodies of other sizes than people's.
+
+        Parameters
+        ----------
+        paths : the files.
+        named : the files and folders that the user named: see `read_found`.
+
+        Returns
+        -------
+        The clips that could be read, and their files with the options by which they can be read again.
+        """
         with timed_stage("loading packages"):
+            from mocap.files.clip_sets import agree
             from mocap.quality.clip_flaws import warn_of_size  # the help needs no NumPy
 
         with named_options(SOURCES):
-            clips, read = load_found(self._load, paths, named, SOURCES)
+            recordings, read = read_found(self._read, bar("reading")(paths), named, SOURCES)
+        recordings = agree(recordings, lambda number, scale, up: self._read(read[number], scale, up))
+        warn_of_spaces(read, recordings, SOURCES)
+        clips = named_apart(recordings, read)
         warn_of_size(clips)
-        return clips, read
+        return clips, [
+            self._origin(path, recording) for path, recording in zip(read, recordings, strict=True)
+        ]
 
-    def _load(self, path: Path) -> "Motion":
+    def _origin(self, path: Path, recording: "Recording") -> Origin:
+        """Return a file with the options by which its clip can be read again."""
+        if recording.space is None:
+            return Origin(path, self.skeleton, self.scale)
+        return Origin(path, self.skeleton, recording.space.scale, up=recording.space.up)
+
+    def _read(self, path: Path, scale: float | None = None, up: str | None = None) -> "Recording":
+        from mocap.files.load_save import read  # the help needs no NumPy
+        from mocap.files.rigid_bones import STRETCH
+
         with timed_reading(path):
-            return files.load(path, skeleton=self.skeleton, scale=self.scale)
+            return read(path, self.skeleton, None, scale or self.scale, STRETCH, up or self.up)
 
 
 @dataclass(frozen=True)
@@ -239,53 +272,6 @@ class Building(Sources):
         return graphs.build(
             clips, window=frames, threshold=threshold, progress=progress, executor=executor, jobs=jobs
         )
-
-
-def load_found(
-    load: "Callable[[Path], Motion]", paths: Sequence[Path], named: Sequence[Path], names: Mapping[str, str]
-) -> "tuple[list[Motion], list[Path]]":
-    """Read the clips that `find_files` found; one in a folder that cannot be read is left out.
-
-    Parameters
-    ----------
-    load : reads a file.
-    paths : the files.
-    named : the files and folders that the user named; a file that is named must be readable.
-    names : of options, by parameters, for errors.
-
-    Returns
-    -------
-    The clips, named as their files are, and their folders if several files have one name; and their files.
-
-    Raises
-    ------
-    MocapError : for a file that the user named, or when no file can be read.
-
-    Warns
-    -----
-    MocapWarning : for each of the first files that are left out, and how many more there are.
-    """
-    motions: list[Motion] = []
-    read: list[Path] = []
-    problems: list[MocapError] = []
-    for path in bar("reading")(paths):
-        try:
-            motions.append(load(path))
-            read.append(path)
-        except MocapError as error:
-            if path in named:
-                raise
-            problems.append(error)
-    if problems and not motions:
-        raise problems[0]
-    motions = [replace(motion, name=name) for motion, name in zip(motions, names_apart(read), strict=True)]
-    for problem in problems[:SHOWN_PROBLEMS]:
-        warn(f"Left out: {problem.worded(names)}")
-    if len(problems) > SHOWN_PROBLEMS:
-        warn(
-            f"Left out: {len(problems) - SHOWN_PROBLEMS} more files that cannot be read; mocap info says why."
-        )
-    return motions, read
 
 
 def bar(label: str) -> Progress:

@@ -19,6 +19,7 @@ from mocap.errors import MocapError, shortened, warn
 if TYPE_CHECKING:
     from mocap.body.motion import Motion
 
+CENTIMETRE = 0.01  # metres: the unit of all sets, which have y up
 WHOLE = "TERMS.txt"  # written when all clips of a set are there
 _TABLES = tomllib.loads(Path(__file__).with_name("sets.toml").read_text("utf-8"))
 
@@ -212,4 +213,4 @@ def from_set(name: str, clip: str) -> Motion:
         raise MocapError(f"No clip '{shortened(clip, 40)}' in {folder}: {gets}, or unpack it there.")
     if clip in HASHES and hashlib.sha256(path.read_bytes()).hexdigest() != HASHES[clip]:
         raise MocapError(f"{path} is not the file listed: its checksum differs. Get it anew.")
-    return load(path)
+    return load(path, scale=CENTIMETRE, up="y")

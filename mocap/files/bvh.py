@@ -19,31 +19,32 @@ from numpy.typing import NDArray
 from mocap._shared.arrays import Array
 from mocap._shared.atomic import replacing
 from mocap.body import euler, rotations
-from mocap.body.kinematics import joint_positions
-from mocap.body.limbs import find_pair
 from mocap.body.motion import Motion
-from mocap.body.rotations import Z_UP
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError, Remedy, shortened, warn
-from mocap.files import frame_rates
+from mocap.files import frame_rates, spaces
 from mocap.files.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
 from mocap.files.recordings import Recording
 from mocap.files.rigid_bones import APART, STRETCH, fit
+from mocap.files.space_evidence import Evidence, frames_to_look_at, gather
 from mocap.files.text import LARGEST, check_room, quick_numbers, read_text, to_numbers
 
-SCALE = 0.01  # metres in one unit of the files that are written, and by default of those that are read
+SCALE = 0.01  # metres in a unit of the files that are written, and of those whose frames do not show it
 STILL = 1e-5  # metres that a fixed joint may move in its parent's frame: rounding of printed numbers
 SHORTEST = 1e-5  # seconds a frame lasts at least
 LONGEST = 10.0  # seconds a frame lasts at most
-ALONG = 0.8  # fraction of a leg's length that is along z if the file has z up
-UPRIGHT = 0.5  # fraction of the frames in which both legs are along z if the file has z up
 TIMES = re.compile(
     r"\s*Frames[ \t]*:[ \t]*(\S+)[ \t]*\n\s*Frame[ \t]+Time[ \t]*:[ \t]*(\S+)[ \t]*(?:\n|\Z)", re.IGNORECASE
 )
 
 
 def read(
-    path: str | Path, *, scale: float = SCALE, fps: float | None = None, stretch: float = STRETCH
+    path: str | Path,
+    *,
+    scale: float | None = None,
+    fps: float | None = None,
+    stretch: float = STRETCH,
+    up: str | None = None,
 ) -> Recording:
     """Read a BVH file.
 
@@ -54,9 +55,11 @@ def read(
     Parameters
     ----------
     path : the file.
-    scale : metres in one unit of the file.
+    scale : metres in one unit of the file; by default as the frames show, see `spaces`.
     fps : frames per second; by default from the frame time, a whole number if its digits allow it.
     stretch : metres by which a bone's length may change.
+    up : the axis that points up, such as "z"; by default as the frames show. The motion is rotated so that y
+        is up.
 
     Raises
     ------
@@ -65,15 +68,17 @@ def read(
     Warns
     -----
     MocapWarning : if the header counts other frames than those that follow; if the frame time has too few
-        digits for one frame rate; if bones were fitted, with the changes of their lengths and the distances
-        of the joints from the file; and if legs, recognised by their names, are along z at rest and in most
-        frames: then the motion is rotated so that y is up.
+        digits for one frame rate; and if bones were fitted, with the changes of their lengths and the
+        distances of the joints from the file.
     """
     joints, blocks, rate = _channels(path, fps=fps)
     angles = {}
     for joint, block in zip(joints, blocks, strict=True):
         angles[joint.name] = block[:, _rotation_columns(joint)]
-    joints, positions, local = _poses(joints, blocks, scale)
+    positions, local = _poses(joints, blocks)
+    evidence = _evidence(joints, positions, local, rate) if scale is None or up is None else None
+    space = spaces.decide([evidence] if evidence else [], (SCALE, "y"), scale=scale, up=up)
+    joints, positions, local = _without_reference(joints, space.scale * positions, local)
     lengths = np.linalg.norm(positions, axis=-1)
     changes = np.ptp(lengths, axis=0).tolist()
     offsets, local = _rigid(path, joints, (positions, local), stretch)
@@ -81,32 +86,26 @@ def read(
     parents = np.array([joint.parent for joint in joints])
     dofs = [_axes(joint)[::-1] for joint in joints]
     skeleton = Skeleton(names, parents, offsets, dofs=dofs)
-    motion = Motion(skeleton, positions[:, 0], local, rate, Path(path).stem)
-    return Recording(_upright(path, motion), angles, dict(zip(names[1:], changes[1:], strict=True)))
+    motion = spaces.upright(Motion(skeleton, positions[:, 0], local, rate, Path(path).stem), space.up)
+    stretches = dict(zip(names[1:], changes[1:], strict=True))
+    return Recording(motion, angles, stretches, space=space, evidence=evidence)
 
 
-def _upright(path: str | Path, motion: Motion) -> Motion:
-    """Rotate a motion so that y is up if both legs are along z at rest and in most frames."""
-    skeleton = motion.skeleton
-    legs = find_pair(skeleton, "legs")
-    if not legs:
-        return motion
-    hips, _, ankles = np.transpose(legs)
-    poses = np.vstack([skeleton.rest[None], joint_positions(motion)])
-    up = poses[:, hips] - poses[:, ankles]
-    along_z = (up[..., 2] > ALONG * np.linalg.norm(up, axis=-1)).all(axis=1)
-    if not along_z[0] or along_z[1:].mean() < UPRIGHT:
-        return motion
-    warn(f"{path}: the body stands along z: turned so that y is up.")
-    roots = rotations.rotate(Z_UP, motion.root_positions)
-    offsets = rotations.rotate(Z_UP, skeleton.offsets)
-    local = rotations.multiply(rotations.multiply(Z_UP, motion.rotations), rotations.inverse(Z_UP))
-    upright = replace(skeleton, offsets=offsets, axes=np.tile(Z_UP, (len(skeleton), 1)))
-    return replace(motion, skeleton=upright, root_positions=roots, rotations=local)
+def _evidence(joints: list[Joint], positions: Array, local: Array, rate: float) -> Evidence | None:
+    """Gather the evidence of the space from poses in the unit of the file."""
+    frames, rate = frames_to_look_at(positions[:, 0], rate)
+    world = positions[frames].copy()
+    turned = local[frames].copy()
+    for index, joint in enumerate(joints[1:], 1):
+        parent_rotations = turned[:, joint.parent]
+        world[:, index] = world[:, joint.parent] + rotations.rotate(parent_rotations, world[:, index])
+        turned[:, index] = rotations.multiply(parent_rotations, turned[:, index])
+    parents = np.array([joint.parent for joint in joints])
+    return gather(parents, world, rate)
 
 
-def _poses(joints: list[Joint], blocks: list[Array], scale: float) -> tuple[list[Joint], Array, Array]:
-    """Convert channels to joints, positions in their parents' frames (F, J, 3), metres, and rotations."""
+def _poses(joints: list[Joint], blocks: list[Array]) -> tuple[Array, Array]:
+    """Convert channels to positions in the parents' frames (F, J, 3), in the file's unit, and rotations."""
     frames = len(blocks[0])
     positions = np.tile(np.array([joint.offset for joint in joints]), (frames, 1, 1))
     local = np.tile(rotations.IDENTITY, (frames, len(joints), 1))
@@ -117,15 +116,20 @@ def _poses(joints: list[Joint], blocks: list[Array], scale: float) -> tuple[list
         order = _axes(joint).upper()
         if order:
             local[:, index] = euler.from_euler(order, np.radians(block[:, _rotation_columns(joint)]))
+    return positions, local
+
+
+def _without_reference(
+    joints: list[Joint], positions: Array, local: Array
+) -> tuple[list[Joint], Array, Array]:
+    """Merge the root with its only child if that moves: p = p_root + R_root p_child, R = R_root R_child."""
     parents = [joint.parent for joint in joints]
-    if parents.count(0) == 1 and np.ptp(positions[:, 1], axis=0).max() * scale > STILL:
-        # The only child replaces the root: p = p_root + R_root p_child, R = R_root R_child.
-        positions[:, 1] = positions[:, 0] + rotations.rotate(local[:, 0], positions[:, 1])
-        local[:, 1] = rotations.multiply(local[:, 0], local[:, 1])
-        joints = [replace(joint, parent=joint.parent - 1) for joint in joints[1:]]
-        positions = positions[:, 1:]
-        local = local[:, 1:]
-    return joints, scale * positions, local
+    if parents.count(0) != 1 or np.ptp(positions[:, 1], axis=0).max() <= STILL:
+        return joints, positions, local
+    positions[:, 1] = positions[:, 0] + rotations.rotate(local[:, 0], positions[:, 1])
+    local[:, 1] = rotations.multiply(local[:, 0], local[:, 1])
+    joints = [replace(joint, parent=joint.parent - 1) for joint in joints[1:]]
+    return joints, positions[:, 1:], local[:, 1:]
 
 
 def _channels(path: str | Path, *, fps: float | None = None) -> tuple[list[Joint], list[Array], float]:

@@ -24,12 +24,14 @@ class ReadOptions(NamedTuple):
     fps : frames per second, which replace those of the file.
     scale : metres in one unit of the file.
     stretch : metres by which bones may change their lengths.
+    up : the axis that points up, such as "z".
     """
 
     skeleton: Path | None
     fps: float | None
     scale: float | None
     stretch: float
+    up: str | None = None
 
 
 class Format(NamedTuple):
@@ -98,11 +100,11 @@ def begins(name: str, beginning: str) -> bool:
 
 
 def read_bvh(path: Path, options: ReadOptions) -> Recording:
-    """Read a BVH file, by default in centimetres."""
+    """Read a BVH file."""
     from mocap.files import bvh
 
-    scale = options.scale or bvh.SCALE
-    return bvh.read(path, scale=scale, fps=options.fps, stretch=options.stretch)
+    scale, up = options.scale, options.up
+    return bvh.read(path, scale=scale, fps=options.fps, stretch=options.stretch, up=up)
 
 
 def read_npz(path: Path, options: ReadOptions) -> Recording:
@@ -112,7 +114,7 @@ def read_npz(path: Path, options: ReadOptions) -> Recording:
     if options.scale not in (None, 1.0):
         problem = f"All .npz files are in metres, got a scale of {options.scale:g} for {path}."
         raise MocapError(problem, remedy=Remedy("leave out {}", "scale"))
-    return amass.read(path, fps=options.fps)
+    return amass.read(path, fps=options.fps, up=options.up)
 
 
 READ: dict[str, Format] = {

@@ -8,8 +8,8 @@ from mocap._shared.arrays import Array
 from mocap._shared.atomic import write_file
 from mocap._shared.quantities import check_number, described
 from mocap.body.motion import Motion, require_motion, turning
-from mocap.errors import MocapError
-from mocap.files import bvh, formats, gltf
+from mocap.errors import MocapError, warn
+from mocap.files import bvh, formats, gltf, spaces
 from mocap.files.recordings import Recording
 from mocap.files.rigid_bones import STRETCH
 from mocap.files.text import check_above_0, read_text
@@ -17,13 +17,14 @@ from mocap.files.text import check_above_0, read_text
 WRITTEN = ".bvh and .glb"
 
 
-def load(
+def load(  # noqa: PLR0913 (each by its name)
     path: str | Path,
     *,
     skeleton: str | Path | None = None,
     fps: float | None = None,
     scale: float | None = None,
     stretch: float = STRETCH,
+    up: str | None = None,
 ) -> Motion:
     """Read a motion from a file, in one of the formats of `files.formats.READ`.
 
@@ -34,10 +35,13 @@ def load(
         of the same name, else of the name up to the first `_` (`16.asf` for `16_15.amc`), else the only one.
     fps : frames per second, which replace those of the file. An `.amc` file has none; by default it is
         120, as in most of the CMU database.
-    scale : metres in one unit of the file; by default 0.01 for `.bvh`, and that of the skeleton for `.amc`.
-        An `.npz` is in metres.
+    scale : metres in one unit of the file. By default that of the skeleton for `.amc`, 1 for `.npz`, and for
+        `.bvh` the one that the frames show, from the size and the pace of the body: 0.01 if they do not.
     stretch : metres by which bones of a `.bvh` file may change their lengths, by default 0.02. Up to this
         they are fitted to rigid ones, with a warning that says how far joints move; `math.inf` fits any.
+    up : the axis of the file that points up: "y", "z", "-y", "-z", "x" or "-x". By default the one that the
+        frames show, from the standing feet: y for `.bvh` and z for `.npz` if they do not. The motion is
+        rotated so that y is up.
 
     Returns
     -------
@@ -47,6 +51,11 @@ def load(
     ------
     MocapError : for a file that is missing or of another format, or when no skeleton fits.
     FormatError : for a file that breaks its format, with the line.
+
+    Warns
+    -----
+    MocapWarning : if the file is read in another unit or with another axis up than most of its format are, or
+        if these are in doubt.
 
     Examples
     --------
@@ -63,20 +72,30 @@ def load(
     for name, number in {"fps": fps, "scale": scale, "stretch": stretch}.items():
         if number is not None:
             check_number(number, name)
-    return read(path, skeleton, fps, scale, stretch).motion
+    recording = read(path, skeleton, fps, scale, stretch, up)
+    stated = recording.space.sentence({"scale": "scale=", "up": "up="}) if recording.space else ""
+    if stated:
+        warn(f"{path}: {stated}")
+    return recording.motion
 
 
-def read(
-    path: str | Path, skeleton: str | Path | None, fps: float | None, scale: float | None, stretch: float
+def read(  # noqa: PLR0913 (the options of `load`)
+    path: str | Path,
+    skeleton: str | Path | None,
+    fps: float | None,
+    scale: float | None,
+    stretch: float,
+    up: str | None = None,
 ) -> Recording:
     """Read a motion as `load` does, and what else its file says: angles, and by how much bones stretch."""
     path = Path(path)
     check_above_0(fps=fps, scale=scale)
     if not stretch >= 0:
         raise MocapError(f"stretch must be 0 or more metres, got {stretch}.")
+    spaces.require_axis(up)
     suffix = path.suffix.lower()
     if suffix in formats.READ:
-        options = formats.ReadOptions(None if skeleton is None else Path(skeleton), fps, scale, stretch)
+        options = formats.ReadOptions(None if skeleton is None else Path(skeleton), fps, scale, stretch, up)
         return formats.READ[suffix].read(path, options)
     if suffix == ".asf":
         raise MocapError(f"{path} is a skeleton without a motion: files.asf.read_skeleton reads it.")

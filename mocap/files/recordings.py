@@ -4,6 +4,8 @@ from mocap._shared.arrays import Array
 from mocap._shared.records import NamedTuple
 from mocap.body.motion import Motion
 from mocap.errors import Remedy
+from mocap.files.space_evidence import Evidence
+from mocap.files.spaces import Space
 
 
 class Recording(NamedTuple):
@@ -12,6 +14,8 @@ class Recording(NamedTuple):
     angles : of each joint, shape (F, its axes), degrees, as they are in the file; an `.npz` has none.
     stretch : for each joint, the change in length of the bone from its parent in the file, metres: the
         longest minus the shortest. Only a `.bvh` file can have such bones.
+    space : the unit and the vertical axis that it was read in; None if the format says both.
+    evidence : of the space; None if the format or the caller says it, or the joints make no body.
     assumed : what the file does not say, such as its frame rate, as a phrase that ends with a remedy for it.
     """
 
@@ -19,3 +23,5 @@ class Recording(NamedTuple):
     angles: dict[str, Array]
     stretch: dict[str, float]
     assumed: Remedy | None = None
+    space: Space | None = None
+    evidence: Evidence | None = None
