@@ -31,8 +31,8 @@ from mocap.plotting.picture import small_png
 from mocap.quality import seam_quality, spread
 from mocap.steering import (
     Controller,
+    PathRequest,
     Settings,
-    Wishes,
     follow_as_2002,
     follow_path,
     measure_delay,
@@ -134,7 +134,7 @@ def against_the_paper(found: dict[str, CompiledGraph]) -> list[str]:
     paths = [GroundPath(random_line(seed).at(np.linspace(0, 7, 141))) for seed in range(500, 510)]
     for name, graph in found.items():
         ours = [follow_path(graph, path) for path in paths]
-        starts = [Wishes(start=walk.walk[0][0], slide=0) for walk in ours]
+        starts = [PathRequest(start=walk.walk[0][0], correction=0) for walk in ours]
         best = {"look": (45, 15), "budget": 30_000}
         walks = {
             "layers": ours,

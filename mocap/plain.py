@@ -473,7 +473,7 @@ def points_along(corners: Array) -> Ground:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Read clips and a line, and write a walk along it."""
     from mocap import MocapError, Motion, load, resample, save  # files and their checks are the package's
-    from mocap.body.motion import require_alike
+    from mocap.body.motion import require_compatible
     from mocap.files.conversion import find_files
     from mocap.files.path_files import load_path
 
@@ -490,7 +490,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         long = [clip for clip in (resample(clip, FPS) for clip in loaded) if len(clip) > K]
         if not long:
             raise MocapError(f"A window takes {K} frames, and no clip is longer.")
-        clips = require_alike(long)
+        clips = require_compatible(long)
         graph = prune(cut_and_join(clips, find_transitions(clips)))
         print(f"{len(clips)} clips make a graph of {len(graph)} nodes and {graph.size()} edges.")
         roots, rotations = follow(clips, graph, line)

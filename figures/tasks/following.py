@@ -16,7 +16,7 @@ from asked_lines import random_line
 from mocap._shared.arrays import Array
 from mocap.body import GroundPath, Motion, PlanarTransform, on_ground
 from mocap.errors import MocapError
-from mocap.steering import Wishes, follow_as_2002, follow_path
+from mocap.steering import PathRequest, follow_as_2002, follow_path
 from mocap.steering.followed import Followed
 from tasks import BANDAI, CMU_16, HOMEWORK, WALKS, Case, graph
 from tasks._measures import skate
@@ -48,9 +48,9 @@ def layered(clips: tuple[Motion, ...], seed: str) -> Followed:
 
 def as_2002(case: Case, look: tuple[int, int]) -> Motion:
     """Search by branch and bound."""
-    wishes = Wishes(start=layered(case.given["clips"], case.name).walk[0][0], slide=0)
+    request = PathRequest(start=layered(case.given["clips"], case.name).walk[0][0], correction=0)
     line, budget = GroundPath(case.given["line"]), 30_000
-    return follow_as_2002(graph(case.given["clips"]), line, wishes, look=look, budget=budget).motion()
+    return follow_as_2002(graph(case.given["clips"]), line, request, look=look, budget=budget).motion()
 
 
 def nearest_clip(case: Case) -> Motion:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from mocap._shared.arrays import Array
 from mocap.blending.weights import cubic_weights
 from mocap.body import rotations
-from mocap.body.motion import Motion, concatenate, gather_marks, require_alike
+from mocap.body.motion import Motion, concatenate, gather_marks, require_compatible
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import align, point_cloud
 
@@ -44,7 +44,7 @@ def blend(a: Motion, b: Motion, weights: ArrayLike) -> Motion:
 
     Notebook: 04-blending
     """
-    a, b = require_alike([a, b])
+    a, b = require_compatible([a, b])
     alpha = np.asarray(weights, float)
     if len(a) != len(b) or alpha.shape != (len(a),):
         got = f"{len(a)}, {len(b)}, {alpha.shape}"
@@ -80,7 +80,7 @@ def align_window(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
 
     Notebook: 04b-feet
     """
-    a, b = require_alike([a, b])
+    a, b = require_compatible([a, b])
     if window < 1:
         raise MocapError(f"A window needs at least one frame, got {window}.")
     for clip, start in ((a, i), (b, j)):

@@ -13,7 +13,7 @@ from mocap.blending.clocks import Registration, match_contacts
 from mocap.blending.mixing import mix
 from mocap.blending.timewarps import Curve, fit_curve
 from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion, require_alike
+from mocap.body.motion import Motion, require_compatible
 from mocap.body.planar import from_ground, on_ground
 from mocap.errors import MocapError, shortened, warn
 from mocap.matching.distance_grids import Floats, check_window, distance_grid
@@ -97,7 +97,7 @@ def register(
 
     Notebook: 15-registration
     """
-    clips = require_alike(clips)
+    clips = require_compatible(clips)
     step = _checked(clips, reference, slack)
     rate = clips[0].fps / step
     clouds = [point_cloud(clip[::step]) for clip in clips]

@@ -368,7 +368,7 @@ def concatenate(motions: Sequence[Motion], name: str | None = None) -> Motion:
 
     Notebook: 00-quickstart
     """
-    motions = require_alike(motions)
+    motions = require_compatible(motions)
     first = motions[0]
     counts = np.array([len(motion) for motion in motions])
     frames = np.stack([np.repeat(np.arange(len(motions)), counts), ranges(0 * counts, counts)], axis=1)
@@ -380,7 +380,7 @@ def concatenate(motions: Sequence[Motion], name: str | None = None) -> Motion:
     return Motion(first.skeleton, root_positions, rotations, first.fps, name, labels, contacts)
 
 
-def require_alike(motions: Sequence[Motion]) -> tuple[Motion, ...]:
+def require_compatible(motions: Sequence[Motion]) -> tuple[Motion, ...]:
     """Raise unless all motions share one skeleton, but for end sites, and one frame rate.
 
     Files of one laboratory may differ in end sites, which bound the last bones and never turn. All motions
@@ -394,7 +394,7 @@ def require_alike(motions: Sequence[Motion]) -> tuple[Motion, ...]:
     --------
     >>> bone = Skeleton(["root"], [-1], [[0, 0, 0]])
     >>> walk = Motion(bone, np.zeros((4, 3)), np.tile([1.0, 0, 0, 0], (4, 1, 1)), 120.0, "walk")
-    >>> require_alike([walk, resample(walk, 30.0)])
+    >>> require_compatible([walk, resample(walk, 30.0)])
     Traceback (most recent call last):
     mocap.errors.MocapError: 'walk' runs at 120 Hz, 'walk' at 30 Hz: resample one first.
     """

@@ -93,7 +93,7 @@ def walk(
     longest_search = math.inf if deadline is None else _seconds(deadline)
     options.require_file(graph, BUILD_FIRST.format(graph))
     line = load_path(path, scale=unit) if path else None
-    wishes = steering.Wishes(labels=[_label(text) for text in label])
+    request = steering.PathRequest(labels=[_label(text) for text in label])
     with timed_stage("reading the graph"):
         motions = _graph(graph, clips, sources, out)
     if line is None:
@@ -103,7 +103,7 @@ def walk(
     settings = steering.Settings(width=width or 100, progress=bar("searching"), deadline=longest_search)
     with timed_stage("following the path"):
         turn = math.radians(bend or 0)
-        followed = steering.follow_path(motions, line, wishes, settings=settings, bend=turn)
+        followed = steering.follow_path(motions, line, request, settings=settings, bend=turn)
     tell(walked=followed.report())
     with timed_stage("making the motion"):
         motion = followed.motion(clean=clean or bool(bend))

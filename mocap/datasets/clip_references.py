@@ -16,7 +16,7 @@ from mocap._shared.archives import Arrays, Layout, Rules
 from mocap._shared.progress import Progress
 from mocap._shared.records import NamedTuple
 from mocap.body.fingerprints import fingerprint
-from mocap.body.motion import Motion, require_alike, resample
+from mocap.body.motion import Motion, require_compatible, resample
 from mocap.datasets.clip_origins import Origin, find_again, is_origin
 from mocap.datasets.samples import FPS, FRAMES_IN_0_1, SAMPLES, sample
 from mocap.editing.mirroring import mirror
@@ -127,7 +127,7 @@ def load_references(
     resampled = [resample(clip, references.fps) for clip in clips]
     needed = [clip for clip in resampled if clip.name in references.names]
     with suppress(MocapError):  # one end sites for all; what does not go together is named below
-        needed = list(require_alike(needed))
+        needed = list(require_compatible(needed))
     by_name = defaultdict[str, list[Motion]](list)
     for clip in needed:
         by_name[clip.name].append(clip)

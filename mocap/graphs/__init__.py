@@ -11,7 +11,7 @@ Reading order (notebooks 05, 06)
  4. `thresholds`: the size of the graph at each threshold
  5. `graph_summary`: a graph in numbers; GraphML for other tools
  6. `storage`: save a graph to .npz, and read it again
- 7. `edge_tables`: the frames that each edge and each macro-edge (hop) plays, as arrays
+ 7. `edge_tables`: the frames that each edge and each macro-edge plays, as arrays
  8. `compiled_graph`: a whole graph as arrays, for searches
  9. `homework_graph`: the homework's simpler graph of segments
 

@@ -15,7 +15,15 @@ from mocap._shared.records import dataclass
 from mocap.body.motion import gather_marks
 from mocap.body.planar import heading, on_ground
 from mocap.errors import NoWalk
-from mocap.graphs.edge_tables import Edge, EdgeTable, Hops, clip_rows, edge_table, find_hops, require_node
+from mocap.graphs.edge_tables import (
+    Edge,
+    EdgeTable,
+    MacroEdges,
+    clip_rows,
+    edge_table,
+    find_macro_edges,
+    require_node,
+)
 from mocap.graphs.motion_graph import MotionGraph, Node, require_graph
 
 AHEAD = (1 / 4, 1 / 2, 3 / 4)  # seconds
@@ -26,7 +34,7 @@ STANDING = 0.1  # metres within the last time of `AHEAD`: a root that moves less
 
 @dataclass(frozen=True, eq=False)
 class CompiledGraph(EdgeTable):
-    """A motion graph as arrays: the `EdgeTable` of all E edges, of T frames together, N nodes and H hops.
+    """A motion graph as arrays: an `EdgeTable` of E edges, of T frames together, N nodes, H macro-edges.
 
     Parameters
     ----------
@@ -40,7 +48,7 @@ class CompiledGraph(EdgeTable):
     ground, step : shape (T,), the position of the root in each frame, in the coordinates of the clip that the
         edge leaves, and its distance to the position one frame earlier (metres).
     label_names, bears : the L labels, and shape (L, T), whether a frame has them.
-    hops : the hops from each node.
+    macro_edges : the macro-edges from each node.
     """
 
     source: MotionGraph
@@ -54,7 +62,7 @@ class CompiledGraph(EdgeTable):
     step: Array
     label_names: list[str]
     bears: Mask
-    hops: Hops
+    macro_edges: MacroEdges
 
     @property
     def fps(self) -> float:
@@ -119,7 +127,7 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
     marks = gather_marks([clip.labels for clip in graph.clips], table.owner)
     label_names = sorted(marks)
     bears = np.array([marks[name] for name in label_names], bool).reshape(-1, len(table.of))
-    hops = find_hops(table, starts, len(nodes), graph.fps)
+    macro_edges = find_macro_edges(table, starts, len(nodes), graph.fps)
     # reads: statement: one field a line
     return CompiledGraph(
         **vars(table),
@@ -134,7 +142,7 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
         step=step,
         label_names=label_names,
         bears=bears,
-        hops=hops,
+        macro_edges=macro_edges,
     )
 
 

@@ -1,6 +1,6 @@
-"""The frames that each edge and each macro-edge ("hop") of a motion graph plays, as arrays.
+"""The frames that each edge and each macro-edge of a motion graph plays, as arrays.
 
-An array has a row for each edge, each frame or each hop. `Hops` defines a hop.
+An array has a row for each edge, each frame or each macro-edge. `MacroEdges` defines a macro-edge.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from mocap.graphs.motion_graph import MotionGraph, Node
 
 Edge = tuple[Node, Node, int]
 
-HOP = 1 / 6  # seconds of clip after which a hop ends
+LONGEST_MACRO_EDGE = 1 / 6  # seconds of clip after which a macro-edge ends
 FRAME = 1  # column of (clip, frame)
 
 
@@ -143,32 +143,32 @@ def clip_rows(clips: Sequence[Motion], frames: Indices) -> Indices:
 
 
 @dataclass(frozen=True, eq=False)
-class Hops:
-    """All H hops of a compiled graph with N nodes, sorted by the node that they leave.
+class MacroEdges:
+    """All H macro-edges of a compiled graph with N nodes, sorted by the node that they leave.
 
-    A hop is a macro-edge: edges in a row that a search takes in one step. It follows the clip until it takes
-    a transition, or has lasted `HOP` seconds, or reaches a dead end. Single edges, of a frame or two each,
-    would give the same walks in many more steps.
+    A macro-edge is a run of edges that a search takes in one step. It follows the clip until it takes
+    a transition, or has lasted `LONGEST_MACRO_EDGE` seconds, or reaches a dead end. Single edges, of a frame
+    or two each, would give the same walks in many more steps.
 
     Parameters
     ----------
-    first : shape (N + 1,), hops `first[n]` to `first[n + 1]` leave node n.
+    first : shape (N + 1,), macro-edges `first[n]` to `first[n + 1]` leave node n.
     stretch, stretches : shape (H,), the first stretch of clip, and the number of stretches before `last`.
-    last : shape (H,), the last edge of a hop: a transition or a stretch of clip.
-    starts, counts : shape (H, 2), the first row and the number of the frames that a hop plays, among the
-        frames of all edges: of the stretches before the last edge, and of the last edge.
-    frames : shape (H,), the number of frames that each hop plays.
+    last : shape (H,), the last edge of a macro-edge: a transition or a stretch of clip.
+    starts, counts : shape (H, 2), the first row and the number of the frames that a macro-edge plays, among
+        the frames of all edges: of the stretches before the last edge, and of the last edge.
+    frames : shape (H,), the number of frames that each macro-edge plays.
 
     Examples
     --------
-    A clip of 90 frames with a transition from frame 60 to frame 20. One hop leaves the start, one leaves
-    frame 20, two leave frame 60, none leaves the end:
+    A clip of 90 frames with a transition from frame 60 to frame 20. One macro-edge leaves the start, one
+    leaves frame 20, two leave frame 60, none leaves the end:
 
     >>> from mocap import body, datasets, graphs, matching
     >>> clip = body.resample(datasets.sample("walk_circle"), 30)[:90]
     >>> back = matching.Transition(0, 60, 0, 10, 0.02, body.PlanarTransform(0, 0, 0))
-    >>> hops = graphs.compile_graph(graphs.from_transitions([clip], [back], window=10)).hops
-    >>> hops.first.tolist(), hops.frames.tolist()
+    >>> macro_edges = graphs.compile_graph(graphs.from_transitions([clip], [back], window=10)).macro_edges
+    >>> macro_edges.first.tolist(), macro_edges.frames.tolist()
     ([0, 1, 2, 4, 4], [20, 40, 10, 30])
     """
 
@@ -181,25 +181,25 @@ class Hops:
     frames: Indices
 
     def leaving(self, nodes: Indices) -> tuple[Indices, Indices]:
-        """Return the hops that leave some nodes: the index of each hop's node in `nodes`, and its number."""
+        """Return the macro-edges that leave some nodes: the index in `nodes` and the number of each."""
         first = self.first[nodes]
         count = self.first[nodes + 1] - first
         return np.repeat(np.arange(len(nodes)), count), ranges(first, count)
 
-    def rows(self, hops: Indices) -> tuple[Indices, Indices]:
-        """Return the rows of all frames that some hops play, and the index of each row's hop in `hops`."""
-        rows = ranges(self.starts[hops].ravel(), self.counts[hops].ravel())
-        return rows, np.repeat(np.arange(len(hops)), self.frames[hops])
+    def rows(self, macro_edges: Indices) -> tuple[Indices, Indices]:
+        """Return the rows of all frames that macro-edges play, and of each row its index in `macro_edges`."""
+        rows = ranges(self.starts[macro_edges].ravel(), self.counts[macro_edges].ravel())
+        return rows, np.repeat(np.arange(len(macro_edges)), self.frames[macro_edges])
 
-    def edges(self, hops: Indices) -> Indices:
-        """Return the edges of some hops, in order."""
-        first = np.stack([self.stretch[hops], self.last[hops]], axis=1)
-        counts = np.stack([self.stretches[hops], np.ones_like(hops)], axis=1)
+    def edges(self, macro_edges: Indices) -> Indices:
+        """Return the edges of some macro-edges, in order."""
+        first = np.stack([self.stretch[macro_edges], self.last[macro_edges]], axis=1)
+        counts = np.stack([self.stretches[macro_edges], np.ones_like(macro_edges)], axis=1)
         return ranges(first.ravel(), counts.ravel())
 
 
-def find_hops(edges: EdgeTable, starts: Indices, nodes: int, fps: float) -> Hops:
-    """Find the hops: from every node follow the clip, and leave by each transition on the way.
+def find_macro_edges(edges: EdgeTable, starts: Indices, nodes: int, fps: float) -> MacroEdges:
+    """Find the macro-edges: from every node follow the clip, and leave by each transition on the way.
 
     Parameters
     ----------
@@ -216,19 +216,21 @@ def find_hops(edges: EdgeTable, starts: Indices, nodes: int, fps: float) -> Hops
         else:
             stretch_from[node] = edge
     lengths = edges.frames.tolist()
-    hops: list[Hop] = []
+    longest = LONGEST_MACRO_EDGE * fps
+    macro_edges: list[MacroEdge] = []
     for node in range(nodes):
-        hops += _hops_from(node, stretch_from, transitions_from, lengths, longest=HOP * fps)
-    node_of, stretches, last = np.array(hops).T
+        macro_edges += _macro_edges_from(node, stretch_from, transitions_from, lengths, longest=longest)
+    node_of, stretches, last = np.array(macro_edges).T
     stretch = np.array([-1 if edge is None else edge for edge in stretch_from])[node_of]
-    # A hop plays two runs of frames: those of its stretches, which follow one another, and those of `last`.
+    # A macro-edge plays two runs of frames: those of its stretches, which follow one another, and those of
+    # `last`.
     frames_before = np.append(0, np.cumsum(edges.frames))
     followed = np.where(stretches > 0, frames_before[stretch + stretches] - frames_before[stretch], 0)
     played = edges.frames[last]
     first = np.searchsorted(node_of, np.arange(nodes + 1))
     rows = np.stack([frames_before[stretch], frames_before[last]], axis=1)
     counts = np.stack([followed, played], axis=1)
-    return Hops(
+    return MacroEdges(
         first=first,
         stretch=stretch,
         stretches=stretches,
@@ -239,36 +241,37 @@ def find_hops(edges: EdgeTable, starts: Indices, nodes: int, fps: float) -> Hops
     )
 
 
-Hop = tuple[int, int, int]  # the node that it leaves, the number of stretches before its last edge, this edge
+# The node that it leaves, the number of stretches before its last edge, this edge.
+MacroEdge = tuple[int, int, int]
 
 
-def _hops_from(
+def _macro_edges_from(
     node: int,
     stretch_from: Sequence[int | None],
     transitions_from: Sequence[Sequence[int]],
     lengths: Sequence[int],
     *,
     longest: float,
-) -> list[Hop]:
-    """Follow the clip from a node: a hop for each transition on the way, and one that stays on the clip.
+) -> list[MacroEdge]:
+    """Follow the clip from a node: a macro-edge for each transition passed, and one that stays on the clip.
 
     Parameters
     ----------
-    node : the node where the hops start.
+    node : the node where the macro-edges start.
     stretch_from, transitions_from : for each node the stretch of clip and the transitions that leave it.
     lengths : the number of frames of each edge.
-    longest : frames of clip after which a hop ends.
+    longest : frames of clip after which a macro-edge ends.
     """
-    hops: list[Hop] = []
+    macro_edges: list[MacroEdge] = []
     current = node
     frames = 0
     while True:
-        hops += [(node, current - node, transition) for transition in transitions_from[current]]
+        macro_edges += [(node, current - node, transition) for transition in transitions_from[current]]
         stretch = stretch_from[current]
         if stretch is None:
-            return hops  # the clip ends here
+            return macro_edges  # the clip ends here
         frames += lengths[stretch]
         current += 1
         dead_end = stretch_from[current] is None and not transitions_from[current]
         if frames >= longest or dead_end:
-            return [*hops, (node, current - node - 1, stretch)]
+            return [*macro_edges, (node, current - node - 1, stretch)]

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from mocap._shared.arrays import Array
 from mocap.blending.joining import blend
 from mocap.blending.weights import sine_weights
-from mocap.body.motion import Motion, concatenate, require_alike
+from mocap.body.motion import Motion, concatenate, require_compatible
 from mocap.body.planar import IDENTITY, align_frames
 from mocap.errors import MocapError, NoWalk
 from mocap.matching.distance_grids import check_window
@@ -80,7 +80,7 @@ def segment_distances(
 
     Notebook: 05b-choice-points
     """
-    clips = require_alike(clips)
+    clips = require_compatible(clips)
     for clip in clips:
         check_window(window, min(segment, len(clip)), f"A segment of '{clip.name}'")
     pieces = [clips[clip][start:end] for clip, start, end in segments(clips, segment)]

@@ -21,7 +21,7 @@ from mocap._shared.progress import Progress
 from mocap._shared.quantities import check_frames, check_threshold, described
 from mocap._shared.records import dataclass
 from mocap._shared.suggestions import missing_attribute
-from mocap.body.motion import Motion, require_alike, require_motions
+from mocap.body.motion import Motion, require_compatible, require_motions
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError
 from mocap.graphs.components import Labels
@@ -208,7 +208,7 @@ def from_transitions(
     """
     _require_names(clips)
     check_frames(window, "A window", clips[0].fps if len(clips) else None)
-    clips = require_alike(clips)
+    clips = require_compatible(clips)
     for t in transitions:
         for clip, start in ((t.source, t.leave), (t.target, t.enter)):
             if not (0 <= clip < len(clips) and 0 <= start <= len(clips[clip]) - window):

@@ -59,7 +59,7 @@ class ThresholdCurve(NamedTuple):
     transitions, nodes, edges : their numbers in the whole graph.
     frames : the number of frames of clip that the largest strongly connected component plays.
     cost : the mean cost of the transitions, metres; 0 without transitions.
-    gap : the mean of their `velocity_gaps`, metres per second, a measure of how visible the seams are.
+    gap : the mean of their `velocity_differences`, metres per second, a measure of how visible the seams are.
     """
 
     threshold: Array
@@ -133,7 +133,7 @@ def threshold_curve(
     sizes = [_size(lengths, transitions[:count], window) for count in counts]
     nodes, frames = np.array(sizes, np.intp).reshape(-1, 2).T
     edges = counts + nodes - len(clips)  # a clip of n nodes has n - 1 stretches
-    gaps = velocity_gaps(clips, transitions, window=window)
+    gaps = velocity_differences(clips, transitions, window=window)
     sums = [np.cumsum([0.0, *column])[counts] for column in (transitions.cost, gaps)]
     cost, gap = sums / np.maximum(counts, 1)
     return ThresholdCurve(values, counts, nodes, edges, frames, cost, gap)
@@ -160,7 +160,7 @@ def _size(lengths: Indices, transitions: Transitions, window: int) -> tuple[int,
     return len(positions), played
 
 
-def velocity_gaps(clips: Sequence[Motion], transitions: Transitions, *, window: int) -> Array:
+def velocity_differences(clips: Sequence[Motion], transitions: Transitions, *, window: int) -> Array:
     """Compute the difference of the two clips' point velocities in the middle of each transition.
 
     Parameters
@@ -180,7 +180,7 @@ def velocity_gaps(clips: Sequence[Motion], transitions: Transitions, *, window: 
     >>> from mocap import datasets
     >>> zero = np.zeros(1, int)
     >>> same = Transitions(zero, zero, zero, zero, np.zeros(1), PlanarTransform(zero, zero, zero))
-    >>> velocity_gaps([datasets.sample("walk_curve_1")], same, window=10)
+    >>> velocity_differences([datasets.sample("walk_curve_1")], same, window=10)
     array([0.])
 
     Notebook: 05b-choice-points

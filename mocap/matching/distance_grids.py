@@ -29,7 +29,7 @@ from numpy.typing import ArrayLike, NDArray
 from mocap._shared.arrays import Array
 from mocap._shared.records import NamedTuple
 from mocap._shared.tasks import one_blas_thread, run_in_order, thread_count
-from mocap.body.motion import Motion, require_alike
+from mocap.body.motion import Motion, require_compatible
 from mocap.body.planar import on_ground
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import point_cloud, require_near, unit_weights
@@ -309,7 +309,7 @@ def distance_grid(  # noqa: PLR0913 (what to compare, what each point and frame 
     Notebook: 02-matching
     """
     if isinstance(a, Motion) and isinstance(b, Motion):
-        a, b = require_alike([a, b])
+        a, b = require_compatible([a, b])
     points_a = _checked_points(a, window)
     points_b = _checked_points(b, window)
     thread_count(jobs)
@@ -416,8 +416,8 @@ def check_window(window: int, frames: int, name: str) -> None:
 
 
 def require_windows(clips: Sequence[Motion], window: int) -> tuple[Motion, ...]:
-    """Raise unless clips go together, as by `require_alike`, and each holds at least one window."""
-    alike = require_alike(clips)
+    """Raise unless clips go together, as by `require_compatible`, and each holds at least one window."""
+    alike = require_compatible(clips)
     for clip in alike:
         check_window(window, len(clip), f"'{clip.name}'")
     return alike

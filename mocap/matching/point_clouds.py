@@ -5,7 +5,7 @@ from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
 from mocap.body.kinematics import forward_kinematics
-from mocap.body.motion import Motion, require_alike
+from mocap.body.motion import Motion, require_compatible
 from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
@@ -117,7 +117,7 @@ def rms_distance(first: Motion, second: Motion) -> float:
 
     Notebook: 09b-blend-window
     """
-    first, second = require_alike([first, second])
+    first, second = require_compatible([first, second])
     if len(first) != len(second):
         raise MocapError(f"'{first.name}' has {len(first)} frames, '{second.name}' has {len(second)}.")
     return float(np.sqrt(((point_cloud(first) - point_cloud(second)) ** 2).sum(-1).mean()))

@@ -32,7 +32,16 @@ from mocap.feet.footplants import mark_plants
 from mocap.matching.point_clouds import point_cloud
 from mocap.quality.clip_flaws import FAST, UNDER, height_of
 from mocap.quality.joint_limits import joint_bends
-from mocap.quality.seam_measures import LEAP, MOSTLY, USUAL, Spread, feet_of, jumps, mean_slide, plant_slides
+from mocap.quality.seam_measures import (
+    LEAP,
+    MOSTLY,
+    USUAL,
+    Spread,
+    feet_of,
+    foot_sliding,
+    jumps,
+    mean_foot_sliding,
+)
 
 WINDOW = 1 / 3  # seconds: a jump in a window is compared with those in windows of the clips
 FLAT = 0.1  # seconds: the window of the smooth curves from which a trembling joint differs
@@ -172,12 +181,12 @@ def measure_limbs(motion: Motion, positions: Array, legs: Sequence[Leg]) -> Iter
 
 def _slide(motion: Motion, positions: Array, legs: Sequence[Leg]) -> Measure:
     """Measure the foot sliding distance, the mean over the plants."""
-    slides = plant_slides(mark_plants(motion, legs), feet_of(legs), positions=positions)
+    slides = foot_sliding(mark_plants(motion, legs), feet_of(legs), positions=positions)
     detail = "no foot stands"
     if slides:
         worst = max(slides, key=lambda slide: slide.far)
         detail = f"'{worst.joint}', frames {worst.start} to {worst.stop - 1}"
-    return Measure("slide", mean_slide(slides), LIMITS.slide, "cm", detail)
+    return Measure("slide", mean_foot_sliding(slides), LIMITS.slide, "cm", detail)
 
 
 def _skate(motion: Motion, positions: Array, legs: Sequence[Leg]) -> Measure:

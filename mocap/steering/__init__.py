@@ -2,8 +2,8 @@
 
 A walk that is searched for: the path objective says what is asked for and what each deviation costs, a
 layered search finds the walk with the lowest cost, and `follow_path` joins the two; `waypoints_and_crowds`
-calls it. A new kind of wish is a field of `Wishes`, with its price in `Settings` and its cost in
-`PathSearch.hop_costs`.
+calls it. A new kind of wish is a field of `PathRequest`, with its price in `Settings` and its cost in
+`PathSearch.macro_edge_costs`.
 
 A character that is commanded: all fit one protocol, `Character`; its `step` takes a heading and a speed and
 gives the next pose. So whatever steers, records or measures one of them does so for all. A new way of control

@@ -49,7 +49,7 @@ class States(NamedTuple):
     frames: Indices
     cost: Array
     trail: Indices  # the number of the state before, -1 at a start
-    hop: Indices  # what led here, -1 at a start
+    macro_edge: Indices  # what led here, -1 at a start
 
     def take(self, chosen: slice | NDArray[Any]) -> States:
         """Take some of the walks."""
@@ -58,14 +58,15 @@ class States(NamedTuple):
     def then(self, rows: Indices, steps: States) -> States:
         """Lengthen walks by steps, each a walk in its first clip's coordinates; step n continues `rows[n]`.
 
-        The longer walks' `trail` are the rows of those that they continue, their `hop` is the step's.
+        The longer walks' `trail` are the rows of those that they continue, their `macro_edge` is the step's.
         """
         rotation = self.rotation[rows] * steps.rotation
         translation = self.translation[rows] + self.rotation[rows] * steps.translation
         along = self.along[rows] + steps.along
         frames = self.frames[rows] + steps.frames
         cost = self.cost[rows] + steps.cost
-        return States(steps.node, rotation, translation, along, frames, cost, trail=rows, hop=steps.hop)
+        macro_edge = steps.macro_edge
+        return States(steps.node, rotation, translation, along, frames, cost, rows, macro_edge)
 
     @staticmethod
     def join(parts: Sequence[States]) -> States:
@@ -77,23 +78,23 @@ def start_states(nodes: Indices, rotation: Points, translation: Points) -> State
     """Start a walk at each of some nodes, whose clips are transformed by p ↦ rotation · p + translation."""
     zero = np.zeros(len(nodes))
     no_frames = np.zeros(len(nodes), np.intp)
-    start = np.full(len(nodes), -1, np.intp)  # no state and no hop leads here
+    start = np.full(len(nodes), -1, np.intp)  # no state and no macro-edge leads here
     return States(
-        nodes, rotation, translation, along=zero, frames=no_frames, cost=zero, trail=start, hop=start
+        nodes, rotation, translation, along=zero, frames=no_frames, cost=zero, trail=start, macro_edge=start
     )
 
 
-def hop_states(graph: CompiledGraph, along: Array, price: Array) -> States:
-    """Take each of the H hops of a graph as a walk of its own.
+def macro_edge_states(graph: CompiledGraph, along: Array, price: Array) -> States:
+    """Take each of the H macro-edges of a graph as a walk of its own.
 
     Parameters
     ----------
     graph : the compiled graph.
-    along : metres of each hop (H,).
-    price : of each edge (E,); a hop costs what the edge costs by which it leaves its clip.
+    along : metres of each macro-edge (H,).
+    price : of each edge (E,); a macro-edge costs what the edge costs by which it leaves its clip.
     """
-    last = graph.hops.last
-    frames = graph.hops.frames
+    last = graph.macro_edges.last
+    frames = graph.macro_edges.frames
     numbers = np.arange(len(along))
     transform = (graph.rotation[last], graph.translation[last])
     return States(graph.target[last], *transform, along, frames, price[last], numbers, numbers)

@@ -21,7 +21,7 @@ SPACING = 0.02  # metres between the points of a route, at most
 
 
 @dataclass(frozen=True)
-class Wishes:
+class PathRequest:
     """What a walk is asked for beside the path.
 
     In the paper: [KGP02, labels].
@@ -32,8 +32,8 @@ class Wishes:
         [(0, "walk"), (6, "sneak"), (9, "")]; "" is any kind.
     times : (metres, seconds): when to pass a place on the path; between two places the pace is steady.
     start : the node to start at; by default the best one.
-    slide : the share of the distance to the point of the path abreast of the body by which s moves after each
-        hop; 0 keeps s the arc length, as in [KGP02, Eq. 9].
+    correction : the fraction of the distance to the point of the path abreast of the body by which s moves
+        after each macro-edge; 0 keeps s the arc length, as in [KGP02, Eq. 9].
     others : tracks of others on the ground, shape (T, 2) each, one row per frame; each stays at its end.
     apart : metres to keep away from them.
 
@@ -41,7 +41,7 @@ class Wishes:
     --------
     Sneak from 6 m along the path on, and pass 8 m at 10 s:
 
-    >>> Wishes(labels=[(6, "sneak")], times=[(0, 0), (8, 10)]).apart
+    >>> PathRequest(labels=[(6, "sneak")], times=[(0, 0), (8, 10)]).apart
     0.8
 
     Notebook: 08-path-synthesis
@@ -50,7 +50,7 @@ class Wishes:
     labels: Sequence[tuple[float, str]] = ()
     times: Sequence[tuple[float, float]] = ()
     start: Node | None = None
-    slide: float = 0.5
+    correction: float = 0.5
     others: Sequence[Array] = ()  # reads: name: users give it as a keyword
     apart: float = 0.8  # reads: name: users give it as a keyword
 
@@ -73,7 +73,7 @@ class Settings:
     bend : of walks that are laid on the path: times the square of the radians per second by which a frame is
         turned beyond what it turns itself.
     width : walks that stay in each layer; by default 100, or 50 where the path is the only wish.
-    alike : walks at one node, in one cell of so many metres and so many radians, stand alike.
+    cell : walks at one node, in one cell of so many metres and so many radians, stand alike.
     rescue : the largest expected cost of a walk that is about to leave the path, m².
     tries : the largest number of searches; 1 for one search with this width and these prices.
     progress : wraps the layers, to show a bar.
@@ -99,7 +99,7 @@ class Settings:
     crowding: float = 1.0
     bend: float = 0.05
     width: int | None = None
-    alike: float = 0.1
+    cell: float = 0.1
     rescue: float = 1.5
     tries: int = 3
     progress: Progress = iter
@@ -120,9 +120,9 @@ class Route:
     spacing : metres of path from point to point.
     label : shape (n,), the number of the label asked for, -1 for any.
     clock : shape (n,), the time to be there, seconds; nan for any time.
-    wishes : the wishes.
+    request : what is asked for along the path.
     others : shape (K, T), where K others are in each frame.
-    own, turns : if walks are bent onto the path, the smooth paths of their clips, from `smooth_graph`.
+    smooth, rotations : if walks are bent onto the path, the smooth paths of their clips, from `smooth_graph`.
     curvature : shape (n,), there, how the path bends at each point, radians per metre.
 
     Examples
@@ -136,11 +136,11 @@ class Route:
     spacing: float
     label: Indices
     clock: Array
-    wishes: Wishes = field(default_factory=Wishes)
-    # reads: name: as in `Wishes`
+    request: PathRequest = field(default_factory=PathRequest)
+    # reads: name: as in `PathRequest`
     others: Points = field(default_factory=lambda: np.empty((0, 1), complex))
-    own: CompiledGraph | None = None  # reads: name: public, and goes with the next renaming
-    turns: Array = field(default_factory=lambda: np.zeros(0))
+    smooth: CompiledGraph | None = None
+    rotations: Array = field(default_factory=lambda: np.zeros(0))
     curvature: Array = field(default_factory=lambda: np.zeros(0))
 
     @property
@@ -173,7 +173,7 @@ class Route:
         return not len(self.others) and bool((self.label < 0).all() and np.isnan(self.clock).all())
 
 
-def make_route(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Route:
+def make_route(graph: CompiledGraph, path: GroundPath, request: PathRequest) -> Route:
     """Lay out a path and the wishes along it as a route.
 
     Raises
@@ -186,7 +186,7 @@ def make_route(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Route:
     >>> from mocap import body, datasets, graphs
     >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
     >>> graph = graphs.compile_graph(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
-    >>> route = make_route(graph, GroundPath([[0, 0], [0, 6]]), Wishes(labels=[(4, "walk")]))
+    >>> route = make_route(graph, GroundPath([[0, 0], [0, 6]]), PathRequest(labels=[(4, "walk")]))
     >>> route.label[route.point(np.array([3.9, 4.1]))].tolist()
     [-1, 0]
     """
@@ -194,26 +194,26 @@ def make_route(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Route:
     if path.length > 3600 * fastest:
         hour = f"takes these clips more than an hour, at {fastest:.2f} m/s at most"
         raise MocapError(f"A path of {path.length:.0f} m {hour}: is it in metres, and do they walk?")
-    for place, wish in (*wishes.labels, *wishes.times):
+    for place, wish in (*request.labels, *request.times):
         if not 0 <= place <= path.length:
             raise MocapError(f"'{wish}' is asked for {place} m along a path of {path.length:.1f} m.")
     points = path.resampled(SPACING).points
     along = np.linspace(0, path.length, len(points))
     label = np.full(len(points), -1)
-    for start, name in sorted(wishes.labels):
+    for start, name in sorted(request.labels):
         label[along >= start - 1e-9] = graph.label_number(name)
     # The tracks of others, as long as the longest; others stay at their end.
-    frames = np.arange(max(map(len, wishes.others), default=1))
-    tracks = [on_ground(track[np.minimum(frames, len(track) - 1)]) for track in wishes.others]
+    frames = np.arange(max(map(len, request.others), default=1))
+    tracks = [on_ground(track[np.minimum(frames, len(track) - 1)]) for track in request.others]
     together = np.array(tracks, complex).reshape(-1, len(frames))
-    return Route(on_ground(points), float(along[1]), label, _clock(along, wishes), wishes, together)
+    return Route(on_ground(points), float(along[1]), label, _clock(along, request), request, together)
 
 
-def _clock(along: Array, wishes: Wishes) -> Array:
+def _clock(along: Array, request: PathRequest) -> Array:
     """Interpolate the times asked for; nan (any time) before the first and after the last."""
-    if not wishes.times:
+    if not request.times:
         return np.full(len(along), np.nan)
-    places, times = np.array(sorted(wishes.times), float).T
+    places, times = np.array(sorted(request.times), float).T
     if not (np.isfinite(times).all() and times.min() >= 0 and (np.diff(times) > 0).all()):
         raise MocapError(f"Times must grow along the path from 0 s on, got {times.tolist()}.")
     if (np.diff(places) <= 0).any():

@@ -2,7 +2,8 @@
 
 1. Of the walks in a layer that stand alike, only the best one stays (dominance).
 2. Of these, only the `width` best stay (the beam).
-3. Each of them is lengthened by every hop that leaves its node, and put into the layer that it reaches.
+3. Each of them is lengthened by every macro-edge that leaves its node, and put into the layer that it
+reaches.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from mocap._shared.ties import first_least
 from mocap.body.planar import on_ground
 from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import AHEAD, LEAST, CompiledGraph
-from mocap.steering.layered_search import EQUAL, LayeredSearch, States, hop_states, standing
+from mocap.steering.layered_search import EQUAL, LayeredSearch, States, macro_edge_states, standing
 from mocap.steering.path_objective import Route, Settings
 
 LAYER = 0.15  # metres of path
@@ -90,7 +91,7 @@ def find_walk(
 
 
 class PathSearch(LayeredSearch):
-    """A search along a route, with H hops of T frames together and N nodes.
+    """A search along a route, with H macro-edges of T frames together and N nodes.
 
     Parameters
     ----------
@@ -105,80 +106,81 @@ class PathSearch(LayeredSearch):
         self.route = route
         self.settings = settings
         # Metres by which each frame of all edges moves on (T,).
-        if route.own or route.label[0] >= 0:
+        if route.smooth or route.label[0] >= 0:
             self.first = len(starts.node)  # all cost the same before they turn, or miss a label
-        if route.own:
-            self.progress = np.maximum(route.own.step, CREEP / graph.fps)
+        if route.smooth:
+            self.progress = np.maximum(route.smooth.step, CREEP / graph.fps)
         else:
             self.progress = graph.progress
-        hops = graph.hops
+        macro_edges = graph.macro_edges
         cumulated = np.concatenate([[0.0], np.cumsum(self.progress)])
-        length = (cumulated[hops.starts + hops.counts] - cumulated[hops.starts]).sum(axis=1)  # (H,)
+        stops = macro_edges.starts + macro_edges.counts
+        length = (cumulated[stops] - cumulated[macro_edges.starts]).sum(axis=1)  # (H,)
         price = np.where(graph.blended, settings.seam + settings.match * graph.cost**2, 0.0)
-        self.hops = hop_states(graph, length, price)
+        self.macro_edges = macro_edge_states(graph, length, price)
         # Metres from each node in the next `AHEAD` seconds (N, 3).
         self.ahead = np.cumsum(np.abs(np.diff(graph.ahead, axis=1, prepend=graph.at[:, None])), axis=1)
 
     def line(self, states: States) -> Points:
-        """Return the positions on the ground that the first of some walks has passed, one for each hop."""
+        """Return the ground positions that the first of some walks has passed, one for each macro-edge."""
         steps = self.trace(states, 0)
         return np.asarray(steps.translation + steps.rotation * self.graph.at[steps.node])
 
     def expand(self, states: States) -> States:
-        """Lengthen every walk by every hop that leaves its node.
+        """Lengthen every walk by every macro-edge that leaves its node.
 
         The cost of an edge is that of [KGP02, Eq. 9], g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖², plus the
-        prices. One departure from the paper: after each hop s moves half-way to the point of the path
+        prices. One departure from the paper: after each macro-edge s moves half-way to the point of the path
         abreast of the body, so that a walk which cuts a corner need not walk the metres that it saved; but
-        it moves on by γ in each frame, unless times are asked for. `Wishes.slide` is the share of that
-        distance. Walks that are laid on the path stay on it.
+        it moves on by γ in each frame, unless times are asked for. `PathRequest.correction` is the fraction
+        of that distance. Walks that are laid on the path stay on it.
         """
         route = self.route
-        row, hop = self.graph.hops.leaving(states.node)
-        hops = self.hops.take(hop)
-        cost = hops.cost + self.hop_costs(states, row, hop)
-        longer = states.then(row, hops._replace(cost=cost))
+        row, macro_edge = self.graph.macro_edges.leaving(states.node)
+        macro_edges = self.macro_edges.take(macro_edge)
+        cost = macro_edges.cost + self.macro_edge_costs(states, row, macro_edge)
+        longer = states.then(row, macro_edges._replace(cost=cost))
         root = self.graph.at[longer.node]
         point = route.point(longer.along)
         direction = route.directions[point]
         is_timed = np.isfinite(route.clock).any()
-        if route.own:
-            rotation = np.exp(-1j * route.own.going[longer.node]) * direction
+        if route.smooth:
+            rotation = np.exp(-1j * route.smooth.going[longer.node]) * direction
             longer = longer._replace(rotation=rotation, translation=route.at(longer.along) - rotation * root)
             in_time = longer.frames <= (longer.along / SLOWEST + GRACE) * self.graph.fps
             return longer.take(in_time | is_timed)
         error = longer.translation + longer.rotation * root - route.points[point]
-        abreast = np.clip((error * direction.conj()).real, -hops.along, hops.along)
-        least_progress = np.where(is_timed, 0.0, LEAST / self.graph.fps * hops.frames)
-        progress = np.maximum(hops.along + route.wishes.slide * abreast, least_progress)
+        abreast = np.clip((error * direction.conj()).real, -macro_edges.along, macro_edges.along)
+        least_progress = np.where(is_timed, 0.0, LEAST / self.graph.fps * macro_edges.frames)
+        progress = np.maximum(macro_edges.along + route.request.correction * abreast, least_progress)
         return longer._replace(along=states.along[row] + progress)
 
-    def frames_along(self, hop: Indices, start: Array) -> tuple[Indices, Indices, Array]:
-        """List the frames that n hops play: their rows, which hop each belongs to, and metres along the path.
+    def frames_along(self, macro_edge: Indices, start: Array) -> tuple[Indices, Indices, Array]:
+        """List the frames that n macro-edges play: their rows, macro-edges, and metres along the path.
 
-        `start` (n,) are the metres along the path at which each of the hops begins.
+        `start` (n,) are the metres along the path at which each of the macro-edges begins.
         """
-        row, number = self.graph.hops.rows(hop)
+        row, number = self.graph.macro_edges.rows(macro_edge)
         along = np.cumsum(self.progress[row])
-        ends = along[np.cumsum(self.graph.hops.frames[hop]) - 1]
-        return row, number, along + (start - ends + self.hops.along[hop])[number]
+        ends = along[np.cumsum(self.graph.macro_edges.frames[macro_edge]) - 1]
+        return row, number, along + (start - ends + self.macro_edges.along[macro_edge])[number]
 
-    def hop_costs(self, states: States, chosen: Indices, hop: Indices) -> Array:
-        """Sum the costs of the frames of n hops (n,), which the walks `states.take(chosen)` take.
+    def macro_edge_costs(self, states: States, chosen: Indices, macro_edge: Indices) -> Array:
+        """Sum the costs of the frames of n macro-edges (n,), which the walks `states.take(chosen)` take.
 
         They are the distance from the path, or what it costs to bend the walk, and missed wishes.
         """
         graph = self.graph
         route = self.route
         prices = self.settings
-        if not len(hop):
+        if not len(macro_edge):
             return np.empty(0)
-        row, number, along = self.frames_along(hop, states.along[chosen])
+        row, number, along = self.frames_along(macro_edge, states.along[chosen])
         walk = chosen[number]
-        first = np.cumsum(graph.hops.frames[hop]) - graph.hops.frames[hop]
+        first = np.cumsum(graph.macro_edges.frames[macro_edge]) - graph.macro_edges.frames[macro_edge]
         body = states.translation[walk] + states.rotation[walk] * graph.ground[row]
-        if route.own:
-            costs = self._bending_costs(route.own, row, along)
+        if route.smooth:
+            costs = self._bending_costs(route.smooth, row, along)
         else:
             costs = _square(body - route.at(along))
             costs += prices.stray * costs**2
@@ -198,7 +200,7 @@ class PathSearch(LayeredSearch):
     def _bending_costs(self, unbent: CompiledGraph, row: Indices, along: Array) -> Array:
         """Compute the costs of frames that are turned beyond what they turn themselves, or hardly move on."""
         step = unbent.step[row]
-        bend = self.route.curvature[self.route.point(along)] * step - self.route.turns[row]  # radians
+        bend = self.route.curvature[self.route.point(along)] * step - self.route.rotations[row]  # radians
         costs = self.settings.bend * (bend * self.graph.fps) ** 2
         costs += np.where(step < LEAST / self.graph.fps, IDLE, 0.0)
         return costs
@@ -208,7 +210,7 @@ class PathSearch(LayeredSearch):
         cost = np.zeros(body.shape)
         for track in self.route.others:
             distance = np.abs(body - track[np.minimum(frame, len(track) - 1)])
-            shortfall = self.route.wishes.apart - distance
+            shortfall = self.route.request.apart - distance
             cost += self.settings.crowding * np.maximum(shortfall, 0.0) ** 2
         return cost
 
@@ -223,7 +225,7 @@ class PathSearch(LayeredSearch):
         node = states.node
         line = route.points[route.point(states.along[:, None] + self.ahead[node])]
         if_played = states.translation[:, None] + states.rotation[:, None] * graph.ahead[node]
-        ahead = line if route.own else if_played
+        ahead = line if route.smooth else if_played
         costs = _square(ahead - line)
         if len(route.others):  # to give way takes longer: look up to three times as far
             body = states.translation + states.rotation * graph.at[node]
@@ -236,7 +238,7 @@ class PathSearch(LayeredSearch):
 
     def cells(self, states: States) -> Indices:
         """Return the node, cells of the ground and of directions and, among others, the time."""
-        alike = standing(states, self.graph.at, self.settings.alike, self.settings.alike)
+        alike = standing(states, self.graph.at, self.settings.cell, self.settings.cell)
         time = np.zeros(len(states.node), np.intp)
         if len(self.route.others):
             time = (states.frames * (CLOCK / self.graph.fps)).astype(np.intp)
@@ -254,7 +256,7 @@ class PathSearch(LayeredSearch):
     def best_walk(self, stopped: str) -> Found:
         """Return the best walk; if none has arrived, the one of the last layer with the lowest cost."""
         if not self.arrived and not stopped:
-            if self.route.own:
+            if self.route.smooth:
                 raise too_slow(self.graph)
             reached = max(float(states.along.max()) for states in self.history)
             raise NoWalk(f"Every walk ends after {reached:.1f} m of the path: prune the graph first.")
@@ -263,9 +265,9 @@ class PathSearch(LayeredSearch):
             raise NoWalk(f"The search was {stopped} before its first step{remedy}.")
         last = States.join(self.arrived or self.history[-1:])
         walk = self.trace(last, int(first_least(last.cost, EQUAL)))
-        hops = walk.hop[1:]
-        edges = self.graph.hops.edges(hops)
-        _, _, along = self.frames_along(hops, walk.along[:-1])
+        macro_edges = walk.macro_edge[1:]
+        edges = self.graph.macro_edges.edges(macro_edges)
+        _, _, along = self.frames_along(macro_edges, walk.along[:-1])
         rotation = complex(walk.rotation[0])
         translation = complex(walk.translation[0])
         cost = float(walk.cost[-1])

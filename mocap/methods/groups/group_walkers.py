@@ -17,7 +17,7 @@ from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.methods.groups.flocking import RATE, Configuration, nearest_two
 from mocap.steering.path_following import follow_path
-from mocap.steering.path_objective import Settings, Wishes
+from mocap.steering.path_objective import PathRequest, Settings
 from mocap.synthesis.walk_to_motion import with_plants
 
 LATE = 1.0  # m² per s² of delay
@@ -146,7 +146,7 @@ def _walk_one(graph: CompiledGraph, trajectory: Points, *, bend: bool) -> tuple[
     times = [(float(along[frame]), float(frame / RATE)) for frame in timed]
     # A walk that is bent onto its path afterwards needs no thorough search.
     settings = Settings(late=LATE, width=NARROW if bend else None, tries=1 if bend else 3)
-    walk = follow_path(graph, path, Wishes(times=times), settings=settings).motion()
+    walk = follow_path(graph, path, PathRequest(times=times), settings=settings).motion()
     walk = walk[: round((len(trajectory) - 1) / RATE * graph.fps) + 1]
     if bend:
         seconds = np.arange(len(walk)) / graph.fps

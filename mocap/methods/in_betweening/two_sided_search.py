@@ -4,9 +4,10 @@ A search from one side finds many walks that pass near the end and few that end 
 grow from both sides. Every node at which one of each kind ends joins two of them: n walks from each side give
 up to n² walks. This is the bidirectional search of I. Pohl (1971) with beams for its two fronts.
 
-The walks are `States`: `along` is their length in metres, and `hop` the edge of their last step. Positions
-are in the world: p ↦ rotation · p + translation transforms the clip of a walk's last node. If walk a from the
-start meets walk b from the end, b's clip should have the transform of a's. The difference remains to be bent.
+The walks are `States`: `along` is their length in metres, and `macro_edge` the edge of their last step.
+Positions are in the world: p ↦ rotation · p + translation transforms the clip of a walk's last node. If walk
+a from the start meets walk b from the end, b's clip should have the transform of a's. The difference remains
+to be bent.
 
 The steps are `States` as well, walks of one edge each. Their points are the N nodes of the graph, then the K
 frames similar to the start, points N to N + K - 1, and then those similar to the end.
@@ -232,7 +233,7 @@ class TwoSided:
     def join(self, forward: States, backward: States) -> Joined:
         """List the edges of two walks that meet."""
         graph = self.graph
-        edges = np.concatenate([forward.hop[1:], backward.hop[:0:-1]])
+        edges = np.concatenate([forward.macro_edge[1:], backward.macro_edge[:0:-1]])
         point = int(backward.node[0])
         start = int(forward.node[0]) - len(graph.nodes)
         end = point - len(graph.nodes) - len(self.starts.distance)
@@ -334,7 +335,7 @@ class _Parts(NamedTuple):
 def steps_between(graph: CompiledGraph, starts: Candidates, ends: Candidates) -> States:
     """List all edges of a graph as steps, with those from each start to the next node, and to each end.
 
-    Each is a walk of one step from the point `trail` to the point `node`, along the edge `hop`.
+    Each is a walk of one step from the point `trail` to the point `node`, along the edge `macro_edge`.
     """
     number = {node: n for n, node in enumerate(graph.nodes)}
     origin = np.array([number[edge[0]] for edge in graph.edges])
