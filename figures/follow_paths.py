@@ -74,7 +74,7 @@ def timed(work: Callable[[], Followed], runs: int = 3) -> tuple[Followed, float]
 def row(name: str, followed: Followed, seconds: float) -> str:
     """Write a row of the table."""
     usual, motions = spread(followed.graph.clips), [followed.motion(clean=clean) for clean in (False, True)]
-    slides = [seam_quality(motion, (0, len(motion)), usual).slide for motion in motions]
+    slides = [seam_quality(motion, (0, len(motion)), usual).foot_sliding for motion in motions]
     return (
         f"| {name} | {followed.path.length:.1f} | {followed.seconds:.1f} "
         f"| {100 * followed.off.mean():.1f} | {100 * followed.off.max():.1f} "

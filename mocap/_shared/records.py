@@ -31,10 +31,10 @@ def one_line(record: Any) -> str:  # noqa: ANN401
     --------
     >>> from typing import NamedTuple
     >>> class Walked(NamedTuple):
-    ...     places: object
+    ...     positions: object
     ...     seconds: float
     >>> one_line(Walked(np.zeros((471, 3)), 3.9))
-    'Walked(places=<array (471, 3)>, seconds=3.9)'
+    'Walked(positions=<array (471, 3)>, seconds=3.9)'
     """
     values = {name: getattr(record, name) for name in _field_names(record)}
     parts = {name: _brief(value) for name, value in values.items()}

@@ -270,12 +270,12 @@ def checked(weights: ArrayLike, count: int) -> Array:
     return w
 
 
-def clock_speed(slopes: ArrayLike, weights: ArrayLike, pace: str = "durations") -> Array:
-    """Compute the speed of the common clock, du/dt, from the slopes of the clips' curves [KG03, clock].
+def clock_speed(derivatives: ArrayLike, weights: ArrayLike, pace: str = "durations") -> Array:
+    """Compute the speed of the common clock, du/dt, from the derivatives of the clips' curves [KG03, clock].
 
     Parameters
     ----------
-    slopes : shape (C,), or (C, N) for N times.
+    derivatives : shape (C,), or (C, N) for N times.
     weights : shape (C,).
     pace : as for `frame_times`.
 
@@ -292,7 +292,7 @@ def clock_speed(slopes: ArrayLike, weights: ArrayLike, pace: str = "durations") 
     >>> float(clock_speed([1, 2], [0.5, 0.5]).round(4)), float(clock_speed([1, 2], [0.5, 0.5], "rates"))
     (0.6667, 0.75)
     """
-    s = np.asarray(slopes, float)
+    s = np.asarray(derivatives, float)
     w = np.asarray(weights, float)
     if pace not in PACES:
         raise MocapError(f"No pace '{pace}'; there are: {', '.join(PACES)}.")

@@ -17,9 +17,9 @@ from mocap.cli.options import (
     Sources,
     Unit,
     bar,
-    require_place,
-    tell,
-    tell_of_failures,
+    print_rows,
+    report_failures,
+    require_output,
     timed_stage,
 )
 from mocap.errors import MocapError, printable
@@ -64,11 +64,11 @@ def view(clip: Path, *, out: Path | None = None, reading: Reading) -> None:
     import webbrowser  # it takes a while
 
     if out:
-        require_place(out)
+        require_output(out)
     motion = reading.load(clip)
     page = out or Path(tempfile.mkdtemp(prefix="mocap-"), f"{clip.stem}.html")
     widgets.save_animation(motion, page, progress=bar("drawing"))
-    tell(wrote=page)
+    print_rows(wrote=page)
     if not out and not webbrowser.open(page.as_uri()):
         print("mocap: no browser opened; open that page yourself.", file=sys.stderr)
 
@@ -85,7 +85,7 @@ def judge(
     """Measure motions, whatever made them, and rank them.
 
     Measure motions, whatever program made them, and list the best first: jolts, trembling, feet that sink,
-    float, slide or skate, joints that bend or turn too far, bones that change their length, a body of another
+    float or slide, joints that bend or turn too far, bones that change their length, a body of another
     size than people's, and how far from a path. Each number is a share of its limit; above 1 it stands out
     beyond what captured people do. Whether a motion is the one that was wanted, or looks alive, it cannot
     see.
@@ -143,8 +143,8 @@ def convert(source: Path, target: Path, *, reading: Reading, to: Literal["bvh", 
     """
     pairs = conversion.plan(source, target, f".{to}")
     failed = conversion.convert(pairs, reading.load_any, progress=bar("converting"))
-    place = f" to {target}" if not source.is_dir() else f" to .{to}, in {target}"
-    return tell_of_failures("converted", len(pairs), failed, place)
+    where_to = f" to {target}" if not source.is_dir() else f" to .{to}, in {target}"
+    return report_failures("converted", len(pairs), failed, where_to)
 
 
 def find(
@@ -187,13 +187,13 @@ def find(
         seconds = (match.stop - match.start) / clip.fps
         place = f"{printable(clip.name):<20} {f'{match.start}-{match.stop}':>13}"
         print(f"{place} {seconds:>8.2f} {100 * match.cost:>5.1f} {match.generation:>5}")
-    tell(found=f"{len(shown)} in {len({match.clip for match in shown})} clips")
+    print_rows(found=f"{len(shown)} in {len({match.clip for match in shown})} clips")
     if out:
         make_folder(out)
         for match in bar("writing")(shown):
             name = f"{motions[match.clip].name}_{match.start}-{match.stop}.bvh"
             files.save(match_webs.cut_out(web, match), out / name)
-        tell(wrote=f"{len(shown)} files to {out}")
+        print_rows(wrote=f"{len(shown)} files to {out}")
 
 
 def _query(text: str) -> tuple[Path, slice]:

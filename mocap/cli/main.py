@@ -23,7 +23,7 @@ from mocap.cli.data import DATA
 from mocap.cli.edits import bend, blend, loop, retarget, warp
 from mocap.cli.graph import GRAPH, demo
 from mocap.cli.in_betweens import inbetween
-from mocap.cli.messages import VERBOSITY, Verbosity, note, say, saying
+from mocap.cli.messages import VERBOSITY, Verbosity, at_verbosity, note, report
 from mocap.cli.options import named_options, retargeting_advised
 from mocap.cli.streams import PatientOutput, prepared_streams
 from mocap.cli.typed_commands import Commands, Group, make_root, option_names
@@ -188,7 +188,7 @@ def _run(words: Sequence[str]) -> int:
     chosen = dict(chain.from_iterable(named.items() for named in COMMANDS.values()))[ordered[0]]
     if isinstance(chosen, Group):
         refusals.require_meant(ordered[1:], ordered[0], [*chosen.commands])
-    with _sigterm_as_ctrl_c(), saying(_take_verbosity(bound)), warnings.catch_warnings():
+    with _sigterm_as_ctrl_c(), at_verbosity(_take_verbosity(bound)), warnings.catch_warnings():
         if VERBOSITY.get().quiet:
             warnings.simplefilter("ignore", MocapWarning)
         else:
@@ -209,7 +209,7 @@ def _take_verbosity(bound: BoundArguments) -> Verbosity:
 
 def _show_warning(message: Warning | str, *_place: object, **_options: object) -> None:
     """Write a warning as one line."""
-    say(message)
+    report(message)
 
 
 def _tell(error: BaseException, *, debug: bool) -> int:
@@ -219,17 +219,19 @@ def _tell(error: BaseException, *, debug: bool) -> int:
     if debug:
         traceback.print_exception(error)
     if isinstance(error, KeyboardInterrupt):
-        say(" ".join(["interrupted; no half-written file is left.", *getattr(error, "__notes__", [])]))
+        report(" ".join(["interrupted; no half-written file is left.", *getattr(error, "__notes__", [])]))
         return INTERRUPTED
     if isinstance(error, MocapError | OSError):  # of the system: such as a name that is too long
-        say(error)
+        report(error)
         return REFUSED
     if isinstance(error, MemoryError):
-        say("out of memory: try fewer or shorter clips, or a lower frame rate (--debug shows where it was).")
+        report(
+            "out of memory: try fewer or shorter clips, or a lower frame rate (--debug shows where it was)."
+        )
         return UNEXPECTED
     kind = type(error).__name__
     shown = shortened(f"{error}", 80) or "no further text"
-    say(f"unexpected {kind}: {shown}. This is a bug; the same with --debug shows where.")
+    report(f"unexpected {kind}: {shown}. This is a bug; the same with --debug shows where.")
     return UNEXPECTED
 
 

@@ -39,7 +39,7 @@ VERBOSITY = ContextVar("VERBOSITY", default=NORMAL)
 
 
 @contextmanager
-def saying(verbosity: Verbosity) -> Iterator[None]:
+def at_verbosity(verbosity: Verbosity) -> Iterator[None]:
     """Set how much is said in a `with` block."""
     token = VERBOSITY.set(verbosity)
     try:
@@ -48,7 +48,7 @@ def saying(verbosity: Verbosity) -> Iterator[None]:
         VERBOSITY.reset(token)
 
 
-def say(message: object) -> None:
+def report(message: object) -> None:
     """Write one line: names hold no line ends there, and are not endless."""
     text = re.sub(rf"\S{{{LONGEST_WORD},}}", lambda word: shortened(word[0]), printable(message))
     print(f"mocap: {text}", file=sys.stderr)
@@ -57,4 +57,4 @@ def say(message: object) -> None:
 def note(message: str) -> None:
     """Write a line with `-v` only."""
     if VERBOSITY.get().verbose:
-        say(message)
+        report(message)

@@ -48,12 +48,12 @@ class Listing(NamedTuple):
     megabytes: int | None = None
     sha256: str | None = None
 
-    def place(self) -> str:
+    def name(self) -> str:
         """Return the server and the name of the file, for messages.
 
         Examples
         --------
-        >>> Listing("https://example.org/sets/2022/walks.zip").place()
+        >>> Listing("https://example.org/sets/2022/walks.zip").name()
         'example.org/.../walks.zip'
         """
         parts = urlsplit(self.url)
@@ -94,7 +94,7 @@ def download(listing: Listing, target: Path, progress: Progress = iter) -> str:
             if listing.sha256 not in (None, digest):
                 part.drop()
                 raise MocapError(
-                    f"{listing.place()} is not the file listed: its checksum differs. Nothing of it is kept; "
+                    f"{listing.name()} is not the file listed: its checksum differs. Nothing of it is kept; "
                     f"try again later, or get the set from its authors."
                 )
             part.finish()
@@ -121,7 +121,7 @@ def _receive(listing: Listing, part: Part, progress: Progress) -> None:
         status = getattr(error.response, "status_code", None)
         if failures == len(PAUSES) or status in FINAL:
             happened = f"answers {status}" if status else "breaks off or does not answer"
-            raise MocapError(f"{listing.place()} {happened}. {part.advice()}") from error
+            raise MocapError(f"{listing.name()} {happened}. {part.advice()}") from error
         time.sleep(PAUSES[failures])
         failures += 1
 
@@ -135,7 +135,7 @@ def _try_request(listing: Listing, part: Part, progress: Progress) -> RequestExc
         _request(listing, part, progress)
     except (InvalidSchema, InvalidURL, TooManyRedirects) as error:
         raise MocapError(
-            f"{listing.place()} leads to an address that is not safe to download from: get the set from its "
+            f"{listing.name()} leads to an address that is not safe to download from: get the set from its "
             f"authors."
         ) from error
     except RequestException as error:
@@ -227,7 +227,7 @@ def _require_size(listing: Listing, part: Part, length: int | None, size: int) -
         return
     if listing.megabytes is not None and abs(length - listing.megabytes * MEGABYTE) > ROUNDING * MEGABYTE:
         raise MocapError(
-            f"{listing.place()} has {length / MEGABYTE:.0f} MB, and {listing.megabytes} MB are listed: it is "
+            f"{listing.name()} has {length / MEGABYTE:.0f} MB, and {listing.megabytes} MB are listed: it is "
             f"another file. Try again later, or get the set from its authors."
         )
     _require_bound(listing, length)
@@ -239,7 +239,7 @@ def _require_bound(listing: Listing, size: int) -> None:
     bound = LARGEST if listing.megabytes is None else listing.megabytes + ROUNDING
     if size > bound * MEGABYTE:
         raise MocapError(
-            f"{listing.place()} has more than {bound} MB, so it is another file, and nothing of it is kept: "
+            f"{listing.name()} has more than {bound} MB, so it is another file, and nothing of it is kept: "
             f"get the set from its authors."
         )
 

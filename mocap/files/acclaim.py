@@ -46,7 +46,7 @@ def read(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None) ->
     FormatError : with the line that breaks the format or does not fit the skeleton.
     """
     numbers, unit, rate = _read_frames(path, asf)
-    angles = {name: unit * block[:, asf.bones[name].turns] for name, block in numbers.items()}
+    angles = {name: unit * block[:, asf.bones[name].rotation_dofs] for name, block in numbers.items()}
     frames = len(numbers["root"])
     check_room(path, frames * len(asf.skeleton), sum(block.size for block in numbers.values()))
     local = np.tile(rotations.IDENTITY, (frames, len(asf.skeleton), 1))
@@ -67,7 +67,7 @@ def read(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None) ->
 def _local_rotations(bone: Bone, angles: Array, *, is_root: bool) -> Array:
     """Compute rotations in the parent's frame, (F, 4), from angles (F, dofs) in degrees of its bone."""
     rotation = np.tile(rotations.IDENTITY, (len(angles), 1))  # M
-    if bone.turns:
+    if bone.rotation_dofs:
         rotation = euler.from_euler(bone.order, np.radians(angles))
     if is_root:
         return rotations.multiply(rotation, bone.axis)  # M O

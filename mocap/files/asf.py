@@ -41,14 +41,14 @@ class Bone(NamedTuple):
     dofs: tuple[str, ...]
 
     @property
-    def turns(self) -> list[int]:
+    def rotation_dofs(self) -> list[int]:
         """The indices of its dofs that are rotations."""
-        return [place for place, dof in enumerate(self.dofs) if dof in TURNS]
+        return [index for index, dof in enumerate(self.dofs) if dof in TURNS]
 
     @property
     def order(self) -> str:
         """The axes of its rotations, in their order."""
-        return "".join(self.dofs[place][1] for place in self.turns)
+        return "".join(self.dofs[index][1] for index in self.rotation_dofs)
 
 
 class AcclaimSkeleton(NamedTuple):

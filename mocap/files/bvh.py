@@ -215,7 +215,7 @@ def _rigid(
 
 
 def write(
-    pieces: Iterable[Motion], path: str | Path, *, frames: int, turns: NDArray[np.bool_], precision: int = 6
+    pieces: Iterable[Motion], path: str | Path, *, frames: int, rotates: NDArray[np.bool_], precision: int = 6
 ) -> None:
     """Write a BVH file of consecutive motions, in centimetres, with one of them in memory at a time.
 
@@ -228,7 +228,7 @@ def write(
     pieces : motions of one skeleton and rate, with `frames` frames together.
     path : the file; one that exists is replaced when the new one is whole.
     frames : the count in the file's header.
-    turns : shape (J,), which joints ever rotate, as by `body.motion.turning`.
+    rotates : shape (J,), which joints ever rotate, as by `body.motion.turning`.
     precision : digits after the point; 6 keep joints to 1e-7 m.
 
     Raises
@@ -242,7 +242,7 @@ def write(
         name = shortened(first.name)
         raise MocapError(f"'{name}' at {first.fps:g} Hz does not fit a BVH file: resample it first.")
     offsets = np.round(first.skeleton.offsets / SCALE, precision) + 0.0  # no -0.000000
-    hierarchy, order = write_hierarchy(first.skeleton, offsets, turns, precision)
+    hierarchy, order = write_hierarchy(first.skeleton, offsets, rotates, precision)
     previous = np.empty((0, len(order), 3))  # angles of the last frame of the motion before
     with replacing(path) as unfinished, unfinished.open("w", encoding="utf-8", newline="\n") as file:
         file.write(f"{hierarchy}MOTION\nFrames: {frames}\nFrame Time: {seconds!r}\n")

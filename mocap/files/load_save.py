@@ -168,7 +168,7 @@ def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
         raise MocapError(f"precision must be 0 to 15 digits, got {precision}.")
     match path.suffix.lower():
         case ".bvh":
-            bvh.write([motion], path, frames=len(motion), turns=turning(motion), precision=precision)
+            bvh.write([motion], path, frames=len(motion), rotates=turning(motion), precision=precision)
         case ".glb":
             write_file(path, gltf.glb(motion))
         case _:

@@ -170,13 +170,13 @@ def connect(
             graph.add_edge(node, node + 1, kind="clip", probability=0.5 if matches else 1.0)
             probability = 0.5
         costs = distances[node, matches]
-        fractions = probability * shares(costs, weighting)
+        fractions = probability * split_probability(costs, weighting)
         for match, cost, fraction in zip(matches, costs, fractions, strict=True):
             graph.add_edge(node, match, kind="transition", probability=float(fraction), cost=float(cost))
     return graph
 
 
-def shares(costs: NDArray[np.floating], weighting: str) -> Array:
+def split_probability(costs: NDArray[np.floating], weighting: str) -> Array:
     """Divide the probability 1 among matches, in proportion to D or to 1 / D.
 
     Parameters
@@ -186,8 +186,10 @@ def shares(costs: NDArray[np.floating], weighting: str) -> Array:
 
     Examples
     --------
-    >>> shares(np.array([100.0, 300.0]), "inverse"), shares(np.array([100.0, 300.0]), "distance")
-    (array([0.75, 0.25]), array([0.25, 0.75]))
+    >>> split_probability(np.array([100.0, 300.0]), "inverse")
+    array([0.75, 0.25])
+    >>> split_probability(np.array([100.0, 300.0]), "distance")
+    array([0.25, 0.75])
 
     Notebook: 05b-choice-points
     """

@@ -59,7 +59,8 @@ class ThresholdCurve(NamedTuple):
     transitions, nodes, edges : their numbers in the whole graph.
     frames : the number of frames of clip that the largest strongly connected component plays.
     cost : the mean cost of the transitions, metres; 0 without transitions.
-    gap : the mean of their `velocity_differences`, metres per second, a measure of how visible the seams are.
+    velocity_difference : the mean of their `velocity_differences`, metres per second, a measure of how
+        visible the seams are.
     """
 
     threshold: Array
@@ -68,7 +69,7 @@ class ThresholdCurve(NamedTuple):
     edges: Indices
     frames: Indices
     cost: Array
-    gap: Array
+    velocity_difference: Array
 
     def suggest(self) -> float:
         """Return the lowest threshold at which the largest component plays 90 % of its maximum of frames.
@@ -133,10 +134,10 @@ def threshold_curve(
     sizes = [_size(lengths, transitions[:count], window) for count in counts]
     nodes, frames = np.array(sizes, np.intp).reshape(-1, 2).T
     edges = counts + nodes - len(clips)  # a clip of n nodes has n - 1 stretches
-    gaps = velocity_differences(clips, transitions, window=window)
-    sums = [np.cumsum([0.0, *column])[counts] for column in (transitions.cost, gaps)]
-    cost, gap = sums / np.maximum(counts, 1)
-    return ThresholdCurve(values, counts, nodes, edges, frames, cost, gap)
+    differences = velocity_differences(clips, transitions, window=window)
+    sums = [np.cumsum([0.0, *column])[counts] for column in (transitions.cost, differences)]
+    cost, velocity_difference = sums / np.maximum(counts, 1)
+    return ThresholdCurve(values, counts, nodes, edges, frames, cost, velocity_difference)
 
 
 def _size(lengths: Indices, transitions: Transitions, window: int) -> tuple[int, int]:
@@ -175,7 +176,7 @@ def velocity_differences(clips: Sequence[Motion], transitions: Transitions, *, w
 
     Examples
     --------
-    A transition from a frame to itself has no gap:
+    A transition from a frame to itself has no difference:
 
     >>> from mocap import datasets
     >>> zero = np.zeros(1, int)
@@ -189,11 +190,11 @@ def velocity_differences(clips: Sequence[Motion], transitions: Transitions, *, w
         [velocities(point_cloud(clip), clip.fps) for clip in clips]
     )  # (F, P, 3)
     middles = np.cumsum([0, *(len(clip) for clip in clips)]) + window // 2
-    gaps = [np.zeros(0)]
+    differences = [np.zeros(0)]
     for first in range(0, len(transitions), AT_ONCE):
         batch = transitions[first : first + AT_ONCE]
         rotation = PlanarTransform(np.asarray(batch.transform.angle)[:, None], 0.0, 0.0)
         leaving = point_velocities[middles[batch.source] + batch.leave]
         entering = rotation.apply_points(point_velocities[middles[batch.target] + batch.enter])
-        gaps.append(np.sqrt(((leaving - entering) ** 2).sum(-1).mean(-1)))
-    return np.concatenate(gaps)
+        differences.append(np.sqrt(((leaving - entering) ** 2).sum(-1).mean(-1)))
+    return np.concatenate(differences)

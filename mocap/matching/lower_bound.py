@@ -166,9 +166,9 @@ def _points(
     return np.concatenate(parts, axis=1)
 
 
-def squared_length(places: Singles) -> float:
+def squared_length(projected: Singles) -> float:
     """Return the square of the longest projection, m²."""
-    return float(np.vecdot(places, places).max(initial=0))
+    return float(np.vecdot(projected, projected).max(initial=0))
 
 
 def squared_reach(cloud: Cloud, below: float, longest: float) -> float:

@@ -271,7 +271,7 @@ def _side(cloud: Cloud, windows: range, bound: Directions | None) -> Side:
 
 def _reach(cloud: Cloud, below: float, sides: Iterable[Side]) -> float:
     """Return the squared reach of the projections in the leaves of all sides."""
-    longest = max(squared_length(side.leaves.places) for side in sides if side.leaves)
+    longest = max(squared_length(side.leaves.projections) for side in sides if side.leaves)
     return squared_reach(cloud, below, longest)
 
 

@@ -34,29 +34,29 @@ class Leaves(NamedTuple):
     """Windows with their projections, leaf by leaf.
 
     windows : (n,), which windows, in the order of the leaves.
-    places : (n, d), their projections.
+    projections : (n, d), their projections.
     starts : (L + 1,), where leaves start in this order, and the end of the last one.
     low, high : (L, d), the corners of each leaf's box.
     """
 
     windows: Indices
-    places: Singles
+    projections: Singles
     starts: Indices
     low: Singles
     high: Singles
 
     def leaf(self, number: int) -> slice:
-        """Return where a leaf is in `windows` and `places`."""
+        """Return where a leaf is in `windows` and `projections`."""
         return slice(self.starts[number], self.starts[number + 1])
 
 
-def cut_into_leaves(windows: Indices, places: Singles) -> Leaves:
+def cut_into_leaves(windows: Indices, projected: Singles) -> Leaves:
     """Cut windows into leaves.
 
     Parameters
     ----------
     windows : shape (n,), their numbers.
-    places : shape (n, d), their projections.
+    projected : shape (n, d), their projections.
 
     Examples
     --------
@@ -65,26 +65,26 @@ def cut_into_leaves(windows: Indices, places: Singles) -> Leaves:
     >>> leaves.starts.tolist(), leaves.low[:, 0].tolist()
     ([0, 75, 150, 225, 300], [0.0, 75.0, 150.0, 225.0])
     """
-    parts = _halves(places, np.arange(len(windows)))
+    parts = _halves(projected, np.arange(len(windows)))
     starts = np.cumsum([0, *map(len, parts)])
     order = np.concatenate([np.empty(0, np.intp), *parts])
-    ordered = places[order]
+    ordered = projected[order]
     low = np.minimum.reduceat(ordered, starts[:-1])
     high = np.maximum.reduceat(ordered, starts[:-1])
     return Leaves(windows[order], ordered, starts, low, high)
 
 
-def _halves(places: Singles, members: Indices) -> list[Indices]:
+def _halves(projected: Singles, members: Indices) -> list[Indices]:
     """Cut members in half where they vary most, and each half again, down to leaves."""
     if len(members) <= LEAF:
         return [members] if len(members) else []
-    own_places = places[members]
-    values = own_places[:, own_places.var(axis=0).argmax()]
+    own_projected = projected[members]
+    values = own_projected[:, own_projected.var(axis=0).argmax()]
     middle = len(members) // 2
     order = np.argpartition(values, middle)
     lower = np.sort(order[:middle])  # in the order of time, for quick look-up
     upper = np.sort(order[middle:])
-    return _halves(places, members[lower]) + _halves(places, members[upper])
+    return _halves(projected, members[lower]) + _halves(projected, members[upper])
 
 
 def near_pairs(a: Leaves, b: Leaves, reach: float, *, shift: int, at_most: float) -> Indices | None:
@@ -108,11 +108,11 @@ def near_pairs(a: Leaves, b: Leaves, reach: float, *, shift: int, at_most: float
     >>> near_pairs(leaves, leaves, 1.0, shift=1, at_most=99).tolist()
     [[0, 1], [2, 3]]
     """
-    squares_a = np.vecdot(a.places, a.places)[:, None]
-    squares_b = np.vecdot(b.places, b.places)[:, None]
+    squares_a = np.vecdot(a.projections, a.projections)[:, None]
+    squares_b = np.vecdot(b.projections, b.projections)[:, None]
     # One product makes |p|² + |p'|² - 2 p p'.
-    rows = np.hstack([a.places, squares_a, np.ones_like(squares_a)])
-    columns = np.hstack([-2 * b.places, np.ones_like(squares_b), squares_b]).T.copy()
+    rows = np.hstack([a.projections, squares_a, np.ones_like(squares_a)])
+    columns = np.hstack([-2 * b.projections, np.ones_like(squares_b), squares_b]).T.copy()
     parts = [np.empty((2, 0), np.intp)]
     count = 0
     for first, second in _near_leaves(a, b, reach):
@@ -224,11 +224,11 @@ def is_sparse(cloud: Cloud, directions: Directions, below: float) -> bool:
     False
     """
     starts = sample_windows(cloud, SAMPLE)
-    places = projections(cloud, starts, directions)
-    reach = squared_reach(cloud, below, squared_length(places))
+    projected = projections(cloud, starts, directions)
+    reach = squared_reach(cloud, below, squared_length(projected))
     if not np.isfinite(reach):
         return False
-    squares = np.vecdot(places, places)
-    is_near = squares[:, None] + squares - 2 * (places @ places.T) <= reach
+    squares = np.vecdot(projected, projected)
+    is_near = squares[:, None] + squares - 2 * (projected @ projected.T) <= reach
     is_apart = np.abs(starts[:, None] - starts) >= cloud.window
     return bool(np.count_nonzero(is_near & is_apart) <= SPARSE * np.count_nonzero(is_apart))

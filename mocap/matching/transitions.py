@@ -197,20 +197,21 @@ def join_clouds(  # noqa: PLR0913 (what to join, and what each point and frame c
     clips: Sequence[Motion],
     weights: ArrayLike | None,
     window: int,
-    gap: int,
+    padding: int,
     dtype: type[np.floating[Any]],
     *,
     taper: ArrayLike | None = None,
 ) -> Cloud:
     """Put all clips one after the other; windows that would run from one into the next have infinite size.
 
-    After each clip `gap` more frames are infinite, so that no window is a neighbour of one of another clip.
+    After each clip `padding` more frames are infinite, so that no window is a neighbour of one of another
+    clip.
     """
     unit = unit_weights(weights, len(distinct_joints(clips[0].skeleton)))
     level = _checked_cloud(clips[0])[..., 1].mean(axis=0)
     clouds = []
     for clip in clips:
-        points = np.pad(_checked_cloud(clip), ((0, gap), (0, 0), (0, 0)), mode="edge")
+        points = np.pad(_checked_cloud(clip), ((0, padding), (0, 0), (0, 0)), mode="edge")
         prepared = cloud(points, level, unit, window, dtype, taper=taper)
         prepared.sizes[len(clip) - window + 1 :] = np.inf
         clouds.append(prepared)

@@ -218,12 +218,12 @@ class SeamQuality(NamedTuple):
     """The quality of a seam in two numbers, both small for a good one.
 
     `velocity_jump` is the largest jump of velocity at the seam, divided by the jump that 99.9 % of the clips'
-    windows of its length stay below: up to 1 it is as usual. `slide` is the foot sliding distance, cm: the
-    largest in each plant, the mean over the plants that the seam touches.
+    windows of its length stay below: up to 1 it is as usual. `foot_sliding` is the foot sliding distance, cm:
+    the largest in each footplant, the mean over the footplants that the seam touches.
     """
 
     velocity_jump: float
-    slide: float
+    foot_sliding: float
 
 
 def seam_quality(motion: Motion, seam: tuple[int, int], usual: Spread) -> SeamQuality:

@@ -236,6 +236,6 @@ def dump(  # noqa: PLR0913 (which walk, where to, how long, and how)
     if suffix == ".glb":
         save(concatenate(list(shown)), path)
         return sum(counts)
-    turns = np.any([turning(clip) for clip in motion_graph.clips], axis=0)
-    bvh.write(shown, path, frames=sum(counts), turns=turns)
+    rotates = np.any([turning(clip) for clip in motion_graph.clips], axis=0)
+    bvh.write(shown, path, frames=sum(counts), rotates=rotates)
     return sum(counts)

@@ -6,7 +6,7 @@
  * A character that is steered, as `steered_widget.py` packs it.
  * @typedef {PackedBody & { name: string, fps: number, colour: string }} PackedMember
  *
- * What Python tells of the frames that it has walked, as `Walked.told` in `company.py`.
+ * What Python tells of the frames that it has walked, as `Walked.report` in `company.py`.
  * @typedef {{
  *   first: number, waited: number[], obeyed: boolean[], blending: boolean[], fault: string, delays: number[],
  * }} Told

@@ -36,7 +36,7 @@ def feet(motion):
     return [joint for leg in find_legs(motion.skeleton) for joint in (leg.ankle, leg.ball)]
 
 
-def skate(motion):
+def foot_sliding_speed(motion):
     """The least ground speed of any ankle or ball, cm/s, the mean of all frames: one foot always stands."""
     ground = on_ground(joint_positions(motion)[:, feet(motion)])
     return 100 * float(np.abs(np.diff(ground, axis=0)).min(axis=1).mean()) * motion.fps

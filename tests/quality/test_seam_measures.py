@@ -37,7 +37,7 @@ def test_a_clip_s_own_frames_are_nothing_special():
     walk = generate("walk_straight")  # as stored, feet tremble by a nanometre
     inside = [seam_quality(walk, (start, start + 40), USUAL) for start in range(40, 1100, 120)]
     assert np.mean([q.velocity_jump <= 1.001 for q in inside]) > 0.9
-    assert max(q.slide for q in inside) < 1e-9
+    assert max(q.foot_sliding for q in inside) < 1e-9
 
 
 def test_a_cut_shows_and_a_blend_does_not():
@@ -50,9 +50,9 @@ def test_plants_that_touch_the_seam_slide_and_no_plants_do_not():
     drift = (np.arange(len(WALK)) / 120)[:, None] * [0.1, 0, 0]
     drifting = replace(WALK, root_positions=WALK.root_positions + drift)
     # A plant of n frames drifts by 10 cm/s · n / 120 s: at its ends it is half as far from its middle.
-    assert 1 < seam_quality(drifting, (600, 640), USUAL).slide < 5
+    assert 1 < seam_quality(drifting, (600, 640), USUAL).foot_sliding < 5
     floating = replace(WALK, contacts=dict.fromkeys(WALK.contacts, False))
-    assert seam_quality(floating, (600, 640), USUAL).slide == 0
+    assert seam_quality(floating, (600, 640), USUAL).foot_sliding == 0
 
 
 FROZEN = replace(WALK[:9], root_positions=WALK.root_positions[[0] * 9], rotations=WALK.rotations[[0] * 9])

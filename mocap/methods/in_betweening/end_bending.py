@@ -73,7 +73,7 @@ def level_rise(count: int) -> Array:
     return np.concatenate([[0.0], np.cumsum(rate) / rate.sum()])
 
 
-def bend_to(motion: Motion, frames: int, end: complex, turn: float) -> Arrived:
+def bend_to(motion: Motion, frames: int, end: complex, rotation: float) -> Arrived:
     """Play a walk in another number of frames, and bend it so that its root ends at a ground point, turned.
 
     If `MOST_TURN` and `MOST_STEPS` admit no solution, the end is missed or the turning is faster.
@@ -83,7 +83,7 @@ def bend_to(motion: Motion, frames: int, end: complex, turn: float) -> Arrived:
     motion : 2 frames or more; at both ends it keeps its own pace.
     frames : of the new motion, 2 or more.
     end : the position of its last root, z + ix, metres.
-    turn : radians by which its last frame is turned.
+    rotation : radians by which its last frame is turned.
 
     Examples
     --------
@@ -96,7 +96,7 @@ def bend_to(motion: Motion, frames: int, end: complex, turn: float) -> Arrived:
     moments = np.arange(frames) + (len(motion) - frames) * level_rise(frames)
     pace = np.diff(moments)
     motion = motion if len(motion) == frames else at_frames(motion, moments)
-    path = _BentPath(on_ground(motion.root_positions), turn, motion.fps)
+    path = _BentPath(on_ground(motion.root_positions), rotation, motion.fps)
     best = path.solve(end, limited=False)
     if np.abs(path.turned(best)).max() > MOST_TURN:
         best = path.solve(end, limited=True)

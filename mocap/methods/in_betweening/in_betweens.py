@@ -155,7 +155,7 @@ def _arriving(
     """Bend walks, and yield those that arrive within the limits, each with its cost."""
     for candidate in joined:
         walk = [graph.edges[edge] for edge in candidate.edges]
-        played = to_motion(source, walk, start=candidate.place)
+        played = to_motion(source, walk, start=candidate.transform)
         played = played[candidate.first : candidate.first + candidate.frames + 1]
         arrived = bend_to(played, frames + 1, candidate.end, candidate.angle)
         if arrived.lack <= POSE / 2 and np.abs(arrived.turned).max() <= MOST_TURN:

@@ -131,7 +131,7 @@ class Joined(NamedTuple):
     """A walk from start to end: its edges, and the frames that it plays of them.
 
     `edges`: numbers in the compiled graph; `first`: the frames of the first edge that it leaves out;
-    `frames`: from the start to the end; `place`: aligns the first clip with the start; `end`: the ground
+    `frames`: from the start to the end; `transform`: aligns the first clip with the start; `end`: the ground
     point that the last frame's root must reach; `angle`: the rotation that it needs there, radians;
     `cost`: of its seams, and of the poses at its ends.
     """
@@ -139,7 +139,7 @@ class Joined(NamedTuple):
     edges: Indices
     first: int
     frames: int
-    place: PlanarTransform
+    transform: PlanarTransform
     end: complex
     angle: float
     cost: float
@@ -240,11 +240,11 @@ class TwoSided:
         start_rotation = complex(self.starts.rotation[start])
         end_rotation = complex(self.ends.rotation[end])
         angle = float(np.angle(end_rotation / (start_rotation * np.prod(graph.rotation[edges]))))
-        place = PlanarTransform.from_complex(start_rotation, complex(self.starts.translation[start]))
+        transform = PlanarTransform.from_complex(start_rotation, complex(self.starts.translation[start]))
         target = complex(self.ends.translation[end] + end_rotation * self.roots[point])
         frames = int(forward.frames[-1] + backward.frames[-1])
         cost = float(forward.cost[-1] + backward.cost[-1])
-        return Joined(edges, int(self.starts.since[start]), frames, place, target, angle, cost)
+        return Joined(edges, int(self.starts.since[start]), frames, transform, target, angle, cost)
 
 
 def pairs_at_nodes(first: Indices, second: Indices) -> tuple[Indices, Indices]:
