@@ -39,7 +39,7 @@ from mocap.steering import (
     walk_crowd,
 )
 from mocap.steering.followed import Followed
-from mocap.synthesis.walk_to_motion import with_plants
+from mocap.synthesis.walk_to_motion import with_footplants
 
 FOLDER = Path(__file__).parent
 FREE = Settings(seam=0, match=0, width=200, tries=1)
@@ -58,7 +58,7 @@ def compiled() -> dict[str, CompiledGraph]:
 
 def _graph(clips: list[mocap.Motion]) -> graphs.MotionGraph:
     clips = [mocap.resample(clip, 30) for clip in clips]
-    return with_plants(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
+    return with_footplants(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
 
 
 def timed(work: Callable[[], Followed], runs: int = 3) -> tuple[Followed, float]:

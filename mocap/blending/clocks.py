@@ -20,19 +20,19 @@ from mocap.errors import MocapError
 SHORTEST = 0.02  # seconds of the common clock: shorter plants, and parts of plants, are dropped
 
 
-SharedPlant = tuple[str, Array]
+SharedFootplant = tuple[str, Array]
 """A plant that all C clips have: the joint, and the start and the stop of the plant in each of them, (2, C).
 
 They are seconds of the common clock.
 """
 
-Plant = tuple[float, float]
+Footplant = tuple[float, float]
 """The start and the stop of a plant, seconds of the common clock."""
 
 
 def match_contacts(
     clips: Sequence[Motion], times: Sequence[Curve], span: tuple[float, float]
-) -> tuple[SharedPlant, ...]:
+) -> tuple[SharedFootplant, ...]:
     """Match the plants of registered clips: each match has one of every clip, all at about the same time.
 
     In the paper: [KG03, constraint matches].
@@ -63,28 +63,28 @@ def match_contacts(
     joints = [joint for joint in clips[0].contacts if all(joint in clip.contacts for clip in clips)]
     matches = []
     for joint in joints:
-        plants = [_plants(clip, curve, joint, span) for clip, curve in zip(clips, times, strict=True)]
+        plants = [_footplants(clip, curve, joint, span) for clip, curve in zip(clips, times, strict=True)]
         for group in _overlapping(plants):
             matches += [(joint, frozen(match, np.float64)) for match in _split(group)]
     return tuple(matches)
 
 
-def _plants(clip: Motion, curve: Curve, joint: str, span: tuple[float, float]) -> list[Plant]:
+def _footplants(clip: Motion, curve: Curve, joint: str, span: tuple[float, float]) -> list[Footplant]:
     """List a joint's plants in a clip, cut to the span."""
     seconds = runs(clip.contacts[joint]) / clip.fps
     return _cut(curve.inverse(seconds).tolist(), *span)
 
 
-def _cut(plants: Iterable[Sequence[float]], low: float, high: float) -> list[Plant]:
+def _cut(plants: Iterable[Sequence[float]], low: float, high: float) -> list[Footplant]:
     """Cut plants to an interval, and drop those that are then too short."""
     parts = [(max(start, low), min(stop, high)) for start, stop in plants]
     return [(start, stop) for start, stop in parts if stop - start >= SHORTEST]
 
 
-def _overlapping(plants: Sequence[list[Plant]]) -> list[list[list[Plant]]]:
+def _overlapping(plants: Sequence[list[Footplant]]) -> list[list[list[Footplant]]]:
     """Group the plants of C clips whose time intervals overlap: for each group, the plants of each clip."""
     in_time = sorted((start, stop, clip) for clip, listed in enumerate(plants) for start, stop in listed)
-    groups: list[list[list[Plant]]] = []
+    groups: list[list[list[Footplant]]] = []
     group_stop = -np.inf
     for start, stop, clip in in_time:
         if start >= group_stop:
@@ -94,7 +94,7 @@ def _overlapping(plants: Sequence[list[Plant]]) -> list[list[list[Plant]]]:
     return groups
 
 
-def _split(group: list[list[Plant]]) -> Iterator[tuple[list[float], list[float]]]:
+def _split(group: list[list[Footplant]]) -> Iterator[tuple[list[float], list[float]]]:
     """Split a group where the clip with the most plants pauses; yield the starts and stops of each match.
 
     A part that lacks a clip is no match.
@@ -134,7 +134,7 @@ class Registration:
     centres: tuple[Array, ...]
     span: tuple[float, float]
     costs: Array
-    contacts: tuple[SharedPlant, ...] = ()
+    contacts: tuple[SharedFootplant, ...] = ()
 
     def __repr__(self) -> str:
         first, last = self.span

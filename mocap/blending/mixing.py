@@ -14,7 +14,7 @@ from mocap._shared.arrays import Array, Indices, Mask, Points
 from mocap._shared.records import NamedTuple
 from mocap.blending.clocks import Registration, Weights, frame_times, require_registration
 from mocap.body import rotations
-from mocap.body.motion import Motion, gather_marks, turning
+from mocap.body.motion import Motion, gather_marks, rotating_joints
 from mocap.body.planar import from_ground, on_ground
 from mocap.errors import MocapError
 
@@ -183,7 +183,7 @@ def poses(
         clip_rotations[:, 0] = rotations.multiply(rotations.about_y(angle), clip_rotations[:, 0])
         aligned.append(clip_rotations)
     stacked = np.stack(aligned, axis=-2)  # (F, J, C, 4)
-    rotating = np.any([turning(clip) for clip in registration.clips], axis=0)
+    rotating = np.any([rotating_joints(clip) for clip in registration.clips], axis=0)
     rotating[0] = True
     mean = stacked[:, :, 0]
     mean[:, rotating] = rotations.mean(stacked[:, rotating], weights[:, None], rounds=rounds)

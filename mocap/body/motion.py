@@ -292,14 +292,14 @@ def require_motions(motions: object) -> tuple[Motion, ...]:
     return tuple(require_motion(motion) for motion in motions)
 
 
-def turning(motion: Motion) -> NDArray[np.bool_]:
+def rotating_joints(motion: Motion) -> NDArray[np.bool_]:
     """Find the joints that ever turn against their parents by more than rounding, as booleans (J,).
 
     Examples
     --------
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_straight")
-    >>> [walk.skeleton.names[joint] for joint in np.flatnonzero(~turning(walk))][:3]
+    >>> [walk.skeleton.names[joint] for joint in np.flatnonzero(~rotating_joints(walk))][:3]
     ['lhipjoint', 'ltoes_end', 'rhipjoint']
     """
     return np.asarray(np.abs(np.abs(motion.rotations) - rotations.IDENTITY).max(axis=(0, 2)) > 1e-9)

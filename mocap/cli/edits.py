@@ -169,12 +169,12 @@ def loop(
     write_out(repeated(cycle, times), out)
 
 
-def _share(text: str) -> float:
+def _fraction(text: str) -> float:
     """Read the share of a clip in a blend.
 
     Examples
     --------
-    >>> _share("0.5")
+    >>> _fraction("0.5")
     0.5
     """
     try:
@@ -186,7 +186,7 @@ def _share(text: str) -> float:
 def blend(
     clips: Sequence[Path],
     *,
-    weights: Annotated[Sequence[float], _share] = (),
+    weights: Annotated[Sequence[float], _fraction] = (),
     fade: Annotated[float | None, number(0.01, 1000)] = None,
     slack: Annotated[float, number(0, 1e4)] = 1.2,
     clean: bool = False,

@@ -69,7 +69,7 @@ def demo(
         raise NoWalk(f"No walk is left at {threshold}; these clips need at least {needed:g} cm.") from error
     edges = synthesis.random_walk(pruned, seconds=seconds, seed=seed)
     walk = synthesis.to_motion(pruned, edges)
-    _tell_of_graphs(whole, pruned)
+    _print_graphs(whole, pruned)
     costs = [100 * seam.cost for seam in synthesis.seams(pruned, edges)]
     print_rows(**{"new walk": f"{walk.duration:.1f} s, {quality.inspect(walk).path:.1f} m"})
     print_rows(seams=f"{len(costs)}, the worst {max(costs, default=0.0):.1f} cm RMS")
@@ -79,7 +79,7 @@ def demo(
     print_rows(wrote=out / "walk.gif")
 
 
-def _tell_of_graphs(whole: "MotionGraph", pruned: "MotionGraph") -> None:
+def _print_graphs(whole: "MotionGraph", pruned: "MotionGraph") -> None:
     """Print the clips of a graph, and its size before and after pruning."""
     names = [clip.name for clip in whole.clips]
     frames = sum(map(len, whole.clips))

@@ -151,7 +151,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             status = _run(words)
             output.flush()
         except BaseException as error:
-            status = _tell(error, debug="--debug" in words)
+            status = _report_error(error, debug="--debug" in words)
             _end(output)
         if output.abandoned:
             output.discard()
@@ -212,7 +212,7 @@ def _show_warning(message: Warning | str, *_place: object, **_options: object) -
     report(message)
 
 
-def _tell(error: BaseException, *, debug: bool) -> int:
+def _report_error(error: BaseException, *, debug: bool) -> int:
     """Write an error as one sentence, after its traceback if that was asked for; return the exit status."""
     if isinstance(error, SystemExit):
         raise error

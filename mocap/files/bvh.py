@@ -228,7 +228,7 @@ def write(
     pieces : motions of one skeleton and rate, with `frames` frames together.
     path : the file; one that exists is replaced when the new one is whole.
     frames : the count in the file's header.
-    rotates : shape (J,), which joints ever rotate, as by `body.motion.turning`.
+    rotates : shape (J,), which joints ever rotate, as by `body.motion.rotating_joints`.
     precision : digits after the point; 6 keep joints to 1e-7 m.
 
     Raises

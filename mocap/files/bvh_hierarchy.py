@@ -171,12 +171,12 @@ def _end_name(parent: str, index: int) -> str:
     return f"{parent}_end{index + 1 if index else ''}"
 
 
-def _end_sites(skeleton: Skeleton, offsets: Array, turning: NDArray[np.bool_]) -> set[int]:
+def _end_sites(skeleton: Skeleton, offsets: Array, rotates: NDArray[np.bool_]) -> set[int]:
     """Return the leaves that never rotate and have the names that reading would give them."""
     end_sites: set[int] = set()
     counts: Counter[int] = Counter()  # of the End Sites of each parent
     leaves = set(range(1, len(skeleton))) - set(skeleton.parents.tolist())
-    for joint in sorted(leaves - set(np.flatnonzero(turning).tolist())):
+    for joint in sorted(leaves - set(np.flatnonzero(rotates).tolist())):
         parent = int(skeleton.parents[joint])
         name = _end_name(skeleton.names[parent], counts[parent])
         if skeleton.names[joint] == name and offsets[joint].any():
@@ -186,7 +186,7 @@ def _end_sites(skeleton: Skeleton, offsets: Array, turning: NDArray[np.bool_]) -
 
 
 def write_hierarchy(
-    skeleton: Skeleton, offsets: Array, turning: NDArray[np.bool_], precision: int
+    skeleton: Skeleton, offsets: Array, rotates: NDArray[np.bool_], precision: int
 ) -> tuple[str, list[int]]:
     """Write the hierarchy, and list the joints that have channels, in the order of the file.
 
@@ -194,14 +194,14 @@ def write_hierarchy(
     ----------
     skeleton : J joints.
     offsets : shape (J, 3), in the unit of the file; the root is written with 0.
-    turning : shape (J,), which joints ever rotate.
+    rotates : shape (J,), which joints ever rotate.
     precision : digits after the point.
 
     Raises
     ------
     MocapError : for a name that a BVH file cannot hold.
     """
-    end_sites = _end_sites(skeleton, offsets, turning)
+    end_sites = _end_sites(skeleton, offsets, rotates)
     rows = ["HIERARCHY"]
     order: list[int] = []
     depth = 0

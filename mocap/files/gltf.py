@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocap.body import rotations
-from mocap.body.motion import Motion, turning
+from mocap.body.motion import Motion, rotating_joints
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened
 from mocap.files.gltf_capsules import body, reaches
@@ -185,7 +185,7 @@ def _animation(motion: Motion, block: Block) -> Record:
     channels: list[Record] = [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]
     quaternions = rotations.continuous(motion.rotations)[..., XYZW]
     limbs = reaches(motion.skeleton)
-    for joint in np.flatnonzero(turning(motion)).tolist():
+    for joint in np.flatnonzero(rotating_joints(motion)).tolist():
         values: NDArray[Any] = quaternions[:, joint].astype(np.float32)
         if limbs[joint] <= CARRIED:
             values = np.round(LARGEST_INT16 * values).astype(np.int16)

@@ -7,7 +7,7 @@ from pathlib import Path
 from mocap._shared.arrays import Array
 from mocap._shared.atomic import write_file
 from mocap._shared.quantities import check_number, described
-from mocap.body.motion import Motion, require_motion, turning
+from mocap.body.motion import Motion, require_motion, rotating_joints
 from mocap.errors import MocapError
 from mocap.files import bvh, formats, gltf
 from mocap.files.recordings import Recording
@@ -168,7 +168,9 @@ def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
         raise MocapError(f"precision must be 0 to 15 digits, got {precision}.")
     match path.suffix.lower():
         case ".bvh":
-            bvh.write([motion], path, frames=len(motion), rotates=turning(motion), precision=precision)
+            bvh.write(
+                [motion], path, frames=len(motion), rotates=rotating_joints(motion), precision=precision
+            )
         case ".glb":
             write_file(path, gltf.glb(motion))
         case _:

@@ -36,7 +36,7 @@ class FootSliding(NamedTuple):
 def foot_sliding(
     motion: Motion, joints: Sequence[int] | None = None, *, positions: Array | None = None
 ) -> list[FootSliding]:
-    """Measure the foot sliding distance of each plant: from the mean position on the ground, at most.
+    """Measure the foot sliding distance of each footplant: from the mean position on the ground, at most.
 
     Parameters
     ----------
@@ -60,25 +60,25 @@ def foot_sliding(
     if positions is None:
         positions = joint_positions(motion)
     ground = positions[..., [0, 2]]
-    slides = []
+    footplants = []
     for name, contacts in _contacts(motion, joints).items():
         for start, stop in runs(contacts):
             planted = ground[start:stop, motion.skeleton.index(name)]
             distances = np.linalg.norm(planted - planted.mean(axis=0), axis=-1)
-            slides.append(FootSliding(name, start, stop, 100 * float(distances.max())))
-    return slides
+            footplants.append(FootSliding(name, start, stop, 100 * float(distances.max())))
+    return footplants
 
 
-def mean_foot_sliding(slides: Iterable[FootSliding]) -> float:
-    """Average the foot sliding distance of plants, cm; 0 if there are none.
+def mean_foot_sliding(footplants: Iterable[FootSliding]) -> float:
+    """Average the foot sliding distance of footplants, cm; 0 if there are none.
 
     Examples
     --------
-    >>> slides = [FootSliding("lfoot", 3, 9, 1.5), FootSliding("lfoot", 30, 39, 0.5)]
-    >>> mean_foot_sliding(slides), mean_foot_sliding([])
+    >>> footplants = [FootSliding("lfoot", 3, 9, 1.5), FootSliding("lfoot", 30, 39, 0.5)]
+    >>> mean_foot_sliding(footplants), mean_foot_sliding([])
     (1.0, 0.0)
     """
-    distances = [slide.far for slide in slides]
+    distances = [footplant.far for footplant in footplants]
     return float(np.mean(distances)) if distances else 0.0
 
 
@@ -257,8 +257,8 @@ def seam_quality(motion: Motion, seam: tuple[int, int], usual: Spread) -> SeamQu
     largest = usual.within(len(seam_jumps))
     if len(largest) == 0 or not largest[-1] > 0:
         raise MocapError("The clips do not move, so nothing at a seam can be measured against them.")
-    slides = foot_sliding(motion, feet_of(find_legs(motion.skeleton)))
-    touched = [slide for slide in slides if slide.start < seam[1] and seam[0] < slide.stop]
+    footplants = foot_sliding(motion, feet_of(find_legs(motion.skeleton)))
+    touched = [slide for slide in footplants if slide.start < seam[1] and seam[0] < slide.stop]
     return SeamQuality(float(seam_jumps.max() / np.percentile(largest, USUAL)), mean_foot_sliding(touched))
 
 

@@ -126,15 +126,15 @@ def follow_path(
     for sentence in said[id(followed)]:
         warn(sentence)
     if is_ended and deadline.is_over:
-        _tell_deadline(followed, settings.deadline)
+        _warn_of_deadline(followed, settings.deadline)
     if not request.others:  # with others it goes aside to give way
         if settings.tries > 1 and not bend and not is_ended:
             _require_near(compiled, followed)
-        _tell_departures(followed, bend)
+        _warn_of_departures(followed, bend)
     return followed
 
 
-def _tell_deadline(followed: Followed, seconds: float) -> None:
+def _warn_of_deadline(followed: Followed, seconds: float) -> None:
     """Warn of a search that a deadline ended, with how much of the path the walk covers."""
     length = f"{followed.path.length:.1f} m"
     if followed.progress < 1:
@@ -155,7 +155,7 @@ def _require_near(graph: CompiledGraph, followed: Followed) -> None:
         raise NoWalk(f"{distance}: no clips turn as it does; try `bend`, or add clips that turn.")
 
 
-def _tell_departures(followed: Followed, bend: float) -> None:
+def _warn_of_departures(followed: Followed, bend: float) -> None:
     """Warn of a walk that leaves the path."""
     if departures := followed.departures:
         start, end, worst = max(departures, key=lambda stretch: stretch[2])
@@ -315,5 +315,5 @@ def follow_as_2002(  # noqa: PLR0913 (a path, a request, and three limits)
     walk = Found(edges, stand.rotation, stand.translation, along, result.cost, *counts)
     followed = measure_walk(compiled, path, route, walk)
     if result.stopped == OUT_OF_TIME:
-        _tell_deadline(followed, deadline)
+        _warn_of_deadline(followed, deadline)
     return followed

@@ -11,7 +11,7 @@ import numpy as np
 from mocap._shared.arguments import called_as
 from mocap._shared.progress import Progress
 from mocap._shared.quantities import check_number
-from mocap.body.motion import Motion, concatenate, turning
+from mocap.body.motion import Motion, concatenate, rotating_joints
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import MocapError, NoWalk
 from mocap.feet.footskate import clean_up
@@ -19,7 +19,7 @@ from mocap.files import bvh
 from mocap.files.load_save import save
 from mocap.graphs.edge_tables import Edge, edge_table, require_node
 from mocap.graphs.motion_graph import MotionGraph, Node, require_graph
-from mocap.synthesis.walk_to_motion import to_motion, transforms_along, with_plants
+from mocap.synthesis.walk_to_motion import to_motion, transforms_along, with_footplants
 
 MARGIN = 5.0  # seconds: longer than any footplant of a walk, and than the reach of any correction
 LONGEST = 3600.0  # seconds of a walk that is made in memory
@@ -230,12 +230,12 @@ def dump(  # noqa: PLR0913 (which walk, where to, how long, and how)
     # A .bvh file starts with its number of frames. The same seed gives the same walk, so count them first.
     walks = cut_walk(motion_graph, wander(motion_graph, seed=seed), seconds, PIECE)
     counts = [sum(motion_graph.graph.edges[edge]["frames"] for edge in walk) for walk in walks]
-    pieces = stream(with_plants(motion_graph) if clean else motion_graph, seconds=seconds, seed=seed)
+    pieces = stream(with_footplants(motion_graph) if clean else motion_graph, seconds=seconds, seed=seed)
     pieces = cleaned(pieces) if clean else pieces
     shown = (next(pieces) for _ in progress(counts))
     if suffix == ".glb":
         save(concatenate(list(shown)), path)
         return sum(counts)
-    rotates = np.any([turning(clip) for clip in motion_graph.clips], axis=0)
+    rotates = np.any([rotating_joints(clip) for clip in motion_graph.clips], axis=0)
     bvh.write(shown, path, frames=sum(counts), rotates=rotates)
     return sum(counts)

@@ -162,7 +162,7 @@ def to_motion(
     """
     require_walk(motion_graph, walk)
     if clean:
-        motion_graph = with_plants(motion_graph)
+        motion_graph = with_footplants(motion_graph)
     edges = edge_table(motion_graph, walk)
     transforms = transforms_along(edges, start)
     roots, local_rotations = _transformed_frames(motion_graph, edges.here, transforms, edges.of)
@@ -183,7 +183,7 @@ def to_motion(
     return clean_up(motion) if clean else motion
 
 
-def with_plants(motion_graph: MotionGraph) -> MotionGraph:
+def with_footplants(motion_graph: MotionGraph) -> MotionGraph:
     """Mark the footplants of all clips by `feet.mark_plants`, unless some clip has contacts already.
 
     Examples
@@ -191,7 +191,7 @@ def with_plants(motion_graph: MotionGraph) -> MotionGraph:
     >>> from dataclasses import replace
     >>> from mocap import datasets, graphs
     >>> clip = replace(datasets.sample("walk_curve_1"), contacts={})
-    >>> sorted(with_plants(graphs.from_transitions([clip], [], window=10)).clips[0].contacts)
+    >>> sorted(with_footplants(graphs.from_transitions([clip], [], window=10)).clips[0].contacts)
     ['lfoot', 'ltoes', 'rfoot', 'rtoes']
     """
     if any(clip.contacts for clip in motion_graph.clips):

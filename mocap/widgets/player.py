@@ -202,7 +202,7 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     obstacles = np.reshape(np.asarray(discs, float), (-1, 3))
     shown = tuple(positions) or tuple(joint_positions(motion) for motion in motions)
     return Player(
-        motions, tuple(sources), seam_frames, points, astray, obstacles, shown, follow=follow, said=alt
+        motions, tuple(sources), seam_frames, points, astray, obstacles, shown, follow=follow, description=alt
     )
 
 
@@ -228,7 +228,7 @@ class Player(Embedded):
     discs: Array
     positions: Sequence[Array]
     follow: bool
-    said: str
+    description: str
     scripts = (*SHADED, *SHARED, Path(__file__).with_name("player.js"))
     __repr__ = Embedded.__repr__  # a record would print its fields
 
@@ -238,7 +238,7 @@ class Player(Embedded):
         count = len(self.motions)
         subject = "A figure plays" if count == 1 else f"{count} figures play"
         seconds = max(motion.duration for motion in self.motions)
-        return self.said or f"{subject} {self.heading}, {seconds:.1f} s."
+        return self.description or f"{subject} {self.heading}, {seconds:.1f} s."
 
     @property
     def heading(self) -> str:

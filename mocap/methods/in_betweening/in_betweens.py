@@ -22,7 +22,7 @@ from mocap.methods.in_betweening.end_bending import MOST_TURN, Arrived, bend_to
 from mocap.methods.in_betweening.end_poses import meet_poses, stand
 from mocap.methods.in_betweening.planted_feet import put_back
 from mocap.methods.in_betweening.two_sided_search import Candidates, Joined, TwoSided, find_candidates
-from mocap.synthesis.walk_to_motion import to_motion, with_plants
+from mocap.synthesis.walk_to_motion import to_motion, with_footplants
 
 TRIED = 24  # walks that are bent, of all that were found; the best that arrives is taken
 # Walks that are bent at most, TRIED at a time while none arrives: of 24 requests anywhere, 2 have none among
@@ -130,7 +130,7 @@ def _connect(
     start, end = poses
     frames = round(seconds * graph.fps)
     joined = TwoSided(graph, candidates, frames).best(MOST_TRIED)
-    source = with_plants(graph.source)
+    source = with_footplants(graph.source)
     walks: list[tuple[float, list[Edge], Arrived]] = []
     for group in range(0, len(joined), TRIED):
         walks = list(_arriving(source, graph, joined[group : group + TRIED], frames))
