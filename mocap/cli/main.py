@@ -23,7 +23,7 @@ from mocap.cli.data import DATA
 from mocap.cli.edits import bend, blend, loop, retarget, warp
 from mocap.cli.graph import GRAPH, demo
 from mocap.cli.in_betweens import inbetween
-from mocap.cli.messages import VERBOSITY, Verbosity, at_verbosity, note, report
+from mocap.cli.messages import VERBOSITY, Verbosity, at_verbosity, note, print_message
 from mocap.cli.options import named_options, retargeting_advised
 from mocap.cli.streams import PatientOutput, prepared_streams
 from mocap.cli.typed_commands import Commands, Group, make_root, option_names
@@ -209,7 +209,7 @@ def _take_verbosity(bound: BoundArguments) -> Verbosity:
 
 def _show_warning(message: Warning | str, *_place: object, **_options: object) -> None:
     """Write a warning as one line."""
-    report(message)
+    print_message(message)
 
 
 def _report_error(error: BaseException, *, debug: bool) -> int:
@@ -219,19 +219,20 @@ def _report_error(error: BaseException, *, debug: bool) -> int:
     if debug:
         traceback.print_exception(error)
     if isinstance(error, KeyboardInterrupt):
-        report(" ".join(["interrupted; no half-written file is left.", *getattr(error, "__notes__", [])]))
+        notes = getattr(error, "__notes__", [])
+        print_message(" ".join(["interrupted; no half-written file is left.", *notes]))
         return INTERRUPTED
     if isinstance(error, MocapError | OSError):  # of the system: such as a name that is too long
-        report(error)
+        print_message(error)
         return REFUSED
     if isinstance(error, MemoryError):
-        report(
+        print_message(
             "out of memory: try fewer or shorter clips, or a lower frame rate (--debug shows where it was)."
         )
         return UNEXPECTED
     kind = type(error).__name__
     shown = shortened(f"{error}", 80) or "no further text"
-    report(f"unexpected {kind}: {shown}. This is a bug; the same with --debug shows where.")
+    print_message(f"unexpected {kind}: {shown}. This is a bug; the same with --debug shows where.")
     return UNEXPECTED
 
 

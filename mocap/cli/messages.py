@@ -48,7 +48,7 @@ def at_verbosity(verbosity: Verbosity) -> Iterator[None]:
         VERBOSITY.reset(token)
 
 
-def report(message: object) -> None:
+def print_message(message: object) -> None:
     """Write one line: names hold no line ends there, and are not endless."""
     text = re.sub(rf"\S{{{LONGEST_WORD},}}", lambda word: shortened(word[0]), printable(message))
     print(f"mocap: {text}", file=sys.stderr)
@@ -57,4 +57,4 @@ def report(message: object) -> None:
 def note(message: str) -> None:
     """Write a line with `-v` only."""
     if VERBOSITY.get().verbose:
-        report(message)
+        print_message(message)
