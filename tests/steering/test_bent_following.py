@@ -113,7 +113,7 @@ def test_what_it_says_is_what_the_motion_does():
 def test_a_line_that_is_not_rounded_is_not_blamed_for_turning():
     followed = bent_walk(walking(), GroundPath([[0, 0], [0, 4]]))
     given = replace(followed, off=followed.off + 0.15), LIMIT
-    told("the clips sway so far", path_following._tell_departures, *given)
+    told("the clips sway so far", path_following._warn_of_departures, *given)
 
 
 def test_labels_and_times_are_kept_on_the_line():
