@@ -264,8 +264,7 @@ def seam_quality(motion: Motion, seam: tuple[int, int], usual: Spread) -> SeamQu
 def knee_turns(motion: Motion) -> Array:
     """Measure the rotation of each knee from one frame to the next, degrees, shape (F - 1, legs).
 
-    The bones of a leg are rigid, so their lengths do not reveal a knee that snaps. The rotation of the knee
-    does.
+    The lengths of a leg's rigid bones do not reveal a knee that snaps, but its rotation does.
 
     Examples
     --------

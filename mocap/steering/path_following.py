@@ -51,9 +51,9 @@ def follow_path(
 
     Because seams have a price, other walks can be nearer to the path. The search of the paper,
     `follow_as_2002`, uses two to three times as many seams, and is nearer to 23 of the 40 lines of
-    `figures/BENCHMARK.md`, mostly by a centimetre. If seams are free in both, with `Settings(seam=0, match=0,
-    width=200, tries=1)` here, it is nearer to 4 of the 20 lines of `figures/following.md`. The warning about
-    a walk that leaves its path mentions this search.
+    `figures/BENCHMARK.md`, mostly by a centimetre. If seams are also free here, with `Settings(seam=0,
+    match=0, width=200, tries=1)`, the search of the paper is nearer to only 4 of the 20 lines of
+    `figures/following.md`. The warning about a walk that leaves its path mentions that search.
 
     With `bend`, any walk can follow any path. The search prices the rotation of a walk beyond that of its
     clips instead of its distance from the path. Then the walk is bent onto the path by path editing [Gle01],
@@ -75,14 +75,14 @@ def follow_path(
 
     Raises
     ------
-    NoWalk : for a label that no walk can reach, a start that is not in the graph, a dead end, and clips from
-        which no walk keeps a speed of 0.3 m/s. If the walk is a metre off on average, unless it is bent or
-        `Settings(tries=1)` asks for one search. If the deadline is before the first step of the search.
+    NoWalk : for a label that no walk can reach, a start that is not in the graph, a dead end, clips from
+        which no walk keeps a speed of 0.3 m/s, and a deadline before the first step of the search. Also for a
+        walk that is more than a metre off the path on average, except with `bend` or `Settings(tries=1)`.
     MocapError : for a path that would take more than an hour with these clips, and invalid requests.
 
     Warns
     -----
-    MocapWarning : if the walk is more than 15 cm off the path. With `bend`, for released foot contacts. If
+    MocapWarning : if the walk is more than 15 cm off the path, if bending released foot contacts, and if
         `Settings.deadline` ended the search, with the part of the path that the walk covers.
 
     Examples

@@ -22,7 +22,7 @@ from mocap.steering.path_objective import Settings, Wishes
 
 WAITS = (0.0, 1.0, 2.0, 4.0)  # seconds, tried in this order
 WIDTH = 100  # beam width, tripled for characters that give way
-PASSING = 0.02  # metres above the minimal distance: the first point so close to a waypoint passes it
+PASSING = 0.02  # metres: a waypoint is passed at the first point within this of the minimal distance
 EQUAL = 1e-6  # metres: distances that differ by less are equal, and the shortest wait is preferred
 
 

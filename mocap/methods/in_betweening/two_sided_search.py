@@ -258,7 +258,7 @@ class TwoSided:
 
 
 def pairs_at_nodes(first: Indices, second: Indices) -> tuple[Indices, Indices]:
-    """Pair each walk of one side with those of the other that end at the same node, at most `PAIRS`.
+    """Pair each walk of one side with those of the other that end at the same node, up to `PAIRS` pairs.
 
     Parameters
     ----------

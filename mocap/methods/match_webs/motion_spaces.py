@@ -118,9 +118,9 @@ def random_weights(
 
     One example is drawn at random, and d of those nearest to it. Their weights are uniform on the simplex,
     which is then scaled about its centre: w = (1 + (d + 1) δ) Dirichlet(1, …, 1) - δ. They add up to one, and
-    none is below -δ. A draw with a weight above 1 + δ is rejected. The sampling is that of KG04, as far as
-    recalled, and the scaling is ours. Uniform numbers divided by their sum would concentrate in the centre,
-    and weights clipped to -δ … 1 + δ would not add up to one.
+    none is below -δ. A draw with a weight above 1 + δ is rejected. The sampling is that of KG04 to the best
+    of our knowledge, and the scaling is ours. Uniform numbers divided by their sum would concentrate in the
+    centre, and weights clipped to -δ … 1 + δ would not add up to one.
 
     Parameters
     ----------

@@ -125,7 +125,7 @@ class Examples:
         return self.motion(weights, np.arange(first, last + 1.0), rate)[0]
 
     def motion(self, weights: Array, positions: Array, fps: float) -> tuple[Motion, Array]:
-        """Blend with weights (N,) at F positions between the G phases, and return the heading (F,) also."""
+        """Blend with weights (N,) at F positions between the G phases. Also return the heading (F,)."""
         (roots,), (poses,), (facing,) = self.mixed(weights[None], positions[None])
         marks = np.tensordot(weights, self.contacts[:, np.rint(positions).astype(int)], 1) > 0.5
         contacts = dict(zip(self.contact_names, marks.T, strict=True))
