@@ -169,13 +169,7 @@ def loop(
 
 
 def _weight(text: str) -> float:
-    """Parse the weight of a clip in a blend.
-
-    Examples
-    --------
-    >>> _weight("0.5")
-    0.5
-    """
+    """Parse the weight of a clip in a blend."""
     try:
         return number(-1, 2)(text)
     except MocapError as error:

@@ -109,12 +109,6 @@ def _table(title: str, rows: list[Row], width: int) -> str:
 
 
 def _fold(text: str, width: int) -> str:
-    r"""Wrap each paragraph, except those with indented lines.
-
-    Examples
-    --------
-    >>> _fold("one two\nthree\n\nkeys:\n  at 1s", 8)
-    'one two\nthree\n\nkeys:\n  at 1s'
-    """
+    """Wrap each paragraph, except those with indented lines."""
     parts = text.split("\n\n")
     return "\n\n".join(part if "\n " in part else fill(part, width) for part in parts)

@@ -93,11 +93,13 @@ def bend_to(motion: Motion, frames: int, end: complex, turn: float) -> Arrived:
 
     Examples
     --------
+    A walk of 121 frames ends half a metre farther to the left:
+
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_straight")[:481:4]
     >>> bent = bend_to(walk, 130, on_ground(walk.root_positions[-1]) + 0.5j, 0.3)
-    >>> bool(bent.lack < 1e-4), bool(np.degrees(abs(bent.turned).max()) < 30), len(bent.motion)
-    (True, True, 130)
+    >>> len(bent.motion), round(bent.lack, 4), float(np.degrees(abs(bent.turned).max()).round())
+    (130, 0.0, 12.0)
     """
     moments = np.arange(frames) + (len(motion) - frames) * level_rise(frames)
     pace = np.diff(moments)

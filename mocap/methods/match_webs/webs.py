@@ -106,8 +106,8 @@ def build_web(clips: Sequence[Motion], *, below: float = 0.12, progress: Progres
     --------
     >>> from mocap.datasets.samples import sample
     >>> web = build_web([sample("walk_straight")], below=0.05)
-    >>> web, bool(web.costs.mean() < 0.05)
-    (MatchWeb(1 clips, 8 paths, below 5 cm), True)
+    >>> web, round(float(web.costs.mean()), 3)
+    (MatchWeb(1 clips, 8 paths, below 5 cm), 0.018)
 
     A clip needs at least 14 frames at 30 Hz, here 53 at 120 Hz:
 
