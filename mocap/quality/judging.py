@@ -262,7 +262,7 @@ class Judgement(NamedTuple):
         return float(sum(np.log2(max(measure.ratio, 1.0)) for measure in self.measures))
 
     def as_dict(self) -> dict[str, Any]:
-        """Return the judgement as a dictionary that `json.dumps` accepts."""
+        """Return the judgement as a dictionary of plain numbers and texts, for JSON."""
         rows = [measure._asdict() | {"ratio": measure.ratio} for measure in self.measures]
         summary = {"left_out": list(self.left_out), "worst": self.worst.name, "score": self.score}
         return self._asdict() | {"measures": rows} | summary
