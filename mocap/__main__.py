@@ -1,10 +1,10 @@
-"""The entry point of `python -m mocap` and of the command `mocap`, which imports slow modules later."""
+"""Entry point of the command `mocap` and of `python -m mocap`, before any import that takes time."""
 
 import sys
 
 
 def main() -> int:
-    """Run the command and return its exit status, 130 for Ctrl-C even while the package is imported."""
+    """Run the command and return its exit status, which is 130 for Ctrl-C while the package is imported."""
     try:
         from mocap.cli.main import main as run  # Ctrl-C may come while this is imported
 

@@ -1,13 +1,13 @@
-"""Judgement of a motion of any origin: measures, each divided by a limit that captured people keep.
+"""Judgement of a motion of any origin: measures, each divided by a limit that captured motion keeps.
 
-Up to 1 a measure does not stand out. The limits are ours, except those of joints, which `joint_limits`
-explains. Of 30 captured files from nine sources 11 keep all of them. In six, of one source, an elbow bends
-backwards. In ten, joints snap from one frame to the next, as after an Euler flip. Two are in inches, and in
-one of these the body lies with the hands in the floor. One is a smoothed copy with sliding feet.
+A ratio up to 1 is inconspicuous. The limits are our own, except those of joints, which `joint_limits`
+explains. Of 30 captured files from nine sources, 11 keep all limits. In six files, of one source, an elbow
+bends backwards. In ten, joints snap from one frame to the next, as after an Euler flip. Two are in inches,
+and in one of these the body lies with its hands below the floor. One is a smoothed copy with sliding feet.
 
-Not measured are: whether a motion is the one that was wanted, whether it looks alive, and its style; hands
-and faces; a body that walks through itself or through things; balance. Limits of joints are measured at
-knees, elbows, hips, wrists and the neck, not at shoulders, ankles and fingers.
+The following are not measured: agreement with a request, liveliness and style, hands and faces,
+interpenetration of the body with itself or with objects, and balance. Joint limits are measured at knees,
+elbows, hips, wrists and the neck, but not at shoulders, ankles and fingers.
 """
 
 from __future__ import annotations
@@ -44,17 +44,17 @@ from mocap.quality.seam_measures import (
 )
 
 WINDOW = 1 / 3  # seconds: a jump in a window is compared with those in windows of the clips
-FLAT = 0.1  # seconds: the window of the smooth curves from which a trembling joint differs
-STILL = 0.02  # m/s: a jump of velocity that a standing body makes
+FLAT = 0.1  # seconds: the window of the smoothing filter from which a trembling joint deviates
+STILL = 0.02  # m/s: jumps of velocity of a body that stands
 SLOWEST = 25  # percentile of the frames, by the speed of the slowest joint of the feet
-SLOW = 0.5  # m/s: a slower body's foot sliding is divided by this speed
-SHORTEST = 0.75  # metres, of a body that walks; a grown one in inches, read as cm, is 0.7 at most
+SLOW = 0.5  # m/s: the foot sliding of a slower body is divided by this speed
+SHORTEST = 0.75  # metres, of a body that walks. An adult in inches, read as cm, is at most 0.7 m tall
 TALLEST = 2.5  # metres
 
 
 @dataclass(frozen=True)
 class Limits:
-    """The limits of the measures, which captured people keep; `judge` explains the measures."""
+    """The limits of the measures, which captured motion keeps. `judge` explains the measures."""
 
     jolt: float = LEAP  # times the percentile `MOSTLY` of the motion's frames
     seam_jolt: float = 1.5  # times the percentile `USUAL` of the windows of the clips
@@ -62,11 +62,11 @@ class Limits:
     foot_sliding: float = 2.5  # cm, mean over the footplants
     sliding_speed: float = 8.0  # percent of the body's speed
     sunk: float = 100 * UNDER  # cm
-    aloft: float = 25.0  # cm; in 153 clips the lowest joint comes down to 12.5 cm or lower, also on stairs
+    aloft: float = 25.0  # cm. In 153 clips the lowest joint comes down to 12.5 cm or lower, even on stairs
     lopsided: float = 20.0  # mm
     bones: float = 5.0  # mm
     rotation: float = float(np.degrees(FAST))  # degrees per second
-    path: float = 15.0  # cm, mean over the frames; `steering.follow_path` warns above it
+    path: float = 15.0  # cm, mean over the frames. `steering.follow_path` warns above it
 
 
 LIMITS = Limits()
@@ -105,7 +105,7 @@ def _with_limit(measure: Measure) -> str:
 
 
 def measure_smoothness(motion: Motion, positions: Array, against: Sequence[Motion]) -> Iterator[Measure]:
-    """Measure jolts and trembling; `positions` are those of the joints, (F, J, 3)."""
+    """Measure jolts and trembling, from a motion and the positions (F, J, 3) of its joints."""
     yield _jolt(motion, positions, against)
     points = point_cloud(motion)
     window = max(5, 2 * round(FLAT * motion.fps / 2) + 1)
@@ -207,7 +207,7 @@ def _ground_steps(positions: Array) -> Array:
 def measure_body(
     motion: Motion, positions: Array, path: GroundPath | None, stretch: Mapping[str, float] | None
 ) -> Iterator[Measure]:
-    """Measure bones that stretch and the root's distance from its path, if these are known, and the size."""
+    """Measure the body's size and, if known, stretching bones and the root's distance from its path."""
     if stretch is not None:
         change, joint = max(((change, joint) for joint, change in stretch.items()), default=(0.0, ""))
         yield Measure("bones", 1000 * change, LIMITS.bones, "mm", f"'{joint}'")
@@ -220,7 +220,7 @@ def measure_body(
 
 
 def _size(positions: Array) -> Measure:
-    """Compare a body with the smallest and the tallest people; the length of one who lies is its height."""
+    """Compare a body's height with that of people. For a body that lies, the height is its length."""
     height = height_of(positions)
     if not SHORTEST <= height <= TALLEST:
         height = float(np.median(np.ptp(positions, axis=1).max(axis=-1)))
@@ -234,10 +234,10 @@ def _size(positions: Array) -> Measure:
 
 
 class Judgement(NamedTuple):
-    """The measures of a motion; `left_out` lists what was not measured, and why.
+    """The measures of a motion, and in `left_out` the omitted measures with reasons.
 
-    `height` is the body's vertical extent, the median over the frames, and `bones` the length of each joint's
-    bone, from its parent to it; both in metres.
+    `height` is the body's vertical extent, the median over the frames. `bones` has the length of each joint's
+    bone, from its parent to it. Both are in metres.
 
     Examples
     --------
@@ -268,11 +268,11 @@ class Judgement(NamedTuple):
 
     @property
     def score(self) -> float:
-        """The number of halvings that bring all measures within their limits, Σ log₂ ratio; 0 is best."""
+        """The excess of all measures over their limits, Σ log₂ max(ratio, 1). 0 is best."""
         return float(sum(np.log2(max(measure.ratio, 1.0)) for measure in self.measures))
 
     def as_dict(self) -> dict[str, Any]:
-        """Return plain numbers and texts, for JSON."""
+        """Return the judgement as a dictionary of plain numbers and texts, for JSON."""
         rows = [measure._asdict() | {"ratio": measure.ratio} for measure in self.measures]
         summary = {"left_out": list(self.left_out), "worst": self.worst.name, "score": self.score}
         return self._asdict() | {"measures": rows} | summary
@@ -285,34 +285,34 @@ def judge(
     path: GroundPath | VectorsLike | None = None,
     stretch: Mapping[str, float] | None = None,
 ) -> Judgement:
-    """Measure a motion and compare each number with its limit.
+    """Measure the quality of a motion and compare each measure with its limit.
 
     - jolt: the largest jump of velocity from one frame to the next, divided by the 90th percentile of all
-      frames; with `against`, by the usual jump in windows of a third of a second of these clips.
-    - tremble: the distance of joints from smooth curves.
+      frames, or, with `against`, by the usual jump in windows of a third of a second of these clips.
+    - tremble: the distance of joints from their smoothed trajectories.
     - foot_sliding: the foot sliding distance, mean over the footplants.
     - sliding_speed: the foot sliding speed, the 25th percentile of the slowest joint of the feet, in percent
-      of the body's speed. It finds a body that glides and has no footplants.
+      of the body's speed. It detects a body that glides and has no footplants.
     - sunk: the depth of the lowest joint below the ground, y = 0.
-    - aloft: the least height of the lowest joint; reported if it never comes down to 25 cm.
+    - aloft: the minimum height of the lowest joint, reported if it is above 25 cm in all frames.
     - lopsided: the largest difference in length between a left bone and a right one.
     - size: the ratio of a body's height to 2.5 m, or of 0.75 m to its height, above 1: its unit may be wrong.
     - bones: the largest change in the length of a bone of the file.
-    - bent: the angle of a knee, elbow, hip, wrist or the neck, divided by people's limit.
+    - bent: the angle of a knee, elbow, hip, wrist or the neck, divided by the human limit.
     - rotation: the largest rotation speed of a joint.
     - path: the distance of the root from a path, mean over the frames.
 
     Parameters
     ----------
     motion : F frames, at least 12.
-    against : the clips of which it was made, if any; they are resampled to its frame rate.
-    path : the path that it should follow, or its points (x, z), metres.
-    stretch : the changes of the bones' lengths in the motion's file, metres, by joint, as
-        `files.load_save.read` returns them; a motion that was loaded has rigid bones.
+    against : the clips from which the motion was made, if any. They are resampled to its frame rate.
+    path : the path that the motion should follow, or its points (x, z), metres.
+    stretch : the changes of the bones' lengths in the motion's file, metres, by joint, as returned by
+        `files.load_save.read`. The bones of a loaded motion are rigid.
 
     Raises
     ------
-    MocapError : for a motion that is too short, and what is no motion.
+    MocapError : for a motion that is too short, and objects that are not motions.
 
     Examples
     --------
@@ -349,7 +349,7 @@ def judge(
 
 
 def judgement_table(judgements: Sequence[Judgement]) -> str:
-    """Write a line for each motion, the best first: score, height, all ratios to limits, the worst measure.
+    """Format a line for each motion, best first: score, height, ratios to limits, and the worst measure.
 
     Examples
     --------
@@ -371,13 +371,13 @@ def judgement_table(judgements: Sequence[Judgement]) -> str:
 
 
 def _ratios(judged: Judgement, names: Sequence[str]) -> str:
-    """Write the ratios of measures to their limits in columns, "-" for one that was not measured."""
+    """Format the ratios of measures to their limits in columns, with "-" for a missing measure."""
     ratios = {measure.name: f"{measure.ratio:.2f}" for measure in judged.measures}
     return " ".join(f"{ratios.get(name, '-'):>{max(7, len(name))}}" for name in names)
 
 
 def _worst(judged: Judgement) -> str:
-    """Write the name, value and place of the worst measure."""
+    """Format the name, the value and the place of the worst measure."""
     worst = judged.worst
     text = f"{worst.name} {worst.value:.3g} {worst.unit}"
     return f"{text} ({worst.where})" if worst.where else text.rstrip()

@@ -1,7 +1,7 @@
 """Walks that are bent onto a path by path editing [Gle01]: the route of the search, and the bent walk.
 
-A walk from the graph turns only where its clips turn. Path editing rotates it further. A search for a walk to
-be bent therefore counts the rotation beyond that of its clips, not the distance from the path.
+A walk through the graph turns only as its clips turn. Path editing rotates it further. Therefore a search for
+a walk to be bent prices the rotation beyond that of its clips, not the distance from the path.
 """
 
 from collections.abc import Callable
@@ -26,28 +26,29 @@ from mocap.steering.path_search import SLOWEST, Found, too_slow
 from mocap.steering.smooth_paths import path_of_walk, smooth_graph
 from mocap.synthesis.walk_to_motion import to_motion
 
-EXTRA = 0.5  # metres that the search continues beyond the end of the path; the excess is cut
+EXTRA = 0.5  # metres by which the search continues beyond the end of the path, before the excess is cut
 EXTRA_FRACTION = 0.02  # of the path's length, in addition
 
 
 def plan_bending(
     graph: CompiledGraph, path: GroundPath, request: PathRequest, limit: float
 ) -> tuple[Route, Callable[[Found], Followed]]:
-    """Round a path for the usual pace of the clips, and make the route of a search for a walk to be bent.
+    """Prepare a search for a walk to be bent: its route, and the function that bends the walk.
 
     Parameters
     ----------
     graph, path, request : as for `follow_path`.
-    limit : the highest angular speed of a bent walk, radians per second.
+    limit : the highest additional angular speed of a bent walk, radians per second.
 
     Returns
     -------
-    The route, which is rounded, so that the search does not expect rotations beyond the limit, and a little
-    longer than the path. And a function that bends a walk from the search onto the path.
+    route : the path, rounded for the usual pace of the clips, so that the search does not expect rotations
+        beyond the limit. It is slightly longer than the path.
+    bend_walk : a function that bends a walk from the search onto the path and measures it.
 
     Raises
     ------
-    MocapError : for a limit that is not above 0, and wishes that make no sense.
+    MocapError : for a limit that is not above 0, and invalid requests.
     NoWalk : for a label that no clip of the graph has, and clips that only stand.
     """
     if not limit > 0:
@@ -74,7 +75,7 @@ def plan_bending(
 
 
 def _rounded_request(request: PathRequest, line: RoundedLine) -> PathRequest:
-    """Map the labels and times of wishes from metres along a path to metres along the rounded one."""
+    """Map the labels and times of requests from metres along a path to metres along the rounded path."""
 
     def rounded(metres: float) -> float:
         return float(np.interp(metres, line.asked, line.along))
@@ -96,10 +97,10 @@ def _spaced_by_walk(route: Route, path: GroundPath, along: Array, ratio: Array, 
 
     Parameters
     ----------
-    route : of the path.
+    route : the route along the path.
     path : the path.
-    along : shape (F,), metres along the path in each frame of a straight walk at usual pace.
-    ratio : shape (F,), as from `places_on`: a frame lasts 1/√ratio as long there.
+    along : shape (F,), metres along the path in each frame of a straight walk at the usual pace.
+    ratio : shape (F,), as from `places_on`. The duration of a frame is multiplied by 1/√ratio.
     walked : shape (F,), metres of the straight walk before it is slowed down.
     """
     length = float(np.interp(path.length, along, walked))
@@ -119,7 +120,7 @@ def _spaced_by_walk(route: Route, path: GroundPath, along: Array, ratio: Array, 
 def _bend_walk(
     graph: CompiledGraph, path: GroundPath, request: PathRequest, limit: float, walk: Found
 ) -> Followed:
-    """Bend a walk from the search onto the path, and measure how well it follows."""
+    """Bend a walk from the search onto the path, and measure its distance from the path."""
     edges = [graph.edges[edge] for edge in walk.edges]
     smooth, _ = smooth_graph(graph)
     ride = path_of_walk(smooth, walk.edges)
@@ -144,7 +145,7 @@ def _bend_walk(
 
 
 def _unlabelled(motion: Motion, walked: Array, request: PathRequest) -> Mask:
-    """Mark the frames without the label that is asked for at the metres walked."""
+    """Mark the frames without the requested label, as a function of the metres walked."""
     unlabelled = np.zeros(len(motion), bool)
     for start, label in sorted(request.labels):
         is_asked = walked >= start

@@ -126,8 +126,8 @@ class Route:
     clock : shape (n,), the requested time at a point, seconds; nan for any time.
     request : the requests.
     others : shape (K, T), the positions of K other bodies in each frame.
-    smooth, rotations : for walks that are bent onto the path, the graph with smoothed paths of its clips, and the
-        rotations of its frames, from `smooth_graph`.
+    smooth, rotations : for walks that are bent onto the path, the graph with smoothed paths of its clips, and
+        the rotations of its frames, from `smooth_graph`.
     curvature : for walks that are bent, shape (n,), the curvature of the path, radians per metre.
 
     Examples

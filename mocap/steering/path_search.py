@@ -133,8 +133,8 @@ class PathSearch(LayeredSearch):
         The cost of an edge is that of [KGP02, Eq. 9], g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖², plus the
         prices. One departure from the paper: after each macro-edge, s is moved half-way to the projection of
         the body on the path, so that a walk that cuts a corner does not have to catch up the distance saved.
-        The progress remains at least γ in each frame, unless times are requested. `PathRequest.correction` is the
-        fraction, one half by default. Bent walks stay on the path.
+        The progress remains at least γ in each frame, unless times are requested. `PathRequest.correction` is
+        the fraction, one half by default. Bent walks stay on the path.
         """
         route = self.route
         row, macro_edge = self.graph.macro_edges.leaving(states.node)
@@ -157,7 +157,7 @@ class PathSearch(LayeredSearch):
         return longer._replace(along=states.along[row] + progress)
 
     def frames_along(self, macro_edge: Indices, start: Array) -> tuple[Indices, Indices, Array]:
-        """Return the frames of n macro-edges: rows, indices into `macro_edge`, and arc lengths on the path, metres.
+        """Return the frames of n macro-edges: rows, indices into `macro_edge`, and arc lengths on the path.
 
         `start` (n,) are the arc lengths at which the macro-edges begin.
         """
