@@ -44,20 +44,20 @@ export class Camera {
   }
 
   /**
-   * `reach`: how far others are from the place.
+   * Follow a position with a heading; `reach` is the extent of the group of figures, in metres.
    * @param {number} seconds
-   * @param {number[]} place
+   * @param {number[]} position
    * @param {number} heading
    * @param {boolean} tall
    * @param {number} reach
    */
-  follow(seconds, place, heading, tall, reach = 0) {
-    const turn = heading + 0.75 - this.goal.yaw;
+  follow(seconds, position, heading, tall, reach = 0) {
+    const error = heading + 0.75 - this.goal.yaw;
     const lag = 1 - Math.exp(-0.5 * seconds); // it swings round slowly
-    const yaw = this.goal.yaw + lag * Math.atan2(Math.sin(turn), Math.cos(turn));
+    const yaw = this.goal.yaw + lag * Math.atan2(Math.sin(error), Math.cos(error));
     Object.assign(this.goal, {
-      z: place[0],
-      x: place[1],
+      z: position[0],
+      x: position[1],
       y: 0.8,
       pitch: 0.3 + 0.06 * reach,
       yaw,
@@ -71,14 +71,14 @@ export class Camera {
    */
   step(seconds, snap) {
     for (const name of NAMES) {
-      const share = snap ? 1 : 1 - Math.exp(-seconds * (name === "z" || name === "x" ? 3.5 : 2.2));
-      const way = this.goal[name] - this.at[name];
-      this.at[name] += share * (name === "yaw" ? Math.atan2(Math.sin(way), Math.cos(way)) : way);
+      const fraction = snap ? 1 : 1 - Math.exp(-seconds * (name === "z" || name === "x" ? 3.5 : 2.2));
+      const error = this.goal[name] - this.at[name];
+      this.at[name] += fraction * (name === "yaw" ? Math.atan2(Math.sin(error), Math.cos(error)) : error);
     }
   }
 
   /**
-   * What the scene needs; right, up and back of the picture stay for `ground`.
+   * The view that the scene needs. The axes of the picture are kept for `ground`.
    * @param {number} width
    * @param {number} height
    * @returns {View}
@@ -107,7 +107,7 @@ export class Camera {
     ];
     const view = [0, 1, 2].flatMap((k) => rows.map((row) => row[k]));
     view.push(...rows.map((row, k) => -dot(row, eye) + (k === 2 ? b : 0)));
-    const sun = unit([-0.62 * cy + 0.34 * sy, 0.95, 0.62 * sy + 0.34 * cy]); // over the left shoulder of who looks
+    const sun = unit([-0.62 * cy + 0.34 * sy, 0.95, 0.62 * sy + 0.34 * cy]); // over the left shoulder of the viewer
     Object.assign(this, { eye, right, up, back, zoom, wide, width, height });
     return { view: new Float32Array(view), eye, target: [at.x, 0, at.z], sun, zoom };
   }
@@ -120,9 +120,9 @@ export class Camera {
   ground(px, py) {
     const x = ((px / this.width) * 2 - 1) / this.wide;
     const y = (1 - (py / this.height) * 2) / this.zoom;
-    const way = [0, 1, 2].map((k) => this.right[k] * x + this.up[k] * y - this.back[k]);
-    if (way[1] > -0.02) return null;
-    const far = Math.min(-this.eye[1] / way[1], 60);
-    return [this.eye[2] + far * way[2], this.eye[0] + far * way[0]];
+    const ray = [0, 1, 2].map((k) => this.right[k] * x + this.up[k] * y - this.back[k]);
+    if (ray[1] > -0.02) return null;
+    const far = Math.min(-this.eye[1] / ray[1], 60);
+    return [this.eye[2] + far * ray[2], this.eye[0] + far * ray[0]];
   }
 }
