@@ -1,5 +1,6 @@
 // Bodies: the positions of all joints of a walk at any time, and the capsules around them, without a page or a picture.
 
+import { writeCapsule } from "./bodies.js";
 import { compose } from "./walk_search.js";
 
 /**
@@ -148,20 +149,18 @@ export function bodyAt(walk, time) {
 }
 
 /**
- * The capsules of a body, 13 numbers each: an end and its radius, the other end and its radius, the way to the
- * body's left, how flat it is, and its side (-1 right, 0, 1 left).
+ * Write the capsules of a body.
  * @param {Piece[]} pieces
  * @param {Body} body
  * @param {Float32Array} out
  * @param {number} at
  */
 export function capsules(pieces, { positions, rotations }, out, at = 0) {
-  for (const [joint, a, ra, b, rb, flat, side] of pieces) {
+  for (const [joint, a, ra, b, rb, flatness, side] of pieces) {
     const ends = [a, b].map((end) =>
       rotate(rotations[joint], end).map((value, c) => value + positions[joint][c]),
     );
-    out.set([...ends[0], ra, ...ends[1], rb, ...rotate(rotations[joint], [1, 0, 0]), flat, side], at);
-    at += 13;
+    at = writeCapsule(out, at, ends, [ra, rb], rotate(rotations[joint], [1, 0, 0]), flatness, side);
   }
   return at;
 }

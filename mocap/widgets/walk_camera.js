@@ -1,5 +1,7 @@
 // A camera that holds a whole line, or follows a figure from three quarters in front; the reader's hand turns it.
 
+import { perspective } from "./bodies.js";
+
 /**
  * @import { Sight } from "./bodies.js"
  * @import { Line } from "./walk_search.js"
@@ -10,12 +12,6 @@
 
 /** @param {number[]} v */
 const unit = (v) => v.map((value) => value / Math.hypot(...v));
-/**
- * @param {number[]} a
- * @param {number[]} b
- */
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-
 const NAMES = /** @type {const} */ (["z", "x", "y", "yaw", "pitch", "far"]);
 
 export class Camera {
@@ -95,21 +91,10 @@ export class Camera {
     const eye = [at.x + far * back[0], at.y + far * back[1], at.z + far * back[2]];
     const zoom = 1 / Math.tan(width < height ? 0.42 : 0.34);
     const wide = (zoom * height) / width;
-    const near = 0.1;
-    const end = 200;
-    const a = (end + near) / (near - end);
-    const b = (2 * end * near) / (near - end);
-    const rows = [
-      right.map((v) => v * wide),
-      up.map((v) => v * zoom),
-      back.map((v) => v * a),
-      back.map((v) => -v),
-    ];
-    const view = [0, 1, 2].flatMap((k) => rows.map((row) => row[k]));
-    view.push(...rows.map((row, k) => -dot(row, eye) + (k === 2 ? b : 0)));
+    const view = perspective({ eye, right, up, back }, [wide, zoom], 0.1, 200);
     const sun = unit([-0.62 * cy + 0.34 * sy, 0.95, 0.62 * sy + 0.34 * cy]); // over the left shoulder of the viewer
     Object.assign(this, { eye, right, up, back, zoom, wide, width, height });
-    return { view: new Float32Array(view), eye, target: [at.x, 0, at.z], sun, zoom };
+    return { view, eye, target: [at.x, 0, at.z], sun, zoom };
   }
 
   /**
