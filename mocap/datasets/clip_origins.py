@@ -1,4 +1,4 @@
-"""The files that clips were read from, and the options, so that they can be read again."""
+"""The files from which clips were read, and the options, by which they can be read again."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ AXES = (None, "y", "z", "-y", "-z", "x", "-x")  # that may point up in a file
 
 
 class Origin(NamedTuple):
-    """The file that a clip was read from; `skeleton`, `scale` and `up` are those of `mocap.load`.
+    """The file from which a clip was read; `skeleton`, `scale` and `up` are those of `mocap.load`.
 
     If `mirrored`, the clip is the mirror image of the motion in the file.
     """
@@ -25,7 +25,7 @@ class Origin(NamedTuple):
     up: str | None = None
 
     def text(self, folder: Path) -> str:
-        """Write an origin as JSON: each file by its path relative to a folder, and by its absolute path.
+        """Serialise an origin as JSON, with the path of each file relative to a folder, and absolute.
 
         Examples
         --------
@@ -51,7 +51,7 @@ def _places(file: Path, folder: Path) -> list[str]:
 
 
 def find_again(text: str, folder: Path) -> Origin | None:
-    """Find the file of a clip from `Origin.text`, by its relative or its absolute path; None if it is gone.
+    """Find the file of a clip from `Origin.text`, by its relative or absolute path; None if it is missing.
 
     Examples
     --------
@@ -70,7 +70,7 @@ def _first_file(places: Iterable[Path]) -> Path | None:
 
 
 def is_origin(text: str) -> bool:
-    """Return whether a text has the form that `Origin.text` writes.
+    """Return whether a text is valid output of `Origin.text`.
 
     Examples
     --------

@@ -184,22 +184,26 @@ def decide(
 def _axis(evidence: Sequence[Evidence], usual: str) -> tuple[str, str]:
     """Return the vertical axis, and the one that it may be instead, "" for none."""
     scores = {axis: float(np.mean([clip.scores[axis] for clip in evidence])) for axis in UPRIGHT}
-    best = max(scores, key=lambda axis: scores[axis] + (0.15 if axis == usual else 0.0))
-    lead = scores[best] - max(score for axis, score in scores.items() if axis != best)
-    stillness = max(clip.stillness[best] for clip in evidence)
-    nothing_moves = all(max(clip.stillness.values()) == 0 for clip in evidence)
-    on_floor = all(clip.on_floor for clip in evidence)
-    stands = stillness > TUNING.planted or (nothing_moves and on_floor)
+    ranked = sorted(scores, key=lambda axis: scores[axis] + (0.15 if axis == usual else 0.0), reverse=True)
+    best, second = ranked[:2]
+    stands = _stands(evidence)
     if best == usual:
-        rival = max((axis for axis in scores if axis != best), key=lambda axis: scores[axis])
-        return best, "" if _stands(evidence) else rival
-    if lead >= TUNING.sure_axis and stands:
+        return best, "" if stands else second
+    lead = scores[best] - scores[second]
+    if lead >= TUNING.sure_axis and _feet_stand(evidence, best):
         return best, ""
-    is_probable = lead >= TUNING.probable_axis and on_floor and _stands(evidence)
-    if is_probable:
+    on_floor = all(clip.on_floor for clip in evidence)
+    if lead >= TUNING.probable_axis and on_floor and stands:
         return best, usual
-    is_stated = lead >= TUNING.sure_axis or not _stands(evidence)
+    is_stated = lead >= TUNING.sure_axis or not stands
     return usual, best if is_stated else ""
+
+
+def _feet_stand(evidence: Sequence[Evidence], axis: str) -> bool:
+    """Check whether the lowest joint stands still if an axis points up, or all clips stand on the floor."""
+    stillness = max(clip.stillness[axis] for clip in evidence)
+    nothing_moves = all(max(clip.stillness.values()) == 0 for clip in evidence)
+    return stillness > TUNING.planted or (nothing_moves and all(clip.on_floor for clip in evidence))
 
 
 def _unit(evidence: Sequence[Evidence], usual: float) -> tuple[float, float | None]:
@@ -228,7 +232,7 @@ def _is_adult(metres: float) -> bool:
 
 
 def _is_stated(height: float, other_height: float) -> bool:
-    """Check whether a doubt helps: the other unit gives a likely height, or this one gives none of a person."""
+    """Check whether a doubt helps: the other unit gives a likely height, or this one an unlikely height."""
     smallest, largest = TUNING.likely
     shortest, tallest = TUNING.person
     return smallest <= other_height <= largest or not shortest <= height <= tallest
