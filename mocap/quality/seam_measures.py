@@ -22,9 +22,9 @@ from mocap.matching.point_clouds import point_cloud
 
 
 class FootSliding(NamedTuple):
-    """The largest distance `far` of a joint from its mean position on the ground in one plant, centimetres.
+    """The largest distance `far` of a joint from its mean position on the ground in one footplant, cm.
 
-    The plant is from frame `start` to just before frame `stop`.
+    The footplant is from frame `start` to just before frame `stop`.
     """
 
     joint: str
