@@ -23,7 +23,7 @@ The rooms of the package, from the ground floor up, with the notebooks that teac
 from rooms on lower floors. `help(mocap.graphs)`, for example, lists the files of a room in reading order.
 
 body       skeletons, motions, rotations, forward kinematics (01, 03)
-files      motion files: ASF/AMC, BVH, AMASS .npz, glTF, whole folders; paths from CSV and SVG (01, 10)
+files      motion files: ASF/AMC, BVH, AMASS .npz, glTF, whole folders, paths from CSV and SVG (01, 10)
 matching   similarity of motions: metrics, distance grids, transitions (02, 05, 15)
 feet       footplants, footskate clean-up (04)
 blending   transitions and blends: windows, inertialization, registration (04, 15)

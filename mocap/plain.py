@@ -140,7 +140,7 @@ def find_transitions(clips: Sequence[Motion]) -> Transitions:
         for b in range(a, len(clips)):
             for i, j in local_minima(distance_grid(points[a], points[b]), BELOW):
                 if a == b and j < i + K:
-                    continue  # j near i: overlapping windows; j < i: the reverse is added with (j, i)
+                    continue  # overlapping windows, or the reverse of a pair (j, i)
                 cost = float(window_distance(points[a][i], points[b][j]))
                 rotation, translation = map(complex, align(points[a][i], points[b][j]))
                 transitions.append((a, i, b, j, cost, (rotation, translation)))

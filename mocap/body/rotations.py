@@ -271,7 +271,7 @@ def mean(quaternions: ArrayLike, weights: ArrayLike | None = None, *, rounds: in
     Parameters
     ----------
     quaternions : shape (..., C, 4).
-    weights : shape (..., C), leading axes broadcast; their sum is one, and some may be negative.
+    weights : shape (..., C), leading axes broadcast. Their sum is one, and some may be negative.
     rounds : the number of iterations; 0 for the weighted sum, which takes a third of the time. Its error is
         up to 8° for random rotations, and less than 1 mm at the hands of similar poses.
 

@@ -69,7 +69,7 @@ def plan(source: str | Path, target: str | Path, suffix: str = ".bvh") -> list[t
     Parameters
     ----------
     source : a file, or a folder, which is searched recursively.
-    target : for a file, another file; for a folder, a folder that gets the same subfolders.
+    target : another file, or for a folder another folder, which gets the same subfolders.
     suffix : the format that is written for a folder.
 
     Raises
@@ -114,7 +114,7 @@ def require_apart(pairs: Sequence[tuple[Path, Path]], read: Iterable[Path] = ())
 def convert(
     pairs: Sequence[tuple[Path, Path]], load: Callable[[Path], "Motion"], *, progress: Progress = iter
 ) -> list[str]:
-    """Convert files in parallel processes; an error in one file does not stop the others.
+    """Convert files in parallel processes. An error in one file does not stop the others.
 
     Parameters
     ----------
@@ -149,7 +149,7 @@ def convert(
 
 
 def _convert(load: Callable[[Path], "Motion"], source: Path, target: Path) -> str:
-    """Convert a file; return the error message, or "" if there is none."""
+    """Convert a file. Return the error message, or "" if there is none."""
     try:
         motion = load(source)
         make_folder(target.parent)

@@ -1,4 +1,4 @@
-"""Reading and writing of motions; the suffix of a file determines its format."""
+"""Reading and writing of motions. The suffix of a file determines its format."""
 
 import math
 from os import PathLike
@@ -29,12 +29,12 @@ def load(
 
     Parameters
     ----------
-    path : the file; upper and lower case in its suffix are equivalent.
+    path : the file. Upper and lower case in its suffix are equivalent.
     skeleton : for `.amc`, the `.asf` file of its skeleton. By default a matching one in the same folder: that
         of the same name, else of the name up to the first `_` (`16.asf` for `16_15.amc`), else the only one.
     fps : frames per second, which replace those of the file. An `.amc` file has none, and the default is
         120, as in most of the CMU database.
-    scale : metres in one unit of the file; by default 0.01 for `.bvh`, and that of the skeleton for `.amc`.
+    scale : metres in one unit of the file, by default 0.01 for `.bvh`, and that of the skeleton for `.amc`.
         An `.npz` file is in metres.
     stretch : the largest change of the lengths of bones in a `.bvh` file, by default 0.02 metres. Up to this,
         rigid bones are fitted, with a warning that reports the error of joint positions. `math.inf` accepts
@@ -131,7 +131,7 @@ def read_angles(path: str | Path, *, skeleton: str | Path | None = None) -> dict
 
 
 def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
-    """Write a motion to a file; an existing file is replaced once the new one is complete.
+    """Write a motion to a file. An existing file is replaced once the new one is complete.
 
     Labels and contacts are not written, because the formats cannot represent them.
 

@@ -37,7 +37,7 @@ class CompiledGraph(EdgeTable):
     at : shape (N,), the position of the root at each node, in the coordinates of its clip.
     ahead : shape (N, 3), the positions of the root after `AHEAD` seconds, extrapolated at constant velocity
         beyond the end of the clip.
-    going : shape (N,), the direction of movement of the root, radians; the heading if it stands still.
+    going : shape (N,), the direction of movement of the root, or the heading if it stands still, radians.
     ground : shape (T,), the position of the root in each frame, in the coordinates of the clip that the edge
         leaves.
     step : shape (T,), the distance of the root to its position in the previous frame, metres.
@@ -85,7 +85,7 @@ class CompiledGraph(EdgeTable):
 
 
 def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
-    """Compile a motion graph into arrays; a compiled graph is returned as it is.
+    """Compile a motion graph into arrays. A compiled graph is returned as it is.
 
     Raises
     ------

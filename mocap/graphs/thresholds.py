@@ -101,7 +101,7 @@ def threshold_curve(
 
     Returns
     -------
-    The curve; its method `suggest` chooses a threshold.
+    The curve, whose method `suggest` chooses a threshold.
 
     Raises
     ------

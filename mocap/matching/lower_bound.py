@@ -45,10 +45,10 @@ from mocap.matching.distance_grids import Cloud, window_vectors
 Singles = NDArray[np.float32]
 Number = TypeVar("Number", np.float64, np.complex128)
 
-SAMPLE = 256  # windows that determine the directions; the bound holds for any orthonormal ones
+SAMPLE = 256  # windows that determine the directions (the bound holds for any orthonormal ones)
 GROUND_DIRECTIONS = 10  # of the vectors g, for 100 numbers of G
 HEIGHT_DIRECTIONS = 40  # of the vectors y
-DIRECTIONS = 48  # of f; with more, hardly fewer pairs remain
+DIRECTIONS = 48  # of f (with more, hardly fewer pairs remain)
 TOGETHER = 256  # windows whose vectors are in memory at a time
 TINY = 1e-300  # metres: avoids a division by 0 for a window of one point, whose r is 0
 
@@ -80,7 +80,7 @@ def principal_directions(vectors: NDArray[Number], count: int) -> NDArray[Number
     Parameters
     ----------
     vectors : shape (N, n), real or complex.
-    count : the largest number of directions; there are at most N and at most n.
+    count : the largest number of directions. There are at most N and at most n.
 
     Returns
     -------

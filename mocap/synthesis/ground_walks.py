@@ -91,7 +91,7 @@ class GroundWalks:
         return walk_track(self.graph, edges, stand.rotation, stand.translation)[0]
 
     def problem(self, price: Price, *, frames: float = math.inf) -> Problem:
-        """Return a search problem: `price` is the cost of an edge; a walk of `frames` frames is complete."""
+        """Return a search problem: `price` is the cost of an edge. A walk of `frames` frames is complete."""
 
         def step(stand: Stand, edge: SearchEdge) -> tuple[float, Stand]:
             _, points, next_stand = self.step(stand, edge)
