@@ -73,13 +73,7 @@ def _brief(value: object) -> str:
 
 
 def _abbreviation(value: object) -> str:
-    """Format the type of a value, with its shape or length if it has one.
-
-    Examples
-    --------
-    >>> _abbreviation(np.zeros((2, 3))), _abbreviation([1, 2]), _abbreviation(2.5)
-    ('<array (2, 3)>', '<list of 2>', '<float>')
-    """
+    """Format the type of a value, with its shape or length if it has one."""
     if isinstance(value, np.ndarray):
         return f"<array {value.shape}>"
     kind = type(value).__name__

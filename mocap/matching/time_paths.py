@@ -247,8 +247,8 @@ def path_mean(grid: ArrayLike, path: ArrayLike) -> float:
     --------
     >>> rows, columns = np.indices((7, 4))
     >>> grid = np.abs(rows - 2 * columns)
-    >>> path_mean(grid, time_path(grid)) == 3 / 11
-    True
+    >>> round(path_mean(grid, time_path(grid)), 4)  # 3 / 11
+    0.2727
 
     Notebook: 15-registration
     """

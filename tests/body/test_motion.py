@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from mocap.blending import blend, mix, register
 from mocap.body import Motion, Skeleton, concatenate, resample, rotations
+from mocap.body.fingerprints import fingerprint
 from mocap.body.kinematics import forward_kinematics
 from mocap.body.motion import require_alike
 from mocap.datasets import sample
@@ -210,3 +211,13 @@ def test_velocities_are_central_differences_and_one_sided_at_both_ends():
     assert dot.velocities.shape == dot.positions.shape
     with pytest.raises(MocapError, match="at least two frames"):
         _ = dot[:1].velocities
+
+
+def test_a_fingerprint_ignores_rounding_and_no_hundredth_of_a_millimetre():
+    clip = wave(9)
+
+    def shifted(metres):
+        return replace(clip, root_positions=np.round(clip.root_positions, 5) + metres)
+
+    assert fingerprint(shifted(1e-12)) == fingerprint(shifted(0))
+    assert fingerprint(shifted(1e-5)) != fingerprint(shifted(0))
