@@ -341,10 +341,12 @@ def _merge_targets(transitions: Sequence[Ends], within: int) -> dict[Node, Node]
     entries = {enter for _, enter in transitions}
     groups: list[list[Node]] = []
     for node in sorted(exits | entries):
-        last = groups[-1] if groups else [(-1, 0)]
-        is_near = last[0][0] == node[0] and node[1] - last[0][1] <= within
-        if is_near and not (node in exits and any(member in entries for member in last)):
-            last.append(node)
+        group = groups[-1] if groups else []
+        is_near = bool(group) and _frames_between(group[0], node) <= within
+        # With an exit after it, an entry would move to a later frame, and frames of the clip would be lost.
+        moves_entry = node in exits and any(member in entries for member in group)
+        if is_near and not moves_entry:
+            group.append(node)
         else:
             groups.append([node])
     targets: dict[Node, Node] = {}
@@ -352,6 +354,13 @@ def _merge_targets(transitions: Sequence[Ends], within: int) -> dict[Node, Node]
         target = max((node for node in group if node in exits), default=group[0])
         targets.update(dict.fromkeys(group, target))
     return targets
+
+
+def _frames_between(first: Node, second: Node) -> float:
+    """Return the number of frames from a node to a later one, infinite in another clip."""
+    first_clip, first_frame = first
+    second_clip, second_frame = second
+    return second_frame - first_frame if first_clip == second_clip else np.inf
 
 
 def _measure(clips: Sequence[Motion], window: int, ends: Sequence[Ends]) -> Iterator[tuple[Ends, Transition]]:
