@@ -8,7 +8,7 @@ from mocap.body.motion import Motion
 
 
 def fingerprint(motion: Motion) -> str:
-    """Compute a hash (SHA-256) of a clip's skeleton, poses, rate and labels, the input of a motion graph.
+    """Compute a hash (SHA-256) of a clip's skeleton, poses, rate and labels, which determine its graph.
 
     Numbers are rounded to six decimals, because the last digits depend on the machine.
 
