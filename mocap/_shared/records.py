@@ -30,11 +30,11 @@ def one_line(record: Any) -> str:  # noqa: ANN401
     Examples
     --------
     >>> from typing import NamedTuple
-    >>> class Walked(NamedTuple):
-    ...     places: object
+    >>> class Track(NamedTuple):
+    ...     positions: object
     ...     seconds: float
-    >>> one_line(Walked(np.zeros((471, 3)), 3.9))
-    'Walked(places=<array (471, 3)>, seconds=3.9)'
+    >>> one_line(Track(np.zeros((471, 3)), 3.9))
+    'Track(positions=<array (471, 3)>, seconds=3.9)'
     """
     values = {name: getattr(record, name) for name in _field_names(record)}
     parts = {name: _brief(value) for name, value in values.items()}

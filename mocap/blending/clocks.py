@@ -17,7 +17,7 @@ from mocap.body.motion import Motion
 from mocap.body.planar import on_ground
 from mocap.errors import MocapError
 
-SHORTEST = 0.02  # seconds of the common clock: shorter plants, and parts of plants, are dropped
+SHORTEST = 0.02  # seconds of the common clock: shorter footplants, and parts of footplants, are dropped
 
 
 SharedPlant = tuple[str, Array]

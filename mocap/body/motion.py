@@ -305,7 +305,7 @@ def turning(motion: Motion) -> NDArray[np.bool_]:
 
 
 def _of_motion_and_rate(resampling: Resampling) -> Resampling:
-    """Check the arguments of a resampling; `resample`, which a notebook shows, holds the method alone."""
+    """Add checks of the arguments, so that `resample`, which a notebook shows, is the method alone."""
 
     @wraps(resampling)
     def checking(motion: Motion, fps: float) -> Motion:

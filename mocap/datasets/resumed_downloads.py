@@ -88,7 +88,7 @@ def download(listing: Listing, target: Path, progress: Progress = iter) -> str:
     part = Part(target, listing.url)
     try:
         with keeping(target):
-            part.path.touch()  # raises before the server is asked
+            part.path.touch()  # raises before any request
             _receive(listing, part, progress)
             digest = sha256_of(part.path)
             if listing.sha256 not in (None, digest):

@@ -183,7 +183,7 @@ def cleaned(pieces: Iterator[Motion]) -> Iterator[Motion]:
     yield clean_up(waiting)[cleaned_frames:]
 
 
-def dump(  # noqa: PLR0913 (which walk, where to, how long, and how)
+def dump(  # noqa: PLR0913 (a walk, a file, a duration, and options)
     motion_graph: MotionGraph,
     path: str | Path,
     *,
