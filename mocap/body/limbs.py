@@ -66,7 +66,7 @@ class Leg(NamedTuple):
 
 
 def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
-    """Find the left and the right leg by the names of their joints; the ball is the ankle's first child.
+    """Find the left and the right leg by the names of their joints. The ball is the ankle's first child.
 
     Raises
     ------
@@ -84,7 +84,7 @@ def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
 
 
 def _find_legs(skeleton: Skeleton, advice: str = "", remedy: Remedy | None = None) -> tuple[Leg, ...]:
-    """Find the left and the right leg; the error for unknown names carries the advice or the remedy."""
+    """Find the left and the right leg. The error for unknown names carries the advice or the remedy."""
     pair = find_pair(skeleton, "legs")
     if not pair:
         joints = shorten(", ".join(skeleton.names), 38)
@@ -181,7 +181,7 @@ def roles(skeleton: Skeleton) -> dict[str, int]:
 
     Returns
     -------
-    {role: joint}. Hips, knees, ankles and balls are always included; other roles only if the body has them.
+    {role: joint}. Hips, knees, ankles and balls are always included, other roles only if the body has them.
 
     Raises
     ------

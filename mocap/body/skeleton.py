@@ -22,7 +22,7 @@ _SIDES = [pair for left, right in zip(_LEFT, _RIGHT, strict=True) for pair in ((
 
 @dataclass(frozen=True, eq=False)
 class Skeleton:
-    """A tree of joints; end sites are ordinary joints without children.
+    """A tree of joints. End sites are ordinary joints without children.
 
     Parameters
     ----------
@@ -190,7 +190,7 @@ class Skeleton:
         return "left" if name < image else "right"  # an l comes before an r
 
     def partner(self, joint: int) -> int:
-        """Return the mirror image of a joint by its name; for a joint in the middle, the joint itself.
+        """Return the mirror image of a joint by its name, or the joint itself if it is in the middle.
 
         Examples
         --------

@@ -81,7 +81,7 @@ def rules_of_clips(arrays: Arrays) -> Rules:
 
 
 def find_files_of(references: ClipReferences, path: str | Path) -> list[Origin]:
-    """Find the files of the clips to which a file at `path` refers; none for bundled samples.
+    """Find the files of the clips to which a file at `path` refers, none for bundled samples.
 
     A clip is searched at its stored paths, then by its name in the folder of the file.
 
@@ -116,7 +116,7 @@ def load_references(
     ----------
     references, path : the references in the file, and its path.
     clips : motions that include these clips; None to read them from their files, or to use bundled ones.
-    skeleton : the `.asf` file of `.amc` clips; by default that of the origin, or one that matches.
+    skeleton : the `.asf` file of `.amc` clips, by default that of the origin, or one that matches.
     progress : wraps the iterable of files of clips, to show a progress bar.
 
     Raises
@@ -127,7 +127,7 @@ def load_references(
         clips = _load_clips(references, path, skeleton, progress)
     resampled = [resample(clip, references.fps) for clip in clips]
     needed = [clip for clip in resampled if clip.name in references.names]
-    with suppress(MocapError):  # give all clips the same end sites; differences are reported below
+    with suppress(MocapError):  # give all clips the same end sites (differences are reported below)
         needed = list(require_compatible(needed))
     by_name = defaultdict[str, list[Motion]](list)
     for clip in needed:

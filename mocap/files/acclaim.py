@@ -40,7 +40,7 @@ def read(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None) ->
     ----------
     path : the file.
     asf : its skeleton.
-    fps : frames per second; by default from a first line such as "# fps 30", else 120 as in the CMU database.
+    fps : frames per second, by default from a first line such as "# fps 30", else 120 as in the CMU database.
 
     Raises
     ------

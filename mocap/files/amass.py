@@ -62,17 +62,17 @@ def read(path: str | Path, *, fps: float | None = None, up: str | None = None) -
     Parameters
     ----------
     path : the file. Arrays of objects, which could contain code, are rejected.
-    fps : frames per second, which replace those of the file; required if it has none.
+    fps : frames per second, which replace those of the file, and are required if it has none.
     up : the axis that points up; by default z, as in AMASS, unless the frames show another, such as y.
 
     Returns
     -------
-    A motion of `SKELETON`, y up; no angles.
+    A motion of `SKELETON`, y up, without angles.
 
     Raises
     ------
     MocapError, FormatError : for a file that cannot be read, and for arrays that are missing, not finite or
-        have another shape; for another kind of file from mocap, with the function that reads it.
+        have another shape. Also for another kind of file from mocap, with the function that reads it.
 
     Warns
     -----
@@ -112,7 +112,7 @@ def read(path: str | Path, *, fps: float | None = None, up: str | None = None) -
 
 
 def _count_frames(path: str | Path, members: Mapping[str, Member], key: str) -> int:
-    """Return the number of rows of an array; raise if they are too short."""
+    """Return the number of rows of an array. Raise if they are too short."""
     if key not in members:
         raise FormatError(path, None, "arrays 'poses' and 'trans', as AMASS archives have", f"no '{key}'")
     array = members[key]

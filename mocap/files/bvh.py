@@ -57,7 +57,7 @@ def read(
     ----------
     path : the file.
     scale : metres in one unit of the file; by default as the frames show, see `spaces`.
-    fps : frames per second; by default from the frame time, as an integer if the digits of the file allow it.
+    fps : frames per second, by default from the frame time, as an integer if the digits of the file allow it.
     stretch : the largest change of the length of a bone, metres.
     up : the axis that points up, such as "z"; by default as the frames show. The motion is rotated so that y
         is up.
@@ -182,7 +182,7 @@ def _rows(path: str | Path, text: str, times: re.Match[str], width: int) -> Arra
 
 
 def _rate(path: str | Path, text: str, times: re.Match[str]) -> float:
-    """Read the frame rate; an integer if the frame time is its reciprocal, rounded or truncated."""
+    """Read the frame rate, an integer if the frame time is its reciprocal, rounded or truncated."""
     line = text.count("\n", 0, times.start(2)) + 1
     seconds = float(to_numbers(path, line, [times[2]], "seconds", 1)[0])
     if not SHORTEST <= seconds <= LONGEST:
@@ -207,7 +207,7 @@ def _axes(joint: Joint) -> str:
 def _rigid(
     path: str | Path, joints: list[Joint], poses: tuple[Array, Array], limit: float
 ) -> tuple[Array, Array]:
-    """Fit rigid bones if joints move in their parents' frames; raise if they stretch by more than `limit`.
+    """Fit rigid bones if joints move in their parents' frames. Raise if they stretch by more than `limit`.
 
     Returns
     -------
@@ -242,10 +242,10 @@ def write(
     Parameters
     ----------
     pieces : motions of one skeleton and rate, with a total of `frames` frames.
-    path : the file; an existing file is replaced once the new one is complete.
+    path : the file. An existing file is replaced once the new one is complete.
     frames : the number of frames in the header of the file.
     rotates : shape (J,), whether a joint rotates in any frame, from `body.motion.rotating_joints`.
-    precision : the number of decimals; with 6, the error of joint positions is at most 1e-7 m.
+    precision : the number of decimals. With 6, the error of joint positions is at most 1e-7 m.
 
     Raises
     ------

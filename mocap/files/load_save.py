@@ -1,4 +1,4 @@
-"""Reading and writing of motions; the suffix of a file determines its format."""
+"""Reading and writing of motions. The suffix of a file determines its format."""
 
 import math
 from os import PathLike
@@ -30,7 +30,7 @@ def load(  # noqa: PLR0913 (each by its name)
 
     Parameters
     ----------
-    path : the file; upper and lower case in its suffix are equivalent.
+    path : the file. Upper and lower case in its suffix are equivalent.
     skeleton : for `.amc`, the `.asf` file of its skeleton. By default a matching one in the same folder: that
         of the same name, else of the name up to the first `_` (`16.asf` for `16_15.amc`), else the only one.
     fps : frames per second, which replace those of the file. An `.amc` file has none, and the default is
@@ -150,7 +150,7 @@ def read_angles(path: str | Path, *, skeleton: str | Path | None = None) -> dict
 
 
 def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
-    """Write a motion to a file; an existing file is replaced once the new one is complete.
+    """Write a motion to a file. An existing file is replaced once the new one is complete.
 
     Labels and contacts are not written, because the formats cannot represent them.
 

@@ -11,7 +11,7 @@ from mocap.files.spaces import Space
 class Recording(NamedTuple):
     """The content of a motion file, whose `motion` is named after the file.
 
-    angles : the angles of each joint in the file, shape (F, number of axes), degrees; an `.npz` has none.
+    angles : the angles of each joint in the file, shape (F, number of axes), degrees. An `.npz` has none.
     stretch : for each joint, the longest minus the shortest length of the bone from its parent in the file,
         metres. Only bones of a `.bvh` file can stretch.
     space : the unit and the vertical axis that it was read in; None if the format says both.
