@@ -74,7 +74,7 @@ class Flock(NamedTuple):
 class Configuration(NamedTuple):
     """The `positions` and `velocities` of N members, (..., N) complex each.
 
-    Leading axes hold other configurations: frames, ten per second, or runs side by side.
+    Leading axes are further configurations: frames, ten per second, or runs side by side.
 
     Examples
     --------
