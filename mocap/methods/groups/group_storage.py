@@ -20,7 +20,8 @@ UNIT = 1e-9  # tolerance of the length of a rotation, 1
 # The arrays of the file, with K nodes, C clips, F + 1 frames of each (here F), and N members.
 # Positions and velocities are complex, as in `Configuration`. Ends, orders and transforms are as in
 # `GroupClip`. The keys keep their first names: "places" are positions, "turns" rotations, "moves"
-# translations. reads: statement: a table
+# translations.
+# reads: statement: a table
 ARRAYS: Layout = {
     "node_places": (complex, ("K", "N")),
     "node_velocities": (complex, ("K", "N")),
