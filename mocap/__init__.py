@@ -1,6 +1,6 @@
-"""New human motion from captured motion: matching, blending, motion graphs, synthesis, steering.
+"""Synthesis of human motion from captured motion: matching, blending, motion graphs, search, steering.
 
-Load clips, build a motion graph, and walk through it:
+Load clips, build a motion graph, and synthesise a random walk:
 
 >>> import mocap
 >>> from mocap import datasets, graphs, synthesis

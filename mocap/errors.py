@@ -1,4 +1,4 @@
-"""The errors that `mocap` raises on purpose, each with one clear sentence and, if possible, a remedy."""
+"""The errors that `mocap` raises: each message is a sentence with the value, the requirement and a remedy."""
 
 import sys
 import warnings
@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 
 def shortened(text: str, length: int = 80) -> str:
-    """Truncate a text from a file, made `printable`, to at most `length` characters, with its full length.
+    """Truncate a text to at most `length` characters, with its original length; it is made `printable`.
 
     Examples
     --------
@@ -24,7 +24,7 @@ def shortened(text: str, length: int = 80) -> str:
 
 
 def printable(text: object) -> str:
-    r"""Escape control characters, which a terminal would interpret, and line ends, which names may contain.
+    r"""Escape control characters and line ends in a text, for safe output to a terminal.
 
     Examples
     --------
@@ -35,12 +35,12 @@ def printable(text: object) -> str:
 
 
 class Remedy(NamedTuple):
-    """The remedy for an error: a parameter, for which a command has an option, or a call in Python.
+    """The remedy for an error: a parameter, which has another name in commands, or a call in Python.
 
     Parameters
     ----------
-    text : the advice, with {} for the name of the parameter.
-    parameter : the name of the parameter in Python, or "" for a call, which commands omit.
+    text : the remedy, with {} for the name of the parameter.
+    parameter : its name in Python; "" for a call, which commands omit.
 
     Examples
     --------
@@ -54,18 +54,17 @@ class Remedy(NamedTuple):
     parameter: str = ""
 
     def worded(self, name: str) -> str:
-        """Return the advice, with this name for the parameter."""
+        """Return the text with a name for the parameter."""
         return self.text.replace("{}", name)
 
 
 class MocapError(ValueError):
-    """The base of all errors raised on purpose: the input, not the program, is at fault.
+    """The base class of all errors raised by `mocap`, for invalid input.
 
     Parameters
     ----------
-    message : the value and the requirement.
-    remedy : the parameter that would help. `str` uses its name in Python, and a command the name of its
-        option.
+    message : the value, and the requirement.
+    remedy : the remedy. `str` uses the name of its parameter in Python, a command that of its option.
 
     Examples
     --------
@@ -87,11 +86,11 @@ class MocapError(ValueError):
         return printable(super().__str__())
 
     def worded(self, names: Mapping[str, str]) -> str:
-        """Return the message with other names for parameters, without the remedy if its parameter has none.
+        """Return the message with other names of parameters; without a name for it, the remedy is omitted.
 
         Parameters
         ----------
-        names : the name of each available parameter, by its name in Python.
+        names : the names of the available parameters, by their names in Python.
         """
         problem = self.problem()
         if self.remedy is None or self.remedy.parameter not in names:
@@ -105,15 +104,15 @@ class MocapError(ValueError):
 
 
 class FormatError(MocapError):
-    """A file violates its format. The message has the line, the expected content, and the actual content.
+    """A file breaks its format: the message has the line, the expected content and the actual content.
 
-    Without the path, the message is at most 200 characters long, for any content of the file.
+    Without the path, the message has at most 200 characters.
 
     Parameters
     ----------
     path : the file.
-    line : the number of the line, counted from 1, or None for the whole file.
-    expected, got : the content that the format requires, and the actual content.
+    line : the number of the line, from 1; None for the whole file.
+    expected, got : the content that the format requires, and the content of the file.
     remedy : as for `MocapError`.
 
     Examples
@@ -143,18 +142,18 @@ class SkeletonMismatch(MocapError):
 
 
 class NoWalk(MocapError):
-    """The graph has no walk of the requested kind."""
+    """The graph has no walk as requested."""
 
 
 def requirement(extra: str) -> str:
-    """Return the requirement of this package with an extra for pip, from the index or from a checkout.
+    """Return the requirement of this package with an extra for pip, by its name or as a local checkout.
 
     Examples
     --------
     >>> requirement("video") in ("motion-graphs[video]", ".[video]")
     True
     """
-    from importlib.metadata import distributions  # imported here, because it takes time
+    from importlib.metadata import distributions  # imported here, because it is slow
 
     # An installation from a folder has this record.
     installed = distributions(name="motion-graphs")
@@ -164,7 +163,7 @@ def requirement(extra: str) -> str:
 
 
 def missing(need: str, extra: str) -> MocapError:
-    """Return the error for a missing package, with the command that installs it, quoted for any shell.
+    """Return the error for a missing extra, with the command to install it, quoted for any shell.
 
     Examples
     --------
@@ -175,11 +174,11 @@ def missing(need: str, extra: str) -> MocapError:
 
 
 class MocapWarning(UserWarning):
-    """A request can be satisfied only in part, which the message describes."""
+    """A request is met only in part; the message describes the part."""
 
 
 def warn(sentence: str) -> None:
-    """Issue a `MocapWarning` that shows the line that called this package."""
+    """Issue a `MocapWarning` for the line that called this package."""
     frame = sys._getframe()
     level = 1
     while frame.f_back and frame.f_globals.get("__name__", "").startswith("mocap."):

@@ -1,8 +1,9 @@
 """Legs and arms of a skeleton, and the role of each joint in a body.
 
-Two skeletons have few names in common, but the same parts. Legs, arms and head are found by the names that
-files use, or legs are named by hand. The trunk is found by the tree: the pelvis is where the legs meet, the
-chest is where the arms meet, and the waist and the neck are the first joints above them.
+Skeletons from different sources share few joint names, but have the same parts. Legs, arms and head are
+identified by the names that common files use, or legs are named by hand. The trunk is identified by the tree:
+the pelvis is the last common ancestor of the legs, the chest that of the arms. The waist and the neck are the
+first joints above them.
 """
 
 from collections.abc import Mapping, Sequence
@@ -18,8 +19,8 @@ from mocap.errors import MocapError, Remedy
 
 LEGS_BY_HAND = Remedy("name each by hand, {}[name_leg(skeleton, hip, knee, ankle, ball), ...]", "legs")
 
-# Hip, knee, ankle and shoulder, elbow, wrist of the left side, as files name them. Legs and arms are looked
-# up separately, and a prefix up to a colon is ignored.
+# Names of hip, knee, ankle and of shoulder, elbow, wrist on the left side, by source. Legs and arms are
+# looked up separately. A prefix up to a colon is ignored.
 LIMBS = (
     ("lfemur ltibia lfoot", "lhumerus lradius lwrist"),  # Acclaim, CMU
     ("lfemur ltibia lfoot", "lhumerus lradius lhand"),
@@ -44,7 +45,7 @@ ROLES = (*TRUNK, *(f"{side} {part}" for side in SIDES for part in ("clavicle", *
 
 
 class Leg(NamedTuple):
-    """One leg's joints, as indices into a skeleton, each the parent of the next.
+    """The joints of a leg, as indices into a skeleton, each the parent of the next.
 
     Examples
     --------
@@ -65,11 +66,11 @@ class Leg(NamedTuple):
 
 
 def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
-    """Find the left and the right leg by their joints' names; the ball is the ankle's first child.
+    """Find the left and the right leg by the names of their joints; the ball is the ankle's first child.
 
     Raises
     ------
-    MocapError : for skeletons without known names, whose joints are named by hand with `name_leg`.
+    MocapError : for skeletons with unknown names, whose legs are named by hand with `name_leg`.
 
     Examples
     --------
@@ -83,7 +84,7 @@ def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
 
 
 def _find_legs(skeleton: Skeleton, advice: str = "", remedy: Remedy | None = None) -> tuple[Leg, ...]:
-    """Find the left and the right leg; the error for unknown names ends with the advice or the remedy."""
+    """Find the left and the right leg; the error for unknown names carries the advice or the remedy."""
     pair = find_pair(skeleton, "legs")
     if not pair:
         joints = shorten(", ".join(skeleton.names), 38)
@@ -105,7 +106,7 @@ def _ball(skeleton: Skeleton, ankle: int) -> int:
 
 
 def find_pair(skeleton: Skeleton, limbs: Literal["legs", "arms"]) -> list[list[int]]:
-    """Find the three joints of the left limb and of its mirror image, the right one; [] for unknown names.
+    """Find the three joints of the left limb and of its mirror image on the right; [] for unknown names.
 
     Examples
     --------
@@ -124,7 +125,7 @@ def find_pair(skeleton: Skeleton, limbs: Literal["legs", "arms"]) -> list[list[i
 
 
 def _without_prefixes(skeleton: Skeleton) -> list[str]:
-    """List the joints' names without what is before a colon, as in "mixamorig:LeftArm"."""
+    """List the joints' names without a prefix up to a colon, as in "mixamorig:LeftArm"."""
     return [name.rsplit(":", 1)[-1] for name in skeleton.names]
 
 
@@ -133,8 +134,7 @@ def name_leg(skeleton: Skeleton, hip: str, knee: str, ankle: str, ball: str) -> 
 
     Raises
     ------
-    MocapError : for names that the skeleton lacks, a joint that is not the parent of the next one, and
-        bones without a length.
+    MocapError : for unknown names, a joint that is not the parent of the next one, and bones of length zero.
 
     Examples
     --------
@@ -148,7 +148,7 @@ def name_leg(skeleton: Skeleton, hip: str, knee: str, ankle: str, ball: str) -> 
 
 
 def _require_leg(skeleton: Skeleton, leg: Leg) -> None:
-    """Raise unless each joint of a leg is the parent of the next one, at a distance."""
+    """Raise unless each joint of a leg is the parent of the next one, by a bone of nonzero length."""
     names = skeleton.names
     for above, below in pairwise(leg):
         if skeleton.parents[below] != above:
@@ -159,7 +159,7 @@ def _require_leg(skeleton: Skeleton, leg: Leg) -> None:
 
 
 def heading_by_hips(positions: Array, legs: Sequence[Leg]) -> Array:
-    """Compute the heading at right angles to the line of the hips, from positions (F, J, 3); radians (F,).
+    """Compute the heading perpendicular to the line of the hips, from positions (F, J, 3); radians (F,).
 
     Examples
     --------
@@ -181,7 +181,7 @@ def roles(skeleton: Skeleton) -> dict[str, int]:
 
     Returns
     -------
-    {role: joint}. Roles that the body lacks are left out; hips, knees, ankles and balls are always there.
+    {role: joint}. Hips, knees, ankles and balls are always included; other roles only if the body has them.
 
     Raises
     ------
@@ -209,12 +209,12 @@ def roles(skeleton: Skeleton) -> dict[str, int]:
 
 
 def _trunk(skeleton: Skeleton, limbs: Mapping[str, int]) -> dict[str, int]:
-    """Find the trunk's roles by the tree, from those of the limbs and the head."""
+    """Find the joints of the trunk by the tree, from those of the limbs and the head."""
     ancestors = {role: skeleton.path_to_root(joint)[1:] for role, joint in limbs.items()}
     pelvis = _last_common(ancestors, "hip")
     chest = _last_common(ancestors, "shoulder")
     spine = skeleton.path_to_root(chest)[1:]
-    if pelvis not in spine:  # no arms, or they hang on the pelvis
+    if pelvis not in spine:  # no arms, or arms attached to the pelvis
         return {"pelvis": pelvis}
     trunk = {"pelvis": pelvis, "chest": chest}
     if spine[0] != pelvis:
@@ -227,12 +227,12 @@ def _trunk(skeleton: Skeleton, limbs: Mapping[str, int]) -> dict[str, int]:
 
 
 def _last_common(ancestors: Mapping[str, list[int]], part: str) -> int:
-    """Return the last joint on which the left and the right `part` both hang, or else the root."""
+    """Return the last common ancestor of the left and the right `part`, the root if there is none."""
     left = set(ancestors.get(f"left {part}", ()))
     right = set(ancestors.get(f"right {part}", ()))
     return max(left & right, default=0)
 
 
 def _child_towards(joint: int, path: list[int]) -> int:
-    """Return the joint before `joint` on a path to the root."""
+    """Return the child of `joint` on a path to the root."""
     return path[path.index(joint) - 1]

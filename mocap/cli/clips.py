@@ -17,9 +17,9 @@ from mocap.cli.options import (
     Sources,
     Unit,
     bar,
-    require_place,
-    tell,
-    tell_of_failures,
+    print_rows,
+    report_failures,
+    require_output,
     timed_stage,
 )
 from mocap.errors import MocapError, printable
@@ -73,11 +73,11 @@ def view(clip: Path, *, out: Path | None = None, reading: Reading) -> None:
     import webbrowser  # it takes a while
 
     if out:
-        require_place(out)
+        require_output(out)
     motion = reading.load(clip)
     page = out or Path(tempfile.mkdtemp(prefix="mocap-"), f"{clip.stem}.html")
     widgets.save_animation(motion, page, progress=bar("drawing"))
-    tell(wrote=page)
+    print_rows(wrote=page)
     if not out and not webbrowser.open(page.as_uri()):
         print("mocap: no browser opened; open that page yourself.", file=sys.stderr)
 
@@ -151,8 +151,8 @@ def convert(source: Path, target: Path, *, reading: Reading, to: Literal["bvh", 
     """
     pairs = conversion.plan(source, target, f".{to}")
     failed = conversion.convert(pairs, reading.load_any, progress=bar("converting"))
-    place = f" to {target}" if not source.is_dir() else f" to .{to}, in {target}"
-    return tell_of_failures("converted", len(pairs), failed, place)
+    where_to = f" to {target}" if not source.is_dir() else f" to .{to}, in {target}"
+    return report_failures("converted", len(pairs), failed, where_to)
 
 
 def find(
@@ -195,13 +195,13 @@ def find(
         seconds = (match.stop - match.start) / clip.fps
         place = f"{printable(clip.name):<20} {f'{match.start}-{match.stop}':>13}"
         print(f"{place} {seconds:>8.2f} {100 * match.cost:>5.1f} {match.generation:>5}")
-    tell(found=f"{len(shown)} in {len({match.clip for match in shown})} clips")
+    print_rows(found=f"{len(shown)} in {len({match.clip for match in shown})} clips")
     if out:
         make_folder(out)
         for match in bar("writing")(shown):
             name = f"{motions[match.clip].name}_{match.start}-{match.stop}.bvh"
             files.save(match_webs.cut_out(web, match), out / name)
-        tell(wrote=f"{len(shown)} files to {out}")
+        print_rows(wrote=f"{len(shown)} files to {out}")
 
 
 def _query(text: str) -> tuple[Path, slice]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from mocap import blending, body, editing, feet, quality
 from mocap._shared.atomic import require_folder
 from mocap.cli import options
-from mocap.cli.options import TURN, Clean, Reading, Unit, bar, check_out, number, tell, write_out
+from mocap.cli.options import TURN, Clean, Reading, Unit, bar, check_out, number, print_rows, write_out
 from mocap.errors import MocapError, Remedy, warn
 from mocap.files.conversion import convert, find_files, require_apart
 
@@ -76,7 +76,7 @@ def warp(
         motion = feet.mark_plants(motion)
     warped = warp_plans.warp(motion, plan, window=window, feet=not loose_feet)
     poses = sum(map(len, plan.wishes.values()))
-    tell(keys=f"{poses} of poses, {len(plan.times)} of time")
+    print_rows(keys=f"{poses} of poses, {len(plan.times)} of time")
     write_out(warped, out, details=f": {len(warped)} frames, {warped.duration:.2f} s")
 
 
@@ -111,7 +111,7 @@ def bend(
 
     line = load_path(along, scale=unit)
     bent = editing.bend(reading.load(source), line, limit=math.radians(limit))
-    tell(bent=bent.report())
+    print_rows(bent=bent.report())
     write_out(bent.motion, out)
 
 
@@ -158,13 +158,13 @@ def loop(
     if best.missed > LITTLE:
         warn(f"{clip}: the clip's other poses are {missed} away: it may hold no whole cycle.")
     cycle = editing.loop(motion, best, straight=straight, clean=clean)
-    turn = quality.inspect(cycle).turn
+    turn = quality.inspect(cycle).heading_change
     step = math.hypot(*(cycle.root_positions[-1] - cycle.root_positions[0])[[0, 2]])
     side = "left" if turn > 0 else "right"
-    tell(cycle=f"frames {best.first} to {best.last}, {cycle.duration:.2f} s")
-    tell(seam=f"{100 * best.seam:.1f} cm RMS")
-    tell(misses=f"{100 * best.missed:.1f} cm of the clip's other poses, on average")
-    tell(**{"a round": f"{step:.2f} m, turns {side} by {abs(math.degrees(turn)):.0f}°"})
+    print_rows(cycle=f"frames {best.first} to {best.last}, {cycle.duration:.2f} s")
+    print_rows(seam=f"{100 * best.seam:.1f} cm RMS")
+    print_rows(misses=f"{100 * best.missed:.1f} cm of the clip's other poses, on average")
+    print_rows(**{"a round": f"{step:.2f} m, turns {side} by {abs(math.degrees(turn)):.0f}°"})
     write_out(repeated(cycle, times), out)
 
 
@@ -219,10 +219,10 @@ def blend(
     registration = blending.register(motions, slack=slack)
     first, last = registration.span
     worst = 100 * max(registration.costs)
-    tell(registered=f"{len(motions)} clips, {last - first:.2f} s in common, {worst:.1f} cm")
+    print_rows(registered=f"{len(motions)} clips, {last - first:.2f} s in common, {worst:.1f} cm")
     weights = weights or [1 / len(clips)] * len(clips)
     mixed = blending.crossfade(registration, seconds=fade) if fade else blending.mix(registration, weights)
-    tell(blended=f"{mixed.duration:.2f} s")
+    print_rows(blended=f"{mixed.duration:.2f} s")
     write_out(feet.clean_up(mixed) if clean else mixed, out)
 
 
@@ -260,7 +260,7 @@ def retarget(
     require_apart(pairs, [to])
     wear = partial(_worn, reading, _body(to, to_scale))
     failed = convert(pairs, wear, progress=bar("retargeting"))
-    return options.tell_of_failures("retargeted", len(pairs), failed, f", in {out}")
+    return options.report_failures("retargeted", len(pairs), failed, f", in {out}")
 
 
 def _worn(reading: Reading, wearer: "Stance | body.Skeleton", source: Path) -> "body.Motion":

@@ -16,8 +16,8 @@ from mocap.cli.options import (
     bar,
     check_out,
     number,
+    print_rows,
     require_other,
-    tell,
     timed_stage,
     write_out,
 )
@@ -73,33 +73,33 @@ def demo(
         raise NoWalk(f"No walk is left at {threshold}; these clips need at least {needed:g} cm.") from error
     edges = synthesis.random_walk(pruned, seconds=seconds, seed=seed)
     walk = synthesis.to_motion(pruned, edges)
-    _tell_of_graphs(whole, pruned)
+    _print_graphs(whole, pruned)
     costs = [100 * seam.cost for seam in synthesis.seams(pruned, edges)]
-    tell(**{"new walk": f"{walk.duration:.1f} s, {quality.inspect(walk).path:.1f} m"})
-    tell(seams=f"{len(costs)}, the worst {max(costs, default=0.0):.1f} cm RMS")
+    print_rows(**{"new walk": f"{walk.duration:.1f} s, {quality.inspect(walk).path:.1f} m"})
+    print_rows(seams=f"{len(costs)}, the worst {max(costs, default=0.0):.1f} cm RMS")
     make_folder(out)
     write_out(walk, out / "walk.bvh")
     widgets.save_animation(walk, out / "walk.gif", progress=bar("drawing"))
-    tell(wrote=out / "walk.gif")
+    print_rows(wrote=out / "walk.gif")
 
 
-def _tell_of_graphs(whole: "MotionGraph", pruned: "MotionGraph") -> None:
+def _print_graphs(whole: "MotionGraph", pruned: "MotionGraph") -> None:
     """Print the clips of a graph, and its size before and after pruning."""
     names = [clip.name for clip in whole.clips]
     frames = sum(map(len, whole.clips))
     shown = ", ".join(names if len(names) <= SHOWN else [*names[:SHOWN], f"… {names[-1]}"])
     body = whole.clips[0]
-    tell(clips=f"{len(names)}: {shown}")
-    tell(frames=f"{frames} at {whole.fps:g} Hz, {frames / whole.fps:.1f} s")
-    tell(body=f"{len(body.skeleton)} joints, {quality.inspect(body).height:.2f} m tall")
-    tell(candidates=f"{whole.count('transition') // 2} pairs of windows alike")
+    print_rows(clips=f"{len(names)}: {shown}")
+    print_rows(frames=f"{frames} at {whole.fps:g} Hz, {frames / whole.fps:.1f} s")
+    print_rows(body=f"{len(body.skeleton)} joints, {quality.inspect(body).height:.2f} m tall")
+    print_rows(candidates=f"{whole.count('transition') // 2} pairs of windows alike")
     print(f"{'':<12} {'whole':>8}{'pruned':>8}")
     pair = (whole, pruned)
     rows = {"transitions": [graph.count("transition") for graph in pair]}
     rows["nodes"] = [graph.graph.number_of_nodes() for graph in pair]
     rows["edges"] = [graph.graph.number_of_edges() for graph in pair]
     for name, counts in rows.items():
-        tell(**{name: "".join(f"{count:8}" for count in counts)})
+        print_rows(**{name: "".join(f"{count:8}" for count in counts)})
 
 
 def build(
@@ -153,12 +153,12 @@ def build(
     print(table)
     with timed_stage("writing"):
         graphs.save(graph, out, origins)
-    tell(wrote=out)
+    print_rows(wrote=out)
     if graphml:
         from mocap.graphs.graph_summary import write_graphml  # the help needs no NumPy
 
         write_graphml(graph, graphml)
-        tell(wrote=graphml)
+        print_rows(wrote=graphml)
 
 
 @contextmanager
@@ -211,8 +211,8 @@ def info(file: Path) -> None:
 
     stored = read(file)
     for name, frames in zip(stored.names, stored.frames, strict=True):
-        tell(clip=f"{name}: {frames} frames at {stored.fps:g} Hz, {frames / stored.fps:.1f} s")
-    tell(window=f"{stored.window} frames, {stored.window / stored.fps:.2f} s")
+        print_rows(clip=f"{name}: {frames} frames at {stored.fps:g} Hz, {frames / stored.fps:.1f} s")
+    print_rows(window=f"{stored.window} frames, {stored.window / stored.fps:.2f} s")
     print(graphs.summary(stored.graph, fps=stored.fps).table())
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from mocap import body, graphs
-from mocap.cli.options import Building, bar, check_out, number, require_other, tell, write_out
+from mocap.cli.options import Building, bar, check_out, number, print_rows, require_other, write_out
 from mocap.errors import MocapError
 from mocap.files.conversion import find_files
 from mocap.methods import in_betweening
@@ -76,12 +76,12 @@ def inbetween(
     frames = max(1, round(time * first.fps))
     if time < in_betweening.SHORTEST:
         between = in_betweening.interpolate(first, second, frames)
-        tell(between=f"{time:.2f} s, interpolated")
+        print_rows(between=f"{time:.2f} s, interpolated")
     else:
         whole_graph = _graph(graph, sources, building, [first, second], out)
         filling = in_betweening.fill_gap(graphs.compile_graph(whole_graph), first, second, time)
         between = _at_rate(filling.motion, first.fps, frames)
-        tell(between=f"{time:.2f} s, {_changes(filling.arrived)}")
+        print_rows(between=f"{time:.2f} s, {_changes(filling.arrived)}")
     whole = between if alone else body.concatenate([first[:-1], between, second[1:]])
     write_out(whole, out, details=f": {len(whole)} frames, {whole.duration:.2f} s")
 

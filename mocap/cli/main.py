@@ -23,7 +23,7 @@ from mocap.cli.data import DATA
 from mocap.cli.edits import bend, blend, loop, retarget, warp
 from mocap.cli.graph import GRAPH, demo
 from mocap.cli.in_betweens import inbetween
-from mocap.cli.messages import VERBOSITY, Verbosity, note, say, saying
+from mocap.cli.messages import VERBOSITY, Verbosity, at_verbosity, note, print_message
 from mocap.cli.options import named_options, retargeting_advised
 from mocap.cli.streams import PatientOutput, prepared_streams
 from mocap.cli.typed_commands import Commands, Group, make_root, option_names
@@ -190,7 +190,7 @@ def _run(words: Sequence[str]) -> int:
     chosen = dict(chain.from_iterable(named.items() for named in COMMANDS.values()))[ordered[0]]
     if isinstance(chosen, Group):
         refusals.require_meant(ordered[1:], ordered[0], [*chosen.commands])
-    with _sigterm_as_ctrl_c(), saying(_take_verbosity(bound)), warnings.catch_warnings():
+    with _sigterm_as_ctrl_c(), at_verbosity(_take_verbosity(bound)), warnings.catch_warnings():
         if VERBOSITY.get().quiet:
             warnings.simplefilter("ignore", MocapWarning)
         else:
@@ -211,7 +211,7 @@ def _take_verbosity(bound: BoundArguments) -> Verbosity:
 
 def _show_warning(message: Warning | str, *_place: object, **_options: object) -> None:
     """Print a warning as one line."""
-    say(message)
+    print_message(message)
 
 
 def _report_error(error: BaseException, *, debug: bool) -> int:
@@ -221,17 +221,20 @@ def _report_error(error: BaseException, *, debug: bool) -> int:
     if debug:
         traceback.print_exception(error)
     if isinstance(error, KeyboardInterrupt):
-        say(" ".join(["interrupted; no half-written file is left.", *getattr(error, "__notes__", [])]))
+        notes = getattr(error, "__notes__", [])
+        print_message(" ".join(["interrupted; no half-written file is left.", *notes]))
         return INTERRUPTED
     if isinstance(error, MocapError | OSError):  # an OSError is, for example, a name that is too long
-        say(error)
+        print_message(error)
         return REFUSED
     if isinstance(error, MemoryError):
-        say("out of memory: try fewer or shorter clips, or a lower frame rate (--debug shows where it was).")
+        print_message(
+            "out of memory: try fewer or shorter clips, or a lower frame rate (--debug shows where it was)."
+        )
         return UNEXPECTED
     kind = type(error).__name__
     shown = shortened(f"{error}", 80) or "no further text"
-    say(f"unexpected {kind}: {shown}. This is a bug; the same with --debug shows where.")
+    print_message(f"unexpected {kind}: {shown}. This is a bug; the same with --debug shows where.")
     return UNEXPECTED
 
 

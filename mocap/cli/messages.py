@@ -39,7 +39,7 @@ VERBOSITY = ContextVar("VERBOSITY", default=NORMAL)
 
 
 @contextmanager
-def saying(verbosity: Verbosity) -> Iterator[None]:
+def at_verbosity(verbosity: Verbosity) -> Iterator[None]:
     """Set the verbosity in a `with` block."""
     token = VERBOSITY.set(verbosity)
     try:
@@ -48,7 +48,7 @@ def saying(verbosity: Verbosity) -> Iterator[None]:
         VERBOSITY.reset(token)
 
 
-def say(message: object) -> None:
+def print_message(message: object) -> None:
     """Print one line, without line ends in names, and with long names shortened."""
     text = re.sub(rf"\S{{{LONGEST_WORD},}}", lambda word: shortened(word[0]), printable(message))
     print(f"mocap: {text}", file=sys.stderr)
@@ -57,4 +57,4 @@ def say(message: object) -> None:
 def note(message: str) -> None:
     """Print a line only with `-v`."""
     if VERBOSITY.get().verbose:
-        say(message)
+        print_message(message)

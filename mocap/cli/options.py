@@ -272,12 +272,12 @@ def _timed(label: str, show: Progress, items: Sequence[Any]) -> Iterator[Any]:
     note(f"{label}: {count} in {time.perf_counter() - start:.1f} s")
 
 
-def tell(**rows: object) -> None:
+def print_rows(**rows: object) -> None:
     """Print results, each in a line with its name.
 
     Examples
     --------
-    >>> tell(wrote="walk.bvh")
+    >>> print_rows(wrote="walk.bvh")
     wrote        walk.bvh
     """
     print("\n".join(f"{name:<12} {printable(text)}" for name, text in rows.items()))
@@ -298,15 +298,15 @@ def check_out(
         allowed = " or ".join(filter(None, [", ".join(formats[:-1]), formats[-1]]))
         raise MocapError(f"A {thing} is written as {allowed}, got '{out}'.")
     require_other(out, read)
-    require_place(out)
+    require_output(out)
 
 
-def require_place(out: Path) -> None:
+def require_output(out: Path) -> None:
     """Raise, before any work is done, if a file cannot be written.
 
     Examples
     --------
-    >>> require_place(Path("nowhere/walk.bvh"))
+    >>> require_output(Path("nowhere/walk.bvh"))
     Traceback (most recent call last):
     mocap.errors.MocapError: Cannot write nowhere/walk.bvh: there is no folder nowhere.
     """
@@ -332,12 +332,12 @@ def write_out(motion: "Motion", out: Path, *, details: str = "") -> None:
     """Write a motion, and print the name of its file with `details`."""
     with timed_stage("writing"):
         files.save(motion, out)
-    tell(wrote=f"{out}{details}")
+    print_rows(wrote=f"{out}{details}")
 
 
-def tell_of_failures(verb: str, count: int, problems: Sequence[str], place: str = "") -> int:
+def report_failures(verb: str, count: int, problems: Sequence[str], where_to: str = "") -> int:
     """Print the number of files that succeeded and each problem, and return the exit status."""
-    tell(**{verb: f"{count - len(problems)} of {count}{place}"})
+    print_rows(**{verb: f"{count - len(problems)} of {count}{where_to}"})
     for problem in problems:
-        tell(failed=problem)
+        print_rows(failed=problem)
     return 2 if problems else 0

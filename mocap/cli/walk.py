@@ -23,7 +23,7 @@ from mocap.cli.options import (
     Unit,
     bar,
     number,
-    tell,
+    print_rows,
     timed_stage,
 )
 from mocap.cli.typed_commands import ONE_EACH, OptionalValue
@@ -92,18 +92,18 @@ def walk(
     longest_search = math.inf if deadline is None else _seconds(deadline)
     options.require_file(graph, BUILD_FIRST.format(graph))
     line = load_path(path, scale=unit) if path else None
-    wishes = steering.Wishes(labels=[_label(text) for text in label])
+    request = steering.PathRequest(labels=[_label(text) for text in label])
     with timed_stage("reading the graph"):
         motions = _graph(graph, clips, sources, out)
     if line is None:
         frames = dump(motions, out, seconds=seconds, seed=seed or 0, clean=clean, progress=bar("writing"))
-        tell(walked=f"{frames / motions.fps:.1f} s at random", wrote=out)
+        print_rows(walked=f"{frames / motions.fps:.1f} s at random", wrote=out)
         return 0
     settings = steering.Settings(width=width or 100, progress=bar("searching"), deadline=longest_search)
     with timed_stage("following the path"):
         turn = math.radians(bend or 0)
-        followed = steering.follow_path(motions, line, wishes, settings=settings, bend=turn)
-    tell(walked=followed.report())
+        followed = steering.follow_path(motions, line, request, settings=settings, bend=turn)
+    print_rows(walked=followed.report())
     with timed_stage("making the motion"):
         motion = followed.motion(clean=clean or bool(bend))
     options.write_out(motion, out)
@@ -142,7 +142,7 @@ def page(graph: Path, *, out: Path = Path("walk.html"), skeleton: Skeleton = Non
     with timed_stage("making the page"):
         text = walk_page(motions)
     write_file(out, text)
-    tell(wrote=f"{out}, {len(text) / 1e6:.2f} MB")
+    print_rows(wrote=f"{out}, {len(text) / 1e6:.2f} MB")
 
 
 def _seconds(text: str) -> float:
@@ -234,9 +234,9 @@ def crowd(
     group = groups.build_group(members, seed=seed)
     plan, search = _plan(group, scene)
     effort = f"{search.expanded} states" if search else "steered, which is quicker"
-    tell(planned=f"{(len(plan.positions) - 1) / groups.RATE:.1f} s for {members} members, {effort}")
+    print_rows(planned=f"{(len(plan.positions) - 1) / groups.RATE:.1f} s for {members} members, {effort}")
     walkers = groups.walk_group(walks, plan, progress=bar("walking"))
-    tell(walked=walkers.report())
+    print_rows(walked=walkers.report())
     make_folder(out)
     for count, motion in enumerate(walkers.motions, 1):
         files.save(motion, out / f"member-{count:02}.{to}")
@@ -246,7 +246,7 @@ def crowd(
     if not no_film:  # even with half the frames, a .gif is three times as large as an .mp4
         name, fps = ("crowd.mp4", 25.0) if find_spec("imageio_ffmpeg") else ("crowd.gif", 12.5)
         widgets.save_animation(walkers.motions, out / name, discs=discs, fps=fps, progress=bar("drawing"))
-    tell(wrote=out)
+    print_rows(wrote=out)
 
 
 def _walks(path: Path | None, skeleton: Path | None) -> "graphs.MotionGraph":

@@ -202,7 +202,7 @@ def bodies_along(
     seams: Iterable[int] = (),
     path: ArrayLike = (),
     discs: ArrayLike = (),
-    places: Sequence[Array] = (),
+    positions: Sequence[Array] = (),
 ) -> Figure:
     """Draw motions as bodies along their paths, evenly spread over the ground, seen from the side and above.
 
@@ -216,7 +216,7 @@ def bodies_along(
     seams : frames at which a transition starts, marked on the path.
     path : the requested path, shape (N, 2), points (x, z) in metres.
     discs : obstacles on the ground, shape (N, 3), x, z and radius in metres.
-    places : the joint positions of each motion, shape (F, J, 3), by default those of `joint_positions`.
+    positions : those of the joints of each motion, shape (F, J, 3), by default those of `joint_positions`.
 
     Returns
     -------
@@ -230,7 +230,7 @@ def bodies_along(
     ['walked path', 'seam']
     """
     request = np.insert(np.reshape(np.asarray(path, float), (-1, 2)), 1, 0.0, axis=-1)
-    positions = places or [joint_positions(motion) for motion in motions]
+    positions = positions or [joint_positions(motion) for motion in motions]
     paths = [joints[:, 0] * [1, 0, 1] for joints in positions]
     figure = Figure(figsize=(WIDTH, LOW), layout="constrained")
     ax = figure.add_subplot(aspect="equal", anchor="S")  # the rest of the height is for the legend

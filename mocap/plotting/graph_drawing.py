@@ -18,7 +18,7 @@ from mocap.errors import MocapError
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.plotting.style import COLOURS, MARK, QUIET, SOURCES
 
-Places = Mapping[Any, Sequence[float]]
+Positions = Mapping[Any, Sequence[float]]
 
 MOST_NODES = 100
 """With more nodes, the arrows of `node_link` cover each other."""
@@ -149,14 +149,18 @@ def _arcs(ends: Array) -> Array:
 
 
 def node_link(
-    graph: nx.DiGraph, *, places: Places | None = None, kept: nx.DiGraph | None = None, ax: Axes | None = None
+    graph: nx.DiGraph,
+    *,
+    positions: Positions | None = None,
+    kept: nx.DiGraph | None = None,
+    ax: Axes | None = None,
 ) -> tuple[PathCollection, list[FancyArrowPatch]]:
     """Draw a small directed graph: nodes as discs with their names, edges as bent arrows.
 
     Parameters
     ----------
     graph : a graph of 1 to 100 nodes.
-    places : the positions of the nodes, {node: (x, y)}, by default on a circle.
+    positions : those of the nodes, {node: (x, y)}, by default on a circle.
     kept : the graph after pruning. Other nodes are drawn pale, and other edges dashed.
     ax : axes, by default new ones.
 
@@ -183,12 +187,12 @@ def node_link(
         nodes = f"1 to {MOST_NODES} nodes, this one has {len(graph)}"
         raise MocapError(f"Nodes and arrows show graphs of {nodes}: `plotting.timeline` shows large ones.")
     ax = ax or plt.figure(figsize=(4, 4), layout="constrained").add_subplot()
-    places = places or nx.circular_layout(graph)
+    positions = positions or nx.circular_layout(graph)
     kept = graph if kept is None else kept
-    discs = _draw_nodes(graph, places, kept, ax)
+    discs = _draw_nodes(graph, positions, kept, ax)
     arrows = []
     for start, end in graph.edges():
-        arrow = _arrow(places[start], places[end], is_kept=kept.has_edge(start, end))
+        arrow = _arrow(positions[start], positions[end], is_kept=kept.has_edge(start, end))
         ax.add_patch(arrow)
         arrows.append(arrow)
     ax.set(aspect="equal")
@@ -197,10 +201,10 @@ def node_link(
     return discs, arrows
 
 
-def _draw_nodes(graph: nx.DiGraph, places: Places, kept: nx.DiGraph, ax: Axes) -> PathCollection:
+def _draw_nodes(graph: nx.DiGraph, positions: Positions, kept: nx.DiGraph, ax: Axes) -> PathCollection:
     """Draw nodes as discs with their names, pale if they are not in `kept`."""
     ink = COLOURS["middle"]
-    centres = np.array([places[node] for node in graph], float)
+    centres = np.array([positions[node] for node in graph], float)
     faces = [ink if node in kept else PALE for node in graph]
     discs = ax.scatter(centres[:, 0], centres[:, 1], s=420, c=faces, edgecolors=ink, zorder=2)
     look: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 9, "zorder": 3}

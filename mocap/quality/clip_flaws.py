@@ -82,7 +82,7 @@ class Report(NamedTuple):
 
     motion: Motion
     height: float
-    turn: float
+    heading_change: float
     path: float
     flaws: list[Flaw]
 
@@ -93,7 +93,7 @@ class Report(NamedTuple):
         height = f"{self.height:.2f} m"
         if not SMALLEST < self.height < TALLEST:
             height += ": is its scale right?"
-        degrees = round(np.degrees(self.turn))
+        degrees = round(np.degrees(self.heading_change))
         side = " left" if degrees > 0 else " right" if degrees < 0 else ""
         heading = f"turns{side} by {abs(degrees)}° in all"
         path = f"{self.path:.2f} m over the ground"
@@ -141,7 +141,7 @@ def inspect(motion: Motion, angles: Mapping[str, Array] | None = None) -> Report
 
     Returns
     -------
-    A report. Height: the median over time of the body's vertical extent. Turn: the total change of heading,
+    A report. Height: the median over time of the body's vertical extent. Heading: its total change,
     positive to the left. Path: the length of the root's path over the ground. Flaws: frozen stretches,
     teleports of the root, joints that snap, Euler flips, frames of zeros, and joints below the floor.
 

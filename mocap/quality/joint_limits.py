@@ -43,18 +43,18 @@ class Bend(NamedTuple):
 
     Examples
     --------
-    >>> Bend("lfemur", "back", np.array([30.0, 90.0]), -np.inf, 60.0).share
+    >>> Bend("lfemur", "back", np.array([30.0, 90.0]), -np.inf, 60.0).fraction
     array([0.5, 1.5])
     """
 
     joint: str
-    way: str  # reads: name: public, and users read it
+    direction: str
     angles: Array
     least: float  # reads: name: public, and users read it
     most: float  # reads: name: public, and users read it
 
     @property
-    def share(self) -> Array:
+    def fraction(self) -> Array:
         """The angle in each frame as a fraction of its limit. Above 1 the joint exceeds the limit."""
         return np.maximum(self.angles / self.least, self.angles / self.most)
 
@@ -77,7 +77,7 @@ def joint_bends(motion: Motion, legs: Sequence[Leg] = ()) -> list[Bend]:
     >>> from mocap.body.limbs import find_legs
     >>> from mocap.datasets.samples import sample
     >>> walk = sample("walk_straight")
-    >>> sorted({bend.way for bend in joint_bends(walk, find_legs(walk.skeleton))})
+    >>> sorted({bend.direction for bend in joint_bends(walk, find_legs(walk.skeleton))})
     ['back', 'bent', 'nodding', 'out']
     """
     skeleton = motion.skeleton

@@ -32,7 +32,16 @@ from mocap.feet.footplants import mark_plants
 from mocap.matching.point_clouds import point_cloud
 from mocap.quality.clip_flaws import FAST, UNDER, height_of
 from mocap.quality.joint_limits import joint_bends
-from mocap.quality.seam_measures import LEAP, MOSTLY, USUAL, Spread, feet_of, jumps, mean_slide, plant_slides
+from mocap.quality.seam_measures import (
+    LEAP,
+    MOSTLY,
+    USUAL,
+    Spread,
+    feet_of,
+    foot_sliding,
+    jumps,
+    mean_foot_sliding,
+)
 
 WINDOW = 1 / 3  # seconds: a jump in a window is compared with those in windows of the clips
 FLAT = 0.1  # seconds: the window of the smoothing filter from which a trembling joint deviates
@@ -50,13 +59,13 @@ class Limits:
     jolt: float = LEAP  # times the percentile `MOSTLY` of the motion's frames
     seam_jolt: float = 1.5  # times the percentile `USUAL` of the windows of the clips
     tremble: float = 3.0  # mm, median over the frames
-    slide: float = 2.5  # cm, mean over the plants
-    skate: float = 8.0  # percent of the body's speed
+    foot_sliding: float = 2.5  # cm, mean over the footplants
+    sliding_speed: float = 8.0  # percent of the body's speed
     sunk: float = 100 * UNDER  # cm
     aloft: float = 25.0  # cm. In 153 clips the lowest joint comes down to 12.5 cm or lower, even on stairs
     lopsided: float = 20.0  # mm
     bones: float = 5.0  # mm
-    turn: float = float(np.degrees(FAST))  # degrees per second
+    rotation: float = float(np.degrees(FAST))  # degrees per second
     path: float = 15.0  # cm, mean over the frames. `steering.follow_path` warns above it
 
 
@@ -68,9 +77,9 @@ class Measure(NamedTuple):
 
     Examples
     --------
-    >>> slide = Measure("slide", 5.0, 2.5, "cm", "'lfoot', frame 30")
-    >>> slide, slide.ratio
-    (Measure(slide 5 cm, limit 2.5, 'lfoot', frame 30), 2.0)
+    >>> sliding = Measure("foot_sliding", 5.0, 2.5, "cm", "'lfoot', frame 30")
+    >>> sliding, sliding.ratio
+    (Measure(foot_sliding 5 cm, limit 2.5, 'lfoot', frame 30), 2.0)
     """
 
     name: str
@@ -138,7 +147,8 @@ def measure_joints(motion: Motion, positions: Array) -> Iterator[Measure]:
     depth = 100 * max(0.0, float(depths.max()))
     yield Measure("sunk", depth, LIMITS.sunk, "cm", _largest_at(depths, skeleton))
     speeds = np.degrees(rotations.angle_between(motion.rotations[1:], motion.rotations[:-1])) * motion.fps
-    yield Measure("turn", float(speeds.max()), LIMITS.turn, "°/s", _largest_at(speeds, skeleton, first=1))
+    fastest = _largest_at(speeds, skeleton, first=1)
+    yield Measure("rotation", float(speeds.max()), LIMITS.rotation, "°/s", fastest)
     partners = [skeleton.partner(joint) for joint in range(len(skeleton))]
     if partners != list(range(len(skeleton))):
         lengths = np.linalg.norm(skeleton.offsets, axis=-1)
@@ -160,33 +170,33 @@ def _largest_at(values: Array, skeleton: Skeleton, first: int = 0) -> str:
 def measure_limbs(motion: Motion, positions: Array, legs: Sequence[Leg]) -> Iterator[Measure]:
     """Measure foot sliding, if there are `legs`, and joints that bend too far."""
     if legs:
-        yield _slide(motion, positions, legs)
-        yield _skate(motion, positions, legs)
+        yield _foot_sliding(motion, positions, legs)
+        yield _sliding_speed(motion, positions, legs)
     bends = joint_bends(motion, legs)
     if bends:
-        worst = max(bends, key=lambda bend: float(bend.share.max()))
-        frame = int(worst.share.argmax())
-        detail = f"'{worst.joint}' {worst.way} by {worst.angles[frame]:.0f}°, frame {frame}"
-        yield Measure("bent", float(worst.share[frame]), 1.0, "of its limit", detail)
+        worst = max(bends, key=lambda bend: float(bend.fraction.max()))
+        frame = int(worst.fraction.argmax())
+        detail = f"'{worst.joint}' {worst.direction} by {worst.angles[frame]:.0f}°, frame {frame}"
+        yield Measure("bent", float(worst.fraction[frame]), 1.0, "of its limit", detail)
 
 
-def _slide(motion: Motion, positions: Array, legs: Sequence[Leg]) -> Measure:
-    """Measure the foot sliding distance, the mean over the plants."""
-    slides = plant_slides(mark_plants(motion, legs), feet_of(legs), positions=positions)
-    detail = "no foot stands"
+def _foot_sliding(motion: Motion, positions: Array, legs: Sequence[Leg]) -> Measure:
+    """Measure the foot sliding distance, the mean over the footplants."""
+    slides = foot_sliding(mark_plants(motion, legs), feet_of(legs), positions=positions)
+    detail = "no foot contact"
     if slides:
         worst = max(slides, key=lambda slide: slide.far)
         detail = f"'{worst.joint}', frames {worst.start} to {worst.stop - 1}"
-    return Measure("slide", mean_slide(slides), LIMITS.slide, "cm", detail)
+    return Measure("foot_sliding", mean_foot_sliding(slides), LIMITS.foot_sliding, "cm", detail)
 
 
-def _skate(motion: Motion, positions: Array, legs: Sequence[Leg]) -> Measure:
+def _sliding_speed(motion: Motion, positions: Array, legs: Sequence[Leg]) -> Measure:
     """Measure the foot sliding speed, in percent of the body's speed."""
     feet = positions[:, feet_of(legs)]
     slowest = (_ground_steps(feet) * motion.fps).min(axis=1)
     body_speed = float(_ground_steps(motion.root_positions).mean()) * motion.fps
     percent = 100 * float(np.percentile(slowest, SLOWEST)) / max(SLOW, body_speed)
-    return Measure("skate", percent, LIMITS.skate, "% of speed")
+    return Measure("sliding_speed", percent, LIMITS.sliding_speed, "% of speed")
 
 
 def _ground_steps(positions: Array) -> Array:
@@ -280,16 +290,16 @@ def judge(
     - jolt: the largest jump of velocity from one frame to the next, divided by the 90th percentile of all
       frames, or, with `against`, by the usual jump in windows of a third of a second of these clips.
     - tremble: the distance of joints from their smoothed trajectories.
-    - slide: the foot sliding distance, mean over the footplants.
-    - skate: the foot sliding speed, the 25th percentile of the slowest joint of the feet, in percent of the
-      body's speed. It detects a body that glides and has no footplants.
+    - foot_sliding: the foot sliding distance, mean over the footplants.
+    - sliding_speed: the foot sliding speed, the 25th percentile of the slowest joint of the feet, in percent
+      of the body's speed. It detects a body that glides and has no footplants.
     - sunk: the depth of the lowest joint below the ground, y = 0.
     - aloft: the minimum height of the lowest joint, reported if it is above 25 cm in all frames.
     - lopsided: the largest difference in length between a left bone and a right one.
     - size: the ratio of a body's height to 2.5 m, or of 0.75 m to its height, above 1: its unit may be wrong.
     - bones: the largest change in the length of a bone of the file.
     - bent: the angle of a knee, elbow, hip, wrist or the neck, divided by the human limit.
-    - turn: the largest rotation speed of a joint.
+    - rotation: the largest rotation speed of a joint.
     - path: the distance of the root from a path, mean over the frames.
 
     Parameters
@@ -311,7 +321,7 @@ def judge(
     >>> walk = sample("walk_straight")
     >>> gliding = replace(walk, root_positions=walk.root_positions * [0.8, 1, 0.8])
     >>> [measure.name for measure in judge(gliding).measures if measure.ratio > 1]
-    ['slide', 'skate']
+    ['foot_sliding', 'sliding_speed']
     """
     require_motion(motion)
     against = require_motions(against)
@@ -345,9 +355,9 @@ def judgement_table(judgements: Sequence[Judgement]) -> str:
     --------
     >>> from mocap.datasets.samples import sample
     >>> for line in judgement_table([judge(sample("walk_straight"))]).splitlines():
-    ...     print(line[:60])
-    name          score  height    jolt tremble    sunk    turn
-    walk_straight   0.0  1.71 m    0.34    0.06    0.00    0.25
+    ...     print(line[:61])
+    name          score  height    jolt tremble    sunk rotation
+    walk_straight   0.0  1.71 m    0.34    0.06    0.00     0.25
     """
     names = list(dict.fromkeys(measure.name for judged in judgements for measure in judged.measures))
     width = max([4, *(len(shortened(judged.name, 40)) for judged in judgements)])

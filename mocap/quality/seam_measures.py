@@ -16,12 +16,12 @@ from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import Leg, find_legs
-from mocap.body.motion import Motion, require_alike
+from mocap.body.motion import Motion, require_compatible
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import point_cloud
 
 
-class PlantSlide(NamedTuple):
+class FootSliding(NamedTuple):
     """The foot sliding distance of a joint in one footplant, from frame `start` to just before frame `stop`.
 
     `far` is the joint's largest distance from its mean position on the ground, centimetres.
@@ -33,9 +33,9 @@ class PlantSlide(NamedTuple):
     far: float  # reads: name: public, and users read it
 
 
-def plant_slides(
+def foot_sliding(
     motion: Motion, joints: Sequence[int] | None = None, *, positions: Array | None = None
-) -> list[PlantSlide]:
+) -> list[FootSliding]:
     """Measure the foot sliding distance of each footplant: the largest from the mean position on the ground.
 
     Parameters
@@ -51,7 +51,7 @@ def plant_slides(
     Examples
     --------
     >>> from mocap.datasets.samples import sample
-    >>> slides = plant_slides(sample("walk_straight"))
+    >>> slides = foot_sliding(sample("walk_straight"))
     >>> len(slides) > 20, max(slide.far for slide in slides) < 1e-6
     (True, True)
 
@@ -60,28 +60,29 @@ def plant_slides(
     if positions is None:
         positions = joint_positions(motion)
     ground = positions[..., [0, 2]]
-    slides = []
+    footplants = []
     for name, contacts in _contacts(motion, joints).items():
         for start, stop in runs(contacts):
             planted = ground[start:stop, motion.skeleton.index(name)]
             distances = np.linalg.norm(planted - planted.mean(axis=0), axis=-1)
-            slides.append(PlantSlide(name, start, stop, 100 * float(distances.max())))
-    return slides
+            footplants.append(FootSliding(name, start, stop, 100 * float(distances.max())))
+    return footplants
 
 
-def mean_slide(slides: Iterable[PlantSlide]) -> float:
+def mean_foot_sliding(footplants: Iterable[FootSliding]) -> float:
     """Average the foot sliding distance over footplants, cm, or 0 without any.
 
     Examples
     --------
-    >>> mean_slide([PlantSlide("lfoot", 3, 9, 1.5), PlantSlide("lfoot", 30, 39, 0.5)]), mean_slide([])
+    >>> footplants = [FootSliding("lfoot", 3, 9, 1.5), FootSliding("lfoot", 30, 39, 0.5)]
+    >>> mean_foot_sliding(footplants), mean_foot_sliding([])
     (1.0, 0.0)
     """
-    distances = [slide.far for slide in slides]
+    distances = [footplant.far for footplant in footplants]
     return float(np.mean(distances)) if distances else 0.0
 
 
-def ground_slides(motion: Motion) -> Array:
+def sliding_per_frame(motion: Motion) -> Array:
     """Measure the foot sliding of planted joints from each frame to the next, cm.
 
     Parameters
@@ -101,7 +102,7 @@ def ground_slides(motion: Motion) -> Array:
     --------
     >>> from mocap.datasets.samples import sample
     >>> walk = sample("walk_straight")
-    >>> bool(ground_slides(walk).max() < 1e-6)  # in the bundled clips planted feet stand still
+    >>> bool(sliding_per_frame(walk).max() < 1e-6)  # in the bundled clips planted feet stand still
     True
     """
     feet = feet_of(find_legs(motion.skeleton))
@@ -207,7 +208,7 @@ def spread(clips: Sequence[Motion]) -> Spread:
 
     Notebook: 04b-feet
     """
-    clips = require_alike(clips)
+    clips = require_compatible(clips)
     velocity_jumps = [jumps(clip) for clip in clips]
     leap = LEAP * float(np.percentile(np.concatenate(velocity_jumps), MOSTLY))
     return Spread(tuple(np.where(of_clip > leap, np.nan, of_clip) for of_clip in velocity_jumps))
@@ -217,12 +218,12 @@ class SeamQuality(NamedTuple):
     """The quality of a seam in two numbers, both small for a good seam.
 
     `velocity_jump` is the largest jump of velocity at the seam, divided by the 99.9th percentile of the
-    clips' windows of its length. Up to 1 it is usual. `slide` is the foot sliding distance, cm, the mean over
-    the footplants that overlap the seam.
+    clips' windows of its length. Up to 1 it is usual. `foot_sliding` is the foot sliding distance, cm, the
+    mean over the footplants that overlap the seam.
     """
 
     velocity_jump: float
-    slide: float
+    foot_sliding: float
 
 
 def seam_quality(motion: Motion, seam: tuple[int, int], usual: Spread) -> SeamQuality:
@@ -256,12 +257,12 @@ def seam_quality(motion: Motion, seam: tuple[int, int], usual: Spread) -> SeamQu
     largest = usual.within(len(seam_jumps))
     if len(largest) == 0 or not largest[-1] > 0:
         raise MocapError("The clips do not move, so nothing at a seam can be measured against them.")
-    slides = plant_slides(motion, feet_of(find_legs(motion.skeleton)))
-    touched = [slide for slide in slides if slide.start < seam[1] and seam[0] < slide.stop]
-    return SeamQuality(float(seam_jumps.max() / np.percentile(largest, USUAL)), mean_slide(touched))
+    footplants = foot_sliding(motion, feet_of(find_legs(motion.skeleton)))
+    touched = [slide for slide in footplants if slide.start < seam[1] and seam[0] < slide.stop]
+    return SeamQuality(float(seam_jumps.max() / np.percentile(largest, USUAL)), mean_foot_sliding(touched))
 
 
-def knee_turns(motion: Motion) -> Array:
+def knee_rotations(motion: Motion) -> Array:
     """Measure the rotation of each knee from one frame to the next, degrees, shape (F - 1, legs).
 
     The lengths of a leg's rigid bones do not reveal a knee that snaps, but its rotation does.
@@ -270,7 +271,7 @@ def knee_turns(motion: Motion) -> Array:
     --------
     >>> from mocap.datasets.samples import sample
     >>> walk = sample("walk_straight")
-    >>> knee_turns(walk).shape, bool(knee_turns(walk).max() < 5)  # at 120 Hz
+    >>> knee_rotations(walk).shape, bool(knee_rotations(walk).max() < 5)  # at 120 Hz
     ((1157, 2), True)
 
     Notebook: 09b-blend-window

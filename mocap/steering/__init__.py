@@ -2,7 +2,8 @@
 
 Search for a walk: the path objective defines the requests and the cost of each deviation, a layered search
 finds a walk of low cost, and `follow_path` combines the two. `waypoints_and_crowds` calls it. A new kind of
-request is a field of `Wishes`, with its price in `Settings` and its cost in `PathSearch.hop_costs`.
+request is a field of `PathRequest`, with its price in `Settings` and its cost in
+`PathSearch.macro_edge_costs`.
 
 Control of a character: all characters implement the protocol `Character`, whose `step` takes a heading and a
 speed and returns the next pose. Therefore code that steers, records or measures one of them works for all. A

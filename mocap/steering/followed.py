@@ -35,7 +35,7 @@ class Followed:
     ----------
     graph, path : the graph and the path.
     walk : the edges of the walk.
-    place : the transform of the walk's first clip to the start of the path.
+    transform : the planar transform of the walk's first clip to the start of the path.
     track : shape (F, 2), the root's ground positions (x, z), metres.
     along : shape (F,), metres along the path in each frame.
     off : shape (F,), metres, the distance from the path in each frame. The nearest point of the path is
@@ -44,13 +44,13 @@ class Followed:
     unlabelled : shape (F,), the frames without the requested label.
     found : the result of the search.
     bent : the motion bent onto the path, or None. For a bent motion, `walk` and `found` are those of the
-        search, `track`, `along` and `off` are those of the bent motion, and `place` is the identity.
+        search, `track`, `along` and `off` are those of the bent motion, and `transform` is the identity.
     """
 
     graph: MotionGraph
     path: GroundPath
     walk: list[Edge]
-    place: PlanarTransform
+    transform: PlanarTransform
     track: Array
     along: Array
     off: Array  # reads: name: public, and users read it
@@ -69,7 +69,7 @@ class Followed:
         """Return the motion along the path, without foot sliding if `clean` (default: if bent)."""
         if self.bent:
             return replace(self.bent.laid if clean is False else self.bent.motion, name=name)
-        return to_motion(self.graph, self.walk, name=name, start=self.place, clean=bool(clean))
+        return to_motion(self.graph, self.walk, name=name, start=self.transform, clean=bool(clean))
 
     @property
     def seconds(self) -> float:

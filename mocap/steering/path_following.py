@@ -21,7 +21,7 @@ from mocap.graphs.motion_graph import MotionGraph
 from mocap.steering.bent_following import plan_bending
 from mocap.steering.followed import ASTRAY, Followed, measure_walk
 from mocap.steering.layered_search import States, start_states
-from mocap.steering.path_objective import Route, Settings, Wishes, make_route
+from mocap.steering.path_objective import PathRequest, Route, Settings, make_route
 from mocap.steering.path_search import SLOWEST, Found, find_walk, too_slow
 from mocap.synthesis.bounded_search import Problem, SearchEdge, search_ahead
 from mocap.synthesis.ground_walks import GroundWalks, Stand
@@ -35,7 +35,7 @@ AGAIN = 1.25  # factor or divisor of the price of a seam in a repeated search
 def follow_path(
     graph: MotionGraph | CompiledGraph,
     path: GroundPath | VectorsLike,
-    wishes: Wishes | None = None,
+    request: PathRequest | None = None,
     *,
     settings: Settings | None = None,
     bend: float = 0.0,
@@ -64,7 +64,7 @@ def follow_path(
     ----------
     graph : pruned, so that walks do not end. To follow many paths, pass a graph that is compiled already.
     path : the path, or its points (x, z), metres.
-    wishes : labels, times and the start.
+    request : labels, times and the start.
     settings : the effort of the search, and the prices of deviations.
     bend : the highest angular speed that bending adds to a walk, radians per second, for example
         `editing.LIMIT`, 100° per second, which people reach. 0 does not bend.
@@ -101,19 +101,19 @@ def follow_path(
     """
     compiled = compile_graph(graph)
     path = as_path(path)
-    wishes = wishes or Wishes()
+    request = request or PathRequest()
     settings = settings or Settings()
     deadline = Deadline(settings.deadline)
     if settings.tries < 1:
         raise MocapError(f"A path takes at least one search, got tries={settings.tries}.")
     measure: Callable[[Found], Followed]
     if bend:
-        route, measure = plan_bending(compiled, path, wishes, bend)
+        route, measure = plan_bending(compiled, path, request, bend)
     else:
-        route = make_route(compiled, path, wishes)
+        route = make_route(compiled, path, request)
         measure = partial(measure_walk, compiled, path, route)
-    starts = start_of(compiled, route, wishes)
-    _require_labels(compiled, [label for _, label in sorted(wishes.labels)], starts.node)
+    starts = start_of(compiled, route, request)
+    _require_labels(compiled, [label for _, label in sorted(request.labels)], starts.node)
 
     messages: dict[int, list[str]] = {}  # warnings, by the id of a walk: only those of the best are issued
 
@@ -129,7 +129,7 @@ def follow_path(
         warn(message)
     if is_ended and deadline.is_over:
         _warn_of_deadline(followed, settings.deadline)
-    if not wishes.others:  # a walk that gives way to others may leave the path
+    if not request.others:  # a walk that gives way to others may leave the path
         if settings.tries > 1 and not bend and not is_ended:
             _require_near(compiled, followed)
         _warn_of_departures(followed, bend)
@@ -223,9 +223,9 @@ def _next_settings(best: Followed, settings: Settings, count: int) -> Settings |
     return replace(settings, seam=factor * settings.seam, match=factor * settings.match, width=WIDE)
 
 
-def start_of(graph: CompiledGraph, route: Route, wishes: Wishes) -> States:
+def start_of(graph: CompiledGraph, route: Route, request: PathRequest) -> States:
     """Return the states at the start of a route, heading along it, at the requested node or at all nodes."""
-    nodes = np.arange(len(graph.nodes)) if wishes.start is None else np.array([graph.index(wishes.start)])
+    nodes = np.arange(len(graph.nodes)) if request.start is None else np.array([graph.index(request.start)])
     first = route.points[: int(0.3 / route.spacing) + 2]
     rotation = np.exp(1j * (np.angle(first[-1] - first[0]) - graph.going[nodes]))
     return start_states(nodes, rotation, first[0] - rotation * graph.at[nodes])
@@ -257,10 +257,10 @@ def path_problem(walks: GroundWalks, route: Route) -> Problem:
     return Problem(walks.graph.source.graph, step, lambda stand: stand.along >= route.length)
 
 
-def follow_as_2002(  # noqa: PLR0913 (a path, wishes, and three limits)
+def follow_as_2002(  # noqa: PLR0913 (a path, a request, and three limits)
     graph: MotionGraph | CompiledGraph,
     path: GroundPath | VectorsLike,
-    wishes: Wishes,
+    request: PathRequest,
     *,
     look: tuple[int, int] = (90, 28),
     budget: float = np.inf,
@@ -271,7 +271,7 @@ def follow_as_2002(  # noqa: PLR0913 (a path, wishes, and three limits)
     Parameters
     ----------
     graph, path : as for `steering.follow_path`.
-    wishes : of these, only `start` is used, by default the first node. Labels and times are ignored.
+    request : of these, only `start` is used, by default the first node. Labels and times are ignored.
     look : n and m, the frames to look ahead and the frames to keep, as for `synthesis.search_ahead`.
     budget : the largest number of walks to expand in each stretch of the search.
     deadline : seconds of wall time for the whole search, after which it returns the walk so far.
@@ -293,7 +293,7 @@ def follow_as_2002(  # noqa: PLR0913 (a path, wishes, and three limits)
     >>> from mocap import body, datasets, graphs
     >>> clips = [body.resample(datasets.sample(name), 30) for name in ("walk_circle", "walk_curve_1")]
     >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
-    >>> path, wishes = body.GroundPath([[0, 0], [0, 1]]), Wishes(start=(0, 10))
+    >>> path, wishes = body.GroundPath([[0, 0], [0, 1]]), PathRequest(start=(0, 10))
     >>> followed = follow_as_2002(graph, path, wishes, budget=100)
     >>> followed.progress, followed.found.stopped
     (1.0, 'out of nodes')
@@ -302,8 +302,8 @@ def follow_as_2002(  # noqa: PLR0913 (a path, wishes, and three limits)
     """
     compiled = compile_graph(graph)
     path = as_path(path)
-    route = make_route(compiled, path, wishes)
-    start = start_of(compiled, route, wishes)
+    route = make_route(compiled, path, request)
+    start = start_of(compiled, route, request)
     stand = Stand(complex(start.rotation[0]), complex(start.translation[0]))
     walks = GroundWalks(compiled)
     node = compiled.nodes[int(start.node[0])]

@@ -18,7 +18,7 @@ from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.steering.followed import Followed
 from mocap.steering.path_following import follow_path
-from mocap.steering.path_objective import Settings, Wishes
+from mocap.steering.path_objective import PathRequest, Settings
 
 WAITS = (0.0, 1.0, 2.0, 4.0)  # seconds, tried in this order
 WIDTH = 100  # beam width, tripled for characters that give way
@@ -103,7 +103,7 @@ def through_waypoints(
     times = [(along, point.seconds) for along, point in placed if point.seconds is not None]
     if times and waypoints[0].seconds is None:
         times.insert(0, (0.0, 0.0))
-    followed = follow_path(graph, path, Wishes(labels=labels, times=times), bend=bend)
+    followed = follow_path(graph, path, PathRequest(labels=labels, times=times), bend=bend)
     arrivals = []
     for along, point in placed:
         frame = min(int(np.searchsorted(followed.along, along)), len(followed.along) - 1)
@@ -206,8 +206,8 @@ def _give_way(
     for wait in WAITS:
         frames = round(wait * graph.fps)
         tracks = [track[min(frames, len(track) - 1) :] for track in earlier]
-        wishes = Wishes(others=tracks, apart=1.1 * least_distance)
-        walk = follow_path(graph, path, wishes, settings=free)
+        request = PathRequest(others=tracks, apart=1.1 * least_distance)
+        walk = follow_path(graph, path, request, settings=free)
         waiting = np.repeat(walk.track[:1], frames, axis=0)
         candidates.append((walk, wait, np.concatenate([waiting, walk.track])))
         distances.append(_distance(candidates[-1][2], earlier))

@@ -39,15 +39,15 @@ class Walked(NamedTuple):
     """The last F steps of a character.
 
     poses : a pose for each step.
-    places : the positions of its drawn joints, (F, K, 3), metres.
-    told : a message to the browser. It has, for each step, the seconds `waited` and whether the command is
+    positions : those of its drawn joints, (F, K, 3), metres.
+    report : a message to the browser. It has, for each step, the seconds `waited` and whether the command is
         `obeyed` and the pose `blending`. It also has the number of the `first` step, the last `delays`, and
         the `fault`, which is the message of the error that stopped the character, or "".
     """
 
     poses: list[Pose]
-    places: Array
-    told: dict[str, Any]  # reads: name: the name that the course's tools read
+    positions: Array
+    report: dict[str, Any]
 
 
 class Member:
@@ -126,7 +126,7 @@ class Company:
     >>> database = motion_matching.tabulate([body.resample(datasets.sample("walk_curve_1"), 30)])
     >>> company = Company({"matching": motion_matching.MotionMatcher(database)})
     >>> (walked,) = company.walk((np.pi / 2, 0.8, ""), 0.5)
-    >>> walked.places.shape, walked.told["waited"][-1], walked.told["obeyed"][-1]
+    >>> walked.positions.shape, walked.report["waited"][-1], walked.report["obeyed"][-1]
     ((15, 38, 3), 0.5, False)
     """
 

@@ -84,7 +84,7 @@ def packed(values: Array, low: Array | float, step: Array | float, kind: str) ->
 
 
 def packed_character(
-    motion: Motion, colour: str, step: float | None = None, places: Array | None = None
+    motion: Motion, colour: str, step: float | None = None, positions: Array | None = None
 ) -> tuple[dict[str, Any], bytes]:
     """Pack the positions of a motion's drawn joints, for `Character` in `player_scene.js`.
 
@@ -93,7 +93,7 @@ def packed_character(
     motion : the motion, of which at most 60 frames per second are packed.
     colour : the colour of the body and its path.
     step : the unit of coordinates, metres, by default the smallest that 16 bits allow.
-    places : the positions of all joints, shape (F, J, 3), metres, by default those of `joint_positions`.
+    positions : the positions of all joints, shape (F, J, 3), metres, by default those of `joint_positions`.
 
     Returns
     -------
@@ -108,7 +108,8 @@ def packed_character(
     """
     joints, body = packed_body(motion.skeleton)
     stride = max(1, int(motion.fps / SCREEN))
-    positions = joint_positions(motion) if places is None else places
+    if positions is None:
+        positions = joint_positions(motion)
     points = positions[::stride, joints]  # (F, J, 3)
     low = points.min(axis=(0, 1))
     high = points.max(axis=(0, 1))
@@ -153,7 +154,7 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     path: ArrayLike = (),
     off: ArrayLike = (),  # reads: name: a public parameter
     discs: ArrayLike = (),
-    places: Sequence[Array] = (),
+    positions: Sequence[Array] = (),
     follow: bool = True,
     alt: str = "",
 ) -> Player:
@@ -169,7 +170,7 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     off : distance from that path in each frame of the first motion, shape (F,), metres, as in
         `steering.Followed.off`. Beyond 15 cm, the path of the motion is red.
     discs : obstacles on the ground, shape (N, 3), x, z and radius in metres.
-    places : positions of the joints of each motion, shape (F, J, 3), metres, by default those of
+    positions : those of the joints of each motion, shape (F, J, 3), metres, by default those of
         `body.joint_positions`.
     follow : whether the camera follows the first character.
     alt : a sentence for readers who do not see the player. By default it contains names and durations.
@@ -200,9 +201,9 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     points = np.reshape(np.asarray(path, float), (-1, 2))
     astray = runs(np.asarray(off, float) > FAR)
     obstacles = np.reshape(np.asarray(discs, float), (-1, 3))
-    positions = tuple(places) or tuple(joint_positions(motion) for motion in motions)
+    shown = tuple(positions) or tuple(joint_positions(motion) for motion in motions)
     return Player(
-        motions, tuple(sources), seam_frames, points, astray, obstacles, positions, follow=follow, said=alt
+        motions, tuple(sources), seam_frames, points, astray, obstacles, shown, follow=follow, description=alt
     )
 
 
@@ -226,9 +227,9 @@ class Player(Embedded):
     path: Array
     astray: Indices  # stretches of frames [start, end)
     discs: Array
-    places: Sequence[Array]
+    positions: Sequence[Array]
     follow: bool
-    said: str
+    description: str
     scripts = (*SHADED, *SHARED, Path(__file__).with_name("player.js"))
     __repr__ = Embedded.__repr__  # a record would print its fields
 
@@ -238,7 +239,7 @@ class Player(Embedded):
         count = len(self.motions)
         subject = "A figure plays" if count == 1 else f"{count} figures play"
         seconds = max(motion.duration for motion in self.motions)
-        return self.said or f"{subject} {self.heading}, {seconds:.1f} s."
+        return self.description or f"{subject} {self.heading}, {seconds:.1f} s."
 
     @property
     def heading(self) -> str:
@@ -250,9 +251,9 @@ class Player(Embedded):
         """The scene that scripts draw, with the numbers of each character in `data`, at its `offset`."""
         characters: list[dict[str, Any]] = []
         data = b""
-        for number, (motion, positions) in enumerate(zip(self.motions, self.places, strict=True)):
+        for number, (motion, positions) in enumerate(zip(self.motions, self.positions, strict=True)):
             colour = own_colour(number, len(self.motions)) or COLOURS["middle"]
-            character, block = packed_character(motion, colour, places=positions)
+            character, block = packed_character(motion, colour, positions=positions)
             characters.append(character | {"offset": len(data), "prints": _packed_footprints(motion)})
             data += block
         self._mark_first(characters[0])
@@ -279,4 +280,5 @@ class Player(Embedded):
         if max(np.ptp(ground, axis=0)) < WALKS and not len(self.path):
             return small_png(film_strip(self.motions))
         marks: dict[str, Any] = {"sources": self.sources, "seams": self.seams, "path": self.path}
-        return small_png(legible(bodies_along(*self.motions, discs=self.discs, places=self.places, **marks)))
+        marks |= {"discs": self.discs, "positions": self.positions}
+        return small_png(legible(bodies_along(*self.motions, **marks)))

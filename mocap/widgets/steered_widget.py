@@ -62,8 +62,8 @@ class Steered(AnyWidget):
         walks = self.company.walk(order, seconds)
         reply = {"kind": "walked", "view": request.get("view"), "number": request.get("number")}
         reply |= {"cost": self.company.cost, "notes": self.company.notes}
-        reply["members"] = [walked.told for walked in walks]
-        self.send(reply, buffers=[walked.places.astype("<f4").tobytes() for walked in walks])
+        reply["members"] = [walked.report for walked in walks]
+        self.send(reply, buffers=[walked.positions.astype("<f4").tobytes() for walked in walks])
 
     def __repr__(self) -> str:
         return f"Steered({', '.join(member.name for member in self.company.members)})"

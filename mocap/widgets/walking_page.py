@@ -24,10 +24,10 @@ from mocap.widgets.walk_figure import feet, figure
 
 HERE = Path(__file__).parent
 Node = tuple[int, int]
-# The units of integers: metres of a root, components of a quaternion, radians and metres of a transition.
-STEPS = {"metres": 0.0005, "parts": 1 / 2048, "turn": 2 * np.pi / 65536, "move": 0.0001}
-SETTINGS = ("BEAM_WIDTH", "LAYER", "LOOK", "RESCUE", "SEAM")  # constants of the search in `mocap.plain`
-# The scripts, each after those that it uses.
+# The units of whole numbers: metres of a root, 1 of a quaternion, radians and metres of a transition.
+STEPS = {"root": 0.0005, "quaternion": 1 / 2048, "angle": 2 * np.pi / 65536, "translation": 0.0001}
+SETTINGS = ("BEAM_WIDTH", "LAYER", "LOOK", "RESCUE", "SEAM")  # of the search in `mocap.plain`
+# Scripts, each after those that it uses.
 WALKING = ("search", "body", "line", "camera", "scene", "saving", "small", "hands", "page")
 PARTS = ("bodies", *(f"walk_{part}" for part in WALKING))
 ZX = [2, 0]  # columns of a position (x, y, z), for complex numbers z + ix
@@ -61,8 +61,8 @@ def pack_graph(graph: MotionGraph) -> tuple[dict[str, Any], bytes]:
 
 def _packed_clip(clip: Motion) -> bytes:
     """Pack the root's positions and the rotations of a clip, channel by channel."""
-    roots = np.rint(clip.root_positions / STEPS["metres"])
-    quaternions = np.rint(rotations.continuous(clip.rotations) / STEPS["parts"])
+    roots = np.rint(clip.root_positions / STEPS["root"])
+    quaternions = np.rint(rotations.continuous(clip.rotations) / STEPS["quaternion"])
     channels = [*roots.T, *quaternions.reshape(len(clip), -1).T]
     return b"".join(numbers(channel, 2) for channel in channels)
 
@@ -81,7 +81,7 @@ def _description(graph: MotionGraph, labels: list[str]) -> dict[str, Any]:
     """Describe the numbers of a graph: its clips, skeleton and counts, and the settings of the search."""
     skeleton = graph.clips[0].skeleton
     edges = list(graph.graph.edges(data=True))
-    going = {label for _, _, edge in edges for label in edge["labels"]} - {"stand"}
+    moving = {label for _, _, edge in edges for label in edge["labels"]} - {"stand"}
     description: dict[str, Any] = {"fps": graph.fps, "window": graph.window}
     description["clips"] = [{"name": clip.name, "frames": len(clip)} for clip in graph.clips]
     description["joints"] = list(skeleton.names)
@@ -92,7 +92,7 @@ def _description(graph: MotionGraph, labels: list[str]) -> dict[str, Any]:
     description["feet"] = feet(skeleton)
     description["search"] = {name.lower(): getattr(plain, name) for name in SETTINGS}
     description |= {"nodes": len(graph.graph), "edges": len(edges)}
-    return description | {"labels": labels, "going": sorted(going)}
+    return description | {"labels": labels, "moving": sorted(moving)}
 
 
 def _row(graph: MotionGraph, labels: list[str], nodes: tuple[Node, Node], edge: dict[str, Any]) -> list[int]:
@@ -108,8 +108,9 @@ def _row(graph: MotionGraph, labels: list[str], nodes: tuple[Node, Node], edge: 
     source_root = complex(*graph.clips[source].root_positions[leave, ZX])
     target_root = complex(*graph.clips[target].root_positions[enter - graph.window, ZX])
     offset = transform.rotation * target_root + transform.translation - source_root
-    angle = round(np.angle(transform.rotation) / STEPS["turn"])
-    return [kind + 1, angle, round(offset.real / STEPS["move"]), round(offset.imag / STEPS["move"])]
+    angle = round(np.angle(transform.rotation) / STEPS["angle"])
+    step = STEPS["translation"]
+    return [kind + 1, angle, round(offset.real / step), round(offset.imag / step)]
 
 
 def walk_page(graph: MotionGraph) -> str:

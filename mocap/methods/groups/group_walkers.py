@@ -17,8 +17,8 @@ from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.methods.groups.flocking import RATE, Configuration, nearest_two
 from mocap.steering.path_following import follow_path
-from mocap.steering.path_objective import Settings, Wishes
-from mocap.synthesis.walk_to_motion import with_plants
+from mocap.steering.path_objective import PathRequest, Settings
+from mocap.synthesis.walk_to_motion import with_footplants
 
 LATE = 1.0  # price of a delay, m² per s²
 EVERY = 1.0  # seconds between the positions that have a time
@@ -120,7 +120,7 @@ def walk_group(
         got = f"{members} and {max(frames - 1, 0) / RATE:g} s: does it lead away from where the group starts?"
         raise MocapError(f"A plan that is walked has a member or more and lasts 1 s or more, got {got}")
     source = graph.source if isinstance(graph, CompiledGraph) else graph
-    marked = with_plants(source)
+    marked = with_footplants(source)
     compiled = compile_graph(graph if marked is source else marked)
     trajectories = list(flock.positions.T)
     with warnings.catch_warnings(action="ignore", category=MocapWarning):  # one warning is given for all
@@ -146,7 +146,7 @@ def _walk_one(graph: CompiledGraph, trajectory: Points, *, bend: bool) -> tuple[
     times = [(float(along[frame]), float(frame / RATE)) for frame in timed]
     # A walk that is bent onto its path afterwards needs no thorough search.
     settings = Settings(late=LATE, width=NARROW if bend else None, tries=1 if bend else 3)
-    walk = follow_path(graph, path, Wishes(times=times), settings=settings).motion()
+    walk = follow_path(graph, path, PathRequest(times=times), settings=settings).motion()
     walk = walk[: round((len(trajectory) - 1) / RATE * graph.fps) + 1]
     if bend:
         seconds = np.arange(len(walk)) / graph.fps

@@ -78,7 +78,7 @@ def level_rise(count: int) -> Array:
     return np.concatenate([[0.0], np.cumsum(rate) / rate.sum()])
 
 
-def bend_to(motion: Motion, frames: int, end: complex, turn: float) -> Arrived:
+def bend_to(motion: Motion, frames: int, end: complex, rotation: float) -> Arrived:
     """Retime a walk to a number of frames, and bend it so that it ends at a ground point and heading.
 
     If `MOST_TURN` and `MOST_STEPS` admit no solution, the end is missed or the angular speed exceeds its
@@ -89,7 +89,7 @@ def bend_to(motion: Motion, frames: int, end: complex, turn: float) -> Arrived:
     motion : 2 frames or more. At both ends it keeps its own pace.
     frames : the number of frames of the new motion, 2 or more.
     end : the position of its last root, z + ix, metres.
-    turn : the additional rotation of its last frame, radians.
+    rotation : the additional rotation of its last frame, radians.
 
     Examples
     --------
@@ -104,7 +104,7 @@ def bend_to(motion: Motion, frames: int, end: complex, turn: float) -> Arrived:
     moments = np.arange(frames) + (len(motion) - frames) * level_rise(frames)
     pace = np.diff(moments)
     motion = motion if len(motion) == frames else at_frames(motion, moments)
-    path = _BentPath(on_ground(motion.root_positions), turn, motion.fps)
+    path = _BentPath(on_ground(motion.root_positions), rotation, motion.fps)
     best = path.solve(end, limited=False)
     if np.abs(path.turned(best)).max() > MOST_TURN:
         best = path.solve(end, limited=True)

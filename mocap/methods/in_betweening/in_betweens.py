@@ -22,7 +22,7 @@ from mocap.methods.in_betweening.end_bending import MOST_TURN, Arrived, bend_to
 from mocap.methods.in_betweening.end_poses import meet_poses, stand
 from mocap.methods.in_betweening.planted_feet import put_back
 from mocap.methods.in_betweening.two_sided_search import Candidates, Joined, TwoSided, find_candidates
-from mocap.synthesis.walk_to_motion import to_motion, with_plants
+from mocap.synthesis.walk_to_motion import to_motion, with_footplants
 
 TRIED = 24  # walks that are bent at a time. The best that arrives is selected
 # Largest number of walks that are bent, TRIED at a time until one arrives. Of 24 requests at random
@@ -138,7 +138,7 @@ def _connect(
     start, end = poses
     frames = round(seconds * graph.fps)
     joined = TwoSided(graph, candidates, frames).best(MOST_TRIED)
-    source = with_plants(graph.source)
+    source = with_footplants(graph.source)
     walks: list[tuple[float, list[Edge], Arrived]] = []
     for group in range(0, len(joined), TRIED):
         walks = list(_arriving(source, graph, joined[group : group + TRIED], frames))
@@ -163,7 +163,7 @@ def _arriving(
     """Bend walks, and yield those that arrive within the limits, with their costs."""
     for candidate in joined:
         walk = [graph.edges[edge] for edge in candidate.edges]
-        played = to_motion(source, walk, start=candidate.place)
+        played = to_motion(source, walk, start=candidate.transform)
         played = played[candidate.first : candidate.first + candidate.frames + 1]
         arrived = bend_to(played, frames + 1, candidate.end, candidate.angle)
         if arrived.lack <= POSE / 2 and np.abs(arrived.turned).max() <= MOST_TURN:

@@ -5,9 +5,9 @@ extended from both sides. Each node at which walks from both sides end joins the
 side give up to n² walks. This is the bidirectional search of I. Pohl (1971), with a beam for each of its two
 fronts.
 
-The walks are `States`: `along` is their length in metres, and `hop` the edge of their last step. Positions
-are in the world: p ↦ rotation · p + translation transforms the clip of a walk's last node. If walk a from the
-start meets walk b from the end, the transforms of their clips should be equal. Bending removes the
+The walks are `States`: `along` is their length in metres, and `macro_edge` the edge of their last step.
+Positions are in the world: p ↦ rotation · p + translation transforms the clip of a walk's last node. If walk
+a from the start meets walk b from the end, the transforms of their clips should be equal. Bending removes the
 difference.
 
 Steps are also `States`, namely walks of one edge each. Their points are the N nodes of the graph, then the K
@@ -140,7 +140,7 @@ class Joined(NamedTuple):
     edges : the numbers of its edges in the compiled graph.
     first : the number of frames of the first edge that are left out.
     frames : the number of frames from the start to the end.
-    place : the transform that aligns the first clip with the start.
+    transform : the transform that aligns the first clip with the start.
     end : the ground point that the root must reach in the last frame.
     angle : the additional rotation of the last frame, radians.
     cost : the cost of its seams and of the poses at its ends.
@@ -149,7 +149,7 @@ class Joined(NamedTuple):
     edges: Indices
     first: int
     frames: int
-    place: PlanarTransform
+    transform: PlanarTransform
     end: complex
     angle: float
     cost: float
@@ -243,18 +243,18 @@ class TwoSided:
     def join(self, forward: States, backward: States) -> Joined:
         """Concatenate two walks that meet."""
         graph = self.graph
-        edges = np.concatenate([forward.hop[1:], backward.hop[:0:-1]])
+        edges = np.concatenate([forward.macro_edge[1:], backward.macro_edge[:0:-1]])
         point = int(backward.node[0])
         start = int(forward.node[0]) - len(graph.nodes)
         end = point - len(graph.nodes) - len(self.starts.distance)
         start_rotation = complex(self.starts.rotation[start])
         end_rotation = complex(self.ends.rotation[end])
         angle = float(np.angle(end_rotation / (start_rotation * np.prod(graph.rotation[edges]))))
-        place = PlanarTransform.from_complex(start_rotation, complex(self.starts.translation[start]))
+        transform = PlanarTransform.from_complex(start_rotation, complex(self.starts.translation[start]))
         target = complex(self.ends.translation[end] + end_rotation * self.roots[point])
         frames = int(forward.frames[-1] + backward.frames[-1])
         cost = float(forward.cost[-1] + backward.cost[-1])
-        return Joined(edges, int(self.starts.since[start]), frames, place, target, angle, cost)
+        return Joined(edges, int(self.starts.since[start]), frames, transform, target, angle, cost)
 
 
 def pairs_at_nodes(first: Indices, second: Indices) -> tuple[Indices, Indices]:
@@ -345,7 +345,7 @@ class _Parts(NamedTuple):
 def steps_between(graph: CompiledGraph, starts: Candidates, ends: Candidates) -> States:
     """List the steps of the search: all edges, and the parts of edges from each start and to each end.
 
-    Each is a walk of one step from the point `trail` to the point `node`, along the edge `hop`.
+    Each is a walk of one step from the point `trail` to the point `node`, along the edge `macro_edge`.
     """
     number = {node: n for n, node in enumerate(graph.nodes)}
     origin = np.array([number[edge[0]] for edge in graph.edges])

@@ -12,7 +12,7 @@ from mocap._shared.arrays import Array, Indices, frozen
 from mocap._shared.progress import Progress
 from mocap._shared.quantities import check_threshold
 from mocap._shared.records import dataclass
-from mocap.body.motion import Motion, require_alike, resample
+from mocap.body.motion import Motion, require_compatible, resample
 from mocap.errors import MocapError, warn
 from mocap.matching.transitions import join_clouds
 from mocap.methods.match_webs.local_alignment import DISTANCE, LEAST, find_paths
@@ -116,7 +116,7 @@ def build_web(clips: Sequence[Motion], *, below: float = 0.12, progress: Progres
 
     Notebook: 16-match-webs
     """
-    clips = require_alike(clips)
+    clips = require_compatible(clips)
     check_threshold(below)
     resampled = [resample(clip, MatchWeb.rate) for clip in clips]
     shortest = f"{SHORTEST / MatchWeb.rate:.2g} s"

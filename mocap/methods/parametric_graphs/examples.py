@@ -16,7 +16,7 @@ from mocap._shared.arrays import Array, Indices, Mask, Points
 from mocap._shared.records import dataclass
 from mocap.blending.registering import register
 from mocap.body import rotations
-from mocap.body.motion import Motion, require_alike
+from mocap.body.motion import Motion, require_compatible
 from mocap.body.planar import heading, on_ground
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
@@ -261,7 +261,7 @@ def cut_actions(clips: Sequence[Motion], spans: Sequence[tuple[int, int]]) -> Ex
     """
     if len(spans) != len(clips):
         raise MocapError(f"Actions are cut by one span for each clip, got {len(clips)} and {len(spans)}.")
-    clips = require_alike(clips)
+    clips = require_compatible(clips)
     margin = round(MARGIN * FINE)
     grid = np.arange(-margin, FINE + margin + 1) / FINE
     cuts = []

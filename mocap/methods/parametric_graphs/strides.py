@@ -14,7 +14,7 @@ import numpy as np
 from mocap._shared.arrays import Array, runs
 from mocap._shared.records import NamedTuple
 from mocap.body.limbs import find_legs
-from mocap.body.motion import Motion, require_alike
+from mocap.body.motion import Motion, require_compatible
 from mocap.errors import MocapError
 from mocap.feet.footplants import mark_plants
 from mocap.methods.parametric_graphs.examples import (
@@ -74,7 +74,7 @@ def cut_strides(
     """
     if by not in ("strikes", "curves"):
         raise MocapError(f"Examples are put on one clock by 'strikes' or by 'curves', got '{by}'.")
-    clips = require_alike(clips)
+    clips = require_compatible(clips)
     clips = [clip if clip.contacts else mark_plants(clip) for clip in clips]
     step = 2 / (len(feet) - 1) / FINE
     margin_phases = round(margin * FINE)
