@@ -93,7 +93,7 @@ def whims(shape: tuple[int, ...], rules: Flock, random: np.random.Generator) -> 
 
     Parameters
     ----------
-    shape : of the members, with any leading axes for runs side by side.
+    shape : the shape of the group, (..., N), with any leading axes for runs side by side.
     rules : `whim` scales the drift.
     random : draws the whims.
 
