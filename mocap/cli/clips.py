@@ -68,7 +68,7 @@ def info(file: Path, *, joints: bool = False, reading: Reading) -> None:
 def view(clip: Path, *, out: Path | None = None, reading: Reading) -> None:
     """Play a clip in the browser.
 
-    Play a clip in the browser. The page is one file that works without a network.
+    The page is one file that works without a network.
 
     Parameters
     ----------
@@ -102,11 +102,10 @@ def judge(
 ) -> int:
     """Measure the quality of motions from any source, and rank them.
 
-    Measure the quality of motions from any source, and list them from best to worst. The measures are jolts,
-    trembling, feet below or above the ground, foot sliding, joints that bend or rotate too far, bones of
-    varying length, a body of an unusual size, and the distance from a path. Each number is the ratio of a
-    measure to its limit, which captured motion keeps. Agreement with a request and liveliness are not
-    measured.
+    The motions are listed from best to worst. The measures are jolts, trembling, feet below or above the
+    ground, foot sliding, joints that bend or rotate too far, bones of varying length, a body of an unusual
+    size, and the distance from a path. Each number is the ratio of a measure to its limit, which captured
+    motion keeps. Agreement with a request and liveliness are not measured.
 
     Parameters
     ----------
@@ -177,8 +176,8 @@ def find(
 ) -> None:
     """Find all motions similar to an example, and cut them out.
 
-    Find motions in all clips that are similar to some frames of a clip, then motions similar to those. Print
-    the matches as a table, the most similar first, and with --out write each to a file.
+    The search finds motions in all clips that are similar to some frames of a clip, then motions similar to
+    those. The matches are printed as a table, the most similar first. With --out, each is written to a file.
 
     Parameters
     ----------

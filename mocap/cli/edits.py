@@ -198,8 +198,7 @@ def blend(
     fade (SECONDS) : duration of a crossfade from the first clip to the second, in the middle of their common
         part, seconds.
     slack (SECONDS) : largest difference between the starts, or the ends, of the clips, seconds, at most half
-    of
-        the shortest clip.
+        of the shortest clip.
     clean : detect footplants, and remove foot sliding.
     out : file to write, .bvh or .glb.
 

@@ -198,7 +198,7 @@ def _read_clips(
 def info(file: Path) -> None:
     """Describe a saved graph.
 
-    List the clips of a saved graph, with a summary of the graph and the motion that it can generate.
+    The description lists the clips of the graph, its size, and a summary of the motion that it can generate.
 
     Parameters
     ----------
@@ -219,9 +219,8 @@ def info(file: Path) -> None:
 
 TEXT = """Build a motion graph and save it, or describe a saved one.
 
-Build the motion graph of some clips, prune it and save it, or describe a saved graph. The file stores the
-locations of the clips, not the clips. The word `build` may be omitted. For a folder of clips with the name
-info, write ./info.
+The graph is pruned before it is saved. The file stores the locations of the clips, not the clips. The word
+`build` may be omitted. For a folder of clips with the name info, write ./info.
 
 Notes
 -----

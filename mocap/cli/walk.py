@@ -57,9 +57,8 @@ def walk(
 ) -> int:
     """Walk through a saved graph, along a path or at random.
 
-    Walk through a graph saved by `mocap graph`, along a path on the ground or at random, and write the motion
-    as .bvh (centimetres) or .glb (for engines and viewers). Ctrl-C during the search writes the best walk so
-    far.
+    The motion is written as .bvh (centimetres) or .glb (for engines and viewers). Ctrl-C during the search
+    for a walk along a path writes the best walk so far.
 
     Parameters
     ----------
