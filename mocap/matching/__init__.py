@@ -14,6 +14,7 @@ Reading order (notebooks 02, 05, 15)
 6. `minima`: the entries of a grid that are lower than all eight neighbours, however large it is
 7. `transitions`: where one clip can pass into another
 8. `time_paths`: which frame of one clip belongs to which of another
+9. `tuned`: the constants that trials chose
 
 References
 ----------

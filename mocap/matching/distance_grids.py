@@ -33,11 +33,10 @@ from mocap.body.motion import Motion, require_alike
 from mocap.body.planar import on_ground
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import point_cloud, require_near, unit_weights
+from mocap.matching.tuned import TUNED
 
 Floats = NDArray[np.floating[Any]]
 
-SMALL = 500_000  # entries up to which a grid is not worth a thread: some 10 ms
-TILE = 256, 640  # rows and columns worked on at a time: few enough to stay in a core's cache
 
 # m²: distances D that differ by less are equal, but for rounding, which is some 1e-14 m² for a body that
 # walks. Windows that are alike have a D of 1e-4 to 1e-2 m². A D below this one is 0: its root, less than a
@@ -376,7 +375,7 @@ def tiled_distances(  # noqa: PLR0913 (what to measure, what to leave out, and w
     """
     rows = len(a.sizes)
     columns = len(b.sizes)
-    tile_rows, tile_columns = TILE
+    tile_rows, tile_columns = TUNED.tile
     grid = np.empty((rows, columns), a.heights.dtype)
 
     def measure_row_of_tiles(row: int) -> None:
@@ -391,7 +390,7 @@ def tiled_distances(  # noqa: PLR0913 (what to measure, what to leave out, and w
             _mirror(grid, part_of_a)
 
     tasks = [(row,) for row in range(0, rows, tile_rows)]
-    threads = thread_count(jobs) if rows * columns > SMALL else 1
+    threads = thread_count(jobs) if rows * columns > TUNED.small_grid else 1
     with one_blas_thread():
         for _ in run_in_order(measure_row_of_tiles, tasks, None, threads):
             pass

@@ -23,11 +23,7 @@ from mocap.matching.lower_bound import (
     squared_length,
     squared_reach,
 )
-
-LEAF = 128  # windows in a leaf at most
-TOGETHER = 1024  # pairs measured at a time, to stay in a core's cache
-SAMPLE = 600  # windows that tell whether few pairs are near
-SPARSE = 0.05  # fraction of near pairs up to which they are measured one by one
+from mocap.matching.tuned import TUNED
 
 
 class Leaves(NamedTuple):
@@ -76,7 +72,7 @@ def cut_into_leaves(windows: Indices, places: Singles) -> Leaves:
 
 def _halves(places: Singles, members: Indices) -> list[Indices]:
     """Cut members in half where they vary most, and each half again, down to leaves."""
-    if len(members) <= LEAF:
+    if len(members) <= TUNED.leaf:
         return [members] if len(members) else []
     own_places = places[members]
     values = own_places[:, own_places.var(axis=0).argmax()]
@@ -179,8 +175,8 @@ def pair_distances(a: Cloud, b: Cloud, pairs: Indices) -> Floats:
     array([0.5])
     """
     distances = np.empty(pairs.shape[1], a.heights.dtype)
-    for first in range(0, len(distances), TOGETHER):
-        part = slice(first, first + TOGETHER)
+    for first in range(0, len(distances), TUNED.pairs_together):
+        part = slice(first, first + TUNED.pairs_together)
         distances[part] = _distances_of_runs(a, b, *pairs[:, part])
     return distances
 
@@ -223,7 +219,7 @@ def is_sparse(cloud: Cloud, directions: Directions, below: float) -> bool:
     >>> is_sparse(still, sample_directions(still), 0.04)
     False
     """
-    starts = sample_windows(cloud, SAMPLE)
+    starts = sample_windows(cloud, TUNED.pair_sample)
     places = projections(cloud, starts, directions)
     reach = squared_reach(cloud, below, squared_length(places))
     if not np.isfinite(reach):
@@ -231,4 +227,4 @@ def is_sparse(cloud: Cloud, directions: Directions, below: float) -> bool:
     squares = np.vecdot(places, places)
     is_near = squares[:, None] + squares - 2 * (places @ places.T) <= reach
     is_apart = np.abs(starts[:, None] - starts) >= cloud.window
-    return bool(np.count_nonzero(is_near & is_apart) <= SPARSE * np.count_nonzero(is_apart))
+    return bool(np.count_nonzero(is_near & is_apart) <= TUNED.sparse * np.count_nonzero(is_apart))
