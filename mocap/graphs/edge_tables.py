@@ -16,10 +16,10 @@ from mocap.body.motion import Motion
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import NoWalk
 from mocap.graphs.motion_graph import MotionGraph, Node
+from mocap.graphs.tuned import TUNED
 
 Edge = tuple[Node, Node, int]
 
-HOP = 1 / 6  # seconds of clip after which a hop ends
 FRAME = 1  # column of (clip, frame)
 
 
@@ -147,8 +147,8 @@ class Hops:
     """All H hops of a compiled graph with N nodes, sorted by the node that they leave.
 
     A hop is a macro-edge: edges in a row that a search takes in one step. It follows the clip until it takes
-    a transition, or has lasted `HOP` seconds, or reaches a dead end. Single edges, of a frame or two each,
-    would give the same walks in many more steps.
+    a transition, or has lasted `TUNED.hop` seconds, or reaches a dead end. Single edges, of a frame or two
+    each, would give the same walks in many more steps.
 
     Parameters
     ----------
@@ -218,7 +218,7 @@ def find_hops(edges: EdgeTable, starts: Indices, nodes: int, fps: float) -> Hops
     lengths = edges.frames.tolist()
     hops: list[Hop] = []
     for node in range(nodes):
-        hops += _hops_from(node, stretch_from, transitions_from, lengths, longest=HOP * fps)
+        hops += _hops_from(node, stretch_from, transitions_from, lengths, longest=TUNED.hop * fps)
     node_of, stretches, last = np.array(hops).T
     stretch = np.array([-1 if edge is None else edge for edge in stretch_from])[node_of]
     # A hop plays two runs of frames: those of its stretches, which follow one another, and those of `last`.

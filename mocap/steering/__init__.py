@@ -23,6 +23,7 @@ Reading order (notebooks 08, 12, 17, 18)
 10. `graph_control`: a character on a motion graph, and how it looks ahead
 11. `foot_turning`: a character that turns about the foot that stands, beyond what its clips turn
 12. `judged_control`: one protocol for all characters
+13. `tuned`: the constants that trials chose
 
 References
 ----------

@@ -18,13 +18,8 @@ from mocap.graphs.edge_tables import Edge
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.steering.path_objective import Route
 from mocap.steering.path_search import Found
+from mocap.steering.tuned import TUNED
 from mocap.synthesis.walk_to_motion import to_motion
-
-ASTRAY = 0.15  # metres from the path at which a walk has left it
-NEAR = 0.04  # metres from the path on average, at most, for a path that is followed well
-SEAMS = 1.0  # transitions per second, at most, for a walk that plays well
-BENT_SEAMS = 0.7  # transitions per second, at most, for a bent walk that plays well
-REACH = 0.5  # metres before and after a point of the path within which a distance from it is measured
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,12 +79,14 @@ class Followed:
     @property
     def restless(self) -> float:
         """Seams per second, divided by the most for a good walk: 1, or 0.7 for a bent one."""
-        return self.seams_per_second / (BENT_SEAMS if self.bent else SEAMS)
+        return self.seams_per_second / (TUNED.bent_seam_rate if self.bent else TUNED.seam_rate)
 
     @property
     def far(self) -> float:  # reads: name: public, and users read it
         """The larger of mean distance / 4 cm and worst distance / 15 cm; 0 for a bent walk."""
-        return 0.0 if self.bent else float(max(self.off.mean() / NEAR, self.off.max() / ASTRAY))
+        if self.bent:
+            return 0.0
+        return float(max(self.off.mean() / TUNED.mean_distance, self.off.max() / TUNED.leaves_path))
 
     @property
     def excess(self) -> float:
@@ -105,7 +102,7 @@ class Followed:
     def departures(self) -> list[tuple[float, float, float]]:
         """The stretches more than 15 cm off the path: starts and ends along it, worst distances."""
         stretches = []
-        for start, stop in runs(self.off > ASTRAY).tolist():
+        for start, stop in runs(self.off > TUNED.leaves_path).tolist():
             worst = self.off[start:stop].max()
             stretches.append((self.along[start], self.along[stop - 1], worst))
         return stretches
@@ -158,7 +155,7 @@ def measure_walk(graph: CompiledGraph, path: GroundPath, route: Route, walk: Fou
 
 def _distances_from(route: Route, points: Points, along: Array) -> Array:
     """Compute the distances of F points from the segments of a route near some metres along it, (F,)."""
-    reach = int(REACH / route.spacing) + 1
+    reach = int(TUNED.reach / route.spacing) + 1
     nearby = (along / route.spacing).astype(np.intp)[:, None] + np.arange(-reach, reach)
     nearby = np.clip(nearby, 0, len(route.points) - 2)  # (F, number of segments)
     offset = points[:, None] - route.points[nearby]

@@ -19,17 +19,13 @@ from mocap.graphs.compiled_graph import CompiledGraph, compile_graph, walk_track
 from mocap.graphs.components import reached
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.steering.bent_following import plan_bending
-from mocap.steering.followed import ASTRAY, Followed, measure_walk
+from mocap.steering.followed import Followed, measure_walk
 from mocap.steering.layered_search import States, start_states
 from mocap.steering.path_objective import Route, Settings, Wishes, make_route
-from mocap.steering.path_search import SLOWEST, Found, find_walk, too_slow
+from mocap.steering.path_search import Found, find_walk, too_slow
+from mocap.steering.tuned import TUNED
 from mocap.synthesis.bounded_search import Problem, SearchEdge, search_ahead
 from mocap.synthesis.ground_walks import GroundWalks, Stand
-
-WIDE = 400  # walks that stay in each layer, where all else leaves the path
-FAR = 1.0  # metres from the path on average: a walk does not follow it
-CHEAP = (1 / 3, 0.0)  # shares of the price of seams, for walks that leave the path
-AGAIN = 1.25  # a repeated search multiplies or divides the price of a seam by this
 
 
 def follow_path(
@@ -147,10 +143,10 @@ def _tell_deadline(followed: Followed, seconds: float) -> None:
 
 def _require_near(graph: CompiledGraph, followed: Followed) -> None:
     """Raise `NoWalk` for a walk that does not follow the path at all."""
-    if followed.off.mean() > FAR and not followed.found.stopped:
+    if followed.off.mean() > TUNED.not_followed and not followed.found.stopped:
         distance = f"The nearest walk is {followed.off.mean():.1f} m off the line on average"
         speed = np.abs(np.diff(on_ground(followed.track))).sum() / followed.seconds
-        if speed < SLOWEST:
+        if speed < TUNED.slowest:
             raise too_slow(graph, f"{distance}, and goes at {speed:.2f} m/s")
         raise NoWalk(f"{distance}: no clips turn as it does; try `bend`, or add clips that turn.")
 
@@ -211,14 +207,15 @@ def _next_settings(best: Followed, settings: Settings, count: int) -> Settings |
     if count < settings.tries:
         if best.excess <= 1:
             return None
-        factor = AGAIN if best.restless > 1 else 1 / AGAIN
-        width = settings.width or WIDE
+        factor = TUNED.seam_price_step if best.restless > 1 else 1 / TUNED.seam_price_step
+        width = settings.width or TUNED.wide_beam
         return replace(settings, seam=factor * settings.seam, width=round((1 + count / 2) * width))
     cheap = count - settings.tries
-    if settings.tries == 1 or cheap >= len(CHEAP) or not (best.far and best.off.max() > ASTRAY):
+    leaves = best.far and best.off.max() > TUNED.leaves_path
+    if settings.tries == 1 or cheap >= len(TUNED.cheap_seams) or not leaves:
         return None
-    share = CHEAP[cheap]
-    return replace(settings, seam=share * settings.seam, match=share * settings.match, width=WIDE)
+    share = TUNED.cheap_seams[cheap]
+    return replace(settings, seam=share * settings.seam, match=share * settings.match, width=TUNED.wide_beam)
 
 
 def start_of(graph: CompiledGraph, route: Route, wishes: Wishes) -> States:

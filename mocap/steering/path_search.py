@@ -18,19 +18,11 @@ from mocap._shared.records import NamedTuple
 from mocap._shared.ties import first_least
 from mocap.body.planar import on_ground
 from mocap.errors import NoWalk
-from mocap.graphs.compiled_graph import AHEAD, LEAST, CompiledGraph
+from mocap.graphs.compiled_graph import CompiledGraph
+from mocap.graphs.tuned import TUNED as GRAPH_TUNED
 from mocap.steering.layered_search import EQUAL, LayeredSearch, States, hop_states, standing
 from mocap.steering.path_objective import Route, Settings
-
-LAYER = 0.15  # metres of path
-IDLE = 0.1  # m²: the price of a frame of a bent walk that moves on by less than the least progress
-SLOWEST = 0.3  # metres per second: a bent walk that falls behind this speed is dropped,
-GRACE = 4.0  # seconds: if it is later than this
-QUICK = 0.5  # metres per second: clips that walk
-CREEP = 0.05  # metres per second: the least progress of a walk that is laid on the path, so that searches end
-CLOCK = 4  # per second: the cells of time in which walks that give way to others stand alike
-GIVING_WAY = np.array([0, 1, 2])  # times the distance ahead: how much farther walks that give way look
-
+from mocap.steering.tuned import TUNED
 
 Watch = Callable[["PathSearch", States], None]
 watching: ContextVar[Watch] = ContextVar("watching", default=lambda search, states: None)
@@ -79,7 +71,7 @@ def find_walk(
     deadline = deadline or Deadline(settings.deadline)
     search = PathSearch(graph, route, starts, settings)
     try:
-        for layer in settings.progress(range(int(route.length / LAYER) + 1)):
+        for layer in settings.progress(range(int(route.length / TUNED.layer) + 1)):
             for walks in search.rounds(layer):
                 watching.get()(search, walks)
                 if deadline.is_over:
@@ -108,7 +100,7 @@ class PathSearch(LayeredSearch):
         if route.own or route.label[0] >= 0:
             self.first = len(starts.node)  # all cost the same before they turn, or miss a label
         if route.own:
-            self.progress = np.maximum(route.own.step, CREEP / graph.fps)
+            self.progress = np.maximum(route.own.step, TUNED.creep / graph.fps)
         else:
             self.progress = graph.progress
         hops = graph.hops
@@ -116,7 +108,7 @@ class PathSearch(LayeredSearch):
         length = (cumulated[hops.starts + hops.counts] - cumulated[hops.starts]).sum(axis=1)  # (H,)
         price = np.where(graph.blended, settings.seam + settings.match * graph.cost**2, 0.0)
         self.hops = hop_states(graph, length, price)
-        # Metres from each node in the next `AHEAD` seconds (N, 3).
+        # Metres from each node in the next `GRAPH_TUNED.ahead` seconds (N, 3).
         self.ahead = np.cumsum(np.abs(np.diff(graph.ahead, axis=1, prepend=graph.at[:, None])), axis=1)
 
     def line(self, states: States) -> Points:
@@ -145,11 +137,11 @@ class PathSearch(LayeredSearch):
         if route.own:
             rotation = np.exp(-1j * route.own.going[longer.node]) * direction
             longer = longer._replace(rotation=rotation, translation=route.at(longer.along) - rotation * root)
-            in_time = longer.frames <= (longer.along / SLOWEST + GRACE) * self.graph.fps
+            in_time = longer.frames <= (longer.along / TUNED.slowest + TUNED.grace) * self.graph.fps
             return longer.take(in_time | is_timed)
         error = longer.translation + longer.rotation * root - route.points[point]
         abreast = np.clip((error * direction.conj()).real, -hops.along, hops.along)
-        least_progress = np.where(is_timed, 0.0, LEAST / self.graph.fps * hops.frames)
+        least_progress = np.where(is_timed, 0.0, GRAPH_TUNED.least_speed / self.graph.fps * hops.frames)
         progress = np.maximum(hops.along + route.wishes.slide * abreast, least_progress)
         return longer._replace(along=states.along[row] + progress)
 
@@ -200,7 +192,7 @@ class PathSearch(LayeredSearch):
         step = unbent.step[row]
         bend = self.route.curvature[self.route.point(along)] * step - self.route.turns[row]  # radians
         costs = self.settings.bend * (bend * self.graph.fps) ** 2
-        costs += np.where(step < LEAST / self.graph.fps, IDLE, 0.0)
+        costs += np.where(step < GRAPH_TUNED.least_speed / self.graph.fps, TUNED.idle_price, 0.0)
         return costs
 
     def crowding(self, body: Points, frame: Indices) -> Array:
@@ -228,10 +220,12 @@ class PathSearch(LayeredSearch):
         if len(route.others):  # to give way takes longer: look up to three times as far
             body = states.translation + states.rotation * graph.at[node]
             last = ahead[:, -1:]
-            farther = last + (last - body[:, None]) * GIVING_WAY
-            frames = (GIVING_WAY + 1) * round(graph.fps * AHEAD[-1])
+            multiples = np.array(TUNED.give_way)
+            farther = last + (last - body[:, None]) * multiples
+            frames = (multiples + 1) * round(graph.fps * GRAPH_TUNED.ahead[-1])
             costs += self.crowding(farther, states.frames[:, None] + frames)
-        loss = costs.sum(axis=1) * graph.fps * AHEAD[0]  # each point ahead stands for the frames up to it
+        first = GRAPH_TUNED.ahead[0]  # seconds; each point ahead stands for the frames up to it
+        loss = costs.sum(axis=1) * graph.fps * first
         return np.asarray(states.cost + np.minimum(loss, self.settings.rescue))
 
     def cells(self, states: States) -> Indices:
@@ -239,12 +233,12 @@ class PathSearch(LayeredSearch):
         alike = standing(states, self.graph.at, self.settings.alike, self.settings.alike)
         time = np.zeros(len(states.node), np.intp)
         if len(self.route.others):
-            time = (states.frames * (CLOCK / self.graph.fps)).astype(np.intp)
+            time = (states.frames * (TUNED.clock / self.graph.fps)).astype(np.intp)
         return np.concatenate([alike, time[None]])
 
     def layers(self, states: States) -> Indices:
-        """Count layers of `LAYER` metres along the path."""
-        return (states.along / LAYER).astype(np.intp)
+        """Count layers of `TUNED.layer` metres along the path."""
+        return (states.along / TUNED.layer).astype(np.intp)
 
     # reads: name: all kinds of search define it
     def done(self, states: States) -> Mask:
@@ -274,12 +268,13 @@ class PathSearch(LayeredSearch):
 
 def too_slow(graph: CompiledGraph, nearest: str = "") -> NoWalk:
     """Return the error that no walk follows a line, or what the `nearest` unbent walk does, with a reason."""
-    fault = nearest or f"No walk goes along the line at {SLOWEST:g} m/s"
+    fault = nearest or f"No walk goes along the line at {TUNED.slowest:g} m/s"
     clips = [on_ground(clip.root_positions) for clip in graph.source.clips]
-    quick = [clip for clip in clips if np.percentile(np.abs(np.diff(clip)), 90) * graph.fps > QUICK]
-    if not quick:
-        return NoWalk(f"{fault}; no clip goes faster than {QUICK:g} m/s: add some that walk.")
-    reason = f"{len(quick)} of {len(clips)} clips go faster than {QUICK:g} m/s"
+    speeds = [np.percentile(np.abs(np.diff(clip)), 90) * graph.fps for clip in clips]
+    walking = [speed for speed in speeds if speed > TUNED.walking_speed]
+    if not walking:
+        return NoWalk(f"{fault}; no clip goes faster than {TUNED.walking_speed:g} m/s: add some that walk.")
+    reason = f"{len(walking)} of {len(clips)} clips go faster than {TUNED.walking_speed:g} m/s"
     remedy = (
         "try a larger threshold, more walks, or `bend`"
         if nearest
