@@ -12,6 +12,7 @@ Reading order (notebooks 04, 15)
 4. `clocks`: clips on one common clock, the plants that they share, and the blend's own clock
 5. `mixing`: registered clips blended by weights, constant or moving; long crossfades between two of them
 6. `registering`: corresponding frames of clips, and the transforms that align them
+7. `tuned`: the constants that trials chose
 
 References
 ----------

@@ -15,6 +15,7 @@ Reading order (notebooks 01, 03)
  8. `ground_path`: lines on the ground, by metres along them
  9. `limbs`: legs and arms, the heading of the hips, and the role of each joint in a body
 10. `fingerprints`: hashes by which a clip is recognised under any name
+11. `tuned`: the constants that trials chose
 
 References
 ----------

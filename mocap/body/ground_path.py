@@ -13,9 +13,9 @@ from scipy.interpolate import CubicSpline
 from mocap._shared.arrays import Array, VectorsLike, frozen
 from mocap._shared.quantities import check_radians, described, numbers_of
 from mocap._shared.records import dataclass, rebuilding, same_fields
+from mocap.body.tuned import TUNED
 from mocap.errors import MocapError, shortened
 
-FINE = 0.02  # metres between the points of a curve
 CLOSEST = 1e-9  # metres; nearer points count as one
 ROUNDING = 1e-12  # of a length: 12.000000000000002 m take as many pieces as 12 m, wherever a path lies
 
@@ -148,7 +148,7 @@ def spline(points: VectorsLike) -> GroundPath:
     knots = np.concatenate([[0.0], np.cumsum(np.sqrt(np.hypot(*np.diff(through, axis=0).T)))])
     curve = CubicSpline(knots, through, bc_type="natural")
     between = np.linspace(0, knots[-1], 50 * len(knots))
-    return GroundPath(curve(between)).resampled(FINE)
+    return GroundPath(curve(between)).resampled(TUNED.path_spacing)
 
 
 def arcs(start: tuple[float, float], heading: float, pieces: Sequence[tuple[float, float]]) -> GroundPath:
@@ -171,7 +171,7 @@ def arcs(start: tuple[float, float], heading: float, pieces: Sequence[tuple[floa
     steps: list[Array] = []
     rotations: list[Array] = []
     for length, turn in pieces:
-        count = max(2, int(np.ceil(length / FINE)))
+        count = max(2, int(np.ceil(length / TUNED.path_spacing)))
         steps.append(np.full(count, length / count))
         rotations.append(np.full(count, turn / count))
     angles = np.concatenate(rotations)

@@ -9,6 +9,7 @@ Reading order (notebook 07)
 2. `random_walks`: choose transitions at random; make hours of motion, piece by piece
 3. `bounded_search`: find the cheapest walk by branch and bound, as the paper does
 4. `ground_walks`: trajectories of walks on the ground, for searches
+5. `tuned`: the constants that trials chose
 
 References
 ----------
