@@ -11,6 +11,7 @@ Reading order (notebooks 01, 04, 09 to 11)
 3. `falling`: the centre of mass, and its acceleration in a flight
 4. `joint_limits`: joints that bend beyond the limits of people's
 5. `judging`: any motion in a few numbers, each divided by its limit
+6. `limits`: the limits, which captured people keep
 
 References
 ----------
