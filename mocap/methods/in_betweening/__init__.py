@@ -17,6 +17,7 @@ Reading order
 4. `planted_feet`: the last millimetre by which feet slide
 5. `in_betweens`: the whole: search, bend, fade
 6. `interpolation`: gaps so short that a curve does better
+7. `tuned`: the constants that trials chose
 
 References
 ----------

@@ -14,6 +14,7 @@ Reading order (notebook 16)
 4. `match_search`: motions similar to a query, step by step
 5. `motion_spaces`: measures of a motion; random blends of examples, and their measures
 6. `target_weights`: blend weights for a target
+7. `tuned`: the constants that trials chose
 
 References
 ----------

@@ -16,11 +16,7 @@ from mocap.methods.parametric_graphs.stride_spaces import (
     parameter_text,
     spread_parameters,
 )
-
-NEIGHBOURS = 4  # sources beyond the number of parameters: with one, as in [HG07, 4], boxes jump
-BAD = 1.35  # T_BAD over T_GOOD: with 2 no bad target cuts a box
-SAMPLING = (50, 1000)  # number of sources and of targets of an edge
-EPSILON = 0.005  # fraction of half a range: the distance of a box from bad targets
+from mocap.methods.parametric_graphs.tuned import TUNED
 
 
 class TargetBox(NamedTuple):
@@ -79,13 +75,15 @@ class ParametricEdge:
         >>> edge.look_up(np.array([0.25]), 2).high, edge.look_up(np.array([3.0])).high
         (array([1.]), array([4.]))
         """
-        count = count or len(parameters) + NEIGHBOURS
+        count = count or len(parameters) + TUNED.neighbours
         (rows,), distances = nearest_samples(parameters[None], self.sources, self.scale, count)
         (weights,) = neighbour_weights(distances)
         return TargetBox(*(weights @ part[rows] for part in (self.low, self.high, self.leave, self.enter)))
 
 
-def shrink_box(good: Array, bad: Array, scale: Array, eps: float = EPSILON) -> tuple[Array, Array]:
+def shrink_box(
+    good: Array, bad: Array, scale: Array, eps: float = TUNED.distance_from_bad
+) -> tuple[Array, Array]:
     """Return the bounding box of good targets, shrunk until no bad one is inside [HG07, 3.2].
 
     For each bad target inside, the side with the smallest loss is shifted inwards.
@@ -142,7 +140,7 @@ def build_edge(
     *,
     good: float,
     bad: float | None = None,
-    sampling: tuple[int, int] = SAMPLING,
+    sampling: tuple[int, int] = TUNED.sampling,
 ) -> ParametricEdge:
     """Compute the boxes of targets, and when to leave and enter, of sampled sources [HG07, 3.2; no edge; 4].
 
@@ -177,7 +175,7 @@ def build_edge(
 
     Notebook: 17-parametric-graphs
     """
-    bad = BAD * good if bad is None else bad
+    bad = TUNED.bad * good if bad is None else bad
     if not good <= bad:
         raise MocapError(f"Thresholds are T_GOOD <= T_BAD, got {good} and {bad} m.")
     source.examples.require_joinable(target.examples)
@@ -216,7 +214,7 @@ def build_parametric(
     edges: Sequence[tuple[str, str]] | None = None,
     *,
     good: float,
-    sampling: tuple[int, int] = SAMPLING,
+    sampling: tuple[int, int] = TUNED.sampling,
 ) -> nx.DiGraph:
     """Build a parametric motion graph from named spaces and the pairs that may follow [HG07, graph].
 
