@@ -17,4 +17,5 @@ Reading order
 13. `refusals`: the errors for words that fit no command, with suggestions
 14. `streams`: output that is closed, full, or left by its reader
 15. `main`: all of them under one name, with `mocap completion` and the exit status
+16. `tuned`: the constants that trials chose
 """

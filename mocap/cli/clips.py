@@ -22,13 +22,11 @@ from mocap.cli.options import (
     tell_of_failures,
     timed_stage,
 )
+from mocap.cli.tuned import TUNED
 from mocap.errors import MocapError, printable
 from mocap.files import conversion
 from mocap.files.conversion import find_files
 from mocap.methods import match_webs
-
-# A path of the web ends where frames are no longer as near as asked, although on average they still are.
-ROOM = 4 / 3  # with it CMU 02_05's punch finds two more below 6 cm; with 2 no others
 
 
 def info(file: Path, *, joints: bool = False, reading: Reading) -> None:
@@ -178,7 +176,7 @@ def find(
     places = [*(path.resolve() for path in paths), example.resolve()]
     query_clip = places.index(example.resolve())  # the last one if the example is not among the clips
     motions = sources.load(paths if query_clip < len(paths) else [*paths, example])
-    web = match_webs.build_web(motions, below=ROOM * below / 100, progress=bar("comparing"))
+    web = match_webs.build_web(motions, below=TUNED.web_threshold * below / 100, progress=bar("comparing"))
     matches = match_webs.search(web, query_clip, frames, below=below / 100)
     shown = [match for match in matches[1:] if match.clip < len(paths)]
     print(f"{'clip':<20} {'frames':>13} {'seconds':>8} {'cm':>5} {'step':>5}")

@@ -162,12 +162,12 @@ class Reading:
         """
         with timed_stage("loading packages"):
             from mocap.files.load_save import read  # the help needs no NumPy
-            from mocap.files.rigid_bones import STRETCH
+            from mocap.files.tuned import TUNED
 
         require_file(path, "give one of its files")
         if path.suffix.lower() == ".asf":
             raise MocapError(f"{path} is a skeleton without a motion: give an .amc file, or a .bvh.")
-        limit = STRETCH if stretch is None else stretch
+        limit = TUNED.stretch if stretch is None else stretch
         with named_options(READING), timed_reading(path):
             return read(path, self.skeleton, self.fps, self.scale, limit)
 

@@ -28,22 +28,21 @@ from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError, shortened, warn
 from mocap.files.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
 from mocap.files.recordings import Recording
-from mocap.files.rigid_bones import APART, STRETCH, fit
+from mocap.files.rigid_bones import fit
 from mocap.files.text import LARGEST, check_room, quick_numbers, read_text, to_numbers
+from mocap.files.tuned import TUNED
 
 SCALE = 0.01  # metres in one unit of the files that are written, and by default of those that are read
 STILL = 1e-5  # metres that a fixed joint may move in its parent's frame: rounding of printed numbers
 SHORTEST = 1e-5  # seconds a frame lasts at least
 LONGEST = 10.0  # seconds a frame lasts at most
-ALONG = 0.8  # fraction of a leg's length that is along z if the file has z up
-UPRIGHT = 0.5  # fraction of the frames in which both legs are along z if the file has z up
 TIMES = re.compile(
     r"\s*Frames[ \t]*:[ \t]*(\S+)[ \t]*\n\s*Frame[ \t]+Time[ \t]*:[ \t]*(\S+)[ \t]*(?:\n|\Z)", re.IGNORECASE
 )
 
 
 def read(
-    path: str | Path, *, scale: float = SCALE, fps: float | None = None, stretch: float = STRETCH
+    path: str | Path, *, scale: float = SCALE, fps: float | None = None, stretch: float = TUNED.stretch
 ) -> Recording:
     """Read a BVH file.
 
@@ -93,8 +92,8 @@ def _upright(path: str | Path, motion: Motion) -> Motion:
     hips, _, ankles = np.transpose(legs)
     poses = np.vstack([skeleton.rest[None], joint_positions(motion)])
     up = poses[:, hips] - poses[:, ankles]
-    along_z = (up[..., 2] > ALONG * np.linalg.norm(up, axis=-1)).all(axis=1)
-    if not along_z[0] or along_z[1:].mean() < UPRIGHT:
+    along_z = (up[..., 2] > TUNED.along_z * np.linalg.norm(up, axis=-1)).all(axis=1)
+    if not along_z[0] or along_z[1:].mean() < TUNED.upright:
         return motion
     warn(f"{path}: the body stands along z: turned so that y is up.")
     roots = rotations.rotate(Z_UP, motion.root_positions)
@@ -203,7 +202,7 @@ def _rigid(
         return np.vstack([np.zeros((1, 3)), positions[0, 1:]]), local
     parents = np.array([joint.parent for joint in joints])
     offsets, fitted, stretch, distances = fit(parents, positions, local)
-    if stretch.max() > limit or distances.max() > APART * limit:
+    if stretch.max() > limit or distances.max() > TUNED.strayed * limit:
         mover = joints[1 + int(movements.argmax())]
         expected = f"'{mover.name}' in one place below its parent, but for {limit:g} m"
         raise FormatError(path, mover.line, expected, f"one that moves by {movements.max():.2g} m")
