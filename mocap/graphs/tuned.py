@@ -11,11 +11,7 @@ class Tuned:
 
     hop: float = 1 / 6  # seconds of clip after which a hop ends; shorter ones cost time, longer ones choices
     largest_component: float = 0.9  # of the most frames at any threshold; more takes a larger threshold
-    ahead: tuple[float, ...] = (
-        1 / 4,
-        1 / 2,
-        3 / 4,
-    )  # seconds; nearer ones see a curve too late
+    ahead: tuple[float, ...] = (0.25, 0.5, 0.75)  # seconds; farther, a search cuts curves short
     least_speed: float = 0.3  # m/s; standing counts as this, lest a walk stands for ever; γ in [KGP02, 5.1]
     velocity_time: float = 1 / 6  # seconds before a clip's end whose mean velocity continues it
     standing: float = 0.1  # metres within the last time of `ahead`; a root that moves less has no direction
