@@ -111,8 +111,8 @@ def lopsided(clip: Motion) -> Iterator[Motion]:
 def cut(clip: Motion) -> Iterator[Motion]:
     """Leave out some frames, as a cut without a blend does."""
     for count in (5, 15, 45):
-        frames = np.delete(np.arange(len(clip)), slice(len(clip) // 2, len(clip) // 2 + count))
-        yield frames_of(clip, frames)
+        middle = len(clip) // 2
+        yield frames_of(clip, np.delete(np.arange(len(clip)), slice(middle, middle + count)))
 
 
 def has_flaw(kind: str, clip: Motion) -> bool:

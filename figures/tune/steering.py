@@ -9,16 +9,19 @@ duration of a walk.
 - Judging: what part of the walks along four lines is good, and the CPU time, as searches are repeated until a
   walk is. `not_followed`: the number of lines that are refused, of six, of which clips hardly turn four.
 - Bent walks: the same two lines, with the walk laid on the line. Short: the distance of the walk's last frame
-  from the end of the line.
+  from the end of the line. `idle_price`: two clips of which one stands for long. `slowest`, `grace` and
+  `creep`: the same two, played at 0.6 to 0.2 times their pace. Refused: how many of these have no walk.
 - Crowds: two who cross. Nearest: the least distance between them, which should be 80 cm; waits: the sum of
   both. `passing`: the distance of a walk from waypoints at the moments that count as passed.
 """
 
+from dataclasses import replace
+
 import numpy as np
-from _trials import CAPTURED_WALKS, STOP_AND_GO, Clips, Row, Study, Trial
+from _trials import CAPTURED_WALKS, RATE, STOP_AND_GO, Clips, Collection, Row, Study, Trial
 from _walks import PATHS, compiled, followed, graph_of, measures
 
-from mocap.body import SHAPES, GroundPath, circle, s_curve
+from mocap.body import SHAPES, GroundPath, circle, resample, s_curve
 from mocap.editing import LIMIT
 from mocap.errors import NoWalk
 from mocap.steering import Waypoint, follow_path, through_waypoints, tuned, walk_crowd
@@ -26,6 +29,8 @@ from mocap.steering import Waypoint, follow_path, through_waypoints, tuned, walk
 NARROW = (s_curve(2.5), circle(0.8))
 SEVERAL = (*PATHS, s_curve(4.0), SHAPES["square"]())
 HARD = (circle(0.3), circle(0.5), circle(0.7), s_curve(2.0), *PATHS)
+PACES = (0.6, 0.4, 0.3, 0.2)  # times the pace of clips that stand, and walk at 1.3 m/s
+STANDING = Collection("clips that stand and walk", ("stop_and_go", "walk_straight"))
 CROSSING = (GroundPath([[0, 0], [0, 6]]), GroundPath([[3, 3], [-3, 3]]))
 WAYPOINTS = (Waypoint(0, 0), Waypoint(0.5, 4), Waypoint(-1.5, 7), Waypoint(-1.5, 11))
 
@@ -70,6 +75,26 @@ def bent(clips: Clips) -> Row:
     return {"short, cm": 100 * float(max(ends))} | measures(walks)
 
 
+def pausing(clips: Clips) -> Row:
+    """Lay walks with pauses on two lines."""
+    return measures(
+        followed(compiled(STANDING.load() or ()), bend=LIMIT, paths=(SHAPES["letter S"](), circle(0.8)))
+    )
+
+
+def slowed(clips: Clips) -> Row:
+    """Lay walks that are played more and more slowly on a line."""
+    walks = []
+    for pace in PACES:
+        played = tuple(replace(clip, fps=pace * clip.fps) for clip in STANDING.load() or ())
+        graph = compiled(tuple(resample(clip, RATE) for clip in played))
+        try:
+            walks.append(follow_path(graph, PATHS[0], bend=LIMIT))
+        except NoWalk:
+            continue
+    return {"refused": len(PACES) - len(walks)} | (measures(walks) if walks else {})
+
+
 def crossing(clips: Clips) -> Row:
     """Let two characters cross."""
     crowd = walk_crowd(graph_of(clips), CROSSING)
@@ -95,14 +120,14 @@ TRIALS = {
     "seam_rate": Trial(judged, (0.7, 0.5, 1.5, 2.0)),
     "bent_seam_rate": Trial(judged_bent, (0.4, 0.5, 1.0)),
     "not_followed": Trial(refused, (0.1, 0.3, 3.0)),
-    "idle_price": Trial(bent, (1.0, 0.0, 0.01)),
-    "slowest": Trial(bent, (0.6, 0.0, 0.15)),
-    "grace": Trial(bent, (1.0, 0.0, 2.0, 8.0)),
-    "creep": Trial(bent, (0.3, 0.01, 0.1)),
+    "idle_price": Trial(pausing, (0.0, 0.001, 0.01, 1.0), needs_clips=False),
+    "slowest": Trial(slowed, (0.6, 0.0, 0.15), needs_clips=False),
+    "grace": Trial(slowed, (0.0, 1.0, 2.0, 8.0), needs_clips=False),
+    "creep": Trial(slowed, (0.3, 0.01, 0.1), needs_clips=False),
     "overrun": Trial(bent, (0.0, 0.2, 1.0)),
     "overrun_fraction": Trial(bent, (0.0, 0.01, 0.05)),
     "clock": Trial(crossing, (1, 2, 8)),
-    "give_way": Trial(crossing, ((0,), (0, 1), (0, 1, 2, 3))),
+    "give_way": Trial(crossing, ((0, 0, 0), (0, 1, 1), (0, 2, 4))),
     "waits": Trial(crossing, ((0.0,), (0.0, 2.0), (0.0, 0.5, 1.0, 1.5, 2.0, 4.0))),
     "crowd_beam": Trial(crossing, (30, 50, 200)),
     "passing": Trial(passed, (0.2, 0.0, 0.05)),

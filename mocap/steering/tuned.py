@@ -18,7 +18,7 @@ class Tuned:
     walking_speed: float = 0.5  # m/s; a clip whose root is faster walks, as an error tells
     creep: float = 0.05  # m/s, the least progress of a bent walk; without it searches may not end
     clock: int = 4  # cells of time per second for walks that give way; finer ones keep too many similar walks
-    give_way: tuple[int, ...] = (0, 1, 2)  # multiples of the distance ahead at which others are looked for
+    give_way: tuple[int, int, int] = (0, 1, 2)  # multiples of the distance ahead at which others are looked for
 
     # Repeated searches
     wide_beam: int = 400  # walks in a layer, after narrower searches left the path; wider ones are slower
