@@ -1,16 +1,17 @@
 """Trials of the constants of match webs: `python figures/tune/match_webs.py [--quick] [--clips FOLDER ...]`.
 
-The web of 6 s of each clip, of matches within 12 cm, and a search in it from six strides, each from one strike of a
-foot to the next. A match is right if it is in a clip of the same kind: one label, or without labels both runs
-or both walks.
+The web of 6 s of each clip, of matches within 12 cm, and a search in it from six strides, each from one
+strike of a foot to the next. A match is right if it is in a clip of the same kind: one label, or without
+labels both runs or both walks.
 
 - Paths: how many the web holds, and their cells. Matches: how many a search finds from a stride, on average;
   right: the percentage that is of its kind.
-- `part_rows`, `part_columns`: the time of the whole web of two clips, and the numbers of its largest part.
-- `convex`, `ridge`: strides that are mixed for a turn and a speed. Missed: the mean error of the values that the
-  samples promise, in percent of their range; far: the mean distance of the samples, likewise.
+- `part_rows`, `part_columns`: the whole web of two clips, and the numbers of its largest part. Smaller parts
+  cut long paths, so that there are more.
 - `leak`, `few_matches`: the percentage of searches that warn of a leak, with a threshold of 6 cm and with one
   of 12 cm, at which wrong matches lead to others.
+- `convex`, `ridge`: strides that are mixed for a turn and a speed. Missed: the mean error of the values that
+  the samples promise, in percent of their range; far: the mean distance of the samples, likewise.
 """
 
 import warnings

@@ -14,7 +14,7 @@ class Tuned:
     least_advance: int = 9  # frames that a path advances in each clip, 0.3 s; shorter ones are chance
     near_path: int = 3  # frames; a path is left out if more than half of it is this near to a better one
     off_minimum: float = 0.5  # times `below`, added to the cost of a cell that is no one-dimensional minimum
-    part_rows: int = 600  # windows on a side of the part of a grid that is searched at a time
+    part_rows: int = 600  # windows on a side of a part of a grid; smaller parts cut long paths
     part_columns: int = 4000  # windows on its other side; larger parts take more memory
 
     # A search of matches
