@@ -24,7 +24,7 @@ class Tuned:
     sparse: float = 0.05  # fraction of near pairs up to which the bound is quicker than products
 
     # The bound, and the trees that it prunes
-    bound_sample: int = 256  # windows that choose the directions; any orthonormal ones are right
+    bound_sample: int = 256  # windows that choose the directions; 64 do nearly as well
     ground_directions: int = 10  # of the vectors g, which make 100 numbers of G; fewer bound less closely
     height_directions: int = 40  # of the vectors y; fewer bound less closely
     directions: int = 48  # of f; more leave hardly fewer pairs

@@ -21,7 +21,7 @@ class Limits:
     # Above `teleport` no root reaches more than 1.4 times the median, except in one trial: 17 times. Below, a
     # body that stands and starts to move reaches 26 times.
     sudden: float = 5.0  # times the median speed of the neighbouring frames
-    sudden_frames: int = 5  # neighbouring frames on either side; fewer make a median of the leap itself
+    sudden_frames: int = 5  # neighbouring frames on either side; with 1 no leap is found
     # 99.99 % of all rotations stay below 31° per frame. Of the 28 trials with a rotation above 45°, 16 have
     # one above 150°, which no joint can do in a frame.
     snap: float = math.pi / 4  # radians per frame

