@@ -101,7 +101,6 @@ TRIALS = {
     "straight": Trial(cutting, (np.radians(5), np.radians(60))),
     "straight_speed": Trial(cutting, (0.0, 0.8)),
     "margin": Trial(cutting, (0.2, 0.5)),
-    "smallest_bell": Trial(spaces, (0.3, 0.0, 0.03)),
     "samples": Trial(spaces, (10, 30, 60, 240)),
     "span": Trial(edges, (0, 1, 6)),
     "neighbours": Trial(edges, (1, 2, 8)),

@@ -61,7 +61,7 @@ def level_rise(count: int) -> Array:
 def bend_to(motion: Motion, frames: int, end: complex, turn: float) -> Arrived:
     """Play a walk in another number of frames, and bend it so that its root ends at a ground point, turned.
 
-    If `TUNED.most_turn` and `TUNED.most_steps` admit no solution, the end is missed or the turning is faster.
+    If the limits of turning and of the steps admit no solution, the end is missed or the turning is faster.
 
     Parameters
     ----------

@@ -16,6 +16,8 @@ from mocap.methods.parametric_graphs.tuned import TUNED
 
 Space = MotionSpace[Examples]
 
+SMALLEST = 1e-3  # a bell's weight below this fraction of the largest counts as 0
+
 
 def bell_weights(values: Array, targets: Array, width: Array | float) -> Array:
     """Weigh all examples by a bell: w ∝ exp(-|(λ - λ_i) / h|² / 2) [ours; HG07 takes the k nearest].
@@ -45,7 +47,7 @@ def bell_weights(values: Array, targets: Array, width: Array | float) -> Array:
     """
     squares = (((targets[:, None] - values) / width) ** 2).sum(axis=-1)
     weights = np.exp(-(squares - squares.min(axis=1, keepdims=True)) / 2)
-    weights[weights < TUNED.smallest_bell] = 0
+    weights[weights < SMALLEST] = 0
     return np.asarray(weights / weights.sum(axis=1, keepdims=True))
 
 

@@ -19,7 +19,6 @@ class Tuned:
     margin: float = 0.38  # fraction of an action, before and after it; transitions are centred near its ends
 
     # Spaces of strides
-    smallest_bell: float = 1e-3  # a bell's weight below this fraction of the largest counts as 0
     samples: int = 120  # number of samples of a space
 
     # Changes between strides
