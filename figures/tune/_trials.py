@@ -84,6 +84,13 @@ def of_folder(folder: Path, fps: float | None = RATE) -> Clips:
     return tuple(mocap.resample(motion, fps or motion.fps) for motion in motions)
 
 
+def middle_of(clip: mocap.Motion, seconds: float) -> mocap.Motion:
+    """Cut the middle out of a clip, or return the whole of a shorter one."""
+    frames = round(seconds * clip.fps)
+    first = max(0, (len(clip) - frames) // 2)
+    return clip[first : first + frames]
+
+
 @contextmanager
 def varied(room: ModuleType, **values: object) -> Iterator[None]:
     """Let all modules read other values of a room's constants.

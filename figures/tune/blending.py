@@ -1,7 +1,7 @@
 """Trials of the constants of blends: `python figures/tune/blending.py [--quick] [--clips FOLDER ...]`.
 
-All pairs of clips are registered, 4 s of each. A clip is of the kind that its label says; without labels it
-is a run if its root goes 2 m/s or more, else a walk.
+All pairs of clips are registered, 4 s in the middle of each. A clip is of the kind that its label says;
+without labels it is a run if its root goes 2 m/s or more, else a walk.
 
 - Curves of time, for pairs of one kind. Strikes: the median of the time from a foot strike of one clip to the
   other clip's, where the registration puts it. Wobble: the standard deviation of the pace over its mean, as
@@ -17,7 +17,7 @@ from collections.abc import Iterator
 from itertools import combinations
 
 import numpy as np
-from _trials import RATE, Clips, Collection, Row, Study, Trial, cmu, varied
+from _trials import RATE, Clips, Collection, Row, Study, Trial, cmu, middle_of, varied
 
 from mocap.blending import Registration, frame_times, mix, register, tuned
 from mocap.body import Motion, find_legs
@@ -33,16 +33,16 @@ REFERENCE_STEP = 0.0002  # seconds
 
 def pairs(clips: Clips, *, same_kind: bool = True) -> Iterator[tuple[Motion, Motion]]:
     """Yield pairs of clips of one kind, or of two."""
-    cut = [mark_plants(clip[: round(SECONDS * clip.fps)]) for clip in clips]
+    cut = [mark_plants(middle_of(clip, SECONDS)) for clip in clips]
     for first, second in combinations(cut, 2):
         if (kind_of(first) == kind_of(second)) == same_kind:
             yield first, second
 
 
 def kind_of(clip: Motion) -> str:
-    """Return the label of a clip, or what its speed says."""
+    """Return the label of most of a clip's frames, or what its speed says."""
     if clip.labels:
-        return next(iter(clip.labels))
+        return max(clip.labels, key=lambda label: clip.labels[label].mean())
     steps = np.linalg.norm(np.diff(clip.root_positions[:, [0, 2]], axis=0), axis=1)
     return "run" if steps.mean() * clip.fps >= RUN else "walk"
 

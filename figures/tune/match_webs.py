@@ -1,8 +1,8 @@
 """Trials of the constants of match webs: `python figures/tune/match_webs.py [--quick] [--clips FOLDER ...]`.
 
-The web of 6 s of each clip, of matches within 12 cm, and a search in it from six strides, each from one
-strike of a foot to the next. A match is right if it is in a clip of the same kind: one label, or without
-labels both runs or both walks.
+The web of 6 s in the middle of each clip, of matches within 12 cm, and a search in it from six strides, each
+from one strike of a foot to the next. A match is right if it is in a clip of the same kind: one label, or
+without labels both runs or both walks.
 
 - Paths: how many the web holds, and their cells. Matches: how many a search finds from a stride, on average;
   right: the percentage that is of its kind.
@@ -19,7 +19,7 @@ from functools import cache
 from itertools import pairwise
 
 import numpy as np
-from _trials import WALKS, Clips, Collection, Row, Study, Trial, cmu
+from _trials import WALKS, Clips, Collection, Row, Study, Trial, cmu, middle_of
 
 from mocap._shared.arrays import runs
 from mocap.body import Motion, find_legs
@@ -47,14 +47,14 @@ RUN = 2.0  # m/s
 
 @cache
 def short(clips: Clips) -> Clips:
-    """Return the beginnings of the clips."""
-    return tuple(clip[: round(SECONDS * clip.fps)] for clip in clips)
+    """Return the middles of the clips."""
+    return tuple(middle_of(clip, SECONDS) for clip in clips)
 
 
 def kind_of(clip: Motion) -> str:
-    """Return the label of a clip, or what its speed says."""
+    """Return the label of most of a clip's frames, or what its speed says."""
     if clip.labels:
-        return next(iter(clip.labels))
+        return max(clip.labels, key=lambda label: clip.labels[label].mean())
     steps = np.linalg.norm(np.diff(clip.root_positions[:, [0, 2]], axis=0), axis=1)
     return "run" if steps.mean() * clip.fps >= RUN else "walk"
 

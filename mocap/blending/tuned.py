@@ -17,8 +17,8 @@ class Tuned:
 
     # Registration
     rate: float = 30.0  # frames per second that are compared, or the nearest that takes each n-th frame
-    window: int = 5  # frames, at this rate; longer windows find larger distances and wobble more
-    spacing: float = 0.3  # seconds between the knots of the curves; nearer ones wobble more
+    window: int = 5  # frames, at this rate; with longer windows distances are larger
+    spacing: float = 0.3  # seconds between the knots of the curves; those of time may be farther apart
     # Wider spacings are tried first, and the first is taken whose mean distance is as good as that of
     # `spacing`, with which the pace of two even walks wobbles by a fifth. Clips that are cut alike take
     # `spacing`: a straight line through nine punches makes blends miss their targets by 8 mm, where these
