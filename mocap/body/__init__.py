@@ -15,6 +15,7 @@ Reading order (notebooks 01, 03)
  8. `ground_path`: paths on the ground, parametrised by arc length
  9. `limbs`: legs and arms, the heading of the hips, and the role of each joint in a body
 10. `fingerprints`: hashes that identify a clip under any name
+11. `tuned`: the constants that trials chose
 
 References
 ----------

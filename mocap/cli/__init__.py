@@ -18,4 +18,5 @@ Reading order
 14. `refusals`: errors for invalid commands, options and values, with suggestions
 15. `streams`: output streams that are closed, full, or abandoned by their reader
 16. `main`: all commands under one name, with `mocap completion` and the exit status
+16. `tuned`: the constants that trials chose
 """

@@ -24,6 +24,7 @@ Reading order (notebooks 01, 10)
 17. `amass`: the archives of AMASS, for the 22 joints of the SMPL body
 18. `gltf_capsules`: a body surface of rigid capsules around the bones
 19. `gltf`: writer of glTF files, with joints, skin and animation
+16. `tuned`: the constants that trials chose
 
 References
 ----------
