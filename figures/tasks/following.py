@@ -8,12 +8,12 @@ layered search does.
 """
 
 from collections.abc import Iterator
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 from asked_lines import random_line
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Points
 from mocap.body import GroundPath, Motion, PlanarTransform, on_ground
 from mocap.errors import MocapError
 from mocap.steering import PathRequest, follow_as_2002, follow_path
@@ -27,7 +27,9 @@ CLIPS = {
     "CMU 16, walks": CMU_16,
     "Bandai-Namco": BANDAI,
 }
-SEEDS, LENGTH, SPACING = range(500, 510), 7.0, 0.05
+SEEDS = range(500, 510)
+LENGTH = 7.0  # metres of a line
+SPACING = 0.05  # metres between its points
 MEASURES = {
     "off, cm": True,
     "worst, cm": True,
@@ -35,6 +37,7 @@ MEASURES = {
     "Eq. 9, cm": True,
     "foot sliding, cm/s": True,
 }
+BUDGET = 30_000  # walks that a stretch of the search of 2002 may expand
 BASELINES = ("nearest clip", "a step at a time", "search of 2002")
 ALONG = np.arange(0, LENGTH + SPACING / 2, SPACING)
 
@@ -55,43 +58,59 @@ def layered(clips: tuple[Motion, ...], seed: str) -> Followed:
 def as_2002(case: Case, look: tuple[int, int]) -> Motion:
     """Search by branch and bound."""
     request = PathRequest(start=layered(case.given["clips"], case.name).walk[0][0], correction=0)
-    line, budget = GroundPath(case.given["line"]), 30_000
-    return follow_as_2002(graph(case.given["clips"]), line, request, look=look, budget=budget).motion()
+    line = GroundPath(case.given["line"])
+    return follow_as_2002(graph(case.given["clips"]), line, request, look=look, budget=BUDGET).motion()
 
 
 def nearest_clip(case: Case) -> Motion:
     """Lay the piece of a clip whose way is most like the line there; where it is too short, it stands."""
-    line, best = on_ground(case.given["line"]), (np.inf, None)
+    line = on_ground(case.given["line"])
+    smallest = np.inf  # m², the mean squared distance of the best piece
+    best: Motion | None = None
     for clip in case.given["clips"]:
         track = on_ground(clip.root_positions)
         metres = np.append(0, np.abs(np.diff(track)).cumsum())
         for start in range(0, len(clip) - 10, 5):
-            own = np.interp(metres[start] + ALONG, metres, np.arange(len(clip)))
-            way = np.interp(own, np.arange(len(clip)), track)
-            turn = np.exp(1j * np.angle(np.vdot(way - way.mean(), line - line.mean())))
-            move = line.mean() - turn * way.mean()
-            gap = float((np.abs(turn * way + move - line) ** 2).mean())
-            if gap < best[0]:
-                best = gap, (clip[start : int(own[-1]) + 1], PlanarTransform.from_complex(turn, move))
-    if best[1] is None:
+            frames = np.interp(metres[start] + ALONG, metres, np.arange(len(clip)))
+            points = np.interp(frames, np.arange(len(clip)), track)
+            rotation, translation = aligned(points, line)
+            error = float((np.abs(rotation * points + translation - line) ** 2).mean())
+            if error < smallest:
+                smallest = error
+                transform = PlanarTransform.from_complex(rotation, translation)
+                best = transform.apply_motion(clip[start : int(frames[-1]) + 1])
+    if best is None:
         raise MocapError("No clip is long enough.")
-    return best[1][1].apply_motion(best[1][0])
+    return best
+
+
+def aligned(points: Points, line: Points) -> tuple[complex, complex]:
+    """Return the rotation and the translation that align points with those of a line, by least squares."""
+    correlation = np.vdot(points - points.mean(), line - line.mean())
+    rotation = np.exp(1j * np.angle(correlation))
+    return rotation, line.mean() - rotation * points.mean()
+
+
+def layered_motion(case: Case) -> Motion:
+    """Search in layers, and return the motion."""
+    return layered(case.given["clips"], case.name).motion()
 
 
 METHODS = {
     "nearest clip": nearest_clip,
-    "a step at a time": lambda case: as_2002(case, (1, 1)),
-    "search of 2002": lambda case: as_2002(case, (45, 15)),
-    "layered search": lambda case: layered(case.given["clips"], case.name).motion(),
+    "a step at a time": partial(as_2002, look=(1, 1)),
+    "search of 2002": partial(as_2002, look=(45, 15)),
+    "layered search": layered_motion,
 }
 
 
 def score(case: Case, answer: Motion) -> Array:
     """Measure how near a walk is to its line."""
-    line, track = on_ground(case.given["line"]), on_ground(answer.root_positions)
-    apart = np.abs(track[:, None] - line)  # (F, P)
+    line = on_ground(case.given["line"])
+    track = on_ground(answer.root_positions)
+    distances = np.abs(track[:, None] - line)  # (F, P)
     metres = np.append(0, np.abs(np.diff(track)).cumsum())
-    at = np.interp(metres, ALONG, line)
-    off = apart.min(axis=1)
-    lengths = [off.mean(), off.max(), apart.min(axis=0).max(), np.abs(track - at).mean()]
+    at_length = np.abs(track - np.interp(metres, ALONG, line))
+    nearest = distances.min(axis=1)
+    lengths = [nearest.mean(), nearest.max(), distances.min(axis=0).max(), at_length.mean()]
     return np.array([*(100 * metre for metre in lengths), foot_sliding_speed(answer)])

@@ -6,7 +6,7 @@ without labels it is a run if its root goes 2 m/s or more, else a walk.
 - Curves of time, for pairs of one kind. Strikes: the median of the time from a foot strike of one clip to the
   other clip's, where the registration puts it. Wobble: the standard deviation of the pace over its mean, as
   both go evenly. Distance: the mean RMS distance along the path.
-- `shortest_plant`: plants that are matched, and the foot sliding distance of the even blend.
+- `shortest_footplant`: plants that are matched, and the foot sliding distance of the even blend.
 - `clock_step`: the largest error of the blend's clock, against steps a tenth as long.
 - Warnings: the percentage of pairs of one kind that are warned of, and of pairs of two kinds; at best 0 and
   100.
@@ -136,12 +136,12 @@ TRIALS = {
     "spacing": Trial(curves, (0.1, 0.2, 0.5, 1.0)),
     "wider_spacings": Trial(curves, ((), (np.inf,), (8.0, 4.0, 2.0), (4.0, 2.0))),
     "as_good": Trial(curves, (1.0, 1.02, 1.15, 1.3)),
-    "shortest_plant": Trial(plants, (0.1, 0.0, 0.05)),
+    "shortest_footplant": Trial(plants, (0.1, 0.0, 0.05)),
     "clock_step": Trial(clock, (0.02, 0.001, 0.005, 0.01)),
     "unlike": Trial(warned, (0.05, 0.08, 0.16, 0.24)),
     "unlike_time": Trial(warned, (0.02, 0.04, 0.09, 0.12)),
-    "skates": Trial(warned, (1.0, 1.2, 2.0, 3.0)),
-    "skates_faster": Trial(warned, (0.0, 0.005, 0.03, 0.1)),
+    "sliding_ratio": Trial(warned, (1.0, 1.2, 2.0, 3.0)),
+    "sliding_difference": Trial(warned, (0.0, 0.005, 0.03, 0.1)),
 }
 STUDY = Study(tuned, TRIALS, {}, (BUNDLED, CMU))
 

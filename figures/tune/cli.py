@@ -5,7 +5,7 @@
   both measures among the clips, which the constants have to be above.
 - `web_threshold`: a web whose paths may be farther than the matches that are asked for, 6 cm. Matches: how
   many are found for six strides, on average.
-- `side_turns`, `side_states`: a group of four in a bay that is closed towards its goal. Found: the percentage
+- `side_headings`, `side_states`: a group of four in a bay that is closed towards its goal. Found: the percentage
   of bays that it finds a way out of, of two.
 - `similar_word`: misspelt commands, with a letter left out, doubled or changed. Right: the percentage for
   which the right one is suggested; wrong: that of words of other programs for which any is suggested.
@@ -87,7 +87,7 @@ def led(clips: Clips) -> Row:
 
 def is_led(scene: Scene) -> bool:
     """Tell whether a group finds a way in any of the directions that are tried."""
-    for turn in tuned.TUNED.side_turns:
+    for turn in tuned.TUNED.side_headings:
         limits = {"most": tuned.TUNED.side_states} if turn else {}
         try:
             lead_group(group(), scene, start=PlanarTransform(turn, 0.0, 0.0), **limits)
@@ -123,7 +123,7 @@ TRIALS = {
     "poor_seam": Trial(looped, (0.01, 0.02, 0.03, 0.1)),
     "missed_cycle": Trial(looped, (0.05, 0.02, 0.1, 0.3)),
     "web_threshold": Trial(matched, (1.0, 1.15, 2.0)),
-    "side_turns": Trial(led, ((0.0,), (0.0, 0.5, -0.5)), needs_clips=False),
+    "side_headings": Trial(led, ((0.0,), (0.0, 0.5, -0.5)), needs_clips=False),
     "side_states": Trial(led, (50, 4000), needs_clips=False),
     "similar_word": Trial(suggested, (0.9, 0.4, 0.5, 0.7, 0.8), needs_clips=False),
 }

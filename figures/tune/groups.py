@@ -196,7 +196,7 @@ TRIALS = {
     "paces": Trial(open_ground, ((0.9, 1.1), (0.8, 1.2), (0.2, 1.8))),
     "rate_time": Trial(open_ground, (1.0, 2.0, 6.0)),
     "rate_drift": Trial(open_ground, (1.0, 0.0, 0.5)),
-    "fastest_turn": Trial(open_ground, (2.0, 0.25, 1.0)),
+    "fastest_rotation": Trial(open_ground, (2.0, 0.25, 1.0)),
     "wall_force": Trial(corridor, (0.0, 1.0, 6.0, 12.0)),
     "wall_push": Trial(corridor, (0.0, 0.005, 0.05, 0.2)),
     "free_width": Trial(corridor, (1.0, 0.4, 0.9)),

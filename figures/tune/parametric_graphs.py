@@ -111,7 +111,7 @@ TRIALS = {
     "change_to": Trial(changes, (0.55, 0.7, 1.0)),
     "step_phases": Trial(changes, ((0.3, 0.7), (0.0, 1.0), (0.15, 0.85))),
     "strike_phases": Trial(changes, (0, 5)),
-    "turn_beyond": Trial(changes, (0.0, np.radians(20))),
+    "rotation_beyond": Trial(changes, (0.0, np.radians(20))),
     "change_examples": Trial(changes, (20, 200)),
 }
 FIXED = {

@@ -127,7 +127,7 @@ TRIALS = {
     "overrun": Trial(bent, (0.0, 0.2, 1.0)),
     "overrun_fraction": Trial(bent, (0.0, 0.01, 0.05)),
     "clock": Trial(crossing, (1, 2, 8)),
-    "give_way": Trial(crossing, ((0, 0, 0), (0, 1, 1), (0, 2, 4))),
+    "wider_views": Trial(crossing, ((0, 0, 0), (0, 1, 1), (0, 2, 4))),
     "waits": Trial(crossing, ((0.0,), (0.0, 2.0), (0.0, 0.5, 1.0, 1.5, 2.0, 4.0))),
     "crowd_beam": Trial(crossing, (30, 50, 200)),
     "passing": Trial(passed, (0.2, 0.0, 0.05)),

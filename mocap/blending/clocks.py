@@ -77,7 +77,7 @@ def _footplants(clip: Motion, curve: Curve, joint: str, span: tuple[float, float
 def _cut(plants: Iterable[Sequence[float]], low: float, high: float) -> list[Footplant]:
     """Clip footplants to an interval, and drop those that are then too short."""
     parts = [(max(start, low), min(stop, high)) for start, stop in plants]
-    return [(start, stop) for start, stop in parts if stop - start >= TUNED.shortest_plant]
+    return [(start, stop) for start, stop in parts if stop - start >= TUNED.shortest_footplant]
 
 
 def _overlapping(plants: Sequence[list[Footplant]]) -> list[list[list[Footplant]]]:

@@ -193,7 +193,7 @@ def _warn(registration: Registration, rate: float, *, alike: bool) -> None:
         of_blend = _sliding_speed(blend)
         parts = [part[:: round(part.fps / rate)] for part in registration.parts]
         of_clips = float(np.mean([_sliding_speed(part) for part in parts]))
-        if of_blend > max(TUNED.skates * of_clips, of_clips + TUNED.skates_faster):
+        if of_blend > max(TUNED.sliding_ratio * of_clips, of_clips + TUNED.sliding_difference):
             speeds = f"{100 * of_blend:.1f} cm/s, in the clips at {100 * of_clips:.1f}"
             warn(f"{names} may not belong together: in an even blend the slowest joint goes at {speeds}.")
 

@@ -265,7 +265,7 @@ def _plan(
 ) -> "tuple[groups.Configuration, groups.planning.GroupWalk | None]":
     """Plan a path that starts towards the first point or, if that fails, to one side of it."""
     refused: list[NoWalk] = []
-    for heading in TUNED.side_turns:
+    for heading in TUNED.side_headings:
         start = body.PlanarTransform(cmath.phase(scene.points[0]) + heading, 0.0, 0.0)
         limits = {"most": TUNED.side_states} if heading else {}
         try:

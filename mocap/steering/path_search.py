@@ -226,7 +226,7 @@ class PathSearch(LayeredSearch):
         if len(route.others):  # avoiding others takes longer: look ahead up to three times as far
             body = states.translation + states.rotation * graph.at[node]
             last = ahead[:, -1:]
-            multiples = np.array(TUNED.give_way)
+            multiples = np.array(TUNED.wider_views)
             farther = last + (last - body[:, None]) * multiples
             frames = (multiples + 1) * round(graph.fps * GRAPH_TUNED.ahead[-1])
             costs += self.crowding(farther, states.frames[:, None] + frames)

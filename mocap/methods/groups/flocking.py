@@ -240,7 +240,7 @@ def simulate(
     for _ in range(round((seconds + TUNED.settle) * RATE)):
         drift = np.sqrt(1 / RATE) * TUNED.rate_drift * random.normal()
         turning_rate += -turning_rate / TUNED.rate_time / RATE + drift
-        heading += np.clip(turning_rate, -TUNED.fastest_turn, TUNED.fastest_turn) / RATE
+        heading += np.clip(turning_rate, -TUNED.fastest_rotation, TUNED.fastest_rotation) / RATE
         if room < np.inf:
             lateral = group.positions.imag
             heading = -TUNED.line_pull * np.clip(lateral.mean(), -1, 1)

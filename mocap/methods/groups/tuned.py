@@ -23,7 +23,7 @@ class Tuned:
     paces: tuple[float, float] = (0.6, 1.4)  # lowest and highest pace of a whim, as fractions of the group's
     rate_time: float = 3.0  # seconds in which the group's rate of turning decays
     rate_drift: float = 0.25  # rad/s per √s of the group's rate of turning
-    fastest_turn: float = 0.5  # rad/s of the group's heading; at 2 paces differ more
+    fastest_rotation: float = 0.5  # rad/s of the group's heading; at 2 paces differ more
 
     # Configurations that recur
     velocity_seconds: float = 0.7  # a difference of 1 m/s counts as much as 0.7 m

@@ -91,7 +91,7 @@ def bend_to(motion: Motion, frames: int, end: complex, rotation: float) -> Arriv
     motion = motion if len(motion) == frames else at_frames(motion, moments)
     path = _BentPath(on_ground(motion.root_positions), rotation, motion.fps)
     best = path.solve(end, limited=False)
-    if np.abs(path.turned(best)).max() > TUNED.most_turn:
+    if np.abs(path.turned(best)).max() > TUNED.most_rotation:
         best = path.solve(end, limited=True)
     phi = path.angles(best)
     points = path.points(best)
@@ -103,7 +103,7 @@ def bend_to(motion: Motion, frames: int, end: complex, rotation: float) -> Arriv
     turned = np.diff(phi) * motion.fps
     sigma = path.step_factors(best)
     logs = np.concatenate([np.log(sigma), np.log(pace)])
-    price = (TUNED.turn * (turned @ turned) + TUNED.stretch * (logs @ logs)) / motion.fps
+    price = (TUNED.rotation * (turned @ turned) + TUNED.stretch * (logs @ logs)) / motion.fps
     bent = replace(motion, root_positions=roots, rotations=turns)
     return Arrived(bent, turned, sigma, pace, float(abs(points[-1] - end)), float(price))
 
@@ -141,7 +141,7 @@ class _BentPath:
         rate = self.rate[self.constrained] * self.fps
         jacobian = np.block([[-rate, 0 * rate], [rate, 0 * rate]])
         even = self.turned(np.zeros(2 * self.count))[self.constrained]
-        room = TUNED.within * TUNED.most_turn - np.concatenate([even, -even])
+        room = TUNED.within * TUNED.most_rotation - np.concatenate([even, -even])
         return {"type": "ineq", "fun": lambda x: room + jacobian @ x, "jac": lambda _: jacobian}
 
     def turned(self, x: Array) -> Array:
@@ -167,8 +167,8 @@ class _BentPath:
         """Return the cost and its gradient."""
         turned = self.turned(x)
         log = self.middle @ x[self.count :]
-        cost = (TUNED.turn * (turned @ turned) + TUNED.stretch * (log @ log)) / self.fps
-        by_angles = TUNED.turn * (self.rate.T @ turned)
+        cost = (TUNED.rotation * (turned @ turned) + TUNED.stretch * (log @ log)) / self.fps
+        by_angles = TUNED.rotation * (self.rate.T @ turned)
         by_steps = TUNED.stretch / self.fps * (self.middle.T @ log)
         return float(cost), 2 * np.concatenate([by_angles, by_steps])
 

@@ -155,5 +155,5 @@ def _arriving(
         played = to_motion(source, walk, start=candidate.transform)
         played = played[candidate.first : candidate.first + candidate.frames + 1]
         arrived = bend_to(played, frames + 1, candidate.end, candidate.angle)
-        if arrived.lack <= TUNED.pose / 2 and np.abs(arrived.turned).max() <= TUNED.most_turn:
+        if arrived.lack <= TUNED.pose / 2 and np.abs(arrived.turned).max() <= TUNED.most_rotation:
             yield candidate.cost + arrived.price, walk, arrived

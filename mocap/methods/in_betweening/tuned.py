@@ -40,10 +40,10 @@ class Tuned:
     pairs: int = 3_000_000  # joins that are compared, at most
 
     # Bending the ends of a walk
-    most_turn: float = math.radians(60)  # radians per second of turning, added to the walk's own
+    most_rotation: float = math.radians(60)  # radians per second of turning, added to the walk's own
     most_steps: float = 1.25  # times: steps become longer or shorter by at most this factor
     most_pace: float = 1.25  # times: the walk is played faster or slower by at most this factor
-    turn: float = 0.5  # times the squared radians per second of added turning, times seconds
+    rotation: float = 0.5  # times the squared radians per second of added turning, times seconds
     stretch: float = 8.0  # times the squared logarithms of the step factor and of the pace, times seconds
     within: float = 0.98  # of the limit of turning, because only some frames are constrained
     solver_rounds: int = 30  # iterations; 5 to 15 are enough if there is a solution

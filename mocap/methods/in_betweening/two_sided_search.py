@@ -216,10 +216,10 @@ class TwoSided:
         longer = np.log(np.maximum(abs(target) / metres, 1.0))
         pace = np.log(np.maximum((first.frames + second.frames) / self.frames, 1e-3))
         price = first.cost + second.cost + TUNED.stretch * seconds * (pace**2 + longer**2)
-        price += TUNED.turn / seconds * (angle**2 + 12 * across**2)
-        price += np.minimum(TUNED.stretch * seconds * along**2, TUNED.turn / seconds * 24 * along)
+        price += TUNED.rotation / seconds * (angle**2 + 12 * across**2)
+        price += np.minimum(TUNED.stretch * seconds * along**2, TUNED.rotation / seconds * 24 * along)
         turning = PEAK * (np.abs(angle) + 6 * across) / seconds
-        price += TUNED.beyond_limit * np.maximum(turning - TUNED.most_turn, 0.0)
+        price += TUNED.beyond_limit * np.maximum(turning - TUNED.most_rotation, 0.0)
         price += TUNED.beyond_limit * np.maximum(PEAK * longer - np.log(TUNED.most_steps), 0.0)
         return np.where(np.abs(pace) <= (1 - TUNED.rise) * np.log(TUNED.most_pace), price, np.inf)
 

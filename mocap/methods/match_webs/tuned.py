@@ -18,14 +18,14 @@ class Tuned:
     part_columns: int = 4000  # windows on its other side; larger parts take more memory
 
     # A search of matches
-    same_match: float = 0.5  # overlap, as a fraction of the union, above which stretches are one match
-    cover: float = 0.9  # fraction of a stretch that a path must cover; over the rest it is extended straight
+    same_match: float = 0.5  # overlap, as a fraction of the union; at 0.9 one motion is found many times
+    cover: float = 0.9  # fraction of a stretch that a path must cover; at 0.5 two of five matches are wrong
     leak: float = 5  # a step leaks if it finds more than so many times the matches of the previous step
     few_matches: int = 20  # a step that finds no more does not leak
 
     # Weights of samples for a target
     convex: int = 12  # nearest samples that are mixed; 3 miss targets by seven times as much
-    ridge: float = 5e-4  # preference for near samples; at 0.05 targets are missed by half as much again
+    ridge: float = 5e-4  # preference for near samples; at 0.05 targets are missed by more
 
 
 TUNED = Tuned()

@@ -218,8 +218,8 @@ def _pairs(first: Examples, second: Examples, any_turn: bool) -> tuple[Indices, 
     """
     turns = first.values[:, 0]
     second_turns = second.values[:, 0]
-    lowest = second_turns.min() - TUNED.turn_beyond
-    highest = second_turns.max() + TUNED.turn_beyond
+    lowest = second_turns.min() - TUNED.rotation_beyond
+    highest = second_turns.max() + TUNED.rotation_beyond
     is_within = (turns >= lowest) & (turns <= highest)
     usable = np.flatnonzero(any_turn | is_within)
     if not usable.size:

@@ -26,7 +26,7 @@ class Tuned:
     change_to: float = 0.8  # phase at which a change ends
     step_phases: tuple[float, float] = (0.05, 0.95)  # phases between which feet step; seams blend the others
     strike_phases: int = 2  # phases of the grid by which a swing may end after a strike
-    turn_beyond: float = math.radians(5)  # a turn may be this far outside those of the other kind
+    rotation_beyond: float = math.radians(5)  # a turn may be this far outside those of the other kind
     change_examples: int = 60  # number of examples of a change, at most
 
     # Transitions between made motions
