@@ -5,8 +5,8 @@
   both measures among the clips, which the constants have to be above.
 - `web_threshold`: a web whose paths may be farther than the matches that are asked for, 6 cm. Matches: how
   many are found for six strides, on average.
-- `side_headings`, `side_states`: a group of four in a bay that is closed towards its goal. Found: the percentage
-  of bays that it finds a way out of, of two.
+- `side_headings`, `side_states`: a group of four in a bay that is closed towards its goal. Found: the
+  percentage of two bays that it finds a way out of.
 - `similar_word`: misspelt commands, with a letter left out, doubled or changed. Right: the percentage for
   which the right one is suggested; wrong: that of words of other programs for which any is suggested.
 """

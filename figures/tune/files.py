@@ -120,7 +120,6 @@ def rounding(clip: Motion) -> float:
 SHORT = Collection("four bundled walks", WALKS)
 MIXED = Collection("CMU 02 and 49, ten clips each", cmu("02", *range(1, 11)) + cmu("49", *range(1, 11)))
 
-# reads: statement: a table
 SPACES = {
     "least_joints": (3, 20, 50),
     "looked_at_rate": (10.0, 60.0),
