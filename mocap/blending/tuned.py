@@ -12,9 +12,7 @@ class Tuned:
     """Each constant with its unit, and the reason for its value."""
 
     # Clocks
-    shortest_footplant: float = (
-        0.02  # seconds of the common clock; parts of plants that are shorter are dropped
-    )
+    shortest_footplant: float = 0.02  # seconds of the common clock; shorter parts are dropped
     clock_step: float = 0.002  # seconds of the common clock between the points at which its speed is computed
 
     # Registration

@@ -14,13 +14,7 @@ class Tuned:
     # A path of the web ends where frames are no longer as near as asked, although on average they still are.
     # With 4 / 3 CMU 02_05's punch finds two more below 6 cm; with 2 no others.
     web_threshold: float = 4 / 3  # times the threshold of `mocap find`
-    side_headings: tuple[float, ...] = (
-        0.0,
-        0.5,
-        -0.5,
-        1.0,
-        -1.0,
-    )  # radians from the first point, in this order
+    side_headings: tuple[float, ...] = (0.0, 0.5, -0.5, 1.0, -1.0)  # radians, tried in this order
     side_states: int = 400  # where the way ahead is closed, a side finds one soon or not at all
     similar_word: float = 0.6  # of two words, as `difflib` measures it; "conver" and "convert" have 0.92
 

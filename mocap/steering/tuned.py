@@ -18,11 +18,7 @@ class Tuned:
     walking_speed: float = 0.5  # m/s; a clip whose root is faster walks, as an error tells
     creep: float = 0.05  # m/s, the least progress of a bent walk, so that searches end; at 0.3 it may stand
     clock: int = 4  # cells of time per second for walks that give way; 1 to 8 keep as far apart
-    wider_views: tuple[int, int, int] = (
-        0,
-        1,
-        2,
-    )  # multiples of the distance ahead; with 0 alone some must wait
+    wider_views: tuple[int, int, int] = (0, 1, 2)  # times the distance ahead; with 0 some must wait
 
     # Repeated searches
     wide_beam: int = 400  # walks in a layer of repeated searches; 800 take longer, and are no nearer
