@@ -1,11 +1,15 @@
 """Legs and arms of a skeleton, and the role of each joint in a body.
 
-Two skeletons have few names in common, but the same parts. Legs, arms and head are found by the names that
-files use, or legs are named by hand. The trunk is found by the tree: the pelvis is where the legs meet, the
-chest is where the arms meet, and the waist and the neck are the first joints above them.
+Two skeletons have few names in common, but the same parts. A skeleton carries the roles of its joints if
+they were given, or found by their motion when its file was read (`with_roles`). Else legs, arms and head are
+found by the names that files use, and if these are unknown, by the rest pose (`limb_search`). The trunk is
+found by the tree: the pelvis is where the legs meet, the chest is where the arms meet, and the waist and the
+neck are the first joints above them.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from functools import lru_cache
 from itertools import pairwise
 from textwrap import shorten
 from typing import Literal, NamedTuple
@@ -13,10 +17,16 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from mocap._shared.arrays import Array
+from mocap.body.joint_trees import place_joints
+from mocap.body.limb_search import LIMITS, find_limbs
+from mocap.body.motion import Motion, require_motion
 from mocap.body.skeleton import Skeleton
-from mocap.errors import MocapError, Remedy
+from mocap.errors import MocapError, Remedy, shortened, warn
 
-LEGS_BY_HAND = Remedy("name each by hand, {}[name_leg(skeleton, hip, knee, ankle, ball), ...]", "legs")
+# Each surface names its own parameter: `roles=` of `mocap.load`, `--joints` of a command.
+ROLES_BY_HAND = Remedy("name them by {} when the clip is read", "roles")
+
+SHORT = 1e-6  # metres: a bone of this length or less has no direction
 
 # Hip, knee, ankle and shoulder, elbow, wrist of the left side, as files name them. Legs and arms are looked
 # up separately, and a prefix up to a colon is ignored.
@@ -41,10 +51,14 @@ SIDES = ("left", "right")
 FEET = tuple(f"{side} {part}" for side in SIDES for part in ("ankle", "ball"))
 ROLES = (*TRUNK, *(f"{side} {part}" for side in SIDES for part in ("clavicle", *ARM, *LEG)))
 """The roles that a joint can have in a body, from "pelvis" to "right ball"."""
+TIPS = tuple(f"{side} tip" for side in SIDES)
+"""The ends of the toes: roles that a skeleton may carry, but that no bone of another body follows."""
 
 
 class Leg(NamedTuple):
-    """One leg's joints, as indices into a skeleton, each the parent of the next.
+    """One leg's joints, as indices into a skeleton, each below the one before.
+
+    A foot without toes has no joint at its ball. Its `ball` is then the ankle, and has no length.
 
     Examples
     --------
@@ -61,15 +75,32 @@ class Leg(NamedTuple):
 
     def lengths(self, skeleton: Skeleton) -> Array:
         """Return the lengths of thigh, shank and foot (ankle to ball), shape (3,), metres."""
-        return np.asarray(np.linalg.norm(skeleton.offsets[list(self[1:])], axis=-1))
+        bones = np.linalg.norm(skeleton.offsets, axis=-1)
+        lengths = []
+        for above, joint in pairwise(self):
+            path = skeleton.path_to_root(joint)
+            between = path[: path.index(above)]  # more than one bone in a thigh that is split
+            lengths.append(sum(bones[between]))
+        return np.array(lengths, float)
+
+    @property
+    def has_ball(self) -> bool:
+        """Whether the foot has a joint ahead of its ankle."""
+        return self.ball != self.ankle
 
 
 def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
-    """Find the left and the right leg by their joints' names; the ball is the ankle's first child.
+    """Find the left and the right leg: by the skeleton's roles, by names, or by the rest pose.
+
+    By names, the ball is the ankle's first child.
 
     Raises
     ------
-    MocapError : for skeletons without known names, whose joints are named by hand with `name_leg`.
+    MocapError : for skeletons in which no legs are found, and roles that are no legs.
+
+    Warns
+    -----
+    MocapWarning : if neither roles nor names say which joints are legs. A rest pose shows less than a motion.
 
     Examples
     --------
@@ -79,29 +110,136 @@ def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
 
     Notebook: 04b-feet
     """
-    return _find_legs(skeleton, remedy=LEGS_BY_HAND)
-
-
-def _find_legs(skeleton: Skeleton, advice: str = "", remedy: Remedy | None = None) -> tuple[Leg, ...]:
-    """Find the left and the right leg; the error for unknown names ends with the advice or the remedy."""
-    pair = find_pair(skeleton, "legs")
-    if not pair:
-        joints = shorten(", ".join(skeleton.names), 38)
-        names = shorten(", ".join(dict(LIMBS)), 40)
-        raise MocapError(f"No legs found among {joints}: tried {names}.{advice}", remedy=remedy)
-    legs = [Leg(hip, knee, ankle, _ball(skeleton, ankle)) for hip, knee, ankle in pair]
-    for leg in legs:
-        _require_leg(skeleton, leg)
+    joints = _limbs(skeleton)
+    legs = []
+    for side in SIDES:
+        hip, knee, ankle = (joints[f"{side} {part}"] for part in LEG[:3])
+        legs.append(Leg(hip, knee, ankle, joints.get(f"{side} ball", ankle)))
+        _require_leg(skeleton, legs[-1])
     return tuple(legs)
 
 
-def _ball(skeleton: Skeleton, ankle: int) -> int:
-    """Return the ball of a foot: the first child of its ankle."""
-    children = skeleton.children(ankle)
-    if not children:
-        name = skeleton.names[ankle]
-        raise MocapError(f"The foot '{name}' has no joint or end site that could be its ball.")
-    return children[0]
+def _limbs(skeleton: Skeleton) -> dict[str, int]:
+    """Find the joints of legs, arms and head by role; raise if there are no legs."""
+    by_hand = {role: skeleton.index(name) for role, name in skeleton.roles.items()}
+    if _has_legs(by_hand):
+        return by_hand
+    joints = _named_limbs(skeleton) | by_hand
+    if _has_legs(joints):
+        return joints
+    at_rest, doubts = _limbs_at_rest(skeleton)
+    if not at_rest:
+        names = shorten(", ".join(skeleton.names), 60)
+        problem = f"No legs found among {names} by name, nor at rest: {doubts[0]}."
+        raise MocapError(problem, remedy=ROLES_BY_HAND)
+    return at_rest | joints
+
+
+def _has_legs(joints: Iterable[str]) -> bool:
+    return {f"{side} {part}" for side in SIDES for part in LEG[:3]} <= set(joints)
+
+
+def _named_limbs(skeleton: Skeleton) -> dict[str, int]:
+    """Find limbs and head by their names."""
+    joints: dict[str, int] = {}
+    for side, leg in zip(SIDES, find_pair(skeleton, "legs"), strict=False):  # there may be none
+        joints |= {f"{side} {part}": joint for part, joint in zip(LEG[:3], leg, strict=True)}
+        toes = [toe for toe in skeleton.children(leg[-1]) if np.linalg.norm(skeleton.offsets[toe]) > SHORT]
+        if toes:
+            joints[f"{side} ball"] = toes[0]
+    for side, arm in zip(SIDES, find_pair(skeleton, "arms"), strict=False):
+        joints |= {f"{side} {part}": joint for part, joint in zip(ARM, arm, strict=True)}
+    names = [name.lower() for name in _without_prefixes(skeleton)]
+    if "head" in names:
+        joints["head"] = names.index("head")
+    return joints
+
+
+@lru_cache(maxsize=64)
+def _limbs_at_rest(skeleton: Skeleton) -> tuple[dict[str, int], tuple[str, ...]]:
+    """Find limbs by the rest pose, and warn of it once for each skeleton."""
+    limbs = find_limbs(skeleton, skeleton.rest[None])
+    joints = _without_trunk(limbs.roles)
+    if joints:
+        legs = ", ".join(f"'{skeleton.names[joints[f'left {part}']]}'" for part in LEG[:3])
+        warn(f"{skeleton!r}: by its rest pose alone the left leg is {legs}; {'; '.join(limbs.doubts)}.")
+    return joints, limbs.doubts
+
+
+def _without_trunk(joints: Mapping[str, int]) -> dict[str, int]:
+    """Return the roles of limbs and head: `_trunk` finds the others by the tree."""
+    return {role: joint for role, joint in joints.items() if role not in TRUNK or role == "head"}
+
+
+def with_roles(motion: Motion, roles: Mapping[str, str] | None = None) -> Motion:
+    """Find the roles of a motion's joints, and give them to its skeleton.
+
+    Limbs that have unknown names are found by their motion, with `limb_search.find_limbs`.
+
+    Parameters
+    ----------
+    motion : F frames.
+    roles : names of joints by role, such as {"left hip": "thigh_l"}; they replace those that are found. The
+        roles are those of `ROLES`, and "left tip" and "right tip" for the ends of the toes. An empty name
+        says that the body has no such joint.
+
+    Returns
+    -------
+    The motion. If all limbs have known names and no roles are given, it is the same.
+
+    Raises
+    ------
+    MocapError : for unknown roles and joints.
+
+    Warns
+    -----
+    MocapWarning : if the legs have unknown names and the motion leaves some roles in doubt.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = with_roles(sample("walk_straight"), {"left ball": "ltoes_end"})
+    >>> walk.skeleton.roles["left ball"], walk.skeleton.roles["right ball"]
+    ('ltoes_end', 'rtoes')
+
+    Notebook: 13-retargeting
+    """
+    skeleton = require_motion(motion).skeleton
+    by_hand = dict(roles or {})
+    for role, name in by_hand.items():
+        if role not in (*ROLES, *TIPS):
+            raise MocapError(f"No role '{shortened(role, 40)}'; there are: {', '.join((*ROLES, *TIPS))}.")
+        if name:
+            skeleton.index(name)
+    named = _named_limbs(skeleton)
+    is_known = _has_legs(named) and f"{SIDES[0]} {ARM[0]}" in named
+    if is_known and not by_hand:
+        return motion
+    joints = named if is_known else _limbs_in_motion(motion, named, by_hand)
+    names = {role: skeleton.names[joint] for role, joint in joints.items()} | by_hand
+    names = {role: name for role, name in names.items() if name}
+    return replace(motion, skeleton=replace(skeleton, roles=names)) if names else motion
+
+
+def _limbs_in_motion(motion: Motion, named: Mapping[str, int], by_hand: Mapping[str, str]) -> dict[str, int]:
+    """Find limbs by their motion; those with known names keep them."""
+    skeleton = motion.skeleton
+    frames = np.linspace(0, len(motion) - 1, min(len(motion), LIMITS.frames)).astype(int)
+    roots = motion.root_positions[frames]
+    positions = place_joints(skeleton, roots, motion.rotations[frames]).positions
+    limbs = find_limbs(skeleton, positions)
+    joints = _without_trunk(limbs.roles)
+    if joints.get("left hip") == named.get("right hip", -1):  # names count more than the motion
+        joints = {_other_side(role): joint for role, joint in joints.items()}
+    if joints and limbs.doubts and not _has_legs(named) and not _has_legs(by_hand):
+        correct = "`mocap info FILE --joints` prints the roles of the joints, to be corrected"
+        warn(f"'{shortened(motion.name, 60)}': limbs are unsure: {'; '.join(limbs.doubts)}; {correct}.")
+    return joints | dict(named)
+
+
+def _other_side(role: str) -> str:
+    side, _, part = role.partition(" ")
+    return f"{SIDES[1 - SIDES.index(side)]} {part}" if side in SIDES else role
 
 
 def find_pair(skeleton: Skeleton, limbs: Literal["legs", "arms"]) -> list[list[int]]:
@@ -148,13 +286,15 @@ def name_leg(skeleton: Skeleton, hip: str, knee: str, ankle: str, ball: str) -> 
 
 
 def _require_leg(skeleton: Skeleton, leg: Leg) -> None:
-    """Raise unless each joint of a leg is the parent of the next one, at a distance."""
+    """Raise unless each joint of a leg hangs on the one before, at a distance; a ball may be the ankle."""
     names = skeleton.names
-    for above, below in pairwise(leg):
-        if skeleton.parents[below] != above:
+    for above, below in pairwise(leg if leg.has_ball else leg[:3]):
+        if above not in skeleton.path_to_root(below)[1:]:
             hangs = f"'{names[below]}' hangs on '{names[skeleton.parents[below]]}', not on '{names[above]}'"
             raise MocapError(f"In a leg each joint hangs on the one before, but {hangs}.")
-        if not np.linalg.norm(skeleton.offsets[below]) > 1e-6:
+    for below, length in zip(leg[1:], leg.lengths(skeleton), strict=True):
+        if not length > SHORT and (below != leg.ball or leg.has_ball):
+            above = leg[leg.index(below) - 1]
             raise MocapError(f"'{names[below]}' sits on '{names[above]}': a bone needs a length.")
 
 
@@ -196,15 +336,10 @@ def roles(skeleton: Skeleton) -> dict[str, int]:
 
     Notebook: 13-retargeting
     """
-    joints: dict[str, int] = {}
-    for side, leg in zip(SIDES, _find_legs(skeleton, advice=" Rename the joints."), strict=True):
+    joints = _limbs(skeleton)
+    for side, leg in zip(SIDES, find_legs(skeleton), strict=True):
         joints |= {f"{side} {part}": joint for part, joint in zip(LEG, leg, strict=True)}
-    for side, arm in zip(SIDES, find_pair(skeleton, "arms"), strict=False):  # there may be none
-        joints |= {f"{side} {part}": joint for part, joint in zip(ARM, arm, strict=True)}
-    names = [name.lower() for name in _without_prefixes(skeleton)]
-    if "head" in names:
-        joints["head"] = names.index("head")
-    joints |= _trunk(skeleton, joints)
+    joints = _trunk(skeleton, joints) | joints
     return {role: joints[role] for role in ROLES if role in joints}
 
 

@@ -35,6 +35,8 @@ class Skeleton:
     dofs : the axes about which a joint can turn, in the order of turning about fixed axes, such as "xyz" or
         "x"; by default "xyz", and "" for a joint without children. Like `axes`, they only say how a file
         stores the angles; in a motion any joint may turn any way.
+    roles : names of joints by their role in a body, such as {"left knee": "calf_l"}; by default none, and
+        `body.find_legs` knows names of many files. `body.with_roles` and `mocap.load` set them.
 
     Raises
     ------
@@ -59,16 +61,18 @@ class Skeleton:
     offsets: Array
     axes: Array = field(default_factory=lambda: np.empty((0, 4)))
     dofs: Sequence[str] = ()
+    roles: Mapping[str, str] = field(default_factory=dict)
 
     if TYPE_CHECKING:  # what a caller may pass: `__post_init__` makes arrays of it
 
-        def __init__(
+        def __init__(  # noqa: PLR0913 (the fields)
             self,
             names: Sequence[str],
             parents: ArrayLike,
             offsets: VectorsLike,
             axes: VectorsLike = ...,
             dofs: Sequence[str] = ...,
+            roles: Mapping[str, str] = ...,
         ) -> None: ...
 
     def __post_init__(self) -> None:
@@ -88,6 +92,9 @@ class Skeleton:
         for name, axes in zip(self.names, self.dofs, strict=True):
             if not set(axes) <= set("xyz") or len(set(axes)) < len(axes):
                 raise MocapError(f"Joint '{name}' needs dofs such as 'xyz', 'x' or '', got '{axes}'.")
+        object.__setattr__(self, "roles", dict(self.roles))
+        for name in self.roles.values():
+            self.index(name)
 
     @classmethod
     def from_table(cls, rows: Mapping[str, tuple[str, ArrayLike]], scale: float = 1.0) -> Skeleton:

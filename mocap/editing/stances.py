@@ -262,5 +262,5 @@ def proportioned(
     shares = np.full(len(old), float(trunk))
     for joint, above in enumerate(old.parents[1:], start=1):  # a parent stands before its children
         shares[joint] = tops.get(above) or shares[above]
-    body = Skeleton(old.names, old.parents, old.offsets * shares[:, None], old.axes, old.dofs)
+    body = replace(old, offsets=old.offsets * shares[:, None])
     return Stance(body, stance.roles, stance.turns, {role: legs * stance.heights[role] for role in FEET})
