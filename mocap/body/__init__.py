@@ -13,8 +13,10 @@ Reading order (notebooks 01, 03)
  6. `planar`: rotations about the vertical with translations over the ground
  7. `euler`: Euler angles and their traps
  8. `ground_path`: lines on the ground, by metres along them
- 9. `limbs`: legs and arms, the heading of the hips, and the role of each joint in a body
-10. `fingerprints`: hashes by which a clip is recognised under any name
+ 9. `limb_tree`: bones that keep their lengths, and chains of them
+10. `limb_search`: legs and arms by bones and motion, whatever joints are called
+11. `limbs`: legs and arms, the heading of the hips, and the role of each joint in a body
+12. `fingerprints`: hashes by which a clip is recognised under any name
 
 References
 ----------

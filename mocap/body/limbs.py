@@ -167,8 +167,8 @@ def _limbs_at_rest(skeleton: Skeleton) -> tuple[dict[str, int], tuple[str, ...]]
 
 
 def _without_trunk(joints: Mapping[str, int]) -> dict[str, int]:
-    """Return the roles of limbs and head: `_trunk` finds the others by the tree."""
-    return {role: joint for role, joint in joints.items() if role not in TRUNK or role == "head"}
+    """Return the roles of limbs, neck and head: `_trunk` finds the others by the tree."""
+    return {role: joint for role, joint in joints.items() if role not in ("pelvis", "chest")}
 
 
 def with_roles(motion: Motion, roles: Mapping[str, str] | None = None) -> Motion:
@@ -181,11 +181,11 @@ def with_roles(motion: Motion, roles: Mapping[str, str] | None = None) -> Motion
     motion : F frames.
     roles : names of joints by role, such as {"left hip": "thigh_l"}; they replace those that are found. The
         roles are those of `ROLES`, and "left tip" and "right tip" for the ends of the toes. An empty name
-        says that the body has no such joint.
+        says that a limb has no such joint: a foot without toes has no ball.
 
     Returns
     -------
-    The motion. If all limbs have known names and no roles are given, it is the same.
+    The motion. If all limbs have known names, or roles, and no roles are given, it is the same.
 
     Raises
     ------
@@ -206,19 +206,26 @@ def with_roles(motion: Motion, roles: Mapping[str, str] | None = None) -> Motion
     """
     skeleton = require_motion(motion).skeleton
     by_hand = dict(roles or {})
-    for role, name in by_hand.items():
-        if role not in (*ROLES, *TIPS):
-            raise MocapError(f"No role '{shortened(role, 40)}'; there are: {', '.join((*ROLES, *TIPS))}.")
-        if name:
-            skeleton.index(name)
+    _check_roles(skeleton, by_hand)
     named = _named_limbs(skeleton)
     is_known = _has_legs(named) and f"{SIDES[0]} {ARM[0]}" in named
-    if is_known and not by_hand:
+    if not by_hand and (is_known or _has_legs(skeleton.roles)):
         return motion
-    joints = named if is_known else _limbs_in_motion(motion, named, by_hand)
-    names = {role: skeleton.names[joint] for role, joint in joints.items()} | by_hand
+    joints = named if is_known or skeleton.roles else _limbs_in_motion(motion, named, by_hand)
+    names = {role: skeleton.names[joint] for role, joint in joints.items()}
+    names |= {**skeleton.roles, **by_hand}
     names = {role: name for role, name in names.items() if name}
     return replace(motion, skeleton=replace(skeleton, roles=names)) if names else motion
+
+
+def _check_roles(skeleton: Skeleton, roles: Mapping[str, str]) -> None:
+    """Raise for unknown roles and joints; an empty name is fine."""
+    for role, name in roles.items():
+        if role not in (*ROLES, *TIPS):
+            parts = ", ".join([*TRUNK, *(f"left {part}" for part in ("clavicle", *ARM, *LEG, "tip"))])
+            raise MocapError(f"No role '{shortened(role, 30)}'; there are {parts}, and those of the right.")
+        if name:
+            skeleton.index(name)
 
 
 def _limbs_in_motion(motion: Motion, named: Mapping[str, int], by_hand: Mapping[str, str]) -> dict[str, int]:
@@ -341,6 +348,48 @@ def roles(skeleton: Skeleton) -> dict[str, int]:
         joints |= {f"{side} {part}": joint for part, joint in zip(LEG, leg, strict=True)}
     joints = _trunk(skeleton, joints) | joints
     return {role: joints[role] for role in ROLES if role in joints}
+
+
+def limb_partners(skeleton: Skeleton) -> dict[int, int]:
+    """Pair the joints of left and right limbs by their roles, {left joint: right joint}.
+
+    Joints between those with roles, such as clavicles, are paired too, and the joints below, such as fingers,
+    in the order of the tree. Others are not paired; without limbs there are no pairs.
+
+    Examples
+    --------
+    >>> from mocap.datasets.samples import SKELETON
+    >>> pairs = limb_partners(SKELETON)
+    >>> {SKELETON.names[left]: SKELETON.names[right] for left, right in [*pairs.items()][:3]}
+    {'lfemur': 'rfemur', 'lhipjoint': 'rhipjoint', 'ltibia': 'rtibia'}
+    """
+    try:
+        joints = _limbs(skeleton)
+    except MocapError:
+        return {}
+    pairs: dict[int, int] = {}
+    for role, joint in joints.items():
+        image = joints.get(_other_side(role), joint)
+        if role.startswith(SIDES[0]):
+            pairs |= _paired_paths(skeleton, joint, image)
+    open_pairs = [*pairs.items()]
+    for joint, image in open_pairs:
+        below = [child for child in skeleton.children(joint) if child not in pairs]
+        images = [child for child in skeleton.children(image) if child not in pairs.values()]
+        if len(below) == len(images):
+            new_pairs = dict(zip(below, images, strict=True))
+            pairs |= new_pairs
+            open_pairs += new_pairs.items()
+    return pairs
+
+
+def _paired_paths(skeleton: Skeleton, joint: int, image: int) -> dict[int, int]:
+    """Pair two joints, and those above them up to the last joint that both hang on."""
+    path = skeleton.path_to_root(joint)
+    path_of_image = skeleton.path_to_root(image)
+    above = [ancestor for ancestor in path if ancestor not in path_of_image]
+    above_image = [ancestor for ancestor in path_of_image if ancestor not in path]
+    return dict(zip(above, above_image, strict=True)) if len(above) == len(above_image) else {}
 
 
 def _trunk(skeleton: Skeleton, limbs: Mapping[str, int]) -> dict[str, int]:

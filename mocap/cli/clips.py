@@ -13,6 +13,7 @@ from mocap import files, quality, widgets
 from mocap._shared.atomic import make_folder, require_folder
 from mocap.cli.options import (
     CM,
+    FileReading,
     Reading,
     Sources,
     Unit,
@@ -31,7 +32,7 @@ from mocap.methods import match_webs
 ROOM = 4 / 3  # with it CMU 02_05's punch finds two more below 6 cm; with 2 no others
 
 
-def info(file: Path, *, joints: bool = False, reading: Reading) -> None:
+def info(file: Path, *, joints: bool = False, reading: FileReading) -> None:
     """Report a clip's length, path and flaws.
 
     Report how long a clip is, how far the body goes and turns, and what is wrong with it.
@@ -39,16 +40,19 @@ def info(file: Path, *, joints: bool = False, reading: Reading) -> None:
     Parameters
     ----------
     file : a motion file.
-    joints : list the names of the joints, too.
+    joints : print the roles of the joints and their names instead, as .toml: to be corrected, and given to
+        other commands by --joints.
     """
     reading.require_skeleton_of_use(file)
     motion, angles, _ = reading.read(file)
+    if joints:
+        from mocap.files.role_maps import format_roles  # the help needs no NumPy
+
+        print(format_roles(motion))
+        return
     with timed_stage("measuring"):
         table = quality.inspect(motion, angles).table()
     print(table)
-    if joints:
-        for joint, name in enumerate(motion.skeleton.names):
-            print(f"{'  ' * len(motion.skeleton.path_to_root(joint)[1:])}{printable(name)}")
 
 
 def view(clip: Path, *, out: Path | None = None, reading: Reading) -> None:

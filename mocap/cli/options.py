@@ -8,12 +8,13 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from mocap import body, files, graphs
 from mocap._shared.atomic import require_writable
 from mocap._shared.progress import Progress
 from mocap.cli.messages import VERBOSITY, note
+from mocap.cli.typed_commands import ONE_EACH
 from mocap.errors import MocapError, SkeletonMismatch, printable
 
 if TYPE_CHECKING:
@@ -55,13 +56,18 @@ CM = number(0.001, 1000)  # centimetres
 RATE = number(1, 1000)  # frames per second
 TURN = number(1, 2800)  # degrees per second; `editing.bend` takes 50 radians per second, 2865 degrees
 Skeleton = Annotated[Path | None, "the .asf file of .amc clips (default: the one beside them that fits)"]
+Joints = Annotated[
+    Sequence[Path],
+    ONE_EACH,
+    "a .toml of the roles of joints, as mocap info CLIP --joints prints it; repeated for other bodies",
+]
 Unit = Annotated[float | None, LENGTH, "metres per unit of length in the path (default: 1; for .svg 0.01)"]
 Clean = Annotated[bool, "clean up footskate: planted feet stand still"]
 Seed = Annotated[int, number(0, 2**32 - 1, int), "seed of what is drawn at random"]
 
 
 # The options that set the parameters of `files.load`, which its errors name.
-READING = {"skeleton": "--skeleton", "fps": "--fps", "scale": "--scale"}
+READING = {"skeleton": "--skeleton", "fps": "--fps", "scale": "--scale", "roles": "--joints"}
 SOURCES = READING | {"fps": "--fps to mocap convert"}  # here --fps is the rate of a graph, or is missing
 
 
@@ -144,9 +150,19 @@ def require_file(path: Path, advice: str) -> None:
         raise MocapError(f"{path} is a folder: {advice}.")
 
 
+def with_chosen_roles(motion: "Motion", joints: Sequence[Path]) -> "Motion":
+    """Give a motion's joints the roles that one of some files says, or that are found."""
+    from mocap.files.role_maps import choose_roles, read_roles  # the help needs no NumPy
+
+    maps = {path: read_roles(path) for path in joints}
+    return body.with_roles(motion, choose_roles(tuple(motion.skeleton.names), maps))
+
+
 @dataclass(frozen=True)
-class Reading:
+class FileReading:
     """Options for reading one clip, of a command that has such a parameter."""
+
+    joints: ClassVar[Sequence[Path]] = ()  # files of roles, an option of `Reading`
 
     skeleton: Skeleton = None
     fps: Annotated[float | None, RATE, "frames per second (default: as in the file; 120 for .amc)"] = None
@@ -169,7 +185,8 @@ class Reading:
             raise MocapError(f"{path} is a skeleton without a motion: give an .amc file, or a .bvh.")
         limit = STRETCH if stretch is None else stretch
         with named_options(READING), timed_reading(path):
-            return read(path, self.skeleton, self.fps, self.scale, limit)
+            recording = read(path, self.skeleton, self.fps, self.scale, limit)
+            return recording._replace(motion=with_chosen_roles(recording.motion, self.joints))
 
     def require_skeleton_of_use(self, path: Path) -> None:
         """Raise for a skeleton that a clip does not need."""
@@ -191,11 +208,19 @@ class Reading:
 
 
 @dataclass(frozen=True)
+class Reading(FileReading):
+    """Options for reading one clip, and for the roles of its joints."""
+
+    joints: Joints = ()  # type: ignore[misc] # an option in place of the constant
+
+
+@dataclass(frozen=True)
 class Sources:
     """Options for reading several clips."""
 
     skeleton: Skeleton = None
     scale: Annotated[float | None, LENGTH, "metres per unit of length in .bvh clips (default: 0.01)"] = None
+    joints: Joints = ()
 
     def load(self, paths: Sequence[Path]) -> "list[Motion]":
         """Read the clips that `find_files` found, and warn of bodies of other sizes than people's."""
@@ -208,8 +233,12 @@ class Sources:
         return clips
 
     def _load(self, path: Path) -> "Motion":
+        from mocap.files import load_save  # the help needs no NumPy
+        from mocap.files.rigid_bones import STRETCH
+
         with timed_reading(path):
-            return files.load(path, skeleton=self.skeleton, scale=self.scale)
+            recording = load_save.read(path, self.skeleton, None, self.scale, STRETCH)
+            return with_chosen_roles(recording.motion, self.joints)
 
 
 @dataclass(frozen=True)

@@ -285,7 +285,9 @@ def plant_pins(motion: Motion, legs: Sequence[Leg] | None = None, heights: Array
         planted = marks[..., None]
         low = np.where(planted, places, -np.inf)
         high = np.where(planted, places, np.inf)
-        parts.append(Pins((leg.ankle, leg.ball), np.swapaxes(low, 0, 1), np.swapaxes(high, 0, 1)))
+        joints = leg[2:] if leg.has_ball else leg[2:3]
+        boxes = slice(len(joints))
+        parts.append(Pins(joints, np.swapaxes(low[boxes], 0, 1), np.swapaxes(high[boxes], 0, 1)))
     return join_pins(*parts)
 
 

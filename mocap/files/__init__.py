@@ -20,6 +20,7 @@ Reading order (notebooks 01, 10)
 13. `amass`: the archives of AMASS, for the 22 joints of the SMPL body
 14. `gltf_capsules`: a body for a viewer to show, rigid pieces around the bones
 15. `gltf`: joints, skin and animation, and the file
+16. `role_maps`: the roles of joints, as TOML
 
 References
 ----------

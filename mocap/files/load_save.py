@@ -1,29 +1,33 @@
 """Read and write motions; the suffix of the file's name decides the format."""
 
 import math
+from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
 
 from mocap._shared.arrays import Array
 from mocap._shared.atomic import write_file
 from mocap._shared.quantities import check_number, described
+from mocap.body.limbs import with_roles
 from mocap.body.motion import Motion, require_motion, turning
 from mocap.errors import MocapError
 from mocap.files import bvh, formats, gltf
 from mocap.files.recordings import Recording
 from mocap.files.rigid_bones import STRETCH
+from mocap.files.role_maps import read_roles
 from mocap.files.text import check_above_0, read_text
 
 WRITTEN = ".bvh and .glb"
 
 
-def load(
+def load(  # noqa: PLR0913 (each by its name)
     path: str | Path,
     *,
     skeleton: str | Path | None = None,
     fps: float | None = None,
     scale: float | None = None,
     stretch: float = STRETCH,
+    roles: Mapping[str, str] | str | Path | None = None,
 ) -> Motion:
     """Read a motion from a file, in one of the formats of `files.formats.READ`.
 
@@ -38,6 +42,8 @@ def load(
         An `.npz` is in metres.
     stretch : metres by which bones of a `.bvh` file may change their lengths, by default 0.02. Up to this
         they are fitted to rigid ones, with a warning that says how far joints move; `math.inf` fits any.
+    roles : names of joints by role, such as {"left hip": "thigh_l"}, or a TOML file of them, as
+        `mocap info FILE --joints` prints it. By default limbs are found by their names, or by their motion.
 
     Returns
     -------
@@ -47,6 +53,10 @@ def load(
     ------
     MocapError : for a file that is missing or of another format, or when no skeleton fits.
     FormatError : for a file that breaks its format, with the line.
+
+    Warns
+    -----
+    MocapWarning : if names say nothing of the legs, and the motion leaves it in doubt which joints they are.
 
     Examples
     --------
@@ -63,7 +73,8 @@ def load(
     for name, number in {"fps": fps, "scale": scale, "stretch": stretch}.items():
         if number is not None:
             check_number(number, name)
-    return read(path, skeleton, fps, scale, stretch).motion
+    by_role = read_roles(roles) if isinstance(roles, str | Path) else roles
+    return with_roles(read(path, skeleton, fps, scale, stretch).motion, by_role)
 
 
 def read(
