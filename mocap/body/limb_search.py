@@ -126,8 +126,6 @@ def find_limbs(skeleton: Skeleton, positions: ArrayLike, up: ArrayLike = UP) -> 
     ['lfemur', 'ltibia', 'lfoot', 'ltoes', 'lradius']
     >>> doubts
     ()
-
-    Notebook: 13-retargeting
     """
     positions = np.asarray(positions, float)
     frames = np.linspace(0, len(positions) - 1, min(len(positions), LIMITS.frames)).astype(int)

@@ -162,7 +162,8 @@ def _limbs_at_rest(skeleton: Skeleton) -> tuple[dict[str, int], tuple[str, ...]]
     joints = _without_trunk(limbs.roles)
     if joints:
         legs = ", ".join(f"'{skeleton.names[joints[f'left {part}']]}'" for part in LEG[:3])
-        warn(f"{skeleton!r}: by its rest pose alone the left leg is {legs}; {'; '.join(limbs.doubts)}.")
+        doubts = "; ".join([*limbs.doubts, "a motion shows more"])
+        warn(f"{skeleton!r}: by its rest pose alone the left leg is {legs}; {doubts}.")
     return joints, limbs.doubts
 
 
@@ -201,8 +202,6 @@ def with_roles(motion: Motion, roles: Mapping[str, str] | None = None) -> Motion
     >>> walk = with_roles(sample("walk_straight"), {"left ball": "ltoes_end"})
     >>> walk.skeleton.roles["left ball"], walk.skeleton.roles["right ball"]
     ('ltoes_end', 'rtoes')
-
-    Notebook: 13-retargeting
     """
     skeleton = require_motion(motion).skeleton
     by_hand = dict(roles or {})

@@ -36,7 +36,7 @@ class Skeleton:
         "x"; by default "xyz", and "" for a joint without children. Like `axes`, they only say how a file
         stores the angles; in a motion any joint may turn any way.
     roles : names of joints by their role in a body, such as {"left knee": "calf_l"}; by default none, and
-        `body.find_legs` knows names of many files. `body.with_roles` and `mocap.load` set them.
+        `body.find_legs` knows names of many files. `body.with_roles` and `files.load` set them.
 
     Raises
     ------

@@ -72,7 +72,9 @@ def warp(
         try:
             body.find_legs(motion.skeleton)
         except MocapError as error:
-            raise MocapError(error.problem(), remedy=Remedy("give {}", "loose_feet")) from None
+            raise MocapError(
+                error.problem(), remedy=Remedy("give {}, or name them by --joints", "loose_feet")
+            ) from None
         motion = feet.mark_plants(motion)
     warped = warp_plans.warp(motion, plan, window=window, feet=not loose_feet)
     poses = sum(map(len, plan.wishes.values()))
@@ -243,7 +245,8 @@ def retarget(
     """Let one body wear the clips of others.
 
     Copy clips onto another body, with its feet planted on the floor where the old feet were planted. Clips of
-    different people then fit into one motion graph. Joints are found by the names that files use.
+    different people then fit into one motion graph. Joints are found by their names, or by how
+    they move.
 
     Parameters
     ----------
@@ -263,7 +266,7 @@ def retarget(
     require_folder(out)
     pairs = [(source, out / f"{source.stem}.{format}") for source in find_files(clips)]
     require_apart(pairs, [to])
-    wear = partial(_worn, reading, _body(to, to_scale))
+    wear = partial(_worn, reading, _body(to, to_scale, reading.joints))
     failed = convert(pairs, wear, progress=bar("retargeting"))
     return options.tell_of_failures("retargeted", len(pairs), failed, f", in {out}")
 
@@ -274,7 +277,7 @@ def _worn(reading: Reading, wearer: "Stance | body.Skeleton", source: Path) -> "
     return wear(reading.load(source), wearer)
 
 
-def _body(path: Path, scale: float | None) -> "Stance | body.Skeleton":
+def _body(path: Path, scale: float | None, joints: Sequence[Path]) -> "Stance | body.Skeleton":
     """Read whose body it is, and, of a clip in which somebody stands, how it stands."""
     from mocap.editing.stances import stance_of_zero
     from mocap.files.asf import read_skeleton
@@ -283,7 +286,7 @@ def _body(path: Path, scale: float | None) -> "Stance | body.Skeleton":
         if scale:
             raise MocapError(f"--to-scale is for clips; {path} says its unit of length itself.")
         return read_skeleton(path).skeleton
-    clip = Reading(scale=scale).load(path)
+    clip = Reading(scale=scale, joints=joints).load(path)
     try:
         return editing.stance_of(clip)
     except MocapError as error:

@@ -5,7 +5,7 @@ import os
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
@@ -266,6 +266,13 @@ class Building(Sources):
         return graphs.build(
             clips, window=frames, threshold=threshold, progress=progress, executor=executor, jobs=jobs
         )
+
+
+def load_graph(path: Path, skeleton: Path | None = None, joints: Sequence[Path] = ()) -> "MotionGraph":
+    """Read a graph and its clips, with a bar; `joints` are files of the roles of their joints."""
+    motion_graph = graphs.load(path, skeleton=skeleton, progress=bar("reading"))
+    clips = tuple(with_chosen_roles(clip, joints) for clip in motion_graph.clips)
+    return replace(motion_graph, clips=clips)
 
 
 def bar(label: str) -> Progress:

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array
 from mocap.body import rotations
-from mocap.body.limbs import limb_partners
-from mocap.body.motion import Motion, require_motion
+from mocap.body.limbs import limb_partners, with_roles
+from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened, warn
 
@@ -145,7 +145,7 @@ def mirror(motion: Motion) -> Motion:
     >>> bool(abs(there + here) < 1e-9), mirror(walk).name
     (True, 'walk_curve_1_mirrored')
     """
-    skeleton = require_motion(motion).skeleton
+    skeleton = with_roles(motion).skeleton
     partners, across, turns = symmetry(skeleton)
     lengths = np.linalg.norm(skeleton.offsets, axis=1)
     gaps = np.abs(lengths - lengths[partners])

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from mocap._shared.arrays import Array, Mask, frozen
 from mocap._shared.records import dataclass
 from mocap.body.kinematics import GlobalPoses, forward_kinematics, joint_positions
-from mocap.body.limbs import Leg, find_legs
+from mocap.body.limbs import Leg, find_legs, with_roles
 from mocap.body.motion import Motion, require_motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.turns import Turn
@@ -337,6 +337,8 @@ def require_pins_of(motion: Motion, pins: Pins) -> None:
 def with_plants(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
     """Mark when ankles and balls stand, unless the motion says it of all of them."""
     require_motion(motion)
-    legs = find_legs(motion.skeleton) if legs is None else legs
+    if legs is None:
+        motion = with_roles(motion)
+        legs = find_legs(motion.skeleton)
     names = {motion.skeleton.names[joint] for leg in legs for joint in (leg.ankle, leg.ball)}
     return motion if names <= set(motion.contacts) else mark_plants(motion, legs)

@@ -326,8 +326,10 @@ def floor_under(positions: Array, source: Stance, body: Stance) -> Pins:
     `positions` (F, J, 3), metres, are those of the source's joints.
     """
     lowest = positions[..., 1].min(axis=0)
-    dips = {role: max(0.0, source.heights[role] - lowest[source.roles[role]]) for role in FEET}
-    high = np.full((len(positions), len(FEET), 3), np.inf)
+    sides = [side for side, leg in zip(SIDES, body.legs, strict=True) if not leg.has_ball]
+    feet = [role for role in FEET if role not in [f"{side} ball" for side in sides]]
+    dips = {role: max(0.0, source.heights[role] - lowest[source.roles[role]]) for role in feet}
+    high = np.full((len(positions), len(feet), 3), np.inf)
     low = -high
     low[..., 1] = [body.heights[role] - dip * body.leg / source.leg for role, dip in dips.items()]
-    return Pins(tuple(body.roles[role] for role in FEET), low, high)
+    return Pins(tuple(body.roles[role] for role in feet), low, high)

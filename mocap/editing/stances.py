@@ -16,7 +16,7 @@ from mocap._shared.quantities import described
 from mocap._shared.records import dataclass
 from mocap.body import rotations
 from mocap.body.kinematics import forward_kinematics, joint_positions
-from mocap.body.limbs import FEET, SIDES, Leg, find_legs, heading_by_hips, roles
+from mocap.body.limbs import FEET, SIDES, Leg, find_legs, heading_by_hips, roles, with_roles
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.pins import with_plants
@@ -122,6 +122,7 @@ def stance_of(motion: Motion, *, mean: bool = False) -> Stance:
 
     Notebook: 13-retargeting
     """
+    motion = with_roles(motion)
     joints = roles(motion.skeleton)
     legs = find_legs(motion.skeleton)
     motion = with_plants(motion, legs)

@@ -15,7 +15,7 @@ from mocap._shared.arrays import Array, Mask
 from mocap._shared.arrays import runs as runs  # which the room exports
 from mocap._shared.records import NamedTuple
 from mocap.body.kinematics import joint_positions
-from mocap.body.limbs import Leg, find_legs
+from mocap.body.limbs import Leg, find_legs, with_roles
 from mocap.body.motion import Motion, require_motion
 from mocap.errors import MocapError
 
@@ -79,7 +79,7 @@ def mark_plants(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
     Parameters
     ----------
     motion : F frames, more than 0.1 s.
-    legs : found by name by default.
+    legs : by default those of `body.find_legs`; if their names are unknown, found by the motion.
 
     Returns
     -------
@@ -100,7 +100,9 @@ def mark_plants(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
     Notebook: 04b-feet
     """
     require_motion(motion)
-    legs = find_legs(motion.skeleton) if legs is None else legs
+    if legs is None:
+        motion = with_roles(motion)
+        legs = find_legs(motion.skeleton)
     span = max(1, int(SPAN * motion.fps))
     if len(motion) <= 2 * span:
         needs = f"To tell standing from swinging takes more than {2 * span} frames"
