@@ -42,6 +42,11 @@ class BodyTree:
     positions : shape (F, J, 3).
     up : the unit vector against gravity, (3,).
 
+    Notes
+    -----
+    `lengths` (J,) are those of the joints' bones, `reach` the longest path down from each joint, and `height`
+    estimates how tall the body is.
+
     Examples
     --------
     A root on the floor, and a pelvis from which two legs hang:
@@ -78,6 +83,7 @@ class BodyTree:
             if joint != top:
                 parent = self.parents[joint]
                 self.reach[parent] = max(self.reach[parent], self._reach_with_bone(joint))
+        self.height = self._longest_path() / LIMITS.reach_per_height
 
     def _reach_with_bone(self, joint: int) -> float:
         return float(self.lengths[joint]) + self.reach[joint]
@@ -87,14 +93,13 @@ class BodyTree:
         shortest = LIMITS.least_reach * self.height
         return [child for child in self.children[self.joints[0]] if self._reach_with_bone(child) > shortest]
 
-    @property
-    def height(self) -> float:
-        """Estimate the body's height from the longest path between two ends, whatever the pose."""
+    def _longest_path(self) -> float:
+        """Return the longest path along bones between two ends: it shows the height in any pose."""
         longest = 0.0
         for children in self.children.values():
             reaches = sorted((self._reach_with_bone(child) for child in children), reverse=True)
             longest = max(longest, sum(reaches[:2]))
-        return longest / LIMITS.reach_per_height
+        return longest
 
     def path(self, joint: int) -> list[int]:
         """List the joints from the top of the body to a joint."""

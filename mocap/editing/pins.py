@@ -255,7 +255,7 @@ def plant_pins(motion: Motion, legs: Sequence[Leg] | None = None, heights: Array
     Parameters
     ----------
     motion : its `contacts` say when ankles and balls stand.
-    legs : found by name by default.
+    legs : by default those of `body.find_legs`.
     heights : shape (legs, 2), metres: how high ankle and ball stand, if not where they are. An ankle and a
         ball that stand together are then as far apart as the flat foot is long.
 

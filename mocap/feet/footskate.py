@@ -42,7 +42,7 @@ def clean_up(
     Parameters
     ----------
     motion : its `contacts` say when the legs' ankles and balls stand; `feet.mark_plants` finds them.
-    legs : found by name by default.
+    legs : by default those of `body.find_legs`.
     held : for some ankles and balls where they shall stand, shape (F, 3), metres, nan where that is left
         open. All other plants are where they stand on average, or so much nearer that the leg reaches,
         or nearer to where the joint was when a knee would jolt.

@@ -1,5 +1,6 @@
 """Limbs are found by bones and motion, under any names, and what is doubtful is told."""
 
+import pickle
 from dataclasses import replace
 
 import limb_schemes
@@ -159,7 +160,9 @@ def test_numbers_for_names_have_the_roles_of_the_motion():
 
 def test_roles_survive_what_is_made_of_a_motion():
     motion = with_roles(anonymous(WALK))
-    for made in (motion[10:50], motion.at([0.5, 1.5]), replace(motion, name="other")):
+    pickled = pickle.loads(pickle.dumps(motion))
+    assert pickled == motion
+    for made in (motion[10:50], motion.at([0.5, 1.5]), replace(motion, name="other"), pickled):
         assert made.skeleton.roles == motion.skeleton.roles
     assert motion.skeleton != anonymous(WALK).skeleton
     motion.skeleton.require_same(anonymous(WALK).skeleton)  # it asks for joints and bones only

@@ -45,7 +45,7 @@ def numbered(motion: Motion) -> Motion:
 
 BODIES = {
     "numbers": numbered(WALK),
-    "split": numbered(split(WALK, "ltibia", "rtibia", "lfoot", "rfoot", "lradius")),
+    "split": numbered(split(WALK, "ltibia", "rtibia", "lfoot", "rfoot", "lradius", "rradius")),
     "no toes": numbered(without(WALK, *TOES)),
     "no toes, known names": without(WALK, *TOES),
     "split, known names": split(WALK, "ltibia", "rtibia"),
