@@ -62,9 +62,8 @@ class BodyTree:
         self.up = np.asarray(up, float)
         self.heights = positions @ self.up  # (F, J)
         parents = np.asarray(parents)
-        lengths = np.linalg.norm(positions - positions[:, parents], axis=-1)
-        self.lengths = np.median(lengths, axis=0)  # of each joint's bone to its parent; (J,)
-        self.joints = _largest_part(parents, positions, lengths)
+        self.lengths = np.median(_bone_lengths(parents, positions), axis=0)
+        self.joints = largest_part(parents, positions)
         self._set_top(parents, self.joints[0])
         branches = self._branches()
         while len(branches) == 1:
@@ -133,8 +132,30 @@ class BodyTree:
         return Chain(self, joints[: LIMITS.most_joints])
 
 
-def _largest_part(parents: Array, positions: Array, lengths: Array) -> list[int]:
-    """List the joints of the largest part of a tree whose bones keep their lengths (F, J)."""
+def _bone_lengths(parents: Array, positions: Array) -> Array:
+    """Measure each joint's bone to its parent, (F, J); that of the root means nothing."""
+    return np.asarray(np.linalg.norm(positions - positions[:, parents], axis=-1))
+
+
+def largest_part(parents: Array, positions: Array) -> list[int]:
+    """List the joints of the largest part of a tree whose bones keep their lengths.
+
+    Parameters
+    ----------
+    parents : shape (J,), as in a `Skeleton`.
+    positions : in the world, (F, J, 3).
+
+    Examples
+    --------
+    The second joint moves away from the first, and the third follows it:
+
+    >>> positions = np.zeros((9, 3, 3))
+    >>> positions[:, 1:, 0] = np.arange(9)[:, None]
+    >>> positions[:, 2, 1] = 0.1
+    >>> largest_part(np.array([-1, 0, 1]), positions)
+    [1, 2]
+    """
+    lengths = _bone_lengths(parents, positions)
     extent = np.median(np.linalg.norm(np.ptp(positions, axis=1), axis=1))
     change = np.ptp(np.quantile(lengths, (0.05, 0.95), axis=0), axis=0)
     is_bone = (change < LIMITS.stretch * extent) & (np.median(lengths, axis=0) < LIMITS.longest_bone * extent)

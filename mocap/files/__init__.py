@@ -21,6 +21,7 @@ Reading order (notebooks 01, 10)
 14. `gltf_capsules`: a body for a viewer to show, rigid pieces around the bones
 15. `gltf`: joints, skin and animation, and the file
 16. `role_maps`: the roles of joints, as TOML
+17. `loose_joints`: joints of a file that are no part of the body
 
 References
 ----------

@@ -27,6 +27,7 @@ from mocap.body.rotations import Z_UP
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError, shortened, warn
 from mocap.files.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
+from mocap.files.loose_joints import without_loose_joints
 from mocap.files.recordings import Recording
 from mocap.files.rigid_bones import APART, STRETCH, fit
 from mocap.files.text import LARGEST, check_room, quick_numbers, read_text, to_numbers
@@ -50,6 +51,7 @@ def read(
     Position channels below the root are allowed. If they change, and no bone's length changes by more than
     `stretch`, the bones are fitted to rigid ones: see `rigid_bones`. If the root has only one child, and that
     child moves (some files have a reference point above the hips), both become one joint, named as the child.
+    Joints that move apart from a body are left out: see `loose_joints`.
 
     Parameters
     ----------
@@ -73,6 +75,7 @@ def read(
     for joint, block in zip(joints, blocks, strict=True):
         angles[joint.name] = block[:, _rotation_columns(joint)]
     joints, positions, local = _poses(joints, blocks, scale)
+    joints, positions, local = without_loose_joints(path, joints, positions, local)
     lengths = np.linalg.norm(positions, axis=-1)
     changes = np.ptp(lengths, axis=0).tolist()
     offsets, local = _rigid(path, joints, (positions, local), stretch)
