@@ -45,6 +45,7 @@ class SearchLimits:
     toe_ahead: float = 0.02  # that a toe is ahead of its ankle while it stands
     standing: float = 0.3  # of the frames: those in which an ankle is lowest
     rival: float = 0.8  # of the best score: another pair that is nearly as good is reported
+    hanging: float = 0.6  # of a leg's length: the mean drop from hip to ankle; walks have 0.9
     forelegs: float = 0.25  # of the frames in which a second pair of legs is on the floor
     sure_side: float = 0.6  # sum of the votes for left and right; walks have 1.2 to 3.6
 
@@ -253,9 +254,14 @@ def _share_on_floor(tree: BodyTree, pair: Pair) -> float:
 
 def _leg_score(tree: BodyTree, pair: Pair) -> float:
     """Legs are on the floor, long, and hang."""
-    drops = [(tree.heights[:, limb.root] - tree.heights[:, limb.end]).mean() for limb in pair]
     length = min(_length(tree, pair), 0.6)  # a longer pair is a train or a wing, and no more of a leg for it
-    return _share_on_floor(tree, pair) + 2 * length + float(np.mean(drops)) / tree.height
+    return _share_on_floor(tree, pair) + 2 * length + _drop(tree, pair)
+
+
+def _drop(tree: BodyTree, pair: Pair) -> float:
+    """Return how far the ends of a pair are below its roots on average, in heights."""
+    drops = [(tree.heights[:, limb.root] - tree.heights[:, limb.end]).mean() for limb in pair]
+    return float(np.mean(drops)) / tree.height
 
 
 def _arm_score(tree: BodyTree, pair: Pair, pelvis: int) -> float:
@@ -288,6 +294,8 @@ def _doubts_of_legs(
         yield f"more than two limbs are on the floor: {_ends(names, [legs, forelegs[0]])}"
     if _share_on_floor(tree, legs) < 0.5:
         yield f"other joints are lower than {_ends(names, [legs])} in most frames"
+    if _drop(tree, legs) < LIMITS.hanging * _length(tree, legs):
+        yield f"the body lies or hangs, or up is another axis: the legs {_ends(names, [legs])} do not stand"
     if not _is_used(tree, legs):
         yield f"the knees {_ends(names, [legs], 'hinge')} hardly bend in these frames"
 

@@ -59,7 +59,7 @@ Skeleton = Annotated[Path | None, "the .asf file of .amc clips (default: the one
 Joints = Annotated[
     Sequence[Path],
     ONE_EACH,
-    "a .toml of the roles of joints, as mocap info CLIP --joints prints it; repeated for other bodies",
+    "a .toml of joints' roles, as mocap info CLIP --joints prints it; may be repeated for several bodies",
 ]
 Unit = Annotated[float | None, LENGTH, "metres per unit of length in the path (default: 1; for .svg 0.01)"]
 Clean = Annotated[bool, "clean up footskate: planted feet stand still"]

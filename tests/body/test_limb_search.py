@@ -81,6 +81,12 @@ def test_neither_unit_nor_heading_nor_up_axis_changes_a_role(scale, turn):
     assert find_limbs(skeleton, lying, [0, 0, 1]) == usual
 
 
+@pytest.mark.parametrize("up", [[1, 0, 0], [0, 0, 1], [0, 0, -1], [0, -1, 0]])
+def test_a_wrong_axis_is_told(up):
+    rig, names = scheme_rig(SCHEMES["Mixamo, colon"])
+    assert any("up is another axis" in doubt for doubt in limbs_of(rig, names, up).doubts)
+
+
 def test_a_mirror_image_has_its_sides_exchanged_and_the_names_are_told_to_be_wrong():
     walk = sample("walk_straight")
     found = find_limbs(SKELETON, walk.positions)
