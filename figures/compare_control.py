@@ -154,26 +154,33 @@ def matcher(future: float, table: PoseDatabase) -> motion_matching.MotionMatcher
 def main() -> None:
     """Write the tables."""
     warnings.simplefilter("ignore", MocapWarning)
-    lines = ["# Three answers to one question: how does a character obey?", "", HEAD, ""]
+    lines = ["# How fast characters respond to commands, and at what cost", "", HEAD, ""]
     for name, (clips, speed) in clip_sets().items():
         lines += [f"## {name}, asked for {speed} m/s", "", *_table(name, clips, speed), ""]
     (FOLDER / "control.md").write_text("\n".join(lines), "utf-8")
 
 
-HEAD = """Written by `python figures/compare_control.py`. Sixty turns by 30 to 120 degrees, as
-`steering.measure_delay` commands them: seconds until the direction of the last third of a second is
-within 20 degrees, on average and for 95 %. Then a minute of such turns every two seconds
-(`steering.judge_control`). Slide: how far a planted joint strays from its mean place, as it is and cleaned,
-with plants carried from the clips; how many planted frames the cleaning keeps. Jolting: frames whose velocity
-jumps further than 99.9 % of the clips' own. Wags: how the direction swings while a command stands. Pivots:
-how far a foot turns while it stands; that is what it costs to turn about it. Strides and steps are asked for
-a turn only, and go as fast as their clips. All are means of four runs with other commands, ± their standard
-deviation; of the plants kept it is the least. CPU time of a step, on average and at worst, in the quickest of
-the four runs, and of the preparation. The centimetres of a way are its threshold. Below each table: led along
-five paths by commands alone (`lead`), metres from the path on average and at worst."""
+HEAD = """`python figures/compare_control.py` writes this page. The first measurement is
+`steering.measure_delay`:
+sixty commanded turns by 30 to 120 degrees, and the seconds until the mean direction of the last third of
+a second is within 20 degrees of the command, as a mean and for 95 % of the turns. The second is
+`steering.judge_control`: a minute of such turns, one every two seconds. The columns are:
+
+- slide: the distance of a joint in contact from its mean position, before and after foot clean-up, with
+the footplants of the clips, and the fraction of footplant frames that clean-up keeps;
+- jolting: frames with a change of velocity above 99.9 % of those in the clips;
+- wags: the variation of the direction while a command is constant;
+- pivots: the rotation of a foot during a contact, which is the disadvantage of rotating about it;
+- step and ready: CPU times of a step, as a mean and a maximum in the fastest of four runs, and of the
+preparation.
+
+Values are means of four runs with different commands, ± their standard deviation. For the footplants kept
+it is the minimum. Strides and steps accept only a turn as command, and have the speed of their clips. The
+centimetres of a method are its threshold. The second table of each section shows characters that follow
+five paths by commands alone (`lead`), with the mean and the largest distance from the path in metres."""
 COLUMNS = (
-    "| way | obeys, s | 95 % | slide, cm | cleaned | plants kept | jolting | wags | pivots | m/s | step, ms "
-    "| worst | ready, s |"
+    "| method | response, s | 95 % | slide, cm | cleaned | footplants kept | jolting | wags | pivots | m/s "
+    "| step, ms | worst | ready, s |"
 )
 
 
@@ -181,7 +188,7 @@ def _table(name: str, clips: list[mocap.Motion], speed: float) -> list[str]:
     """Write two tables, with a row for each way: how it is judged, and how it is led along paths."""
     usual = quality.spread(clips)
     judged = _head(COLUMNS)
-    led = _head(f"| way | {' | '.join(SHAPES)} |")
+    led = _head(f"| method | {' | '.join(SHAPES)} |")
     prepared, refused = prepare_ways(name, clips)
     for label, (make, seconds) in prepared.items():
         gc.collect()

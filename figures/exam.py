@@ -18,7 +18,7 @@ WALKS = {"A": [4.1, 5.2, 6.0, 7.4, 9.9], "B": [3.9, 4.6, 5.1, 7.0, 11.2]}  # cm 
 def draw_graph() -> None:
     """Draw the graph that is to be pruned."""
     figure, ax = plt.subplots(figsize=(6.4, 2.2), layout="constrained")
-    plotting.node_link(nx.DiGraph(list(EDGES)), places=PLACES, ax=ax)
+    plotting.node_link(nx.DiGraph(list(EDGES)), positions=PLACES, ax=ax)
     (x, z), (u, v) = PLACES[4], PLACES[5]
     ax.text((x + u) / 2 - 0.05, (z + v) / 2, str(EDGES[4, 5]), ha="right", va="center", fontsize=12)
     figure.savefig(FOLDER / "exam-graph.png", dpi=100)

@@ -31,15 +31,15 @@ from mocap.plotting.picture import small_png
 from mocap.quality import seam_quality, spread
 from mocap.steering import (
     Controller,
+    PathRequest,
     Settings,
-    Wishes,
     follow_as_2002,
     follow_path,
     measure_delay,
     walk_crowd,
 )
 from mocap.steering.followed import Followed
-from mocap.synthesis.walk_to_motion import with_plants
+from mocap.synthesis.walk_to_motion import with_footplants
 
 FOLDER = Path(__file__).parent
 FREE = Settings(seam=0, match=0, width=200, tries=1)
@@ -58,7 +58,7 @@ def compiled() -> dict[str, CompiledGraph]:
 
 def _graph(clips: list[mocap.Motion]) -> graphs.MotionGraph:
     clips = [mocap.resample(clip, 30) for clip in clips]
-    return with_plants(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
+    return with_footplants(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
 
 
 def timed(work: Callable[[], Followed], runs: int = 3) -> tuple[Followed, float]:
@@ -74,7 +74,7 @@ def timed(work: Callable[[], Followed], runs: int = 3) -> tuple[Followed, float]
 def row(name: str, followed: Followed, seconds: float) -> str:
     """Write a row of the table."""
     usual, motions = spread(followed.graph.clips), [followed.motion(clean=clean) for clean in (False, True)]
-    slides = [seam_quality(motion, (0, len(motion)), usual).slide for motion in motions]
+    slides = [seam_quality(motion, (0, len(motion)), usual).foot_sliding for motion in motions]
     return (
         f"| {name} | {followed.path.length:.1f} | {followed.seconds:.1f} "
         f"| {100 * followed.off.mean():.1f} | {100 * followed.off.max():.1f} "
@@ -134,7 +134,7 @@ def against_the_paper(found: dict[str, CompiledGraph]) -> list[str]:
     paths = [GroundPath(random_line(seed).at(np.linspace(0, 7, 141))) for seed in range(500, 510)]
     for name, graph in found.items():
         ours = [follow_path(graph, path) for path in paths]
-        starts = [Wishes(start=walk.walk[0][0], slide=0) for walk in ours]
+        starts = [PathRequest(start=walk.walk[0][0], correction=0) for walk in ours]
         best = {"look": (45, 15), "budget": 30_000}
         walks = {
             "layers": ours,

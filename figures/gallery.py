@@ -331,8 +331,8 @@ def draw_pruning() -> Figure:
     pruned = graphs.prune_graph(graph).graph
     figure = plt.figure(figsize=(8, 3.4), layout="constrained")
     whole_axes, pruned_axes = figure.subplots(1, 2)
-    plotting.node_link(graph, places=EIGHT_PLACES, ax=whole_axes)
-    plotting.node_link(graph, places=EIGHT_PLACES, kept=pruned, ax=pruned_axes)
+    plotting.node_link(graph, positions=EIGHT_PLACES, ax=whole_axes)
+    plotting.node_link(graph, positions=EIGHT_PLACES, kept=pruned, ax=pruned_axes)
     whole_axes.set_title("before pruning", y=0.94)
     pruned_axes.set_title("after: 4 is a sink, 5 a dead end", y=0.94)
     return figure

@@ -26,10 +26,11 @@ NEAREST = (5, 10, 20)  # candidates for each of a thousand
 
 HEAD = """# How a group motion graph grows
 
-Written by `OMP_NUM_THREADS=1 python figures/grow_groups.py`; CPU time of one run. Two minutes of a flock are
-simulated, clustered into at most six nodes of 0.5 m, and joined by clips. Then a way is planned over 24 m
-past two points between two obstacles, and played. Covered is the share of the simulation near a node. Of
-clips, those are kept that bring nobody nearer than 0.60 m and need at most 2.2 m/s².
+`OMP_NUM_THREADS=1 python figures/grow_groups.py` writes this page, with CPU times of one run. It
+simulates a flock for two minutes, clusters the simulation into at most six nodes with a radius of 0.5 m,
+and connects the nodes by clips. Then it plans a path of 24 m through two waypoints between two obstacles,
+and plays it. "Covered" is the fraction of the simulation near a node. A clip is kept if all members stay
+at least 0.60 m apart and need at most 2.2 m/s².
 
 """
 COLUMNS = (
@@ -46,37 +47,41 @@ COLUMNS = (
 )
 
 TAIL = """
-Simulating and comparing look at all pairs of members. The assignment alone takes {0:.0f} times as long for
-eight times the members: it grows with their power {1:.1f}; its worst case is the cube. Planning and playing
-hardly notice the members: the clips' discs spare most tests, and a clip is played by one product.
+Simulation and comparison consider all pairs of members. The assignment alone takes {0:.0f} times as long
+for eight times as many members, so it grows with the power {1:.1f} of their number. Its worst case is
+cubic. The times of planning and playing hardly depend on the number of members, because the bounding
+discs of clips avoid most tests, and because a clip is played by one matrix product.
 
 ## A thousand members
 
-Two groups of a thousand, 1.3 m apart, differ by 0.35 m and 0.3 m/s at random. Once all are candidates for
-all (`scipy.optimize.linear_sum_assignment`), and once only the {2} nearest of each member:
-`scipy.spatial.KDTree` finds them, `scipy.sparse.csgraph.min_weight_full_bipartite_matching` assigns them.
+Two groups of a thousand members, 1.3 m apart, differ by 0.35 m and 0.3 m/s at random. In the first row
+all members are candidates for all others (`scipy.optimize.linear_sum_assignment`). In the other rows only
+the {2} nearest are candidates: `scipy.spatial.KDTree` finds them, and
+`scipy.sparse.csgraph.min_weight_full_bipartite_matching` assigns them.
 
-| candidates | costs, ms | assignment, ms | sum of squares, over the least |
+| candidates | costs, ms | assignment, ms | sum of squares, relative to the minimum |
 |---|---|---|---|
 {3}
-So the Hungarian method serves a thousand, too; to cluster two minutes takes 14 280 such comparisons. Among
-the five nearest alone a comparison is several times as quick and hardly worse. But with more candidates it
-takes longer than among all, and where groups are less alike an order among the five nearest need not exist.
-The same k-d tree would serve the simulation, which looks at all pairs of members in each frame.
+The Hungarian method is therefore fast enough for a thousand members, although clustering two minutes
+requires 14 280 such comparisons. With five candidates a comparison is several times as fast and hardly
+worse. With more candidates it takes longer than with all, and for less similar groups an assignment among
+five candidates need not exist. The same k-d tree could be used in the simulation, which considers all
+pairs of members in each frame.
 
 ## Two groups that pass each other
 
-Two groups of {4} come towards each other over 24 m; the second plans around the first, frame by frame.
-Without this members come as near as {5:.2f} m. With it they keep {6:.2f} m. The search takes {7:.0f} ms
-for {8}, instead of {9:.0f} ms for {10}; the bounds spare {11:.0%} of
-the tests. So a few groups are planned one after the other: the first gives way to nobody.
+Two groups of {4} walk towards each other over 24 m, and the second group plans around the first, frame by
+frame. Without this, the smallest distance between members is {5:.2f} m. With it, the distance is {6:.2f}
+m. The search takes {7:.0f} ms for {8}, instead of {9:.0f} ms for {10}, and the bounds avoid {11:.0%} of
+the tests. A few groups can therefore be planned one after the other, where the first one does not avoid
+the others.
 
-## Where no way is found
+## Scenes without a path
 
-A group of {12} stands 5 m before 10 m by 10 m of ground, on which eight discs of 1.3 m lie at random; its
-goal is 5 m behind. It finds a way in {14} of {13} scenes; steered, without a plan and without whims, it
-comes there clear of all discs in {15}, and sooner than by the plan in {16}. A search takes {17:.1f} times as
-long as simulating as many seconds.
+A group of {12} starts 5 m in front of an area of 10 m by 10 m with eight discs of 1.3 m at random, and
+its goal is 5 m behind the area. The search finds a path in {14} of {13} scenes. Steering without a plan
+and without random drift reaches the goal without touching a disc in {15} scenes, and faster than the plan
+in {16}. A search takes {17:.1f} times as long as simulating the same duration.
 """
 
 

@@ -20,7 +20,7 @@ from PIL import Image, ImageDraw
 from mocap import MocapWarning, Motion, body, datasets, editing, graphs, resample
 from mocap.course.teaching.board import font_of
 from mocap.graphs import compile_graph
-from mocap.steering import Wishes, follow_path
+from mocap.steering import PathRequest, follow_path
 from mocap.widgets import play
 from mocap.widgets.film import write_mp4
 from mocap.widgets.filmed_scene import FilmedScene
@@ -50,8 +50,8 @@ def scenes() -> dict[str, tuple[Motion, body.GroundPath]]:
     graph = compile_graph(graphs.prune(graphs.build(clips, window=10, threshold=0.05)))
     home = body.spline(HOME)
     run = body.spline(RUN)
-    quiet = Wishes(labels=[(0, "walk"), (7, "sneak"), (16, "walk")])
-    hasty = Wishes(labels=[(0, ""), (3, "jog")])
+    quiet = PathRequest(labels=[(0, "walk"), (7, "sneak"), (16, "walk")])
+    hasty = PathRequest(labels=[(0, ""), (3, "jog")])
     walked = follow_path(graph, home, quiet)
     bent = follow_path(graph, run, hasty, bend=editing.LIMIT)
     print(f"home: {walked.report()}")

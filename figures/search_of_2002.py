@@ -17,7 +17,7 @@ from mocap import datasets, graphs
 from mocap.body import GroundPath
 from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.graphs.motion_graph import merge_choice_points
-from mocap.steering import Settings, Wishes, follow_as_2002, follow_path
+from mocap.steering import PathRequest, Settings, follow_as_2002, follow_path
 from mocap.steering.followed import Followed
 
 LOOKS = [(10, 3), (20, 7), (30, 10), (45, 15), (60, 20), (90, 28)]
@@ -67,8 +67,9 @@ def table(graph: CompiledGraph, paths: list[GroundPath], *, most: bool) -> list[
     layered = [follow_path(graph, path) for path in paths]
     starts = [walk.walk[0][0] for walk in layered]
 
-    def each(search: Callable[[GroundPath, Wishes], Followed]) -> list[Followed]:
-        return [search(path, Wishes(start=start, slide=0)) for path, start in zip(paths, starts, strict=True)]
+    def each(search: Callable[[GroundPath, PathRequest], Followed]) -> list[Followed]:
+        requests = [PathRequest(start=start, correction=0) for start in starts]
+        return [search(path, request) for path, request in zip(paths, requests, strict=True)]
 
     lines = [*HEAD, row("layers, all terms", layered)]
     for width in (50, 300):

@@ -40,7 +40,7 @@ from mocap import datasets, plotting
 from mocap._shared.arrays import Array
 from mocap.body import circle, rotations
 from mocap.body.motion import Motion
-from mocap.quality import judge, plant_slides
+from mocap.quality import foot_sliding, judge
 
 SUFFIXES = (".amc", ".bvh")
 LEAST_STRIDES = 2  # of a person, to be compared
@@ -204,7 +204,7 @@ def second_differences(motion: Motion, joint: str) -> float:
 
 def smoothness_row(name: str, motion: Motion) -> str:
     """Row of the table of smoothness."""
-    slides = [plant.far for plant in plant_slides(motion)]
+    slides = [plant.far for plant in foot_sliding(motion)]
     worst = judge(motion).worst
     metres = np.linalg.norm(np.diff(motion.root_positions[:, [0, 2]], axis=0), axis=-1).sum()
     joints = [f"{second_differences(motion, joint):.0f}" for joint in ("tibia", "foot")]

@@ -1,10 +1,10 @@
-"""`python -m mocap` is the command `mocap`; both enter here, before anything that takes a while to load."""
+"""Entry point of the command `mocap` and of `python -m mocap`, before any import that takes time."""
 
 import sys
 
 
 def main() -> int:
-    """Run the command and return its exit status: also 130 for Ctrl-C while the package is loaded."""
+    """Run the command and return its exit status, which is 130 for Ctrl-C while the package is imported."""
     try:
         from mocap.cli.main import main as run  # Ctrl-C may come while this is imported
 

@@ -1,4 +1,4 @@
-"""The errors that `mocap` raises on purpose: each is one clear sentence, and says what would help."""
+"""The errors that `mocap` raises: each message is a sentence with the value, the requirement and a remedy."""
 
 import sys
 import warnings
@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 
 def shortened(text: str, length: int = 80) -> str:
-    """Cut a text from a file, made `printable`, to at most `length` characters, and say how long it was.
+    """Truncate a text to at most `length` characters, with its original length; it is made `printable`.
 
     Examples
     --------
@@ -24,7 +24,7 @@ def shortened(text: str, length: int = 80) -> str:
 
 
 def printable(text: object) -> str:
-    r"""Write out control characters, which a terminal would obey, and line ends, as names may hold them.
+    r"""Escape control characters and line ends in a text, for safe output to a terminal.
 
     Examples
     --------
@@ -35,12 +35,12 @@ def printable(text: object) -> str:
 
 
 class Remedy(NamedTuple):
-    """What helps against an error: a parameter, which a command calls otherwise, or a call in Python.
+    """The remedy for an error: a parameter, which has another name in commands, or a call in Python.
 
     Parameters
     ----------
-    text : what to do, with {} for the parameter's name.
-    parameter : its name in Python; "" for a call, which commands leave out.
+    text : the remedy, with {} for the name of the parameter.
+    parameter : its name in Python; "" for a call, which commands omit.
 
     Examples
     --------
@@ -54,17 +54,17 @@ class Remedy(NamedTuple):
     parameter: str = ""
 
     def worded(self, name: str) -> str:
-        """Return what to do, with this name for the parameter."""
+        """Return the text with a name for the parameter."""
         return self.text.replace("{}", name)
 
 
 class MocapError(ValueError):
-    """The base of all errors raised on purpose: the input, not the program, is at fault.
+    """The base class of all errors raised by `mocap`, for invalid input.
 
     Parameters
     ----------
-    message : the value, and what is needed.
-    remedy : the parameter that would help. `str` names it as in Python, a command by its option.
+    message : the value, and the requirement.
+    remedy : the remedy. `str` uses the name of its parameter in Python, a command that of its option.
 
     Examples
     --------
@@ -86,11 +86,11 @@ class MocapError(ValueError):
         return printable(super().__str__())
 
     def worded(self, names: Mapping[str, str]) -> str:
-        """Return the message for those who know parameters by these names; a remedy without one is left out.
+        """Return the message with other names of parameters; without a name for it, the remedy is omitted.
 
         Parameters
         ----------
-        names : the name of each parameter that is available, by its name in Python.
+        names : the names of the available parameters, by their names in Python.
         """
         problem = self.problem()
         if self.remedy is None or self.remedy.parameter not in names:
@@ -104,15 +104,15 @@ class MocapError(ValueError):
 
 
 class FormatError(MocapError):
-    """A file breaks its format: the message gives the line, what the format asks for, and what stands there.
+    """A file breaks its format: the message has the line, the expected content and the actual content.
 
-    Without the path, the message is at most 200 characters long, whatever the file holds.
+    Without the path, the message has at most 200 characters.
 
     Parameters
     ----------
     path : the file.
-    line : the line's number, from 1; None for the whole file.
-    expected, got : what the format asks for, and what the file holds.
+    line : the number of the line, from 1; None for the whole file.
+    expected, got : the content that the format requires, and the content of the file.
     remedy : as for `MocapError`.
 
     Examples
@@ -142,20 +142,20 @@ class SkeletonMismatch(MocapError):
 
 
 class NoWalk(MocapError):
-    """The graph has no walk of the kind that was asked for."""
+    """The graph has no walk as requested."""
 
 
 def requirement(extra: str) -> str:
-    """Name this package with an extra as pip wants it: by its name on the index, or from a checkout.
+    """Return the requirement of this package with an extra for pip, by its name or as a local checkout.
 
     Examples
     --------
     >>> requirement("video") in ("motion-graphs[video]", ".[video]")
     True
     """
-    from importlib.metadata import distributions  # only here: it takes a while
+    from importlib.metadata import distributions  # imported here, because it is slow
 
-    # What was installed from a folder says so.
+    # An installation from a folder has this record.
     installed = distributions(name="motion-graphs")
     noted = [distribution.read_text("direct_url.json") or "" for distribution in installed]
     local = all("dir_info" in note for note in noted)
@@ -163,7 +163,7 @@ def requirement(extra: str) -> str:
 
 
 def missing(need: str, extra: str) -> MocapError:
-    """Say what is not installed, and how to install it; the quotes are those that every shell knows.
+    """Return the error for a missing extra, with the command to install it, quoted for any shell.
 
     Examples
     --------
@@ -174,11 +174,11 @@ def missing(need: str, extra: str) -> MocapError:
 
 
 class MocapWarning(UserWarning):
-    """Something that was asked for is possible only in part; the message says how much of it."""
+    """A request is met only in part; the message describes the part."""
 
 
 def warn(sentence: str) -> None:
-    """Warn by a `MocapWarning`, which shows the line that called this package."""
+    """Issue a `MocapWarning` for the line that called this package."""
     frame = sys._getframe()
     level = 1
     while frame.f_back and frame.f_globals.get("__name__", "").startswith("mocap."):

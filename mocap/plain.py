@@ -1,13 +1,13 @@
-"""Motion graphs on a few pages: clips in, a walk along a line out. Slow, right, and in reading order.
+"""Motion graphs in one file, in reading order: build a graph from clips, and synthesise a walk along a line.
 
     python -m mocap.plain my-clips/ path.csv -o walk.bvh
 
-Each function is the plain form of a quick one in the rooms of the package, and a test holds the two equal. In
-the comments F is the number of frames, J of joints and n of points. A window is K frames. A point on the
-ground is the complex number z + ix, so that a rotation about the vertical axis is a product, and the rigid
-transform p ↦ rotation · p + translation aligns one clip with another. A node of the graph is (clip, frame):
-"this frame comes next". An edge of kind "clip" plays the frames between two nodes; an edge of kind
-"transition" blends K frames, from one clip into another.
+Each function is a simple and slow version of a fast one elsewhere in the package. Tests check that the
+results of both are equal. In the comments F is the number of frames, J of joints and n of points. A window is
+K frames. A point on the ground is the complex number z + ix. A rotation about the vertical axis is then a
+multiplication, and the rigid transform p ↦ rotation · p + translation aligns one clip with another. A node of
+the graph is a pair (clip, frame), the frame to be played next. An edge of kind "clip" plays the frames
+between two nodes of a clip. An edge of kind "transition" blends K frames of one clip into another.
 
 Notebooks: 01-skeletons-and-clips to 08-path-synthesis.
 
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 FPS = 30  # frames per second
 K = 10  # frames in a window: a third of a second
-BELOW = 0.04  # metres: a transition needs two windows that are nearer to each other than this
+BELOW = 0.04  # metres: the windows of a transition have a smaller RMS distance
 
 Array = NDArray[np.float64]
 Ground = NDArray[np.complexfloating[Any, Any]]
@@ -49,7 +49,7 @@ Transitions = list[tuple[int, int, int, int, float, Transform]]  # clip, frame, 
 
 
 def rotate(q: Array, v: Array) -> Array:
-    """Rotate vectors v (..., 3) by unit quaternions q = (w, u) (..., 4): v + 2w (u × v) + 2 u × (u × v)."""
+    """Rotate vectors v (..., 3) by unit quaternions q = (w, u) (..., 4): v + 2w u × v + 2 u × (u × v)."""
     w, u = q[..., :1], q[..., 1:]
     across = 2 * np.cross(u, v)
     return np.asarray(v + w * across + np.cross(u, across))
@@ -65,7 +65,7 @@ def multiply(p: Array, q: Array) -> Array:
 
 
 def joint_positions(clip: Motion) -> Array:
-    """Compute positions down the tree: the parent's position plus the offset, rotated with the parent."""
+    """Compute joint positions by forward kinematics: the parent's position plus the rotated offset."""
     positions = [clip.root_positions]  # (F, 3) for each joint
     rotations = [clip.rotations[:, 0]]  # (F, 4) for each joint
     for joint in range(1, len(clip.skeleton.parents)):
@@ -84,16 +84,16 @@ def ground(points: Array) -> Ground:
 
 
 def windows(clip: Motion) -> Array:
-    """Return the point clouds of all windows of a clip: the joints of K frames in each."""
+    """Return the point clouds of all windows of a clip: in each, the joints of K frames."""
     points = joint_positions(clip)
-    _, joints = np.unique(points[0].round(6), axis=0, return_index=True)  # one of those at the same position
+    _, joints = np.unique(points[0].round(6), axis=0, return_index=True)  # one joint for each position
     joints = np.sort(joints)
     starts = range(len(points) - K + 1)
     return np.array([points[i : i + K, joints].reshape(-1, 3) for i in starts])  # (F - K + 1, n, 3)
 
 
 def align(p: Array, q: Array) -> tuple[Ground, Ground]:
-    """Find the transform that aligns the points q (..., n, 3) with p best [KGP02, Eqs. 2-4]."""
+    """Find the transform that best aligns the points q (..., n, 3) with p [KGP02, Eqs. 2-4]."""
     g = ground(p)
     h = ground(q)
     g_mean = g.mean(-1)
@@ -104,7 +104,7 @@ def align(p: Array, q: Array) -> tuple[Ground, Ground]:
 
 
 def window_distance(p: Array, q: Array) -> Array:
-    """Return the RMS distance of the points q (..., n, 3), aligned with p, in metres [KGP02, Eq. 1]."""
+    """Compute the RMS distance in metres between points p and q (..., n, 3), once aligned [KGP02, Eq. 1]."""
     rotation, translation = align(p, q)
     horizontal = ground(p) - rotation[..., None] * ground(q) - translation[..., None]
     vertical = p[..., 1] - q[..., 1]
@@ -112,12 +112,12 @@ def window_distance(p: Array, q: Array) -> Array:
 
 
 def distance_grid(a: Array, b: Array) -> Array:
-    """Compare each window of one clip (N, n, 3) with all windows of another (M, n, 3): shape (N, M)."""
+    """Compute all distances between the windows of two clips, (N, n, 3) and (M, n, 3): shape (N, M)."""
     return np.array([window_distance(window, b) for window in a])
 
 
 def local_minima(grid: Array, below: float) -> list[tuple[int, int]]:
-    """Find the cells below a threshold that are as low as all their eight neighbours [KGP02, 3.2]."""
+    """Find the cells below a threshold that none of their eight neighbours undercuts [KGP02, 3.2]."""
     padded = np.pad(grid, 1, constant_values=np.inf)
     minima = []
     for i, j in np.argwhere(grid < below).tolist():
@@ -140,7 +140,7 @@ def find_transitions(clips: Sequence[Motion]) -> Transitions:
         for b in range(a, len(clips)):
             for i, j in local_minima(distance_grid(points[a], points[b]), BELOW):
                 if a == b and j < i + K:
-                    continue  # a window is similar to itself; below the diagonal is the way back
+                    continue  # j near i: overlapping windows; j < i: the reverse is added with (j, i)
                 cost = float(window_distance(points[a][i], points[b][j]))
                 rotation, translation = map(complex, align(points[a][i], points[b][j]))
                 transitions.append((a, i, b, j, cost, (rotation, translation)))
@@ -179,7 +179,7 @@ def slerp(p: Array, q: Array, fraction: Array | float) -> Array:
 
 
 def cubic_weights() -> Array:
-    """Return the first clip's weight in each frame of a window: smoothly from 1 to 0 [KGP02, Eq. 7]."""
+    """Return the weight of the first clip in each frame of a window, falling from 1 to 0 [KGP02, Eq. 7]."""
     t = np.arange(1, K + 1) / K
     return 2 * t**3 - 3 * t**2 + 1
 
@@ -208,7 +208,7 @@ def join(a: Motion, i: int, b: Motion, j: int) -> tuple[Array, Array]:
 
 
 def cut_and_join(clips: Sequence[Motion], transitions: Transitions) -> nx.MultiDiGraph:
-    """Cut the clips where transitions leave and enter, and join the pieces to a graph [KGP02, 3]."""
+    """Cut the clips where transitions leave and enter, and join the pieces into a graph [KGP02, 3]."""
     graph = nx.MultiDiGraph()
     for clip, motion in enumerate(clips):
         graph.add_nodes_from([(clip, 0), (clip, len(motion))])
@@ -223,9 +223,9 @@ def cut_and_join(clips: Sequence[Motion], transitions: Transitions) -> nx.MultiD
 
 def components(graph: nx.MultiDiGraph) -> list[set[Node]]:
     """Find the strongly connected components: each node can be reached from every other [Tarjan 1972]."""
-    number: dict[Node, int] = {}  # the order in which nodes are met
-    low: dict[Node, int] = {}  # the smallest number that a node leads back to
-    waiting: list[Node] = []  # met, and in no component yet
+    number: dict[Node, int] = {}  # order of discovery
+    low: dict[Node, int] = {}  # the smallest number known to be reachable from a node
+    waiting: list[Node] = []  # discovered, and in no component yet
     complete: list[set[Node]] = []
     sys.setrecursionlimit(max(sys.getrecursionlimit(), 2 * len(graph) + 1000))
 
@@ -238,7 +238,7 @@ def components(graph: nx.MultiDiGraph) -> list[set[Node]]:
                 low[node] = min(low[node], low[successor])
             elif successor in waiting:
                 low[node] = min(low[node], number[successor])
-        if low[node] == number[node]:  # nothing in it leads further back: a component is complete
+        if low[node] == number[node]:  # no earlier node is reachable, therefore the component is complete
             first = waiting.index(node)
             complete.append(set(waiting[first:]))
             del waiting[first:]
@@ -250,7 +250,7 @@ def components(graph: nx.MultiDiGraph) -> list[set[Node]]:
 
 
 def prune(graph: nx.MultiDiGraph) -> nx.MultiDiGraph:
-    """Return the component with the most frames of clips: in it, no walk ever has to end [KGP02, 3.4]."""
+    """Keep the component with the most frames of clips: in it, every walk can continue [KGP02, 3.4]."""
 
     def frames(nodes: set[Node]) -> int:
         inside = graph.subgraph(nodes).edges(data=True)
@@ -263,13 +263,13 @@ def prune(graph: nx.MultiDiGraph) -> nx.MultiDiGraph:
 
 
 def random_walk(graph: nx.MultiDiGraph, seconds: float, seed: int) -> list[Edge]:
-    """Walk at random: a second or more of a clip, then a transition, more likely the lower its cost."""
+    """Draw a random walk: after at least a second of a clip a transition, with odds inverse to its cost."""
     random = np.random.default_rng(seed)
     node = sorted(graph)[random.integers(len(graph))]
     walk: list[Edge] = []
     frames = 0
     frames_of_clip = 0  # since the last transition
-    while frames < seconds * FPS and graph.out_degree(node):  # at a dead end the walk is over
+    while frames < seconds * FPS and graph.out_degree(node):  # a walk ends at a dead end
         edges = list(graph.out_edges(node, keys=True))
         onward = [edge for edge in edges if graph.edges[edge]["kind"] == "clip"]
         leaving = [edge for edge in edges if graph.edges[edge]["kind"] == "transition"]
@@ -300,7 +300,7 @@ def to_motion(
     rotation: complex = 1,
     translation: complex = 0,
 ) -> tuple[Array, Array]:
-    """Convert a walk to motion: the transforms of all transitions before a clip are composed [KGP02, 4.1]."""
+    """Convert a walk to motion, composing the transforms of its transitions [KGP02, 4.1]."""
     pieces = []
     for start, end, key in walk:
         a, i = start
@@ -318,10 +318,11 @@ def to_motion(
 def branch_and_bound(
     graph: nx.MultiDiGraph, node: Hashable, state: State, step: Step, is_complete: Callable[[State], bool]
 ) -> tuple[float, list[Edge]] | None:
-    """Find the walk of least cost from a node: depth first, low costs first [KGP02, Eq. 8, 4.2].
+    """Find the complete walk of least cost from a node, depth first, low costs first [KGP02, Eq. 8, 4.2].
 
-    step(state, edge) returns the cost of an edge, 0 or more, and the next state; is_complete(state) returns
-    whether a walk is complete. A walk that costs as much as the best complete one cannot improve: it is cut.
+    step(state, edge) returns the cost of an edge, 0 or more, and the next state. is_complete(state) returns
+    whether a walk is complete. Costs never decrease, therefore a branch that costs as much as the best
+    complete walk is pruned.
     """
     best: tuple[float, list[Edge]] | None = None
     branches: list[Any] = [(0.0, node, state, [])]
@@ -342,17 +343,22 @@ def branch_and_bound(
 
 # 6. A walk along a line ------------------------------------------------------------------------------------
 
-BEAM_WIDTH = 150  # walks that are kept in each layer of the line
+BEAM_WIDTH = 150  # walks kept in each layer
 LAYER = 0.15  # metres of the line in a layer
-LOOK = 22  # frames that each walk looks ahead
-RESCUE = 1.5  # m²: the largest expected cost of the frames ahead, since a transition can leave them
+LOOK = 22  # frames: the horizon of the expected cost
+RESCUE = 1.5  # m²: upper limit of the expected cost, because a transition may leave the clip before
 SEAM = 0.15  # m²: the price of a transition
-CELL = 0.1  # metres: of two walks at one node and in one cell of the ground, the one of lower cost is kept
-CELL_HEADING = 0.1  # radians: if their headings are also in one interval
+# Walks at the same node, in the same cell of the ground and with similar headings are duplicates: only the
+# one of least cost is kept.
+CELL = 0.1  # metres
+CELL_HEADING = 0.1  # radians
 
 
 class Walk(NamedTuple):
-    """A walk of the search: its cost, its length along the line (metres), and its next clip's transform."""
+    """A partial walk: its cost, the expected cost ahead, its length along the line in metres, and its end.
+
+    The end is a node, with the transform of the clip that is played from there.
+    """
 
     cost: float
     expected: float
@@ -361,11 +367,11 @@ class Walk(NamedTuple):
     rotation: complex
     translation: complex
     edge: Edge | None = None
-    previous: Walk | None = None  # the walk without its last edge
+    previous: Walk | None = None  # without its last edge
 
 
 def align_start(track: Ground, line: Ground) -> Transform:
-    """Align the start of a track with the start of a line, position and direction."""
+    """Align the start of a track with the start of a line, in position and direction."""
     line_direction = line[-1] - line[0]
     track_direction = track[-1] - track[0]
     rotation = np.exp(1j * np.angle(line_direction / track_direction))
@@ -373,7 +379,7 @@ def align_start(track: Ground, line: Ground) -> Transform:
 
 
 class Search:
-    """A beam search: all walks advance along a line in layers, and each layer keeps the best [KGP02, 5.1]."""
+    """A beam search for a walk along a line: each layer of the line keeps the best walks [KGP02, 5.1]."""
 
     def __init__(self, clips: Sequence[Motion], graph: nx.MultiDiGraph, line: Ground) -> None:
         """Prepare a search; `line` holds points of the ground, 1 cm apart."""
@@ -385,16 +391,20 @@ class Search:
         self.ahead = {(clip, frame): self.roots[clip][frame : frame + LOOK] for clip, frame in graph}
 
     def price(self, walk: Walk, track: Ground) -> tuple[float, float]:
-        """Return the cost of a track [KGP02, Eq. 9], by equal arc lengths, and its end along the line."""
+        """Return the cost of a track, and its end along the line in metres.
+
+        Each point is compared with the point of the line at the same arc length [KGP02, Eq. 9].
+        """
         clip, frame = walk.node
         start = self.roots[clip][max(frame - 1, 0)]
         along = walk.along + np.cumsum(abs(np.diff(track, prepend=start)))
         wanted = self.line[np.clip(100 * along, 0, len(self.line) - 1).astype(int)]
         errors = abs(walk.rotation * track + walk.translation - wanted) ** 2  # m² in each frame
-        return float((errors + 100 * errors**2).sum()), float(along[-1])  # at 10 cm twice the cost of Eq. 9
+        # The second term is not in Eq. 9: it doubles the cost of a frame that is 10 cm off the line.
+        return float((errors + 100 * errors**2).sum()), float(along[-1])
 
     def look_ahead(self, walk: Walk) -> Walk:
-        """Estimate the cost of the frames ahead if the walk stays in its clip."""
+        """Set the expected cost: that of the frames ahead if the walk stays in its clip, at most `RESCUE`."""
         return walk._replace(expected=min(self.price(walk, self.ahead[walk.node])[0], RESCUE))
 
     def lengthen(self, walk: Walk, edge: Edge) -> Walk:
@@ -413,7 +423,7 @@ class Search:
                 yield self.lengthen(walk, edge)
 
     def starts(self) -> list[Walk]:
-        """Return a walk of no edges at each node that leads on, aligned with the start of the line."""
+        """Return an empty walk at each node whose clip then moves, aligned with the start of the line."""
         walks = []
         for node, track in self.ahead.items():
             if len(track) == LOOK and abs(track[-1] - track[0]) > 0.3:
@@ -421,7 +431,7 @@ class Search:
         return walks
 
     def best_of(self, walks: list[Walk]) -> list[Walk]:
-        """Keep the walk of lowest cost of each cell, and of these the best."""
+        """Keep the best walk of each cell, and of these the `BEAM_WIDTH` best, by cost plus expected cost."""
         kept: dict[Hashable, Walk] = {}
         for walk in sorted(walks, key=lambda walk: walk.cost + walk.expected):
             position = walk.rotation * self.ahead[walk.node][0] + walk.translation
@@ -431,7 +441,7 @@ class Search:
         return list(kept.values())[:BEAM_WIDTH]
 
     def layers(self) -> Iterator[tuple[list[Walk], Walk | None]]:
-        """Search: for each layer, yield the walks that are kept, and the best complete walk so far."""
+        """Run the search: for each layer, yield the kept walks and the best complete walk so far."""
         waiting: dict[int, list[Walk]] = {0: self.starts()}
         best: Walk | None = None
         while waiting:
@@ -459,7 +469,7 @@ class Search:
 
 
 def follow(clips: Sequence[Motion], graph: nx.MultiDiGraph, line: Ground) -> tuple[Array, Array]:
-    """Walk along a line: return the frames of the best walk, roots (F, 3) and rotations (F, J, 4)."""
+    """Synthesise a walk along a line: return the roots (F, 3) and rotations (F, J, 4) of the best walk."""
     return to_motion(clips, graph, *Search(clips, graph, line).walk())
 
 
@@ -472,8 +482,8 @@ def points_along(corners: Array) -> Ground:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Read clips and a line, and write a walk along it."""
-    from mocap import MocapError, Motion, load, resample, save  # files and their checks are the package's
-    from mocap.body.motion import require_alike
+    from mocap import MocapError, Motion, load, resample, save  # reads and checks files
+    from mocap.body.motion import require_compatible
     from mocap.files.conversion import find_files
     from mocap.files.path_files import load_path
 
@@ -483,14 +493,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("-o", "--out", type=Path, default=Path("walk.bvh"), help="the file to write")
     options = parser.parse_args(arguments)
     if isinstance(sys.stdout, io.TextIOWrapper):
-        sys.stdout.reconfigure(errors="replace")  # a name may hold letters that a pipe of Windows lacks
+        sys.stdout.reconfigure(errors="replace")  # a pipe of Windows may not encode every letter of a name
     try:
         line = points_along(load_path(options.path).points)
         loaded = [load(path) for path in find_files(options.clips)]
         long = [clip for clip in (resample(clip, FPS) for clip in loaded) if len(clip) > K]
         if not long:
             raise MocapError(f"A window takes {K} frames, and no clip is longer.")
-        clips = require_alike(long)
+        clips = require_compatible(long)
         graph = prune(cut_and_join(clips, find_transitions(clips)))
         print(f"{len(clips)} clips make a graph of {len(graph)} nodes and {graph.size()} edges.")
         roots, rotations = follow(clips, graph, line)

@@ -19,7 +19,7 @@ WRITES = {
 SAYS = {
     "walk_along_a_line": r"\d+ of \d+ transitions are left",
     "blend_two_clips": r"0\.50 sneaking: \d\.\d s; worst measure \w+, 0\.\d\d × its limit",
-    "judge_a_clip": r"cut: jolt .*\n(.*\n)*gliding: slide",
+    "judge_a_clip": r"cut: jolt .*\n(.*\n)*gliding: foot_sliding",
     "retarget_to_a_child": r"adult: 1\.7\d m tall, .*\nchild: 1\.[123]\d m tall, 0\.\d\d m/s",
     "match_and_loop": r"are similar: [0-3]\.\d cm\n.*\na loop of 1\.\d\d s",
 }

@@ -124,7 +124,7 @@ def cells(noise):
 
 def followed_as_2002(noise, name):
     graph = pruned(noise, name)
-    start = steering.Wishes(start=min(graph.graph))
+    start = steering.PathRequest(start=min(graph.graph))
     return follow_as_2002(graph, body.GroundPath([[0, 0], [0, 2]]), start, budget=60).walk
 
 

@@ -105,7 +105,13 @@ def test_the_ordinary_calls_run(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     code = (TYPED / "ordinary_calls.py").read_text("utf-8")
     exec(code, {})
-    assert {path.name for path in tmp_path.iterdir()} == {"walk.bvh", "graph.npz", "group.npz", "walk.gif", "web.npz"}
+    assert {path.name for path in tmp_path.iterdir()} == {
+        "walk.bvh",
+        "graph.npz",
+        "group.npz",
+        "walk.gif",
+        "web.npz",
+    }
     calls = [part for part in ast.parse(code).body if any(map(is_call, ast.walk(part)))]
     assert len(calls) >= 40
 

@@ -13,7 +13,7 @@ LOW = 0.025  # metres: a foot joint this much over its lowest place slides as li
 USUAL = 99.9  # percent of the clips' own frames
 
 
-def skate(motion: Motion) -> float:
+def foot_sliding_speed(motion: Motion) -> float:
     """Average how fast low feet slide, cm/s: each ankle's and ball's speed times 2 - 2^(height / 2.5 cm).
 
     Zhang et al., *Mode-Adaptive Neural Networks for Quadruped Motion Control* (2018), measure it so.

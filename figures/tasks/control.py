@@ -1,7 +1,7 @@
 """Steer a character for 30 s: every two seconds a turn by 30 to 120 degrees, ten seeds of commands.
 
 Obeys: seconds until the direction of the last third of a second is within 20 degrees of the command, 2 s if
-never. Skate: how fast low feet slide. Jolting: frames whose velocity jumps further than in 99.9 % of the
+never. Foot sliding: the speed of low feet. Jolting: frames whose velocity jumps further than in 99.9 % of the
 clips' own. Pace: metres per second beside those asked for. The clip that is turned at once is the longest
 one, over and over.
 """
@@ -19,7 +19,7 @@ from mocap.methods import motion_matching, parametric_graphs
 from mocap.steering import Controller, command_headings, steer
 from mocap.steering.characters import Character
 from tasks import BANDAI, CMU_16, HOMEWORK, WALKS, Case, graph
-from tasks._measures import jolting, skate
+from tasks._measures import foot_sliding_speed, jolting
 
 CLIPS = {
     "bundled clips": WALKS,
@@ -30,7 +30,7 @@ CLIPS = {
 SEEDS, SECONDS, FPS, EVERY = range(10), 30.0, 30.0, 60  # frames between two commands
 SPEEDS = {"CMU 16, walks": 1.1, "Bandai-Namco": 1.1}  # metres per second; else 0.8
 LIMITS = {"homework's clips": 120.0}  # degrees per stride; else 75
-MEASURES = {"obeys, s": True, "skate, cm/s": True, "jolting, %": True, "pace, m/s off": True}
+MEASURES = {"obeys, s": True, "foot sliding, cm/s": True, "jolting, %": True, "pace, m/s off": True}
 BASELINES = ("clip turned at once", "motion graph")
 OBEYS, QUICKEST = np.radians(20), np.radians(240)  # of a direction; per second, of a clip that is turned
 
@@ -115,4 +115,4 @@ def score(case: Case, answer: Motion) -> tuple[float, float, float, float]:
     soon = np.where(obeys.any(axis=1), obeys.argmax(axis=1) + 1, EVERY) / FPS
     pace = np.abs(np.diff(track)).mean() * FPS
     off = abs(float(pace) - case.given["speed"][0][0])
-    return float(soon.mean()), skate(answer), jolting(answer, case.given["clips"]), off
+    return float(soon.mean()), foot_sliding_speed(answer), jolting(answer, case.given["clips"]), off

@@ -16,10 +16,10 @@ from asked_lines import random_line
 from mocap._shared.arrays import Array
 from mocap.body import GroundPath, Motion, PlanarTransform, on_ground
 from mocap.errors import MocapError
-from mocap.steering import Wishes, follow_as_2002, follow_path
+from mocap.steering import PathRequest, follow_as_2002, follow_path
 from mocap.steering.followed import Followed
 from tasks import BANDAI, CMU_16, HOMEWORK, WALKS, Case, graph
-from tasks._measures import skate
+from tasks._measures import foot_sliding_speed
 
 CLIPS = {
     "bundled clips": (*WALKS, "stop_and_go"),
@@ -28,7 +28,13 @@ CLIPS = {
     "Bandai-Namco": BANDAI,
 }
 SEEDS, LENGTH, SPACING = range(500, 510), 7.0, 0.05
-MEASURES = {"off, cm": True, "worst, cm": True, "left out, cm": True, "Eq. 9, cm": True, "skate, cm/s": True}
+MEASURES = {
+    "off, cm": True,
+    "worst, cm": True,
+    "left out, cm": True,
+    "Eq. 9, cm": True,
+    "foot sliding, cm/s": True,
+}
 BASELINES = ("nearest clip", "a step at a time", "search of 2002")
 ALONG = np.arange(0, LENGTH + SPACING / 2, SPACING)
 
@@ -48,9 +54,9 @@ def layered(clips: tuple[Motion, ...], seed: str) -> Followed:
 
 def as_2002(case: Case, look: tuple[int, int]) -> Motion:
     """Search by branch and bound."""
-    wishes = Wishes(start=layered(case.given["clips"], case.name).walk[0][0], slide=0)
+    request = PathRequest(start=layered(case.given["clips"], case.name).walk[0][0], correction=0)
     line, budget = GroundPath(case.given["line"]), 30_000
-    return follow_as_2002(graph(case.given["clips"]), line, wishes, look=look, budget=budget).motion()
+    return follow_as_2002(graph(case.given["clips"]), line, request, look=look, budget=budget).motion()
 
 
 def nearest_clip(case: Case) -> Motion:
@@ -88,4 +94,4 @@ def score(case: Case, answer: Motion) -> Array:
     at = np.interp(metres, ALONG, line)
     off = apart.min(axis=1)
     lengths = [off.mean(), off.max(), apart.min(axis=0).max(), np.abs(track - at).mean()]
-    return np.array([*(100 * metre for metre in lengths), skate(answer)])
+    return np.array([*(100 * metre for metre in lengths), foot_sliding_speed(answer)])

@@ -1,8 +1,9 @@
 """Walk along lines that no clip turns along: a sine, a spiral, a zigzag, a heart, ten random lines of 7 m.
 
 Off: the root's mean distance from the line; worst: its largest; left out: the largest distance of a point of
-the line from the walk. Skate: how fast low feet slide. Jolting: frames whose velocity jumps further than in
-99.9 % of the clips' own. `layered search` is not bent; `laid on the line` is bent, and its feet left alone.
+the line from the walk. Foot sliding: the speed of low feet. Jolting: frames whose velocity jumps further
+than in 99.9 % of the clips' own. `layered search` is not bent; `laid on the line` is bent, and its feet left
+alone.
 """
 
 from collections.abc import Iterator
@@ -17,7 +18,7 @@ from mocap.editing import LIMIT
 from mocap.steering import follow_path
 from mocap.steering.followed import Followed
 from tasks import WALKS, Case, graph
-from tasks._measures import jolting, skate
+from tasks._measures import foot_sliding_speed, jolting
 from tasks.following import ALONG
 
 CLIPS = {
@@ -27,7 +28,13 @@ CLIPS = {
     "CMU 49, a walk and dance": tuple(f"49/49_{n:02}" for n in (1, 9, 12)),
 }
 SEEDS, SPACING = range(500, 510), 0.02
-MEASURES = {"off, cm": True, "worst, cm": True, "left out, cm": True, "skate, cm/s": True, "jolting, %": True}
+MEASURES = {
+    "off, cm": True,
+    "worst, cm": True,
+    "left out, cm": True,
+    "foot sliding, cm/s": True,
+    "jolting, %": True,
+}
 BASELINES = ("layered search",)
 
 
@@ -65,4 +72,6 @@ def score(case: Case, answer: Motion) -> Array:
     """Measure how near a walk is to its line, and what its feet do."""
     apart = np.abs(on_ground(answer.root_positions)[:, None] - on_ground(case.given["line"]))
     metres = [apart.min(axis=1).mean(), apart.min(axis=1).max(), apart.min(axis=0).max()]
-    return np.array([*(100 * far for far in metres), skate(answer), jolting(answer, case.given["clips"])])
+    return np.array(
+        [*(100 * far for far in metres), foot_sliding_speed(answer), jolting(answer, case.given["clips"])]
+    )

@@ -80,5 +80,5 @@ def score(case: Case, answer: Array) -> Array:
         joined = join(a[start : i + WINDOW], i - start, b[j : j + WINDOW + AROUND], 0, WINDOW)
         seam = seam_quality(joined, (i - start, i - start + WINDOW), case.truth)
         other = [a.contacts[foot][i : i + WINDOW] != b.contacts[foot][j : j + WINDOW] for foot in a.contacts]
-        rows.append([seam.velocity_jump, seam.slide, 100 * np.mean(other)])
+        rows.append([seam.velocity_jump, seam.foot_sliding, 100 * np.mean(other)])
     return np.mean(rows, axis=0)

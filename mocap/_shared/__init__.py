@@ -1,19 +1,19 @@
-"""Small things that all rooms need; there is no need to read them first.
+"""Utilities that all rooms use; there is no need to read them first.
 
  1. `arrays`: types of arrays; read-only copies, runs of True, concatenated ranges
- 2. `ties`: values that differ only by rounding are equal, and the first of equals is taken
- 3. `easing`: the curve that eases from 0 to 1
- 4. `atomic`: a file is written whole or not at all
- 5. `archives`: arrays in one file, unpacked only if it holds what it claims; kinds of such files
+ 2. `ties`: comparison with a tolerance, with ties broken by order
+ 3. `easing`: a smooth step from 0 to 1
+ 4. `atomic`: atomic writing of files
+ 5. `archives`: `.npz` files, checked before they are unpacked; kinds of such files
  6. `progress`: the type of the parameter `progress=`
- 7. `collector`: pause Python's garbage collector while a graph grows
- 8. `tasks`: work by threads, processes or a cluster
- 9. `limits`: a time limit for code that others wrote
-10. `deadlines`: a moment at which a search ends with the best that it has
-11. `deprecation`: names that are removed, and warn for one version before
-12. `faces`: the names of a room, imported at their first use; the room of a name that a room lacks
-13. `records`: classes with named fields that print in one line, and are compared and pickled by their fields
-14. `quantities`: checks of numbers that callers pass: their kind and their unit
-15. `arguments`: checks of the arguments of a call, including those that are missing
-16. `suggestions`: the error for an attribute that is missing, with what may be meant
+ 7. `collector`: a pause of Python's garbage collector while a graph is built
+ 8. `tasks`: execution by threads, processes or a cluster
+ 9. `limits`: a time limit for untrusted code
+10. `deadlines`: deadlines of searches
+11. `deprecation`: deprecated names, which warn for one version before they are removed
+12. `faces`: lazy imports of the names of a room; suggestions for unknown names
+13. `records`: classes with named fields: printed in one line, compared and pickled by their fields
+14. `quantities`: checks of the type and the unit of numbers
+15. `arguments`: checks of the arguments of a call, including missing ones
+16. `suggestions`: the error for an unknown attribute, with a suggestion
 """

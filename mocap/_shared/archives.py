@@ -1,11 +1,11 @@
-"""Arrays in one `.npz` file: written whole, and unpacked only where it holds what it claims.
+"""Arrays in `.npz` files: written atomically, and checked before they are unpacked.
 
-Such a file holds no code: it is safe to read one from a stranger. What it claims, in the directory of the
-`.zip` and in the headers of its arrays, is compared with what it can hold before anything is unpacked.
+Such a file contains no code, and files from untrusted sources are safe to read. The sizes in the directory of
+the `.zip` and in the headers of its arrays are checked against the size of the file before anything is
+unpacked.
 
-A `Kind` describes the files of one kind, such as saved motion graphs: their arrays, and what must hold of the
-numbers in them. `write_archive` and `read_archive` hold a file to it, so that whatever is written can be read
-again.
+A `Kind` describes the files of one kind, such as saved motion graphs, by their arrays and validity rules.
+`write_archive` and `read_archive` both enforce it, so that every file that is written can be read again.
 """
 
 import math
@@ -28,13 +28,13 @@ from mocap.errors import FormatError, MocapError, Remedy
 
 Arrays = dict[str, NDArray[Any]]
 Layout = Mapping[str, tuple[type, tuple[int | str, ...]]]
-"""For each array its type, and its shape; sizes of one letter are the same in the whole file."""
+"""The type and the shape of each array; a letter is a size that is the same in the whole file."""
 Rules = Iterator[tuple[str, ArrayLike]]
-"""Sentences, each with truths that must all hold; each may need those before it."""
-ROOM = 2**20  # bytes of arrays that any file may hold
-RATIO = 8  # bytes of arrays besides, for each byte of the file; ours have three
+"""Validity rules, each a sentence and booleans that must all be true; a rule may assume those before it."""
+ROOM = 2**20  # bytes of arrays that a file of any size may contain
+RATIO = 8  # further bytes of arrays for each byte of the file; those written here have about three
 MOST = 2**14  # members
-LAST = {"U": 0x10FFFF, "b": 1}  # the largest codes of letters and of truths
+LAST = {"U": 0x10FFFF, "b": 1}  # the largest codes of characters and of booleans
 
 # The kinds of files, and the functions that read them.
 AMASS = "an AMASS archive"
@@ -45,13 +45,13 @@ LOADERS = {
     "a parametric motion graph": "parametric_graphs.load_parametric",
     "a group motion graph": "groups.load_group",
 }
-FORMER_HEADS = {"mocap motion graph": "mocap: a motion graph"}  # as the first files say
+FORMER_HEADS = {"mocap motion graph": "mocap: a motion graph"}  # of files of the first version
 
 
 class Member:
-    """An array of a file: `dtype` and `shape` as its header claims them, and `read`, which unpacks it.
+    """An array of a file: `dtype` and `shape` from its header, and `read`, which unpacks it.
 
-    What has no header of an array of numbers, truths or letters is an `object` without a shape.
+    A member that is not an array of numbers, booleans or characters has the dtype `object` and no shape.
     """
 
     def __init__(self, archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> None:
@@ -72,7 +72,7 @@ class Member:
         return f"{self.dtype}{self.shape}"
 
     def read(self) -> NDArray[Any]:
-        """Unpack the array, in the byte order of this machine and the rows one after the other."""
+        """Unpack the array, in native byte order and C order."""
         if not self.fits:
             raise zipfile.BadZipFile
         with self.archive.open(self.entry) as packed, warnings.catch_warnings(action="ignore"):
@@ -80,13 +80,14 @@ class Member:
         array = whole.astype(self.dtype.newbyteorder("="), "C", copy=False)
         if last := LAST.get(self.dtype.kind):
             codes: NDArray[Any] = array.reshape(-1).view(np.uint32 if last > 1 else np.uint8)
-            if np.any((codes > last) | (codes >> 11 == 27)):  # no letter, half of one, no truth
+            is_surrogate = codes >> 11 == 27
+            if np.any((codes > last) | is_surrogate):
                 raise UnicodeError
         return array
 
 
 def pack(path: str | Path, arrays: Mapping[str, Any]) -> None:
-    """Write an `.npz` file, whole or not at all: packed, unless so much would come out that it is refused."""
+    """Write an `.npz` file atomically; compressed, unless its ratio would then be too large for reading."""
     members: dict[str, Any] = {name: np.asarray(array) for name, array in arrays.items()}
     if any(array.dtype.hasobject for array in members.values()):
         raise TypeError("an archive holds numbers, truths and texts, and no Python objects")
@@ -101,18 +102,19 @@ def pack(path: str | Path, arrays: Mapping[str, Any]) -> None:
 
 @contextmanager
 def open_archive(path: str | Path, ours: str, room: int = ROOM) -> Iterator[dict[str, Member]]:
-    """Open an `.npz` file, and give what its members claim to be.
+    """Open an `.npz` file and yield its members, by name.
 
     Parameters
     ----------
     path : the file.
-    ours : says, for the error, what it should be. Whatever fails within the block, the file is damaged.
-    room : bytes that its arrays may take however small the file is.
+    ours : the description of the expected file, for the error. Any failure within the block is reported as a
+        damaged file.
+    room : bytes that the arrays of a file of any size may take.
 
     Raises
     ------
-    MocapError : where the file cannot be read.
-    FormatError : where it is no such file, or claims what it cannot hold.
+    MocapError : if the file cannot be read.
+    FormatError : if it is not an `.npz` file, or the sizes of its members are implausible.
     """
     try:
         with Path(path).open("rb") as file, np.errstate(all="ignore"):
@@ -132,7 +134,7 @@ def open_archive(path: str | Path, ours: str, room: int = ROOM) -> Iterator[dict
 
 
 def _members(archive: zipfile.ZipFile, room: int) -> dict[str, Member]:
-    """Check the directory of an archive; nothing is unpacked yet."""
+    """Check the directory of an archive, without unpacking anything."""
     entries = sorted(archive.infolist(), key=lambda entry: entry.header_offset)
     ends = [entry.header_offset + 30 + len(entry.filename) + entry.compress_size for entry in entries]
     starts = [*(entry.header_offset for entry in entries[1:]), archive.start_dir]
@@ -148,9 +150,9 @@ Shaped = NDArray[Any] | Member
 
 
 class Part(NamedTuple):
-    """Arrays that a file holds several times, numbered from 0, such as those of each node.
+    """Arrays that a file contains several times, numbered from 0, such as those of each node.
 
-    `number` is the size that says how many times. In `arrays`, sizes of a small letter are each part's own.
+    `number` is the name of the size that counts them. In `arrays`, lower-case sizes may differ between parts.
 
     Examples
     --------
@@ -164,15 +166,15 @@ class Part(NamedTuple):
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of files: the arrays that they hold, and what must hold of the numbers in them.
+    """A kind of files, described by its arrays and validity rules.
 
     Parameters
     ----------
-    name : as in "a match web"; a key of `LOADERS`. The array `format` of a file is "mocap: " and the name.
-    arrays : by name.
-    rules : from all arrays of a file to what must hold of them.
+    name : such as "a match web"; a key of `LOADERS`. The array `format` of a file is "mocap: " and the name.
+    arrays : the layout of the arrays, by name.
+    rules : a function that yields the validity rules for all arrays of a file.
     parts : by name; array `key` of part 3 of "node" is called "node_3_key".
-    version : of the layout; files of a later one are refused.
+    version : the version of the layout; files of a later one are refused.
 
     Examples
     --------
@@ -193,14 +195,14 @@ class Kind:
         return f"{self.name} saved by mocap, version {versions}"
 
     def part(self, arrays: Arrays, name: str, number: int) -> Arrays:
-        """Take the arrays of one part out of those of a file; `numbered` is the inverse."""
+        """Extract the arrays of one part from those of a file; `numbered` is the inverse."""
         return {key: arrays[f"{name}_{number}_{key}"] for key in self.parts[name].arrays}
 
     def fits(self, arrays: Mapping[str, Shaped]) -> Iterator[tuple[str, type, bool]]:
-        """Yield name and type of each array of this kind, and whether that in `arrays` has a shape that fits.
+        """Yield the name and type of each array of this kind, and whether the shape of that in `arrays` fits.
 
-        Parts follow the other arrays, which say how many of them there are. Ask for the next array only if
-        this one fits.
+        Parts follow the other arrays, whose shapes determine their number. Iterate further only if an array
+        fits.
         """
         sizes: dict[str, int] = {}
         for key, (kind, shape) in self.arrays.items():
@@ -214,7 +216,7 @@ class Kind:
 
 
 def numbered(name: str, number: int, arrays: Mapping[str, Any]) -> dict[str, Any]:
-    """Name the arrays of one part as they are called in the file.
+    """Return the arrays of one part with their names in the file.
 
     Examples
     --------
@@ -225,14 +227,14 @@ def numbered(name: str, number: int, arrays: Mapping[str, Any]) -> dict[str, Any
 
 
 def _in_part(size: int | str, of_part: str) -> int | str:
-    """Name a size of a small letter by its part, so that it is no other part's."""
+    """Prefix a lower-case size with the name of its part, which makes it local to the part."""
     return of_part + size if isinstance(size, str) and size.islower() else size
 
 
 def _has_shape(
     array: NDArray[Any] | Member | None, shape: tuple[int | str, ...], sizes: dict[str, int]
 ) -> bool:
-    """Check the shape of an array, or of a `Member`; a size that is named for the first time is noted."""
+    """Check the shape of an array or `Member` against named sizes; new names are added to `sizes`."""
     if array is None or len(array.shape) != len(shape):
         return False
     for size, actual in zip(shape, array.shape, strict=True):
@@ -243,12 +245,11 @@ def _has_shape(
 
 
 def write_archive(path: str | Path, kind: Kind, arrays: Mapping[str, Any]) -> None:
-    """Write the arrays of a kind to an `.npz` file; an old file is replaced when the new one is complete.
+    """Write the arrays of a kind to an `.npz` file atomically.
 
     Raises
     ------
-    MocapError : for another suffix, for arrays that could not be read again, and where the file cannot be
-        written.
+    MocapError : for another suffix, arrays that could not be read again, and a file that cannot be written.
 
     Examples
     --------
@@ -274,13 +275,13 @@ def write_archive(path: str | Path, kind: Kind, arrays: Mapping[str, Any]) -> No
 
 
 def read_archive(path: str | Path, kind: Kind) -> Arrays:
-    """Read the arrays of a file that `write_archive` wrote, and its `version`.
+    """Read the arrays of a file from `write_archive`, and its `version`.
 
     Raises
     ------
-    MocapError : where the file cannot be read.
-    FormatError : for a file of another kind, with the function that reads it; for one of a later version, and
-        a damaged one.
+    MocapError : if the file cannot be read.
+    FormatError : for a file of another kind, with the function that reads it; for a later version, and a
+        damaged file.
 
     Examples
     --------
@@ -302,7 +303,7 @@ def read_archive(path: str | Path, kind: Kind) -> Arrays:
 
 
 def kind_of(members: Mapping[str, Member]) -> str:
-    """Return the kind of a file by what it says, or by its arrays; "" if neither tells."""
+    """Return the kind of a file by its array `format`, or by the names of its arrays; "" if unknown."""
     if "format" in members:
         head = str(members["format"].read())
         return FORMER_HEADS.get(head, head).removeprefix("mocap: ")
@@ -310,13 +311,13 @@ def kind_of(members: Mapping[str, Member]) -> str:
 
 
 def other_kind(path: str | Path, expected: str, members: Mapping[str, Member]) -> FormatError:
-    """Return the error for a file of another kind: what it is, and in Python the function that reads it.
+    """Return the error for a file of another kind, with the function that reads it.
 
     Parameters
     ----------
     path : the file.
-    expected : what it should be.
-    members : its arrays, by name.
+    expected : the description of the expected file.
+    members : the arrays of the file, by name.
     """
     kind = kind_of(members)
     if kind not in LOADERS:
@@ -325,7 +326,7 @@ def other_kind(path: str | Path, expected: str, members: Mapping[str, Member]) -
 
 
 def _checked(path: str | Path, kind: Kind, members: Mapping[str, Member]) -> list[str]:
-    """List the names of all arrays of a kind, or refuse the first that is missing or does not fit."""
+    """List the names of all arrays of a kind; raise at the first that is missing or does not fit."""
     keys = []
     for key, dtype, fits in kind.fits(members):
         if key not in members:

@@ -1,4 +1,4 @@
-"""Checks of the arguments of a call, including those that are missing."""
+"""Checks of the arguments of a call, including missing ones."""
 
 import inspect
 from collections.abc import Callable
@@ -11,9 +11,9 @@ Call = TypeVar("Call", bound=Callable[..., Any])
 
 
 def checked_by(check: Callable[..., object]) -> Callable[[Call], Call]:
-    """Make a decorator that calls `check` with the arguments of a function before the function itself.
+    """Return a decorator that calls `check` with the arguments of a function before the function itself.
 
-    Python raises TypeError for a missing argument, which does not show the right call. A check has the
+    Python raises a TypeError for a missing argument, without an example of a correct call. A check has the
     default None for each parameter, and can therefore raise `MocapError` instead. Type checkers see the
     parameters of the function.
 
@@ -49,11 +49,11 @@ def checked_by(check: Callable[..., object]) -> Callable[[Call], Call]:
 
 
 def called_as(right_call: str) -> Callable[[Call], Call]:
-    """Make a decorator that answers a call with too many or too few arguments by the right call.
+    """Return a decorator that raises `MocapError`, with a correct call, for too many or too few arguments.
 
     Parameters
     ----------
-    right_call : how the function is called.
+    right_call : the correct call, for the error.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Types of arrays, and three small functions that many modules use."""
+"""Types of arrays, and three functions that many modules use."""
 
 from collections.abc import Sequence
 from typing import Any, Protocol, SupportsFloat
@@ -14,14 +14,14 @@ Points = NDArray[np.complexfloating[Any, Any]]
 
 
 class Row(Protocol):
-    """Some numbers in a row: a list, a tuple or an array of one axis."""
+    """A sequence of numbers: a list, a tuple or an array of one axis."""
 
     def __len__(self) -> int: ...
     def __getitem__(self, index: int, /) -> SupportsFloat: ...
 
 
 VectorsLike = NDArray[Any] | Sequence[Row]
-"""N vectors as callers may pass them: an array of shape (N, K), or N lists or arrays of K numbers each."""
+"""N vectors as passed by callers: an array of shape (N, K), or N lists or arrays of K numbers each."""
 
 
 def frozen(values: ArrayLike, dtype: type[np.generic]) -> NDArray[Any]:

@@ -1,7 +1,7 @@
-"""Atomic writing: a file is written whole or not at all.
+"""Atomic writing: a file is written completely or not at all.
 
-It is written in a temporary folder next to its path, and moved when it is complete. A process that is killed
-leaves that folder. The next process that writes there, a day or more later, removes it.
+It is written in a temporary folder next to its path, and moved once it is complete. A process that is killed
+leaves that folder behind. A process that writes there at least a day later removes it.
 """
 
 import errno
@@ -22,7 +22,7 @@ DAY = 86_400  # seconds, longer than it takes to write any file
 
 @contextmanager
 def _explained(action: str) -> Iterator[None]:
-    """Raise an error of the operating system again, as a sentence with the action that it prevents."""
+    """Convert an error of the operating system to a `MocapError` with the action that it prevents."""
     try:
         yield
     except OSError as error:
@@ -33,8 +33,8 @@ def _explained(action: str) -> Iterator[None]:
 def replacing(path: str | Path) -> Iterator[Path]:
     """Write a new file next to the old one, then replace the old one in a single step.
 
-    If anything goes wrong inside the `with` block, even an interruption, the old file stays as it was,
-    and the new one is removed. After the block the new one is on the disk, even if the power fails.
+    After an error or an interruption inside the `with` block, the old file is unchanged and the new one is
+    removed. After the block, the new file has been synced to the disk.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ def replacing(path: str | Path) -> Iterator[Path]:
 
 
 def _sync(path: Path, flags: int) -> None:
-    """Wait until a file or folder is on the disk."""
+    """Sync a file or folder to the disk."""
     descriptor = os.open(path, flags)
     try:
         os.fsync(descriptor)
@@ -76,7 +76,7 @@ def _sync(path: Path, flags: int) -> None:
 
 @contextmanager
 def _temporary_folder(path: Path) -> Iterator[Path]:
-    """Make a temporary folder next to a file to write. A file in it gets the usual permissions."""
+    """Create a temporary folder next to a file to be written. A file in it has the usual permissions."""
     if path.is_symlink():
         raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
     _remove_unfinished(path.parent)
@@ -95,7 +95,7 @@ def _remove_unfinished(parent: Path) -> None:
 
 
 def require_writable(path: str | Path) -> None:
-    """Raise if a file could not be written, before any work is done for it.
+    """Raise if a file cannot be written, before its content is computed.
 
     Examples
     --------
@@ -112,13 +112,13 @@ def require_writable(path: str | Path) -> None:
 
 
 def write_file(path: str | Path, content: str | bytes) -> None:
-    """Write a file of bytes, or of a text as UTF-8, whole or not at all."""
+    """Write bytes, or text as UTF-8, to a file atomically."""
     with replacing(path) as new:
         new.write_bytes(content.encode() if isinstance(content, str) else content)
 
 
 def require_folder(path: Path) -> None:
-    """Raise if a folder could not be created or written into, before any work is done for it.
+    """Raise if a folder cannot be created or written to, before its content is computed.
 
     Examples
     --------

@@ -1,22 +1,22 @@
-"""A deadline: the moment at which a search ends with the best that it has."""
+"""Deadlines, at which searches return the best result so far."""
 
 from time import monotonic
 
 from mocap.errors import MocapError
 
-OUT_OF_TIME = "out of time"  # what a search says that a deadline ended
+OUT_OF_TIME = "out of time"  # the reason that a search reports if a deadline ended it
 
 
 class Deadline:
-    """A moment some seconds of wall time after the deadline was made.
+    """A deadline some seconds of wall time after its creation.
 
     Parameters
     ----------
-    seconds : above 0; infinite for none.
+    seconds : above 0; infinite for no deadline.
 
     Raises
     ------
-    MocapError : for 0 seconds or less, and nan.
+    MocapError : for 0 seconds or less, and for nan.
 
     Examples
     --------
@@ -34,10 +34,10 @@ class Deadline:
 
     @property
     def is_over(self) -> bool:
-        """Whether the moment is now or was earlier."""
+        """Whether the deadline has passed."""
         return monotonic() >= self.end
 
     @classmethod
     def of(cls, limit: "float | Deadline") -> "Deadline":
-        """Return a deadline as it is, and make one of seconds."""
+        """Convert seconds to a deadline; a deadline is returned as it is."""
         return limit if isinstance(limit, Deadline) else cls(limit)

@@ -1,4 +1,4 @@
-"""Stable names that are removed: they warn for one whole 0.x version, as `mocap/STABLE.md` promises."""
+"""Deprecated names: they warn for one whole 0.x version before removal, as `mocap/STABLE.md` promises."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -14,12 +14,12 @@ R = TypeVar("R")
 
 @dataclass(frozen=True)
 class Deprecation:
-    """A stable name that is removed in a later version.
+    """A stable name that will be removed in a later version.
 
     name : the name that users write, such as "mocap.load".
     since : the first version that warns, such as "0.2".
     removed_in : the version that no longer has the name.
-    instead : what to write in its place.
+    instead : its replacement.
 
     Raises
     ------
@@ -47,23 +47,23 @@ class Deprecation:
             )
 
     def __str__(self) -> str:
-        """Write the sentence of the warning."""
+        """Return the message of the warning."""
         return (
             f"{self.name} is deprecated since version {self.since} and is removed in version "
             f"{self.removed_in}: use {self.instead}."
         )
 
     def is_due(self, version: str) -> bool:
-        """Check whether a version should no longer have the name."""
+        """Return whether the name must be removed in a version."""
         return version_numbers(version) >= version_numbers(self.removed_in)
 
 
 DEPRECATED: list[Deprecation] = []
-"""All deprecated names of the modules imported so far; a test fails when one of them is due."""
+"""All deprecated names of the modules imported so far. A test fails if the removal of one is due."""
 
 
 def version_numbers(version: str) -> tuple[int, int, int]:
-    """Return the first three numbers of a version, 0 for those that it does not have.
+    """Return the first three numbers of a version, 0 for missing ones.
 
     Examples
     --------
@@ -78,7 +78,7 @@ def version_numbers(version: str) -> tuple[int, int, int]:
 def deprecated(
     name: str, *, since: str, removed_in: str, instead: str
 ) -> Callable[[Callable[P, R]], Callable[P, R]]:
-    """Make a decorator for a function, or an alias of one, that warns with each call.
+    """Return a decorator for a function, or an alias of one, that warns with each call.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def deprecated(
 
     Examples
     --------
-    A function is called `load` from version 0.2, and its old name stays for that version:
+    A function is renamed to `load` in version 0.2, and its old name is kept for that version:
 
     >>> def load(path):
     ...     return f"the motion of {path}"

@@ -1,4 +1,4 @@
-"""The curve that eases from 0 to 1."""
+"""A smooth step from 0 to 1."""
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -7,10 +7,10 @@ from mocap._shared.arrays import Array
 
 
 def quintic_step(amount: ArrayLike) -> Array:
-    """Ease from 0 to 1 by 10u³ - 15u⁴ + 6u⁵, for u in [0, 1]; 0 below, 1 above.
+    """Smooth step from 0 to 1, 10u³ - 15u⁴ + 6u⁵ for u in [0, 1]; 0 below, 1 above.
 
-    It is the polynomial of lowest degree whose speed and acceleration are 0 at both ends. Computer graphics
-    calls it smootherstep.
+    It is the polynomial of lowest degree whose first and second derivatives are 0 at both ends, known as
+    smootherstep in computer graphics.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The names of a room, imported at their first use; a name that is not there is answered by where it is.
+"""Lazy imports of the names of a room; the error for an unknown name suggests another name or room.
 
 A room's `__init__.py` calls `attach`, and its stub `__init__.pyi` lists the names.
 """
@@ -20,7 +20,7 @@ FROM_IMPORT = "_handle_fromlist"  # the function of Python's import that asks a 
 
 
 def attach(room: str, file: str) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
-    """Return `__getattr__`, `__dir__` and `__all__` of a room, by the stub beside its file.
+    """Return `__getattr__`, `__dir__` and `__all__` of a room, from the stub beside its file.
 
     Examples
     --------
@@ -47,13 +47,13 @@ def attach(room: str, file: str) -> tuple[Callable[[str], Any], Callable[[], lis
 
 
 def is_module(room: str, name: str) -> bool:
-    """Check whether a room has a file or folder of that name."""
+    """Return whether a room has a module of that name."""
     module = f"{room}.{name}"
     return module in sys.modules or importlib.util.find_spec(module) is not None
 
 
 def missing_name(room: str, name: str, names: list[str]) -> str:
-    """Return the sentence for a name that a room lacks: its room, or the nearest name.
+    """Return the error message for an unknown name, with the room that has it or the nearest name.
 
     Examples
     --------
@@ -79,7 +79,7 @@ def missing_name(room: str, name: str, names: list[str]) -> str:
 
 
 def exports() -> dict[str, list[str]]:
-    """Return the names that each room exports, by the name of the room, from all stubs."""
+    """Return the names that each room exports, by room, from all stubs."""
     stubs = sorted(PACKAGE.rglob("__init__.pyi"), key=lambda stub: len(stub.parts))
     return {
         ".".join(["mocap", *stub.relative_to(PACKAGE).parent.parts]): EXPORT.findall(stub.read_text("ascii"))

@@ -1,10 +1,10 @@
-"""A time limit for code that others wrote.
+"""A time limit for untrusted code.
 
-In the main thread of Linux and macOS the limit is the system's alarm, a signal that also ends a function that
-waits, such as `time.sleep`. On Windows, and in other threads, a watching thread has Python raise the error in
-the limited thread. It takes effect at that thread's next step of Python: it ends endless loops, but no single
-call of a compiled function. To start the watching thread takes some tenths of a millisecond, and the alarm a
-hundredth of that.
+In the main thread of Linux and macOS, the limit is an alarm signal of the system, which also interrupts
+blocking calls such as `time.sleep`. On Windows, and in other threads, a watchdog thread makes Python raise
+the error in the limited thread. The error is raised at the next bytecode instruction of that thread: it ends
+endless loops, but does not interrupt a call of a compiled function. Starting the watchdog takes some tenths
+of a millisecond, setting the alarm a hundredth of that.
 """
 
 from __future__ import annotations
@@ -19,19 +19,19 @@ from contextlib import contextmanager, suppress
 class Overdue(BaseException):
     """Code has taken longer than its limit.
 
-    It is no `Exception`, because an endless loop may contain `except Exception`.
+    It is not an `Exception`, because an endless loop may contain `except Exception`.
     """
 
 
-_watched: set[int] = set()  # numbers of the threads that a watching thread limits
+_watched: set[int] = set()  # identifiers of the threads that a watchdog limits
 
 
 @contextmanager
 def time_limit(seconds: float) -> Iterator[None]:
     """Raise `Overdue` in the code inside a `with` block after some seconds.
 
-    There is no limit inside another limit of the same thread, nor in the Python of a browser, which has no
-    threads.
+    A limit inside another limit of the same thread has no effect, nor has any limit in the Python of a
+    browser, which has no threads.
 
     Examples
     --------
@@ -68,7 +68,7 @@ def _alarm(seconds: float) -> Iterator[None]:
 
 @contextmanager
 def _watching_thread(seconds: float) -> Iterator[None]:
-    """Have a second thread raise `Overdue` in this one, unless the code inside has ended by then."""
+    """Raise `Overdue` in this thread from a watchdog thread, unless the code inside ends before."""
     limited = threading.get_ident()
     ended = threading.Event()
     raising = threading.Lock()
@@ -88,7 +88,7 @@ def _watching_thread(seconds: float) -> Iterator[None]:
         yield
     finally:
         try:
-            with raising:  # wait for an error that is on its way: `set`, a step of Python, raises it
+            with raising:  # wait for a pending error, which is raised within `set`
                 ended.set()
         finally:
             _watched.discard(limited)

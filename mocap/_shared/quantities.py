@@ -1,4 +1,4 @@
-"""Checks of numbers that callers pass: their kind, their unit, and how to write what is meant."""
+"""Checks of the type and the unit of numbers, with errors that show the intended value."""
 
 import math
 from collections.abc import Mapping
@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from mocap._shared.arrays import Array
 from mocap.errors import MocapError, Remedy, shortened
 
-FARTHEST_WINDOW = 1.0  # metres (RMS): windows of people are 0.2 m apart at random, so nobody means more
+FARTHEST_WINDOW = 1.0  # metres (RMS): the largest plausible threshold; random windows are 0.2 m apart
 FULL_TURN = 2 * math.pi  # radians
 
 
@@ -36,7 +36,7 @@ def described(value: object) -> str:
 
 
 def check_number(value: Any, name: str) -> None:  # noqa: ANN401
-    """Raise unless a value is a number, such as 4 and not "4".
+    """Raise unless a value is a number: 4 is one, "4" is not.
 
     Examples
     --------
@@ -51,7 +51,7 @@ def check_number(value: Any, name: str) -> None:  # noqa: ANN401
 
 
 def check_threshold(metres: Any) -> None:  # noqa: ANN401
-    """Raise unless a threshold is above 0 m and at most 1 m; of several, by pairs of labels, each.
+    """Raise for a threshold above 1 m; also for each of a mapping from pairs of labels to thresholds.
 
     Examples
     --------
@@ -69,13 +69,13 @@ def check_threshold(metres: Any) -> None:  # noqa: ANN401
 
 
 def check_radians(angle: Any, name: str, *, largest: float = FULL_TURN) -> None:  # noqa: ANN401
-    """Raise if an angle is larger than one would write in radians.
+    """Raise for an angle that is probably in degrees, because it is implausibly large in radians.
 
     Parameters
     ----------
     angle : radians, or radians per second.
-    name : of the angle, for the error.
-    largest : the largest that is taken.
+    name : the name of the angle, for the error.
+    largest : the largest angle that is accepted.
 
     Examples
     --------
@@ -114,13 +114,13 @@ def check_frames(count: Any, name: str, fps: float | None = None) -> None:  # no
 
 
 def numbers_of(values: ArrayLike, name: str, example: str) -> Array:
-    """Return values as an array of numbers.
+    """Convert values to an array of numbers.
 
     Parameters
     ----------
     values : numbers, lists of them, or an array.
-    name : of the values, for the error.
-    example : how they are written.
+    name : the name of the values, for the error.
+    example : an example of such values, for the error.
 
     Raises
     ------

@@ -1,10 +1,10 @@
 """Classes with named fields: printed in one line, compared by their values, and pickled by their fields.
 
-`dataclass` and `NamedTuple` are those of the standard library, except that a record prints in one line:
-an array as its shape, a long list as its length. Import them from here in place of `dataclasses` and
-`typing`. Type checkers see the originals.
+`dataclass` and `NamedTuple` are those of the standard library, except that a record is printed in one line,
+with arrays as their shapes and long lists as their lengths. Import them from here in place of `dataclasses`
+and `typing`. Type checkers see the originals.
 
-`same_fields` compares records that hold arrays, whose `==` would be an array of truth values.
+`same_fields` compares records that contain arrays, whose `==` would be an array of booleans.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 LONGEST = 200  # characters of a printed record
-FEW = 8  # a collection of so many items is printed if it is short, too
-SHORT = 70  # characters of a field that is printed as it is
+FEW = 8  # the largest number of items in a collection that is not abbreviated
+SHORT = 70  # the largest number of characters of a field that is not abbreviated
 
 
 def one_line(record: Any) -> str:  # noqa: ANN401
-    """Print a record with named fields in one line of at most `LONGEST` characters.
+    """Format a record with named fields in one line of at most `LONGEST` characters.
 
     The longest fields are abbreviated first.
 
@@ -31,10 +31,10 @@ def one_line(record: Any) -> str:  # noqa: ANN401
     --------
     >>> from typing import NamedTuple
     >>> class Walked(NamedTuple):
-    ...     places: object
+    ...     positions: object
     ...     seconds: float
     >>> one_line(Walked(np.zeros((471, 3)), 3.9))
-    'Walked(places=<array (471, 3)>, seconds=3.9)'
+    'Walked(positions=<array (471, 3)>, seconds=3.9)'
     """
     values = {name: getattr(record, name) for name in _field_names(record)}
     parts = {name: _brief(value) for name, value in values.items()}
@@ -59,7 +59,7 @@ def _field_names(record: Any) -> list[str]:  # noqa: ANN401
 
 
 def _brief(value: object) -> str:
-    """Print a value of a field as it is where that is short, else abbreviated."""
+    """Format the value of a field, abbreviated unless it is short."""
     if isinstance(value, np.ndarray):
         size = value.size
     elif isinstance(value, Collection) and not hasattr(value, "_fields"):
@@ -73,7 +73,7 @@ def _brief(value: object) -> str:
 
 
 def _abbreviation(value: object) -> str:
-    """Print the kind of a value, with its shape or length where it has one.
+    """Format the type of a value, with its shape or length if it has one.
 
     Examples
     --------
@@ -89,7 +89,7 @@ def _abbreviation(value: object) -> str:
 
 
 def same_fields(record: Any, second: Any) -> bool:  # noqa: ANN401
-    """Compare two dataclasses of one class field by field: arrays by shape and values, nothing within bounds.
+    """Compare two dataclasses of one class field by field, arrays by shape and values, without tolerance.
 
     Examples
     --------
@@ -115,9 +115,10 @@ def _equal(value: Any, second: Any) -> bool:  # noqa: ANN401
 
 
 def rebuilding(record: Any) -> tuple[Callable[..., Any], tuple[Any, ...]]:  # noqa: ANN401
-    """Return what `__reduce__` returns, so that a pickled record is checked again and its arrays read-only.
+    """Return the result of `__reduce__`, by which unpickling calls the constructor with the fields.
 
-    Values that were computed from the fields and stored are left out.
+    An unpickled record has therefore been checked, and its arrays are read-only. Cached values are not
+    pickled.
 
     Examples
     --------
@@ -138,7 +139,7 @@ else:
     from dataclasses import dataclass as standard_dataclass
 
     def dataclass(kind: type | None = None, **options: bool) -> type | Callable[[type], type]:
-        """Make a dataclass that prints in one line, unless it has a `__repr__`."""
+        """Make a dataclass that is printed in one line, unless it has a `__repr__`."""
 
         def decorate(kind: type) -> type:
             if "__repr__" not in vars(kind):
@@ -148,7 +149,7 @@ else:
         return decorate if kind is None else decorate(kind)
 
     class _OneLine(type):
-        """The metaclass of `NamedTuple`: a class below it becomes a named tuple that prints in one line."""
+        """The metaclass of `NamedTuple`: its subclasses become named tuples that are printed in one line."""
 
         def __new__(cls, name: str, bases: tuple[type, ...], body: dict[str, Any]) -> type:
             if not bases:
@@ -159,4 +160,4 @@ else:
             return record
 
     class NamedTuple(metaclass=_OneLine):
-        """Make a named tuple that prints in one line, unless it has a `__repr__`."""
+        """Make a named tuple that is printed in one line, unless it has a `__repr__`."""

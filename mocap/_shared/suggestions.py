@@ -1,22 +1,22 @@
-"""The error for an attribute that an object does not have, with the expression that may be meant."""
+"""The error for an unknown attribute, with a suggestion."""
 
 from collections.abc import Mapping
 
 from mocap.errors import shortened
 
-SIMILAR = 0.7  # the least similarity of names, of 1, for a suggestion by spelling
+SIMILAR = 0.7  # the least similarity of names, from 0 to 1, for a suggestion by spelling
 
 
 def missing_attribute(thing: object, name: str, expressions: Mapping[str, str]) -> AttributeError:
-    """Return the error that `__getattr__` raises.
+    """Return the error to raise in `__getattr__` for an unknown attribute.
 
-    Names that begin with an underscore are asked by Python, pickle and Jupyter; they get no suggestion.
+    Names that begin with an underscore, which Python, pickle and Jupyter look up, get no suggestion.
 
     Parameters
     ----------
     thing : the object without the attribute.
-    name : of the attribute.
-    expressions : what may be meant, by the name of an attribute that a user may expect.
+    name : the name of the attribute.
+    expressions : suggestions, by the names of attributes that users may expect.
 
     Examples
     --------

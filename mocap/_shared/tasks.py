@@ -1,4 +1,4 @@
-"""Work through tasks here, or by threads, processes or a cluster; the results come in the tasks' order."""
+"""Execution of tasks by threads, processes or a cluster, with results in the order of the tasks."""
 
 import multiprocessing
 import os
@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 
 Result = TypeVar("Result")
 
-AHEAD = 64  # tasks that workers have at once
+AHEAD = 64  # the largest number of tasks submitted at a time
 
 
 def usable_cores() -> int:
-    """Count the cores that this process may use, which can be fewer than the machine has."""
+    """Return the number of cores that this process may use, which can be fewer than the machine has."""
     if sys.platform == "emscripten":  # a browser, which has no threads
         return 1
     if hasattr(os, "sched_getaffinity"):
@@ -53,12 +53,12 @@ def thread_count(jobs: int | None) -> int:
 
 
 def one_blas_thread() -> AbstractContextManager[object]:
-    """Multiply matrices on one thread only, in this thread and in those that it starts meanwhile.
+    """Limit BLAS to one thread, as a context manager.
 
-    Otherwise each thread of a pool would start more threads for its products, and they would wait for each
-    other. The bits of a product, which may depend on the number of threads, are also the same for any number.
-    BLAS has one number of threads for the process, which one thread at a time can set. A thread that asks
-    while another has set it changes nothing.
+    Otherwise each thread of a pool would start further threads for its matrix products, which compete for the
+    cores. The last bits of a product may depend on the number of threads. With this limit, they do not depend
+    on the number of threads of the pool. The limit is one for the whole process: within the context of
+    another thread it has no effect.
 
     Examples
     --------
@@ -71,8 +71,8 @@ def one_blas_thread() -> AbstractContextManager[object]:
 
 @cache
 def blas() -> "ThreadpoolController":
-    """Return what sets the number of BLAS's threads; finding the libraries takes some milliseconds."""
-    import numpy  # noqa: F401 (its BLAS is found only once it is loaded)
+    """Return the controller of BLAS threads; finding the libraries takes some milliseconds."""
+    import numpy  # noqa: F401 (its BLAS is found only after import)
     from threadpoolctl import ThreadpoolController
 
     return ThreadpoolController().select(user_api="blas")
@@ -84,18 +84,19 @@ def run_in_order(
     executor: Executor | None,
     jobs: int | None = 1,
 ) -> Iterator[Result]:
-    """Work through tasks in their order; only AHEAD are out at once, since each carries its data along.
+    """Execute tasks, and yield their results in order; at most AHEAD are submitted, to limit the memory.
 
     Parameters
     ----------
-    work : what to do with the items of a task.
-    tasks : the arguments of `work`, one tuple for each task.
-    executor : where to work; by default on threads of this process.
-    jobs : threads without an executor, as for `thread_count`. One task needs none.
+    work : the function to call for each task.
+    tasks : the arguments of `work`, a tuple for each task.
+    executor : a pool of processes or a cluster; by default, threads of this process are used.
+    jobs : the number of threads without an executor, as for `thread_count`. A single task is executed in
+        this thread.
 
     Raises
     ------
-    MocapError : for `jobs` that are not a number of threads.
+    MocapError : for `jobs` that is not a number of threads.
 
     Examples
     --------
@@ -111,14 +112,14 @@ def run_in_order(
     if threads == 1 or len(first) < 2:
         yield from (work(*task) for task in chain(first, remaining))
         return
-    with ThreadPoolExecutor(threads) as pool:  # which starts no more threads than there are tasks
+    with ThreadPoolExecutor(threads) as pool:  # starts at most as many threads as tasks
         yield from _run_on(pool, work, chain(first, remaining))
 
 
 def _run_on(
     executor: Executor, work: Callable[..., Result], tasks: Iterable[tuple[Any, ...]]
 ) -> Iterator[Result]:
-    """Work through tasks on an executor."""
+    """Execute tasks on an executor."""
     waiting: deque[Future[Result]] = deque()
     try:
         for task in tasks:
@@ -127,15 +128,15 @@ def _run_on(
                 yield waiting.popleft().result()
         while waiting:
             yield waiting.popleft().result()
-    finally:  # after an error or Ctrl-C, no task is left that still waits
+    finally:  # after an error or Ctrl-C, cancel the pending tasks
         for future in waiting:
             future.cancel()
 
 
 def serve() -> None:
-    """Make this process one that only works for its parent: it ends with it, and leaves Ctrl-C to it.
+    """Initialise a worker process: it ends with its parent, and ignores Ctrl-C, which the parent handles.
 
-    Pass it as `initializer` to a `ProcessPoolExecutor`. Otherwise workers of a killed process wait for ever.
+    Pass it as `initializer` to a `ProcessPoolExecutor`. Otherwise the workers of a killed process never end.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if parent := multiprocessing.parent_process():

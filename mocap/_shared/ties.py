@@ -1,8 +1,8 @@
-"""Ties broken by rule: values that differ only by rounding are equal, and the first of equals is taken.
+"""Comparison with a tolerance: values that differ only by rounding are equal, and ties go to the first.
 
-The last bit of a sum depends on the processor, on the library and on the order of its terms. If two answers
-are equally good, that bit alone would choose between them. Each method therefore names the difference below
-which two of its values are equal, in their unit: far above rounding errors, and far below what matters.
+The last bit of a sum depends on the processor, on the library and on the order of its terms. If two results
+are equally good, that bit alone would decide between them. Each method therefore has a tolerance for equal
+values, in their unit: far above rounding errors, and far below relevant differences.
 """
 
 from typing import Any
@@ -14,7 +14,7 @@ from mocap._shared.arrays import Indices
 
 
 def first_least(values: ArrayLike, equal: float, axis: int | None = None) -> NDArray[np.intp]:
-    """Return the index of the first value at most `equal` above the least one: `np.argmin` with a tolerance.
+    """Return the index of the first value at most `equal` above the minimum: `np.argmin` with a tolerance.
 
     Examples
     --------
@@ -28,7 +28,7 @@ def first_least(values: ArrayLike, equal: float, axis: int | None = None) -> NDA
 
 
 def ranks(values: ArrayLike, equal: float) -> Indices:
-    """Rank values, shape (N,): 0 for the least, and one rank for sorted values with gaps of at most `equal`.
+    """Rank values, shape (N,), from 0; sorted values at distances of at most `equal` have the same rank.
 
     Examples
     --------
@@ -45,7 +45,7 @@ def ranks(values: ArrayLike, equal: float) -> Indices:
 
 
 def in_order(values: ArrayLike, equal: float) -> Indices:
-    """Return the indices that sort values by their `ranks`; equal values keep their order.
+    """Return the indices that sort values, stably for equal ones: `np.argsort` with a tolerance.
 
     Examples
     --------
@@ -56,10 +56,10 @@ def in_order(values: ArrayLike, equal: float) -> Indices:
 
 
 def whole_steps(values: ArrayLike, step: float) -> NDArray[Any]:
-    """Round values to whole multiples of a step, which have no rounding errors of their own.
+    """Quantise values: return the nearest integer multiples of a step, as integers in floating point.
 
-    Two values on either side of the middle between two multiples stay apart, even if they differ only by
-    rounding. This is as rare as rounding errors are small compared with the step.
+    Values that differ only by rounding get the same integer, unless the middle between two multiples is
+    between them. This is rare if the step is large compared with rounding errors.
 
     Examples
     --------

@@ -1,16 +1,16 @@
-"""Transitions and blends: by a blend over a window, by a cut whose offset fades, or of whole clips.
+"""Blending: transitions by a blend over a window or by inertialization, and blends of whole registered clips.
 
 A transition starts with two similar windows. The second clip is aligned with the first. Then the poses are
-blended, or the second clip plays with an offset that fades. Whole clips, two or more, are first registered:
-registration finds their corresponding frames, and the transforms that align them there.
+blended, or the second clip plays with an offset that fades to zero. Whole clips, two or more, are first
+registered: registration finds their corresponding frames, and the transforms that align them there.
 
 Reading order (notebooks 04, 15)
 --------------------------------
 1. `weights`: the weight of the first motion in each frame of a transition
-2. `joining`: two motions into one; from clip to clip by a blend, or by a cut whose offset fades
-3. `timewarps`: smooth curves over time whose slope stays within bounds
-4. `clocks`: clips on one common clock, the plants that they share, and the blend's own clock
-5. `mixing`: registered clips blended by weights, constant or moving; long crossfades between two of them
+2. `joining`: transitions between two motions, by a blend over a window or by inertialization
+3. `timewarps`: smooth curves over time with bounded slopes
+4. `clocks`: clips on a common clock, their matching footplants, and the clock of a blend
+5. `mixing`: blends of registered clips, with constant or time-varying weights; long crossfades
 6. `registering`: corresponding frames of clips, and the transforms that align them
 
 References

@@ -1,4 +1,4 @@
-"""Clips on one common clock, and the clock of a blend: the common time of each of its frames."""
+"""Clips on a common clock, and the clock of a blend: the common time of each of its frames."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cached_property
@@ -20,32 +20,33 @@ from mocap.errors import MocapError
 SHORTEST = 0.02  # seconds of the common clock: shorter plants, and parts of plants, are dropped
 
 
-SharedPlant = tuple[str, Array]
-"""A plant that all C clips have: the joint, and the start and the stop of the plant in each of them, (2, C).
+SharedFootplant = tuple[str, Array]
+"""A footplant that all C clips have: the joint, and the start and the stop of the footplant in each, (2, C).
 
 They are seconds of the common clock.
 """
 
-Plant = tuple[float, float]
-"""The start and the stop of a plant, seconds of the common clock."""
+Footplant = tuple[float, float]
+"""The start and the stop of a footplant, seconds of the common clock."""
 
 
 def match_contacts(
     clips: Sequence[Motion], times: Sequence[Curve], span: tuple[float, float]
-) -> tuple[SharedPlant, ...]:
-    """Match the plants of registered clips: each match has one of every clip, all at about the same time.
+) -> tuple[SharedFootplant, ...]:
+    """Match the footplants of registered clips: a match has one of each clip, all at about the same time.
 
     In the paper: [KG03, constraint matches].
 
-    Plants whose time intervals overlap, directly or through others, form a group. A group that lacks a clip
-    is dropped. A group with exactly one plant of each clip is a match. Any other is split where the clip with
-    the most plants pauses, and each part is treated by itself. [KG03] has matches of one interval for each
-    clip, with intervals dropped or split. How it splits them is not known to us, therefore this rule is ours.
+    Footplants whose time intervals overlap, directly or through others, form a group. A group without a
+    footplant of some clip is dropped. A group with exactly one footplant of each clip is a match. Any other
+    group is split at the pauses of the clip with the most footplants, and the parts are processed separately.
+    [KG03] has matches of one interval for each clip, with intervals dropped or split. Its rule for splitting
+    is not known to us, therefore this rule is ours.
 
     Parameters
     ----------
-    clips : C motions; those without contacts have no plants, and there is no match.
-    times : for each clip, the curve from the common clock to the clip's own seconds.
+    clips : C motions; if one has no contacts, there are no matches.
+    times : for each clip, the curve from the common clock to the time of the clip in seconds.
     span : the interval of the common clock that is searched, seconds.
 
     Returns
@@ -63,28 +64,28 @@ def match_contacts(
     joints = [joint for joint in clips[0].contacts if all(joint in clip.contacts for clip in clips)]
     matches = []
     for joint in joints:
-        plants = [_plants(clip, curve, joint, span) for clip, curve in zip(clips, times, strict=True)]
+        plants = [_footplants(clip, curve, joint, span) for clip, curve in zip(clips, times, strict=True)]
         for group in _overlapping(plants):
             matches += [(joint, frozen(match, np.float64)) for match in _split(group)]
     return tuple(matches)
 
 
-def _plants(clip: Motion, curve: Curve, joint: str, span: tuple[float, float]) -> list[Plant]:
-    """List a joint's plants in a clip, cut to the span."""
+def _footplants(clip: Motion, curve: Curve, joint: str, span: tuple[float, float]) -> list[Footplant]:
+    """List the footplants of a joint in a clip, clipped to the span."""
     seconds = runs(clip.contacts[joint]) / clip.fps
     return _cut(curve.inverse(seconds).tolist(), *span)
 
 
-def _cut(plants: Iterable[Sequence[float]], low: float, high: float) -> list[Plant]:
-    """Cut plants to an interval, and drop those that are then too short."""
+def _cut(plants: Iterable[Sequence[float]], low: float, high: float) -> list[Footplant]:
+    """Clip footplants to an interval, and drop those that are then too short."""
     parts = [(max(start, low), min(stop, high)) for start, stop in plants]
     return [(start, stop) for start, stop in parts if stop - start >= SHORTEST]
 
 
-def _overlapping(plants: Sequence[list[Plant]]) -> list[list[list[Plant]]]:
-    """Group the plants of C clips whose time intervals overlap: for each group, the plants of each clip."""
+def _overlapping(plants: Sequence[list[Footplant]]) -> list[list[list[Footplant]]]:
+    """Group footplants of C clips whose time intervals overlap; a group lists the footplants of each clip."""
     in_time = sorted((start, stop, clip) for clip, listed in enumerate(plants) for start, stop in listed)
-    groups: list[list[list[Plant]]] = []
+    groups: list[list[list[Footplant]]] = []
     group_stop = -np.inf
     for start, stop, clip in in_time:
         if start >= group_stop:
@@ -94,10 +95,10 @@ def _overlapping(plants: Sequence[list[Plant]]) -> list[list[list[Plant]]]:
     return groups
 
 
-def _split(group: list[list[Plant]]) -> Iterator[tuple[list[float], list[float]]]:
-    """Split a group where the clip with the most plants pauses; yield the starts and stops of each match.
+def _split(group: list[list[Footplant]]) -> Iterator[tuple[list[float], list[float]]]:
+    """Split a group at the pauses of the clip with the most footplants; yield starts and stops of matches.
 
-    A part that lacks a clip is no match.
+    A part without a footplant of some clip is not a match.
     """
     busiest = max(group, key=len)
     pauses = [(stop + next_start) / 2 for (_, stop), (next_start, _) in pairwise(busiest)]
@@ -108,7 +109,7 @@ def _split(group: list[list[Plant]]) -> Iterator[tuple[list[float], list[float]]
 
 
 Weights = ArrayLike | Callable[[float, float], ArrayLike]
-"""Weights of C clips, which add up to one; or a function of u and t that returns them."""
+"""Weights of C clips, whose sum is one; or a function of u and t that returns them."""
 
 FINE = 0.002  # seconds of the common clock between the points at which its speed is computed
 PACES = ("durations", "rates")
@@ -116,15 +117,15 @@ PACES = ("durations", "rates")
 
 @dataclass(frozen=True, eq=False)
 class Registration:
-    """Clips on one common clock u, which is the reference's own time in seconds.
+    """Clips on a common clock u, the time of a reference clip in seconds.
 
     clips, reference : C motions, and the number of the one with which the others are aligned.
-    times : for each clip the curve S from u to its own seconds; the reference's is u itself.
-    angles : for each clip the rotation angle, radians, that aligns it at u; the reference's is 0.
-    centres : for each clip the centroid (x, z) of its points, averaged over a window, shape (F, 2), metres.
+    times : for each clip, the curve S from u to the time of the clip in seconds; for the reference, S(u) = u.
+    angles : for each clip, the curve of the angle that aligns it at u, radians; 0 for the reference.
+    centres : for each clip, the centroid (x, z) of its points, averaged over a window, shape (F, 2), metres.
     span : the first and the last u at which all clips are defined.
-    costs : shape (C,), the mean RMS distance along the clips' time paths, metres.
-    contacts : the plants that all clips have.
+    costs : shape (C,), the mean RMS distance along the time path of each clip, metres.
+    contacts : the footplants that all clips have.
     """
 
     clips: tuple[Motion, ...]
@@ -134,7 +135,7 @@ class Registration:
     centres: tuple[Array, ...]
     span: tuple[float, float]
     costs: Array
-    contacts: tuple[SharedPlant, ...] = ()
+    contacts: tuple[SharedFootplant, ...] = ()
 
     def __repr__(self) -> str:
         first, last = self.span
@@ -156,7 +157,7 @@ class Registration:
         return tuple(parts)
 
     def centre(self, clip: int, times: ArrayLike) -> Points:
-        """Return a clip's centroid as z + ix at times of the common clock."""
+        """Return the centroid of a clip as z + ix at times of the common clock."""
         frames = self.times[clip](times) * self.clips[clip].fps
         whole_frames = np.arange(len(self.centres[clip]))
         x, z = (np.interp(frames, whole_frames, coordinates) for coordinates in self.centres[clip].T)
@@ -182,27 +183,27 @@ def require_registration(registration: object) -> Registration:
 def frame_times(
     registration: Registration, weights: Weights, *, fps: float, pace: str = "durations"
 ) -> tuple[Array, Array]:
-    """Find the time u of each frame of a blend, from the first time of the span to its last.
+    """Compute the time u of each frame of a blend, from the start of the span to its end.
 
-    With `pace="durations"`, du/dt = 1 / Σ w S'(u): seconds of the clips are averaged, and with constant
-    weights the blend lasts exactly Σ w T (ours). With "rates", du/dt = Σ w / S'(u) (that this is the rule of
-    [KG03] is recalled): a mean of reciprocals, which is too fast wherever the slopes of the curves vary.
+    With `pace="durations"`, du/dt = 1 / Σ w S'(u): the durations of the clips are averaged, and with constant
+    weights the blend lasts exactly Σ w T (ours). With "rates", du/dt = Σ w / S'(u), probably the rule of
+    [KG03] (not checked). This is a mean of reciprocals, and too fast if the slopes of the curves differ.
 
     Parameters
     ----------
     registration : of C clips.
-    weights : constant, or a function of the common clock u and of the blend's own time t, both in seconds.
+    weights : constant, or a function of the common clock u and of the time t of the blend, both in seconds.
     fps : frames per second of the blend.
     pace : "durations" or "rates".
 
     Returns
     -------
-    The times u, shape (F,), and the weights there, shape (F, C).
+    The times u, shape (F,), and the weights at these times, shape (F, C).
 
     Raises
     ------
-    MocapError : for weights that are not C finite numbers or do not add up to one, a rate that is not above
-        0, another pace, and a clock that would stop, which takes weights far outside [0, 1].
+    MocapError : for weights that are not C finite numbers or whose sum is not one, a rate that is not above
+        0, another pace, and weights far outside [0, 1] that would stop the clock.
 
     Notebook: 15-registration
     """
@@ -212,7 +213,7 @@ def frame_times(
     points = _clock_points(registration)
     slopes = np.array([curve.slope(points) for curve in registration.times])
     speeds = _clock_speeds(points, slopes, weights, pace)
-    seconds = cumulative_trapezoid(1 / speeds, points, initial=0)  # the blend's own time t at each u
+    seconds = cumulative_trapezoid(1 / speeds, points, initial=0)  # the time t of the blend at each u
     clock = np.arange(int(seconds[-1] * fps + 1e-6) + 1) / fps
     times = np.clip(CubicHermiteSpline(seconds, points, speeds)(clock), first, last)
     count = len(registration.clips)
@@ -223,9 +224,9 @@ def frame_times(
 
 
 def _clock_points(registration: Registration) -> Array:
-    """Return times of the common clock, 2 ms apart, with the knots of all curves among them.
+    """Return times of the common clock, 2 ms apart, including the knots of all curves.
 
-    The curves' slopes are linear between knots, therefore the integral of Σ w S'(u) by trapezia is exact.
+    The slopes of the curves are linear between knots, therefore the trapezoidal rule is exact for Σ w S'(u).
     """
     first, last = registration.span
     points = np.linspace(first, last, max(int((last - first) / FINE), 8) + 1)
@@ -236,9 +237,9 @@ def _clock_points(registration: Registration) -> Array:
 
 
 def _clock_speeds(points: Array, slopes: Array, weights: Weights, pace: str) -> Array:
-    """Compute du/dt at the points, shape (N,), from the slopes (C, N) of the clips' curves there.
+    """Compute du/dt at the points, shape (N,), from the slopes (C, N) of the curves there.
 
-    Weights that move also depend on the blend's own time t, which is integrated from point to point.
+    Time-varying weights also depend on the time t of the blend, which is integrated from point to point.
     """
     count = len(slopes)
     if not callable(weights):
@@ -252,11 +253,11 @@ def _clock_speeds(points: Array, slopes: Array, weights: Weights, pace: str) -> 
 
 
 def checked(weights: ArrayLike, count: int) -> Array:
-    """Return weights as an array.
+    """Convert weights to an array.
 
     Raises
     ------
-    MocapError : unless they are `count` finite numbers that add up to one.
+    MocapError : unless they are `count` finite numbers whose sum is one.
 
     Examples
     --------
@@ -270,12 +271,12 @@ def checked(weights: ArrayLike, count: int) -> Array:
     return w
 
 
-def clock_speed(slopes: ArrayLike, weights: ArrayLike, pace: str = "durations") -> Array:
-    """Compute the speed of the common clock, du/dt, from the slopes of the clips' curves [KG03, clock].
+def clock_speed(derivatives: ArrayLike, weights: ArrayLike, pace: str = "durations") -> Array:
+    """Compute the speed of the common clock, du/dt, from the derivatives of the clips' curves [KG03, clock].
 
     Parameters
     ----------
-    slopes : shape (C,), or (C, N) for N times.
+    derivatives : shape (C,), or (C, N) for N times.
     weights : shape (C,).
     pace : as for `frame_times`.
 
@@ -292,7 +293,7 @@ def clock_speed(slopes: ArrayLike, weights: ArrayLike, pace: str = "durations") 
     >>> float(clock_speed([1, 2], [0.5, 0.5]).round(4)), float(clock_speed([1, 2], [0.5, 0.5], "rates"))
     (0.6667, 0.75)
     """
-    s = np.asarray(slopes, float)
+    s = np.asarray(derivatives, float)
     w = np.asarray(weights, float)
     if pace not in PACES:
         raise MocapError(f"No pace '{pace}'; there are: {', '.join(PACES)}.")

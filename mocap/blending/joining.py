@@ -1,6 +1,6 @@
-"""Transitions between two clips: a blend over a window [KGP02, 3.3], or a cut whose offset fades [Bol18].
+"""Transitions between two clips: a blend over a window [KGP02, 3.3], or inertialization [Bol18].
 
-A pair of windows is given as in `matching`, by the first frame of each: i of one clip and j of another.
+As in `matching`, a pair of windows is given by their first frames: i of one clip and j of another.
 """
 
 from dataclasses import replace
@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from mocap._shared.arrays import Array
 from mocap.blending.weights import cubic_weights
 from mocap.body import rotations
-from mocap.body.motion import Motion, concatenate, gather_marks, require_alike
+from mocap.body.motion import Motion, concatenate, gather_marks, require_compatible
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import align, point_cloud
 
@@ -19,7 +19,7 @@ from mocap.matching.point_clouds import align, point_cloud
 def blend(a: Motion, b: Motion, weights: ArrayLike) -> Motion:
     """Blend two motions frame by frame: roots linearly, rotations by slerp [KGP02, Eqs. 5 and 6].
 
-    It does not align the motions: align b with a first.
+    The motions are not aligned: align b with a first.
 
     Parameters
     ----------
@@ -28,7 +28,7 @@ def blend(a: Motion, b: Motion, weights: ArrayLike) -> Motion:
 
     Returns
     -------
-    F frames; marks come from the motion with the larger weight, from `a` if the weights are equal.
+    F frames. Labels and contacts are those of the motion with the larger weight, of `a` if they are equal.
 
     Raises
     ------
@@ -44,7 +44,7 @@ def blend(a: Motion, b: Motion, weights: ArrayLike) -> Motion:
 
     Notebook: 04-blending
     """
-    a, b = require_alike([a, b])
+    a, b = require_compatible([a, b])
     alpha = np.asarray(weights, float)
     if len(a) != len(b) or alpha.shape != (len(a),):
         got = f"{len(a)}, {len(b)}, {alpha.shape}"
@@ -63,11 +63,11 @@ def blend(a: Motion, b: Motion, weights: ArrayLike) -> Motion:
 
 
 def align_window(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
-    """Align b with a so that the windows from frames j and i agree best [KGP02, Eqs. 2-4].
+    """Align b with a by the optimal transform of the windows from frames i and j [KGP02, Eqs. 2-4].
 
     Raises
     ------
-    SkeletonMismatch, MocapError : for different skeletons or rates, and windows that run off a clip.
+    SkeletonMismatch, MocapError : for different skeletons or rates, and windows that extend beyond a clip.
 
     Examples
     --------
@@ -80,7 +80,7 @@ def align_window(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
 
     Notebook: 04b-feet
     """
-    a, b = require_alike([a, b])
+    a, b = require_compatible([a, b])
     if window < 1:
         raise MocapError(f"A window needs at least one frame, got {window}.")
     for clip, start in ((a, i), (b, j)):
@@ -93,7 +93,7 @@ def align_window(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
 
 
 def splice(a: Motion, i: int, middle: Motion, b: Motion, j: int) -> Motion:
-    """Concatenate the frames a[:i], the middle ones and b[j:].
+    """Concatenate a[:i], `middle` and b[j:].
 
     Examples
     --------
@@ -115,9 +115,9 @@ def splice(a: Motion, i: int, middle: Motion, b: Motion, j: int) -> Motion:
 def join(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
     """Join two motions by blending a window of each [KGP02, 3.3], [WP95, joining].
 
-    Frames a[:i] as they are; then a[i : i+k] blended with b[j : j+k]; then b[j+k :]. b is first aligned with
-    a by the planar transform under which the two windows' points agree best. (The paper counts b's window by
-    its last frame; here j is its first, as in `matching.Transition.enter`.)
+    The result consists of a[:i], the blend of a[i : i+k] and b[j : j+k], and b[j+k :]. Motion b is first
+    aligned with a by the planar transform that minimises the distance of the windows' points. (In the paper,
+    j is the last frame of the window in b. Here it is the first, as in `matching.Transition.enter`.)
 
     Parameters
     ----------
@@ -127,11 +127,11 @@ def join(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
 
     Returns
     -------
-    i + len(b) - j frames; marks within the window come from the motion with the larger weight.
+    i + len(b) - j frames. In the window, labels and contacts are those of the motion with the larger weight.
 
     Raises
     ------
-    SkeletonMismatch, MocapError : for different skeletons or rates, and windows that run off a clip.
+    SkeletonMismatch, MocapError : for different skeletons or rates, and windows that extend beyond a clip.
 
     Examples
     --------
@@ -151,14 +151,15 @@ def join(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
 
 
 def inertialize(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
-    """Cut from one motion to another, and fade their difference at the cut to zero (inertialization) [Bol18].
+    """Join two motions by inertialization: cut from a to b, and fade their difference to zero [Bol18].
 
-    At the cut, a's pose is b's pose plus an offset x that changes with the velocity v. After the cut only b
-    plays, plus this offset, which fades over T = k / fps by the quintic
-    x(u) = (1 - u)⁴ (x + (4 x + v T) u), u = t / T. It ends at rest, without acceleration and without jerk.
-    The talk's own quintic also starts with the offset's acceleration, and shortens T if it would overshoot.
-    Roots are offset by vectors, rotations by rotation vectors. Unlike a blend it plays no frames of a after
-    the cut. Therefore games can use it at any moment, but it does not know where a was going.
+    At the cut, the pose of a is that of b plus an offset x with velocity v. After the cut, b is played with
+    this offset, which fades over T = k / fps by the quintic
+    x(u) = (1 - u)⁴ (x + (4 x + v T) u), u = t / T. At its end, velocity, acceleration and jerk are zero. The
+    quintic of the talk also matches the acceleration at the cut, and reduces T to avoid overshoot. Offsets of
+    roots are vectors, those of rotations are rotation vectors. Unlike a blend, inertialization uses no frames
+    of a after the cut. Games can therefore apply it at any moment, but the motion that would have followed in
+    a is ignored.
 
     Parameters
     ----------
@@ -166,11 +167,11 @@ def inertialize(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
 
     Returns
     -------
-    i + len(b) - j frames; the pose of frame i is a's, and from frame i marks are b's.
+    i + len(b) - j frames. The pose of frame i is that of a. From frame i, labels and contacts are those of b.
 
     Raises
     ------
-    SkeletonMismatch, MocapError : for different skeletons or rates, and windows that run off a clip.
+    SkeletonMismatch, MocapError : for different skeletons or rates, and windows that extend beyond a clip.
 
     Examples
     --------
@@ -199,9 +200,9 @@ def inertialize(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
 
 
 def _near_the_cut(vectors: Array, cut: int) -> Array:
-    """Choose, of the two rotation vectors of a rotation, the one nearer to the vector at index `cut`.
+    """Choose between the two rotation vectors of each rotation the one nearer to that at index `cut`.
 
-    A rotation by θ about n is one by θ - 2π about n: its vectors are θ n and (θ - 2π) n.
+    A rotation by θ about n is also a rotation by θ - 2π: its vectors are θ n and (θ - 2π) n.
     """
     angle = np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-12)
     twins = vectors * (1 - 2 * np.pi / angle)
@@ -211,7 +212,7 @@ def _near_the_cut(vectors: Array, cut: int) -> Array:
 
 
 def _fade(offsets: Array, cut: int, window: int) -> Array:
-    """Fade the offset at index `cut` of offsets (n, ...), with its velocity there, to zero over a window."""
+    """Compute the offsets over a window that fade to zero from the value and velocity at index `cut`."""
     start = offsets[cut]
     drift = np.gradient(offsets, axis=0)[cut] * window if len(offsets) > 1 else 0 * start  # v T
     u = (np.arange(window) / window).reshape(-1, *np.ones(start.ndim, int))

@@ -1,8 +1,8 @@
-"""Any number of registered clips blended by any weights.
+"""Weighted blends of registered clips.
 
-Poses are averaged directly, but the trajectory on the ground is not: the mean of the positions of a walk to
-the left and one to the right would stand still and turn around. The *velocities* of the clips are averaged
-instead, each rotated by the transform that aligns its clip with the blend at that moment.
+Poses are averaged directly, but trajectories on the ground are not: the mean position of a walk to the left
+and a walk to the right would stop and turn around. The *velocities* of the clips are averaged instead, each
+rotated by the transform that aligns its clip with the blend at that time.
 """
 
 from dataclasses import replace
@@ -14,18 +14,18 @@ from mocap._shared.arrays import Array, Indices, Mask, Points
 from mocap._shared.records import NamedTuple
 from mocap.blending.clocks import Registration, Weights, frame_times, require_registration
 from mocap.body import rotations
-from mocap.body.motion import Motion, gather_marks, turning
+from mocap.body.motion import Motion, gather_marks, rotating_joints
 from mocap.body.planar import from_ground, on_ground
 from mocap.errors import MocapError
 
 
 class Course(NamedTuple):
-    """The trajectory of a blend on the ground, frame by frame.
+    """The trajectory of a blend on the ground, in each frame.
 
     Parameters
     ----------
-    angles : shape (C, F), θ + φ: the rotation that aligns each clip with the blend, radians.
-    centres : shape (F,), z + ix, metres: the centroid of the blend's points.
+    angles : shape (C, F), θ + φ: the angle that aligns each clip with the blend, radians.
+    centres : shape (F,), z + ix, metres: the centroid of the points of the blend.
     """
 
     angles: Array
@@ -33,7 +33,7 @@ class Course(NamedTuple):
 
 
 def _require_weights(registration: object = None, weights: object = None, **_options: object) -> None:
-    """Raise unless there are a registration and weights."""
+    """Raise unless both a registration and weights are passed."""
     require_registration(registration)
     if weights is None:
         raise MocapError("A blend takes a weight for each clip: blending.mix(registration, [0.5, 0.5]).")
@@ -53,29 +53,30 @@ def mix(
     In the paper: [KG03, blend; blended plants; continuous control].
 
     Let φ be the heading of the blend relative to the reference, and c the centroid of a clip. From one frame
-    to the next φ decreases by Σ w Δθ and the blend's centroid moves by Σ w R(θ + φ) Δc, with w, θ and φ
-    half-way between the frames. The root is at the weighted mean of the clips' roots relative to that
-    centroid. Rotations are averaged by `body.rotations.mean`. (To average the *increments* of the transforms
-    is [KG03]'s idea. To average them about the centroid that all clips share is ours: about the world's
-    origin a blend would depend on where its clips were captured.)
+    to the next, φ decreases by Σ w Δθ and the centroid of the blend moves by Σ w R(θ + φ) Δc, with w, θ and φ
+    half-way between the frames. The position of the root relative to that centroid is the weighted mean over
+    the clips. Rotations are averaged by `body.rotations.mean`. (Averaging *increments* of transforms is the
+    idea of [KG03]. Averaging them about the common centroid of the clips is ours: about the origin of the
+    world, a blend would depend on the positions at which its clips were captured.)
 
     Parameters
     ----------
     registration : of C clips.
-    weights : shape (C,), with the sum one; or a function of the common clock u and the blend's own time t,
-        both in seconds, that returns them. Weights slightly outside of 0 … 1, by 0.1 or so, exaggerate.
+    weights : shape (C,), with sum one; or a function of the common clock u and the time t of the blend, both
+        in seconds, that returns them. Weights outside [0, 1], by up to about 0.1, extrapolate.
     fps : frames per second; those of the clips by default.
     pace : as for `frame_times`.
-    rounds : as for `body.rotations.mean`; 0 is quicker.
+    rounds : as for `body.rotations.mean`; 0 is faster.
 
     Returns
     -------
-    A motion that starts where the reference does. Its footplants are those that all clips have, from the mean
-    of their starts to the mean of their stops. Its labels are those of the clip with the largest weight.
+    A motion that starts at the position of the reference. Its footplants are those that all clips have, from
+    the mean of their starts to the mean of their stops. Its labels are those of the clip with the largest
+    weight.
 
     Raises
     ------
-    MocapError : for what is no registration, missing weights, and as by `frame_times`.
+    MocapError : for an object that is not a registration, missing weights, and as by `frame_times`.
 
     Examples
     --------
@@ -105,7 +106,7 @@ def mix(
 
 
 def _heaviest_frames(registration: Registration, times: Array, weights: Array) -> Indices:
-    """Return the clip with the largest weight at each time, and its nearest frame, (F, 2)."""
+    """Return the clip with the largest weight and its nearest frame, at each time, (F, 2)."""
     curves = zip(registration.times, registration.clips, strict=True)
     nearest = np.array([np.rint(curve(times) * clip.fps) for curve, clip in curves])
     heaviest = weights.argmax(axis=1)
@@ -114,7 +115,7 @@ def _heaviest_frames(registration: Registration, times: Array, weights: Array) -
 
 
 def _mean_contacts(registration: Registration, times: Array, weights: Array) -> dict[str, Mask]:
-    """Mark the matched footplants from the weighted mean of their starts to that of their stops."""
+    """Return contacts for the matched footplants, from the weighted mean of their starts to that of stops."""
     contacts = {joint: np.zeros(len(times), bool) for joint, _ in registration.contacts}
     for joint, (starts, stops) in registration.contacts:
         contacts[joint] |= (times >= weights @ starts - 1e-9) & (times < weights @ stops)
@@ -124,20 +125,20 @@ def _mean_contacts(registration: Registration, times: Array, weights: Array) -> 
 def ground_course(
     angles: Array, centres: Points, weights: Array, start: tuple[float, complex] | None = None
 ) -> Course:
-    """Integrate the weighted mean of the clips' velocities, each clip aligned with the blend.
+    """Integrate the weighted mean velocity of the clips, each aligned with the blend.
 
     In the paper: [KG03, blend].
 
     Parameters
     ----------
     angles : shape (C, F), the angles θ that align each clip with the reference, radians.
-    centres : shape (C, F), the clips' centroids z + ix, where they were captured.
+    centres : shape (C, F), the centroids z + ix of the clips as captured, metres.
     weights : shape (F, C).
-    start : φ and the centroid in the first frame; by default 0, and the first clip's.
+    start : φ and the centroid in the first frame; by default 0, and that of the first clip.
 
     Examples
     --------
-    Quarters of circles to the left and the right with equal weights: a straight line of the same length.
+    The blend of two quarter circles, to the left and to the right, is a straight line of the same length:
 
     >>> angle = np.linspace(0, np.pi / 2, 91)
     >>> left, right = 1j * (np.exp(-1j * angle) - 1), 1j * (1 - np.exp(1j * angle))
@@ -159,14 +160,14 @@ def ground_course(
 def poses(
     registration: Registration, times: Array, weights: Array, course: Course, *, rounds: int = 1
 ) -> tuple[Array, Array]:
-    """Average the clips' poses, aligned with a course: root positions (F, 3) and rotations (F, J, 4).
+    """Average the poses of the clips, aligned with a course: root positions (F, 3) and rotations (F, J, 4).
 
     Parameters
     ----------
     registration : of C clips.
     times : shape (F,), of the common clock, seconds.
     weights : shape (F, C).
-    course : as from `ground_course`.
+    course : from `ground_course`.
     rounds : as for `body.rotations.mean`.
     """
     offset = np.zeros(len(times), complex)  # of the root from the centroid
@@ -183,7 +184,7 @@ def poses(
         clip_rotations[:, 0] = rotations.multiply(rotations.about_y(angle), clip_rotations[:, 0])
         aligned.append(clip_rotations)
     stacked = np.stack(aligned, axis=-2)  # (F, J, C, 4)
-    rotating = np.any([turning(clip) for clip in registration.clips], axis=0)
+    rotating = np.any([rotating_joints(clip) for clip in registration.clips], axis=0)
     rotating[0] = True
     mean = stacked[:, :, 0]
     mean[:, rotating] = rotations.mean(stacked[:, rotating], weights[:, None], rounds=rounds)
@@ -197,20 +198,20 @@ def crossfade(registration: Registration, *, seconds: float = 1.0) -> Motion:
 
     In the paper: [KG03, transition].
 
-    A transition by registration curves [KG03]: the weight of the other clip in `mix` rises as 3 s² - 2 s³
-    [KGP02, Eq. 7]. `join` mixes frame i with frame i, which is right for a third of a second around two
-    moments that match. Here both clips stay in step and on one course, so the fade may be long. It is in the
-    middle of the span.
+    This is a transition by registration curves [KG03]: the weight of the other clip in `mix` rises as
+    3 s² - 2 s³ [KGP02, Eq. 7]. `join` blends frames in pairs without a timewarp, which is adequate for a
+    third of a second in two similar windows. Here the clips remain synchronised and on a common course,
+    therefore the fade may be long. It is in the middle of the span.
 
     Parameters
     ----------
     registration : of two clips.
-    seconds : duration of the fade on the common clock, which is that of the reference.
+    seconds : duration of the fade on the common clock, that of the reference.
 
     Returns
     -------
-    The reference unchanged, the fade, and the other clip, rotated and translated to the end of the fade.
-    Marks are those of the clip that plays; within the fade the footplants are those that both clips have.
+    The unchanged reference, the fade, and the other clip, transformed to the end of the fade. Labels and
+    contacts are those of the clip that is played; in the fade, footplants are those that both clips have.
 
     Raises
     ------
@@ -248,7 +249,7 @@ def crossfade(registration: Registration, *, seconds: float = 1.0) -> Motion:
         s = np.clip((u - start) / seconds, 0, 1)
         return np.asarray(reference_weights + change * s * s * (3 - 2 * s))
 
-    # Outside the fade a clip plays unchanged, whatever the curves are there: they may extend to its end.
+    # Outside the fade a clip is played unchanged, independent of the curves, which may extend to its end.
     target_clip = registration.clips[target]
     end = float(registration.times[target].inverse(target_clip.duration))
     extended = replace(registration, span=(0.0, end))
@@ -262,7 +263,7 @@ def crossfade(registration: Registration, *, seconds: float = 1.0) -> Motion:
 def _contacts_by_clip(
     registration: Registration, fade: Motion, times: Array, playing: Array
 ) -> dict[str, Mask]:
-    """Return the marks of the clip that plays, or the matched ones where `playing`, its number, is -1."""
+    """Return the contacts of the clip `playing` in each frame, or the matched ones if it is -1."""
     clips = zip(registration.clips, registration.times, strict=True)
     clip_contacts = [clip.at(curve(times) * clip.fps).contacts for clip, curve in clips]
     unmarked = np.zeros(len(fade), bool)

@@ -13,7 +13,7 @@ from mocap.blending.clocks import Registration, match_contacts
 from mocap.blending.mixing import mix
 from mocap.blending.timewarps import Curve, fit_curve
 from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion, require_alike
+from mocap.body.motion import Motion, require_compatible
 from mocap.body.planar import from_ground, on_ground
 from mocap.errors import MocapError, shortened, warn
 from mocap.matching.distance_grids import Floats, check_window, distance_grid
@@ -42,7 +42,7 @@ AS_GOOD = 1.06  # times the mean distance with `SPACING`
 AS_NEAR = 1e-9  # metres beyond that, so that rounding does not decide for clips that are the same
 
 _Pair = tuple[Curve, Curve, tuple[float, float], float]
-"""A clip registered with the reference: its curves of time and angle, their span, and the path's mean."""
+"""The registration of a clip: its curves of time and angle, their span, and the mean cost of the path."""
 
 
 @called_as("blending.register([first, second])")
@@ -53,35 +53,38 @@ def register(
 
     In the paper: [KG03, alignment; several clips].
 
-    Each clip is registered with the reference. The path of least mean through the grid of their distances,
-    √D of [KGP02, Eq. 1], pairs the corresponding windows (`matching.time_path`). A curve S fitted to the
-    path, with a slope between 1 / (W + 1) and W + 1, makes time run smoothly: a straight line if it fits as
-    well, else a curve of as few knots as suffice [ours]. Another curve is fitted to the angles θ of the
-    windows' best alignments [KGP02, Eqs. 2-4]. With these curves the clip is aligned with the reference at u:
-    it is rotated by θ(u), and its centroid is moved onto the reference's. Last, plants are matched.
+    Each clip is registered with the reference. The path of minimum mean through the grid of distances, √D of
+    [KGP02, Eq. 1], pairs the corresponding windows (`matching.time_path`). A smooth curve S of time is fitted
+    to the path, with a slope between 1 / (W + 1) and W + 1: a straight line if its distances are as small,
+    else a curve with as few knots as possible [ours]. Another curve is fitted to the angles θ of the optimal
+    alignments of the windows [KGP02, Eqs. 2-4]. At the time u, the clip is aligned with the reference by the
+    rotation θ(u) and by the translation of its centroid to that of the reference. Finally, footplants are
+    matched.
 
-    Ours: the clock is the reference's time, therefore C clips take C - 1 pairs (recalled: the paper fits one
-    curve through all clips' times). Only the angle is fitted, since the best alignment takes centroid to
-    centroid. Therefore it does not matter where the clips were captured. The ends are free within the slack.
+    Ours: the clock is the time of the reference, and C clips require C - 1 registrations. (In the paper, as
+    far as we remember, a curve is fitted through the times of all clips.) Only the angle is fitted, because
+    the optimal alignment maps centroid to centroid. Registration is therefore independent of the positions at
+    which clips were captured. The ends of the path are free within the slack.
 
     Parameters
     ----------
-    clips : two motions or more, of one skeleton and one rate. Mark their plants first (`feet.mark_plants`)
-        if the blend should have contacts.
+    clips : two motions or more, of one skeleton and one rate. Mark their footplants first
+        (`feet.mark_plants`) if the blend should have contacts.
     reference : the number of the clip whose clock is the common one.
     slack : seconds by which one clip may start or end before the other; at most half of the shortest clip,
-        and less if less than half of it would be in common. 0 for clips cut alike, at strikes for example.
-    slope : W, the largest number of frames of one clip in a row during which the other stands still. Its pace
-        stays between 1 / (slope + 1) and slope + 1 times the other's.
+        and less if the clips would share less than half of it. Use 0 for clips with corresponding ends, such
+        as strikes.
+    slope : W, the largest number of consecutive frames of one clip at a single frame of the other. The pace
+        of a clip is between 1 / (slope + 1) and slope + 1 times that of the other.
 
     Returns
     -------
-    The clips on one clock; `mix` blends them.
+    The clips on a common clock; `mix` blends them.
 
     Raises
     ------
     SkeletonMismatch, MocapError : for different skeletons or rates, fewer than two clips, a reference that is
-        none of them, clips of which one is longer than the slope allows, and settings that make no sense.
+        none of them, clips whose lengths differ by more than the slope allows, and invalid settings.
 
     Warns
     -----
@@ -97,7 +100,7 @@ def register(
 
     Notebook: 15-registration
     """
-    clips = require_alike(clips)
+    clips = require_compatible(clips)
     step = _checked(clips, reference, slack)
     rate = clips[0].fps / step
     clouds = [point_cloud(clip[::step]) for clip in clips]
@@ -122,7 +125,7 @@ def register(
 
 
 def _checked(clips: Sequence[Motion], reference: int, slack: float) -> int:
-    """Check the arguments of `register`; return the number of frames in one step at `RATE`."""
+    """Check the arguments of `register`; return the number of frames in a step at `RATE`."""
     if len(clips) < 2:
         raise MocapError(f"A registration needs two clips or more, got {len(clips)}.")
     if reference not in range(len(clips)):
@@ -136,7 +139,7 @@ def _checked(clips: Sequence[Motion], reference: int, slack: float) -> int:
 
 
 def _registered_on_itself(duration: float) -> _Pair:
-    """Return the curves of the reference: its own time, and no rotation."""
+    """Return the curves of the reference: the identity of time, and angle 0."""
     identity = frozen([-duration / 2, duration / 2, 3 * duration / 2], np.float64)
     zero = frozen(np.zeros(3), np.float64)
     return Curve(0.0, duration, identity), Curve(0.0, duration, zero), (0.0, duration), 0.0
@@ -165,10 +168,10 @@ def _register_pair(reference: Array, clip: Array, rate: float, slope: int, slack
         if _mean_along(grid, smoother, rate, half) <= largest_mean:
             times = smoother
             break
-    # The angle that aligns each window with its partner, without jumps of 2 π.
+    # The angle that aligns each pair of windows, without jumps of 2 π.
     alignment = align(_windows(reference, path[:, 0]), _windows(clip, path[:, 1]))
     angles = fit_curve(u, np.unwrap(np.asarray(alignment.angle)), spacing=SPACING)
-    # Clips cut alike match to their ends: the last half window, and the frames that the rate left out.
+    # Without slack, the clips match up to their ends: include the half window and the frames of a last step.
     margin = 0.0 if slack else (half + 1) / rate
     return times, angles, (u[0] - margin, u[-1] + margin), path_mean(grid, path)
 
@@ -180,14 +183,14 @@ def _windows(points: Array, starts: Indices) -> Array:
 
 
 def _mean_along(grid: Floats, times: Curve, rate: float, half: float) -> float:
-    """Average a grid of windows along a curve of time, weighted by the time that both clips advance."""
+    """Compute the mean of a grid along a curve of time, weighted by the time by which both clips advance."""
     u = np.linspace(times.knots[0], times.knots[-1], 2 * len(grid))
     values = map_coordinates(grid, [u * rate - half, times(u) * rate - half], order=1, mode="nearest")
     return float(np.average(values, weights=1 + times.slope(u)))
 
 
 def _window_centres(clip: Motion, seconds: float) -> Array:
-    """Average the centroid of a clip's points over a window around each frame, (x, z), shape (F, 2)."""
+    """Compute the centroid (x, z) of a clip's points, averaged over a window around each frame, (F, 2)."""
     centres = from_ground(on_ground(point_cloud(clip)).mean(axis=1))
     half = min(round(seconds * clip.fps) // 2, len(clip) - 1)
     padded = np.pad(centres, ((half, half), (0, 0)), mode="reflect", reflect_type="odd")
@@ -195,7 +198,7 @@ def _window_centres(clip: Motion, seconds: float) -> Array:
 
 
 def _warn(registration: Registration, rate: float, *, alike: bool) -> None:
-    """Warn of clips that do not fit. Clips cut `alike` need not look good in an even blend of all."""
+    """Warn of clips that may be of different kinds; the blend is not checked if they are cut `alike`."""
     clips = registration.clips
     worst = int(np.argmax(registration.costs))
     distance = registration.costs[worst]
@@ -214,6 +217,6 @@ def _warn(registration: Registration, rate: float, *, alike: bool) -> None:
 
 
 def _sliding_speed(motion: Motion) -> float:
-    """Return the mean ground speed of each frame's slowest joint, m/s: in walking one foot stands."""
+    """Return the mean ground speed of the slowest joint in each frame, m/s: in a walk, one foot stands."""
     ground = on_ground(joint_positions(motion))
     return float(np.abs(np.diff(ground, axis=0)).min(axis=1).mean()) * motion.fps

@@ -1,7 +1,7 @@
-"""Smooth curves over time whose slope stays within bounds: uniform quadratic B-splines, fitted to points.
+"""Smooth curves over time with bounded slopes: uniform quadratic B-splines, fitted by least squares.
 
-Within a knot step h the curve is ½ (1 - t)² c_n + (½ + t - t²) c_{n + 1} + ½ t² c_{n + 2}, and its slope is
-linear, from (c_{n + 1} - c_n) / h to (c_{n + 2} - c_{n + 1}) / h. Therefore the slope is within bounds
+Within a knot interval h the curve is ½ (1 - t)² c_n + (½ + t - t²) c_{n + 1} + ½ t² c_{n + 2}, and its slope
+is linear, from (c_{n + 1} - c_n) / h to (c_{n + 2} - c_{n + 1}) / h. Therefore the slope is within bounds
 everywhere if and only if the differences of neighbouring control points, divided by h, are.
 """
 
@@ -18,10 +18,10 @@ from mocap.errors import MocapError
 
 
 class Curve(NamedTuple):
-    """A curve over time, which continues along its tangents before its start and after its end.
+    """A curve over time, a uniform quadratic B-spline that is extrapolated linearly beyond its ends.
 
-    start, step : its first knot, and the time from knot to knot, seconds.
-    coefficients : shape (N + 2,), the control points of N knot steps.
+    start, step : the first knot, and the knot interval, seconds.
+    coefficients : shape (N + 2,), the control points of N knot intervals.
 
     Examples
     --------
@@ -42,7 +42,7 @@ class Curve(NamedTuple):
         return np.asarray(self.start + self.step * np.arange(len(self.coefficients) - 1), float)
 
     def __call__(self, times: ArrayLike) -> Array:
-        """Return the curve's values at some times."""
+        """Evaluate the curve at times."""
         u = np.asarray(times, float)
         knots = self.knots
         index = _step_index(knots, u)
@@ -53,15 +53,15 @@ class Curve(NamedTuple):
         return np.asarray(value + (u - inside) * self.slope(u))
 
     def slope(self, times: ArrayLike) -> Array:
-        """Return the curve's slopes at some times, per second: linear from knot to knot."""
+        """Evaluate the slope of the curve at times, per second; it is linear from knot to knot."""
         slopes = np.diff(self.coefficients) / self.step
         return np.asarray(np.interp(np.asarray(times, float), self.knots, slopes))
 
     def inverse(self, values: ArrayLike) -> Array:
-        """Return the times at which an increasing curve has some values.
+        """Evaluate the inverse of an increasing curve: return the times at which it has some values.
 
-        In the knot step that holds a value it solves b t + c t² = rise for the rise of the curve since the
-        last knot, by t = 2 rise / (b + √(b² + 4 c rise)), which allows c = 0.
+        In the knot interval of a value, b t + c t² = rise is solved for the rise from its first knot, by
+        t = 2 rise / (b + √(b² + 4 c rise)), which allows c = 0.
         """
         values = np.asarray(values, float)
         at_knots = (self.coefficients[1:] + self.coefficients[:-1]) / 2
@@ -77,7 +77,7 @@ class Curve(NamedTuple):
 
 
 def _step_index(knots: Array, numbers: Array) -> Indices:
-    """Return the index of the knot step that holds each number; beyond all knots, the first or last step."""
+    """Return the index of the knot interval of each number; beyond all knots, the first or last interval."""
     return np.asarray(np.clip(np.searchsorted(knots, numbers, side="right") - 1, 0, len(knots) - 2))
 
 
@@ -87,20 +87,21 @@ def fit_curve(
 ) -> Curve:
     """Fit a curve to points by least squares, with slopes from `least` to `most` everywhere [KG03, timewarp].
 
-    Written as the first control point and the differences of all, the curve is linear in numbers that have
-    simple bounds. `scipy.optimize.lsq_linear` solves this bounded linear problem exactly. (This is ours: that
-    [KG03] fits freely and then pushes control points apart is recalled, not checked.)
+    The unknowns are the first control point and the differences of consecutive ones. The curve is linear in
+    these, and the bounds of the slope are simple bounds of the differences. `scipy.optimize.lsq_linear`
+    solves this linear problem with bounds exactly. (This is ours. As far as we remember, [KG03] fits without
+    bounds and then moves control points apart.)
 
     Parameters
     ----------
     times, values : shape (N,); times never decrease.
-    spacing : seconds from knot to knot, at most; `np.inf` fits a straight line.
+    spacing : the largest knot interval, seconds; `np.inf` fits a straight line.
     least, most : bounds of the slope, per second.
 
     Raises
     ------
-    MocapError : for a spacing that is not above 0, no points, and points that are not finite or not as many
-        as the times.
+    MocapError : for a spacing that is not above 0, no points, points that are not finite, decreasing times,
+        and different numbers of times and values.
 
     Examples
     --------
@@ -119,10 +120,10 @@ def fit_curve(
         raise MocapError("A curve needs finite values at as many finite times, which never fall.")
     count = max(int(np.ceil((u[-1] - u[0]) / spacing - 1e-9)), 1)
     step = (u[-1] - u[0]) / count if u[-1] > u[0] else min(spacing, 1.0)
-    # The n-th control point is the first one plus n differences: each difference adds to all later points.
+    # The n-th control point is the sum of the first one and n differences: sum the columns from the end.
     matrix = np.cumsum(_basis_functions(u, step, count)[:, ::-1], axis=1)[:, ::-1]
     is_straight = spacing == np.inf
-    if is_straight:  # a single knot step, whose two differences are equal
+    if is_straight:  # a single knot interval, whose two differences are equal
         matrix = np.stack([matrix[:, 0], matrix[:, 1] + matrix[:, 2]], axis=1)
     low = np.full(matrix.shape[1], least * step)
     high = np.full(matrix.shape[1], most * step)
@@ -134,7 +135,7 @@ def fit_curve(
 
 
 def _basis_functions(times: Array, step: float, count: int) -> Array:
-    """Return the quadratic B-splines of `count` knot steps from the first time, shape (N, count + 2)."""
-    knots = times[0] + step * np.arange(-2, count + 3)  # SciPy wants two more knots at each end
+    """Evaluate the quadratic B-splines of `count` knot intervals from the first time, (N, count + 2)."""
+    knots = times[0] + step * np.arange(-2, count + 3)  # SciPy requires two more knots at each end
     last = knots[-3]
     return np.asarray(BSpline.design_matrix(np.minimum(times, last), knots, 2).toarray())

@@ -7,10 +7,10 @@ from mocap.errors import MocapError
 
 
 def cubic_weights(window: int) -> Array:
-    """Return the weights α of the first motion over a transition, C¹ at both ends [KGP02, Eq. 7].
+    """Return the cubic weights α of the first motion over a transition, C¹ at both ends [KGP02, Eq. 7].
 
-    α(p) = 2 ((p+1)/k)³ - 3 ((p+1)/k)² + 1 for the frames p = 0 … k-1. It falls from nearly 1 to 0. Its slope
-    is 0 at p = -1, the frame before the window with α = 1, and at the last frame, with α = 0.
+    α(p) = 2 ((p+1)/k)³ - 3 ((p+1)/k)² + 1 for the frames p = 0 … k-1. At p = -1, the frame before the window,
+    α would be 1, and in the last frame it is 0. Its slope is 0 at both.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ def cubic_weights(window: int) -> Array:
 
 
 def linear_weights(window: int) -> Array:
-    """Return weights that fall evenly, α(p) = 1 - (p+1)/k: continuous, but with a kink at both ends.
+    """Return linear weights, α(p) = 1 - (p+1)/k: continuous, but with a kink at both ends.
 
     Examples
     --------
@@ -45,9 +45,9 @@ def linear_weights(window: int) -> Array:
 
 
 def sine_weights(window: int) -> Array:
-    """Return the homework's weights, α_i = 1 - (1 + sin(π i / (k-1) - π/2)) / 2, where k was 50.
+    """Return the sine weights of the homework, α_i = 1 - (1 + sin(π i / (k-1) - π/2)) / 2, with k = 50 there.
 
-    Unlike the other weights they are 1 in the first frame of the window, which is that of the first motion.
+    Unlike the other weights, they are 1 in the first frame of the window.
 
     Examples
     --------
@@ -62,7 +62,7 @@ def sine_weights(window: int) -> Array:
 
 
 def window_steps(window: int) -> Array:
-    """Return (p+1)/k for the frames p of a window: 1 is its last frame, and 0 would be the frame before it.
+    """Return (p+1)/k for the frames p of a window: 1 in its last frame, and 0 would be the frame before it.
 
     Examples
     --------

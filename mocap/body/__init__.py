@@ -1,22 +1,22 @@
-"""Moving bodies: a skeleton, its pose in every frame, and rotations and translations of it.
+"""Motions: a skeleton, its pose in every frame, and the rotations and transforms that move it.
 
-A `Motion` is a `Skeleton` plus arrays: the root's position and each joint's rotation, frame by frame. All
+A `Motion` is a `Skeleton` plus arrays: the root's position and each joint's rotation in every frame. All
 other rooms build on this one.
 
 Reading order (notebooks 01, 03)
 --------------------------------
-1. `skeleton`: a tree of joints
-2. `motion`: the body over time; other frame rates; clips in a row
-3. `rotations`: unit quaternions (w, x, y, z) as arrays: product, slerp, conversions
- 4. `joint_trees`: from rotations to the positions of all joints, and velocities, as arrays
- 5. `kinematics`: the same of a motion: forward kinematics; which joints are hinges
- 6. `planar`: rotations about the vertical with translations over the ground
- 7. `euler`: Euler angles and their traps
- 8. `ground_path`: lines on the ground, by metres along them
- 9. `limb_tree`: bones that keep their lengths, and chains of them
-10. `limb_search`: legs and arms by bones and motion, whatever joints are called
+ 1. `skeleton`: a tree of joints
+ 2. `motion`: the pose in every frame; resampling and concatenation
+ 3. `rotations`: unit quaternions (w, x, y, z) as arrays: product, slerp, conversions
+ 4. `joint_trees`: forward kinematics and velocities of arrays
+ 5. `kinematics`: forward kinematics of a motion; detection of hinge joints
+ 6. `planar`: planar rigid transforms, and the heading of a body
+ 7. `euler`: Euler angles, gimbal lock, and continuity over frames
+ 8. `ground_path`: paths on the ground, parametrised by arc length
+ 9. `limb_tree`: bones of constant length, and chains of them
+10. `limb_search`: legs and arms by bones and motion, whatever the names of joints
 11. `limbs`: legs and arms, the heading of the hips, and the role of each joint in a body
-12. `fingerprints`: hashes by which a clip is recognised under any name
+12. `fingerprints`: hashes that identify a clip under any name
 
 References
 ----------

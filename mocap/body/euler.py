@@ -1,4 +1,4 @@
-"""Euler angles: three rotations about three axes, and their traps.
+"""Euler angles: conversion from and to quaternions, and angles that are continuous over frames.
 
 Notebooks: 01-skeletons-and-clips, 03b-angles.
 """
@@ -12,17 +12,17 @@ from scipy.spatial.transform import Rotation
 from mocap._shared.arrays import Array
 from mocap.body.rotations import W, X, Y, Z
 
-# The entry of a quaternion that belongs to an axis, and those of the two axes that follow it.
+# The entries of a quaternion for an axis and for the two axes after it, in cyclic order.
 AXES = {"x": (X, Y, Z), "y": (Y, Z, X), "z": (Z, X, Y)}
 
 
 def from_euler(order: str, angles: ArrayLike) -> Array:
-    """Build quaternions from Euler angles.
+    """Convert Euler angles to quaternions.
 
     Parameters
     ----------
-    order : the axes in SciPy's notation: "ZXY" rotates about the body's own axes, R = Rz Rx Ry, as BVH
-        does; "xyz" about the fixed ones, R = Rz Ry Rx, as Acclaim files do.
+    order : the axes in SciPy's notation: "ZXY" is intrinsic, about the axes of the body, R = Rz Rx Ry, as in
+        BVH; "xyz" is extrinsic, about fixed axes, R = Rz Ry Rx, as in Acclaim files.
     angles : shape (..., len(order)), radians.
 
     Returns
@@ -53,7 +53,7 @@ def from_euler(order: str, angles: ArrayLike) -> Array:
 
 
 def to_euler(order: str, quaternions: ArrayLike) -> Array:
-    """Read Euler angles off quaternions: the inverse of `from_euler` for three axes.
+    """Convert quaternions to Euler angles: the inverse of `from_euler` for three axes.
 
     Parameters
     ----------
@@ -80,15 +80,16 @@ def to_euler(order: str, quaternions: ArrayLike) -> Array:
 
 
 def continuous(order: str, angles: ArrayLike) -> Array:
-    """Choose, among the angles of the same rotations, those nearest to the frame before.
+    """Make Euler angles continuous over frames, by choosing among equivalent triples.
 
-    (a, b, c) is the same rotation as its twin (a + π, π - b, c + π), and so is each with a multiple of 2π
-    added to an angle. In gimbal lock, b = ±π/2, only a + c or a - c matters: c keeps its last value.
+    (a, b, c) and its twin (a + π, π - b, c + π) are the same rotation, and multiples of 2π may be added to
+    each angle. Each frame gets the triple nearest to that of the previous frame. In gimbal lock, b = ±π/2,
+    the rotation depends only on a + c or a - c. There c keeps its last value.
 
     Parameters
     ----------
     order : three different axes in SciPy's notation.
-    angles : shape (F, ..., 3), radians, as `to_euler` reads them off.
+    angles : shape (F, ..., 3), radians, from `to_euler`.
 
     Returns
     -------
@@ -105,8 +106,8 @@ def continuous(order: str, angles: ArrayLike) -> Array:
     """
     angles = _without_lock(order, np.asarray(angles, float))
     twins = angles * [1, -1, 1] + np.pi
-    # A twin is as near to a frame's angles as the angles are to the frame's twin. Therefore each frame is
-    # compared with the angles of the frame before, and a change to the twin holds until the next change.
+    # The distance from a twin to some angles is that from the angles to the twin of the others. Therefore
+    # each frame is compared with the unchanged previous frame, and each switch lasts until the next one.
     distances = _angular_distance(angles[1:], angles[:-1])
     twin_distances = _angular_distance(twins[1:], angles[:-1])
     takes_twin = np.zeros(angles.shape[:-1], bool)
@@ -115,16 +116,16 @@ def continuous(order: str, angles: ArrayLike) -> Array:
 
 
 def _angular_distance(first: Array, second: Array) -> Array:
-    """Add up the differences of angles along the last axis, each at most π."""
+    """Sum the absolute differences of angles along the last axis, each wrapped to at most π."""
     differences = (first - second + np.pi) % (2 * np.pi) - np.pi
     return np.asarray(np.abs(differences).sum(-1))
 
 
 def _without_lock(order: str, angles: Array) -> Array:
-    """Replace angles in gimbal lock, of which `to_euler` sets the third to 0, by others of the same rotation.
+    """Replace angles in gimbal lock, whose third angle `to_euler` sets to 0, by an equivalent triple.
 
-    The third angle keeps its value of the last frame without lock, and the first one makes up for it. If the
-    lock is at the start, the first frame without lock is taken.
+    The third angle keeps its value from the last frame without lock, and the first one compensates for it.
+    At the start, the value of the first frame without lock is used.
     """
     first, second, third = np.moveaxis(angles, -1, 0)
     is_locked = (third == 0) & (np.abs(np.cos(second)) < 1e-6)
@@ -139,7 +140,7 @@ def _without_lock(order: str, angles: Array) -> Array:
 
 
 def _lock_sign(order: str) -> int:
-    """Return s such that in gimbal lock only a + s c sign(b) of the angles (a, b, c) matters, 1 or -1."""
+    """Return the sign s of gimbal lock, in which a rotation depends only on a + s c sign(b)."""
     is_cyclic = order.lower() in "xyzxy"
     about_body_axes = order.isupper()
     return 1 if is_cyclic == about_body_axes else -1

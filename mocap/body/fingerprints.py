@@ -1,4 +1,4 @@
-"""Fingerprints of clips: hashes by which a clip is recognised under any name."""
+"""Fingerprints of clips: hashes that identify a clip under any name."""
 
 import hashlib
 
@@ -8,9 +8,9 @@ from mocap.body.motion import Motion
 
 
 def fingerprint(motion: Motion) -> str:
-    """Compute a hash (SHA-256) of a clip's skeleton, poses, rate and labels: all that a saved graph needs.
+    """Compute a hash (SHA-256) of a clip's skeleton, poses, rate and labels, the input of a motion graph.
 
-    Numbers are rounded to six digits after the point, because the last digits depend on the machine.
+    Numbers are rounded to six decimals, because the last digits depend on the machine.
 
     Examples
     --------

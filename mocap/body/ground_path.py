@@ -1,4 +1,4 @@
-"""Lines on the ground to walk along: polylines, smooth curves, and a few shapes."""
+"""Paths on the ground: polylines, splines, and a few named shapes."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from mocap._shared.records import dataclass, rebuilding, same_fields
 from mocap.errors import MocapError, shortened
 
 FINE = 0.02  # metres between the points of a curve
-CLOSEST = 1e-9  # metres; nearer points count as one
-ROUNDING = 1e-12  # of a length: 12.000000000000002 m take as many pieces as 12 m, wherever a path lies
+CLOSEST = 1e-9  # metres: points nearer than this are one point
+ROUNDING = 1e-12  # relative: a length of 12.000000000000002 m is divided into as many pieces as 12 m
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,7 +26,7 @@ class GroundPath:
 
     Parameters
     ----------
-    points : shape (N, 2), (x, z) in metres; of points that repeat the one before, only the first is kept.
+    points : shape (N, 2), (x, z) in metres. A point that repeats the previous one is dropped.
 
     Raises
     ------
@@ -43,7 +43,7 @@ class GroundPath:
 
     points: Array
 
-    if TYPE_CHECKING:  # what a caller may pass: `__post_init__` makes an array of it
+    if TYPE_CHECKING:  # the types that callers may pass: `__post_init__` converts them to an array
 
         def __init__(self, points: VectorsLike) -> None: ...
 
@@ -58,10 +58,10 @@ class GroundPath:
             raise MocapError(f"Point {point} of the path is not finite: {points[point].tolist()}.")
         if np.abs(points).max() > 1e6:
             raise MocapError(f"The path lies {np.abs(points).max():.3g} m away: is it in metres?")
-        moved = np.concatenate([[True], (np.abs(np.diff(points, axis=0)) > CLOSEST).any(axis=1)])
-        if moved.sum() < 2:
+        is_new = np.concatenate([[True], (np.abs(np.diff(points, axis=0)) > CLOSEST).any(axis=1)])
+        if is_new.sum() < 2:
             raise MocapError("The path has zero length: all its points are one.")
-        object.__setattr__(self, "points", frozen(points[moved], np.float64))
+        object.__setattr__(self, "points", frozen(points[is_new], np.float64))
 
     def __repr__(self) -> str:
         return f"GroundPath({len(self.points)} points, {self.length:.1f} m)"
@@ -77,23 +77,23 @@ class GroundPath:
 
     @property
     def along(self) -> Array:
-        """Metres from the start to each point, shape (N,)."""
+        """Arc length from the start to each point, metres, shape (N,)."""
         return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(self.points, axis=0).T))])
 
     @property
     def length(self) -> float:
-        """Metres from the first point to the last."""
+        """Arc length of the path, metres."""
         return float(self.along[-1])
 
     # reads: name: public, and promised to those who call it
     def at(self, along: ArrayLike) -> Array:
-        """Return the points (..., 2) that are `along` metres from the start; past either end, that end."""
+        """Interpolate the path at arc lengths `along` (...), metres: points (..., 2), clamped to its ends."""
         distances = np.asarray(along, float)
         knots = self.along
         return np.stack([np.interp(distances, knots, axis) for axis in self.points.T], axis=-1)
 
     def resampled(self, spacing: float) -> GroundPath:
-        """Space the points evenly, at most `spacing` metres apart; sharp corners are cut by as much."""
+        """Resample at equal arc lengths of at most `spacing` metres; corners are cut by at most that."""
         if not (np.isfinite(spacing) and spacing > 0):
             raise MocapError(f"Points must be more than 0 m apart, got {spacing} m.")
         pieces = int(np.ceil(self.length / spacing * (1 - ROUNDING)))
@@ -101,11 +101,11 @@ class GroundPath:
 
 
 def as_path(path: GroundPath | VectorsLike) -> GroundPath:
-    """Return a path as it is, and points (x, z) as the polyline through them.
+    """Convert points (x, z) to a `GroundPath`; a path is returned as it is.
 
     Raises
     ------
-    MocapError : for what is neither, such as the name of a file; as for `GroundPath` of points.
+    MocapError : for other values, such as the name of a file; for points, as by `GroundPath`.
 
     Examples
     --------
@@ -124,10 +124,10 @@ def as_path(path: GroundPath | VectorsLike) -> GroundPath:
 
 
 def spline(points: VectorsLike) -> GroundPath:
-    """Draw a smooth curve through some points, C² where it passes them.
+    """Interpolate points by a cubic spline, a C² curve.
 
-    It is a cubic spline over the square roots of the chords, which neither overshoots nor loops where points
-    lie close together.
+    The parametrisation is centripetal (the square roots of the chord lengths), which avoids overshoot and
+    loops at closely spaced points.
 
     Parameters
     ----------
@@ -144,21 +144,23 @@ def spline(points: VectorsLike) -> GroundPath:
 
     Notebook: 00-quickstart
     """
-    through = as_path(points).points
-    knots = np.concatenate([[0.0], np.cumsum(np.sqrt(np.hypot(*np.diff(through, axis=0).T)))])
-    curve = CubicSpline(knots, through, bc_type="natural")
-    between = np.linspace(0, knots[-1], 50 * len(knots))
-    return GroundPath(curve(between)).resampled(FINE)
+    corners = as_path(points).points
+    chords = np.hypot(*np.diff(corners, axis=0).T)
+    knots = np.concatenate([[0.0], np.cumsum(np.sqrt(chords))])
+    curve = CubicSpline(knots, corners, bc_type="natural")
+    parameters = np.linspace(0, knots[-1], 50 * len(knots))
+    return GroundPath(curve(parameters)).resampled(FINE)
 
 
 def arcs(start: tuple[float, float], heading: float, pieces: Sequence[tuple[float, float]]) -> GroundPath:
-    """Draw a line of arcs; each goes on from the place and direction where the one before ends.
+    """Build a path of circular arcs, each continuing the previous one in position and direction.
 
     Parameters
     ----------
     start : (x, z), metres.
-    heading : radians; 0 goes towards +z, π/2 towards +x.
-    pieces : (length in metres, turn in radians); turns above 0 go to the left, a turn of 0 straight on.
+    heading : radians; 0 is towards +z, π/2 towards +x.
+    pieces : (length in metres, rotation in radians) of each arc; a positive rotation is to the left, and 0
+        makes a straight line.
 
     Examples
     --------
@@ -182,7 +184,7 @@ def arcs(start: tuple[float, float], heading: float, pieces: Sequence[tuple[floa
 
 
 def circle(radius: float = 3.0) -> GroundPath:
-    """Draw a circle to the left.
+    """Build a circle, turning left.
 
     Examples
     --------
@@ -195,7 +197,7 @@ def circle(radius: float = 3.0) -> GroundPath:
 
 
 def s_curve(length: float = 20.0) -> GroundPath:
-    """Draw two bends of nearly half a turn each, the first to the right and the second to the left.
+    """Build an S-curve: two bends of nearly 180° each, the first to the right and the second to the left.
 
     Examples
     --------
@@ -209,7 +211,7 @@ def s_curve(length: float = 20.0) -> GroundPath:
 
 
 def square() -> GroundPath:
-    """Draw a square to the left, 6 m wide, whose corners are quarter circles of 1.5 m.
+    """Build a square, turning left, 6 m wide, whose corners are quarter circles of 1.5 m radius.
 
     Examples
     --------
@@ -223,7 +225,7 @@ def square() -> GroundPath:
 
 
 def figure_of_eight() -> GroundPath:
-    """Draw two loops of 2.5 m radius, the first to the left and the second to the right, and lines between.
+    """Build a figure of eight: loops of 2.5 m radius, first to the left, then to the right, and two lines.
 
     Examples
     --------
@@ -238,7 +240,7 @@ def figure_of_eight() -> GroundPath:
 
 
 def letter_s(radius: float = 1.5) -> GroundPath:
-    """Draw two bends of five eighths of a circle, the first to the left and the second to the right.
+    """Build the letter S: two bends of 225° each, the first to the left and the second to the right.
 
     Examples
     --------

@@ -1,6 +1,6 @@
-"""Arrays of poses: the place of every joint down a skeleton's tree, and velocities.
+"""Forward kinematics and velocities of arrays of poses.
 
-`Motion.positions` and `kinematics.forward_kinematics` both come here.
+`Motion.positions` and `kinematics.forward_kinematics` both call this module.
 """
 
 import numpy as np
@@ -13,7 +13,7 @@ from mocap.errors import MocapError
 
 
 class GlobalPoses(NamedTuple):
-    """Where all joints are: `positions` (F, J, 3), metres; and how they are turned: `matrices` (F, J, 3, 3).
+    """World poses of all joints: `positions` (F, J, 3), metres, and rotation `matrices` (F, J, 3, 3).
 
     Examples
     --------
@@ -26,9 +26,9 @@ class GlobalPoses(NamedTuple):
 
 
 def place_joints(skeleton: Skeleton, root_positions: Array, local: Array) -> GlobalPoses:
-    """Place every joint in the world, from the root down the tree.
+    """Compute the world poses of all joints by forward kinematics, from the root down the tree.
 
-    R_j = R_parent · L_j and p_j = p_parent + R_parent · offset_j, where L_j is the joint's own rotation.
+    R_j = R_parent · L_j and p_j = p_parent + R_parent · offset_j, where L_j is the joint's local rotation.
 
     Parameters
     ----------
@@ -42,11 +42,11 @@ def place_joints(skeleton: Skeleton, root_positions: Array, local: Array) -> Glo
 
     Examples
     --------
-    A forearm of 1 m at a shoulder that is turned by 90° about y:
+    An arm of 1 m at a shoulder that is rotated by 90° about y:
 
     >>> arm = Skeleton(["shoulder", "hand"], [-1, 0], [[0, 0, 0], [0, 0, 1]])
-    >>> turn = np.array([[rotations.about_y(np.pi / 2), [1, 0, 0, 0]]])
-    >>> place_joints(arm, np.array([[0.0, 2.0, 0.0]]), turn).positions[0, 1].round(6) + 0.0
+    >>> pose = np.array([[rotations.about_y(np.pi / 2), [1, 0, 0, 0]]])
+    >>> place_joints(arm, np.array([[0.0, 2.0, 0.0]]), pose).positions[0, 1].round(6) + 0.0
     array([1., 2., 0.])
     """
     matrices = rotations.to_matrix(np.swapaxes(local, 0, 1))  # L_j, and R_j from the root down

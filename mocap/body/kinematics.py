@@ -1,4 +1,4 @@
-"""Forward kinematics, from local rotations to the positions of all joints; velocities; and hinges."""
+"""Forward kinematics of a motion, velocities, and the detection of hinge joints."""
 
 import numpy as np
 
@@ -9,11 +9,11 @@ from mocap.body.joint_trees import place_joints
 from mocap.body.joint_trees import velocities as velocities
 from mocap.body.motion import Motion, require_motion
 
-# The largest ratio of a hinge's second singular value to its first. The knees of six sources have 0.008 at
-# most; those of puppy, which are no hinges, 0.45.
+# The largest ratio of the second singular value of a hinge's rotation vectors to the first. Knees of six
+# sources have at most 0.008. Those of puppy, which are not hinges, have 0.45.
 HINGE = 0.05
 
-# Radians (RMS): a joint that rotates less in a clip does not show its axis, and the file's axes are used.
+# Radians (RMS): the axis of a joint that rotates less cannot be estimated, and that of the file is used.
 STILL = 0.01
 
 
@@ -34,8 +34,8 @@ def forward_kinematics(motion: Motion) -> GlobalPoses:
     --------
     >>> from mocap.body.skeleton import Skeleton
     >>> arm = Skeleton(["shoulder", "hand"], [-1, 0], [[0, 0, 0], [0, 0, 1]])
-    >>> turn = Motion(arm, [[0, 2, 0]], [[rotations.about_y(np.pi / 2), [1, 0, 0, 0]]], 30.0)
-    >>> forward_kinematics(turn).positions[0, 1].round(6) + 0.0
+    >>> rotated = Motion(arm, [[0, 2, 0]], [[rotations.about_y(np.pi / 2), [1, 0, 0, 0]]], 30.0)
+    >>> forward_kinematics(rotated).positions[0, 1].round(6) + 0.0
     array([1., 2., 0.])
 
     Notebook: 13-retargeting
@@ -47,7 +47,7 @@ def forward_kinematics(motion: Motion) -> GlobalPoses:
 def joint_positions(motion: Motion) -> Array:
     """Compute the positions of all joints by `forward_kinematics`, shape (F, J, 3), metres.
 
-    `Motion.positions` keeps them.
+    `Motion.positions` computes them once and caches them.
 
     Examples
     --------
@@ -61,11 +61,11 @@ def joint_positions(motion: Motion) -> Array:
 
 
 def hinge_of(motion: Motion, joint: int) -> Array | None:
-    """Find the axis of a hinge joint, a unit vector in the joint's frame, or None for other joints.
+    """Estimate the axis of a hinge joint, a unit vector in the joint's frame; None for other joints.
 
-    A joint is a hinge if its rotation vectors, relative to the mean rotation, spread along one direction. If
-    it hardly rotates in the clip, it is a hinge if its file gives it one axis. Without a hinge, an edited
-    knee meets its constraints equally well, but twists by up to 19°.
+    A joint is a hinge if its rotation vectors, relative to the mean rotation, vary along one direction only
+    (by their singular values). A joint that hardly rotates in the clip is a hinge if its file has one axis
+    for it. Edited as a ball joint, a knee satisfies its constraints equally well, but twists by up to 19°.
 
     Parameters
     ----------

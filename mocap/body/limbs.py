@@ -1,10 +1,10 @@
 """Legs and arms of a skeleton, and the role of each joint in a body.
 
-Two skeletons have few names in common, but the same parts. A skeleton carries the roles of its joints if
-they were given, or found by their motion when its file was read (`with_roles`). Else legs, arms and head are
-found by the names that files use, and if these are unknown, by the rest pose (`limb_search`). The trunk is
-found by the tree: the pelvis is where the legs meet, the chest is where the arms meet, and the waist and the
-neck are the first joints above them.
+Skeletons from different sources share few joint names, but have the same parts. A skeleton stores the roles
+of its joints if they are given, or found by their motion when a file is read (`with_roles`). Otherwise legs,
+arms and head are identified by the names that common files use, or else by the rest pose (`limb_search`). The
+trunk is identified by the tree: the pelvis is the last common ancestor of the legs, the chest that of the
+arms. The waist and the neck are the first joints above them.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -28,8 +28,8 @@ ROLES_BY_HAND = Remedy("name them by {} when the clip is read", "roles")
 
 SHORT = 1e-6  # metres: a bone of this length or less has no direction
 
-# Hip, knee, ankle and shoulder, elbow, wrist of the left side, as files name them. Legs and arms are looked
-# up separately, and a prefix up to a colon is ignored.
+# Names of hip, knee, ankle and of shoulder, elbow, wrist on the left side, by source. Legs and arms are
+# looked up separately. A prefix up to a colon is ignored.
 LIMBS = (
     ("lfemur ltibia lfoot", "lhumerus lradius lwrist"),  # Acclaim, CMU
     ("lfemur ltibia lfoot", "lhumerus lradius lhand"),
@@ -56,9 +56,9 @@ TIPS = tuple(f"{side} tip" for side in SIDES)
 
 
 class Leg(NamedTuple):
-    """One leg's joints, as indices into a skeleton, each below the one before.
+    """The joints of a leg, as indices into a skeleton, each below the one before.
 
-    A foot without toes has no joint at its ball. Its `ball` is then the ankle, and has no length.
+    A foot without toes has no joint at its ball. Its `ball` is then the ankle, and its length is 0.
 
     Examples
     --------
@@ -90,17 +90,17 @@ class Leg(NamedTuple):
 
 
 def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
-    """Find the left and the right leg: by the skeleton's roles, by names, or by the rest pose.
+    """Find the left and the right leg by the skeleton's roles, by names, or by the rest pose.
 
     By names, the ball is the ankle's first child.
 
     Raises
     ------
-    MocapError : for skeletons in which no legs are found, and roles that are no legs.
+    MocapError : for skeletons in which no legs are found, and for roles that are no legs.
 
     Warns
     -----
-    MocapWarning : if neither roles nor names say which joints are legs. A rest pose shows less than a motion.
+    MocapWarning : if neither roles nor names identify the legs. A rest pose is less certain than a motion.
 
     Examples
     --------
@@ -249,7 +249,7 @@ def _other_side(role: str) -> str:
 
 
 def find_pair(skeleton: Skeleton, limbs: Literal["legs", "arms"]) -> list[list[int]]:
-    """Find the three joints of the left limb and of its mirror image, the right one; [] for unknown names.
+    """Find the three joints of the left limb and of its mirror image on the right; [] for unknown names.
 
     Examples
     --------
@@ -268,7 +268,7 @@ def find_pair(skeleton: Skeleton, limbs: Literal["legs", "arms"]) -> list[list[i
 
 
 def _without_prefixes(skeleton: Skeleton) -> list[str]:
-    """List the joints' names without what is before a colon, as in "mixamorig:LeftArm"."""
+    """List the joints' names without a prefix up to a colon, as in "mixamorig:LeftArm"."""
     return [name.rsplit(":", 1)[-1] for name in skeleton.names]
 
 
@@ -277,8 +277,7 @@ def name_leg(skeleton: Skeleton, hip: str, knee: str, ankle: str, ball: str) -> 
 
     Raises
     ------
-    MocapError : for names that the skeleton lacks, a joint that is not the parent of the next one, and
-        bones without a length.
+    MocapError : for unknown names, a joint that is not the parent of the next one, and bones of length zero.
 
     Examples
     --------
@@ -305,7 +304,7 @@ def _require_leg(skeleton: Skeleton, leg: Leg) -> None:
 
 
 def heading_by_hips(positions: Array, legs: Sequence[Leg]) -> Array:
-    """Compute the heading at right angles to the line of the hips, from positions (F, J, 3); radians (F,).
+    """Compute the heading perpendicular to the line of the hips, from positions (F, J, 3); radians (F,).
 
     Examples
     --------
@@ -327,7 +326,7 @@ def roles(skeleton: Skeleton) -> dict[str, int]:
 
     Returns
     -------
-    {role: joint}. Roles that the body lacks are left out; hips, knees, ankles and balls are always there.
+    {role: joint}. Hips, knees, ankles and balls are always included; other roles only if the body has them.
 
     Raises
     ------
@@ -392,12 +391,12 @@ def _paired_paths(skeleton: Skeleton, joint: int, image: int) -> dict[int, int]:
 
 
 def _trunk(skeleton: Skeleton, limbs: Mapping[str, int]) -> dict[str, int]:
-    """Find the trunk's roles by the tree, from those of the limbs and the head."""
+    """Find the joints of the trunk by the tree, from those of the limbs and the head."""
     ancestors = {role: skeleton.path_to_root(joint)[1:] for role, joint in limbs.items()}
     pelvis = _last_common(ancestors, "hip")
     chest = _last_common(ancestors, "shoulder")
     spine = skeleton.path_to_root(chest)[1:]
-    if pelvis not in spine:  # no arms, or they hang on the pelvis
+    if pelvis not in spine:  # no arms, or arms attached to the pelvis
         return {"pelvis": pelvis}
     trunk = {"pelvis": pelvis, "chest": chest}
     if spine[0] != pelvis:
@@ -410,12 +409,12 @@ def _trunk(skeleton: Skeleton, limbs: Mapping[str, int]) -> dict[str, int]:
 
 
 def _last_common(ancestors: Mapping[str, list[int]], part: str) -> int:
-    """Return the last joint on which the left and the right `part` both hang, or else the root."""
+    """Return the last common ancestor of the left and the right `part`, the root if there is none."""
     left = set(ancestors.get(f"left {part}", ()))
     right = set(ancestors.get(f"right {part}", ()))
     return max(left & right, default=0)
 
 
 def _child_towards(joint: int, path: list[int]) -> int:
-    """Return the joint before `joint` on a path to the root."""
+    """Return the child of `joint` on a path to the root."""
     return path[path.index(joint) - 1]

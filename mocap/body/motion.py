@@ -1,4 +1,4 @@
-"""The body over time: a skeleton's pose in every frame."""
+"""Motions: the pose of a skeleton in every frame."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ EXPRESSIONS = {
     "save": "mocap.save(motion, 'walk.bvh')",
     "resample": "mocap.resample(motion, 30)",
 }
-"""What may be meant by an attribute that a motion does not have."""
+"""Suggestions for unknown attributes of a motion."""
 
 Resampling = TypeVar("Resampling", bound="Callable[..., Motion]")
 
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """A skeleton's pose in F frames at a steady rate.
+    """The pose of a skeleton in F frames at a constant rate.
 
     Parameters
     ----------
@@ -46,9 +46,9 @@ class Motion:
     root_positions : shape (F, 3), metres, y up.
     rotations : shape (F, J, 4), unit quaternions (w, x, y, z) relative to the parent's frame.
     fps : frames per second.
-    name : its name in errors and pictures.
-    labels : what kind of motion each frame is, as {label: (F,) booleans}; one boolean stands for all frames.
-    contacts : which joints stand on the ground, as {joint: (F,) booleans}.
+    name : the name in errors and figures.
+    labels : kinds of motion, as {label: (F,) booleans}, one per frame; a single boolean is for all frames.
+    contacts : frames in which a joint is in contact with the ground, as {joint: (F,) booleans}.
 
     Raises
     ------
@@ -56,10 +56,10 @@ class Motion:
 
     Notes
     -----
-    A motion does not change: `motion.fps = 30` and `motion.root_positions[0] = 0` raise. Instead,
-    `dataclasses.replace(motion, fps=30)` makes another motion; an array is copied first, changed, and passed
-    to it. Two motions are equal, `==`, if all fields are: skeleton, every number, rate, name, labels and
-    contacts. Equal motions have one hash. To compare within rounding, use `numpy.allclose` on `positions`.
+    A motion is immutable: `motion.fps = 30` and `motion.root_positions[0] = 0` raise. Instead,
+    `dataclasses.replace(motion, fps=30)` returns a new motion. To change an array, copy it, change the copy
+    and pass that. Two motions are equal, `==`, if all fields are exactly equal, and then have the same hash.
+    To compare within rounding, use `numpy.allclose` on `positions`.
 
     Examples
     --------
@@ -84,7 +84,7 @@ class Motion:
     labels: Marks = field(default_factory=dict)
     contacts: Marks = field(default_factory=dict)
 
-    if TYPE_CHECKING:  # what a caller may pass: `__post_init__` makes arrays of it
+    if TYPE_CHECKING:  # the types that callers may pass: `__post_init__` converts them to arrays
 
         def __init__(  # noqa: PLR0913 (the fields)
             self,
@@ -163,7 +163,7 @@ class Motion:
         return rebuilding(self)
 
     def __getitem__(self, frames: slice | Sequence[int] | NDArray[np.integer[Any]] | Mask) -> Motion:
-        """Take a stretch of frames, a step of n divides the frame rate by n; or frames by number or mask."""
+        """Select frames by a slice, by indices or by a mask; a step of n divides the frame rate by n."""
         _check_frames(self, frames)
         step = (frames.step or 1) if isinstance(frames, slice) else 1
         if step < 1:
@@ -187,10 +187,10 @@ class Motion:
 
     @cached_property
     def positions(self) -> Array:
-        """Where the joints are in the world, shape (F, J, 3), metres; read-only.
+        """World positions of the joints, shape (F, J, 3), metres; read-only.
 
-        They are computed at the first use, by `body.forward_kinematics`, and kept: as much memory as three
-        quarters of the rotations.
+        They are computed by `body.forward_kinematics` on first access, and cached. The cache takes three
+        quarters of the memory of the rotations.
         """
         places = place_joints(self.skeleton, self.root_positions, self.rotations).positions
         return frozen(places, np.float64)
@@ -199,8 +199,7 @@ class Motion:
     def velocities(self) -> Array:
         """Velocities of the joints in the world, shape (F, J, 3), metres per second.
 
-        Central differences of `positions` over two frames; in the first and the last frame, differences to
-        the only neighbour. They are computed at each use.
+        Central differences of `positions`, one-sided at both ends; computed on each access.
 
         Raises
         ------
@@ -210,9 +209,9 @@ class Motion:
 
     # reads: name: public, and promised to those who call it
     def at(self, frames: ArrayLike) -> Motion:
-        """Sample the motion at frames (N,), such as 2.5: roots on straight lines, rotations by slerp.
+        """Interpolate the motion at fractional frames (N,): roots linearly, rotations by slerp.
 
-        Past either end it is that end; marks are those of the nearest frame.
+        Frames are clamped to the ends of the motion. Labels and contacts are those of the nearest frame.
 
         Examples
         --------
@@ -233,7 +232,7 @@ class Motion:
 
 
 def _check_frames(motion: Motion, frames: object) -> None:
-    """Raise for frames that are no frame numbers: a number alone, a key, or seconds."""
+    """Raise for indices that are not frames: a single number, a key, or seconds."""
     if isinstance(frames, int | np.integer):
         stretch = f"motion[{frames}:{frames + 1}]" if frames >= 0 else f"motion[{frames}:][:1]"
         raise MocapError(f"One frame is {stretch}, or motion.positions[{frames}] for its joints.")
@@ -247,7 +246,7 @@ def _check_frames(motion: Motion, frames: object) -> None:
 
 
 def require_motion(motion: object) -> Motion:
-    """Return a motion as it is; raise for anything else, with the motion that may be meant.
+    """Return a motion as it is; raise for anything else, with the call that makes a motion of it.
 
     Raises
     ------
@@ -292,21 +291,21 @@ def require_motions(motions: object) -> tuple[Motion, ...]:
     return tuple(require_motion(motion) for motion in motions)
 
 
-def turning(motion: Motion) -> NDArray[np.bool_]:
-    """Find the joints that ever turn against their parents by more than rounding, as booleans (J,).
+def rotating_joints(motion: Motion) -> NDArray[np.bool_]:
+    """Find the joints that rotate relative to their parents in any frame, beyond rounding: booleans (J,).
 
     Examples
     --------
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_straight")
-    >>> [walk.skeleton.names[joint] for joint in np.flatnonzero(~turning(walk))][:3]
+    >>> [walk.skeleton.names[joint] for joint in np.flatnonzero(~rotating_joints(walk))][:3]
     ['lhipjoint', 'ltoes_end', 'rhipjoint']
     """
     return np.asarray(np.abs(np.abs(motion.rotations) - rotations.IDENTITY).max(axis=(0, 2)) > 1e-9)
 
 
 def _of_motion_and_rate(resampling: Resampling) -> Resampling:
-    """Check what is passed; `resample` itself, which a notebook shows, is the method alone."""
+    """Check the arguments of a resampling; `resample`, which a notebook shows, holds the method alone."""
 
     @wraps(resampling)
     def checking(motion: Motion, fps: float) -> Motion:
@@ -314,7 +313,7 @@ def _of_motion_and_rate(resampling: Resampling) -> Resampling:
         check_number(fps, "fps")
         return resampling(motion, fps)
 
-    return cast(Resampling, checking)  # with the names of the parameters, for type checkers
+    return cast(Resampling, checking)  # type checkers see the names of the parameters
 
 
 @_of_motion_and_rate
@@ -324,7 +323,7 @@ def resample(motion: Motion, fps: float) -> Motion:
     Parameters
     ----------
     motion : F frames.
-    fps : the new rate; at its own rate the motion is returned as it is.
+    fps : the new rate. If the motion already has it, the motion is returned as it is.
 
     Returns
     -------
@@ -348,11 +347,12 @@ def resample(motion: Motion, fps: float) -> Motion:
 
 
 def concatenate(motions: Sequence[Motion], name: str | None = None) -> Motion:
-    """Put motions one after the other, as they are: nothing is aligned or blended.
+    """Concatenate motions in time, without alignment or blending.
 
     Parameters
     ----------
-    motions : one or more, with one skeleton and one frame rate; a mark that one lacks is off there.
+    motions : one or more, with one skeleton and one frame rate. A label or contact that a motion lacks is
+        False in its frames.
     name : the new name; the first motion's by default.
 
     Raises
@@ -368,7 +368,7 @@ def concatenate(motions: Sequence[Motion], name: str | None = None) -> Motion:
 
     Notebook: 00-quickstart
     """
-    motions = require_alike(motions)
+    motions = require_compatible(motions)
     first = motions[0]
     counts = np.array([len(motion) for motion in motions])
     frames = np.stack([np.repeat(np.arange(len(motions)), counts), ranges(0 * counts, counts)], axis=1)
@@ -380,21 +380,21 @@ def concatenate(motions: Sequence[Motion], name: str | None = None) -> Motion:
     return Motion(first.skeleton, root_positions, rotations, first.fps, name, labels, contacts)
 
 
-def require_alike(motions: Sequence[Motion]) -> tuple[Motion, ...]:
-    """Raise unless all motions share one skeleton, but for end sites, and one frame rate.
+def require_compatible(motions: Sequence[Motion]) -> tuple[Motion, ...]:
+    """Return motions on one skeleton; raise unless they share it, except for end sites, and a frame rate.
 
-    Files of one laboratory may differ in end sites, which bound the last bones and never turn. All motions
-    get those of the motion with the most joints, the first one of these [ours].
+    Files of one laboratory may differ in end sites, which end the last bones and never rotate. All motions
+    get the end sites of the first motion with the most joints [ours].
 
     Raises
     ------
-    SkeletonMismatch, MocapError : for different skeletons or rates, and for none.
+    SkeletonMismatch, MocapError : for different skeletons or rates, and for an empty list.
 
     Examples
     --------
     >>> bone = Skeleton(["root"], [-1], [[0, 0, 0]])
     >>> walk = Motion(bone, np.zeros((4, 3)), np.tile([1.0, 0, 0, 0], (4, 1, 1)), 120.0, "walk")
-    >>> require_alike([walk, resample(walk, 30.0)])
+    >>> require_compatible([walk, resample(walk, 30.0)])
     Traceback (most recent call last):
     mocap.errors.MocapError: 'walk' runs at 120 Hz, 'walk' at 30 Hz: resample one first.
     """
@@ -415,12 +415,12 @@ def require_alike(motions: Sequence[Motion]) -> tuple[Motion, ...]:
 
 
 def _with_ends(motion: Motion, skeleton: Skeleton) -> Motion:
-    """Put a motion on a skeleton that is the same but for end sites; those that it lacked do not turn."""
-    worn = motion.skeleton
-    if worn is skeleton:
+    """Transfer a motion to a skeleton that differs in end sites only; end sites new to it do not rotate."""
+    source = motion.skeleton
+    if source is skeleton:
         return motion
-    joints = skeleton.joints_in(worn)
-    if worn.names == skeleton.names and np.allclose(worn.offsets, skeleton.offsets, rtol=0, atol=1e-6):
+    joints = skeleton.joints_in(source)
+    if source.names == skeleton.names and np.allclose(source.offsets, skeleton.offsets, rtol=0, atol=1e-6):
         return motion
     rotations = np.where((joints < 0)[:, None], [1.0, 0, 0, 0], motion.rotations[:, joints])
     contacts = {joint: mark for joint, mark in motion.contacts.items() if joint in skeleton.names}
@@ -428,7 +428,7 @@ def _with_ends(motion: Motion, skeleton: Skeleton) -> Motion:
 
 
 def gather_marks(sources: Sequence[Marks], frames: Indices) -> dict[str, Mask]:
-    """Gather marks frame by frame from several motions; a mark that a motion lacks is off there.
+    """Gather labels or contacts frame by frame from several motions; one that a motion lacks is False there.
 
     Parameters
     ----------
@@ -437,7 +437,7 @@ def gather_marks(sources: Sequence[Marks], frames: Indices) -> dict[str, Mask]:
 
     Returns
     -------
-    The marks of all names in the sources, each of shape (F,).
+    Booleans of shape (F,) for each name in the sources.
 
     Examples
     --------

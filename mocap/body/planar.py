@@ -1,11 +1,11 @@
-"""Planar rigid transforms: a rotation about the vertical, then a translation over the ground.
+"""Planar rigid transforms: a rotation about the vertical axis, then a translation over the ground.
 
-A captured motion stays the same motion wherever on the ground it happens and whichever way it faces.
-Therefore only these three numbers may change when one clip is aligned with another [KGP02, 3.1].
+A motion is invariant to them: it remains the same motion at any position on the ground and with any heading.
+Therefore clips are aligned by these three numbers alone [KGP02, 3.1].
 
-A point (x, z) on the ground is also the complex number z + ix. A rotation about +y by θ is then a product
-with exp(iθ), and a planar transform is p ↦ rotation · p + translation. Only this module knows which part is
-x and which is z.
+A point (x, z) on the ground is also the complex number z + ix. A rotation about +y by θ is then a
+multiplication by exp(iθ), and a planar transform is p ↦ rotation · p + translation. The convention of real
+and imaginary parts is used in this module only.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ Numbers = float | NDArray[np.floating[Any]]
 
 
 def on_ground(points: ArrayLike) -> Points:
-    """Write points (..., 3), or ground points (x, z) of shape (..., 2), as complex numbers z + ix.
+    """Project points (..., 3), or ground points (x, z) of shape (..., 2), to complex numbers z + ix.
 
     Examples
     --------
@@ -41,7 +41,7 @@ def on_ground(points: ArrayLike) -> Points:
 
 
 def from_ground(points: Points) -> Array:
-    """Write complex numbers z + ix as ground points (x, z), shape (..., 2): the inverse of `on_ground`.
+    """Convert complex numbers z + ix to ground points (x, z), shape (..., 2): the inverse of `on_ground`.
 
     Examples
     --------
@@ -54,7 +54,7 @@ def from_ground(points: Points) -> Array:
 class PlanarTransform(NamedTuple):
     """Rotation by `angle` (radians) about +y, then translation by `x` and `z` (metres).
 
-    The fields are numbers, or arrays of one shape for many transforms at once. `a @ b` does b first.
+    The fields are numbers, or arrays of one shape for many transforms. `a @ b` applies b first, then a.
 
     Examples
     --------
@@ -108,7 +108,7 @@ class PlanarTransform(NamedTuple):
         return np.stack(np.broadcast_arrays(new_x, y, new_z), -1)
 
     def apply_frames(self, roots: ArrayLike, quaternions: Array) -> tuple[Array, Array]:
-        """Transform frames of root positions (..., 3) and rotations (..., J, 4); only roots change."""
+        """Transform poses, given by root positions (..., 3) and rotations (..., J, 4); only roots change."""
         transformed = quaternions.copy()
         transformed[..., 0, :] = rotations.multiply(rotations.about_y(self.angle), transformed[..., 0, :])
         return self.apply_points(roots), transformed
@@ -135,12 +135,13 @@ IDENTITY = PlanarTransform(0.0, 0.0, 0.0)
 
 
 def heading(quaternions: ArrayLike) -> Array:
-    """Compute the direction that a body faces, its twist about the vertical: θ = 2 atan2(q_y, q_w).
+    """Compute the heading of a body, its twist about the vertical axis: θ = 2 atan2(q_y, q_w).
 
-    Every rotation is a swing about a level axis, then a twist about +y by θ. The heading stays defined when
-    the body lies down or looks straight up, and a rotation of the body about +y by α adds α exactly. The one
-    exception is a swing by 180° (upside down, q_w = q_y = 0), where it is 0. The homework's heading comes
-    from the rotation matrix instead; notebook 03b shows where that fails.
+    Every rotation is a swing about a horizontal axis, followed by a twist about +y by θ (swing-twist
+    decomposition). The heading is also defined if the body lies down or looks straight up, and a rotation of
+    the body about +y by α adds exactly α. The only exception is a swing by 180° (upside down,
+    q_w = q_y = 0), where it is 0. The homework computes its heading from the rotation matrix. Notebook 03b
+    shows when that fails.
 
     Parameters
     ----------
@@ -159,14 +160,14 @@ def heading(quaternions: ArrayLike) -> Array:
     Notebook: 03b-angles
     """
     w, _, y, _ = np.moveaxis(np.asarray(quaternions, float), -1, 0)
-    # The cosine and the sine of θ, each times w² + y²: the same for q and -q.
+    # The sine and the cosine of θ, both times w² + y², which are the same for q and -q.
     return np.asarray(np.arctan2(2 * w * y, w * w - y * y))
 
 
 def align_frames(motion: Motion, target: Motion, frame: int = 0) -> PlanarTransform:
     """Return the planar transform that aligns a motion's first frame with a frame of another.
 
-    It rotates by the difference of the two headings, then moves the root over the ground to the other root.
+    It rotates by the difference of the two headings, then translates the root over the ground to the other.
 
     Parameters
     ----------
@@ -191,12 +192,12 @@ def align_frames(motion: Motion, target: Motion, frame: int = 0) -> PlanarTransf
 
 
 def place(motion: Motion, direction: float, position: ArrayLike) -> Motion:
-    """Transform a whole motion so that its first frame faces `direction` and is over `position`.
+    """Transform a motion such that its first frame has the heading `direction` and is over `position`.
 
     Parameters
     ----------
-    motion : any motion; its heights stay.
-    direction : radians about +y, as `heading` reads it.
+    motion : any motion; its heights do not change.
+    direction : the heading, radians about +y.
     position : (x, z), metres.
 
     Raises

@@ -3,9 +3,9 @@
 All functions broadcast over the leading axes, and also take a single quaternion. Rotations apply to column
 vectors: `rotate(multiply(a, b), v)` rotates v by b first, then by a.
 
-Products, rotation vectors and slerp are written out as their formulas. On arrays, products and slerp are also
-several times faster than those of SciPy's `Rotation`, against which the tests check them. Quaternions are not
-normalised: results have length 1, up to rounding, if the arguments have. Matrices come from SciPy.
+Products, rotation vectors and slerp follow their formulas. On arrays, products and slerp are several times
+faster than those of SciPy's `Rotation`, against which the tests check them. Matrices are computed by SciPy.
+Quaternions are not normalised: results have length 1, up to rounding, if the arguments have.
 
 Notebooks: 01-skeletons-and-clips, 04-blending (slerp).
 """
@@ -17,7 +17,7 @@ from scipy.spatial.transform import Rotation
 from mocap._shared.arrays import Array, frozen
 
 IDENTITY: Array = frozen([1.0, 0.0, 0.0, 0.0], np.float64)
-Z_UP: Array = frozen([0.5**0.5, -(0.5**0.5), 0.0, 0.0], np.float64)  # rotates the axis z upwards
+Z_UP: Array = frozen([0.5**0.5, -(0.5**0.5), 0.0, 0.0], np.float64)  # rotates +z to +y
 
 # Entries of a quaternion.
 W = 0
@@ -43,8 +43,8 @@ def from_matrix(matrices: ArrayLike) -> Array:
 def to_matrix(quaternions: ArrayLike) -> Array:
     """Convert quaternions, shape (..., 4), to rotation matrices, shape (..., 3, 3).
 
-    With q = (w, v) of length 1 the matrix is (w² - v·v) I + 2 v vᵀ + 2 w [v]×, where [v]× u = v × u;
-    quaternions of another length than 1 are scaled to it.
+    For q = (w, v) of length 1 the matrix is (w² - v·v) I + 2 v vᵀ + 2 w [v]×, where [v]× u = v × u.
+    Other quaternions are normalised first.
 
     Examples
     --------
@@ -65,7 +65,7 @@ def to_matrix(quaternions: ArrayLike) -> Array:
 def from_rotvec(vectors: ArrayLike) -> Array:
     """Convert rotation vectors (axis times angle in radians), shape (..., 3), to quaternions, shape (..., 4).
 
-    The exponential map: the rotation by θ about the unit axis n is q = (cos θ/2, n sin θ/2).
+    This is the exponential map: the rotation by θ about the unit axis n is q = (cos θ/2, n sin θ/2).
 
     Examples
     --------
@@ -76,15 +76,15 @@ def from_rotvec(vectors: ArrayLike) -> Array:
     """
     vectors = np.asarray(vectors, float)
     half = np.linalg.norm(vectors, axis=-1, keepdims=True) / 2
-    # n sin θ/2 = vector / 2 · sinc(θ/2), where NumPy's sinc has a factor π and is 1 at 0
+    # n sin θ/2 = vector / 2 · sinc(θ/2), where NumPy's sinc(x) is sin(πx) / (πx)
     return np.concatenate([np.cos(half), vectors / 2 * np.sinc(half / np.pi)], axis=-1)
 
 
 def to_rotvec(quaternions: ArrayLike) -> Array:
     """Convert quaternions to rotation vectors, shape (..., 3), of at most π radians.
 
-    The logarithm: (w, v) with w ≥ 0 is the rotation by θ = 2 atan2(|v|, w) about v. If w < 0, -q is used,
-    which is the same rotation.
+    This is the logarithm: (w, v) with w ≥ 0 is the rotation by θ = 2 atan2(|v|, w) about v. If w < 0, the
+    same rotation -q is used.
 
     Examples
     --------
@@ -102,7 +102,7 @@ def to_rotvec(quaternions: ArrayLike) -> Array:
 
 
 def about_y(angles: ArrayLike) -> Array:
-    """Build the rotations by `angles` (radians, shape (...)) about the vertical, shape (..., 4).
+    """Build rotations by `angles` (radians, shape (...)) about the vertical axis +y, shape (..., 4).
 
     Examples
     --------
@@ -132,7 +132,7 @@ def multiply(first: ArrayLike, second: ArrayLike) -> Array:
     second = np.asarray(second, float)
     w1, x1, y1, z1 = (first[..., k] for k in range(4))
     w2, x2, y2, z2 = (second[..., k] for k in range(4))
-    product = np.empty(np.broadcast_shapes(first.shape, second.shape))  # which is faster than a stack
+    product = np.empty(np.broadcast_shapes(first.shape, second.shape))  # faster than np.stack
     product[..., W] = w1 * w2 - x1 * x2 - y1 * y2 - z1 * z2
     product[..., X] = w1 * x2 + x1 * w2 + y1 * z2 - z1 * y2
     product[..., Y] = w1 * y2 + y1 * w2 + z1 * x2 - x1 * z2
@@ -169,8 +169,8 @@ def between(start: ArrayLike, end: ArrayLike) -> Array:
 
     Parameters
     ----------
-    start, end : a and b, shape (..., 3), of any length but 0. Between opposite directions no rotation is the
-        shortest, and the result is not a rotation.
+    start, end : a and b, shape (..., 3), of any length except 0. Between opposite directions the shortest
+        rotation is not unique, and the result is not a rotation.
 
     Examples
     --------
@@ -189,7 +189,7 @@ def _normalised(vectors: ArrayLike) -> Array:
 
 
 def difference(start: ArrayLike, end: ArrayLike) -> Array:
-    """Return the rotation vector from one rotation to another, in the first one's frame: log(a⁻¹ b).
+    """Return the rotation vector from one rotation to another, in the frame of the first: log(a⁻¹ b).
 
     Parameters
     ----------
@@ -208,10 +208,9 @@ def difference(start: ArrayLike, end: ArrayLike) -> Array:
 
 
 def slerp(start: ArrayLike, end: ArrayLike, amount: ArrayLike) -> Array:
-    """Interpolate rotations along the shorter arc (slerp): start · exp(amount · log(start⁻¹ · end)).
+    """Spherical linear interpolation (slerp) along the shorter arc: start · exp(amount · log(start⁻¹ · end)).
 
-    exp is `from_rotvec`, and the logarithm is `difference`. Its angle is at most π, therefore the arc is the
-    shorter one.
+    exp is `from_rotvec`, and the logarithm is `difference`, whose angle is at most π.
 
     Parameters
     ----------
@@ -233,7 +232,7 @@ def slerp(start: ArrayLike, end: ArrayLike, amount: ArrayLike) -> Array:
 
 
 def continuous(quaternions: ArrayLike) -> Array:
-    """Choose, of q and -q, the same rotation, the one nearer to the frame before, shape (F, ..., 4).
+    """Make quaternions (F, ..., 4) continuous: of q and -q, choose the one nearer to the previous frame.
 
     Examples
     --------
@@ -247,7 +246,9 @@ def continuous(quaternions: ArrayLike) -> Array:
 
 
 def nearest(matrices: Array) -> Array:
-    """Find the rotations R that maximise tr(Rᵀ M), (..., 3, 3): R = U diag(1, 1, ±1) Vᵀ of the SVD of M.
+    """Project matrices (..., 3, 3) to the nearest rotations: R = U diag(1, 1, ±1) Vᵀ from the SVD of M.
+
+    They maximise tr(Rᵀ M), and therefore minimise the Frobenius norm of R - M.
 
     Examples
     --------
@@ -260,19 +261,19 @@ def nearest(matrices: Array) -> Array:
 
 
 def mean(quaternions: ArrayLike, weights: ArrayLike | None = None, *, rounds: int = 1) -> Array:
-    """Average rotations, each with its weight.
+    """Weighted mean of rotations.
 
-    First, q is replaced by -q, the same rotation, if that is nearer to the rotation of the largest weight.
-    The weighted sum, scaled to length 1, is near the mean m for which Σ w log(m⁻¹ q) = 0. Each round of
-    Karcher's iteration, m ← m exp(Σ w log(m⁻¹ q)), brings it nearer. For two rotations, one round is `slerp`.
-    Without weights, the mean is the q that maximises Σ (q · qᵢ)², an eigenvector of Σ qᵢ qᵢᵀ.
+    The signs of the quaternions are chosen for the hemisphere of the rotation with the largest weight. The
+    normalised weighted sum approximates the Karcher mean m, for which Σ w log(m⁻¹ q) = 0. Each iteration,
+    m ← m exp(Σ w log(m⁻¹ q)), reduces the residual. For two rotations, one iteration is `slerp`. Without
+    weights, the mean is the q that maximises Σ (q · qᵢ)², an eigenvector of Σ qᵢ qᵢᵀ.
 
     Parameters
     ----------
     quaternions : shape (..., C, 4).
-    weights : shape (..., C), leading axes broadcast; they add up to one, and some may be negative.
-    rounds : 0 for the weighted sum, which takes a third of the time. Its error is up to 8° for random
-        rotations, and less than 1 mm at the hands of similar poses.
+    weights : shape (..., C), leading axes broadcast; their sum is one, and some may be negative.
+    rounds : the number of iterations; 0 for the weighted sum, which takes a third of the time. Its error is
+        up to 8° for random rotations, and less than 1 mm at the hands of similar poses.
 
     Returns
     -------
@@ -298,7 +299,7 @@ def mean(quaternions: ArrayLike, weights: ArrayLike | None = None, *, rounds: in
 
 
 def _unweighted_mean(q: Array) -> Array:
-    """Average rotations (..., C, 4): the eigenvector of Σ qᵢ qᵢᵀ to the largest eigenvalue, with w ≥ 0."""
+    """Mean of rotations (..., C, 4): the eigenvector of Σ qᵢ qᵢᵀ with the largest eigenvalue, and w ≥ 0."""
     _, eigenvectors = np.linalg.eigh(np.swapaxes(q, -1, -2) @ q)
     average = eigenvectors[..., -1]
     return np.where(average[..., :1] < 0, -average, average)
@@ -307,7 +308,7 @@ def _unweighted_mean(q: Array) -> Array:
 def angle_between(first: ArrayLike, second: ArrayLike) -> Array:
     """Return the angle of the rotation from one orientation to another, shape (...), radians in [0, π].
 
-    It is the length of their `difference`, and exact also for small angles.
+    It is the length of their `difference`, and therefore accurate for small angles.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The body as a tree of joints."""
+"""Skeletons: trees of joints with offsets."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ class Skeleton:
     names : J unique names.
     parents : shape (J,), the index of each joint's parent; -1 for joint 0, the root, and
         `parents[j] < j` for every other.
-    offsets : shape (J, 3), metres: where a joint sits in the frame of its parent.
-    axes : shape (J, 4), quaternions C: how a file turns a joint's own axes against its parent's frame, so
-        that angles M in the file mean the rotation C M C⁻¹; by default they are not turned.
-    dofs : the axes about which a joint can turn, in the order of turning about fixed axes, such as "xyz" or
-        "x"; by default "xyz", and "" for a joint without children. Like `axes`, they only say how a file
-        stores the angles; in a motion any joint may turn any way.
-    roles : names of joints by their role in a body, such as {"left knee": "calf_l"}; by default none, and
-        `body.find_legs` knows names of many files. `body.with_roles` and `files.load` set them.
+    offsets : shape (J, 3), metres: the position of a joint in the frame of its parent.
+    axes : shape (J, 4), quaternions C: the orientation of a joint's axes in its file, relative to its
+        parent's frame. Angles M in the file are the rotation C M C⁻¹. By default the identity.
+    dofs : the axes of a joint's rotations, in the order of rotations about fixed axes, such as "xyz" or "x";
+        by default "xyz", and "" for a joint without children. `axes` and `dofs` describe the angles of a file
+        only. In a motion, a joint may have any rotation.
+    roles : names of joints by their role in a body, such as {"left knee": "calf_l"}; by default none, because
+        `body.find_legs` knows the names of many files. `body.with_roles` and `files.load` set them.
 
     Raises
     ------
@@ -44,8 +44,8 @@ class Skeleton:
 
     Notes
     -----
-    Two skeletons are equal, `==`, if all fields are, number by number; equal ones have one hash.
-    `require_same` asks for less: that offsets agree within 1 µm.
+    Two skeletons are equal, `==`, if all fields are exactly equal, and then have the same hash.
+    `require_same` is less strict: it accepts offsets that agree within 1 µm, and ignores `axes` and `dofs`.
 
     Examples
     --------
@@ -63,7 +63,7 @@ class Skeleton:
     dofs: Sequence[str] = ()
     roles: Mapping[str, str] = field(default_factory=dict)
 
-    if TYPE_CHECKING:  # what a caller may pass: `__post_init__` makes arrays of it
+    if TYPE_CHECKING:  # the types that callers may pass: `__post_init__` converts them to arrays
 
         def __init__(  # noqa: PLR0913 (the fields)
             self,
@@ -81,10 +81,10 @@ class Skeleton:
         object.__setattr__(self, "offsets", frozen(self.offsets, np.float64))
         self._check_tree()
         count = len(self.names)
-        unturned = np.tile([1.0, 0.0, 0.0, 0.0], (count, 1))
-        object.__setattr__(self, "axes", frozen(self.axes if len(self.axes) else unturned, np.float64))
-        free = ["xyz" if joint in self.parents else "" for joint in range(count)]
-        object.__setattr__(self, "dofs", tuple(self.dofs or free))
+        identities = np.tile([1.0, 0.0, 0.0, 0.0], (count, 1))
+        object.__setattr__(self, "axes", frozen(self.axes if len(self.axes) else identities, np.float64))
+        ball_joints = ["xyz" if joint in self.parents else "" for joint in range(count)]
+        object.__setattr__(self, "dofs", tuple(self.dofs or ball_joints))
         if self.axes.shape != (count, 4) or not np.allclose(np.linalg.norm(self.axes, axis=-1), 1):
             raise MocapError(f"{count} joints need axes ({count}, 4) of length 1, got {self.axes.shape}.")
         if len(self.dofs) != count:
@@ -98,7 +98,7 @@ class Skeleton:
 
     @classmethod
     def from_table(cls, rows: Mapping[str, tuple[str, ArrayLike]], scale: float = 1.0) -> Skeleton:
-        """Build a body from {joint: (its parent, its place there)}, the root first, with no parent: "".
+        """Build a skeleton from {joint: (parent, offset)}, the root first, with "" as its parent.
 
         Examples
         --------
@@ -145,7 +145,7 @@ class Skeleton:
         return rebuilding(self)
 
     def index(self, name: str) -> int:
-        """Find a joint by its name."""
+        """Return the index of a joint by its name."""
         if name not in self.names:
             raise MocapError(f"No joint '{name}'; there are: {shorten(', '.join(self.names), 150)}.")
         return self.names.index(name)
@@ -155,7 +155,7 @@ class Skeleton:
         return [int(child) for child in np.flatnonzero(self.parents == joint)]
 
     def path_to_root(self, joint: int) -> list[int]:
-        """List a joint and all those above it, up to the root.
+        """List a joint and its ancestors, up to the root.
 
         Examples
         --------
@@ -169,7 +169,7 @@ class Skeleton:
 
     @cached_property
     def rest(self) -> Array:
-        """Where the joints are while none is turned and the root is at the origin, (J, 3), metres.
+        """Joint positions of the rest pose, with the root at the origin and no rotations, (J, 3), metres.
 
         Examples
         --------
@@ -182,7 +182,7 @@ class Skeleton:
         return frozen(places, np.float64)
 
     def side(self, joint: int) -> str:
-        """Give "left" or "right" by a joint's name if the skeleton has its mirror image, else "middle".
+        """Return the side of a joint by its name: "left" or "right" if it has a mirror image, else "middle".
 
         Examples
         --------
@@ -197,7 +197,7 @@ class Skeleton:
         return "left" if name < image else "right"  # an l comes before an r
 
     def partner(self, joint: int) -> int:
-        """Find a joint's mirror image by its name; a joint in the middle is its own.
+        """Return the mirror image of a joint by its name; for a joint in the middle, the joint itself.
 
         Examples
         --------
@@ -214,7 +214,7 @@ class Skeleton:
 
     # reads: name: the other skeleton, as in `__eq__`
     def require_same(self, other: Skeleton) -> None:
-        """Raise `SkeletonMismatch` unless `other` has the same joints, the same tree and the same offsets."""
+        """Raise `SkeletonMismatch` unless `other` has the same joints, tree and offsets."""
         if self is other:
             return
         if missing := set(self.names) ^ set(other.names):
@@ -229,11 +229,11 @@ class Skeleton:
 
     # reads: name: the other skeleton, as in `__eq__`
     def joints_in(self, other: Skeleton) -> Indices:
-        """Find each joint in a skeleton that may have other end sites: its number there, -1 for none, (J,).
+        """Return the index of each joint in a skeleton that may differ in end sites, -1 if it has none, (J,).
 
         Raises
         ------
-        SkeletonMismatch : where they differ in more than end sites.
+        SkeletonMismatch : if they differ in more than end sites.
 
         Examples
         --------
@@ -246,7 +246,7 @@ class Skeleton:
 
     @cached_property
     def _without_ends(self) -> Skeleton:
-        """Leave out the end sites: leaves with the names that reading a BVH file gives them."""
+        """The skeleton without end sites: leaves with the names that the BVH reader gives them."""
         above = (f"{self.names[parent]}_end" for parent in self.parents)
         ends = [name.startswith(end) for name, end in zip(self.names, above, strict=True)]
         keep = [joint for joint, end in enumerate(ends) if joint in self.parents or not end]

@@ -18,9 +18,9 @@ from mocap.cli.options import (
     Sources,
     Unit,
     bar,
-    require_place,
-    tell,
-    tell_of_failures,
+    print_rows,
+    report_failures,
+    require_output,
     timed_stage,
 )
 from mocap.errors import MocapError, printable
@@ -28,20 +28,25 @@ from mocap.files import conversion
 from mocap.files.conversion import find_files
 from mocap.methods import match_webs
 
-# A path of the web ends where frames are no longer as near as asked, although on average they still are.
-ROOM = 4 / 3  # with it CMU 02_05's punch finds two more below 6 cm; with 2 no others
+# A path of the web ends at frames above the limit, although the mean of a longer path may be below it.
+ROOM = 4 / 3  # factor of the limit. It finds two more punches of CMU 02_05 below 6 cm, and 2 finds no others
 
 
 def info(file: Path, *, joints: bool = False, reading: FileReading) -> None:
-    """Report a clip's length, path and flaws.
+    """Report the duration, the path and the flaws of a clip.
 
-    Report how long a clip is, how far the body goes and turns, and what is wrong with it.
+    Report the duration of a clip, the height of the body, the length of its path, its change of heading, and
+    flaws of the data.
 
     Parameters
     ----------
     file : a motion file.
-    joints : print the roles of the joints and their names instead, as .toml: to be corrected, and given to
-        other commands by --joints.
+    joints : print the roles of the joints and their names instead, as .toml, which other commands accept by
+        --joints.
+
+    Notes
+    -----
+    Example: mocap info walk.bvh --joints > map.toml
     """
     reading.require_skeleton_of_use(file)
     motion, angles, _ = reading.read(file)
@@ -63,16 +68,20 @@ def view(clip: Path, *, out: Path | None = None, reading: Reading) -> None:
     Parameters
     ----------
     clip : a motion file.
-    out : an .html, .gif, .mp4 or .png to write; opens no browser.
+    out : file to write, .html, .gif, .mp4 or .png, without opening a browser.
+
+    Notes
+    -----
+    Example: mocap view walk.bvh
     """
     import webbrowser  # it takes a while
 
     if out:
-        require_place(out)
+        require_output(out)
     motion = reading.load(clip)
     page = out or Path(tempfile.mkdtemp(prefix="mocap-"), f"{clip.stem}.html")
     widgets.save_animation(motion, page, progress=bar("drawing"))
-    tell(wrote=page)
+    print_rows(wrote=page)
     if not out and not webbrowser.open(page.as_uri()):
         print("mocap: no browser opened; open that page yourself.", file=sys.stderr)
 
@@ -86,19 +95,19 @@ def judge(
     unit: Unit = None,
     json: bool = False,
 ) -> int:
-    """Measure motions, whatever made them, and rank them.
+    """Measure the quality of motions from any source, and rank them.
 
-    Measure motions, whatever program made them, and list the best first: jolts, trembling, feet that sink,
-    float, slide or skate, joints that bend or turn too far, bones that change their length, a body of another
-    size than people's, and how far from a path. Each number is a share of its limit; above 1 it stands out
-    beyond what captured people do. Whether a motion is the one that was wanted, or looks alive, it cannot
-    see.
+    Measure the quality of motions from any source, and list them from best to worst. The measures are jolts,
+    trembling, feet below or above the ground, foot sliding, joints that bend or rotate too far, bones of
+    varying length, a body of an unusual size, and the distance from a path. Each number is the ratio of a
+    measure to its limit, which captured motion keeps. Agreement with a request and liveliness are not
+    measured.
 
     Parameters
     ----------
-    motions (FILE) : motion files, or folders of them, and the folders inside.
-    against (CLIP) : the clips that they are made of.
-    path : the path that they should follow, .csv or .svg.
+    motions (FILE) : motion files, or folders of them, including subfolders.
+    against (CLIP) : the clips from which the motions were made.
+    path : the path that they should follow, .csv with points x, z in metres, or .svg.
     json : print all numbers as JSON.
 
     Notes
@@ -129,17 +138,17 @@ def judge(
 
 
 def convert(source: Path, target: Path, *, reading: Reading, to: Literal["bvh", "glb"] = "bvh") -> int:
-    """Convert motion files to .bvh or .glb; whole folders of them.
+    """Convert motion files, or whole folders, to .bvh or .glb.
 
-    Convert a clip, or all clips in a folder and the folders inside it. For one clip, the suffix of OUT is the
-    format. Lengths in a .bvh are centimetres. A .glb is for engines and
-    viewers, and shows a body of capsules.
+    Convert a clip, or all clips in a folder and its subfolders. For one clip, the suffix of OUT selects the
+    format. Lengths in a .bvh file are centimetres. A .glb file is for engines and viewers, and shows a body
+    of capsules.
 
     Parameters
     ----------
     source (IN) : a motion file, or a folder.
-    target (OUT) : the new file, or folder.
-    to : format for the clips of a folder.
+    target (OUT) : file or folder to write.
+    to : format of the files in a folder.
 
     Notes
     -----
@@ -147,8 +156,8 @@ def convert(source: Path, target: Path, *, reading: Reading, to: Literal["bvh", 
     """
     pairs = conversion.plan(source, target, f".{to}")
     failed = conversion.convert(pairs, reading.load_any, progress=bar("converting"))
-    place = f" to {target}" if not source.is_dir() else f" to .{to}, in {target}"
-    return tell_of_failures("converted", len(pairs), failed, place)
+    where_to = f" to {target}" if not source.is_dir() else f" to .{to}, in {target}"
+    return report_failures("converted", len(pairs), failed, where_to)
 
 
 def find(
@@ -159,17 +168,17 @@ def find(
     below: Annotated[float, CM] = 6.0,
     sources: Sources,
 ) -> None:
-    """Find all motions like an example, and cut them out.
+    """Find all motions similar to an example, and cut them out.
 
-    Find what is like some frames of a clip, then what is like that, in all clips. Print the matches as a
-    table, from the nearest on, and with --out write each as a file.
+    Find motions in all clips that are similar to some frames of a clip, then motions similar to those. Print
+    the matches as a table, the most similar first, and with --out write each to a file.
 
     Parameters
     ----------
-    query (QUERY[:FROM-TO]) : a clip and its frames, as in walk.amc:120-250 (the last one not included).
+    query (QUERY[:FROM-TO]) : a motion file and its frames, as in walk.amc:120-250 (without the last one).
     clips : motion files, or folders of them.
-    out : folder to write the matches into, as files (default: write none).
-    below : largest distance of a match, cm.
+    out : folder to write to, with a file for each match (default: write none).
+    below : largest RMS distance of a match, cm.
 
     Notes
     -----
@@ -180,7 +189,7 @@ def find(
     example, frames = _query(query)
     paths = find_files(clips)
     places = [*(path.resolve() for path in paths), example.resolve()]
-    query_clip = places.index(example.resolve())  # the last one if the example is not among the clips
+    query_clip = places.index(example.resolve())  # the last index if the example is not one of the clips
     motions = sources.load(paths if query_clip < len(paths) else [*paths, example])
     web = match_webs.build_web(motions, below=ROOM * below / 100, progress=bar("comparing"))
     matches = match_webs.search(web, query_clip, frames, below=below / 100)
@@ -191,17 +200,17 @@ def find(
         seconds = (match.stop - match.start) / clip.fps
         place = f"{printable(clip.name):<20} {f'{match.start}-{match.stop}':>13}"
         print(f"{place} {seconds:>8.2f} {100 * match.cost:>5.1f} {match.generation:>5}")
-    tell(found=f"{len(shown)} in {len({match.clip for match in shown})} clips")
+    print_rows(found=f"{len(shown)} in {len({match.clip for match in shown})} clips")
     if out:
         make_folder(out)
         for match in bar("writing")(shown):
             name = f"{motions[match.clip].name}_{match.start}-{match.stop}.bvh"
             files.save(match_webs.cut_out(web, match), out / name)
-        tell(wrote=f"{len(shown)} files to {out}")
+        print_rows(wrote=f"{len(shown)} files to {out}")
 
 
 def _query(text: str) -> tuple[Path, slice]:
-    """Read a clip and its frames.
+    """Parse a query, the name of a clip and its frames.
 
     Examples
     --------

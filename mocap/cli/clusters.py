@@ -1,4 +1,4 @@
-"""The workers of a Dask cluster, which `mocap graph --cluster` sends its work to."""
+"""The workers of a Dask cluster, to which `mocap graph --cluster` sends its work."""
 
 import logging
 import re
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 ADDRESS = r"(tcp|tls|ws|wss)://[^\s:/]+:\d{1,5}"  # as a scheduler prints it when it starts
 PATIENCE = 5.0  # seconds in which a scheduler must answer and have a worker
-RETRIES = 3  # times that a block is computed again when its worker dies
+RETRIES = 3  # number of times that a block is computed again if its worker fails
 
 
 @contextmanager
@@ -29,19 +29,19 @@ def connect(address: str) -> "Iterator[Executor]":
 
     Raises
     ------
-    MocapError : for a malformed address; if distributed is not installed; if no scheduler answers within
-        `PATIENCE`, or has no worker, or its workers have another version of this package; and if the cluster
-        breaks down later.
+    MocapError : for a malformed address, if distributed is not installed, if no scheduler answers within
+        `PATIENCE`, if it has no worker or its workers have another version of this package, and if the
+        cluster fails later.
     """
     if not re.fullmatch(ADDRESS, address):
         raise MocapError(f"Where is the cluster '{address[:40]}'? Write tcp://HOST:PORT, as dask prints it.")
-    from concurrent.futures import CancelledError  # the help needs none
+    from concurrent.futures import CancelledError  # not imported for the help
 
     try:
         import distributed
     except ImportError:
         raise missing("A cluster needs distributed", "distributed") from None
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # its errors are raised here as well
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # its errors are also raised here
     shown = shortened(address, 60)
     try:
         client = distributed.Client(address, timeout=PATIENCE, set_as_default=False)
@@ -59,7 +59,7 @@ def connect(address: str) -> "Iterator[Executor]":
 
 
 def _require_workers(client: "Client", address: str) -> None:
-    """Raise if no worker comes in time, or one has another version of this package or none."""
+    """Raise if there is no worker in time, or if a worker lacks this version of the package."""
     try:
         client.wait_for_workers(1, timeout=PATIENCE)
     except TimeoutError:
@@ -72,9 +72,9 @@ def _require_workers(client: "Client", address: str) -> None:
 
 
 def _version_reader() -> Callable[[], str]:
-    """Make a function that reads the version of this package on a worker.
+    """Return a function that reads the version of this package on a worker.
 
-    As a function in a function, it is sent as code: a worker without the package can run it as well.
+    A nested function is sent as code, so that a worker without the package can also run it.
     """
 
     def read() -> str:

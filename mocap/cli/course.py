@@ -19,9 +19,9 @@ from mocap.course.opening import build_lite, open_course, stored
 from mocap.errors import printable
 
 Points = Annotated[Path | None, "a .toml file of lines EXERCISE = POINTS (default: 1 each)"]
-ALL_BEHIND = Parameter(consume_multiple=True, allow_leading_hyphen=True, show=False)  # also with hyphens
+ALL_BEHIND = Parameter(consume_multiple=True, allow_leading_hyphen=True, show=False)  # even with hyphens
 HANDOUT = Path("mocap-handout")
-Moving = Annotated[bool, "run the notebooks (minutes) and record the experiments' sliders"]
+Moving = Annotated[bool, "run the notebooks, which takes minutes, and record the sliders of experiments"]
 
 
 def handout(
@@ -29,18 +29,18 @@ def handout(
 ) -> None:
     """Copy the notebooks without their solutions.
 
-    Copy the notebooks without their solutions, hints and outcomes, and with what JupyterHub, Binder and Colab
-    need to run them.
+    Copy the notebooks without their solutions, hints and outputs, together with the files that JupyterHub,
+    Binder and Colab need to run them.
 
     Parameters
     ----------
-    notebooks : files to copy (default: the whole course).
-    out : where to write.
-    nbgrader : write the folder of a course for nbgrader, with solutions, checks and points marked.
+    notebooks : notebooks to copy (default: the whole course).
+    out : folder to write to.
+    nbgrader : write a course folder for nbgrader, in which solutions, checks and points are marked.
 
     Notes
     -----
-    For example: mocap course handout notebooks/02-matching.ipynb --nbgrader -o my-course
+    Example: mocap course handout notebooks/02-matching.ipynb --nbgrader -o my-course
     """
     worth = marking.grades.read_points(points)
     print(f"wrote {len(hand_out(notebooks, out, worth, nbgrader=nbgrader))} notebooks to {out}")
@@ -51,7 +51,11 @@ def site(*, out: Path = Path("mocap-site"), moving: Moving = False) -> None:
 
     Parameters
     ----------
-    out : where to write.
+    out : folder to write to.
+
+    Notes
+    -----
+    Example: mocap course site -o site
     """
     from mocap.course.site import build_site  # the help needs no NumPy
 
@@ -59,15 +63,15 @@ def site(*, out: Path = Path("mocap-site"), moving: Moving = False) -> None:
 
 
 def slides(*, out: Path = Path("mocap-slides"), moving: Moving = False) -> None:
-    """Write the decks of the course as slides that need no network.
+    """Write the slides of the course as HTML pages that need no network.
 
     Parameters
     ----------
-    out : where to write.
+    out : folder to write to.
 
     Notes
     -----
-    For example: mocap course slides -o slides, then open slides/index.html.
+    Example: mocap course slides -o slides, then open slides/index.html.
     """
     from mocap.course.teaching.slides import build_slides
 
@@ -75,27 +79,31 @@ def slides(*, out: Path = Path("mocap-slides"), moving: Moving = False) -> None:
 
 
 def lite(*, out: Path = Path("mocap-lite")) -> None:
-    """Build a JupyterLite site, which runs in the browser.
+    """Build a JupyterLite site of the course, which runs in the browser.
 
     Parameters
     ----------
-    out : where to write.
+    out : folder to write to.
+
+    Notes
+    -----
+    Example: mocap course lite -o lite
     """
     print(f"wrote {build_lite(stored(), out)}")
 
 
 def film(notebook: Path, *, out: Path | None = None, still: bool = False) -> None:
-    """Render a film of a notebook's deck.
+    """Render a film of the slides of a notebook.
 
     Parameters
     ----------
-    notebook : file of the notebook.
-    out : where to write (default: the notebook's name, here).
-    still : do not run it: sliders stand still.
+    notebook : the notebook.
+    out : file to write, .mp4 (default: the name of the notebook, in the current folder).
+    still : do not run the notebook, so that its sliders do not move.
 
     Notes
     -----
-    For example: mocap course film notebooks/06-pruning.ipynb -o pruning.mp4
+    Example: mocap course film notebooks/06-pruning.ipynb -o pruning.mp4
     """
     from mocap.course.teaching.films import render_film
 
@@ -106,15 +114,15 @@ def film(notebook: Path, *, out: Path | None = None, still: bool = False) -> Non
 
 
 def board(*, out: Path = Path("mocap-board")) -> None:
-    """Write drawings for the board as PNGs.
+    """Write the drawings for the blackboard as PNG files.
 
     Parameters
     ----------
-    out : where to write.
+    out : folder to write to.
 
     Notes
     -----
-    For example: mocap course board -o board, then open board/board.png.
+    Example: mocap course board -o board, then open board/board.png.
     """
     from mocap.course.teaching.board import write_board
 
@@ -127,27 +135,28 @@ def mark(
     *,
     out: Path = Path("marks.csv"),
     points: Points = None,
-    roster: Annotated[Path | None, "the .csv file of students that Moodle or Canvas has written"] = None,
-    feedback: Annotated[Path | None, "a folder for a page of HTML per student"] = None,
-    jobs: Annotated[int, number(1, 64, int), "notebooks that are marked at a time"] = 1,
+    roster: Annotated[Path | None, "the .csv file of students, exported from Moodle or Canvas"] = None,
+    feedback: Annotated[Path | None, "folder to write to, with an HTML page for each student"] = None,
+    jobs: Annotated[int, number(1, 64, int), "number of notebooks that are marked at a time"] = 1,
 ) -> None:
-    """Mark a folder of handed-in notebooks into .csv files.
+    """Mark a folder of submitted notebooks, and write .csv files.
 
-    Mark a folder of handed-in notebooks into four .csv files: OUT has a line for each exercise, OUT-table a
-    line for each student, OUT-moodle and OUT-canvas have the columns that these import. Each notebook runs in
-    a process of its own, with a new folder as its home, few variables in its environment, and limits of time,
-    memory, processes and files. The first line printed says what else this system can do: whether a notebook
-    can read or write anything but Python and its home, and whether it has a network. If you do not trust
-    those who hand in, read "Hand out, and mark" in notebooks/README.md first.
+    Mark a folder of submitted notebooks, and write four .csv files: OUT has a line for each exercise,
+    OUT-table has a line for each student, and OUT-moodle and OUT-canvas have the columns that Moodle and
+    Canvas import. Each notebook runs in its own process, with a new home folder, few environment variables,
+    and limits of time, memory, processes and files. The first line of the output reports the isolation on
+    this system: whether a notebook can read or write files outside Python and its home folder, and whether it
+    has a network. If you do not trust the submissions, first read "Hand out, and mark" in
+    notebooks/README.md.
 
     Parameters
     ----------
-    folder : holds a folder for each student, with notebooks.
-    out : where to write.
+    folder : a folder with a folder of notebooks for each student.
+    out : file to write, .csv.
 
     Notes
     -----
-    For example: mocap course mark handed-in -o marks.csv --points points.toml --feedback feedback
+    Example: mocap course mark handed-in -o marks.csv --points points.toml --feedback feedback
     """
     marking.walls.require_sealing()  # before anything is read
     worth = marking.grades.read_points(points)
@@ -169,11 +178,15 @@ def mark(
 
 
 def run(notebooks: Sequence[Path] = ()) -> None:
-    """Run notebooks again and store them with their outputs.
+    """Run notebooks and store them with their outputs.
 
     Parameters
     ----------
-    notebooks : files to run (default: the whole course).
+    notebooks : notebooks to run (default: the whole course).
+
+    Notes
+    -----
+    Example: mocap course run notebooks/02-matching.ipynb
     """
     folder = stored()
     for notebook in bar("running")(notebooks or sorted(folder.glob("*.ipynb"))):
@@ -187,14 +200,17 @@ def lab(
 ) -> int:
     """Open the course in JupyterLab.
 
-    Open the course in JupyterLab. The words after -- are options of JupyterLab: mocap lab -- --no-browser
-    --port 8890.
+    Open the course in JupyterLab. Words after -- are passed to JupyterLab as options.
 
     Parameters
     ----------
-    folder : folder for a copy of the notebooks; those that it holds already stay as they are.
+    folder : folder for a copy of the notebooks, of which existing ones are not changed.
+
+    Notes
+    -----
+    Example: mocap lab -- --no-browser --port 8890
     """
-    signal.signal(signal.SIGTERM, signal.SIG_DFL)  # `open_course` waits on after a KeyboardInterrupt
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)  # `open_course` keeps waiting after a KeyboardInterrupt
     return int(open_course(folder, jupyter))
 
 

@@ -13,14 +13,18 @@ SetName = Literal["lafan1", "bandai_namco", "100style"]  # the keys of `named_se
 def list_trials(
     *, subject: Annotated[int | None, number(1, 999, int)] = None, kind: str | None = None
 ) -> None:
-    """List the trials of the CMU database that datasets.cmu fetches.
+    """List the trials of the CMU database.
 
-    List the trials of the CMU database that datasets.cmu fetches by name.
+    List the trials of the CMU database, which the function datasets.cmu downloads by name.
 
     Parameters
     ----------
-    subject : only this person's trials.
-    kind : only trials with this word in their description.
+    subject : only the trials of the subject with this number.
+    kind : only the trials with this word in their description.
+
+    Notes
+    -----
+    Example: mocap data list --subject 16 --kind jump
     """
     from mocap.datasets.cmu_database import TERMS  # the help needs no NumPy
 
@@ -31,7 +35,10 @@ def list_trials(
 
 
 def list_sets() -> None:
-    """List the named sets that datasets.from_set reads, with their licences and joints."""
+    """List the named sets of clips, with their licences and joints.
+
+    List the named sets of clips, which the function datasets.from_set reads, with their licences and joints.
+    """
     from mocap.datasets.named_sets import SETS, clips_of
 
     for name, row in SETS.items():
@@ -43,15 +50,19 @@ def list_sets() -> None:
 
 
 def fetch(set: SetName, *, accept: bool = False) -> None:
-    """Download all clips of a named set, once.
+    """Download all clips of a named set.
 
-    Download all clips of a named set, unless they are at hand. A download that broke off, or that Ctrl-C
-    ended, continues when the same command is run again.
+    Download all clips of a named set, unless they have been downloaded. An interrupted download is resumed
+    when the same command is run again.
 
     Parameters
     ----------
-    set : its name.
-    accept : accept the licence that the set is under.
+    set : the name of the set.
+    accept : accept the licence of the set.
+
+    Notes
+    -----
+    Example: mocap data fetch lafan1 --accept
     """
     from mocap.datasets.named_sets import SETS, fetch_set
 
@@ -64,6 +75,6 @@ def fetch(set: SetName, *, accept: bool = False) -> None:
 
 
 DATA = Group(
-    "List clips to download, and download whole sets.",
+    "List and download clips of other labs.",
     {"list": list_trials, "sets": list_sets, "fetch": fetch},
 )

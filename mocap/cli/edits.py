@@ -1,4 +1,4 @@
-"""The commands that make clips of clips: `mocap warp`, `bend`, `loop`, `blend` and `retarget`."""
+"""The commands that edit clips: `mocap warp`, `bend`, `loop`, `blend` and `retarget`."""
 
 import math
 from collections.abc import Sequence
@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from mocap import blending, body, editing, feet, quality
 from mocap._shared.atomic import require_folder
 from mocap.cli import options
-from mocap.cli.options import TURN, Clean, Reading, Unit, bar, check_out, number, tell, write_out
+from mocap.cli.options import TURN, Clean, Reading, Unit, bar, check_out, number, print_rows, write_out
 from mocap.errors import MocapError, Remedy, warn
 from mocap.files.conversion import convert, find_files, require_apart
 
 if TYPE_CHECKING:
     from mocap.editing.stances import Stance
 
-LASTS = number(0.2, 600)  # seconds; no shorter than the seam
-POOR = 0.06  # metres RMS; the cycles of eight walks had seams of 0.5 to 3 cm
-LITTLE = 0.15  # metres; cycles of walks miss 1 to 9 cm, a pose held before a run misses 30
+LASTS = number(0.2, 600)  # seconds, not shorter than the seam
+POOR = 0.06  # metres RMS. The cycles of eight walks had seams of 0.5 to 3 cm
+LITTLE = 0.15  # metres. Cycles of walks miss 1 to 9 cm, and a static pose before a run misses 30 cm
 
 
 def warp(
@@ -30,36 +30,36 @@ def warp(
     loose_feet: bool = False,
     reading: Reading,
 ) -> None:
-    """Change a few poses and moments of a clip; all its frames follow.
+    """Edit the poses and the timing of a clip by a few keys.
 
-    Move joints at a few moments of a clip, or let its moments happen at other times. Smooth curves carry the
-    change to the frames between, and planted feet are put back to where they stood.
+    Move joints at a few times of a clip, or change the times of its frames. Smooth curves interpolate the
+    changes between the keys, and foot sliding is removed.
 
     Parameters
     ----------
-    source (IN) : an .amc or .bvh file.
+    source (IN) : a motion file.
     keys (FILE) : a text file of keys, described below.
-    out (OUT) : the new .bvh or .glb file.
-    window : seconds, see below.
-    loose_feet : let feet slide; needed for bodies without legs.
+    out (OUT) : file to write, .bvh or .glb.
+    window : duration of the edit before the first and after the last pose, seconds, see below.
+    loose_feet : do not remove foot sliding. Needed for bodies without legs.
 
     Notes
     -----
-    keys, one in each line of FILE; what follows a # is left out:
-      at 1.5s lhand 0.10 0.25 0   second 1.5: the joint is moved, in metres to
-                                  the body's left, up and ahead
-      at 180 lhand 0.10 0.25 0    the same at frame 180; more joints may be
-                                  moved at one moment
-      at 1s same                  from there on, or up to there, the pose is as
-                                  it was
-      at 1s level                 the same, and the change stands still there:
-                                  at take-off and landing
-      at 2s lhand 0 0.5 0 level   a pose may be level, too
-      time 2.5 2                  the clip's second 2 is shown at second 2.5;
-                                  two such lines or more
+    FILE has one key in each line. Text after a # is a comment:
+      at 1.5s lhand 0.10 0.25 0   at 1.5 s the joint is moved to the body's left,
+                                  up and ahead, in metres
+      at 180 lhand 0.10 0.25 0    the same at frame 180. Several joints may be
+                                  moved at one time
+      at 1s same                  the pose at 1 s is unchanged: an edit begins or
+                                  ends here
+      at 1s level                 the same, and the rate of the change is zero,
+                                  as needed at take-off and landing
+      at 2s lhand 0 0.5 0 level   a moved joint may also have a zero rate
+      time 2.5 2                  the frame at 2 s of the clip is shown at 2.5 s.
+                                  A file has none or at least two of these keys
 
-    `mocap info IN --joints` lists the names of the joints. Where FILE does not say it, the motion is as it
-    was --window seconds before the first pose and after the last one.
+    `mocap info IN --joints` lists the names of the joints. Without keys of unchanged poses, the edit begins
+    --window seconds before the first moved pose, and ends as many seconds after the last one.
 
     Example: mocap warp walk.bvh --keys keys.txt -o warped.bvh
     """
@@ -78,7 +78,7 @@ def warp(
         motion = feet.mark_plants(motion)
     warped = warp_plans.warp(motion, plan, window=window, feet=not loose_feet)
     poses = sum(map(len, plan.wishes.values()))
-    tell(keys=f"{poses} of poses, {len(plan.times)} of time")
+    print_rows(keys=f"{poses} of poses, {len(plan.times)} of time")
     write_out(warped, out, details=f": {len(warped)} frames, {warped.duration:.2f} s")
 
 
@@ -91,19 +91,18 @@ def bend(
     unit: Unit = None,
     reading: Reading,
 ) -> None:
-    """Lay a walk on a line.
+    """Bend a walk onto a path.
 
-    Lay the walk of a clip on a line drawn on the ground, as far as it goes: it slows down and leans in where
-    the line bends, and its feet are cleaned up. Where the line turns too fast, it is rounded; the report says
-    where and by how much. For a line longer than the clip, see `mocap walk --bend`.
+    Bend the walk of a clip onto a path on the ground, up to the length of the walk. It slows down and leans
+    in at bends of the path, and foot sliding is removed. If the path turns too fast, it is rounded, and the
+    report has the position and the amount. For a path longer than the clip, see `mocap walk --bend`.
 
     Parameters
     ----------
-    source (IN) : an .amc or .bvh file of a walk.
-    along (LINE) : the line: .csv with points x, z in metres, or an .svg picture.
-    out (OUT) : the new .bvh or .glb file.
-    limit (DEGREES) : the fastest that the walk is turned, degrees per second; faster only where it turns by
-        itself.
+    source (IN) : a motion file of a walk.
+    along (PATH) : the path, .csv with points x, z in metres, or .svg.
+    out (OUT) : file to write, .bvh or .glb.
+    limit (DEGREES) : the highest angular speed that bending adds to that of the walk, degrees per second.
 
     Notes
     -----
@@ -114,7 +113,7 @@ def bend(
 
     line = load_path(along, scale=unit)
     bent = editing.bend(reading.load(source), line, limit=math.radians(limit))
-    tell(bent=bent.report())
+    print_rows(bent=bent.report())
     write_out(bent.motion, out)
 
 
@@ -131,18 +130,18 @@ def loop(
 ) -> None:
     """Cut the best cycle out of a clip and close it.
 
-    Find the stretch of a clip that makes the best cycle: its ends are alike, and it holds most of what the
-    clip does. Close it, and write it as .bvh or .glb. Its last frame is its first one, farther on
-    over the ground.
+    Find the part of a clip that is the best cycle: its ends are similar, and it contains most poses of the
+    clip. Close the cycle, so that it can be repeated. Its last frame has the pose of the first one, at a new
+    position on the ground.
 
     Parameters
     ----------
     clip : a motion file.
-    out : file to write.
-    shortest : seconds of a cycle at least.
-    longest : seconds of a cycle at most.
-    straight : take out the turn of a round: it goes on straight ahead.
-    times : rounds to write.
+    out : file to write, .bvh or .glb.
+    shortest : shortest duration of a cycle, seconds.
+    longest : longest duration of a cycle, seconds.
+    straight : remove the change of heading of a cycle, so that it continues straight ahead.
+    times : number of cycles to write.
 
     Notes
     -----
@@ -161,53 +160,50 @@ def loop(
     if best.missed > LITTLE:
         warn(f"{clip}: the clip's other poses are {missed} away: it may hold no whole cycle.")
     cycle = editing.loop(motion, best, straight=straight, clean=clean)
-    turn = quality.inspect(cycle).turn
+    turn = quality.inspect(cycle).heading_change
     step = math.hypot(*(cycle.root_positions[-1] - cycle.root_positions[0])[[0, 2]])
     side = "left" if turn > 0 else "right"
-    tell(cycle=f"frames {best.first} to {best.last}, {cycle.duration:.2f} s")
-    tell(seam=f"{100 * best.seam:.1f} cm RMS")
-    tell(misses=f"{100 * best.missed:.1f} cm of the clip's other poses, on average")
-    tell(**{"a round": f"{step:.2f} m, turns {side} by {abs(math.degrees(turn)):.0f}°"})
+    print_rows(cycle=f"frames {best.first} to {best.last}, {cycle.duration:.2f} s")
+    print_rows(seam=f"{100 * best.seam:.1f} cm RMS")
+    print_rows(misses=f"{100 * best.missed:.1f} cm of the clip's other poses, on average")
+    print_rows(**{"a round": f"{step:.2f} m, turns {side} by {abs(math.degrees(turn)):.0f}°"})
     write_out(repeated(cycle, times), out)
 
 
-def _share(text: str) -> float:
-    """Read the share of a clip in a blend.
-
-    Examples
-    --------
-    >>> _share("0.5")
-    0.5
-    """
+def _weight(text: str) -> float:
+    """Parse the weight of a clip in a blend."""
     try:
         return number(-1, 2)(text)
     except MocapError as error:
-        raise MocapError(f"{error}: give shares such as 0.5 0.5") from None
+        raise MocapError(f"{error}: give weights such as 0.5 0.5") from None
 
 
 def blend(
     clips: Sequence[Path],
     *,
-    weights: Annotated[Sequence[float], _share] = (),
+    weights: Annotated[Sequence[float], _weight] = (),
     fade: Annotated[float | None, number(0.01, 1000)] = None,
     slack: Annotated[float, number(0, 1e4)] = 1.2,
     clean: bool = False,
     out: Path = Path("blend.bvh"),
     reading: Reading,
 ) -> None:
-    """Blend clips of one kind as wholes, by weights, or pass from one into another.
+    """Blend whole clips of one kind by weights, or crossfade from one to another.
 
-    Blend two clips of one kind or more: which of their frames belong together is found first, so walks of
-    different speed or direction stay in step. With --fade, pass from the first clip into the second.
+    Blend two or more clips of one kind. Corresponding frames are registered first, so that walks of different
+    speed or direction stay in step. With --fade, crossfade from the first clip to the second.
 
     Parameters
     ----------
     clips (CLIP) : a motion file.
-    weights : one for each clip, with the sum 1 (default: all alike).
-    fade (SECONDS) : pass from the first into the second clip, in the middle of what they have in common.
-    slack : seconds that one clip may start or end before the others, at most half of the shortest.
-    clean : find footplants and clean up footskate.
-    out : file to write.
+    weights : a weight for each clip, with the sum 1 (default: equal weights).
+    fade (SECONDS) : duration of a crossfade from the first clip to the second, in the middle of their common
+        part, seconds.
+    slack (SECONDS) : largest difference between the starts, or the ends, of the clips, seconds, at most half
+    of
+        the shortest clip.
+    clean : detect footplants, and remove foot sliding.
+    out : file to write, .bvh or .glb.
 
     Notes
     -----
@@ -226,10 +222,10 @@ def blend(
     registration = blending.register(motions, slack=slack)
     first, last = registration.span
     worst = 100 * max(registration.costs)
-    tell(registered=f"{len(motions)} clips, {last - first:.2f} s in common, {worst:.1f} cm")
+    print_rows(registered=f"{len(motions)} clips, {last - first:.2f} s in common, {worst:.1f} cm")
     weights = weights or [1 / len(clips)] * len(clips)
     mixed = blending.crossfade(registration, seconds=fade) if fade else blending.mix(registration, weights)
-    tell(blended=f"{mixed.duration:.2f} s")
+    print_rows(blended=f"{mixed.duration:.2f} s")
     write_out(feet.clean_up(mixed) if clean else mixed, out)
 
 
@@ -242,20 +238,20 @@ def retarget(
     to_scale: Annotated[float | None, options.LENGTH] = None,
     reading: Reading,
 ) -> int:
-    """Let one body wear the clips of others.
+    """Retarget clips to another body.
 
-    Copy clips onto another body, with its feet planted on the floor where the old feet were planted. Clips of
-    different people then fit into one motion graph. Joints are found by their names, or by how
-    they move.
+    Transfer clips to another body, with its feet planted at the positions of the original footplants. Then
+    clips of different people can be used in one motion graph. Joints are identified by common names, or by
+    their motion.
 
     Parameters
     ----------
-    clips (IN) : files with clips, or folders of them.
-    to (FILE) : whose body: an .asf file whose rest pose stands upright; or better a clip of somebody who
-        walks, which also says how high the feet stand.
-    out (DIR) : folder for the new files.
-    format : format of the new files.
-    to_scale : metres per unit of length in FILE, as --scale is for IN.
+    clips (IN) : motion files, or folders of them.
+    to (FILE) : the body, from a motion file of a person who walks, which also defines the height of the feet,
+        or from an .asf file with an upright rest pose.
+    out (DIR) : folder to write to.
+    format : format of the files to write.
+    to_scale : metres per unit of length in FILE, as --scale for IN.
 
     Notes
     -----
@@ -268,17 +264,18 @@ def retarget(
     require_apart(pairs, [to])
     wear = partial(_worn, reading, _body(to, to_scale, reading.joints))
     failed = convert(pairs, wear, progress=bar("retargeting"))
-    return options.tell_of_failures("retargeted", len(pairs), failed, f", in {out}")
+    return options.report_failures("retargeted", len(pairs), failed, f", in {out}")
 
 
 def _worn(reading: Reading, wearer: "Stance | body.Skeleton", source: Path) -> "body.Motion":
+    """Read a clip and retarget it."""
     from mocap.editing.retargeting import wear  # the help needs no NumPy
 
     return wear(reading.load(source), wearer)
 
 
 def _body(path: Path, scale: float | None, joints: Sequence[Path]) -> "Stance | body.Skeleton":
-    """Read whose body it is, and, of a clip in which somebody stands, how it stands."""
+    """Read the body to which clips are retargeted, and its stance from a clip in which it stands."""
     from mocap.editing.stances import stance_of_zero
     from mocap.files.asf import read_skeleton
 
@@ -290,7 +287,7 @@ def _body(path: Path, scale: float | None, joints: Sequence[Path]) -> "Stance | 
     try:
         return editing.stance_of(clip)
     except MocapError as error:
-        try:  # nobody stands in it, but its rest pose alone may do
+        try:  # the clip has no stance, but its rest pose may be sufficient
             return stance_of_zero(clip.skeleton, 0.0).skeleton
         except MocapError:
             raise MocapError(f"{path}: {error}") from None

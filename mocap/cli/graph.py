@@ -16,8 +16,8 @@ from mocap.cli.options import (
     bar,
     check_out,
     number,
+    print_rows,
     require_other,
-    tell,
     timed_stage,
     write_out,
 )
@@ -31,8 +31,8 @@ if TYPE_CHECKING:
     from mocap.graphs.motion_graph import MotionGraph
 
 SHOWN = 7  # names of clips
-LONG_WINDOW = 3.0  # seconds; more may have been meant as frames
-SMALL_THRESHOLD = 0.3  # cm; less may have been meant as metres
+LONG_WINDOW = 3.0  # seconds. A larger value may have been meant as frames
+SMALL_THRESHOLD = 0.3  # cm. A smaller value may have been meant as metres
 
 
 def demo(
@@ -43,7 +43,7 @@ def demo(
     seconds: Annotated[float, number(0.1, 3600)] = 12.0,
     seed: Seed = 0,
 ) -> None:
-    """Make a new walk out of clips, as walk.bvh and walk.gif.
+    """Create a new walk from clips, as walk.bvh and walk.gif.
 
     Build a motion graph of some clips, prune it, walk through it at random, and write the new motion as
     walk.bvh (centimetres) and walk.gif.
@@ -52,7 +52,11 @@ def demo(
     ----------
     clips : motion files, or folders of them (default: the bundled clips).
     out : folder to write to.
-    seconds : duration of the new walk.
+    seconds : duration of the new walk, seconds.
+
+    Notes
+    -----
+    Example: mocap demo --seconds 20 -o demo/
     """
     require_folder(out)
     paths = find_files(clips)
@@ -69,33 +73,33 @@ def demo(
         raise NoWalk(f"No walk is left at {threshold}; these clips need at least {needed:g} cm.") from error
     edges = synthesis.random_walk(pruned, seconds=seconds, seed=seed)
     walk = synthesis.to_motion(pruned, edges)
-    _tell_of_graphs(whole, pruned)
+    _print_graphs(whole, pruned)
     costs = [100 * seam.cost for seam in synthesis.seams(pruned, edges)]
-    tell(**{"new walk": f"{walk.duration:.1f} s, {quality.inspect(walk).path:.1f} m"})
-    tell(seams=f"{len(costs)}, the worst {max(costs, default=0.0):.1f} cm RMS")
+    print_rows(**{"new walk": f"{walk.duration:.1f} s, {quality.inspect(walk).path:.1f} m"})
+    print_rows(seams=f"{len(costs)}, the worst {max(costs, default=0.0):.1f} cm RMS")
     make_folder(out)
     write_out(walk, out / "walk.bvh")
     widgets.save_animation(walk, out / "walk.gif", progress=bar("drawing"))
-    tell(wrote=out / "walk.gif")
+    print_rows(wrote=out / "walk.gif")
 
 
-def _tell_of_graphs(whole: "MotionGraph", pruned: "MotionGraph") -> None:
+def _print_graphs(whole: "MotionGraph", pruned: "MotionGraph") -> None:
     """Print the clips of a graph, and its size before and after pruning."""
     names = [clip.name for clip in whole.clips]
     frames = sum(map(len, whole.clips))
     shown = ", ".join(names if len(names) <= SHOWN else [*names[:SHOWN], f"… {names[-1]}"])
     body = whole.clips[0]
-    tell(clips=f"{len(names)}: {shown}")
-    tell(frames=f"{frames} at {whole.fps:g} Hz, {frames / whole.fps:.1f} s")
-    tell(body=f"{len(body.skeleton)} joints, {quality.inspect(body).height:.2f} m tall")
-    tell(candidates=f"{whole.count('transition') // 2} pairs of windows alike")
+    print_rows(clips=f"{len(names)}: {shown}")
+    print_rows(frames=f"{frames} at {whole.fps:g} Hz, {frames / whole.fps:.1f} s")
+    print_rows(body=f"{len(body.skeleton)} joints, {quality.inspect(body).height:.2f} m tall")
+    print_rows(candidates=f"{whole.count('transition') // 2} pairs of windows alike")
     print(f"{'':<12} {'whole':>8}{'pruned':>8}")
     pair = (whole, pruned)
     rows = {"transitions": [graph.count("transition") for graph in pair]}
     rows["nodes"] = [graph.graph.number_of_nodes() for graph in pair]
     rows["edges"] = [graph.graph.number_of_edges() for graph in pair]
     for name, counts in rows.items():
-        tell(**{name: "".join(f"{count:8}" for count in counts)})
+        print_rows(**{name: "".join(f"{count:8}" for count in counts)})
 
 
 def build(
@@ -115,13 +119,13 @@ def build(
     Parameters
     ----------
     clips : motion files, or folders of them.
-    out : file to write.
+    out : file to write, .npz.
     by_labels : keep the largest component of each set of labels.
-    whole : do not prune.
-    mirror : add the mirror image of every clip: turns to both sides.
-    graphml : a second file to write, .graphml, for other tools.
-    jobs : threads that compare clips (default: all cores that this process may use).
-    cluster (ADDRESS) : compare clips on the workers of a Dask scheduler, as in tcp://10.0.0.5:8786; the graph
+    whole : do not prune the graph.
+    mirror : add the mirror image of each clip, so that all turns exist to the left and to the right.
+    graphml : second file to write, .graphml, for other tools.
+    jobs : number of threads that compare clips (default: all cores that this process may use).
+    cluster (ADDRESS) : compare clips on the workers of a Dask scheduler, as in tcp://10.0.0.5:8786. The graph
         is the same.
 
     Notes
@@ -149,17 +153,17 @@ def build(
     print(table)
     with timed_stage("writing"):
         graphs.save(graph, out, origins)
-    tell(wrote=out)
+    print_rows(wrote=out)
     if graphml:
         from mocap.graphs.graph_summary import write_graphml  # the help needs no NumPy
 
         write_graphml(graph, graphml)
-        tell(wrote=graphml)
+        print_rows(wrote=graphml)
 
 
 @contextmanager
 def _units_explained(building: Building) -> Iterator[None]:
-    """Add the unit of an option to an error where its value looks like one of another unit."""
+    """Add the unit of an option to an error if its value may have been meant in another unit."""
     try:
         yield
     except SkeletonMismatch:
@@ -176,7 +180,7 @@ def _units_explained(building: Building) -> Iterator[None]:
 def _read_clips(
     paths: "Sequence[Path]", building: Building, *, mirror: bool
 ) -> "tuple[list[Motion], list[Origin]]":
-    """Read clips, and add their mirror images; return them with the places that they were read from."""
+    """Read clips, add their mirror images, and return them with the origins of all."""
     motions = building.load(paths)
     origins = [Origin(path, building.skeleton, building.scale) for path in paths]
     if not mirror:
@@ -184,7 +188,7 @@ def _read_clips(
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", MocapWarning)
         motions += [editing.mirror(clip) for clip in motions]
-    if caught:  # one warning of lopsided bodies is enough
+    if caught:  # one warning about asymmetric bodies is enough
         count = f" So it is with {len(caught) - 1} more." if len(caught) > 1 else ""
         warn(f"{caught[0].message}{count}")
     return motions, origins + [origin._replace(mirrored=True) for origin in origins]
@@ -193,25 +197,30 @@ def _read_clips(
 def info(file: Path) -> None:
     """Describe a saved graph.
 
-    List a saved graph's clips and what it can play.
+    List the clips of a saved graph, with a summary of the graph and the motion that it can generate.
 
     Parameters
     ----------
     file : an .npz file from `mocap graph`.
+
+    Notes
+    -----
+    Example: mocap graph info graph.npz
     """
     from mocap.graphs.storage import read  # the help needs no NumPy
 
     stored = read(file)
     for name, frames in zip(stored.names, stored.frames, strict=True):
-        tell(clip=f"{name}: {frames} frames at {stored.fps:g} Hz, {frames / stored.fps:.1f} s")
-    tell(window=f"{stored.window} frames, {stored.window / stored.fps:.2f} s")
+        print_rows(clip=f"{name}: {frames} frames at {stored.fps:g} Hz, {frames / stored.fps:.1f} s")
+    print_rows(window=f"{stored.window} frames, {stored.window / stored.fps:.2f} s")
     print(graphs.summary(stored.graph, fps=stored.fps).table())
 
 
 TEXT = """Build a motion graph and save it, or describe a saved one.
 
-Build the motion graph of some clips, prune it and save it; or describe a saved graph. The graph remembers
-where its clips are. The word `build` may be left out. For a folder of clips called info, write ./info.
+Build the motion graph of some clips, prune it and save it, or describe a saved graph. The file stores the
+locations of the clips, not the clips. The word `build` may be omitted. For a folder of clips with the name
+info, write ./info.
 
 Notes
 -----

@@ -1,6 +1,7 @@
-"""Help pages in plain text: how a command is called, what it does, and tables of commands and options.
+"""Help pages in plain text: the usage of a command, its description, and tables of commands and options.
 
-`cyclopts` has pages too, but needs 0.15 seconds to load what colours them, as long as all the rest takes.
+`cyclopts` also has help pages, but needs 0.15 s to load the package that colours them, as long as everything
+else takes.
 """
 
 import shutil
@@ -14,8 +15,8 @@ if TYPE_CHECKING:
     from cyclopts import App, Argument
 
 INDENT = "  "  # before a row, and between its columns
-WIDEST_NAME = 24  # characters of the first column; a longer name has a line of its own
-WIDEST_PAGE = 100  # characters of a line; longer ones are hard to read
+WIDEST_NAME = 24  # characters of the first column. A longer name has its own line
+WIDEST_PAGE = 100  # characters of a line. Longer lines are hard to read
 COMMANDS = "Commands"  # the heading of commands without a group
 
 
@@ -48,7 +49,7 @@ def page(app: "App", program: str) -> str:
 
 
 def _command_rows(app: "App") -> Iterator[Row]:
-    """Yield a row for each command below this one, in the table of its group."""
+    """Yield a row for each subcommand, in the table of its group."""
     for name in app:
         if not name.startswith("-"):
             below = app[name]
@@ -56,7 +57,7 @@ def _command_rows(app: "App") -> Iterator[Row]:
 
 
 def _title(group: object, default: str) -> str:
-    """Return the heading of a group, of which `cyclopts` holds a tuple."""
+    """Return the heading of a group, which `cyclopts` stores as a tuple."""
     first = group[0] if isinstance(group, tuple) and group else group
     return first.name if isinstance(first, Group) else default
 
@@ -80,7 +81,7 @@ def _argument_row(argument: "Argument") -> Row:
 
 
 def _usage(program: str, arguments: list["Argument"], width: int) -> str:
-    """Return how a command is called, with what it needs."""
+    """Return the usage of a command, with its arguments and required options."""
     words = [program]
     for argument in arguments:
         if argument.index is not None:
@@ -94,7 +95,7 @@ def _usage(program: str, arguments: list["Argument"], width: int) -> str:
 
 
 def _table(title: str, rows: list[Row], width: int) -> str:
-    """Return a heading, and a line for each row, with the texts below each other."""
+    """Format a heading and the rows of a table, with aligned texts."""
     column = min(WIDEST_NAME, max(len(row.name) for row in rows))
     indent = f"{INDENT}{' ' * column}{INDENT}"
     lines = [f"{title}:"]
@@ -108,12 +109,6 @@ def _table(title: str, rows: list[Row], width: int) -> str:
 
 
 def _fold(text: str, width: int) -> str:
-    r"""Fold each paragraph by itself, but leave those with indented lines as they are.
-
-    Examples
-    --------
-    >>> _fold("one two\nthree\n\nkeys:\n  at 1s", 8)
-    'one two\nthree\n\nkeys:\n  at 1s'
-    """
+    """Wrap each paragraph, except those with indented lines."""
     parts = text.split("\n\n")
     return "\n\n".join(part if "\n " in part else fill(part, width) for part in parts)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from mocap import body, graphs
-from mocap.cli.options import Building, check_out, load_graph, number, require_other, tell, write_out
+from mocap.cli.options import Building, check_out, load_graph, number, print_rows, require_other, write_out
 from mocap.errors import MocapError
 from mocap.files.conversion import find_files
 from mocap.methods import in_betweening
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from mocap.graphs.motion_graph import MotionGraph
     from mocap.methods.in_betweening.end_bending import Arrived
 
-# A moment of a clip: "1.5s" is a second and "45" a frame, as in the keys of `mocap warp`.
+# A time in a clip: "1.5s" is in seconds, and "45" is a frame, as in the keys of `mocap warp`.
 MOMENT = r"(\d{1,9}|\d{1,9}(?:\.\d{1,9})?s)"
 
 
@@ -35,25 +35,25 @@ def inbetween(
     alone: bool = False,
     out: Path = Path("inbetween.bvh"),
 ) -> None:
-    """Fill the time between two clips, or a gap in one, with motion that fits.
+    """Fill the time between two clips, or a gap in one, with new motion.
 
-    Make the motion from the last pose of START to the first pose of END, each at its position, in the given
-    time; or with --gap make a part of START anew. The motion is a walk through the motion graph of these
-    clips, or of --clips, or of --graph, bent and retimed until it arrives. Gaps shorter than 0.33 s are
-    interpolated: they are too short for a step.
+    Create the motion from the last pose of START to the first pose of END, each at its position, in the given
+    time, or, with --gap, replace a part of START. The motion is a walk through the motion graph of these
+    clips, of --clips, or of --graph, which is bent and retimed so that it arrives. Gaps shorter than 0.33 s
+    are interpolated, because they are too short for a step.
 
     Parameters
     ----------
-    start (START) : a motion file; the new motion sets out from its last pose.
-    end (END) : a motion file of the same body; the new motion arrives at its first pose.
-    seconds : time from START to END.
-    gap (FROM-TO) : the part of START to make anew, in seconds as in 1.5s-2.5s, or frames as in 45-75; the
-        poses at both ends stay.
-    ahead (METRES) : put END so far ahead of START, facing as START does (default: at its own position).
-    graph : an .npz file from `mocap graph` to take motion from; its clips are where they were.
-    clips (CLIP) : motion files, or folders of them, to take motion from (default: START and END).
-    alone : write the new motion alone, without START and END.
-    out : file to write.
+    start (START) : a motion file, from whose last pose the new motion starts.
+    end (END) : a motion file of the same body, at whose first pose the new motion arrives.
+    seconds : duration from START to END, seconds.
+    gap (FROM-TO) : the part of START to replace, in seconds as in 1.5s-2.5s, or in frames as in 45-75. The
+        poses at both ends are kept.
+    ahead (METRES) : place END this far ahead of START, with the same heading (default: at its own position).
+    graph : an .npz file from `mocap graph` as the source of motion. Its clips must not have been moved.
+    clips (CLIP) : motion files, or folders of them, as the source of motion (default: START and END).
+    alone : write only the new motion, without START and END.
+    out : file to write, .bvh or .glb.
 
     Notes
     -----
@@ -76,12 +76,12 @@ def inbetween(
     frames = max(1, round(time * first.fps))
     if time < in_betweening.SHORTEST:
         between = in_betweening.interpolate(first, second, frames)
-        tell(between=f"{time:.2f} s, interpolated")
+        print_rows(between=f"{time:.2f} s, interpolated")
     else:
         whole_graph = _graph(graph, sources, building, [first, second], out)
         filling = in_betweening.fill_gap(graphs.compile_graph(whole_graph), first, second, time)
         between = _at_rate(filling.motion, first.fps, frames)
-        tell(between=f"{time:.2f} s, {_changes(filling.arrived)}")
+        print_rows(between=f"{time:.2f} s, {_changes(filling.arrived)}")
     whole = between if alone else body.concatenate([first[:-1], between, second[1:]])
     write_out(whole, out, details=f": {len(whole)} frames, {whole.duration:.2f} s")
 
@@ -89,7 +89,7 @@ def inbetween(
 def _sides(
     motions: "Sequence[Motion]", gap: str | None, seconds: float | None, ahead: float | None
 ) -> "tuple[Motion, Motion, float]":
-    """Return the motions on both sides of what is missing, of one rate, and the seconds between them."""
+    """Return the motions on both sides of the gap, at one frame rate, and its duration in seconds."""
     first = motions[0]
     if gap is not None:
         begin, stop = _frames(gap, first)
@@ -103,7 +103,7 @@ def _sides(
 
 
 def _frames(gap: str, clip: "Motion") -> tuple[int, int]:
-    """Read the frames at both ends of a gap.
+    """Parse the frames at both ends of a gap.
 
     Examples
     --------
@@ -124,21 +124,21 @@ def _frames(gap: str, clip: "Motion") -> tuple[int, int]:
 
 
 def _frame(moment: str, fps: float) -> int:
-    """Read a moment as a frame."""
+    """Convert a time to a frame."""
     return round(float(moment.removesuffix("s")) * (fps if moment.endswith("s") else 1.0))
 
 
 def _graph(
     path: Path | None, sources: Sequence[Path], building: Building, sides: "Sequence[Motion]", out: Path
 ) -> "MotionGraph":
-    """Load the graph to take motion from, or build one of some clips and both sides."""
+    """Load the graph that is the source of motion, or build one of some clips and both sides."""
     if path is None:
-        long = [side for side in sides if side.duration >= building.window]  # the others make no transition
+        long = [side for side in sides if side.duration >= building.window]  # others have no transition
         clips = [*building.load(sources), *long]
         if not clips:
             window = f"a transition of {building.window:.2f} s"
             raise MocapError(f"START and END are shorter than {window}: give --clips to take motion from.")
-        # Both sides of a gap have one name, and a clip may bear it as well.
+        # Both sides of a gap have the same name, and a clip may also have it.
         return building.build([replace(clip, name=f"{n} {clip.name}") for n, clip in enumerate(clips)])
     from mocap.graphs.storage import find_origins  # the help needs no NumPy
 
@@ -147,7 +147,7 @@ def _graph(
 
 
 def _at_rate(motion: "Motion", fps: float, frames: int) -> "Motion":
-    """Show a motion in another number of frames, at another rate."""
+    """Resample a motion to another number of frames and another rate."""
     import numpy as np  # the help needs no NumPy
 
     from mocap.editing.retiming import at_frames
@@ -157,7 +157,7 @@ def _at_rate(motion: "Motion", fps: float, frames: int) -> "Motion":
 
 
 def _changes(arrived: "Arrived") -> str:
-    """Describe the changes of the walk."""
+    """Format the changes of the walk."""
     turned = math.degrees(max(abs(arrived.turned.min()), abs(arrived.turned.max())))
     steps = f"steps × {arrived.steps.min():.2f} to {arrived.steps.max():.2f}"
     pace = f"pace × {arrived.pace.min():.2f} to {arrived.pace.max():.2f}"

@@ -23,7 +23,7 @@ from mocap.cli.data import DATA
 from mocap.cli.edits import bend, blend, loop, retarget, warp
 from mocap.cli.graph import GRAPH, demo
 from mocap.cli.in_betweens import inbetween
-from mocap.cli.messages import VERBOSITY, Verbosity, note, say, saying
+from mocap.cli.messages import VERBOSITY, Verbosity, at_verbosity, note, print_message
 from mocap.cli.options import named_options, retargeting_advised
 from mocap.cli.streams import PatientOutput, prepared_streams
 from mocap.cli.typed_commands import Commands, Group, make_root, option_names
@@ -38,22 +38,23 @@ REFUSED = 2
 INTERRUPTED = 130
 PIPE_CLOSED = 141
 
-SHARED_FLAGS = ("-q", "--quiet", "-v", "--verbose", "--debug")  # those of `Verbosity`
+SHARED_FLAGS = ("-q", "--quiet", "-v", "--verbose", "--debug")  # the options of `Verbosity`
 HELP_FLAGS = {"-h", "--help"}
 ENDS_OF_OPTIONS = ("--", "--jupyter")
 RAISE: Any = {"exit_on_error": False, "print_error": False}
-BASH_FILES = 'COMPREPLY=( $(compgen -f -- "${cur}") )'  # how `cyclopts` offers files
-# A folder ends in a slash, without a space after it, and names may hold spaces; bash 3 has no `compopt`.
+BASH_FILES = 'COMPREPLY=( $(compgen -f -- "${cur}") )'  # the completion of files by `cyclopts`
+# A folder ends in a slash without a space after it, and names may contain spaces. Bash 3 has no `compopt`.
 FOLDERS_TO_ENTER = "local IFS=$'\\n'; compopt -o filenames 2> /dev/null;"
-NOWHERE: Any = object()  # a console for errors, which are printed here: that of `rich` takes 0.1 s to load
+NOWHERE: Any = object()  # an unused console for errors: that of `rich` takes 0.1 s to load
 EPILOGUE = (
-    "mocap COMMAND --help lists what a command takes. All take -q (no progress and no warnings), -v (what is "
-    "read, and how long each stage takes) and --debug (the traceback of an error)."
+    "mocap COMMAND --help describes the arguments and options of a command. All commands take -q (no "
+    "progress and no warnings), -v (the files that are read, and the duration of each stage) and --debug "
+    "(the traceback of an error)."
 )
 
 
 def completion(shell: Literal["bash", "zsh", "fish"]) -> None:
-    """Print the script by which a shell completes commands, options and choices.
+    """Print the script with which a shell completes commands, options and choices.
 
     Parameters
     ----------
@@ -61,15 +62,15 @@ def completion(shell: Literal["bash", "zsh", "fish"]) -> None:
 
     Notes
     -----
-    Where to put it:
-      bash  source <(mocap completion bash)    as a line of ~/.bashrc
-      zsh   source <(mocap completion zsh)     of ~/.zshrc, after compinit
-      fish  mocap completion fish | source     of ~/.config/fish/config.fish
+    Add this line to the configuration of the shell:
+      bash  source <(mocap completion bash)    in ~/.bashrc
+      zsh   source <(mocap completion zsh)     in ~/.zshrc, after compinit
+      fish  mocap completion fish | source     in ~/.config/fish/config.fish
 
     Example: mocap completion bash
     """
     script = root().generate_completion(shell=shell)
-    if shell == "zsh":  # it looks for the script in a folder of its own, unless the script registers itself
+    if shell == "zsh":  # zsh searches the script in a special folder, unless the script registers itself
         functions = re.findall(r"^(_\w+)\(\)", script, re.MULTILINE)
         script += f"\ncompdef {functions[0]} mocap"
     if shell == "bash":
@@ -93,13 +94,14 @@ COMMANDS: dict[str, Commands] = {
 
 
 def root(wanted: str | None = None) -> cyclopts.App:
-    """Make the command that has all others.
+    """Create the command `mocap` with all its commands.
 
     Parameters
     ----------
-    wanted : the name of the one that has to be complete; the others can only be listed then. All by default.
+    wanted : the name of the only command that is complete. The others can only be listed then. By default all
+        are complete.
     """
-    text = f"New human motion out of captured motion. Motion files are {formats.listed()}."
+    text = f"Create new human motion from captured motion. Motion files are {formats.listed()}."
     version = f"mocap {mocap.__version__}"
     return make_root("mocap", text, COMMANDS, Verbosity, version=version, epilogue=EPILOGUE, wanted=wanted)
 
@@ -107,8 +109,8 @@ def root(wanted: str | None = None) -> cyclopts.App:
 def in_order(words: Sequence[str]) -> list[str]:
     """Put words in the order in which they are parsed.
 
-    `-q`, `-v` and `--debug` may stand before the name of a command, a group alone shows its help, and the
-    words after the `--` of `mocap lab` are an option's. `mocap help` is `mocap --help`.
+    `-q`, `-v` and `--debug` may precede the name of a command. A group alone shows its help. The words after
+    the `--` of `mocap lab` are the value of an option. `mocap help` is `mocap --help`.
 
     Examples
     --------
@@ -138,12 +140,12 @@ def in_order(words: Sequence[str]) -> list[str]:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command and return its exit status.
 
-    It is 0, 2 for bad input, 1 for an error that was not expected, 130 after Ctrl-C or SIGTERM, or 141 after
-    a closed pipe.
+    The status is 0 for success, 2 for invalid input, 1 for an unexpected error, 130 after Ctrl-C or SIGTERM,
+    and 141 after a closed pipe.
 
     Parameters
     ----------
-    arguments : the words after `mocap`; those of the command line by default.
+    arguments : the words after `mocap`, by default those of the command line.
     """
     words = [*(sys.argv[1:] if arguments is None else arguments)]
     with prepared_streams() as output:
@@ -151,7 +153,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             status = _run(words)
             output.flush()
         except BaseException as error:
-            status = _tell(error, debug="--debug" in words)
+            status = _report_error(error, debug="--debug" in words)
             _end(output)
         if output.abandoned:
             output.discard()
@@ -160,7 +162,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _end(output: PatientOutput) -> None:
-    """Print what was said before an error, if that is possible."""
+    """Print the output that preceded an error, if that is possible."""
     try:
         output.flush()
     except MocapError:
@@ -168,7 +170,7 @@ def _end(output: PatientOutput) -> None:
 
 
 def _run(words: Sequence[str]) -> int:
-    """Parse the words and call the command."""
+    """Parse the words, call the command, and return its exit status."""
     ordered = in_order(words)
     if ordered[0] == "--version":
         print(f"mocap {mocap.__version__}")
@@ -188,7 +190,7 @@ def _run(words: Sequence[str]) -> int:
     chosen = dict(chain.from_iterable(named.items() for named in COMMANDS.values()))[ordered[0]]
     if isinstance(chosen, Group):
         refusals.require_meant(ordered[1:], ordered[0], [*chosen.commands])
-    with _sigterm_as_ctrl_c(), saying(_take_verbosity(bound)), warnings.catch_warnings():
+    with _sigterm_as_ctrl_c(), at_verbosity(_take_verbosity(bound)), warnings.catch_warnings():
         if VERBOSITY.get().quiet:
             warnings.simplefilter("ignore", MocapWarning)
         else:
@@ -205,40 +207,43 @@ def _run(words: Sequence[str]) -> int:
 
 
 def _take_verbosity(bound: BoundArguments) -> Verbosity:
-    """Take the options that all commands share out of the values for a command."""
+    """Remove the options of all commands from the arguments of a command, and return them."""
     names = ("quiet", "verbose", "debug")
     return Verbosity(**{name: bound.arguments.pop(name) for name in names if name in bound.arguments})
 
 
 def _show_warning(message: Warning | str, *_place: object, **_options: object) -> None:
-    """Write a warning as one line."""
-    say(message)
+    """Print a warning as one line."""
+    print_message(message)
 
 
-def _tell(error: BaseException, *, debug: bool) -> int:
-    """Write an error as one sentence, after its traceback if that was asked for; return the exit status."""
+def _report_error(error: BaseException, *, debug: bool) -> int:
+    """Print an error as one sentence, with `debug` after its traceback, and return the exit status."""
     if isinstance(error, SystemExit):
         raise error
     if debug:
         traceback.print_exception(error)
     if isinstance(error, KeyboardInterrupt):
-        say(" ".join(["interrupted; no half-written file is left.", *getattr(error, "__notes__", [])]))
+        notes = getattr(error, "__notes__", [])
+        print_message(" ".join(["interrupted; no half-written file is left.", *notes]))
         return INTERRUPTED
-    if isinstance(error, MocapError | OSError):  # of the system: such as a name that is too long
-        say(error)
+    if isinstance(error, MocapError | OSError):  # an OSError is, for example, a name that is too long
+        print_message(error)
         return REFUSED
     if isinstance(error, MemoryError):
-        say("out of memory: try fewer or shorter clips, or a lower frame rate (--debug shows where it was).")
+        print_message(
+            "out of memory: try fewer or shorter clips, or a lower frame rate (--debug shows where it was)."
+        )
         return UNEXPECTED
     kind = type(error).__name__
     shown = shortened(f"{error}", 80) or "no further text"
-    say(f"unexpected {kind}: {shown}. This is a bug; the same with --debug shows where.")
+    print_message(f"unexpected {kind}: {shown}. This is a bug; the same with --debug shows where.")
     return UNEXPECTED
 
 
 @contextmanager
 def _sigterm_as_ctrl_c() -> Iterator[None]:
-    """Raise KeyboardInterrupt when the system asks the process to end (SIGTERM), in the main thread."""
+    """Raise KeyboardInterrupt on SIGTERM, if this is the main thread."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return

@@ -1,6 +1,6 @@
-"""What a command says beside its results, on the standard error: warnings, stages, errors.
+"""Messages of a command besides its results, on the standard error: warnings, stages, errors.
 
-`-q` leaves out progress and warnings, `-v` adds what is read and how long each stage takes.
+`-q` omits progress and warnings. `-v` adds the files that are read and the duration of each stage.
 """
 
 import re
@@ -25,7 +25,7 @@ class Verbosity:
 
     quiet: Annotated[bool, Parameter(alias="-q", group=COMMON), "show no progress and no warnings"] = False
     verbose: Annotated[
-        bool, Parameter(alias="-v", group=COMMON), "say what is read, and how long each stage takes"
+        bool, Parameter(alias="-v", group=COMMON), "show files that are read, and the duration of each stage"
     ] = False
     debug: Annotated[bool, Parameter(group=COMMON), "show the traceback of an error"] = False
 
@@ -39,8 +39,8 @@ VERBOSITY = ContextVar("VERBOSITY", default=NORMAL)
 
 
 @contextmanager
-def saying(verbosity: Verbosity) -> Iterator[None]:
-    """Set how much is said in a `with` block."""
+def at_verbosity(verbosity: Verbosity) -> Iterator[None]:
+    """Set the verbosity in a `with` block."""
     token = VERBOSITY.set(verbosity)
     try:
         yield
@@ -48,13 +48,13 @@ def saying(verbosity: Verbosity) -> Iterator[None]:
         VERBOSITY.reset(token)
 
 
-def say(message: object) -> None:
-    """Write one line: names hold no line ends there, and are not endless."""
+def print_message(message: object) -> None:
+    """Print one line, without line ends in names, and with long names shortened."""
     text = re.sub(rf"\S{{{LONGEST_WORD},}}", lambda word: shortened(word[0]), printable(message))
     print(f"mocap: {text}", file=sys.stderr)
 
 
 def note(message: str) -> None:
-    """Write a line with `-v` only."""
+    """Print a line only with `-v`."""
     if VERBOSITY.get().verbose:
-        say(message)
+        print_message(message)

@@ -1,4 +1,4 @@
-"""What the commands share: options declared once, a progress bar, clips that are read, and files to write."""
+"""Shared parts of the commands: options, a progress bar, reading of clips, and checks of output files."""
 
 import math
 import os
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 def number(low: float, high: float, kind: Callable[[str], float] = float) -> Callable[[str], float]:
-    """Make a reader for an option that takes a number within bounds, or with `int` a whole one.
+    """Return a converter for an option whose value is a number, or with `int` an integer, within bounds.
 
     Examples
     --------
@@ -50,30 +50,30 @@ def number(low: float, high: float, kind: Callable[[str], float] = float) -> Cal
     return read
 
 
-SHORTEST_STAGE = 0.05  # seconds; a shorter one is 0.0 s
+SHORTEST_STAGE = 0.05  # seconds: a shorter stage would be shown as 0.0 s
 LENGTH = number(1e-6, 1e6)  # metres per unit
 CM = number(0.001, 1000)  # centimetres
 RATE = number(1, 1000)  # frames per second
-TURN = number(1, 2800)  # degrees per second; `editing.bend` takes 50 radians per second, 2865 degrees
-Skeleton = Annotated[Path | None, "the .asf file of .amc clips (default: the one beside them that fits)"]
+TURN = number(1, 2800)  # degrees per second. `editing.bend` accepts 50 radians per second, 2865 degrees
+Skeleton = Annotated[Path | None, "the .asf file of .amc clips (default: a matching one in their folder)"]
 Joints = Annotated[
     Sequence[Path],
     ONE_EACH,
-    "a .toml of joints' roles, as mocap info CLIP --joints prints it; may be repeated for several bodies",
+    "a .toml of the roles of joints, from mocap info CLIP --joints; may be repeated for several bodies",
 ]
 Unit = Annotated[float | None, LENGTH, "metres per unit of length in the path (default: 1; for .svg 0.01)"]
-Clean = Annotated[bool, "clean up footskate: planted feet stand still"]
-Seed = Annotated[int, number(0, 2**32 - 1, int), "seed of what is drawn at random"]
+Clean = Annotated[bool, "remove foot sliding"]
+Seed = Annotated[int, number(0, 2**32 - 1, int), "seed of the random numbers"]
 
 
-# The options that set the parameters of `files.load`, which its errors name.
+# The options for the parameters of `files.load`, which are named in its errors.
 READING = {"skeleton": "--skeleton", "fps": "--fps", "scale": "--scale", "roles": "--joints"}
 SOURCES = READING | {"fps": "--fps to mocap convert"}  # here --fps is the rate of a graph, or is missing
 
 
 @contextmanager
 def named_options(names: Mapping[str, str]) -> Iterator[None]:
-    """Name options in an error that names parameters.
+    """Replace the names of parameters in an error by those of options.
 
     Examples
     --------
@@ -93,7 +93,7 @@ def named_options(names: Mapping[str, str]) -> Iterator[None]:
 
 @contextmanager
 def retargeting_advised() -> Iterator[None]:
-    """Name the command that helps in an error of clips of two bodies.
+    """Add the command that helps to an error about clips of two bodies.
 
     Examples
     --------
@@ -111,7 +111,7 @@ def retargeting_advised() -> Iterator[None]:
 
 @contextmanager
 def timed_reading(path: Path) -> Iterator[None]:
-    """Note with `-v` which file is read, and how long that takes."""
+    """Print, with `-v`, the file that is read and the duration."""
     start = time.perf_counter()
     yield
     note(f"read {path} in {time.perf_counter() - start:.2f} s")
@@ -119,11 +119,11 @@ def timed_reading(path: Path) -> Iterator[None]:
 
 @contextmanager
 def timed_stage(name: str) -> Iterator[None]:
-    """Note with `-v` how long a stage of the work takes, if that is a tenth of a second or so.
+    """Print, with `-v`, the duration of a stage of the work, unless it is very short.
 
     Parameters
     ----------
-    name : what is done, as in "measuring".
+    name : the name of the stage, such as "measuring".
     """
     start = time.perf_counter()
     yield
@@ -133,12 +133,12 @@ def timed_stage(name: str) -> Iterator[None]:
 
 
 def require_file(path: Path, advice: str) -> None:
-    """Raise for a folder where a command takes one file.
+    """Raise for a folder if a command takes one file.
 
     Parameters
     ----------
-    path : what was given.
-    advice : what to give, as in "give one of its files".
+    path : the argument.
+    advice : the remedy in the error, such as "give one of its files".
 
     Examples
     --------
@@ -160,21 +160,27 @@ def with_chosen_roles(motion: "Motion", joints: Sequence[Path]) -> "Motion":
 
 @dataclass(frozen=True)
 class FileReading:
-    """Options for reading one clip, of a command that has such a parameter."""
+    """Options of a command that reads single clips."""
 
     joints: ClassVar[Sequence[Path]] = ()  # files of roles, an option of `Reading`
 
     skeleton: Skeleton = None
-    fps: Annotated[float | None, RATE, "frames per second (default: as in the file; 120 for .amc)"] = None
-    scale: Annotated[float | None, LENGTH, "metres per unit (default: 0.01; for .amc as in the .asf)"] = None
+    fps: Annotated[
+        float | None, RATE, "frames per second of the clip (default: as in the file; 120 for .amc)"
+    ] = None
+    scale: Annotated[
+        float | None,
+        LENGTH,
+        "metres per unit of length in the clip (default: 0.01; for .amc as in the .asf)",
+    ] = None
 
     def read(self, path: Path, stretch: float | None = None) -> "Recording":
-        """Read a clip; raise MocapError as `files.load` does, with the names of options.
+        """Read a clip, and raise the errors of `files.load` with the names of options.
 
         Parameters
         ----------
         path : the clip.
-        stretch : metres by which bones may change their length; by default as for `files.load`.
+        stretch : the largest change of a bone's length, metres, by default as for `files.load`.
         """
         with timed_stage("loading packages"):
             from mocap.files.load_save import read  # the help needs no NumPy
@@ -189,12 +195,12 @@ class FileReading:
             return recording._replace(motion=with_chosen_roles(recording.motion, self.joints))
 
     def require_skeleton_of_use(self, path: Path) -> None:
-        """Raise for a skeleton that a clip does not need."""
+        """Raise if a skeleton is given for a clip that needs none."""
         if self.skeleton and path.suffix.lower() in (".bvh", ".npz"):
             raise MocapError(f"--skeleton is for .amc clips; {path} needs none.")
 
     def load(self, path: Path) -> "Motion":
-        """Read a clip, and warn of a body of another size than people's."""
+        """Read a clip, and warn about a body of an impossible size."""
         from mocap.quality.clip_flaws import warn_of_size
 
         self.require_skeleton_of_use(path)
@@ -203,7 +209,7 @@ class FileReading:
         return motion
 
     def load_any(self, path: Path) -> "Motion":
-        """Read one of several clips, of which not all need the skeleton."""
+        """Read one of several clips, of which some may not need the skeleton."""
         return self.read(path).motion
 
 
@@ -216,14 +222,14 @@ class Reading(FileReading):
 
 @dataclass(frozen=True)
 class Sources:
-    """Options for reading several clips."""
+    """Options of a command that reads several clips."""
 
     skeleton: Skeleton = None
     scale: Annotated[float | None, LENGTH, "metres per unit of length in .bvh clips (default: 0.01)"] = None
     joints: Joints = ()
 
     def load(self, paths: Sequence[Path]) -> "list[Motion]":
-        """Read the clips that `find_files` found, and warn of bodies of other sizes than people's."""
+        """Read the clips that `find_files` found, and warn about bodies of impossible sizes."""
         with timed_stage("loading packages"):
             from mocap.quality.clip_flaws import warn_of_size  # the help needs no NumPy
 
@@ -243,11 +249,11 @@ class Sources:
 
 @dataclass(frozen=True)
 class Building(Sources):
-    """Options for reading clips and building their graph; seconds and centimetres."""
+    """Options of a command that reads clips and builds their graph."""
 
-    fps: Annotated[float, RATE, "frame rate of the graph"] = 30.0
-    window: Annotated[float, number(0, 60), "seconds of a transition"] = 1 / 3
-    threshold: Annotated[float, CM, "largest distance of a match, cm"] = 4.0
+    fps: Annotated[float, RATE, "frames per second of the graph"] = 30.0
+    window: Annotated[float, number(0, 60), "duration of a transition, seconds"] = 1 / 3
+    threshold: Annotated[float, CM, "largest RMS distance of a transition, cm"] = 4.0
 
     def build(
         self,
@@ -257,7 +263,7 @@ class Building(Sources):
         jobs: int | None = None,
         executor: "Executor | None" = None,
     ) -> "MotionGraph":
-        """Build the graph of some clips, not pruned yet, in threads of this process or by an executor."""
+        """Build the unpruned graph of some clips, in threads of this process or with an executor."""
         frames = round(self.window * self.fps)
         if frames < 2:
             raise MocapError(f"A window needs two frames or more, got {self.window:g} s at {self.fps:g} Hz.")
@@ -276,9 +282,9 @@ def load_graph(path: Path, skeleton: Path | None = None, joints: Sequence[Path] 
 
 
 def bar(label: str) -> Progress:
-    """Show a progress bar on a terminal, for work that takes longer than a second; erase it at the end.
+    """Return a progress bar for work on a terminal that takes longer than a second.
 
-    With `-v`, say how long it took.
+    The bar is erased at the end. With `-v`, the duration is printed.
 
     Examples
     --------
@@ -293,7 +299,7 @@ def bar(label: str) -> Progress:
 
 
 def _timed(label: str, show: Progress, items: Sequence[Any]) -> Iterator[Any]:
-    """Yield the items, and note how many there were and how long they took."""
+    """Yield the items, and print their number and the duration."""
     start = time.perf_counter()
     count = 0
     for item in show(items):
@@ -302,12 +308,12 @@ def _timed(label: str, show: Progress, items: Sequence[Any]) -> Iterator[Any]:
     note(f"{label}: {count} in {time.perf_counter() - start:.1f} s")
 
 
-def tell(**rows: object) -> None:
-    """Print what was done, a line for each.
+def print_rows(**rows: object) -> None:
+    """Print results, each in a line with its name.
 
     Examples
     --------
-    >>> tell(wrote="walk.bvh")
+    >>> print_rows(wrote="walk.bvh")
     wrote        walk.bvh
     """
     print("\n".join(f"{name:<12} {printable(text)}" for name, text in rows.items()))
@@ -316,7 +322,7 @@ def tell(**rows: object) -> None:
 def check_out(
     thing: str, out: Path, read: Iterable[Path] = (), formats: Sequence[str] = (".bvh", ".glb")
 ) -> None:
-    """Raise, before any work is done, if a file cannot be written, or is one of those to read.
+    """Raise, before any work is done, if a file cannot be written or is one of the input files.
 
     Examples
     --------
@@ -328,15 +334,15 @@ def check_out(
         allowed = " or ".join(filter(None, [", ".join(formats[:-1]), formats[-1]]))
         raise MocapError(f"A {thing} is written as {allowed}, got '{out}'.")
     require_other(out, read)
-    require_place(out)
+    require_output(out)
 
 
-def require_place(out: Path) -> None:
+def require_output(out: Path) -> None:
     """Raise, before any work is done, if a file cannot be written.
 
     Examples
     --------
-    >>> require_place(Path("nowhere/walk.bvh"))
+    >>> require_output(Path("nowhere/walk.bvh"))
     Traceback (most recent call last):
     mocap.errors.MocapError: Cannot write nowhere/walk.bvh: there is no folder nowhere.
     """
@@ -346,7 +352,7 @@ def require_place(out: Path) -> None:
 
 
 def require_other(out: Path, read: Iterable[Path]) -> None:
-    """Raise if the file to write is one of those to read.
+    """Raise if the output file is one of the input files.
 
     Examples
     --------
@@ -359,15 +365,15 @@ def require_other(out: Path, read: Iterable[Path]) -> None:
 
 
 def write_out(motion: "Motion", out: Path, *, details: str = "") -> None:
-    """Write a motion, and print its file and `details` of it."""
+    """Write a motion, and print the name of its file with `details`."""
     with timed_stage("writing"):
         files.save(motion, out)
-    tell(wrote=f"{out}{details}")
+    print_rows(wrote=f"{out}{details}")
 
 
-def tell_of_failures(verb: str, count: int, problems: Sequence[str], place: str = "") -> int:
-    """Print the count of files that succeeded, and each problem; return the exit status of the command."""
-    tell(**{verb: f"{count - len(problems)} of {count}{place}"})
+def report_failures(verb: str, count: int, problems: Sequence[str], where_to: str = "") -> int:
+    """Print the number of files that succeeded and each problem, and return the exit status."""
+    print_rows(**{verb: f"{count - len(problems)} of {count}{where_to}"})
     for problem in problems:
-        tell(failed=problem)
+        print_rows(failed=problem)
     return 2 if problems else 0

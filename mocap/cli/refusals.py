@@ -1,4 +1,4 @@
-"""What is told of words that fit no command: one sentence that says what may have been meant."""
+"""Errors for invalid commands, options and values: one sentence with a suggestion."""
 
 import os
 import re
@@ -12,18 +12,18 @@ from mocap.cli.typed_commands import command_names
 from mocap.errors import MocapError, shortened
 
 LONGEST = 60  # characters of a word that is quoted
-SYNONYMS = {"--path": "--along", "--along": "--path"}  # the line of `mocap walk` and that of `mocap bend`
-ALIKE = 0.6  # of two words, as `difflib` measures it; "conver" and "convert" have 0.92
+SYNONYMS = {"--path": "--along", "--along": "--path"}  # the path of `mocap walk` and that of `mocap bend`
+ALIKE = 0.6  # smallest similarity of two words by `difflib`. "conver" and "convert" have 0.92
 
 
 def explain(error: cyclopts.CycloptsError, root: cyclopts.App, words: Sequence[str] = ()) -> str:
-    """Return the sentence for words that cannot be understood.
+    """Return the error message for words that cannot be parsed.
 
     Parameters
     ----------
-    error : what `cyclopts` found.
-    root : the command that has all others.
-    words : what was typed after `mocap`.
+    error : the error of `cyclopts`.
+    root : the command `mocap` with all its commands.
+    words : the words after `mocap`.
     """
     program = " ".join(["mocap", *(error.command_chain or ())])
     if isinstance(error, cyclopts.MissingArgumentError):
@@ -34,13 +34,13 @@ def explain(error: cyclopts.CycloptsError, root: cyclopts.App, words: Sequence[s
 
 
 def require_meant(words: Sequence[str], group: str, commands: Iterable[str]) -> None:
-    """Raise for the word after a group that is neither a file nor a command, but looks like a command.
+    """Raise for a word after a group that is neither a file nor a command, but resembles a command.
 
     Parameters
     ----------
-    words : those after the name of the group, which stands for one of its commands if none is named.
-    group : its name.
-    commands : the commands in it.
+    words : the words after the name of the group, which has a default command.
+    group : the name of the group.
+    commands : the commands of the group.
 
     Examples
     --------
@@ -56,7 +56,7 @@ def require_meant(words: Sequence[str], group: str, commands: Iterable[str]) -> 
 
 
 def _problem(error: cyclopts.CycloptsError, program: str, root: cyclopts.App) -> str:
-    """Return the sentence without the pointer to the help."""
+    """Return the error message without the reference to the help."""
     match error:
         case cyclopts.UnknownCommandError():
             return _unknown_command(error, program, root)
@@ -71,7 +71,7 @@ def _problem(error: cyclopts.CycloptsError, program: str, root: cyclopts.App) ->
 
 
 def _unknown_command(error: cyclopts.CycloptsError, program: str, root: cyclopts.App) -> str:
-    """Word the error for an unknown command, with suggestions from all groups."""
+    """Return the error message for an unknown command, with suggestions from all groups."""
     word = (error.unused_tokens or [""])[0]
     if word.startswith("-"):
         meant = suggestion(word, ["--help", "--version"])
@@ -92,14 +92,14 @@ def _option_names(arguments: Iterable[cyclopts.Argument]) -> list[str]:
 
 
 def _unknown_option(word: str, program: str, names: Sequence[str]) -> str:
-    """Word the error for an unknown option, with a suggestion."""
+    """Return the error message for an unknown option, with a suggestion."""
     alias = SYNONYMS.get(word)
     meant = _meant([alias]) if alias and alias in names else suggestion(word, names)
     return f"{program} has no option {_quoted(word)}.{meant}"
 
 
 def _missing(error: cyclopts.MissingArgumentError, program: str, words: Sequence[str]) -> str:
-    """Word the error for a missing argument or value; an unknown option comes first."""
+    """Return the error message for a missing argument or value, or for an unknown option before it."""
     assert error.argument is not None
     names = " or ".join(error.argument.names)
     if error.keyword or any(token.keyword for token in error.argument.tokens):
@@ -114,7 +114,7 @@ def _missing(error: cyclopts.MissingArgumentError, program: str, words: Sequence
 
 
 def _below_zero(option: str, words: Sequence[str]) -> str:
-    """Word the error for a value such as -5s, which looks like an option; empty for other values."""
+    """Return the error message for a value such as -5s, which looks like an option, or ""."""
     following = words[words.index(option) + 1 :][:1] if option in words else []
     if following and re.match(r"-[\d.]", following[0]):
         return f"{option} takes no value below zero, got {_quoted(following[0])}."
@@ -122,7 +122,7 @@ def _below_zero(option: str, words: Sequence[str]) -> str:
 
 
 def _not_a_value(error: cyclopts.CoercionError) -> str:
-    """Word the error for a wrong value: what the option takes, and the nearest choice."""
+    """Return the error message for an invalid value, with the expected type and the nearest choice."""
     name = error.argument.name if error.argument else ""
     word = error.token.value if error.token else ""
     if error.token and error.token.keyword:
@@ -145,7 +145,7 @@ KINDS: dict[object, str] = {
 
 
 def suggestion(word: str, names: Iterable[str]) -> str:
-    """Return a question for what may have been meant, or nothing.
+    """Return a question with the most similar name, or "".
 
     Examples
     --------

@@ -1,6 +1,6 @@
-"""The standard streams as a command finds them: closed, full, or with a reader who leaves early.
+"""Robust standard streams, which may be closed, full, or abandoned by their reader.
 
-A command goes on when nobody reads what it prints, because the file that it writes is what was asked for.
+A command continues if its output is no longer read, because its result is the file that it writes.
 """
 
 import errno
@@ -14,11 +14,11 @@ from mocap.errors import MocapError
 
 
 class PatientOutput:
-    """A text stream that drops what is written after its reader has left.
+    """A text stream that discards text after its reader has closed the pipe.
 
     Parameters
     ----------
-    stream : where to write.
+    stream : the underlying stream.
 
     Examples
     --------
@@ -36,16 +36,16 @@ class PatientOutput:
         self.abandoned = False
 
     def write(self, text: str) -> int:
-        """Write a text, or drop it; return its length."""
+        """Write or discard a text, and return its length."""
         self._attempt(lambda: self.stream.write(text))
         return len(text)
 
     def flush(self) -> None:
-        """Write what is buffered."""
+        """Write the buffered text."""
         self._attempt(self.stream.flush)
 
     def discard(self) -> None:
-        """Drop what is still buffered: Python would try again to write it when it ends."""
+        """Discard the buffered text, which Python would otherwise try to write again at exit."""
         with suppress(OSError, ValueError):  # a stream without a file has no number
             os.dup2(os.open(os.devnull, os.O_WRONLY), self.stream.fileno())
 
@@ -64,9 +64,9 @@ class PatientOutput:
 
 
 def _is_closed_pipe(error: OSError) -> bool:
-    """Check whether the reader has seen enough, as with `mocap data list | head`.
+    """Return whether the reader has closed the pipe, as with `mocap data list | head`.
 
-    Windows reports that as an invalid argument of a file without a name.
+    Windows reports this as an invalid argument of a file without a name.
     """
     invalid = error.errno == errno.EINVAL and error.filename is None
     return isinstance(error, BrokenPipeError) or (os.name == "nt" and invalid)
@@ -74,12 +74,12 @@ def _is_closed_pipe(error: OSError) -> bool:
 
 @contextmanager
 def prepared_streams() -> Iterator[PatientOutput]:
-    """Print to a `PatientOutput` in a `with` block; a stream that is closed from the start leads nowhere."""
+    """Print to a `PatientOutput` in a `with` block, with closed streams replaced by the null device."""
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:
             setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: PTH123, SIM115 (as long as Python)
     if hasattr(sys.stdout, "reconfigure"):
-        sys.stdout.reconfigure(errors="replace")  # a terminal that knows no ° shows ?
+        sys.stdout.reconfigure(errors="replace")  # a terminal without the character ° shows ?
     output = PatientOutput(sys.stdout)
     with redirect_stdout(cast(TextIO, output)):
         yield output

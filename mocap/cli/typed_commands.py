@@ -1,9 +1,9 @@
-"""A command is a typed function: its docstring is its help, and its parameters are its arguments.
+"""Conversion of a typed function to a command, with its docstring as help and its parameters as arguments.
 
-A parameter by position is an argument, one by keyword an option. Its annotation says what it takes. Its help
-stands in the docstring, as in `name (METAVAR) : text`, or in the annotation, where commands share an option.
-A dataclass among the annotations stands for an option for each of its fields. `cyclopts` does the rest: it
-parses the words, reads values, finds what is wrong, and writes the completion of shells.
+A positional parameter is an argument, and a keyword parameter an option. Its annotation is the type of its
+value. Its help is in the docstring, as `name (METAVAR) : text`, or in the annotation if commands share the
+option. A dataclass as an annotation adds an option for each of its fields. `cyclopts` parses the words, reads
+values, detects errors, and generates the completion of shells.
 """
 
 import ast
@@ -21,7 +21,7 @@ from cyclopts import App, Parameter, Token
 
 Run = Callable[..., int | None]
 _PARAMETER = re.compile(r"^(\w+)(?: \((\S+)\))? : (.*(?:\n +.*)*)", re.MULTILINE)
-PLAIN_WORDS = Parameter(  # no `--no-clean`, no JSON for lists, and the last one of repeated options counts
+PLAIN_WORDS = Parameter(  # no `--no-clean`, no JSON for lists, and the last of repeated options applies
     negative=(), json_list=False, json_dict=False, allow_repeating=True
 )
 OPTIONS = cyclopts.Group("Options")
@@ -31,7 +31,7 @@ ONE_EACH = Parameter(consume_multiple=False)  # an option is repeated for each o
 
 
 class Group(NamedTuple):
-    """Commands under one name, the text of its help, and the command that the name alone stands for."""
+    """Commands under one name, with the text of its help and the default command."""
 
     text: str
     commands: "Mapping[str, Run | Group]"
@@ -45,13 +45,13 @@ class Help(NamedTuple):
     """The parts of a command's docstring."""
 
     summary: str
-    parameters: Mapping[str, tuple[str, str]]  # a name to be shown, or "", and the text
+    parameters: Mapping[str, tuple[str, str]]  # the displayed name, or "", and the text
     notes: str
 
 
 @dataclass(frozen=True)
 class OptionalValue:
-    """An option that may stand without its value, and what it then means."""
+    """The value of an option that is given without a value."""
 
     value: float
 
@@ -66,14 +66,14 @@ def make_root(
     epilogue: str,
     wanted: str | None = None,
 ) -> App:
-    """Make the command that has all others, in groups.
+    """Create the command of a program with all its commands, in groups.
 
     Parameters
     ----------
-    name, text, version, epilogue : of the program.
-    commands : the title of each group, and its commands by name.
+    name, text, version, epilogue : the name of the program and the texts of its help.
+    commands : the commands by name, in groups by title.
     shared : as for `make_command`.
-    wanted : the name of the only command that gets its parameters; all do by default.
+    wanted : the name of the only command that gets its parameters. By default all do.
     """
     app = App(
         name=name,
@@ -92,14 +92,14 @@ def make_root(
 
 
 def make_command(name: str, run: Run | Group, shared: type, **settings: Any) -> App:  # noqa: ANN401 (of an App)
-    """Make a command of a typed function, or of a group of them.
+    """Create a command from a typed function, or from a group of them.
 
     Parameters
     ----------
     name : the word that calls it.
     run : the function, or the group.
-    shared : a dataclass of options that all commands have; the command itself does not get them.
-    settings : of the `App`, such as the `group` in which it is listed.
+    shared : a dataclass of options that all commands have, and that are not passed to the function.
+    settings : settings of the `App`, such as the `group` in which it is listed.
     """
     default = run.default if isinstance(run, Group) else run
     text = read_help(run)
@@ -115,7 +115,7 @@ def make_command(name: str, run: Run | Group, shared: type, **settings: Any) -> 
 
 
 def command_names(app: App, *, deep: bool = False) -> list[str]:
-    """List the commands of an app; with `deep`, those inside its groups, as in `data fetch`."""
+    """List the commands of an app, with `deep` including those inside its groups, such as `data fetch`."""
     names = []
     for name in app:
         below = app[name]
@@ -129,18 +129,18 @@ def command_names(app: App, *, deep: bool = False) -> list[str]:
 
 
 def read_docstring(thing: Any) -> str:  # noqa: ANN401 (a function or a class)
-    """Return a docstring, which `python -OO` leaves out, and which is then read in the source."""
+    """Return a docstring, from the source code if `python -OO` has removed it."""
     if thing.__doc__ is not None:
         return inspect.getdoc(thing) or ""
     try:
         (definition,) = ast.parse(textwrap.dedent(inspect.getsource(thing))).body
-    except OSError:  # there is no source: the command works without a help text
+    except OSError:  # without the source code, the command works without a help text
         return ""
     return ast.get_docstring(cast(ast.FunctionDef, definition)) or ""
 
 
 def read_help(run: Run | Group) -> Help:
-    """Divide a command's docstring: what it does, its parameters, and notes for the end of the page.
+    """Split a command's docstring into its summary, its parameters, and notes for the end of the page.
 
     Examples
     --------
@@ -165,9 +165,9 @@ def read_help(run: Run | Group) -> Help:
 
 
 def _take_words(run: Run, text: Help, shared: type) -> Run:
-    """Make the function that is called with what was typed: its parameters have no dataclasses.
+    """Return a function with a flat signature for `cyclopts`, which calls the command with its dataclasses.
 
-    Its keywords include the shared options, which the caller takes out of them first.
+    Its keywords include the shared options, which the caller must remove first.
     """
     plain = [*_flatten(run), *_as_options(shared)]
     parameters = [_describe(parameter, text) for parameter in plain]
@@ -181,7 +181,7 @@ def _take_words(run: Run, text: Help, shared: type) -> Run:
         status: int | None = call(run, typed)
         return status
 
-    # What `inspect.signature` and `typing.get_type_hints` read of a function.
+    # These attributes are read by `inspect.signature` and `typing.get_type_hints`.
     vars(take)["__signature__"] = inspect.Signature(parameters)
     take.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
     take.__doc__ = None
@@ -189,7 +189,7 @@ def _take_words(run: Run, text: Help, shared: type) -> Run:
 
 
 def call(target: Any, typed: Mapping[str, object]) -> Any:  # noqa: ANN401 (or a dataclass)
-    """Call a command, or make a dataclass, with those values that were typed."""
+    """Call a command, or create a dataclass, with the values that were typed."""
     parameters = inspect.signature(target).parameters
     values: dict[str, Any] = {}
     for name, parameter in parameters.items():
@@ -203,7 +203,7 @@ def call(target: Any, typed: Mapping[str, object]) -> Any:  # noqa: ANN401 (or a
 
 
 def _flatten(run: Run) -> Iterator[inspect.Parameter]:
-    """Yield the parameters of a command; instead of one that takes a dataclass, its fields, as options."""
+    """Yield the parameters of a command, with the fields of dataclasses as options."""
     for parameter in inspect.signature(run).parameters.values():
         if is_dataclass(parameter.annotation):
             yield from _as_options(parameter.annotation)
@@ -214,13 +214,13 @@ def _flatten(run: Run) -> Iterator[inspect.Parameter]:
 
 
 def _as_options(fields: Any) -> Iterable[inspect.Parameter]:  # noqa: ANN401 (a dataclass)
-    """Return the fields of a dataclass as parameters by keyword."""
+    """Return the fields of a dataclass as keyword parameters."""
     parameters = inspect.signature(fields).parameters.values()
     return [parameter.replace(kind=parameter.KEYWORD_ONLY) for parameter in parameters]
 
 
 def _describe(parameter: inspect.Parameter, text: Help) -> inspect.Parameter:
-    """Describe a parameter to `cyclopts` by its docstring, then by its annotation."""
+    """Annotate a parameter for `cyclopts`, from the docstring and its own annotation."""
     kind, extras = _split(parameter)
     is_list = get_origin(kind) is Sequence
     settings = [PLAIN_WORDS, Parameter(show_default=_shown_default(parameter.default))]
@@ -239,7 +239,7 @@ def _describe(parameter: inspect.Parameter, text: Help) -> inspect.Parameter:
 
 
 def _split(parameter: inspect.Parameter) -> tuple[Any, list[object]]:
-    """Divide an annotation into what a parameter takes, and what `Annotated` adds to it."""
+    """Split an annotation into the type of a parameter and the extras of `Annotated`."""
     if get_origin(parameter.annotation) is not Annotated:
         return parameter.annotation, []
     kind, *extras = get_args(parameter.annotation)
@@ -247,7 +247,7 @@ def _split(parameter: inspect.Parameter) -> tuple[Any, list[object]]:
 
 
 def _shown_default(value: object) -> bool | str:
-    """Return a default value as a help page shows it; none for a flag, or for nothing.
+    """Return a default value as a help page shows it, or False for a flag and for no default.
 
     Examples
     --------
@@ -260,7 +260,7 @@ def _shown_default(value: object) -> bool | str:
 
 
 def _setting(extra: object, is_list: bool) -> Parameter:
-    """Return what an extra of `Annotated` means: a help text, an `OptionalValue`, a reader of words."""
+    """Return the setting for an extra of `Annotated`: a help text, an `OptionalValue`, or a converter."""
     if isinstance(extra, Parameter):
         return extra
     if isinstance(extra, str):
@@ -272,13 +272,13 @@ def _setting(extra: object, is_list: bool) -> Parameter:
 
 
 def _convert(read: Callable[[str], object], is_list: bool, _kind: object, words: Sequence[Token]) -> object:
-    """Read the words of an option: all of them, or the last, where it was typed more than once."""
+    """Convert the words of an option, or the last word if a single value was given more than once."""
     values = [read(word.value) for word in words]
     return values if is_list else values[-1]
 
 
 def option_names(command: Callable[..., object]) -> dict[str, str]:
-    """Return the option of each parameter of a command that is taken by keyword."""
+    """Return the option of each keyword parameter of a command."""
     parameters = inspect.signature(command).parameters.values()
     return {
         parameter.name: option_of(parameter.name)
@@ -288,7 +288,7 @@ def option_names(command: Callable[..., object]) -> dict[str, str]:
 
 
 def option_of(name: str) -> str:
-    """Return the option of a parameter.
+    """Return the name of the option of a parameter.
 
     Examples
     --------

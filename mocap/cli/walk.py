@@ -1,4 +1,4 @@
-"""Characters that walk through a graph: `mocap walk`, along a path or at random, and `mocap crowd`."""
+"""Characters that walk through a graph: `mocap walk`, `mocap page` and `mocap crowd`."""
 
 import cmath
 import math
@@ -24,7 +24,7 @@ from mocap.cli.options import (
     Unit,
     bar,
     number,
-    tell,
+    print_rows,
     timed_stage,
 )
 from mocap.cli.typed_commands import ONE_EACH, OptionalValue
@@ -35,9 +35,9 @@ from mocap.methods import groups
 BUILD_FIRST = "build a graph of it first, by mocap graph {}"
 UNITS = {"s": 1.0, "min": 60.0, "h": 3600.0}
 WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
-TURNS = (0.0, 0.5, -0.5, 1.0, -1.0)  # radians from the way to the first point, tried in this order
-SOON = 400  # states; where the way ahead is closed, a side finds one soon or not at all
-LONGEST = 24 * 3600.0  # seconds of a random walk
+HEADINGS = (0.0, 0.5, -0.5, 1.0, -1.0)  # radians from the direction of the first point, tried in this order
+SOON = 400  # states to expand for headings to the side, which find a path soon or not at all
+LONGEST = 24 * 3600.0  # longest random walk, seconds
 
 
 def walk(
@@ -58,25 +58,25 @@ def walk(
 ) -> int:
     """Walk through a saved graph, along a path or at random.
 
-    Walk through a graph saved by `mocap graph`, along a path drawn on the ground or at random, and write the
-    motion as .bvh (centimetres) or .glb (for engines and viewers). Ctrl-C while it searches writes the best
-    walk so far.
+    Walk through a graph saved by `mocap graph`, along a path on the ground or at random, and write the motion
+    as .bvh (centimetres) or .glb (for engines and viewers). Ctrl-C during the search writes the best walk so
+    far.
 
     Parameters
     ----------
     graph : an .npz file from `mocap graph`.
-    path : a path: .csv with points x, z in metres, or an .svg picture.
+    path : the path, .csv with points x, z in metres, or .svg.
     random (TIME) : duration of a random walk, such as 60s, 10min or 1h.
-    out : file to write.
-    clips : the clips of the graph (default: those that it was built of, where it remembers them).
-    scale : metres per unit of length in the .bvh clips that --clips names.
-    label (METRES:LABEL) : kind of motion from that many metres along the path, as in 6.5:sneak; may be
-        repeated.
-    bend (DEGREES) : lay the walk on the path, turned by up to so many degrees per second (without a number:
-        100).
-    width : walks that the search keeps at a time (default: 100).
+    out : file to write, .bvh or .glb.
+    clips : the clips of the graph (default: those from which it was built, at their stored locations).
+    scale : metres per unit of length in the .bvh clips of --clips.
+    label (METRES:LABEL) : kind of motion from this distance along the path, as in 6.5:sneak. This option may
+        be repeated.
+    bend (DEGREES) : bend the walk onto the path, by an angular speed of at most this many degrees per second
+        in addition to that of the walk (without a number: 100).
+    width : beam width, the number of walks that the search keeps at a time (default: 100).
     deadline (TIME) : duration, such as 5s, after which the search ends with the best walk so far.
-    seed : seed of the random walk (default: 0).
+    seed : seed of the random numbers (default: 0).
 
     Notes
     -----
@@ -94,18 +94,18 @@ def walk(
     longest_search = math.inf if deadline is None else _seconds(deadline)
     options.require_file(graph, BUILD_FIRST.format(graph))
     line = load_path(path, scale=unit) if path else None
-    wishes = steering.Wishes(labels=[_label(text) for text in label])
+    request = steering.PathRequest(labels=[_label(text) for text in label])
     with timed_stage("reading the graph"):
         motions = _graph(graph, clips, sources, out)
     if line is None:
         frames = dump(motions, out, seconds=seconds, seed=seed or 0, clean=clean, progress=bar("writing"))
-        tell(walked=f"{frames / motions.fps:.1f} s at random", wrote=out)
+        print_rows(walked=f"{frames / motions.fps:.1f} s at random", wrote=out)
         return 0
     settings = steering.Settings(width=width or 100, progress=bar("searching"), deadline=longest_search)
     with timed_stage("following the path"):
         turn = math.radians(bend or 0)
-        followed = steering.follow_path(motions, line, wishes, settings=settings, bend=turn)
-    tell(walked=followed.report())
+        followed = steering.follow_path(motions, line, request, settings=settings, bend=turn)
+    print_rows(walked=followed.report())
     with timed_stage("making the motion"):
         motion = followed.motion(clean=clean or bool(bend))
     options.write_out(motion, out)
@@ -113,7 +113,7 @@ def walk(
 
 
 def _require_one(path: Path | None, random: str | None, seed: int | None) -> None:
-    """Raise unless a walk has either a path or a duration, and a seed only with a duration."""
+    """Raise unless there is either a path or a duration, and a seed only with a duration."""
     if (path is None) == (random is None):
         raise MocapError("Give one of --path and --random: where to walk, or for how long.")
     if random is None and seed is not None:
@@ -123,13 +123,14 @@ def _require_one(path: Path | None, random: str | None, seed: int | None) -> Non
 def page(
     graph: Path, *, out: Path = Path("walk.html"), skeleton: Skeleton = None, joints: Joints = ()
 ) -> None:
-    """Make a page on which a figure walks along any line that is drawn.
+    """Create a web page on which a figure walks along drawn paths.
 
-    The page is one file that holds the motion graph and needs no network: it can be sent, or put on a site.
+    The page is one file that contains the motion graph and needs no network. It can be sent, or published on
+    a website.
 
     Parameters
     ----------
-    graph : an .npz file from `mocap graph`, whose clips are where they were.
+    graph : an .npz file from `mocap graph`, whose clips must not have been moved.
     out : file to write, .html.
 
     Notes
@@ -145,11 +146,11 @@ def page(
     with timed_stage("making the page"):
         text = walk_page(motions)
     write_file(out, text)
-    tell(wrote=f"{out}, {len(text) / 1e6:.2f} MB")
+    print_rows(wrote=f"{out}, {len(text) / 1e6:.2f} MB")
 
 
 def _seconds(text: str) -> float:
-    """Read a duration.
+    """Parse a duration, in seconds.
 
     Examples
     --------
@@ -164,7 +165,7 @@ def _seconds(text: str) -> float:
 
 
 def _label(text: str) -> tuple[float, str]:
-    """Read a label and where it starts, as in 6.5:sneak."""
+    """Parse a label and the metres along the path at which it starts, as in 6.5:sneak."""
     metres, _, label = text.partition(":")
     try:
         return float(metres), label
@@ -173,7 +174,7 @@ def _label(text: str) -> tuple[float, str]:
 
 
 def _graph(path: Path, clips: Sequence[Path], sources: Sources, out: Path) -> "graphs.MotionGraph":
-    """Read the graph, and the clips that it was built of: those given, or those that it remembers."""
+    """Load a graph with its clips, from the given files or from the locations stored in the graph."""
     from mocap.editing.mirroring import mirrored_name  # the help needs no NumPy
     from mocap.graphs.storage import find_origins, read
 
@@ -183,7 +184,7 @@ def _graph(path: Path, clips: Sequence[Path], sources: Sources, out: Path) -> "g
     files_read = find_files(clips) if clips else [origin.path for origin in find_origins(path)]
     options.require_other(out, files_read)
     with warnings.catch_warnings():
-        lopsided = ".* so its mirror image does not"  # `mocap graph` has said so
+        lopsided = ".* so its mirror image does not"  # `mocap graph` has already warned
         warnings.filterwarnings("ignore", lopsided, MocapWarning)
         if not clips:
             return options.load_graph(path, sources.skeleton, sources.joints)
@@ -205,22 +206,22 @@ def crowd(
     no_film: bool = False,
     seed: Seed = 0,
 ) -> None:
-    """Plan the way of a group, and walk it with a character for each member.
+    """Plan the motion of a group, with a character for each member.
 
-    Plan how a group walks past points and around obstacles, and let a character of a motion graph walk each
-    member's way, in place and in time. The group starts at x = 0, z = 0. Writes a motion for each member,
-    plan.png, and a film: crowd.mp4, or crowd.gif where imageio-ffmpeg is not installed. Files of
-    these names are replaced; all others in the folder are left alone.
+    Plan the paths of a group past points and around obstacles, and let a character of a motion graph follow
+    the path of each member, in space and time. The group starts at x = 0, z = 0. Writes a motion for each
+    member, plan.png, and a film, which is crowd.mp4, or crowd.gif if imageio-ffmpeg is not installed. Files
+    with these names are replaced, and other files in the folder are not changed.
 
     Parameters
     ----------
-    members : how many walk.
-    through : a .csv with the points to pass in turn, x, z in metres.
-    around : a .csv with obstacles, x, z, radius in metres.
-    out : folder for the new files.
-    graph : an .npz file from `mocap graph` (default: one of generated walks).
+    members : number of members.
+    through : a .csv file with the points to pass in order, x, z in metres.
+    around : a .csv file with obstacles, x, z, radius in metres.
+    out : folder to write to.
+    graph : an .npz file from `mocap graph` (default: a graph of generated walks).
     to : format of the motions.
-    no_film : write no film, which takes the longest.
+    no_film : do not write the film, which takes most of the time.
 
     Notes
     -----
@@ -238,23 +239,23 @@ def crowd(
     group = groups.build_group(members, seed=seed)
     plan, search = _plan(group, scene)
     effort = f"{search.expanded} states" if search else "steered, which is quicker"
-    tell(planned=f"{(len(plan.positions) - 1) / groups.RATE:.1f} s for {members} members, {effort}")
+    print_rows(planned=f"{(len(plan.positions) - 1) / groups.RATE:.1f} s for {members} members, {effort}")
     walkers = groups.walk_group(walks, plan, progress=bar("walking"))
-    tell(walked=walkers.report())
+    print_rows(walked=walkers.report())
     make_folder(out)
     for count, motion in enumerate(walkers.motions, 1):
         files.save(motion, out / f"member-{count:02}.{to}")
     with replacing(out / "plan.png") as picture:
         drawn = plotting.draw_group_plan(plan.positions, scene.points, scene.discs, radius=scene.radius)
         drawn.savefig(picture, bbox_inches="tight")
-    if not no_film:  # a .gif of half the frames is three times as large as an .mp4 even so
+    if not no_film:  # even with half the frames, a .gif is three times as large as an .mp4
         name, fps = ("crowd.mp4", 25.0) if find_spec("imageio_ffmpeg") else ("crowd.gif", 12.5)
         widgets.save_animation(walkers.motions, out / name, discs=discs, fps=fps, progress=bar("drawing"))
-    tell(wrote=out)
+    print_rows(wrote=out)
 
 
 def _walks(path: Path | None, skeleton: Path | None, joints: Sequence[Path]) -> "graphs.MotionGraph":
-    """Load the graph asked for, or build one of generated walks."""
+    """Load the requested graph, or build one of generated walks."""
     if path is None and (skeleton or joints):
         option = "--skeleton" if skeleton else "--joints"
         raise MocapError(f"{option} belongs to --graph: the generated walks have a skeleton of their own.")
@@ -269,12 +270,12 @@ def _walks(path: Path | None, skeleton: Path | None, joints: Sequence[Path]) -> 
 def _plan(
     group: "groups.GroupGraph", scene: "groups.Scene"
 ) -> "tuple[groups.Configuration, groups.planning.GroupWalk | None]":
-    """Take a way that sets out towards the first point or, where that is closed, to one side of it."""
+    """Plan a path that starts towards the first point or, if that fails, to one side of it."""
     refused: list[NoWalk] = []
-    for turn in TURNS:
-        start = body.PlanarTransform(cmath.phase(scene.points[0]) + turn, 0.0, 0.0)
+    for heading in HEADINGS:
+        start = body.PlanarTransform(cmath.phase(scene.points[0]) + heading, 0.0, 0.0)
         try:
-            return groups.lead_group(group, scene, start=start, **({"most": SOON} if turn else {}))
+            return groups.lead_group(group, scene, start=start, **({"most": SOON} if heading else {}))
         except NoWalk as error:
             refused.append(error)
     raise refused[0]

@@ -14,7 +14,7 @@ from mocap.blending.weights import cubic_weights
 from mocap.body.motion import Motion
 from mocap.matching.point_clouds import point_cloud
 from mocap.matching.transitions import Transition, Transitions
-from mocap.quality.seam_measures import ground_slides
+from mocap.quality.seam_measures import sliding_per_frame
 
 MATCHED = 10  # frames of a window in which matches were found; blends are centred at its middle
 BESIDE = 24  # frames of both clips on either side of this middle
@@ -130,8 +130,8 @@ class Passage(NamedTuple):
     def slide(self) -> float:
         """How much further planted feet slide than in the two clips, each up to or from the middle, cm."""
         middle = self.start + len(self.weights) // 2
-        own = ground_slides(self.first)[:middle].sum() + ground_slides(self.second)[middle:].sum()
-        return float(ground_slides(self.result).sum() - own)
+        own = sliding_per_frame(self.first)[:middle].sum() + sliding_per_frame(self.second)[middle:].sum()
+        return float(sliding_per_frame(self.result).sum() - own)
 
 
 def passage(

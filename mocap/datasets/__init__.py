@@ -1,15 +1,15 @@
-"""Clips to begin with: eight that come with the package, those of the CMU database, and sets of other labs.
+"""Datasets: bundled clips, trials of the CMU database, and datasets of other laboratories.
 
 Reading order (notebooks 01, 10, 11)
 ------------------------------------
 1. `samples`: the bundled clips by name
-2. `downloads`: small files from the network, fetched once and kept
+2. `downloads`: downloads of small files, which are cached
 3. `cmu_database`: trials of the CMU database
 4. `partial_files`: partially downloaded files, and the space for the rest
-5. `resumed_downloads`: large files, whose download continues where it broke off
-6. `unpacking`: clips out of an archive, within bounds on what it may claim
-7. `named_sets`: sets of other labs, with their licences, hips and legs
-8. `clip_origins`: the files that clips were read from, to read them again
+5. `resumed_downloads`: downloads of large files that resume after an interruption
+6. `unpacking`: clips in an archive, unpacked with limits on its size
+7. `named_sets`: datasets of other laboratories, with their licences, hips and legs
+8. `clip_origins`: the files from which clips were read, to read them again
 9. `clip_references`: the clips of a saved graph or web, to find them again and compare them
 """
 

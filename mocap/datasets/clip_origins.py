@@ -1,4 +1,4 @@
-"""The files that clips were read from, and the options, so that they can be read again."""
+"""The files from which clips were read, and the options, by which they can be read again."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 
 class Origin(NamedTuple):
-    """The file that a clip was read from; `skeleton` and `scale` are those of `mocap.load`.
+    """The file from which a clip was read; `skeleton` and `scale` are those of `mocap.load`.
 
     If `mirrored`, the clip is the mirror image of the motion in the file.
     """
@@ -22,7 +22,7 @@ class Origin(NamedTuple):
     mirrored: bool = False
 
     def text(self, folder: Path) -> str:
-        """Write an origin as JSON: each file by its path relative to a folder, and by its absolute path.
+        """Serialise an origin as JSON, with the path of each file relative to a folder, and absolute.
 
         Examples
         --------
@@ -44,7 +44,7 @@ def _places(file: Path, folder: Path) -> list[str]:
 
 
 def find_again(text: str, folder: Path) -> Origin | None:
-    """Find the file of a clip from `Origin.text`, by its relative or its absolute path; None if it is gone.
+    """Find the file of a clip from `Origin.text`, by its relative or absolute path; None if it is missing.
 
     Examples
     --------
@@ -61,7 +61,7 @@ def _first_file(places: Iterable[Path]) -> Path | None:
 
 
 def is_origin(text: str) -> bool:
-    """Return whether a text has the form that `Origin.text` writes.
+    """Return whether a text is valid output of `Origin.text`.
 
     Examples
     --------

@@ -1,6 +1,6 @@
-"""The clips of a saved graph or web, by name, length and fingerprint: to find them again and compare them.
+"""The clips of a saved graph or web, by name, length and fingerprint, to find them again and compare them.
 
-Such a file holds no frames of its clips. It remembers where they were read from, if the user says so.
+Such a file contains no frames of its clips. It stores the paths of their files, if these are given.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from mocap._shared.archives import Arrays, Layout, Rules
 from mocap._shared.progress import Progress
 from mocap._shared.records import NamedTuple
 from mocap.body.fingerprints import fingerprint
-from mocap.body.motion import Motion, require_alike, resample
+from mocap.body.motion import Motion, require_compatible, resample
 from mocap.datasets.clip_origins import Origin, find_again, is_origin
 from mocap.datasets.samples import FPS, FRAMES_IN_0_1, SAMPLES, sample
 from mocap.editing.mirroring import mirror
@@ -26,7 +26,7 @@ from mocap.files.load_save import load
 
 MOST_FRAMES = 2**31  # of a clip
 FASTEST = 1e6  # frames per second
-# The arrays that a file has for C clips and O origins.
+# The arrays of a file for C clips and O origins.
 LAYOUT: Layout = {
     "fps": (float, ()),
     "names": (str, ("C",)),
@@ -37,9 +37,9 @@ LAYOUT: Layout = {
 
 
 class ClipReferences(NamedTuple):
-    """The clips that something was built of: their rate, names, lengths in frames, and fingerprints.
+    """References to the clips of a graph or web: their rate, names, lengths in frames, and fingerprints.
 
-    A fingerprint of "" fits any clip. `origins` are texts of `Origin`, one for each clip, or none.
+    A fingerprint of "" matches any clip. `origins` are texts of `Origin`, one for each clip, or none.
 
     Examples
     --------
@@ -55,7 +55,7 @@ class ClipReferences(NamedTuple):
 
 
 def arrays_of_clips(clips: Sequence[Motion], origins: Sequence[Origin], path: str | Path) -> dict[str, Any]:
-    """Return the arrays of `LAYOUT` for clips of one rate, and a file that will be written to a path."""
+    """Return the arrays of `LAYOUT` for clips of one rate, in a file that will be written to `path`."""
     arrays: dict[str, Any] = {"fps": clips[0].fps}
     arrays["names"] = [clip.name for clip in clips]
     arrays["frames"] = [len(clip) for clip in clips]
@@ -65,12 +65,12 @@ def arrays_of_clips(clips: Sequence[Motion], origins: Sequence[Origin], path: st
 
 
 def references_in(arrays: Arrays) -> ClipReferences:
-    """Return the references that the arrays of a file hold."""
+    """Return the references in the arrays of a file."""
     return ClipReferences._make(arrays[key].tolist() for key in ClipReferences._fields)
 
 
 def rules_of_clips(arrays: Arrays) -> Rules:
-    """Yield what must hold of the arrays of `LAYOUT`."""
+    """Yield the validity rules for the arrays of `LAYOUT`."""
     lengths = arrays["frames"]
     yield "origins are one for each clip, or none", len(arrays["origins"]) in (0, len(lengths))
     yield "origins are places of files", [is_origin(text) for text in arrays["origins"].tolist()]
@@ -80,13 +80,13 @@ def rules_of_clips(arrays: Arrays) -> Rules:
 
 
 def find_files_of(references: ClipReferences, path: str | Path) -> list[Origin]:
-    """Find the files of the clips that a file at a path refers to; none for bundled samples.
+    """Find the files of the clips to which a file at `path` refers; none for bundled samples.
 
-    Each is where it was, or else beside the file, under the clip's name.
+    A clip is searched at its stored paths, then by its name in the folder of the file.
 
     Raises
     ------
-    MocapError : for a clip that is in neither place.
+    MocapError : for a clip that is not found.
     """
     folder = Path(path).parent
     if set(references.names) <= set(SAMPLES) and not references.origins:
@@ -109,14 +109,14 @@ def load_references(
     skeleton: Path | None,
     progress: Progress,
 ) -> list[Motion]:
-    """Return the clips that a file at a path refers to, in its order and at its rate.
+    """Return the clips to which a file at `path` refers, in its order and at its rate.
 
     Parameters
     ----------
-    references, path : from the file, and where it is.
-    clips : motions among which they are; None to read them from where they were, or to take bundled ones.
-    skeleton : the `.asf` file of `.amc` clips; by default the one of the origin, or one that fits.
-    progress : wraps the files of the clips, to show a bar.
+    references, path : the references in the file, and its path.
+    clips : motions that include these clips; None to read them from their files, or to use bundled ones.
+    skeleton : the `.asf` file of `.amc` clips; by default that of the origin, or one that matches.
+    progress : wraps the iterable of files of clips, to show a progress bar.
 
     Raises
     ------
@@ -126,8 +126,8 @@ def load_references(
         clips = _load_clips(references, path, skeleton, progress)
     resampled = [resample(clip, references.fps) for clip in clips]
     needed = [clip for clip in resampled if clip.name in references.names]
-    with suppress(MocapError):  # one end sites for all; what does not go together is named below
-        needed = list(require_alike(needed))
+    with suppress(MocapError):  # give all clips the same end sites; differences are reported below
+        needed = list(require_compatible(needed))
     by_name = defaultdict[str, list[Motion]](list)
     for clip in needed:
         by_name[clip.name].append(clip)
@@ -147,7 +147,7 @@ def load_references(
 def _load_clips(
     references: ClipReferences, path: str | Path, skeleton: Path | None, progress: Progress
 ) -> list[Motion]:
-    """Load the clips of a file from where they were, or take the bundled ones."""
+    """Load the clips of a file from their files, or return the bundled ones."""
     origins = find_files_of(references, path)
     if not origins:
         return [sample(name) for name in references.names]
@@ -159,12 +159,12 @@ def _load_clips(
 
 
 def _is_same(clip: Motion, length: int, digest: str) -> bool:
-    """Check whether a clip has the length, in frames, and the fingerprint of the one in the file."""
+    """Return whether a clip has a length, in frames, and a fingerprint."""
     return len(clip) == length and (not digest or fingerprint(clip) == digest)
 
 
 def _difference(path: str | Path, clip: Motion, length: int) -> MocapError:
-    """Return the error that a clip is another one than that of the file, which had `length` frames."""
+    """Return the error that a clip differs from that of the file, which had `length` frames."""
     if _was_bundled_in_0_1(clip.name, length, clip.fps):
         return MocapError(
             f"{path} was built of the clips of mocap 0.1, which later versions do not have. "
@@ -178,6 +178,6 @@ def _difference(path: str | Path, clip: Motion, length: int) -> MocapError:
 
 
 def _was_bundled_in_0_1(name: str, length: int, fps: float) -> bool:
-    """Tell whether a clip of so many frames is one that came with mocap 0.1."""
+    """Return whether a clip with this number of frames was bundled with mocap 0.1."""
     intervals = FRAMES_IN_0_1.get(name, 0) - 1
     return length == int(intervals * fps / FPS) + 1

@@ -1,7 +1,7 @@
-"""Trials of the CMU Graphics Lab Motion Capture Database, fetched once and kept.
+"""Trials of the CMU Graphics Lab Motion Capture Database, downloaded once and cached.
 
-`cmu.tsv` beside this module lists the files of subjects 02, 03, 16, 49 and 127 with their SHA-256, so a file
-is either whole or refused. `downloads` keeps them as `<subject>/<file>`.
+`cmu.tsv` beside this module lists the files of subjects 02, 03, 16, 49 and 127 with their SHA-256, by which
+each download is verified. `downloads` stores them as `<subject>/<file>`.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ TERMS = (
 
 
 class Trial(NamedTuple):
-    """One trial of the database, with the database's description of it.
+    """A trial of the database, with its description there.
 
     Examples
     --------
@@ -56,7 +56,7 @@ def trials(subject: int | None = None, kind: str | None = None) -> list[Trial]:
     Parameters
     ----------
     subject : only trials of this person.
-    kind : only trials whose description has this word, in small or capital letters.
+    kind : only trials with this word in their description, in upper or lower case.
 
     Raises
     ------
@@ -101,26 +101,26 @@ def cmu(
 ) -> Motion | list[Motion]:
     """Return a trial of the CMU database, or all trials of a person or a kind, at 120 Hz.
 
-    Each person has a skeleton of their own, and a motion graph needs one for all clips: `skeleton` lets one
-    body wear them.
+    Each person has another skeleton, but a motion graph needs the same one for all clips. With `skeleton`,
+    all motions are retargeted to it.
 
     Parameters
     ----------
-    clip : a trial's name, such as "16_15".
-    subject : without `clip`, the person's number.
+    clip : the name of a trial, such as "16_15".
+    subject : without `clip`, the number of the person.
     kind : without `clip`, a word of the description, such as "walk"; `mocap data list` shows all trials.
-    skeleton : the body that wears the motions, as for `editing.wear`; by default each person's own. A stance,
-        such as `editing.stance_of(cmu("16_15"))`, also says how high the feet stand.
+    skeleton : the skeleton to which motions are retargeted by `editing.wear`; by default, each has that of
+        its person. A stance, such as `editing.stance_of(cmu("16_15"))`, also defines the heights of the feet.
 
     Returns
     -------
-    The motion that `clip` names, else a list of motions.
+    The motion named `clip`, or without a name a list of motions.
 
     Raises
     ------
-    MocapError : for a trial that is not listed or not named by a text; for a file that cannot be downloaded,
-        with what to do instead; with `skeleton`, for what `editing.wear` refuses, such as a trial in which a
-        foot never stands.
+    MocapError : for a trial that is not listed, a name that is not a text, and a file that cannot be
+        downloaded; with `skeleton`, as by `editing.wear`, for example for a trial in which a foot never
+        stands.
 
     Examples
     --------
@@ -145,7 +145,7 @@ def cmu(
 
 
 def _require_name(clip: object) -> None:
-    """Raise unless a trial is named by a text, or not at all."""
+    """Raise unless the name of a trial is a text or None."""
     if clip is None or isinstance(clip, str):
         return
     all_trials = f"; cmu(subject={clip}) are all trials of a person" if isinstance(clip, int) else ""
@@ -153,5 +153,5 @@ def _require_name(clip: object) -> None:
 
 
 def fetch_listed(name: str) -> Path:
-    """Find a listed file, such as "16/16.asf", in the folder of fetched files, or download it."""
+    """Find a listed file, such as "16/16.asf", in the cache, or download it."""
     return fetch(name, f"{BASE_URL}/{name}", _registry()[name]["sha256"], TERMS)

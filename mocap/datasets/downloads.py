@@ -1,8 +1,7 @@
-"""Small files from the network, fetched once and kept, each whole or refused.
+"""Downloads of small files, verified and cached.
 
-`resumed_downloads` is for large ones. All are kept in the platform's cache folder, or in the one that the
-environment variable `MOCAP_DATA` names. A file that is there needs no network; with `MOCAP_OFFLINE` nothing
-else is asked for.
+`resumed_downloads` is for large files. The cache is the platform's cache folder, or that in the environment
+variable `MOCAP_DATA`. A cached file needs no network. `MOCAP_OFFLINE` forbids downloads.
 """
 
 import hashlib
@@ -15,30 +14,30 @@ from urllib.parse import urlsplit
 from mocap.errors import MocapError
 
 RETRIES = 3  # after 1, 2 and 3 seconds
-TIMEOUT = 30.0  # seconds without an answer
+TIMEOUT = 30.0  # seconds without a response
 
 
 def kept_in() -> Path:
-    """Return the folder of all fetched files."""
+    """Return the cache, the folder of all downloaded files."""
     import pooch
 
     return Path(os.environ.get("MOCAP_DATA") or pooch.os_cache("mocap"))
 
 
 def fetch(name: str, url: str, sha256: str | None, terms: str) -> Path:
-    """Find a file in the folder of fetched files, or download it and print the terms of its use.
+    """Find a file in the cache, or download it and print its terms of use.
 
     Parameters
     ----------
-    name : its path relative to that folder, such as "16/16.asf".
-    url : its address.
-    sha256 : its checksum, if it is known. A file that differs only in its line ends is accepted.
-    terms : the terms, printed once when something is downloaded.
+    name : the path relative to the cache, such as "16/16.asf".
+    url : the address.
+    sha256 : the checksum, if it is known. A file that differs only in its line ends is accepted.
+    terms : the terms of use, printed once if something is downloaded.
 
     Raises
     ------
-    MocapError : if it cannot be downloaded, is not the file listed, or cannot be written; then no part of it
-        is kept. If the environment variable `MOCAP_OFFLINE` is set, for each file that is not there.
+    MocapError : if it cannot be downloaded, has another checksum, or cannot be written; then no part of it is
+        stored. If the environment variable `MOCAP_OFFLINE` is set, for each file that is not cached.
     """
     import pooch
     from requests import RequestException
@@ -71,7 +70,7 @@ def fetch(name: str, url: str, sha256: str | None, terms: str) -> Path:
 
 
 def _restore_line_ends(file: Path, sha256: str | None) -> None:
-    """Rewrite a text with the line ends, of Unix or of Windows, that its checksum belongs to."""
+    """Rewrite a text with line ends of Unix or of Windows, as its checksum requires."""
     unix = file.read_bytes().replace(b"\r\n", b"\n")
     for data in (unix, unix.replace(b"\n", b"\r\n")):
         if hashlib.sha256(data).hexdigest() == sha256:
@@ -80,5 +79,5 @@ def _restore_line_ends(file: Path, sha256: str | None) -> None:
 
 @cache
 def show_once(terms: str) -> None:
-    """Print the terms of a set's use, at the first call."""
+    """Print the terms of use of a dataset, at the first call only."""
     print(terms, file=sys.stderr)

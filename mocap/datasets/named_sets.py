@@ -1,4 +1,4 @@
-"""Sets of clips that other labs share: from a local copy, or downloaded once."""
+"""Datasets of other laboratories, from a local copy or downloaded once."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from mocap.errors import MocapError, shortened, warn
 if TYPE_CHECKING:
     from mocap.body.motion import Motion
 
-WHOLE = "TERMS.txt"  # written when all clips of a set are there
+WHOLE = "TERMS.txt"  # written once all clips of a dataset are unpacked
 _TABLES = tomllib.loads(Path(__file__).with_name("sets.toml").read_text("utf-8"))
 
 
 class NamedSet(NamedTuple):
-    """A set of clips; `sets.toml` says what the fields are."""
+    """A dataset; `sets.toml` describes the fields."""
 
     title: str
     licence: str
@@ -42,22 +42,22 @@ class NamedSet(NamedTuple):
         return f"These clips come from {self.title} ({self.address}), under {self.licence}: {self.allows}."
 
     def size(self) -> str:
-        """Return the size of the archive in words."""
+        """Format the size of the archive."""
         return f"{self.megabytes} MB" if self.megabytes else "some hundred MB"
 
 
 SETS = {name: NamedSet(**row) for name, row in _TABLES["sets"].items()}
-"""The sets by the names of their folders."""
+"""The datasets by the names of their folders."""
 
 HASHES: dict[str, str] = _TABLES["clips"]
 
 
 def folder_of(name: str) -> Path:
-    """Return the folder of a set, into which it is fetched.
+    """Return the folder of a dataset in the cache.
 
     Raises
     ------
-    MocapError : for an unknown set.
+    MocapError : for an unknown dataset.
 
     Examples
     --------
@@ -71,42 +71,42 @@ def folder_of(name: str) -> Path:
 
 
 def clips_of(name: str) -> dict[str, Path]:
-    """Find the files of a set that are in its folder, by the names of their clips.
+    """Find the files of a dataset in its folder, by the names of their clips.
 
-    If several files have the same name, the first one is returned.
+    Of several files with the same name, the first is returned.
 
     Raises
     ------
-    MocapError : for an unknown set.
+    MocapError : for an unknown dataset.
     """
     paths = (path for path in folder_of(name).rglob("*.bvh") if UNFINISHED not in str(path))
     return {path.stem: path for path in sorted(paths, reverse=True)}
 
 
 def fetch_set(name: str, progress: Progress = iter) -> list[str]:
-    """Download all clips of a named set, unless they are in its folder; its terms are printed first.
+    """Download all clips of a dataset, unless they are in its folder; its terms are printed first.
 
-    The next call continues an interrupted download. The archive is removed once all of its clips are
-    unpacked. Without a listed checksum, that of each archive is noted in `<set>.zip.sha256`.
+    The next call resumes an interrupted download. The archive is removed once all clips are unpacked. If no
+    checksum is listed, that of each archive is stored in `<set>.zip.sha256`.
 
     Parameters
     ----------
-    name : the set, one of `SETS`; `SETS[name].size()` is the size of its archive.
-    progress : shows how much of the archive has been received, and then unpacked, as `tqdm.tqdm` does.
+    name : the dataset, one of `SETS`; `SETS[name].size()` is the size of its archive.
+    progress : shows the progress of the download and of unpacking, as `tqdm.tqdm` does.
 
     Returns
     -------
-    The clips' names.
+    The names of the clips.
 
     Raises
     ------
-    MocapError : for an unknown set; without a network, or if the environment variable `MOCAP_OFFLINE` is set;
-        for an archive that is not the one listed, or that no set of clips can be; without permission to write
+    MocapError : for an unknown dataset; without a network, or if the environment variable `MOCAP_OFFLINE` is
+        set; for an archive that differs from the one listed, or is implausible; without permission to write
         or space on the disk.
 
     Warns
     -----
-    MocapWarning : if an archive without a listed checksum is not one that was downloaded before.
+    MocapWarning : if an archive without a listed checksum differs from those downloaded before.
 
     Examples
     --------
@@ -126,7 +126,7 @@ def fetch_set(name: str, progress: Progress = iter) -> list[str]:
 
 
 def _fetch_and_unpack(name: str, packed: Path, progress: Progress) -> None:
-    """Download the archive of a set, unless it is there, unpack it beside itself, and remove it."""
+    """Download the archive of a dataset, unless it is there, unpack it in its folder, and remove it."""
     named_set = SETS[name]
     listing = Listing(named_set.archive, named_set.megabytes, named_set.sha256)
     at_hand = packed.exists()
@@ -155,7 +155,7 @@ def _fetch_and_unpack(name: str, packed: Path, progress: Progress) -> None:
 
 
 def _require_listed(packed: Path, named_set: NamedSet) -> str:
-    """Refuse an archive that is not the one listed. Return its checksum."""
+    """Return the checksum of an archive; raise if it differs from that listed."""
     with keeping(packed):
         digest = sha256_of(packed)
     if named_set.sha256 not in (None, digest):
@@ -168,7 +168,7 @@ def _require_listed(packed: Path, named_set: NamedSet) -> str:
 def _note_checksum(packed: Path, digest: str) -> None:
     """Add a checksum to those of the archives downloaded before, and warn if it differs from them.
 
-    The lines are those of `sha256sum`. A host may pack the same clips anew, so that this is no error.
+    The format is that of `sha256sum`. It is not an error, because a host may pack the same clips again.
     """
     notes = packed.with_name(f"{packed.name}.sha256")
     earlier = notes.read_text("utf-8") if notes.exists() else ""
@@ -183,17 +183,17 @@ def _note_checksum(packed: Path, digest: str) -> None:
 
 
 def from_set(name: str, clip: str) -> Motion:
-    """Read a clip of a named set, from a local copy or the fetched one; its terms are printed once.
+    """Read a clip of a dataset, from a local or downloaded copy; its terms are printed once.
 
     Parameters
     ----------
-    name : the set, one of `SETS`, such as "lafan1".
-    clip : the name of a file in any folder of the set, such as "walk1_subject1".
+    name : the dataset, one of `SETS`, such as "lafan1".
+    clip : the name of a file in any folder of the dataset, such as "walk1_subject1".
 
     Raises
     ------
-    MocapError : for an unknown set, a clip that is not there, with how to get it, and a file that is not the
-        one listed.
+    MocapError : for an unknown dataset, a missing clip, with the command to download it, and a file with
+        another checksum than listed.
 
     Examples
     --------

@@ -1,8 +1,8 @@
 """Partially downloaded files: the received bytes, a record of their origin, and the space for the rest.
 
-`NAME.part` beside the target holds the received bytes. `NAME.part.json` records the file that they belong to:
-its address, its length, and its validator, which is the server's ETag or date of change. The record is
-written before the bytes that it describes, so that the process may end at any moment.
+`NAME.part` beside the target contains the received bytes. `NAME.part.json` records their file on the server:
+its address, its length, and its validator, which is an ETag or a date of modification. The record is written
+before the bytes that it describes, therefore the process may be killed at any time.
 """
 
 from __future__ import annotations
@@ -27,17 +27,17 @@ class Record(NamedTuple):
     """The file on the server to which received bytes belong."""
 
     url: str
-    validator: str | None  # an ETag or a date; without it a download cannot continue
-    length: int | None  # bytes; None, and no continuing, as long as the server has not said it
+    validator: str | None  # an ETag or a date; without it a download cannot resume
+    length: int | None  # bytes; None if the server did not report it, and then a download cannot resume
 
 
 class Part:
-    """The received bytes of a file, beside the path where the whole file will be.
+    """The received bytes of a file, beside the target path of the complete file.
 
     Parameters
     ----------
-    target : that path.
-    url : the file's address. Bytes from another address are not continued.
+    target : the path of the complete file.
+    url : its address. A download from another address is not resumed.
     """
 
     def __init__(self, target: Path, url: str) -> None:
@@ -51,7 +51,7 @@ class Part:
         return self.path.stat().st_size if self.path.exists() else 0
 
     def record(self) -> Record | None:
-        """Read the record of the file to which the bytes belong; None if it is missing, or another file's."""
+        """Read the record of the received bytes; None if it is missing, or belongs to another file."""
         try:
             stored = json.loads(self.record_path.read_text("utf-8"))
         except (FileNotFoundError, ValueError):
@@ -67,14 +67,14 @@ class Part:
         return record is not None and record.length == self.size()
 
     def continuable(self) -> Record | None:
-        """Return the record if the rest of the file can be asked for, else None."""
+        """Return the record if the rest of the file can be requested, else None."""
         record = self.record()
         if record is None or record.validator is None or record.length is None:
             return None
         return record if 0 < self.size() < record.length else None
 
     def advice(self) -> str:
-        """Return a sentence with the megabytes that are kept, and how to continue."""
+        """Return a message with the size of the received part, and the way to resume."""
         record = self.record()
         if self.is_whole():
             return "The whole file is here: fetch again to unpack it."
@@ -96,12 +96,12 @@ class Part:
         self.path.unlink(missing_ok=True)
 
     def tidy(self) -> None:
-        """Remove bytes that no later call can continue."""
+        """Remove the received bytes if no later call can resume the download."""
         if not self.continuable() and not self.is_whole():
             self.drop()
 
     def finish(self) -> None:
-        """Move the whole file to its target, once the disk holds it."""
+        """Sync the complete file to the disk, and move it to its target."""
         with self.path.open("rb+") as file:
             os.fsync(file.fileno())
         self.path.replace(self.target)
@@ -110,7 +110,7 @@ class Part:
 
 @contextmanager
 def keeping(target: Path) -> Iterator[None]:
-    """Explain errors of the system that prevent a file from being written.
+    """Convert errors of the system that prevent writing a file to `MocapError`.
 
     Examples
     --------
@@ -130,12 +130,12 @@ def keeping(target: Path) -> Iterator[None]:
 
 
 def require_space(target: Path, size: int) -> None:
-    """Refuse a file, before it is written, for which the disk has no space.
+    """Raise if the disk has no space for a file, before it is written.
 
     Parameters
     ----------
     target : the file, or one of several in the same folder.
-    size : bytes that will be written.
+    size : the number of bytes that will be written.
 
     Raises
     ------
@@ -169,14 +169,14 @@ def sha256_of(path: Path) -> str:
 
 @contextmanager
 def alone_in(folder: Path) -> Iterator[None]:
-    """Refuse to work in a folder where another process fetches.
+    """Lock a folder against downloads by other processes, as a context manager.
 
-    The system opens the lock again however this process ends. On Windows, and on file systems without locks,
-    nothing is locked.
+    The system releases the lock when this process ends in any way. On Windows, and on file systems without
+    locks, nothing is locked.
 
     Raises
     ------
-    MocapError : if another process, or another thread, fetches into the folder.
+    MocapError : if another process or thread downloads to the folder.
     """
     try:
         import fcntl

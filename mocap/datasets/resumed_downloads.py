@@ -1,8 +1,8 @@
-"""Downloads of large files that resume after an interruption, each whole or refused.
+"""Downloads of large files that resume after an interruption, with verification of the result.
 
-The next call asks for the rest of the file (`Range`), on the condition that its validator, an ETag or a date,
-is still the same (`If-Range`; RFC 9110, sections 13.1.5 and 14). If the file has changed, or the server knows
-no ranges, the download starts again. `partial_files` keeps what has been received.
+The next call requests the rest of the file (`Range`), on the condition that its validator, an ETag or a date,
+is still the same (`If-Range`; RFC 9110, sections 13.1.5 and 14). If the file has changed, or the server does
+not support ranges, the download starts again. `partial_files` stores the received bytes.
 """
 
 from __future__ import annotations
@@ -21,39 +21,39 @@ from mocap.errors import MocapError, shortened
 if TYPE_CHECKING:
     from requests import RequestException, Response
 
-PIECE = 2**18  # bytes received at once; a connection that breaks off loses at most these
-PAUSES = (1.0, 2.0, 3.0)  # seconds before each further try, as long as no new bytes come
-TIMEOUT = 30.0  # seconds without an answer
-LARGEST = 4000  # MB of a file whose size is not listed: 2.7 times the largest named set
-ROUNDING = 1  # MB: listed sizes are whole ones
+PIECE = 2**18  # bytes received at a time, the largest loss if a connection breaks
+PAUSES = (1.0, 2.0, 3.0)  # seconds before each retry, as long as no new bytes are received
+TIMEOUT = 30.0  # seconds without a response
+LARGEST = 4000  # MB of a file whose size is not listed: 2.7 times the largest dataset
+ROUNDING = 1  # MB: listed sizes are integers
 
-# The status of an answer (RFC 9110, section 15):
+# Status codes (RFC 9110, section 15):
 WHOLE = 200
-PARTIAL = 206  # with the range that was asked for
-FINAL = (401, 403, 404, 410)  # the next try would get the same
+PARTIAL = 206  # with the requested range
+FINAL = (401, 403, 404, 410)  # a retry would have the same result
 BEYOND_END = 416  # no byte of the range exists
 
 
 class Listing(NamedTuple):
-    """The properties of a file that are known before it is downloaded.
+    """The known properties of a file before it is downloaded.
 
     Parameters
     ----------
-    url : its address.
-    megabytes : its size, rounded; None if it is not known.
-    sha256 : its checksum; None if it is not known.
+    url : the address.
+    megabytes : the rounded size; None if it is unknown.
+    sha256 : the checksum; None if it is unknown.
     """
 
     url: str
     megabytes: int | None = None
     sha256: str | None = None
 
-    def place(self) -> str:
+    def name(self) -> str:
         """Return the server and the name of the file, for messages.
 
         Examples
         --------
-        >>> Listing("https://example.org/sets/2022/walks.zip").place()
+        >>> Listing("https://example.org/sets/2022/walks.zip").name()
         'example.org/.../walks.zip'
         """
         parts = urlsplit(self.url)
@@ -66,9 +66,9 @@ def download(listing: Listing, target: Path, progress: Progress = iter) -> str:
     Parameters
     ----------
     listing : its address, and its size and checksum if they are known.
-    target : the file to make, in a folder that exists. It appears when it is whole and has the listed
-        checksum.
-    progress : shows how much has been received, as `tqdm.tqdm` does.
+    target : the path of the file, in a folder that exists. The file is created once it is complete and has
+        the listed checksum.
+    progress : shows the progress of the download, as `tqdm.tqdm` does.
 
     Returns
     -------
@@ -76,8 +76,8 @@ def download(listing: Listing, target: Path, progress: Progress = iter) -> str:
 
     Raises
     ------
-    MocapError : if the server does not send it, with how to continue; if it is not the file listed, and then
-        nothing is kept; if it cannot be kept, for lack of permission or of space.
+    MocapError : if the server does not send it, with the way to resume; if its checksum differs from that
+        listed, and then nothing is stored; if it cannot be stored, for lack of permission or of space.
 
     Examples
     --------
@@ -94,7 +94,7 @@ def download(listing: Listing, target: Path, progress: Progress = iter) -> str:
             if listing.sha256 not in (None, digest):
                 part.drop()
                 raise MocapError(
-                    f"{listing.place()} is not the file listed: its checksum differs. Nothing of it is kept; "
+                    f"{listing.name()} is not the file listed: its checksum differs. Nothing of it is kept; "
                     f"try again later, or get the set from its authors."
                 )
             part.finish()
@@ -108,7 +108,7 @@ def download(listing: Listing, target: Path, progress: Progress = iter) -> str:
 
 
 def _receive(listing: Listing, part: Part, progress: Progress) -> None:
-    """Ask for the file, or the rest of it, until all of it is here."""
+    """Request the file, or the rest of it, until it is complete."""
     furthest = part.size()
     failures = 0
     while not part.is_whole():
@@ -116,18 +116,18 @@ def _receive(listing: Listing, part: Part, progress: Progress) -> None:
         if error is None:
             continue
         if part.size() >= furthest + PIECE:
-            failures = 0  # a line that often breaks off gets there all the same
+            failures = 0  # an unreliable connection that makes progress may continue
             furthest = part.size()
         status = getattr(error.response, "status_code", None)
         if failures == len(PAUSES) or status in FINAL:
             happened = f"answers {status}" if status else "breaks off or does not answer"
-            raise MocapError(f"{listing.place()} {happened}. {part.advice()}") from error
+            raise MocapError(f"{listing.name()} {happened}. {part.advice()}") from error
         time.sleep(PAUSES[failures])
         failures += 1
 
 
 def _try_request(listing: Listing, part: Part, progress: Progress) -> RequestException | None:
-    """Request the missing bytes once; return the error after which another try may succeed."""
+    """Request the missing bytes once; return an error after which a retry may succeed, or None."""
     from requests import RequestException
     from requests.exceptions import InvalidSchema, InvalidURL, TooManyRedirects
 
@@ -135,7 +135,7 @@ def _try_request(listing: Listing, part: Part, progress: Progress) -> RequestExc
         _request(listing, part, progress)
     except (InvalidSchema, InvalidURL, TooManyRedirects) as error:
         raise MocapError(
-            f"{listing.place()} leads to an address that is not safe to download from: get the set from its "
+            f"{listing.name()} leads to an address that is not safe to download from: get the set from its "
             f"authors."
         ) from error
     except RequestException as error:
@@ -177,7 +177,7 @@ def _request(listing: Listing, part: Part, progress: Progress) -> None:
 
 
 def _require_safe(answer: Response) -> None:
-    """Refuse redirections from https to http; `requests` refuses those to `file:` and the like."""
+    """Reject redirections from https to http; `requests` rejects those to `file:` and similar schemes."""
     from requests.exceptions import InvalidSchema
 
     schemes = [urlsplit(step.url).scheme for step in (*answer.history, answer)]
@@ -186,7 +186,7 @@ def _require_safe(answer: Response) -> None:
 
 
 def _continues(answer: Response, part: Part, earlier: Record) -> bool:
-    """Return whether an answer is the rest of the same file, or an error independent of the file."""
+    """Return whether a response is the rest of the same file, or an error independent of the file."""
     if answer.status_code == BEYOND_END:
         return False
     if answer.status_code != PARTIAL:
@@ -200,14 +200,14 @@ def _continues(answer: Response, part: Part, earlier: Record) -> bool:
 
 
 def _is_encoded(answer: Response) -> bool:
-    """Return whether an answer is compressed, although none was asked for; `requests` unpacks it."""
+    """Return whether a response is compressed, although this was not requested; `requests` unpacks it."""
     return str(answer.headers.get("Content-Encoding", "identity")) != "identity"
 
 
 def _describe(answer: Response, url: str) -> Record:
-    """Read the address, validator and length of a file from the headers of an answer.
+    """Read the address, validator and length of a file from the headers of a response.
 
-    A weak ETag (`W/`) may stay the same although bytes change, and the length of an encoded answer is not
+    A weak ETag (`W/`) may remain the same although bytes change, and the length of an encoded response is not
     that of the file.
     """
     headers = answer.headers
@@ -222,12 +222,12 @@ def _describe(answer: Response, url: str) -> Record:
 
 
 def _require_size(listing: Listing, part: Part, length: int | None, size: int) -> None:
-    """Refuse a file that is not as large as listed, or for which the disk has no space, before it is sent."""
+    """Raise if a file has another size than listed or exceeds the disk space, before it is transferred."""
     if length is None:
         return
     if listing.megabytes is not None and abs(length - listing.megabytes * MEGABYTE) > ROUNDING * MEGABYTE:
         raise MocapError(
-            f"{listing.place()} has {length / MEGABYTE:.0f} MB, and {listing.megabytes} MB are listed: it is "
+            f"{listing.name()} has {length / MEGABYTE:.0f} MB, and {listing.megabytes} MB are listed: it is "
             f"another file. Try again later, or get the set from its authors."
         )
     _require_bound(listing, length)
@@ -235,33 +235,33 @@ def _require_size(listing: Listing, part: Part, length: int | None, size: int) -
 
 
 def _require_bound(listing: Listing, size: int) -> None:
-    """Refuse a file that is larger than it may be."""
+    """Raise if a file is larger than its listed size, or than the limit without one."""
     bound = LARGEST if listing.megabytes is None else listing.megabytes + ROUNDING
     if size > bound * MEGABYTE:
         raise MocapError(
-            f"{listing.place()} has more than {bound} MB, so it is another file, and nothing of it is kept: "
+            f"{listing.name()} has more than {bound} MB, so it is another file, and nothing of it is kept: "
             f"get the set from its authors."
         )
 
 
 def _append(listing: Listing, part: Part, answer: Response, progress: Progress) -> None:
-    """Append the body of an answer to the part, piece by piece."""
+    """Append the body of a response to the part, piece by piece."""
     record = part.record()
     missing = record.length - part.size() if record and record.length else 0
     shown = iter(progress(range(-(-missing // PIECE))))
-    with part.path.open("ab", buffering=0) as file:  # a kill loses no piece that has been written
+    with part.path.open("ab", buffering=0) as file:  # if the process is killed, written pieces are not lost
         for piece in answer.iter_content(PIECE):
             _require_bound(listing, file.tell() + len(piece))
             _write_all(file, piece)
             next(shown, None)
-    for _ in shown:  # lets a bar end
+    for _ in shown:  # completes a progress bar
         pass
     if record and record.length is None:
         part.write(record._replace(length=part.size()))
 
 
 def _write_all(file: BinaryIO, data: bytes) -> None:
-    """Write to an unbuffered file, which may take less at once than it is given."""
+    """Write all data to an unbuffered file, which may accept only a part of it at a time."""
     remaining = memoryview(data)
     while remaining:
         remaining = remaining[file.write(remaining) :]

@@ -1,8 +1,8 @@
-"""The bundled clips by name; they need no network.
+"""The bundled clips by name, available without a network.
 
-They were generated: footsteps planned along a path, a few harmonics for each joint, and inverse kinematics
-for the legs (`figures/walking`). `clips.npz` holds their numbers in multiples of 2⁻³¹, each clip as the sixth
-differences of its columns, which are small if a motion is smooth.
+They are synthetic: footsteps planned along a path, a few harmonics for each joint, and inverse kinematics for
+the legs (`figures/walking`). `clips.npz` stores their numbers in multiples of 2⁻³¹, each clip as the sixth
+differences of its columns, which are small for smooth motions.
 """
 
 from functools import cache
@@ -19,13 +19,13 @@ from mocap.errors import MocapError, shortened
 FPS = 120.0  # frames per second of all bundled clips
 UNIT = 2.0**-31  # metres, or of a component of a quaternion: the unit of the stored numbers
 ORDER = 6  # of the stored differences
-ROOT_ROTATION = slice(3, 7)  # columns of a clip: the root's position, its quaternion,
-OTHER_ROTATIONS = slice(7, None)  # and (x, y, z) of the quaternions of all other joints
+ROOT_ROTATION = slice(3, 7)  # columns of a clip, after the position of the root
+OTHER_ROTATIONS = slice(7, None)  # columns of a clip: (x, y, z) of the quaternions of all other joints
 FEET = ["lfoot", "rfoot", "ltoes", "rtoes"]
 STORE = Path(__file__).with_name("clips.npz")  # from `figures/bundled_clips.py`
 
 SAMPLES = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight", "sneak", "jog", "stop_and_go")
-"""The names of the bundled clips from which motion graphs are built; `sample` has some more."""
+"""The names of the bundled clips for motion graphs; `sample` returns further ones."""
 
 FRAMES_IN_0_1 = {
     "walk_circle": 4711,
@@ -36,7 +36,7 @@ FRAMES_IN_0_1 = {
     "jog": 3853,
     "stop_and_go": 2932,
 }
-"""Lengths of the clips with these names in mocap 0.1, which were other motions."""
+"""Lengths of the clips with these names in mocap 0.1, which were different motions."""
 
 OURS = "the clips that come with mocap"
 
@@ -52,8 +52,8 @@ def sample(name: str = "walk_circle") -> Motion:
 
     Parameters
     ----------
-    name : one of `SAMPLES`; "jump"; "bend_sneak" or "bend_walk", around one bend; or a walk of 5 or 6 metres
-        by its speed (m/s) and its change of heading (degrees to the left), as in "walk_5m_0.8_0" and
+    name : one of `SAMPLES`; "jump"; "bend_sneak" or "bend_walk", around one bend; or a walk of 5 or 6 metres,
+        by its speed (m/s) and its change of heading (degrees to the left), such as "walk_5m_0.8_0" or
         "walk_6m_1.4_-180".
 
     Raises
@@ -91,7 +91,7 @@ def sample(name: str = "walk_circle") -> Motion:
 def _decode(digits: NDArray[np.uint8]) -> NDArray[np.int64]:
     """Decode the columns of a clip, shape (K, F), from the bytes of their differences, lowest byte first.
 
-    The lowest bit of a difference is its sign ("zigzag"), so that small negative numbers have few digits.
+    The lowest bit of a difference is its sign (zigzag encoding), by which small negative numbers are short.
     """
     zigzag = np.zeros(digits.shape[1:], np.int64)
     for place, byte in enumerate(digits):

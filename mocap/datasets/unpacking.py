@@ -1,8 +1,8 @@
-"""Clips out of an archive from the network: all of them or none, within bounds on its size.
+"""Unpacking of the clips in a downloaded archive: all of them or none, with limits on their size.
 
-A .zip file of 3 MB can claim, and unpack to, 3 GB. Its directory is therefore checked before anything is
-unpacked, and `zipfile` unpacks no more of a member than the directory claims. The clips are unpacked into a
-folder beside their place, and moved when all of them are there.
+A .zip file of 3 MB may unpack to 3 GB. Its directory is therefore checked before anything is unpacked, and
+`zipfile` unpacks at most the size of a member in the directory. The clips are unpacked to a temporary folder
+beside their target, and moved once all of them are complete.
 """
 
 from __future__ import annotations
@@ -23,38 +23,38 @@ from mocap._shared.progress import Progress
 from mocap.datasets.partial_files import MEGABYTE, keeping, require_space
 from mocap.errors import MocapError, shortened
 
-# Twice the ratio of the BVH file that shrinks most of 18 from seven sources (2.3 to 4.9, all together 2.8).
-# The 1469 MB of 100STYLE may become 15 GB.
+# The largest compression ratio, twice the maximum for 18 BVH files from seven sources (2.3 to 4.9, together
+# 2.8). The 1469 MB of 100STYLE may become 15 GB.
 RATIO = 10
 
-# Bytes that any archive may unpack to. A few small clips, whose rows repeat, shrink further.
+# Bytes to which any archive may unpack, because a few small clips with repeated rows have larger ratios.
 ROOM = 2**20
 
-# Six times the files of Bandai-Namco's set, which has the most: 3 077 clips.
+# The largest number of members, six times that of the Bandai-Namco dataset, which has the most: 3 077 clips.
 MEMBERS = 20_000
 
-# Others are rarely written, and some make their readers take gigabytes of memory.
+# Other methods are rarely used, and some require gigabytes of memory for reading.
 METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 
-ENCRYPTED = 1  # the bit of a member's flags
-MODE = 16  # the bit of a member's attributes where the mode of Unix begins
-NO_KIND = 0  # of a member written by a system without modes
-DIRECTORY_ENTRY = b"PK\x01\x02"  # begins the entry of each member in the directory
-PIECE = 2**20  # bytes read at once
+ENCRYPTED = 1  # bit mask of a member's flags
+MODE = 16  # shift of the Unix mode in a member's attributes
+NO_KIND = 0  # file type of a member from a system without Unix modes
+DIRECTORY_ENTRY = b"PK\x01\x02"  # signature of a member's entry in the directory
+PIECE = 2**20  # bytes read at a time
 
 
 class BadArchive(MocapError):
-    """An archive that is damaged, or that no set of clips can be; nothing of it has been unpacked."""
+    """An archive that is damaged or implausible as a dataset, and of which nothing has been unpacked."""
 
 
 def unpack(archive: Path, folder: Path, progress: Progress = iter) -> list[str]:
-    """Write all .bvh files of an archive into a folder, without the archive's own folders.
+    """Unpack all .bvh files of an archive to a folder, without the folders in the archive.
 
     Parameters
     ----------
-    archive : a .zip file. Its size bounds what it may unpack to.
-    folder : the folder for the clips, which exists.
-    progress : shows how many clips are unpacked, as `tqdm.tqdm` does.
+    archive : a .zip file. Its size limits the size of its content.
+    folder : an existing folder for the clips.
+    progress : shows the number of clips that are unpacked, as `tqdm.tqdm` does.
 
     Returns
     -------
@@ -62,9 +62,9 @@ def unpack(archive: Path, folder: Path, progress: Progress = iter) -> list[str]:
 
     Raises
     ------
-    BadArchive : for an archive that is damaged, holds no clip, claims to hold too much, or has a path outside
-        the folder.
-    MocapError : if the disk has no space, or the folder cannot be written into.
+    BadArchive : for an archive that is damaged, contains no clip, is too large when unpacked, or has a path
+        outside the folder.
+    MocapError : if the disk has no space, or the folder cannot be written to.
 
     Examples
     --------
@@ -83,14 +83,14 @@ def unpack(archive: Path, folder: Path, progress: Progress = iter) -> list[str]:
 
 @contextmanager
 def _explained(archive: Path) -> Iterator[None]:
-    """Report a damaged archive in one sentence, whatever `zipfile` and zlib raise."""
+    """Convert any error of `zipfile` and zlib to `BadArchive`."""
     problem = f"{archive.name} is damaged, or no .zip file: get it anew."
     try:
         yield
     except MocapError:
         raise
     except OSError as error:
-        if error.errno == errno.EINVAL:  # a place before the beginning of the file
+        if error.errno == errno.EINVAL:  # an offset before the start of the file
             raise BadArchive(problem) from error
         raise
     except Exception as error:
@@ -98,9 +98,9 @@ def _explained(archive: Path) -> Iterator[None]:
 
 
 def _require_few_members(archive: Path) -> None:
-    """Refuse an archive with too many members before `zipfile` makes an object of each."""
+    """Reject an archive with too many members, before `zipfile` creates an object for each."""
     count = 0
-    tail = b""  # shorter than what is counted, so that nothing counts twice
+    tail = b""  # shorter than a signature, therefore none is counted twice
     with archive.open("rb") as file:
         while piece := file.read(PIECE):
             data = tail + piece
@@ -111,7 +111,7 @@ def _require_few_members(archive: Path) -> None:
 
 
 def _check_members(archive: Path, members: list[zipfile.ZipInfo]) -> dict[str, zipfile.ZipInfo]:
-    """Refuse an archive by its directory.
+    """Check the directory of an archive.
 
     Returns
     -------
@@ -132,7 +132,7 @@ def _check_members(archive: Path, members: list[zipfile.ZipInfo]) -> dict[str, z
 
 
 def _problem_of(member: zipfile.ZipInfo) -> str | None:
-    """Return the reason why no honest set has such a member; None if one may have it."""
+    """Return the reason for which a member is rejected; None if it is acceptable."""
     folder, *folders = re.split(r"[/\\]", member.orig_filename)
     kind = stat.S_IFMT(member.external_attr >> MODE)
     if folder == "" or ".." in (folder, *folders) or set(":\0") & set(member.orig_filename):
@@ -149,7 +149,7 @@ def _problem_of(member: zipfile.ZipInfo) -> str | None:
 def _find_clips(archive: Path, members: Iterable[zipfile.ZipInfo]) -> dict[str, zipfile.ZipInfo]:
     """Return the members that are clips, by the names of their files."""
     clips: dict[str, zipfile.ZipInfo] = {}
-    spelled: dict[str, zipfile.ZipInfo] = {}  # as file systems compare names that ignore capitals
+    spelled: dict[str, zipfile.ZipInfo] = {}  # by names as compared on case-insensitive file systems
     for member in members:
         name = re.split(r"[/\\]", member.orig_filename)[-1]
         if not name.lower().endswith(".bvh") or name.startswith("._"):  # macOS adds such files to archives
@@ -171,7 +171,7 @@ def _find_clips(archive: Path, members: Iterable[zipfile.ZipInfo]) -> dict[str, 
 def _write_all(
     opened: zipfile.ZipFile, clips: dict[str, zipfile.ZipInfo], folder: Path, progress: Progress
 ) -> None:
-    """Unpack clips into a folder of their own, then move them to their place."""
+    """Unpack clips to a temporary folder, then move them to their target."""
     for unfinished in folder.glob(f"{UNFINISHED}*"):  # of a process that was killed
         shutil.rmtree(unfinished, ignore_errors=True)
     with tempfile.TemporaryDirectory(prefix=UNFINISHED, dir=folder, ignore_cleanup_errors=True) as temporary:

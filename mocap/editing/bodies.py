@@ -12,7 +12,7 @@ from mocap._shared.arrays import Array, Indices
 from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.kinematics import forward_kinematics, hinge_of, joint_positions
-from mocap.body.motion import Motion, turning
+from mocap.body.motion import Motion, rotating_joints
 from mocap.editing.displacements import Displacement
 from mocap.editing.pins import Pins, Rows, pin_errors
 from mocap.editing.turns import ARM, Turn
@@ -93,7 +93,7 @@ def body_of(motion: Motion, pins: Pins, *, prices: Mapping[str, float] | None = 
     factors = {skeleton.index(name): factor for name, factor in (prices or {}).items()}
     if not all(np.isfinite(factor) and factor > 0 for factor in factors.values()):
         raise MocapError(f"Factors of prices are above 0, got {dict(prices or {})}.")
-    can_turn = turning(motion)
+    can_turn = rotating_joints(motion)
     paths = [skeleton.path_to_root(joint) for joint in range(len(skeleton))]
     positions = joint_positions(motion[:: max(1, len(motion) // POSES)])
     joints: list[int] = []

@@ -1,25 +1,25 @@
-"""Readers and writers of motion files, and readers of paths as CSV or SVG.
+"""Readers and writers of motion files, and readers of paths in CSV and SVG files.
 
-A file is read whole or refused, with the line that breaks its format. Each format has its reader and
-its writer here; `load_save` chooses them by the suffix, and `formats` lists those that are read.
+A file is read completely or rejected, with the line that breaks its format. `load_save` chooses the reader or
+writer by the suffix, and `formats` lists the formats that can be read.
 
 Reading order (notebooks 01, 10)
--------------------------------
- 1. `load_save`: load and save; the suffix decides
- 2. `formats`: the formats that are read, one table
- 3. `conversion`: motion files in folders, and their conversion
- 4. `path_files`: paths from .csv and .svg
+--------------------------------
+ 1. `load_save`: load and save, by the suffix
+ 2. `formats`: the table of formats that can be read
+ 3. `conversion`: search for motion files in folders, and their conversion
+ 4. `path_files`: paths from .csv and .svg files
  5. `svg_strokes`: the commands of an SVG path, and the points that they draw
- 6. `text`: text files, their lines, numbers and tables, checked
- 7. `recordings`: a motion with the angles and the stretch of its file
+ 6. `text`: checked reading of text files, lines, numbers and tables
+ 7. `recordings`: a motion with the angles and the bone stretch of its file
  8. `asf`: the skeleton of Acclaim files
  9. `acclaim`: the numbers of Acclaim files, and the motion that they describe
 10. `bvh_hierarchy`: the skeleton of BVH files
 11. `rigid_bones`: rigid bones for files whose bones change length
-12. `bvh`: BVH files, read and written
+12. `bvh`: reader and writer of BVH files
 13. `amass`: the archives of AMASS, for the 22 joints of the SMPL body
-14. `gltf_capsules`: a body for a viewer to show, rigid pieces around the bones
-15. `gltf`: joints, skin and animation, and the file
+14. `gltf_capsules`: a body surface of rigid capsules around the bones
+15. `gltf`: writer of glTF files, with joints, skin and animation
 16. `role_maps`: the roles of joints, as TOML
 17. `loose_joints`: joints of a file that are no part of the body
 

@@ -1,10 +1,10 @@
 """Acclaim motions (`.amc`) of an Acclaim skeleton.
 
-A file has some keywords, then frames: a line with the frame's number, and a line for each bone with a number
-for each of its degrees of freedom. Nearly all files repeat the first frame's pattern to the end, so whole
-columns of words are read at once; any other is read line by line, which finds the line of an error. They
-give a bone's rotation M as angles about the bone's own axes. The ASF file turns these axes by C against the
-world, so a joint's rotation in its parent's frame is L = C M C⁻¹.
+A file has some keywords, then frames: a line with the number of the frame, and a line for each bone with a
+number for each of its degrees of freedom. Nearly all files repeat the pattern of the first frame, and are
+read by whole columns of words. Any other file is read line by line, which finds the line of an error. The
+angles of a bone are its rotation M about the axes of the bone. The ASF file rotates these axes by C relative
+to the world, therefore the rotation of a joint in its parent's frame is L = C M C⁻¹.
 """
 
 from __future__ import annotations
@@ -27,26 +27,26 @@ from mocap.files.text import check_room, lines, quick_numbers, read_text, to_num
 CMU_RATE = 120.0  # frames per second in most of the CMU database
 FRAME_NUMBER = re.compile(r"^[ \t]*\d+[ \t]*$", re.MULTILINE)
 MOST_DIGITS = 9  # of the number of a frame
-NAMED = 3  # bones that an error names; it counts the others
+NAMED = 3  # the largest number of bones that an error names
 
 
 def read(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None) -> Recording:
     """Read an AMC file.
 
-    The root's position is its position at rest + T; its rotation is M O, with O its orientation at rest.
+    The position of the root is its rest position + T. Its rotation is M O, where O is its rest orientation.
 
     Parameters
     ----------
     path : the file.
     asf : its skeleton.
-    fps : frames per second; by default those of a first line "# fps 30", else CMU's 120.
+    fps : frames per second; by default from a first line such as "# fps 30", else 120 as in the CMU database.
 
     Raises
     ------
     FormatError : with the line that breaks the format or does not fit the skeleton.
     """
     numbers, unit, rate = _read_frames(path, asf)
-    angles = {name: unit * block[:, asf.bones[name].turns] for name, block in numbers.items()}
+    angles = {name: unit * block[:, asf.bones[name].rotation_dofs] for name, block in numbers.items()}
     frames = len(numbers["root"])
     check_room(path, frames * len(asf.skeleton), sum(block.size for block in numbers.values()))
     local = np.tile(rotations.IDENTITY, (frames, len(asf.skeleton), 1))
@@ -65,9 +65,9 @@ def read(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None) ->
 
 
 def _local_rotations(bone: Bone, angles: Array, *, is_root: bool) -> Array:
-    """Compute rotations in the parent's frame, (F, 4), from angles (F, dofs) in degrees of its bone."""
+    """Compute rotations in the parent's frame, (F, 4), from the angles (F, dofs) of a bone in degrees."""
     rotation = np.tile(rotations.IDENTITY, (len(angles), 1))  # M
-    if bone.turns:
+    if bone.rotation_dofs:
         rotation = euler.from_euler(bone.order, np.radians(angles))
     if is_root:
         return rotations.multiply(rotation, bone.axis)  # M O
@@ -76,7 +76,7 @@ def _local_rotations(bone: Bone, angles: Array, *, is_root: bool) -> Array:
 
 
 def _require_zeros(path: str | Path, name: str, dof: str, column: Array) -> None:
-    """Raise if a bone is moved or stretched in any frame."""
+    """Raise if a bone is translated or stretched in any frame."""
     if column.any():
         frame = int((column != 0).argmax())
         expected = f"0 for '{dof}' of '{name}', since bones keep their lengths"
@@ -84,7 +84,7 @@ def _require_zeros(path: str | Path, name: str, dof: str, column: Array) -> None
 
 
 def first_frame(text: str) -> dict[str, int]:
-    """Count the numbers that the first frame of an AMC file's text has for each bone."""
+    """Count the numbers for each bone in the first frame of the text of an AMC file."""
     counts: dict[str, int] | None = None
     for _, (name, *numbers) in lines(text):
         if name.isdecimal():
@@ -97,7 +97,7 @@ def first_frame(text: str) -> dict[str, int]:
 
 
 def fits(counts: Mapping[str, int], asf: AcclaimSkeleton) -> bool:
-    """Check whether a frame with these counts of numbers is one of this skeleton."""
+    """Return whether a frame with these counts of numbers matches a skeleton."""
     dofs = {name: len(bone.dofs) for name, bone in asf.bones.items()}
     return counts.items() <= dofs.items() and set(asf.needed()) <= set(counts)
 
@@ -117,7 +117,7 @@ def _read_frames(path: str | Path, asf: AcclaimSkeleton) -> tuple[dict[str, Arra
 
 
 def _frame_rate(path: str | Path, text: str) -> float | None:
-    """Read the frame rate from a first line "# fps 30": the format itself has none."""
+    """Read the frame rate from a first line such as "# fps 30"; the format itself has no frame rate."""
     match text.partition("\n")[0].split():
         case ["#", "fps", word]:
             fps = float(to_numbers(path, 1, [word], "frames per second, above 0", 1)[0])
@@ -128,7 +128,7 @@ def _frame_rate(path: str | Path, text: str) -> float | None:
 
 
 def _by_columns(frames: str, counts: Mapping[str, int]) -> dict[str, Array] | None:
-    """Read whole columns of words, or return None if a frame has another pattern than the first one."""
+    """Read the numbers by whole columns of words; None if a frame differs in pattern from the first one."""
     words = frames.split()
     pattern = [""]  # of a frame: the name of a bone, and an empty text for each number
     for name, count in counts.items():
@@ -146,7 +146,7 @@ def _by_columns(frames: str, counts: Mapping[str, int]) -> dict[str, Array] | No
 
 
 def _by_lines(path: str | Path, text: str, asf: AcclaimSkeleton) -> dict[str, Array]:
-    """Read any file line by line, and raise at the first line that is wrong."""
+    """Read a file line by line, and raise at the first invalid line."""
     frames: list[dict[str, Array]] = []
     line = number = 0
     for line, (name, *words) in lines(text):
@@ -186,7 +186,7 @@ def _require_next(path: str | Path, line: int, previous: int, number: str) -> No
 
 
 def _require_whole(path: str | Path, line: int, frames: list[dict[str, Array]], asf: AcclaimSkeleton) -> None:
-    """Raise if the last frame lacks a bone that the skeleton needs."""
+    """Raise if a bone of the skeleton is missing in the last frame."""
     if missing := [name for name in asf.needed() if name not in frames[-1]]:
         remainder = f" and {len(missing) - NAMED} more bones" if len(missing) > NAMED else ""
         got = f"the end of the frame after {len(frames) - 1} complete frames"

@@ -1,9 +1,8 @@
 """AMASS archives (`.npz`): poses of the SMPL body as rotation vectors, in metres, with z up [AMASS19].
 
-An archive holds `poses` (F, 66 or more), `trans` (F, 3), a frame rate, and numbers of the body's shape,
-`betas`. The surface that the shape belongs to comes under a licence of its own and is not here: all archives
-are read onto one body of 22 joints, the mean one. Fingers, face and soft tissue, the numbers after the first
-66 of a pose, are left out.
+An archive contains `poses` (F, 66 or more), `trans` (F, 3), a frame rate, and the shape parameters of the
+body, `betas`. The shape model has a separate licence and is not included: all archives are read with the mean
+body of 22 joints. Fingers, face and soft tissue, the numbers after the first 66 of a pose, are ignored.
 """
 
 from __future__ import annotations
@@ -27,19 +26,19 @@ from mocap.files.recordings import Recording
 
 _JOINTS: dict[str, Any] = tomllib.loads(Path(__file__).with_name("smpl.toml").read_text("utf-8"))
 SKELETON = replace(Skeleton.from_table(_JOINTS), dofs=["xyz"] * len(_JOINTS))
-PELVIS = np.array([0.0, -0.223, 0.028])  # metres: the pelvis for `trans` 0, in the archive's own axes
+PELVIS = np.array([0.0, -0.223, 0.028])  # metres: the pelvis for `trans` 0, in the axes of the archive
 
 WANTED = "an AMASS archive with poses and trans"
 RATES = ("mocap_framerate", "mocap_frame_rate")
 WIDTH = 3 * len(SKELETON)  # numbers of a pose that are read
 WIDTHS = {"poses": WIDTH, "trans": 3}  # numbers of a frame that are read
-LARGEST = 1e6  # radians, metres, frames per second: all numbers are below
-REAL_NUMBERS = "fiu"  # the kinds of NumPy's types: floating point, integers with and without a sign
-ROOM = 2**27  # bytes of arrays in the smallest file: somebody who stands still for a quarter of an hour
+LARGEST = 1e6  # radians, metres, frames per second: upper bound of all numbers
+REAL_NUMBERS = "fiu"  # kinds of NumPy types: floating point, signed and unsigned integers
+ROOM = 2**27  # bytes of arrays in the smallest file, enough for a quarter of an hour of standing still
 
 
 def is_amass(path: str | Path) -> bool:
-    """Check, by the names of its arrays, whether an `.npz` file is such an archive.
+    """Return whether an `.npz` file is an AMASS archive, by the names of its arrays.
 
     Examples
     --------
@@ -58,8 +57,8 @@ def read(path: str | Path, *, fps: float | None = None) -> Recording:
 
     Parameters
     ----------
-    path : the file. No code in it is run: arrays of objects are refused.
-    fps : frames per second, which replace those of the file; needed where it has none.
+    path : the file. Arrays of objects, which could contain code, are rejected.
+    fps : frames per second, which replace those of the file; required if it has none.
 
     Returns
     -------
@@ -67,12 +66,12 @@ def read(path: str | Path, *, fps: float | None = None) -> Recording:
 
     Raises
     ------
-    MocapError, FormatError : for a file that cannot be read, and for arrays that are missing, of another
-        shape, or not finite; for a graph or another file that mocap saved, with the function that reads it.
+    MocapError, FormatError : for a file that cannot be read, and for arrays that are missing, not finite or
+        have another shape; for another kind of file from mocap, with the function that reads it.
 
     Warns
     -----
-    MocapWarning : if the file gives the body a shape.
+    MocapWarning : if the file has shape parameters, which are ignored.
     """
     with open_archive(path, WANTED, ROOM) as members:
         if "poses" not in members and kind_of(members) in LOADERS:
@@ -100,7 +99,7 @@ def read(path: str | Path, *, fps: float | None = None) -> Recording:
 
 
 def _count_frames(path: str | Path, members: Mapping[str, Member], key: str) -> int:
-    """Count the rows of an array; raise if they have fewer numbers than are read."""
+    """Return the number of rows of an array; raise if they are too short."""
     if key not in members:
         raise FormatError(path, None, "arrays 'poses' and 'trans', as AMASS archives have", f"no '{key}'")
     array = members[key]
@@ -119,7 +118,7 @@ def _require_small(path: str | Path, key: str, rows: NDArray[Any]) -> None:
 
 
 def _has_shape(members: Mapping[str, Member]) -> bool:
-    """Check whether the archive gives the body a shape other than the mean one."""
+    """Return whether the shape parameters of an archive differ from those of the mean body."""
     betas = members.get("betas")
     if betas is None or betas.dtype.kind not in REAL_NUMBERS or math.prod(betas.shape) > WIDTH:
         return False

@@ -1,8 +1,7 @@
 """The skeleton of Acclaim files (`.asf`): bones, their vectors, axes and degrees of freedom.
 
-A joint has the name of the bone that starts there: the root's children are at the root itself, and a bone
-without children ends in the joint `<bone>_end`. An order lists rotations about fixed axes, the first one
-first: XYZ is R = Rz Ry Rx.
+A joint has the name of the bone that starts there. The children of the root are at the root itself, and a
+bone without children ends in the joint `<bone>_end`. The order of axes is extrinsic: XYZ is R = Rz Ry Rx.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ ORDER = slice(3, None)  # words of an `axis` line: three angles, and their order
 class Bone(NamedTuple):
     """A bone: `vector` from its start to its end (3,), metres; `axis` C, a quaternion; `dofs` in file order.
 
-    The root is a bone, too: its vector is its position at rest, its axis its orientation at rest.
+    The root is also a bone, whose vector is its rest position, and whose axis is its rest orientation.
     """
 
     vector: Array
@@ -41,18 +40,18 @@ class Bone(NamedTuple):
     dofs: tuple[str, ...]
 
     @property
-    def turns(self) -> list[int]:
+    def rotation_dofs(self) -> list[int]:
         """The indices of its dofs that are rotations."""
-        return [place for place, dof in enumerate(self.dofs) if dof in TURNS]
+        return [index for index, dof in enumerate(self.dofs) if dof in TURNS]
 
     @property
     def order(self) -> str:
-        """The axes of its rotations, in their order."""
-        return "".join(self.dofs[place][1] for place in self.turns)
+        """The axes of its rotations, in order."""
+        return "".join(self.dofs[index][1] for index in self.rotation_dofs)
 
 
 class AcclaimSkeleton(NamedTuple):
-    """A `skeleton`, its `bones` by name, the file's `unit` in metres, and `degrees`, else radians."""
+    """A `skeleton`, its `bones` by name, the `unit` of the file in metres, and whether it has `degrees`."""
 
     skeleton: Skeleton
     bones: Mapping[str, Bone]
@@ -60,7 +59,7 @@ class AcclaimSkeleton(NamedTuple):
     degrees: bool
 
     def needed(self) -> list[str]:
-        """List the bones that every frame must have numbers for, in the skeleton's order."""
+        """List the bones for which every frame must have numbers, in the order of the skeleton."""
         return [name for name in self.skeleton.names if name in self.bones and self.bones[name].dofs]
 
 
@@ -70,7 +69,7 @@ def read_skeleton(path: str | Path, *, scale: float | None = None) -> AcclaimSke
     Parameters
     ----------
     path : the file.
-    scale : metres in one unit of the file; by default 0.0254 / length, from the file's own `:units`.
+    scale : metres in one unit of the file; by default 0.0254 / length, from `:units` in the file.
 
     Returns
     -------
@@ -104,7 +103,7 @@ def read_skeleton(path: str | Path, *, scale: float | None = None) -> AcclaimSke
 
 
 def _sections(path: str | Path, text: str) -> dict[str, list[Line]]:
-    """Sort the lines by section; commas and parentheses are white space in an ASF file."""
+    """Group the lines by section; commas and parentheses are white space in an ASF file."""
     sections: dict[str, list[Line]] = {}
     for number, words in lines(text.translate(str.maketrans(",()", "   "))):
         if words[0].startswith(":"):
@@ -141,7 +140,7 @@ class _Fields:
         return to_numbers(self.path, line, words[:count], f"{count} {noun} for '{key}'", count)
 
     def rotation(self, order: list[str], angles: Array) -> Array:
-        """Convert radians about x, y and z to a quaternion; `order` lists the axes, the first one first."""
+        """Convert angles (radians) about the fixed axes x, y and z, applied in `order`, to a quaternion."""
         axes = "".join(order).lower()
         if sorted(axes) != ["x", "y", "z"]:
             line = self.line("axis", "XYZ")[0]
@@ -196,7 +195,7 @@ def _root(fields: _Fields, unit: float, radians: float) -> Bone:
 
 
 def _bone(fields: _Fields, unit: float, radians: float) -> Bone:
-    """Read the vector, the axes and the degrees of freedom of a bone; it may have none of these."""
+    """Read the vector, the axes and the degrees of freedom of a bone, if any."""
     vector = fields.numbers("direction", 3) * fields.numbers("length", 1) * unit
     _, words = fields.line("axis")
     axis = fields.rotation(words[ORDER], fields.numbers("axis", 3) * radians)
@@ -205,7 +204,7 @@ def _bone(fields: _Fields, unit: float, radians: float) -> Bone:
 
 
 def _hierarchy(path: str | Path, lines: list[Line], bones: Mapping[str, Bone]) -> dict[str, list[str]]:
-    """Return the children of each bone that has some."""
+    """Return the children of each bone that has any."""
     children: dict[str, list[str]] = {}
     orphans = set(bones) - {"root"}  # bones without a parent so far
     for number, (parent, *names) in lines:
@@ -222,9 +221,9 @@ def _hierarchy(path: str | Path, lines: list[Line], bones: Mapping[str, Bone]) -
 
 
 def _skeleton(children: Mapping[str, list[str]], bones: Mapping[str, Bone]) -> Skeleton:
-    """Build the skeleton from the root, depth first; bones that the hierarchy does not reach are left out.
+    """Build the skeleton from the root, depth first; bones outside the hierarchy are ignored.
 
-    A bone without children gets a joint at its end, unless it has no length.
+    A bone without children gets a joint at its end, unless its length is 0.
     """
     joints: list[tuple[str, int, Array]] = []
     stack = [("root", -1, np.zeros(3))]  # name, parent, offset
@@ -237,7 +236,7 @@ def _skeleton(children: Mapping[str, list[str]], bones: Mapping[str, Bone]) -> S
     names, parents, offsets = zip(*joints, strict=True)
     end = Bone(np.zeros(3), rotations.IDENTITY, ())
     starting = [bones.get(name, end) for name in names]  # the bone that starts at each joint
-    # The root's axis is its orientation at rest, and not the axes of its angles.
+    # The axis of the root is its rest orientation, not that of its angles.
     axes = [rotations.IDENTITY, *(bone.axis for bone in starting[1:])]
     dofs = [bone.order for bone in starting]
     return Skeleton(names, np.array(parents), np.array(offsets), np.array(axes), dofs)

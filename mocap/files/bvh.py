@@ -1,8 +1,8 @@
-"""BVH files: a hierarchy of joints, and the numbers of their channels in every frame.
+"""BVH files: a hierarchy of joints, and the values of their channels in every frame.
 
-Position channels replace a joint's offset. Rotation channels are angles about the joint's own axes in the
-order given: Zrotation Xrotation Yrotation is R = Rz Rx Ry. A file names no unit: it is `scale` metres, by
-default a centimetre. The names of joints are explained in `bvh_hierarchy`.
+Position channels replace the offset of a joint. Rotation channels are intrinsic Euler angles in the given
+order: Zrotation Xrotation Yrotation is R = Rz Rx Ry. The format has no unit: it is `scale` metres, by default
+a centimetre. `bvh_hierarchy` explains the names of joints.
 """
 
 from __future__ import annotations
@@ -32,10 +32,10 @@ from mocap.files.recordings import Recording
 from mocap.files.rigid_bones import APART, STRETCH, fit
 from mocap.files.text import LARGEST, check_room, quick_numbers, read_text, to_numbers
 
-SCALE = 0.01  # metres in one unit of the files that are written, and by default of those that are read
-STILL = 1e-5  # metres that a fixed joint may move in its parent's frame: rounding of printed numbers
-SHORTEST = 1e-5  # seconds a frame lasts at least
-LONGEST = 10.0  # seconds a frame lasts at most
+SCALE = 0.01  # metres in one unit of files that are written, and by default of those that are read
+STILL = 1e-5  # metres: the largest movement of a fixed joint in its parent's frame, by rounding in the file
+SHORTEST = 1e-5  # seconds: the smallest frame time
+LONGEST = 10.0  # seconds: the largest frame time
 ALONG = 0.8  # fraction of a leg's length that is along z if the file has z up
 UPRIGHT = 0.5  # fraction of the frames in which both legs are along z if the file has z up
 TIMES = re.compile(
@@ -48,17 +48,18 @@ def read(
 ) -> Recording:
     """Read a BVH file.
 
-    Position channels below the root are allowed. If they change, and no bone's length changes by more than
-    `stretch`, the bones are fitted to rigid ones: see `rigid_bones`. If the root has only one child, and that
-    child moves (some files have a reference point above the hips), both become one joint, named as the child.
-    Joints that move apart from a body are left out: see `loose_joints`.
+    Position channels below the root are allowed. If they vary, rigid bones are fitted by `rigid_bones`, as
+    long as no length changes by more than `stretch`. If the root has a single child and that child moves
+    (some files have a reference point above the hips), both are merged into one joint, with the name of the
+    child.
+    Joints that move apart from the body are left out by `loose_joints`.
 
     Parameters
     ----------
     path : the file.
     scale : metres in one unit of the file.
-    fps : frames per second; by default from the frame time, a whole number if its digits allow it.
-    stretch : metres by which a bone's length may change.
+    fps : frames per second; by default from the frame time, as an integer if the digits of the file allow it.
+    stretch : the largest change of the length of a bone, metres.
 
     Raises
     ------
@@ -66,9 +67,9 @@ def read(
 
     Warns
     -----
-    MocapWarning : if bones were fitted, with the changes of their lengths and the distances of the joints
-        from the file; and if legs, recognised by their names, are along z at rest and in most frames: then
-        the motion is rotated so that y is up.
+    MocapWarning : if rigid bones were fitted, with the changes of their lengths and the distances of the
+        joints from the file; and if the motion was rotated such that y is up, because its legs, identified by
+        their names, are along z at rest and in most frames.
     """
     joints, blocks, rate = _channels(path, fps=fps)
     angles = {}
@@ -88,7 +89,7 @@ def read(
 
 
 def _upright(path: str | Path, motion: Motion) -> Motion:
-    """Rotate a motion so that y is up if both legs are along z at rest and in most frames."""
+    """Rotate a motion such that y is up, if both legs are along z at rest and in most frames."""
     skeleton = motion.skeleton
     legs = find_pair(skeleton, "legs")
     if not legs:
@@ -158,7 +159,7 @@ def _values(path: str | Path, text: str, times: re.Match[str], width: int) -> Ar
     values = quick_numbers(words) if len(words) == count * width else None
     if values is not None:
         return values.reshape(-1, width)
-    frames = 0  # complete ones, before the line that is wrong
+    frames = 0  # complete frames before the invalid line
     first_line = text.count("\n", 0, times.end()) + 1
     for number, row in enumerate(text[times.end() :].split("\n"), first_line):
         words = row.split()
@@ -169,7 +170,7 @@ def _values(path: str | Path, text: str, times: re.Match[str], width: int) -> Ar
 
 
 def _rate(path: str | Path, text: str, times: re.Match[str]) -> float:
-    """Read the frame rate; a whole number if the frame time is 1 / that number, rounded or truncated."""
+    """Read the frame rate; an integer if the frame time is its reciprocal, rounded or truncated."""
     line = text.count("\n", 0, times.start(2)) + 1
     seconds = float(to_numbers(path, line, [times[2]], "seconds", 1)[0])
     if not SHORTEST <= seconds <= LONGEST:
@@ -187,14 +188,14 @@ def _rotation_columns(joint: Joint) -> list[int]:
 
 
 def _axes(joint: Joint) -> str:
-    """Return the axes of a joint's rotation channels in their order, such as "zxy"."""
+    """Return the axes of a joint's rotation channels in order, such as "zxy"."""
     return "".join(joint.channels[column][0] for column in _rotation_columns(joint))
 
 
 def _rigid(
     path: str | Path, joints: list[Joint], poses: tuple[Array, Array], limit: float
 ) -> tuple[Array, Array]:
-    """Fit rigid bones if joints move in their parents' frames, and raise if they stretch by `limit` metres.
+    """Fit rigid bones if joints move in their parents' frames; raise if they stretch by more than `limit`.
 
     Returns
     -------
@@ -218,25 +219,26 @@ def _rigid(
 
 
 def write(
-    pieces: Iterable[Motion], path: str | Path, *, frames: int, turns: NDArray[np.bool_], precision: int = 6
+    pieces: Iterable[Motion], path: str | Path, *, frames: int, rotates: NDArray[np.bool_], precision: int = 6
 ) -> None:
-    """Write a BVH file of consecutive motions, in centimetres, with one of them in memory at a time.
+    """Write consecutive motions to a BVH file, in centimetres, with only one of them in memory at a time.
 
     Joints are written depth first. A leaf that never rotates, and has the name that reading would give it,
-    becomes an End Site; any other leaf is a joint with an End Site of zero length. Of equivalent Euler angles
-    those nearest to the previous frame are written, so every curve is continuous.
+    becomes an End Site. Any other leaf is a joint with an End Site of length zero. Of equivalent Euler
+    angles, those nearest to the previous frame are written, therefore every curve is continuous.
 
     Parameters
     ----------
-    pieces : motions of one skeleton and rate, with `frames` frames together.
-    path : the file; one that exists is replaced when the new one is whole.
-    frames : the count in the file's header.
-    turns : shape (J,), which joints ever rotate, as by `body.motion.turning`.
-    precision : digits after the point; 6 keep joints to 1e-7 m.
+    pieces : motions of one skeleton and rate, with a total of `frames` frames.
+    path : the file; an existing file is replaced once the new one is complete.
+    frames : the number of frames in the header of the file.
+    rotates : shape (J,), whether a joint rotates in any frame, from `body.motion.rotating_joints`.
+    precision : the number of decimals; with 6, the error of joint positions is at most 1e-7 m.
 
     Raises
     ------
-    MocapError : for a name or frame rate that a BVH file cannot hold, or a folder that cannot be written to.
+    MocapError : for a name or frame rate that the format cannot represent, or a folder that cannot be written
+        to.
     """
     motions = iter(pieces)
     first = next(motions)
@@ -245,8 +247,8 @@ def write(
         name = shortened(first.name)
         raise MocapError(f"'{name}' at {first.fps:g} Hz does not fit a BVH file: resample it first.")
     offsets = np.round(first.skeleton.offsets / SCALE, precision) + 0.0  # no -0.000000
-    hierarchy, order = write_hierarchy(first.skeleton, offsets, turns, precision)
-    previous = np.empty((0, len(order), 3))  # angles of the last frame of the motion before
+    hierarchy, order = write_hierarchy(first.skeleton, offsets, rotates, precision)
+    previous = np.empty((0, len(order), 3))  # angles of the last frame of the previous motion
     with replacing(path) as unfinished, unfinished.open("w", encoding="utf-8", newline="\n") as file:
         file.write(f"{hierarchy}MOTION\nFrames: {frames}\nFrame Time: {seconds!r}\n")
         for motion in chain([first], motions):
@@ -257,7 +259,7 @@ def write(
 
 
 def _frame_rows(motion: Motion, angles: Array, precision: int) -> str:
-    """Format the numbers of a motion, a line for each frame; `angles` of its joints (F, J, 3), radians."""
+    """Format the frames of a motion as lines; `angles` are those of its joints (F, J, 3), radians."""
     degrees = np.degrees(angles).reshape(len(motion), -1)
     values = np.hstack([motion.root_positions / SCALE, degrees])
     if np.any(np.abs(values) >= LARGEST):

@@ -1,7 +1,7 @@
 """The hierarchy of a BVH file: a tree of joints, each with an offset and channels.
 
-An End Site under `head` becomes the joint `head_end`, further ones `head_end2`, …; an End Site of zero length
-becomes no joint, as it only marks that no joint follows.
+An End Site of `head` becomes the joint `head_end`, further ones `head_end2`, … An End Site of length zero is
+dropped, because it only marks the end of a branch.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ EMPTY_END_SITE = ("End Site", "{", "\tOFFSET 0 0 0", "}")  # below a joint witho
 
 @dataclass
 class Joint:
-    """A joint of the file; an End Site gets its name at the end, when those of its parent are counted."""
+    """A joint of the file; an End Site is named after the whole hierarchy has been read."""
 
     line: int
     name: str
@@ -54,7 +54,7 @@ def _statements(text: str) -> Iterator[tuple[int, str, str]]:
 
 
 def read_hierarchy(path: str | Path, text: str) -> list[Joint]:
-    """Return the joints of a hierarchy, parents first.
+    """Parse a hierarchy: return its joints, parents first.
 
     Raises
     ------
@@ -81,7 +81,7 @@ def read_hierarchy(path: str | Path, text: str) -> list[Joint]:
 
 
 class _Tree:
-    """The joints that are read so far.
+    """The state of the parser: the joints that have been read.
 
     joints : parents first. An End Site has an empty name.
     open : the joints whose braces are open, innermost last.
@@ -124,7 +124,7 @@ class _Tree:
         if joint.offset is None:
             raise FormatError(self.path, line, "an OFFSET before '}'", "none")
         if not joint.name and not np.any(joint.offset):
-            self.joints.pop()  # nothing is below an End Site: it is the last joint
+            self.joints.pop()  # an End Site has no children, therefore it is the last joint
 
     def _next_keywords(self, keyword: str) -> tuple[str, ...]:
         """Return the keywords that may follow a keyword."""
@@ -137,7 +137,7 @@ class _Tree:
 
 
 def _channels(path: str | Path, line: int, words: list[str]) -> list[str]:
-    """Read the names of channels after their number."""
+    """Parse the names of channels, after their number."""
     count, *names = words or [""]
     unknown = [name for name in names if name not in POSITIONS + ROTATIONS]
     repeated = [name for name, times in Counter(names).items() if times > 1]
@@ -171,12 +171,12 @@ def _end_name(parent: str, index: int) -> str:
     return f"{parent}_end{index + 1 if index else ''}"
 
 
-def _end_sites(skeleton: Skeleton, offsets: Array, turning: NDArray[np.bool_]) -> set[int]:
-    """Return the leaves that never rotate and have the names that reading would give them."""
+def _end_sites(skeleton: Skeleton, offsets: Array, rotates: NDArray[np.bool_]) -> set[int]:
+    """Return the leaves that can be End Sites: they never rotate, and have the names of End Sites."""
     end_sites: set[int] = set()
     counts: Counter[int] = Counter()  # of the End Sites of each parent
     leaves = set(range(1, len(skeleton))) - set(skeleton.parents.tolist())
-    for joint in sorted(leaves - set(np.flatnonzero(turning).tolist())):
+    for joint in sorted(leaves - set(np.flatnonzero(rotates).tolist())):
         parent = int(skeleton.parents[joint])
         name = _end_name(skeleton.names[parent], counts[parent])
         if skeleton.names[joint] == name and offsets[joint].any():
@@ -186,26 +186,26 @@ def _end_sites(skeleton: Skeleton, offsets: Array, turning: NDArray[np.bool_]) -
 
 
 def write_hierarchy(
-    skeleton: Skeleton, offsets: Array, turning: NDArray[np.bool_], precision: int
+    skeleton: Skeleton, offsets: Array, rotates: NDArray[np.bool_], precision: int
 ) -> tuple[str, list[int]]:
-    """Write the hierarchy, and list the joints that have channels, in the order of the file.
+    """Format the hierarchy, and list the joints that have channels, in the order of the file.
 
     Parameters
     ----------
     skeleton : J joints.
-    offsets : shape (J, 3), in the unit of the file; the root is written with 0.
-    turning : shape (J,), which joints ever rotate.
-    precision : digits after the point.
+    offsets : shape (J, 3), in the unit of the file; the offset of the root is written as 0.
+    rotates : shape (J,), whether a joint rotates in any frame.
+    precision : the number of decimals.
 
     Raises
     ------
-    MocapError : for a name that a BVH file cannot hold.
+    MocapError : for a name that the format cannot represent.
     """
-    end_sites = _end_sites(skeleton, offsets, turning)
+    end_sites = _end_sites(skeleton, offsets, rotates)
     rows = ["HIERARCHY"]
     order: list[int] = []
     depth = 0
-    stack = [0]  # joints to write, the next one last; -1 for the closing brace of a joint
+    stack = [0]  # joints to write, the next one at the end; -1 for the closing brace of a joint
     while stack:
         joint = stack.pop()
         if joint < 0:
@@ -226,7 +226,7 @@ def write_hierarchy(
 
 
 def _joint_rows(skeleton: Skeleton, joint: int, offset: str, *, is_end_site: bool) -> list[str]:
-    """Write the lines of a joint, without those of its children and its closing brace."""
+    """Format the lines of a joint, without those of its children and its closing brace."""
     if is_end_site:
         return ["End Site", "{", f"\tOFFSET {offset}"]
     keyword = "JOINT" if joint else "ROOT"
@@ -238,7 +238,7 @@ def _joint_rows(skeleton: Skeleton, joint: int, offset: str, *, is_end_site: boo
 
 
 def _checked_name(skeleton: Skeleton, joint: int) -> str:
-    """Return the name of a joint; raise if it would not be read back."""
+    """Return the name of a joint; raise if it could not be read again."""
     name = skeleton.names[joint]
     if not name.isprintable() or name != name.strip() or not name or set(name) & set("{}"):
         raise MocapError(f"A BVH file cannot hold a joint called {shortened(repr(name))}.")

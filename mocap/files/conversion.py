@@ -1,4 +1,4 @@
-"""The search for motion files in folders, and their conversion, several at a time."""
+"""Search for motion files in folders, and their conversion in parallel."""
 
 import os
 from collections.abc import Callable, Iterable, Sequence
@@ -19,26 +19,26 @@ MOST_WORKERS = 61  # processes of a pool; Windows cannot wait for more
 
 
 def is_clip(path: Path) -> bool:
-    """Check whether a file holds a motion, by its suffix; an `.npz` may hold a graph or anything else.
+    """Return whether a file contains a motion, by its suffix and, for `.npz`, by its content.
 
     Examples
     --------
     >>> is_clip(Path("walk.BVH")), is_clip(Path("walk.asf")), is_clip(Path("graph.npz"))
     (True, False, False)
     """
-    from mocap.files.amass import is_amass  # the help of the command needs no NumPy
+    from mocap.files.amass import is_amass  # imported here, because the help of the command needs no NumPy
 
     suffix = path.suffix.lower()
     return suffix in formats.READ and (suffix != ".npz" or is_amass(path))
 
 
 def find_files(paths: Iterable[Path], *, deep: bool = False) -> list[Path]:
-    """List files, and every motion file of folders.
+    """List files, and all motion files in folders.
 
     Parameters
     ----------
     paths : files and folders.
-    deep : whether to search the folders inside the folders as well.
+    deep : whether to search folders recursively.
 
     Raises
     ------
@@ -64,18 +64,18 @@ def find_files(paths: Iterable[Path], *, deep: bool = False) -> list[Path]:
 
 
 def plan(source: str | Path, target: str | Path, suffix: str = ".bvh") -> list[tuple[Path, Path]]:
-    """Pair each motion file with the file to write.
+    """Pair each motion file with the file to be written.
 
     Parameters
     ----------
-    source : a file, or a folder with all folders in it.
-    target : for a file, another file; for a folder, a folder that gets the same folders.
-    suffix : the format to write for a folder.
+    source : a file, or a folder, which is searched recursively.
+    target : for a file, another file; for a folder, a folder that gets the same subfolders.
+    suffix : the format that is written for a folder.
 
     Raises
     ------
-    MocapError : when there is nothing to convert, a file would replace one that is converted, or two files
-        would become one.
+    MocapError : if there is nothing to convert, a file would replace one of the sources, or two files would
+        have the same target.
 
     Examples
     --------
@@ -93,7 +93,7 @@ def plan(source: str | Path, target: str | Path, suffix: str = ".bvh") -> list[t
 
 
 def require_apart(pairs: Sequence[tuple[Path, Path]], read: Iterable[Path] = ()) -> None:
-    """Raise if two files to read would become one, or a file to write is one of those to read.
+    """Raise if two source files have the same target, or a target is one of the source files.
 
     Examples
     --------
@@ -114,17 +114,17 @@ def require_apart(pairs: Sequence[tuple[Path, Path]], read: Iterable[Path] = ())
 def convert(
     pairs: Sequence[tuple[Path, Path]], load: Callable[[Path], "Motion"], *, progress: Progress = iter
 ) -> list[str]:
-    """Convert files, one at a time on each processor; a file that fails does not stop the others.
+    """Convert files in parallel processes; an error in one file does not stop the others.
 
     Parameters
     ----------
-    pairs : files to read and files to write, as from `plan`.
-    load : returns the motion to write for a file, as `files.load` does; sent to other processes.
-    progress : wraps the pairs while they are converted.
+    pairs : source and target files, from `plan`.
+    load : a function that returns the motion of a file, such as `files.load`; it is sent to other processes.
+    progress : wraps the pairs while they are converted, to show a progress bar.
 
     Returns
     -------
-    A sentence for each file that failed, which names it.
+    An error message for each file that failed, with its name.
 
     Examples
     --------
@@ -133,7 +133,7 @@ def convert(
     """
     if len(pairs) == 1:
         return list(filter(None, [_convert(load, *pairs[0])]))
-    from concurrent.futures import BrokenExecutor, ProcessPoolExecutor  # they take a while
+    from concurrent.futures import BrokenExecutor, ProcessPoolExecutor  # imported here, because it is slow
 
     from mocap._shared.tasks import serve
 
@@ -144,12 +144,12 @@ def convert(
             return list(filter(None, [next(outcomes) for _ in progress(pairs)]))
         except BrokenExecutor as error:
             raise MocapError("A worker was ended from outside: is there enough memory?") from error
-        finally:  # after an interruption no other file is started
+        finally:  # after an interruption, pending files are not converted
             pool.shutdown(cancel_futures=True)
 
 
 def _convert(load: Callable[[Path], "Motion"], source: Path, target: Path) -> str:
-    """Convert a file; return the sentence of the error, or an empty text."""
+    """Convert a file; return the error message, or "" if there is none."""
     try:
         motion = load(source)
         make_folder(target.parent)

@@ -1,7 +1,7 @@
-"""The motion files that are read: one table, which `load_save`, folders, messages and the command share.
+"""The formats of motion files that can be read, in a table used by `load_save`, folders, errors and commands.
 
-A new format is a line of `READ` and a reader above it. A reader imports its module when it is called, so that
-the help of the command can print the table without NumPy.
+A new format takes a row of `READ` and a reader above it. A reader imports its module when it is called, so
+that the help of the command can print the table without NumPy.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ if TYPE_CHECKING:
 
 
 class ReadOptions(NamedTuple):
-    """The options of `load`; a reader uses those that its format has, and refuses what it cannot obey.
+    """The options of `load`, of which a reader uses those that apply to its format.
 
-    skeleton : the file of the skeleton, for formats that have one.
+    skeleton : the file of the skeleton, for formats with separate skeletons.
     fps : frames per second, which replace those of the file.
     scale : metres in one unit of the file.
-    stretch : metres by which bones may change their lengths.
+    stretch : the largest change of the length of a bone, metres.
     """
 
     skeleton: Path | None
@@ -33,14 +33,14 @@ class ReadOptions(NamedTuple):
 
 
 class Format(NamedTuple):
-    """A format that is read: its `name` in messages, and its reader."""
+    """A format that can be read: its `name` in messages, and its reader."""
 
     name: str
     read: Callable[[Path, ReadOptions], Recording]
 
 
 def read_amc(path: Path, options: ReadOptions) -> Recording:
-    """Read an Acclaim motion and its skeleton, by default the `.asf` file beside it that fits."""
+    """Read an Acclaim motion and its skeleton, by default a matching `.asf` file in the same folder."""
     from mocap.files import acclaim, asf
 
     skeleton = options.skeleton or skeleton_beside(path)
@@ -48,13 +48,13 @@ def read_amc(path: Path, options: ReadOptions) -> Recording:
 
 
 def skeleton_beside(path: Path) -> Path:
-    """Choose among the `.asf` files in the folder of an AMC file the one whose bones fit its first frame.
+    """Find the `.asf` file in the folder of an AMC file whose bones match its first frame.
 
-    That of the same name comes first, then that of the name up to the first `_`, then the only one that fits.
+    The file of the same name is preferred, then that of the name up to the first `_`, then the only match.
 
     Raises
     ------
-    FormatError : where none fits, or several do and none has such a name.
+    FormatError : if there is no match, or several matches of which none has such a name.
     """
     from mocap.files import acclaim, asf
     from mocap.files.text import read_text
@@ -102,11 +102,11 @@ READ: dict[str, Format] = {
     ".bvh": Format(".bvh", read_bvh),
     ".npz": Format("AMASS .npz", read_npz),
 }
-"""The formats that are read, by the suffix of their files in small letters."""
+"""The formats that can be read, by the lower-case suffix of their files."""
 
 
 def listed(last: str = "and") -> str:
-    """List the names of the formats that are read, as in a sentence.
+    """Format the names of the formats that can be read as an enumeration for a sentence.
 
     Examples
     --------

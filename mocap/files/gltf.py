@@ -1,8 +1,8 @@
 """A motion as a `.glb` file: a node for each joint, a skin, and an animation of rotations [GLTF21].
 
-The nodes are at rest: no joint is rotated, and the lowest is on the ground. The rotations of joints with a
-short limb below are stored in 16 bits, as fractions of 32767, as glTF allows: that moves no joint by more
-than 0.1 mm. The file is a JSON text and a block of numbers [GLTF21, 4.4].
+The nodes are in the rest pose, with the lowest joint on the ground. Rotations of joints with a short limb
+below are stored as normalised 16-bit integers, which changes joint positions by at most 0.1 mm. The file
+consists of a JSON text and a block of binary data [GLTF21, 4.4].
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocap.body import rotations
-from mocap.body.motion import Motion, turning
+from mocap.body.motion import Motion, rotating_joints
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened
 from mocap.files.gltf_capsules import body, reaches
@@ -24,19 +24,19 @@ from mocap.files.gltf_capsules import body, reaches
 Record = dict[str, Any]
 
 CARRIED = 0.25  # metres: rotations of a joint with a shorter limb below are rounded to 16 bits
-LARGEST_INT16 = 32767  # stands for 1
-MOST = 2**32 - 1  # bytes: the header counts in 32 bits
+LARGEST_INT16 = 32767  # represents 1
+MOST = 2**32 - 1  # bytes: the size in the header has 32 bits
 VERSION = 2  # of glTF
 HEADER = struct.Struct("<4sII")  # "glTF", the version, the bytes of the file
 CHUNK_HEADER = struct.Struct("<I4s")  # the bytes of a chunk, its kind
 
-KINDS = {1: "SCALAR", 3: "VEC3", 4: "VEC4", 16: "MAT4"}  # by how many numbers an element has
+KINDS = {1: "SCALAR", 3: "VEC3", 4: "VEC4", 16: "MAT4"}  # by the number of components of an element
 NUMBERS = {"int16": 5122, "uint8": 5121, "uint16": 5123, "uint32": 5125, "float32": 5126}
 VERTICES = 34962  # the target of an array: data of vertices
 CORNERS = 34963  # the target of an array: corners of triangles
 TRANSLATION = 3  # column of a 4 × 4 matrix
-XYZW = [1, 2, 3, 0]  # glTF's order of the parts of a quaternion (w, x, y, z)
-INFLUENCES = 4  # joints that carry a vertex: glTF wants four, and we use the first
+XYZW = [1, 2, 3, 0]  # indices that reorder (w, x, y, z) to the order of glTF
+INFLUENCES = 4  # joints that influence a vertex: glTF requires four, of which only the first is used here
 
 ASSET = {"version": "2.0", "generator": "mocap"}
 BODY = {"name": "body", "mesh": 0, "skin": 0}
@@ -44,15 +44,15 @@ CLAY = {"baseColorFactor": [0.45, 0.55, 0.65, 1.0], "metallicFactor": 0.0, "roug
 
 
 def glb(motion: Motion) -> bytes:
-    """Build the bytes of the file.
+    """Convert a motion to the bytes of a `.glb` file.
 
     Parameters
     ----------
-    motion : F frames. Joints keep their names; labels and contacts are left out.
+    motion : F frames. Joints keep their names; labels and contacts are omitted.
 
     Raises
     ------
-    MocapError : for more bytes than the format can count, and frames too short for its clock.
+    MocapError : for files larger than the format allows, and frame times below the precision of its clock.
 
     Examples
     --------
@@ -73,7 +73,7 @@ def glb(motion: Motion) -> bytes:
 
 @dataclass
 class Block:
-    """The numbers of a file: each array that is added gets a view of the bytes, and an accessor.
+    """The binary data of a file: each array that is added gets a buffer view and an accessor.
 
     Examples
     --------
@@ -89,15 +89,15 @@ class Block:
     data: bytearray = field(default_factory=bytearray)
 
     def add(self, values: NDArray[Any], *, bounds: bool = False, target: int | None = None) -> int:
-        """Add an array, shape (N,) or (N, numbers), and return the index of its accessor.
+        """Add an array, shape (N,) or (N, components), and return the index of its accessor.
 
-        Signed integers and bytes are fractions of their largest value ("normalised").
+        Signed 16-bit integers and bytes are normalised: fractions of their largest value.
 
         Parameters
         ----------
         values : of a type in `NUMBERS`.
-        bounds : whether to store the smallest and the largest, as glTF wants for positions and times.
-        target : `VERTICES` for data of vertices, `CORNERS` for the corners of triangles.
+        bounds : whether to store the minimum and maximum, which glTF requires for positions and times.
+        target : `VERTICES` for vertex data, `CORNERS` for the vertex indices of triangles.
         """
         table = values.reshape(len(values), -1)
         accessor: Record = {"bufferView": len(self.views), "componentType": NUMBERS[values.dtype.name]}
@@ -136,7 +136,7 @@ def _document(motion: Motion, block: Block) -> Record:
 
 
 def _nodes(skeleton: Skeleton) -> list[Record]:
-    """List a node for each joint, with its offset; the root is raised until the lowest joint is at y = 0."""
+    """Build a node for each joint, with its offset; the root is raised until the lowest joint is at y = 0."""
     offsets = skeleton.offsets.copy()
     offsets[0] = [0.0, -skeleton.rest[:, 1].min(), 0.0]
     nodes: list[Record] = []
@@ -150,7 +150,7 @@ def _nodes(skeleton: Skeleton) -> list[Record]:
 
 
 def _skin(skeleton: Skeleton, block: Block) -> Record:
-    """Build the skin: for each joint a matrix that moves it from its position at rest to the origin."""
+    """Build the skin: for each joint the inverse bind matrix, which moves its rest position to the origin."""
     joints = len(skeleton)
     matrices = np.tile(np.eye(4, dtype=np.float32), (joints, 1, 1))  # stored by columns
     matrices[:, TRANSLATION, :3] = -skeleton.rest
@@ -159,13 +159,13 @@ def _skin(skeleton: Skeleton, block: Block) -> Record:
 
 
 def _mesh(skeleton: Skeleton, block: Block) -> Record:
-    """Build the surface of the body; each vertex is carried by one joint."""
+    """Build the surface of the body; each vertex is influenced by one joint."""
     positions, normals, joints, corners = body(skeleton)
-    index_type = np.uint16 if len(positions) < 2**16 - 1 else np.uint32  # the largest number is kept free
+    index_type = np.uint16 if len(positions) < 2**16 - 1 else np.uint32  # the largest index is reserved
     carriers = np.zeros((len(positions), INFLUENCES), np.uint16)
     carriers[:, 0] = joints
     weights = np.zeros((len(positions), INFLUENCES), np.uint8)
-    weights[:, 0] = 255  # stands for 1
+    weights[:, 0] = 255  # represents 1
     attributes = {"POSITION": block.add(positions.astype(np.float32), bounds=True, target=VERTICES)}
     attributes["NORMAL"] = block.add(normals.astype(np.float32), target=VERTICES)
     attributes["JOINTS_0"] = block.add(carriers, target=VERTICES)
@@ -175,7 +175,7 @@ def _mesh(skeleton: Skeleton, block: Block) -> Record:
 
 
 def _animation(motion: Motion, block: Block) -> Record:
-    """Build the animation: the root's translation, and the rotations of joints that ever rotate."""
+    """Build the animation: the translation of the root, and the rotations of joints that rotate at all."""
     times = (np.arange(len(motion)) / motion.fps).astype(np.float32)
     if np.any(np.diff(times) <= 0):
         name = shortened(motion.name)
@@ -185,7 +185,7 @@ def _animation(motion: Motion, block: Block) -> Record:
     channels: list[Record] = [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]
     quaternions = rotations.continuous(motion.rotations)[..., XYZW]
     limbs = reaches(motion.skeleton)
-    for joint in np.flatnonzero(turning(motion)).tolist():
+    for joint in np.flatnonzero(rotating_joints(motion)).tolist():
         values: NDArray[Any] = quaternions[:, joint].astype(np.float32)
         if limbs[joint] <= CARRIED:
             values = np.round(LARGEST_INT16 * values).astype(np.int16)

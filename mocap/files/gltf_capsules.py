@@ -1,8 +1,8 @@
-"""A simple body to look at: each bone is a capsule, a cylinder with round ends, fixed to its joint.
+"""A body surface for viewers: each bone is a rigid capsule, a cylinder with hemispherical ends.
 
-The thickness is our own rule: it grows with the length of the limb below a bone, as a thigh is thicker than a
-shank, and a shank than a toe. A body of any size and with any number of fingers looks like one without a
-table of names; only a head is known by its name.
+The radius is a rule of our own: it grows with the length of the limb below a bone, as a thigh is thicker than
+a shank, and a shank than a toe. The rule needs no joint names, and works for bodies of any size and with any
+number of fingers. Only heads are identified by their names.
 """
 
 import re
@@ -17,16 +17,16 @@ from mocap.body.skeleton import Skeleton
 
 AROUND = 10  # vertices of a ring
 RINGS = (-90, -50, -15, 15, 50, 90)  # degrees: the latitudes of the rings of a ball
-LEAST = 1e-4  # of the longest limb: a shorter bone gets no capsule
-THICK = 0.06  # of the geometric mean of the longest limb and of what is left of it behind a joint
-HEAD = 0.075  # of the longest limb: the radius of a head
-HEAD_DISTANCE = 0.7  # of that radius: from a head's joint to its centre, if no bone starts there
-SKULL = 0.2  # of a bone that starts at a head: the length of its capsule,
-SKULL_START = 0.4  # and where it begins
+LEAST = 1e-4  # fraction of the longest limb: a shorter bone gets no capsule
+THICK = 0.06  # radius, fraction of √(longest limb · limb from the start of the bone)
+HEAD = 0.075  # radius of a head, fraction of the longest limb
+HEAD_DISTANCE = 0.7  # from the joint of a head to its centre, fraction of that radius, if it is a leaf
+SKULL = 0.2  # length of the capsule of a bone that starts at a head, fraction of the bone
+SKULL_START = 0.4  # start of this capsule, fraction of the bone
 
 
 class Capsule(NamedTuple):
-    """A capsule, in metres: the joint that carries it, the start and the vector of its axis, its radius."""
+    """A capsule, in metres: its joint, the start and the vector of its axis, and its radius."""
 
     joint: int
     start: Array
@@ -35,7 +35,7 @@ class Capsule(NamedTuple):
 
 
 def reaches(skeleton: Skeleton) -> Array:
-    """Return the length of the longest limb below each joint, along the bones, (J,), metres.
+    """Compute the length of the longest limb below each joint, along the bones, (J,), metres.
 
     Examples
     --------
@@ -52,7 +52,7 @@ def reaches(skeleton: Skeleton) -> Array:
 
 
 def body(skeleton: Skeleton) -> tuple[Array, Array, Indices, Indices]:
-    """Put a capsule around each bone of a skeleton at rest.
+    """Build a surface of capsules around the bones of a skeleton in its rest pose.
 
     Parameters
     ----------
@@ -60,9 +60,9 @@ def body(skeleton: Skeleton) -> tuple[Array, Array, Indices, Indices]:
 
     Returns
     -------
-    A skinned surface: positions and normals (V, 3), metres; the joints (V,) that carry the vertices, those at
-    which their bones start; and the corners (T, 3) of its triangles. A skeleton without a bone gets one small
-    ball.
+    A skinned surface: positions and normals (V, 3), metres; the joints (V,) that influence the vertices,
+    those at which their bones start; and the vertex indices (T, 3) of its triangles. A skeleton without bones
+    gets a small ball.
 
     Examples
     --------
@@ -84,9 +84,9 @@ def body(skeleton: Skeleton) -> tuple[Array, Array, Indices, Indices]:
 
 
 def _capsules(skeleton: Skeleton, longest: float) -> Iterator[Capsule]:
-    """Yield a capsule for each bone; one that starts at a head is a ball rather than a limb.
+    """Yield a capsule for each bone; that of a bone that starts at a head is nearly a ball.
 
-    A head from which no bone starts gets a ball further along the bone that leads to it.
+    A head from which no bone starts gets a ball, on the extension of the bone that leads to it.
     """
     limbs = reaches(skeleton)
     head_radius = HEAD * longest
@@ -108,18 +108,18 @@ def _capsules(skeleton: Skeleton, longest: float) -> Iterator[Capsule]:
 
 
 def _is_head(name: str) -> bool:
-    """Check for a head by the name of a joint; `Head_end` and the like are none."""
+    """Return whether a joint is a head, by its name; `Head_end` and similar names are not."""
     return re.search("head(?!.*(end|top|nub|site))", name.lower()) is not None
 
 
 def _surface(capsule: Capsule) -> tuple[Array, Array]:
-    """Return the positions and the normals (V, 3) of a capsule's rings, from pole to pole.
+    """Compute the positions and the normals (V, 3) of the vertices of a capsule, ring by ring.
 
-    The rings make a ball, of which the upper half is moved along the bone.
+    The rings form a ball, whose upper half is translated along the bone.
     """
     start = capsule.start
     vector = capsule.vector
-    if vector[1] < 0:  # the same capsule from its other end: no rotation from up to down is the shortest
+    if vector[1] < 0:  # start from the other end: the shortest rotation from up to down is not unique
         start = start + vector
         vector = -vector
     length = float(np.linalg.norm(vector))
@@ -137,9 +137,10 @@ def _surface(capsule: Capsule) -> tuple[Array, Array]:
 
 
 def _triangles() -> Indices:
-    """Return the corners of one capsule's triangles, (T, 3), as indices of its vertices.
+    """Return the triangles of a capsule, (T, 3), as indices of its vertices.
 
-    Two triangles fill each gap between neighbours of two rings, and one at a pole, where a ring is a point.
+    Each quadrilateral between two rings is divided into two triangles. At a pole, a ring is a point, and the
+    quadrilateral is a triangle.
     """
     vertices = np.arange(len(RINGS) * AROUND).reshape(len(RINGS), AROUND)
     low = vertices[:-1]

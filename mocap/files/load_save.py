@@ -1,4 +1,4 @@
-"""Read and write motions; the suffix of the file's name decides the format."""
+"""Reading and writing of motions; the suffix of a file determines its format."""
 
 import math
 from collections.abc import Mapping
@@ -9,7 +9,7 @@ from mocap._shared.arrays import Array
 from mocap._shared.atomic import write_file
 from mocap._shared.quantities import check_number, described
 from mocap.body.limbs import with_roles
-from mocap.body.motion import Motion, require_motion, turning
+from mocap.body.motion import Motion, require_motion, rotating_joints
 from mocap.errors import MocapError
 from mocap.files import bvh, formats, gltf
 from mocap.files.recordings import Recording
@@ -33,17 +33,18 @@ def load(  # noqa: PLR0913 (each by its name)
 
     Parameters
     ----------
-    path : the file; capital letters in its suffix are fine.
-    skeleton : for `.amc`, the `.asf` file of its skeleton. By default one in the same folder that fits: that
+    path : the file; upper and lower case in its suffix are equivalent.
+    skeleton : for `.amc`, the `.asf` file of its skeleton. By default a matching one in the same folder: that
         of the same name, else of the name up to the first `_` (`16.asf` for `16_15.amc`), else the only one.
-    fps : frames per second, which replace those of the file. An `.amc` file has none; by default it is
+    fps : frames per second, which replace those of the file. An `.amc` file has none, and the default is
         120, as in most of the CMU database.
     scale : metres in one unit of the file; by default 0.01 for `.bvh`, and that of the skeleton for `.amc`.
-        An `.npz` is in metres.
-    stretch : metres by which bones of a `.bvh` file may change their lengths, by default 0.02. Up to this
-        they are fitted to rigid ones, with a warning that says how far joints move; `math.inf` fits any.
-    roles : names of joints by role, such as {"left hip": "thigh_l"}, or a TOML file of them, as
-        `mocap info FILE --joints` prints it. By default limbs are found by their names, or by their motion.
+        An `.npz` file is in metres.
+    stretch : the largest change of the lengths of bones in a `.bvh` file, by default 0.02 metres. Up to this,
+        rigid bones are fitted, with a warning that reports the error of joint positions. `math.inf` accepts
+        any change.
+    roles : names of joints by role, such as {"left hip": "thigh_l"}, or a TOML file of them, as printed by
+        `mocap info FILE --joints`. By default limbs are identified by their names, or by their motion.
 
     Returns
     -------
@@ -51,7 +52,7 @@ def load(  # noqa: PLR0913 (each by its name)
 
     Raises
     ------
-    MocapError : for a file that is missing or of another format, or when no skeleton fits.
+    MocapError : for a file that is missing or has another format, and if no skeleton matches.
     FormatError : for a file that breaks its format, with the line.
 
     Warns
@@ -80,7 +81,7 @@ def load(  # noqa: PLR0913 (each by its name)
 def read(
     path: str | Path, skeleton: str | Path | None, fps: float | None, scale: float | None, stretch: float
 ) -> Recording:
-    """Read a motion as `load` does, and what else its file says: angles, and by how much bones stretch."""
+    """Read a motion as `load` does, with the angles and the bone stretch of its file."""
     path = Path(path)
     check_above_0(fps=fps, scale=scale)
     if not stretch >= 0:
@@ -94,12 +95,12 @@ def read(
     if suffix == ".glb":
         raise MocapError(f"Cannot read {path}: mocap writes .glb, and reads {formats.listed()}.")
     if suffix == "":
-        read_text(path, most=1)  # raises for a file that is not there, and for a folder
+        read_text(path, most=1)  # raises for a missing file and for a folder
     raise MocapError(f"Cannot read {path}: mocap reads {formats.listed()}.")
 
 
 def require_path(path: object) -> None:
-    """Raise unless a value is the path of one file.
+    """Raise unless a value is the path of a single file.
 
     Examples
     --------
@@ -115,10 +116,10 @@ def require_path(path: object) -> None:
 
 
 def read_angles(path: str | Path, *, skeleton: str | Path | None = None) -> dict[str, Array]:
-    """Give each joint's angles as they are in the file, shape (F, its axes), degrees.
+    """Read the angles of each joint as stored in a file, shape (F, number of axes), degrees.
 
-    `load` turns them into rotations, which do not jump where an angle jumps from 180° to -180°. An `.npz`
-    holds no angles.
+    `load` converts them to rotations, which are continuous even if an angle jumps from 180° to -180°. An
+    `.npz` file has no angles.
 
     Parameters
     ----------
@@ -129,10 +130,10 @@ def read_angles(path: str | Path, *, skeleton: str | Path | None = None) -> dict
     >>> from tempfile import TemporaryDirectory
     >>> from mocap.body import Skeleton
     >>> bone = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 1, 0]])
-    >>> turned = Motion(bone, [[0, 0, 0]], [[[0, 0, 1, 0], [1, 0, 0, 0]]], 30.0)
+    >>> rotated = Motion(bone, [[0, 0, 0]], [[[0, 0, 1, 0], [1, 0, 0, 0]]], 30.0)
     >>> with TemporaryDirectory() as folder:
-    ...     save(turned, f"{folder}/turned.bvh")
-    ...     read_angles(f"{folder}/turned.bvh")["root"]  # z, x, y
+    ...     save(rotated, f"{folder}/rotated.bvh")
+    ...     read_angles(f"{folder}/rotated.bvh")["root"]  # z, x, y
     array([[  0.,   0., 180.]])
 
     Notebook: 01b-motion-files
@@ -141,21 +142,21 @@ def read_angles(path: str | Path, *, skeleton: str | Path | None = None) -> dict
 
 
 def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
-    """Write a motion to a file; an old file is replaced when the new one is whole.
+    """Write a motion to a file; an existing file is replaced once the new one is complete.
 
-    These formats cannot hold marks (labels and contacts), so they are left out.
+    Labels and contacts are not written, because the formats cannot represent them.
 
     Parameters
     ----------
     motion : F frames.
-    path : the file, `.bvh` or `.glb`. A `.glb` is for engines and viewers: it is in metres, holds a body of
-        capsules as well, and is not read.
-    precision : for `.bvh`, which is in centimetres, digits after the point; by default 6, which keep joints
-        to 1e-7 m; 9 keep them to 1e-10 m.
+    path : the file, `.bvh` or `.glb`. A `.glb` file is for engines and viewers: it is in metres, includes a
+        body of capsules, and cannot be read by mocap.
+    precision : the number of decimals in a `.bvh` file, which is in centimetres. With 6, the error of joint
+        positions is at most 1e-7 m, with 9 at most 1e-10 m.
 
     Raises
     ------
-    MocapError : for another format, a missing folder, or a motion that the format cannot hold.
+    MocapError : for another format, a missing folder, or a motion that the format cannot represent.
 
     Examples
     --------
@@ -179,7 +180,9 @@ def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
         raise MocapError(f"precision must be 0 to 15 digits, got {precision}.")
     match path.suffix.lower():
         case ".bvh":
-            bvh.write([motion], path, frames=len(motion), turns=turning(motion), precision=precision)
+            bvh.write(
+                [motion], path, frames=len(motion), rotates=rotating_joints(motion), precision=precision
+            )
         case ".glb":
             write_file(path, gltf.glb(motion))
         case _:

@@ -1,7 +1,7 @@
 """Paths from files: a table of points as .csv, or the first line drawn in an .svg picture.
 
-Pictures are read without an SVG library: those that there are skip commands and transforms that they do not
-know, and a reader of the error needs to know which they are.
+Pictures are read without an SVG library, because such libraries skip unknown commands and transforms, which
+must be reported here.
 """
 
 from pathlib import Path
@@ -15,19 +15,19 @@ from mocap.errors import FormatError, MocapError
 from mocap.files.svg_strokes import NUMBER, SEPARATORS, first_stroke
 from mocap.files.text import check_above_0, load_rows, read_text, to_numbers
 
-# Elements that draw a line, and the `d` of the path that draws the same.
+# Elements that draw a line, and the `d` of an equivalent path.
 DRAWN = {"path": "{d}", "polyline": "M {points}", "polygon": "M {points} Z", "line": "M {x1} {y1} {x2} {y2}"}
 DEFAULTS = {"d": "", "points": "", "x1": "0", "y1": "0", "x2": "0", "y2": "0"}  # of their attributes
-UNDRAWN = {"clipPath", "defs", "marker", "mask", "pattern", "symbol"}  # elements that only others show
+UNDRAWN = {"clipPath", "defs", "marker", "mask", "pattern", "symbol"}  # drawn only by reference
 
 
 def load_path(path: str | Path, *, scale: float | None = None) -> GroundPath:
-    """Read a path to walk along.
+    """Read a path on the ground from a `.csv` or `.svg` file.
 
-    A `.csv` file has a point in each line, x and z, separated by commas, semicolons or blanks; a first line
-    that names the columns is skipped. Of an `.svg` picture the first `path`, `polyline`, `polygon` or `line`
-    that is shown is taken, with its `transform` and those of the groups around it. The picture is the ground
-    seen from above: right is -x, top is +z.
+    A `.csv` file has a point in each line, x and z, separated by commas, semicolons or blanks. A first line
+    with the names of the columns is skipped. Of an `.svg` picture, the first visible `path`, `polyline`,
+    `polygon` or `line` is read, with its `transform` and those of its groups. The picture is the ground seen
+    from above: right is -x, top is +z.
 
     Parameters
     ----------
@@ -36,12 +36,12 @@ def load_path(path: str | Path, *, scale: float | None = None) -> GroundPath:
 
     Returns
     -------
-    The path, with 32 pieces for each curve, and 128 for each arc.
+    The path, with 32 segments for each curve and 128 for each arc.
 
     Raises
     ------
     MocapError : for a file that is missing or of another format.
-    FormatError : for one that breaks its format, or draws what is not read here.
+    FormatError : for a file that breaks its format, or contains unsupported commands.
 
     Examples
     --------
@@ -71,14 +71,14 @@ def load_path(path: str | Path, *, scale: float | None = None) -> GroundPath:
         raise MocapError(f"{path}: {error}") from None
 
 
-@np.errstate(over="ignore", invalid="ignore")  # `GroundPath` refuses what is not finite
+@np.errstate(over="ignore", invalid="ignore")  # `GroundPath` rejects infinite and NaN values
 def _read_svg(path: Path) -> Array:
-    """Return the first line drawn (N, 2), in the picture's units: x to the right, y down."""
+    """Return the first visible line (N, 2), in units of the picture: x to the right, y down."""
     try:
         root = ElementTree.fromstring(read_text(path))
     except ElementTree.ParseError as error:
         raise FormatError(path, error.position[0], "an SVG picture", str(error)) from None
-    stack = [(root, np.eye(3))]  # elements, the next one to draw last, with the transform of their groups
+    stack = [(root, np.eye(3))]  # elements with the transforms of their groups, the next one at the end
     while stack:
         element, matrix = stack.pop()
         kind = _kind(element)
@@ -98,7 +98,7 @@ def _kind(element: ElementTree.Element) -> str:
 
 
 def _is_hidden(element: ElementTree.Element) -> bool:
-    """Check for `display: none`, as an attribute or in the style."""
+    """Return whether an element has `display: none`, as an attribute or in its style."""
     style = "".join(element.get("style", "").split())
     return element.get("display") == "none" or "display:none" in style.split(";")
 

@@ -1,4 +1,4 @@
-"""The contents of a motion file: the motion, the file's own angles, and the stretch of its bones."""
+"""The content of a motion file: the motion, the angles in the file, and the stretch of its bones."""
 
 from mocap._shared.arrays import Array
 from mocap._shared.records import NamedTuple
@@ -6,11 +6,11 @@ from mocap.body.motion import Motion
 
 
 class Recording(NamedTuple):
-    """A `motion` as it was read, named after its file.
+    """The content of a motion file, whose `motion` is named after the file.
 
-    angles : of each joint, shape (F, its axes), degrees, as they are in the file; an `.npz` has none.
-    stretch : for each joint, the change in length of the bone from its parent in the file, metres: the
-        longest minus the shortest. Only a `.bvh` file can have such bones.
+    angles : the angles of each joint in the file, shape (F, number of axes), degrees; an `.npz` has none.
+    stretch : for each joint, the longest minus the shortest length of the bone from its parent in the file,
+        metres. Only bones of a `.bvh` file can stretch.
     """
 
     motion: Motion

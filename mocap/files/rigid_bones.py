@@ -1,9 +1,9 @@
 """Rigid bones for a file whose joints move in their parents' frames.
 
-Some programs write six channels for every joint, and let bones grow and shrink by a few millimetres. Some
-readers drop these translations, which moves all joints below. Here each bone gets its mean length, and each
-joint rotates so that its children come as close as possible to their positions in the file. The method is
-ours, from the polar decomposition of a sum of outer products.
+Some programs write six channels for every joint, with bones that stretch by a few millimetres. Readers that
+ignore these translations displace all joints below. Here each bone gets its mean length, and each joint
+rotates such that its children are as close as possible to their positions in the file. The method is ours. It
+uses the polar decomposition of a sum of outer products.
 """
 
 import numpy as np
@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from mocap._shared.arrays import Array
 from mocap.body import rotations
 
-STRETCH = 0.02  # metres: a bone whose length changes by more is no bone
-APART = 2.5  # times `STRETCH`: the distance that a joint may move from its position in the file
-ROTATION_WEIGHT = 1e-3  # λ, as a fraction of the bones' squared lengths: enough to keep a joint's twist
+STRETCH = 0.02  # metres: the largest change of the length of a bone
+APART = 2.5  # multiple of `STRETCH`: the largest distance of a joint from its position in the file
+ROTATION_WEIGHT = 1e-3  # λ, fraction of the bones' squared lengths: determines the twist of a joint
 SHORTEST = 1e-9  # metres: a shorter mean offset has no direction
 
 
@@ -22,24 +22,24 @@ def fit(parents: NDArray[np.intp], positions: Array, local: Array) -> tuple[Arra
     r"""Fit rigid bones, from the root down.
 
     A bone gets its mean direction and mean length in its parent's frame. The global rotation R of a joint
-    with children at offsets o is the one that maximises Σ d · R o + λ tr(Rᵀ G), where d leads from the joint
-    to the child's position in the file, and G is the joint's rotation there: R = U diag(1, 1, ±1) Vᵀ of the
-    SVD of Σ d oᵀ + λ G.
+    with children at offsets o maximises Σ d · R o + λ tr(Rᵀ G), where d is the vector from the joint to the
+    position of the child in the file, and G the rotation of the joint in the file: R = U diag(1, 1, ±1) Vᵀ
+    from the SVD of Σ d oᵀ + λ G.
 
     Parameters
     ----------
     parents : shape (J,), -1 for the root, each before its children.
     positions : shape (F, J, 3), metres: of each joint in its parent's frame, of the root in the world.
-    local : shape (F, J, 4), quaternions against the parent's frame.
+    local : shape (F, J, 4), quaternions relative to the parent's frame.
 
     Returns
     -------
-    The bones' offsets (J, 3), metres; rotations (F, J, 4); the change of each bone's length in the file,
-    (J,), metres; and each joint's largest distance from its position there, (J,), metres.
+    The offsets of the bones (J, 3), metres; rotations (F, J, 4); the change of the length of each bone in the
+    file, (J,), metres; and the largest distance of each joint from its position in the file, (J,), metres.
 
     Examples
     --------
-    A bone that points up, then sideways: the joint below it rotates, and the bone keeps its length.
+    A bone points up, then sideways. The joint at its start rotates, and the bone keeps its length:
 
     >>> moving = np.array([[[0, 0, 0], [0, 1, 0]], [[0, 0, 0], [1, 0, 0]]], float)
     >>> offsets, _, stretch, _ = fit(np.array([-1, 0]), moving, np.tile(rotations.IDENTITY, (2, 2, 1)))
@@ -67,10 +67,10 @@ def fit(parents: NDArray[np.intp], positions: Array, local: Array) -> tuple[Arra
 
 
 def _mean_offsets(positions: Array) -> Array:
-    """Average directions and lengths over the frames: offsets (J, 3), metres, of which the root's is 0."""
+    """Compute offsets (J, 3) of mean direction and mean length over the frames, metres; 0 for the root."""
     lengths = np.linalg.norm(positions, axis=-1).mean(axis=0)
     means = positions.mean(axis=0)
-    mean_lengths = np.linalg.norm(means, axis=-1)  # shorter than `lengths` where the direction changes
+    mean_lengths = np.linalg.norm(means, axis=-1)  # shorter than `lengths` if the direction varies
     ratios = np.where(mean_lengths > SHORTEST, lengths / np.maximum(mean_lengths, SHORTEST), 1.0)
     offsets: Array = means * ratios[:, None]
     offsets[0] = 0.0
@@ -90,7 +90,7 @@ def _world_poses(parents: NDArray[np.intp], positions: Array, local: Array) -> t
 
 
 def _local_rotations(parents: NDArray[np.intp], matrices: Array) -> Array:
-    """Convert rotation matrices in the world to quaternions against the parents' frames, (F, J, 4)."""
+    """Convert rotation matrices in the world to quaternions relative to the parents' frames, (F, J, 4)."""
     inverses = np.swapaxes(matrices[:, parents[1:]], -1, -2)  # of the parents
     local = np.concatenate([matrices[:, :1], inverses @ matrices[:, 1:]], axis=1)
     return rotations.from_matrix(local)

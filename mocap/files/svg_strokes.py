@@ -1,7 +1,7 @@
 """The first stroke of an SVG path: its commands, and the points that they draw [SVG11, 8.3].
 
-A path's `d` is a text such as "M 0 0 L 10 0 q 5 0 5 5": a letter for each command, and its numbers. Capital
-letters take positions in the picture, small ones take positions relative to that of the pen. Points are
+The `d` of a path is a text such as "M 0 0 L 10 0 q 5 0 5 5": a letter for each command, and its numbers.
+Upper-case commands have absolute coordinates, lower-case ones coordinates relative to the pen. Points are
 complex numbers x + iy, with x to the right and y down.
 """
 
@@ -19,22 +19,22 @@ from mocap.errors import FormatError, shortened
 from mocap.files.text import to_numbers
 
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
-SEPARATORS = " ,\t\n"  # of numbers; a sign also begins a new one
+SEPARATORS = " ,\t\n"  # of numbers; a sign also begins a new number
 WORD = re.compile(rf"{NUMBER.pattern}|[^{SEPARATORS}]")
 
 COUNTS = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}  # numbers
-IMPLIED = {"M": "L", "m": "l"}  # the command of further numbers, where it is another one
+IMPLIED = {"M": "L", "m": "l"}  # the command of further numbers, if it is another one
 FLAGS = slice(3, 5)  # numbers of an arc that are 0 or 1: large, sweep
 
-MOST_POINTS = 500_000  # each of a millimetre in half a kilometre
-CURVE_PIECES = 32  # straight pieces of a curve
-ARC_PIECES = 128  # straight pieces of an arc
+MOST_POINTS = 500_000  # half a kilometre with a point in every millimetre
+CURVE_PIECES = 32  # line segments of a curve
+ARC_PIECES = 128  # line segments of an arc
 
 
 def _bernstein(degree: int) -> Array:
     """Return the Bernstein polynomials of a Bézier curve, shape (`CURVE_PIECES`, degree + 1).
 
-    The point at t is the sum of C(n, k) (1 - t)ⁿ⁻ᵏ tᵏ times control point k. The rows are the t after 0.
+    The point at t is the sum of C(n, k) (1 - t)ⁿ⁻ᵏ tᵏ times control point k. The rows are the values t > 0.
     """
     t = np.linspace(0, 1, CURVE_PIECES + 1)[1:]
     polynomials = []
@@ -51,11 +51,11 @@ ARC_FRACTIONS = np.linspace(0, 1, ARC_PIECES + 1)[1:]
 class _Pen:
     """A pen that draws one stroke.
 
-    points : those that are drawn.
-    position : of the pen.
-    start : of the stroke, to which `Z` closes it.
+    points : the points drawn so far.
+    position : the position of the pen.
+    start : the start of the stroke, to which `Z` closes it.
     control : the last control point of the last curve.
-    command : the last one, a capital letter.
+    command : the last command, in upper case.
     """
 
     points: list[complex] = field(default_factory=list)
@@ -93,10 +93,10 @@ class _Pen:
         return origin + complex(*numbers[-2:])
 
     def _curve(self, command: str, numbers: list[float], origin: complex) -> list[complex]:
-        """Return the points of a Bézier curve after its start, and keep its last control point.
+        """Return the points of a Bézier curve after its start, and store its last control point.
 
-        `S` and `T` leave out the first control point. It is the mirror image of the last one of a curve of
-        the same degree, and the position of the pen after any other command.
+        `S` and `T` omit the first control point. After a curve of the same degree, it is the reflection of
+        the last control point; after any other command, the position of the pen.
         """
         pairs = zip(numbers[::2], numbers[1::2], strict=True)
         corners = [origin + complex(*pair) for pair in pairs]
@@ -109,13 +109,13 @@ class _Pen:
 
 
 def first_stroke(path: Path, text: str, element: str) -> Array:
-    """Return the points of a path's first stroke, (N, 2); curves become short straight pieces.
+    """Return the points of the first stroke of a path, (N, 2); curves are approximated by line segments.
 
     Parameters
     ----------
     path : the file, for errors.
     text : the `d` of a path.
-    element : the kind of element that the text comes from, for errors.
+    element : the kind of element of the text, for errors.
 
     Raises
     ------
@@ -137,7 +137,7 @@ def first_stroke(path: Path, text: str, element: str) -> Array:
 
 
 def _commands(path: Path, text: str, element: str) -> Iterator[tuple[str, list[float]]]:
-    """Yield the commands of a path's `d`, each with its numbers; a repeated command needs no letter."""
+    """Yield the commands of the `d` of a path, each with its numbers; a repeated command needs no letter."""
     words = WORD.findall(text)
     if words[:1] not in (["M"], ["m"]):
         raise FormatError(path, None, "a path that starts with 'M'", f"'{text[:99]}'")
@@ -170,8 +170,8 @@ def _numbers(path: Path, words: list[str], letter: str, element: str) -> list[fl
 def _arc(start: complex, numbers: list[float], end: complex) -> list[complex]:
     """Return the points of an elliptic arc after its start [SVG11, F.6.5 and F.6.6].
 
-    Rotated upright, and with x and y divided by its radii, the ellipse is a circle of radius 1. Of the two
-    circles through both end points, the flags choose the centre and the direction.
+    Rotated to its principal axes, and divided by its radii, the ellipse is a circle of radius 1. Of the two
+    circles through both end points, the flags determine the centre and the direction.
     """
     radius_x = abs(numbers[0])
     radius_y = abs(numbers[1])
@@ -182,7 +182,7 @@ def _arc(start: complex, numbers: list[float], end: complex) -> list[complex]:
     upright = np.array([start, end]) / axis
     first, last = upright.real / radius_x + 1j * upright.imag / radius_y
     half = (last - first) / 2  # of the chord
-    radius = max(1.0, abs(half))  # larger than 1 if the radii are too short to reach the end
+    radius = max(1.0, abs(half))  # above 1 if the radii are too small to reach the end
     to_centre = 1j * half / abs(half) * np.sqrt(radius**2 - abs(half) ** 2)
     if large == sweep:
         to_centre = -to_centre

@@ -1,4 +1,4 @@
-"""Text files: read whole or refused, with checks of their lines and numbers, and tables of numbers."""
+"""Text files: checked reading of their content, lines and numbers, and of tables of numbers."""
 
 import math
 import re
@@ -13,29 +13,29 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.errors import FormatError, MocapError, shortened
 
-LARGEST = 1e9  # units of a file: lengths, angles and times of motion files are far below
-MOST_POSES = 10_000_000  # of one joint: from here a file must have numbers for them
-POSES_PER_NUMBER = 10  # poses that a number of such a file may stand for
+LARGEST = 1e9  # units of a file: upper bound of numbers, far above those of any motion
+MOST_POSES = 10_000_000  # poses of single joints: above this, `POSES_PER_NUMBER` is checked
+POSES_PER_NUMBER = 10  # the largest number of poses for each number in such a file
 
 
 def read_text(path: str | Path, *, most: int = -1) -> str:  # reads: name: a keyword that callers write
-    r"""Read a text file; all its lines end with "\n" afterwards.
+    r"""Read a text file, with line ends converted to "\n".
 
-    Text that is not UTF-8 is read as Latin-1, which older exporters wrote.
+    Text that is not valid UTF-8 is decoded as Latin-1, as written by older exporters.
 
     Parameters
     ----------
     path : the file.
-    most : bytes to read, -1 for all.
+    most : the largest number of bytes to read, -1 for all.
 
     Returns
     -------
-    Its text, without a byte order mark.
+    The text, without a byte order mark.
 
     Raises
     ------
-    MocapError : when the file cannot be opened.
-    FormatError : when it is empty, holds zero bytes, or an unresolved merge.
+    MocapError : if the file cannot be opened.
+    FormatError : if it is empty, or contains a zero byte or an unresolved merge.
 
     Examples
     --------
@@ -68,12 +68,12 @@ def read_text(path: str | Path, *, most: int = -1) -> str:  # reads: name: a key
 
 
 def check_room(path: str | Path, poses: int, numbers: int) -> None:
-    """Raise if a file has few numbers and many joints without channels: their poses would fill the memory.
+    """Raise if a small file has so many joints without channels that their poses would fill the memory.
 
     Parameters
     ----------
-    poses : the frames times the joints.
-    numbers : how many the file holds.
+    poses : the number of frames times the number of joints.
+    numbers : the number of numbers in the file.
 
     Raises
     ------
@@ -84,21 +84,21 @@ def check_room(path: str | Path, poses: int, numbers: int) -> None:
 
 
 def check_above_0(**options: float | None) -> None:
-    """Raise unless each option is None, or finite and above 0."""
+    """Raise unless each option is either None or finite and above 0."""
     for name, value in options.items():
         if value is not None and not (math.isfinite(value) and value > 0):
             raise MocapError(f"{name} must be a number above 0, got {value}.")
 
 
 def lines(text: str) -> Iterator[tuple[int, list[str]]]:
-    r"""Yield the number (from 1) and the words of each line that has words; `#` starts a comment.
+    r"""Yield the number (from 1) and the words of each line that is not blank; `#` starts a comment.
 
     Examples
     --------
     >>> list(lines("1  # first frame\n\nroot 0 1.5"))
     [(1, ['1']), (3, ['root', '0', '1.5'])]
     """
-    for number, line in enumerate(StringIO(text), 1):  # no list of a million lines
+    for number, line in enumerate(StringIO(text), 1):  # avoids a list of a million lines
         if words := (line.partition("#")[0] if "#" in line else line).split():
             yield number, words
 
@@ -108,9 +108,9 @@ def to_numbers(path: str | Path, line: int | None, words: list[str], expected: s
 
     Parameters
     ----------
-    path, line, expected : for the error.
+    path, line, expected : as for `FormatError`.
     words : the words of the file.
-    count : how many there must be.
+    count : the expected number of words.
 
     Returns
     -------
@@ -118,7 +118,7 @@ def to_numbers(path: str | Path, line: int | None, words: list[str], expected: s
 
     Raises
     ------
-    FormatError : for another count of words, a word that is no number, or a number that is too large.
+    FormatError : for another number of words, a word that is not a number, or a number that is too large.
 
     Examples
     --------
@@ -132,7 +132,7 @@ def to_numbers(path: str | Path, line: int | None, words: list[str], expected: s
         return numbers
     position, word = next((n, word) for n, word in enumerate(words, 1) if quick_numbers([word]) is None)
     with suppress(ValueError):
-        float(word)  # it is a number, but a large one
+        float(word)  # it is a number, but too large
         expected = f"{expected}, all below {LARGEST:g}"
     got = f"'{shortened(word, 40)}'"
     if count > 1:
@@ -141,7 +141,7 @@ def to_numbers(path: str | Path, line: int | None, words: list[str], expected: s
 
 
 def quick_numbers(words: list[str]) -> Array | None:
-    """Convert many words to numbers, or return None if one of them is no finite number below 10⁹.
+    """Convert words to numbers; return None if one of them is not a finite number below 10⁹.
 
     Examples
     --------
@@ -157,23 +157,24 @@ def quick_numbers(words: list[str]) -> Array | None:
 
 
 def load_rows(path: str | Path, names: tuple[str, ...] = ("x", "z")) -> Array:
-    r"""Read a table of numbers from a `.csv` file as people write it, one row per line.
+    r"""Read a table of numbers from a `.csv` file, with a row in each line.
 
-    Numbers are separated by commas, semicolons or blanks. Lines without numbers at the start are a heading,
-    and what follows a # is left out.
+    Numbers are separated by commas, semicolons or blanks. Lines without digits at the start are a heading,
+    and `#` starts a comment.
 
     Parameters
     ----------
     path : the file.
-    names : of the columns, for errors.
+    names : the names of the columns, for errors.
 
     Returns
     -------
-    Shape (rows, columns); numbers may be infinite or NaN.
+    Shape (rows, columns).
 
     Raises
     ------
-    FormatError, MocapError : for a file that cannot be read, a line with more or fewer numbers, and no line.
+    FormatError, MocapError : for a file that cannot be read, a line with another number of columns, numbers
+        that are not finite, and a file without rows.
 
     Examples
     --------
@@ -197,6 +198,6 @@ def load_rows(path: str | Path, names: tuple[str, ...] = ("x", "z")) -> Array:
 
 
 def _cells(line: str) -> list[str]:
-    """Split a row of a table; nothing between two commas is an empty cell."""
+    """Split a row of a table into cells; blanks between two commas are an empty cell."""
     parts = [part.split() or [""] for part in line.replace(";", ",").split(",")]
     return [*chain.from_iterable(parts)]

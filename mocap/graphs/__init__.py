@@ -1,17 +1,17 @@
-"""Motion graphs: all ways through some clips that look like one motion [KGP02].
+"""Motion graphs: directed graphs of clips and transitions, whose walks are continuous motions [KGP02].
 
-`build` finds the transitions and cuts the clips where transitions leave and enter. `prune` keeps the part in
-which a walk never ends. The graph itself is a `networkx.MultiDiGraph` of nodes (clip, frame).
+`build` finds the transitions and cuts the clips where transitions leave and enter. `prune` keeps a component
+in which every walk can be continued. The graph is a `networkx.MultiDiGraph` of nodes (clip, frame).
 
 Reading order (notebooks 05, 06)
 --------------------------------
- 1. `motion_graph`: clips, choice points and transitions as one graph; close choice points merged
+ 1. `motion_graph`: clips, choice points and transitions as one graph; merging of close choice points
  2. `components`: strongly connected components, and reachable nodes
- 3. `pruning`: remove dead ends and sinks, with a reason for each edge
- 4. `thresholds`: the size of the graph at each threshold
- 5. `graph_summary`: a graph in numbers; GraphML for other tools
- 6. `storage`: save a graph to .npz, and read it again
- 7. `edge_tables`: the frames that each edge and each macro-edge (hop) plays, as arrays
+ 3. `pruning`: removal of dead ends and sinks, with a reason for each edge
+ 4. `thresholds`: the size of the graph as a function of the threshold
+ 5. `graph_summary`: statistics of a graph; export to GraphML
+ 6. `storage`: graphs in .npz files
+ 7. `edge_tables`: the frames of each edge and of each macro-edge, as arrays
  8. `compiled_graph`: a whole graph as arrays, for searches
  9. `homework_graph`: the homework's simpler graph of segments
 

@@ -15,18 +15,26 @@ from mocap._shared.records import dataclass
 from mocap.body.motion import gather_marks
 from mocap.body.planar import heading, on_ground
 from mocap.errors import NoWalk
-from mocap.graphs.edge_tables import Edge, EdgeTable, Hops, clip_rows, edge_table, find_hops, require_node
+from mocap.graphs.edge_tables import (
+    Edge,
+    EdgeTable,
+    MacroEdges,
+    clip_rows,
+    edge_table,
+    find_macro_edges,
+    require_node,
+)
 from mocap.graphs.motion_graph import MotionGraph, Node, require_graph
 
 AHEAD = (1 / 4, 1 / 2, 3 / 4)  # seconds
-LEAST = 0.3  # metres per second: standing counts as this, so that no walk stands for ever; γ in [KGP02, 5.1]
-VELOCITY_TIME = 1 / 6  # seconds before the end of a clip from which its last velocity is measured
-STANDING = 0.1  # metres within the last time of `AHEAD`: a root that moves less has no direction of movement
+LEAST = 0.3  # metres per second: the least progress γ of [KGP02, 5.1], so that no walk stands for ever
+VELOCITY_TIME = 1 / 6  # seconds at the end of a clip from which its last velocity is computed
+STANDING = 0.1  # metres in the last time of `AHEAD`: a root that moves less has no direction of movement
 
 
 @dataclass(frozen=True, eq=False)
 class CompiledGraph(EdgeTable):
-    """A motion graph as arrays: the `EdgeTable` of all E edges, of T frames together, N nodes and H hops.
+    """A motion graph as arrays, of E edges with T frames, N nodes and H macro-edges.
 
     Parameters
     ----------
@@ -34,13 +42,16 @@ class CompiledGraph(EdgeTable):
     nodes : sorted by clip and frame.
     edges : the stretches of clip, in the order of the nodes they leave, then the transitions.
     target : shape (E,), the number of the node that each edge enters.
-    at : shape (N,), the position of the root at a node, in the coordinates of its clip.
-    ahead : shape (N, 3), its positions `AHEAD` seconds later; after the clip's end it keeps its velocity.
-    going : shape (N,), the direction of its movement, or if it stands still, its heading (radians).
-    ground, step : shape (T,), the position of the root in each frame, in the coordinates of the clip that the
-        edge leaves, and its distance to the position one frame earlier (metres).
-    label_names, bears : the L labels, and shape (L, T), whether a frame has them.
-    hops : the hops from each node.
+    at : shape (N,), the position of the root at each node, in the coordinates of its clip.
+    ahead : shape (N, 3), the positions of the root after `AHEAD` seconds, extrapolated at constant velocity
+        beyond the end of the clip.
+    going : shape (N,), the direction of movement of the root, radians; the heading if it stands still.
+    ground : shape (T,), the position of the root in each frame, in the coordinates of the clip that the edge
+        leaves.
+    step : shape (T,), the distance of the root to its position in the previous frame, metres.
+    label_names : the L labels.
+    bears : shape (L, T), whether a frame has a label.
+    macro_edges : the macro-edges from each node.
     """
 
     source: MotionGraph
@@ -54,7 +65,7 @@ class CompiledGraph(EdgeTable):
     step: Array
     label_names: list[str]
     bears: Mask
-    hops: Hops
+    macro_edges: MacroEdges
 
     @property
     def fps(self) -> float:
@@ -63,7 +74,7 @@ class CompiledGraph(EdgeTable):
 
     @cached_property
     def progress(self) -> Array:
-        """The progress of each frame, metres, (T,): its step, but at least γ [KGP02, least progress]."""
+        """The progress of each frame, its step but at least γ, metres, (T,) [KGP02, least progress]."""
         return np.maximum(self.step, LEAST / self.fps)
 
     def index(self, node: Node) -> int:
@@ -119,7 +130,7 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
     marks = gather_marks([clip.labels for clip in graph.clips], table.owner)
     label_names = sorted(marks)
     bears = np.array([marks[name] for name in label_names], bool).reshape(-1, len(table.of))
-    hops = find_hops(table, starts, len(nodes), graph.fps)
+    macro_edges = find_macro_edges(table, starts, len(nodes), graph.fps)
     # reads: statement: one field a line
     return CompiledGraph(
         **vars(table),
@@ -134,12 +145,12 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
         step=step,
         label_names=label_names,
         bears=bears,
-        hops=hops,
+        macro_edges=macro_edges,
     )
 
 
 def _roots_at_nodes(graph: MotionGraph, nodes: Indices, roots: Points) -> tuple[Points, Points, Array]:
-    """Find the position of the root at each node, its positions `AHEAD`, and its direction of movement."""
+    """Compute the root's position at each node, its positions `AHEAD`, and its direction of movement."""
     clip, frame = nodes.T
     last = np.array([len(motion) - 1 for motion in graph.clips])[clip]
 
@@ -159,7 +170,7 @@ def _roots_at_nodes(graph: MotionGraph, nodes: Indices, roots: Points) -> tuple[
 
 
 def _roots_on_edges(graph: MotionGraph, edges: EdgeTable, roots: Points) -> tuple[Points, Array]:
-    """Find the position of the root in every frame of every edge, and its distance to the frame before.
+    """Compute the root's position in every frame of every edge, and its distance to the previous frame.
 
     Roots are blended as in [KGP02, Eq. 5].
     """
@@ -169,7 +180,7 @@ def _roots_on_edges(graph: MotionGraph, edges: EdgeTable, roots: Points) -> tupl
     entering = roots[clip_rows(graph.clips, edges.there)]
     ground = edges.alpha * leaving + (1 - edges.alpha) * (rotation * entering + translation)
     step = np.abs(np.diff(ground, prepend=0))
-    # The frame before an edge's first is one of the clip that the edge leaves.
+    # The frame before the first frame of an edge belongs to the clip that the edge leaves.
     previous = clip_rows(graph.clips, edges.here[edges.first] - np.array([0, 1]))
     step[edges.first] = np.abs(ground[edges.first] - roots[previous])
     return ground, step
@@ -183,12 +194,12 @@ def walk_track(
     Parameters
     ----------
     graph : the compiled graph.
-    edges : numbers of edges; each starts where the one before ends.
+    edges : numbers of consecutive edges.
     rotation, translation : the planar transform p ↦ rotation · p + translation of the first edge's clip.
 
     Returns
     -------
-    The positions, shape (F,), and the rows of the frames among those of all edges, shape (F,).
+    The positions, shape (F,), and the rows of the frames in the arrays of all T frames, shape (F,).
     """
     # The transforms of a clip and an edge compose to r · r_e and t + r · t_e.
     rotations = np.cumprod([rotation, *graph.rotation[edges]])[:-1]

@@ -17,17 +17,17 @@ NO_LABELS: Labels = frozenset()
 
 
 def largest_components(graph: nx.MultiDiGraph, by_labels: bool) -> dict[Labels, tuple[Nodes, int]]:
-    """Find the strongly connected component with most frames of clip, of all edges or for each label set.
+    """Find the largest strongly connected component by frames of clips, of all edges or for each label set.
 
     Parameters
     ----------
     graph : the graph.
-    by_labels : whether to find one component for each label set, from the edges with exactly these labels.
+    by_labels : whether to find a component for each label set, from the edges with exactly these labels.
 
     Returns
     -------
-    For each label set the nodes of its component (none if it has no cycle), and the number of its frames of
-    clip.
+    For each label set, the nodes of its component (none if it has no cycle) and the number of its frames of
+    clips.
 
     Examples
     --------
@@ -59,18 +59,18 @@ def largest_components(graph: nx.MultiDiGraph, by_labels: bool) -> dict[Labels, 
 
 
 def largest_component(edges: Indices, frames: Indices, count: int) -> tuple[Mask, int]:
-    """Find the strongly connected component that plays most frames; of equal ones, the one with most edges.
+    """Find the strongly connected component with the most frames; ties are broken by the number of edges.
 
     Parameters
     ----------
-    edges : from node to node, numbers from 0 to count - 1, shape (E, 2).
+    edges : start and end nodes, numbers from 0 to count - 1, shape (E, 2).
     frames : the number of frames that each edge plays, shape (E,).
     count : the number of nodes.
 
     Returns
     -------
-    Booleans that mark the nodes of the component, shape (count,), and the number of its frames. Without a
-    cycle no node is marked.
+    A mask of the nodes of the component, shape (count,), and the number of its frames. The mask is False
+    everywhere if there is no cycle.
 
     Examples
     --------
@@ -92,7 +92,7 @@ def largest_component(edges: Indices, frames: Indices, count: int) -> tuple[Mask
 
 
 def reached(graph: nx.MultiDiGraph, start: Iterable[Hashable]) -> set[Hashable]:
-    """Find the nodes that a walk from some start nodes can reach, including the start nodes.
+    """Find all nodes that are reachable from some start nodes, including these.
 
     Examples
     --------

@@ -1,6 +1,6 @@
-"""The frames that each edge and each macro-edge ("hop") of a motion graph plays, as arrays.
+"""The frames of each edge and of each macro-edge of a motion graph, as arrays.
 
-An array has a row for each edge, each frame or each hop. `Hops` defines a hop.
+An array has a row for each edge, each frame or each macro-edge. `MacroEdges` defines macro-edges.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from mocap.graphs.motion_graph import MotionGraph, Node
 
 Edge = tuple[Node, Node, int]
 
-HOP = 1 / 6  # seconds of clip after which a hop ends
+LONGEST_MACRO_EDGE = 1 / 6  # seconds of clip after which a macro-edge ends
 FRAME = 1  # column of (clip, frame)
 
 
@@ -32,14 +32,15 @@ class EdgeTable:
 
     Parameters
     ----------
-    first, frames : shape (E,), the row of an edge's first frame, and the number of its frames.
-    cost, blended : shape (E,), the cost, and whether an edge is a transition; a stretch of clip costs 0.
-    angle, rotation, translation : shape (E,), the planar transform p ↦ rotation · p + translation that
-        aligns the clip that an edge enters with the clip that it leaves, and its angle in radians; the
-        identity on a stretch of clip.
-    of : shape (F,), the edge that a frame belongs to.
-    here, there : shape (F, 2), a frame of the clip that the edge leaves, and of the one that it enters, each
-        as (clip, frame); the same on a stretch of clip.
+    first, frames : shape (E,), the row of the first frame of an edge, and the number of its frames.
+    cost : shape (E,), the RMS distance of a transition; 0 for a stretch of clip.
+    blended : shape (E,), whether an edge is a transition.
+    angle, rotation, translation : shape (E,), the angle (radians) and the planar transform
+        p ↦ rotation · p + translation that aligns the clip that an edge enters with the clip that it leaves.
+        For a stretch of clip it is the identity.
+    of : shape (F,), the edge of a frame.
+    here, there : shape (F, 2), the frames of the clips that the edge leaves and enters, as (clip, frame). For
+        a stretch of clip they are the same.
     alpha : shape (F,), the weight of `here`.
     """
 
@@ -57,12 +58,12 @@ class EdgeTable:
 
     @property
     def owner(self) -> Indices:
-        """The frame of clip with the larger weight, (F, 2): the blend has its labels and contacts."""
+        """The frame of a clip with the larger weight, (F, 2), whose labels and contacts the blend has."""
         return np.where(self.alpha[:, None] >= 0.5, self.here, self.there)
 
 
 def require_node(motion_graph: MotionGraph, node: Node) -> None:
-    """Raise `NoWalk` for a node that is not in the graph."""
+    """Raise `NoWalk` unless a node is in the graph."""
     if node not in motion_graph.graph:
         clip, frame = node
         frames = [f for c, f in motion_graph.graph if c == clip]
@@ -75,9 +76,8 @@ def require_node(motion_graph: MotionGraph, node: Node) -> None:
 def edge_table(motion_graph: MotionGraph, edges: Sequence[Edge]) -> EdgeTable:
     """Tabulate edges, and the two frames of clips that each of their frames blends [KGP02, Eqs. 5-7].
 
-    No frame is part of two blends: a transition enters its clip at the frame after its window, and the next
-    transition leaves at this frame or later. A transition of 10 frames from frame 60 into frame 20 blends
-    frames 60 to 69 with frames 10 to 19.
+    Each frame is blended at most once, because a transition enters its clip at the frame after its window. A
+    transition of 10 frames from frame 60 to frame 20 blends the frames 60 to 69 with the frames 10 to 19.
 
     Examples
     --------
@@ -125,9 +125,9 @@ def edge_table(motion_graph: MotionGraph, edges: Sequence[Edge]) -> EdgeTable:
 
 
 def clip_rows(clips: Sequence[Motion], frames: Indices) -> Indices:
-    """Find the rows of frames (clip, frame), shape (N, 2), in the concatenated clips.
+    """Return the rows of frames (clip, frame), shape (N, 2), in the concatenated clips.
 
-    A frame before or after its clip has the row of the clip's first or last frame.
+    Frames outside a clip are clamped to its first or last frame.
 
     Examples
     --------
@@ -143,32 +143,32 @@ def clip_rows(clips: Sequence[Motion], frames: Indices) -> Indices:
 
 
 @dataclass(frozen=True, eq=False)
-class Hops:
-    """All H hops of a compiled graph with N nodes, sorted by the node that they leave.
+class MacroEdges:
+    """All H macro-edges of a compiled graph with N nodes, sorted by the node that they leave.
 
-    A hop is a macro-edge: edges in a row that a search takes in one step. It follows the clip until it takes
-    a transition, or has lasted `HOP` seconds, or reaches a dead end. Single edges, of a frame or two each,
-    would give the same walks in many more steps.
+    A macro-edge is a sequence of edges that a search takes in one step. It follows the clip until it takes a
+    transition, or has lasted `LONGEST_MACRO_EDGE` seconds, or reaches a dead end. Edges are often only a
+    frame or two long: with single edges, a search would find the same walks in many more steps.
 
     Parameters
     ----------
-    first : shape (N + 1,), hops `first[n]` to `first[n + 1]` leave node n.
+    first : shape (N + 1,), the macro-edges `first[n]` to `first[n + 1] - 1` leave node n.
     stretch, stretches : shape (H,), the first stretch of clip, and the number of stretches before `last`.
-    last : shape (H,), the last edge of a hop: a transition or a stretch of clip.
-    starts, counts : shape (H, 2), the first row and the number of the frames that a hop plays, among the
-        frames of all edges: of the stretches before the last edge, and of the last edge.
-    frames : shape (H,), the number of frames that each hop plays.
+    last : shape (H,), the last edge of a macro-edge, a transition or a stretch of clip.
+    starts, counts : shape (H, 2), two ranges of rows in the arrays of all frames, given by first row and
+        number: the stretches before the last edge, and the last edge.
+    frames : shape (H,), the number of frames of each macro-edge.
 
     Examples
     --------
-    A clip of 90 frames with a transition from frame 60 to frame 20. One hop leaves the start, one leaves
-    frame 20, two leave frame 60, none leaves the end:
+    A clip of 90 frames has a transition from frame 60 to frame 20. One macro-edge leaves the start, one
+    leaves frame 20, two leave frame 60, and none leaves the end:
 
     >>> from mocap import body, datasets, graphs, matching
     >>> clip = body.resample(datasets.sample("walk_circle"), 30)[:90]
     >>> back = matching.Transition(0, 60, 0, 10, 0.02, body.PlanarTransform(0, 0, 0))
-    >>> hops = graphs.compile_graph(graphs.from_transitions([clip], [back], window=10)).hops
-    >>> hops.first.tolist(), hops.frames.tolist()
+    >>> macro_edges = graphs.compile_graph(graphs.from_transitions([clip], [back], window=10)).macro_edges
+    >>> macro_edges.first.tolist(), macro_edges.frames.tolist()
     ([0, 1, 2, 4, 4], [20, 40, 10, 30])
     """
 
@@ -181,31 +181,31 @@ class Hops:
     frames: Indices
 
     def leaving(self, nodes: Indices) -> tuple[Indices, Indices]:
-        """Return the hops that leave some nodes: the index of each hop's node in `nodes`, and its number."""
+        """Return the macro-edges that leave some nodes: for each an index into `nodes`, and its number."""
         first = self.first[nodes]
         count = self.first[nodes + 1] - first
         return np.repeat(np.arange(len(nodes)), count), ranges(first, count)
 
-    def rows(self, hops: Indices) -> tuple[Indices, Indices]:
-        """Return the rows of all frames that some hops play, and the index of each row's hop in `hops`."""
-        rows = ranges(self.starts[hops].ravel(), self.counts[hops].ravel())
-        return rows, np.repeat(np.arange(len(hops)), self.frames[hops])
+    def rows(self, macro_edges: Indices) -> tuple[Indices, Indices]:
+        """Return the rows of all frames of some macro-edges, and for each row an index into `macro_edges`."""
+        rows = ranges(self.starts[macro_edges].ravel(), self.counts[macro_edges].ravel())
+        return rows, np.repeat(np.arange(len(macro_edges)), self.frames[macro_edges])
 
-    def edges(self, hops: Indices) -> Indices:
-        """Return the edges of some hops, in order."""
-        first = np.stack([self.stretch[hops], self.last[hops]], axis=1)
-        counts = np.stack([self.stretches[hops], np.ones_like(hops)], axis=1)
+    def edges(self, macro_edges: Indices) -> Indices:
+        """Return the edges of some macro-edges, in order."""
+        first = np.stack([self.stretch[macro_edges], self.last[macro_edges]], axis=1)
+        counts = np.stack([self.stretches[macro_edges], np.ones_like(macro_edges)], axis=1)
         return ranges(first.ravel(), counts.ravel())
 
 
-def find_hops(edges: EdgeTable, starts: Indices, nodes: int, fps: float) -> Hops:
-    """Find the hops: from every node follow the clip, and leave by each transition on the way.
+def find_macro_edges(edges: EdgeTable, starts: Indices, nodes: int, fps: float) -> MacroEdges:
+    """Enumerate the macro-edges: from every node follow the clip, and leave it by each transition on the way.
 
     Parameters
     ----------
     edges : the stretches of clip, in the order of the nodes they leave, then the transitions.
     starts : shape (E,), the number of the node that each edge leaves.
-    nodes : the number of nodes, which are sorted, so that a stretch of clip leads from node n to node n + 1.
+    nodes : the number of nodes. They are sorted, therefore a stretch of clip leads from node n to node n + 1.
     fps : frames per second.
     """
     stretch_from: list[int | None] = [None] * nodes
@@ -216,19 +216,21 @@ def find_hops(edges: EdgeTable, starts: Indices, nodes: int, fps: float) -> Hops
         else:
             stretch_from[node] = edge
     lengths = edges.frames.tolist()
-    hops: list[Hop] = []
+    longest = LONGEST_MACRO_EDGE * fps
+    macro_edges: list[MacroEdge] = []
     for node in range(nodes):
-        hops += _hops_from(node, stretch_from, transitions_from, lengths, longest=HOP * fps)
-    node_of, stretches, last = np.array(hops).T
+        macro_edges += _macro_edges_from(node, stretch_from, transitions_from, lengths, longest=longest)
+    node_of, stretches, last = np.array(macro_edges).T
     stretch = np.array([-1 if edge is None else edge for edge in stretch_from])[node_of]
-    # A hop plays two runs of frames: those of its stretches, which follow one another, and those of `last`.
+    # A macro-edge plays two ranges of frames: those of its consecutive stretches, and those of
+    # `last`.
     frames_before = np.append(0, np.cumsum(edges.frames))
     followed = np.where(stretches > 0, frames_before[stretch + stretches] - frames_before[stretch], 0)
     played = edges.frames[last]
     first = np.searchsorted(node_of, np.arange(nodes + 1))
     rows = np.stack([frames_before[stretch], frames_before[last]], axis=1)
     counts = np.stack([followed, played], axis=1)
-    return Hops(
+    return MacroEdges(
         first=first,
         stretch=stretch,
         stretches=stretches,
@@ -239,36 +241,37 @@ def find_hops(edges: EdgeTable, starts: Indices, nodes: int, fps: float) -> Hops
     )
 
 
-Hop = tuple[int, int, int]  # the node that it leaves, the number of stretches before its last edge, this edge
+# The node that it leaves, the number of stretches before its last edge, that edge.
+MacroEdge = tuple[int, int, int]
 
 
-def _hops_from(
+def _macro_edges_from(
     node: int,
     stretch_from: Sequence[int | None],
     transitions_from: Sequence[Sequence[int]],
     lengths: Sequence[int],
     *,
     longest: float,
-) -> list[Hop]:
-    """Follow the clip from a node: a hop for each transition on the way, and one that stays on the clip.
+) -> list[MacroEdge]:
+    """Enumerate the macro-edges from a node: one by each transition on the way, and one within the clip.
 
     Parameters
     ----------
-    node : the node where the hops start.
-    stretch_from, transitions_from : for each node the stretch of clip and the transitions that leave it.
+    node : the node from which the macro-edges start.
+    stretch_from, transitions_from : for each node, the stretch of clip and the transitions that leave it.
     lengths : the number of frames of each edge.
-    longest : frames of clip after which a hop ends.
+    longest : frames of clip after which a macro-edge ends.
     """
-    hops: list[Hop] = []
+    macro_edges: list[MacroEdge] = []
     current = node
     frames = 0
     while True:
-        hops += [(node, current - node, transition) for transition in transitions_from[current]]
+        macro_edges += [(node, current - node, transition) for transition in transitions_from[current]]
         stretch = stretch_from[current]
         if stretch is None:
-            return hops  # the clip ends here
+            return macro_edges  # the clip ends here
         frames += lengths[stretch]
         current += 1
         dead_end = stretch_from[current] is None and not transitions_from[current]
         if frames >= longest or dead_end:
-            return [*hops, (node, current - node - 1, stretch)]
+            return [*macro_edges, (node, current - node - 1, stretch)]

@@ -1,4 +1,4 @@
-"""A summary of a motion graph for people, and GraphML for other tools."""
+"""Statistics of a motion graph, and its export to GraphML."""
 
 from pathlib import Path
 
@@ -15,14 +15,14 @@ from mocap.graphs.pruning import name
 
 
 class Summary(NamedTuple):
-    """The size of a motion graph, its waiting times, and the kinds of motion that lead to each other.
+    """The size of a motion graph, its waiting times, and the reachability of its kinds of motion.
 
-    `frames` and `seconds` : the part of the clips that it plays.
-    `nodes`, `edges`, `transitions` : their numbers; transitions also count as edges.
+    `frames` and `seconds` : the part of the clips that is in the graph.
+    `nodes`, `edges`, `transitions` : their numbers; transitions are also counted as edges.
     `out_degree` : the mean number of edges that leave a node.
-    `mean_wait`, `worst_wait` : seconds from a frame of a clip until a transition leaves the clip; infinite
-    if the clip ends first.
-    `reachable` : for each label set the others that a walk can reach from it.
+    `mean_wait`, `worst_wait` : seconds from a frame of a clip until the next transition; infinite if the clip
+    ends first.
+    `reachable` : for each label set the others that are reachable from it.
     """
 
     frames: int
@@ -52,16 +52,16 @@ class Summary(NamedTuple):
 
 
 def summary(graph: MotionGraph | nx.MultiDiGraph, *, fps: float | None = None) -> Summary:
-    """Summarise a motion graph.
+    """Compute the statistics of a motion graph.
 
     Parameters
     ----------
     graph : pruned or not; also a networkx graph such as `MotionGraph.graph`.
-    fps : frames per second of its clips; a `MotionGraph` has its own.
+    fps : frames per second of the clips of a networkx graph; a `MotionGraph` stores its own.
 
     Raises
     ------
-    MocapError : for a networkx graph without `fps`, and what is no graph.
+    MocapError : for a networkx graph without `fps`, and for other types.
 
     Examples
     --------
@@ -102,12 +102,12 @@ def summary(graph: MotionGraph | nx.MultiDiGraph, *, fps: float | None = None) -
 
 
 def _waits(graph: nx.MultiDiGraph) -> list[float]:
-    """Return for each frame of clip the number of frames until a transition leaves the clip."""
+    """Return the number of frames until the next transition, for each frame of a clip."""
     kinds = list(graph.edges(data="kind"))
     stretches = [(start, end) for start, end, kind in kinds if kind == "clip"]
     node_waits: dict[Node, float] = {node: 0.0 for node, _, kind in kinds if kind == "transition"}
     waits: list[float] = []
-    for start, end in sorted(stretches, reverse=True):  # from the end, so that the wait at `end` is known
+    for start, end in sorted(stretches, reverse=True):  # from the end: the wait at `end` is known
         frames_to_end = np.arange(end[1] - start[1], 0, -1)
         stretch_waits = node_waits.get(end, np.inf) + frames_to_end
         node_waits.setdefault(start, float(stretch_waits[0]))
@@ -116,7 +116,7 @@ def _waits(graph: nx.MultiDiGraph) -> list[float]:
 
 
 def _reachable(graph: nx.MultiDiGraph) -> dict[Labels, frozenset[Labels]]:
-    """Return for each label set the others that a walk can reach from its stretches of clip."""
+    """Return for each label set the others that are reachable from its stretches of clip."""
     starts: dict[Labels, set[Node]] = {}
     for start, _, edge in graph.edges(data=True):
         if edge["kind"] == "clip":
@@ -131,7 +131,7 @@ def _reachable(graph: nx.MultiDiGraph) -> dict[Labels, frozenset[Labels]]:
 
 
 def write_graphml(motion_graph: MotionGraph, path: str | Path) -> None:
-    """Write a motion graph as GraphML, for tools such as Gephi, yEd or Cytoscape; mocap does not read it.
+    """Export a motion graph as GraphML, for tools such as Gephi, yEd or Cytoscape; mocap cannot read it.
 
     Nodes have `clip`, `frame` and `seconds`; edges have `kind`, `frames` and `labels`; transitions also have
     `cost` (m), `angle` (rad), `x` and `z` (m).

@@ -1,9 +1,10 @@
-"""The homework's graph: clips cut into segments, joined if the end of one is similar to the start of another.
+"""The homework's graph: segments of clips, connected if the end of one is similar to the start of another.
 
-A node is a segment. An edge leads to a segment that may follow it. If the homework's program has a mistake,
-the default is correct and the mistake is an option: `weighting="distance"` makes the worse match more likely.
-Notebook 03b shows two more mistakes: Euler angles that flip, and segments that repeat the last frame of the
-one before. The homework also moves segments in height, so that a walk slowly rises or sinks.
+A node is a segment. An edge leads to a segment that may follow it. The default is correct where the
+homework's program has a mistake, and the mistake is an option: `weighting="distance"` makes the worse match
+more likely. Notebook 03b shows two more mistakes: Euler angles that flip, and segments that repeat the last
+frame of their predecessor. The homework also translates segments vertically, by which a walk drifts in
+height.
 """
 
 from collections.abc import Sequence
@@ -18,13 +19,13 @@ from numpy.typing import NDArray
 from mocap._shared.arrays import Array
 from mocap.blending.joining import blend
 from mocap.blending.weights import sine_weights
-from mocap.body.motion import Motion, concatenate, require_alike
+from mocap.body.motion import Motion, concatenate, require_compatible
 from mocap.body.planar import IDENTITY, align_frames
 from mocap.errors import MocapError, NoWalk
 from mocap.matching.distance_grids import check_window
 from mocap.matching.other_metrics import Metric, euler_grid
 
-LEAST_COST = 1e-9  # in the metric's unit: the costs of equal windows are 0, and 1 / 0 is no probability
+LEAST_COST = 1e-9  # in the unit of the metric: avoids 1 / 0 for equal windows
 
 
 class Segment(NamedTuple):
@@ -61,13 +62,13 @@ def segments(clips: Sequence[Motion], length: int) -> list[Segment]:
 def segment_distances(
     clips: Sequence[Motion], *, segment: int = 200, window: int = 50, metric: Metric = euler_grid
 ) -> NDArray[np.floating]:
-    """Compare the end of each segment with the start of each segment: the homework's matrix.
+    """Compute the homework's distance matrix, from the end of each segment to the start of each segment.
 
     Parameters
     ----------
-    clips : motions of one skeleton and one frame rate, cut by `segments`; S segments together.
+    clips : motions of one skeleton and one frame rate, which `segments` cuts into S segments.
     segment : frames in a segment; the last one of a clip can be longer.
-    window : frames to compare, at the end of one segment and at the start of the other.
+    window : frames that are compared, at the end of one segment and at the start of the other.
     metric : `euler_grid`, `root_grid` or `distance_grid` of `matching`.
 
     Returns
@@ -80,13 +81,13 @@ def segment_distances(
 
     Notebook: 05b-choice-points
     """
-    clips = require_alike(clips)
+    clips = require_compatible(clips)
     for clip in clips:
         check_window(window, min(segment, len(clip)), f"A segment of '{clip.name}'")
     pieces = [clips[clip][start:end] for clip, start, end in segments(clips, segment)]
     tails = concatenate([piece[-window:] for piece in pieces])
     heads = concatenate([piece[:window] for piece in pieces])
-    if metric is euler_grid:  # its sum over a window needs no other pairs of frames
+    if metric is euler_grid:  # a sum over the window, for which corresponding frames suffice
         sums = [metric(tails[k::window], heads[k::window], window=1) for k in range(window)]
         return np.asarray(np.sum(sums, axis=0))
     return metric(tails, heads, window=window)[::window, ::window]
@@ -101,22 +102,22 @@ def segment_graph(  # noqa: PLR0913 - the homework's own five knobs, and the met
     *,
     metric: Metric = euler_grid,
 ) -> nx.DiGraph:
-    """Build the homework's graph: edges lead to the next segment, and to similar segments of other clips.
+    """Build the homework's graph, with edges to the next segment and to similar segments of other clips.
 
     Parameters
     ----------
     clips : motions of one skeleton and one rate.
     segment : frames in a segment.
-    window : frames to compare, and later to blend.
-    threshold : the distance, in the metric's unit, below which a segment of another clip may follow.
-    weighting : the successor in the clip gets probability 1/2, the matches get the rest: "inverse" in
+    window : frames that are compared, and blended in a walk.
+    threshold : the distance, in the unit of the metric, below which a segment of another clip may follow.
+    weighting : the successor in the clip has probability 1/2, and the matches share the rest: "inverse" in
         proportion to 1 / D, "distance" in proportion to D as in the homework.
     metric : the homework's program has `euler_grid`, its report `root_grid`; both are in `matching`.
 
     Returns
     -------
-    Nodes 0 … n-1 with `clip`, `start`, `end`; edges with `kind` ("clip" for the successor, "transition"),
-    `probability` and, for a transition, `cost`, which is D. `graph.graph` holds `window`.
+    A graph of nodes 0 … n-1 with `clip`, `start` and `end`. Edges have `kind` ("clip" for the successor,
+    else "transition"), `probability` and, for a transition, `cost`, which is D. `graph.graph` has `window`.
 
     Raises
     ------
@@ -129,7 +130,7 @@ def segment_graph(  # noqa: PLR0913 - the homework's own five knobs, and the met
         raise MocapError(f"There are the weightings 'inverse' and 'distance', not '{weighting}'.")
     if not threshold > 0:
         raise MocapError(f"The threshold must be above 0, got {threshold}.")
-    for clip in clips:  # a window to enter a segment, and one to leave it
+    for clip in clips:  # a segment has a window at each end
         length = min(segment, len(clip))
         if length <= 2 * window:
             short = f"a segment of {length} frames is too short for windows of {window}"
@@ -170,13 +171,13 @@ def connect(
             graph.add_edge(node, node + 1, kind="clip", probability=0.5 if matches else 1.0)
             probability = 0.5
         costs = distances[node, matches]
-        fractions = probability * shares(costs, weighting)
+        fractions = probability * split_probability(costs, weighting)
         for match, cost, fraction in zip(matches, costs, fractions, strict=True):
             graph.add_edge(node, match, kind="transition", probability=float(fraction), cost=float(cost))
     return graph
 
 
-def shares(costs: NDArray[np.floating], weighting: str) -> Array:
+def split_probability(costs: NDArray[np.floating], weighting: str) -> Array:
     """Divide the probability 1 among matches, in proportion to D or to 1 / D.
 
     Parameters
@@ -186,8 +187,10 @@ def shares(costs: NDArray[np.floating], weighting: str) -> Array:
 
     Examples
     --------
-    >>> shares(np.array([100.0, 300.0]), "inverse"), shares(np.array([100.0, 300.0]), "distance")
-    (array([0.75, 0.25]), array([0.25, 0.75]))
+    >>> split_probability(np.array([100.0, 300.0]), "inverse")
+    array([0.75, 0.25])
+    >>> split_probability(np.array([100.0, 300.0]), "distance")
+    array([0.25, 0.75])
 
     Notebook: 05b-choice-points
     """
@@ -197,18 +200,18 @@ def shares(costs: NDArray[np.floating], weighting: str) -> Array:
 
 
 def segment_walk(graph: nx.DiGraph, count: int, *, seed: int = 0, start: int | None = None) -> list[int]:
-    """Walk at random from segment to segment, with the probabilities of the edges.
+    """Draw a random walk over segments, with the probabilities of the edges.
 
     Parameters
     ----------
     graph : from `segment_graph`.
     count : the number of segments.
-    seed : the same seed gives the same walk.
+    seed : seed of the random numbers; the same seed gives the same walk.
     start : the first segment; by default a random one.
 
     Raises
     ------
-    NoWalk : for a start that is not in the graph, and for a walk that reaches a segment without successor.
+    NoWalk : for a start that is not in the graph, and if the walk reaches a segment without successor.
 
     Notebook: 05b-choice-points
     """
@@ -230,11 +233,11 @@ def segment_walk(graph: nx.DiGraph, count: int, *, seed: int = 0, start: int | N
 
 
 def segment_motion(clips: Sequence[Motion], graph: nx.DiGraph, walk: Sequence[int]) -> Motion:
-    """Make the motion of a walk: segments in a row, with blends at transitions.
+    """Convert a walk to motion: concatenate its segments, with blends at transitions.
 
-    A segment that follows in the clip stays as it is. A segment after a transition is aligned: its first
-    frame gets the heading and the position of the frame `window` frames before the end of the motion. Over
-    the window the poses are blended by `sine_weights`.
+    A segment that follows in the clip is not changed. A segment after a transition is aligned: its first
+    frame gets the heading and the position of the frame `window` frames before the end of the motion so far.
+    Over the window the poses are blended by `sine_weights`.
 
     Parameters
     ----------

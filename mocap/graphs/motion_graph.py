@@ -1,8 +1,8 @@
-"""Motion graphs: all ways through the clips that look like one motion, as a `networkx` graph [KGP02].
+"""Motion graphs, as `networkx` graphs: nodes are choice points, edges are frames to be played [KGP02].
 
-A node is a choice point (clip, frame): "the next frame is this one". An edge from it is either a stretch of
-that clip up to its next choice point, or a transition: `window` blended frames that lead to another node. So
-each edge plays some frames, and the frames of a walk are those of its edges in order.
+A node is a choice point (clip, frame), where frame is the next frame to be played. An edge from it is either
+the stretch of that clip up to its next choice point, or a transition: `window` blended frames that lead to
+another node. The frames of a walk are those of its edges, in order.
 """
 
 from collections.abc import Iterator, Sequence
@@ -21,7 +21,7 @@ from mocap._shared.progress import Progress
 from mocap._shared.quantities import check_frames, check_threshold, described
 from mocap._shared.records import dataclass
 from mocap._shared.suggestions import missing_attribute
-from mocap.body.motion import Motion, require_alike, require_motions
+from mocap.body.motion import Motion, require_compatible, require_motions
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError
 from mocap.graphs.components import Labels
@@ -37,25 +37,25 @@ EXPRESSIONS = {
     "save": "graphs.save(graph, 'graph.npz')",
     "prune": "graphs.prune(graph)",
 }
-"""What may be meant by an attribute that a motion graph does not have."""
+"""Suggestions for unknown attributes of a motion graph."""
 
 
 @dataclass(frozen=True, eq=False)
 class MotionGraph:
-    """A graph over clips; its edges refer to frames, the frames stay in the clips.
+    """A motion graph: clips, and a graph whose edges refer to their frames.
 
     Parameters
     ----------
-    clips : the motions; the first number of a node is an index of this tuple.
+    clips : the motions; the first number of a node is an index into this tuple.
     window : frames in a transition.
     graph : the `networkx.MultiDiGraph`. Nodes are pairs (clip, frame). Edges have `kind` ("clip" or
-        "transition"), `frames`, and `labels`, a frozenset of all labels of the frames that they play or
-        blend. Transitions also have `cost` (RMS distance, metres) and `transform`, which lays the clip they
-        enter on the clip they leave.
+        "transition"), `frames`, their number, and `labels`, a frozenset of all labels of the frames that they
+        play or blend. Transitions also have `cost` (RMS distance, metres) and `transform`, which aligns the
+        clip that they enter with the clip that they leave.
 
     Examples
     --------
-    A clip without transitions is one edge:
+    A clip without transitions is a single edge:
 
     >>> from mocap import datasets
     >>> alone = from_transitions([datasets.sample("walk_curve_1")], [], window=10)
@@ -80,7 +80,7 @@ class MotionGraph:
 
     @property
     def fps(self) -> float:
-        """Frames per second, of all clips."""
+        """Frames per second of the clips."""
         return self.clips[0].fps
 
     def count(self, kind: str) -> int:
@@ -123,7 +123,7 @@ def build(  # noqa: PLR0913 (the parameters of `find_transitions`)
     executor: Executor | None = None,
     jobs: int | None = None,
 ) -> MotionGraph:
-    """Build the motion graph of some clips: find the transitions, and cut the clips where they touch.
+    """Build the motion graph of clips: find the transitions, and cut the clips where they leave and enter.
 
     In the paper: [KGP02, 3].
 
@@ -131,18 +131,19 @@ def build(  # noqa: PLR0913 (the parameters of `find_transitions`)
     ----------
     clips : motions of one skeleton and one frame rate, with different names.
     window : frames in a transition, about a third of a second.
-    threshold : every transition has an RMS distance of the points below this, metres; or one threshold for
-        each pair of labels, as for `matching.find_transitions`.
+    threshold : the largest RMS distance of the points in a transition, metres; or one for each pair of
+        labels, as for `matching.find_transitions`.
     joint_weights, taper, progress, executor, jobs : as for `matching.find_transitions`.
 
     Raises
     ------
     SkeletonMismatch, MocapError : for clips of different skeletons or rates, two clips of one name, or clips
-        shorter than the window. To join rates: `build([resample(clip, 30) for clip in clips], ...)`.
+        shorter than the window. For clips of different rates: `build([resample(clip, 30) for clip in clips],
+        ...)`.
 
     Examples
     --------
-    A lower threshold gives fewer transitions:
+    A lower threshold results in fewer transitions:
 
     >>> from mocap import body, datasets
     >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
@@ -184,10 +185,10 @@ def labels_between(motion: Motion, start: int, end: int) -> Labels:
 def from_transitions(
     clips: Sequence[Motion], transitions: Sequence[Transition], *, window: int
 ) -> MotionGraph:
-    """Build the motion graph with exactly these transitions.
+    """Build a motion graph from given transitions.
 
-    A transition leaves its first clip at the frame where its window starts, and enters the second at
-    the frame after the window ends [KGP02, 3.3].
+    A transition leaves the first clip at the first frame of its window, and enters the second clip at the
+    frame after its window [KGP02, 3.3].
 
     Raises
     ------
@@ -196,7 +197,7 @@ def from_transitions(
 
     Examples
     --------
-    One transition from frame 60 back to frame 10; it enters after its window, at frame 20:
+    The window of one transition leads from frame 60 back to frame 10; it enters the clip at frame 20:
 
     >>> from mocap import body, datasets, matching
     >>> clip = body.resample(datasets.sample("walk_circle"), 30)
@@ -208,7 +209,7 @@ def from_transitions(
     """
     _require_names(clips)
     check_frames(window, "A window", clips[0].fps if len(clips) else None)
-    clips = require_alike(clips)
+    clips = require_compatible(clips)
     for t in transitions:
         for clip, start in ((t.source, t.leave), (t.target, t.enter)):
             if not (0 <= clip < len(clips) and 0 <= start <= len(clips[clip]) - window):
@@ -218,11 +219,13 @@ def from_transitions(
 
 
 def cut_and_join(clips: Sequence[Motion], transitions: Sequence[Transition], window: int) -> nx.MultiDiGraph:
-    """Cut clips where transitions leave and enter, and join the pieces; `from_transitions` calls this.
+    """Cut clips where transitions leave and enter, and join the pieces into a graph.
+
+    `from_transitions` also checks its arguments.
 
     Parameters
     ----------
-    clips, transitions : as for `from_transitions`, but not checked.
+    clips, transitions : as for `from_transitions`.
     window : frames in a transition.
 
     Returns
@@ -250,7 +253,7 @@ def cut_and_join(clips: Sequence[Motion], transitions: Sequence[Transition], win
         target_labels = labels_between(clips[t.target], t.enter, t.enter + window)
         edge = {"kind": "transition", "frames": window, "labels": source_labels | target_labels}
         graph.add_edge(leave, enter, **edge, cost=t.cost, transform=t.transform)
-    # Within a clip the nodes are in the order of time, therefore each is joined to its successor.
+    # Sorted nodes of a clip are in the order of time: a stretch of clip joins each node to the next.
     for (clip, start), (next_clip, end) in pairwise(sorted(graph)):
         if clip == next_clip:
             labels = labels_between(clips[clip], start, end)
@@ -268,23 +271,24 @@ Ends = tuple[Node, Node]
 
 
 def merge_choice_points(motion_graph: MotionGraph, *, within: int, threshold: float) -> MotionGraph:
-    """Merge the choice points of a clip that are within a few frames, where every old walk stays possible.
+    """Merge choice points of a clip that are within a few frames, and keep all walks possible.
 
-    Where two clips stay alike for a while, transitions leave from several frames in a row. Moved to one frame
-    they cost a little more, but a walk meets all of them at once. A transition may leave its clip later than
-    before, or enter the other earlier, never the reverse: so no frame of a clip is lost.
-    The moved transitions are aligned and measured again. Where one would cost `threshold` or more, run over
-    the end of its clip, or blend windows that overlap, the point that moved further goes back to its frame.
+    If two clips remain similar for a while, transitions leave at several nearby frames. Merged at one frame,
+    the transitions have a slightly higher cost, but a walk can choose between all of them. A transition may
+    then leave its clip later, or enter the other clip earlier, but never the opposite, therefore no frame of
+    a clip is lost. The moved transitions are aligned again, and their costs computed. If a moved transition
+    has a cost of `threshold` or more, extends beyond the end of its clip or blends overlapping windows, its
+    choice point that was moved by more frames is restored.
 
     Parameters
     ----------
-    motion_graph : the graph before pruning, because the ends of the clips come back.
+    motion_graph : the graph before pruning, because the result has the ends of the clips again.
     within : the largest number of frames between the first and the last point of a group.
-    threshold : moved transitions stay below this RMS distance, metres; as for `graphs.build`.
+    threshold : the largest RMS distance of a moved transition, metres; as for `graphs.build`.
 
     Returns
     -------
-    A graph over the same clips; transitions between the same two points become one.
+    A graph over the same clips, with a single transition between the same two points.
 
     Raises
     ------
@@ -309,29 +313,30 @@ def merge_choice_points(motion_graph: MotionGraph, *, within: int, threshold: fl
     for a, b, edge in motion_graph.graph.edges(data=True):
         if edge["kind"] == "transition":
             measured[a, b] = _transition(a, b, window, edge["cost"], edge["transform"])
-    old = list(measured)
-    goals = _goals(old, within)
-    while True:  # each round sends at least one point back, or is the last
-        new = [(goals[a], goals[b]) for a, b in old]
-        fresh = [ends for ends in dict.fromkeys(new) if ends not in measured]
-        measured.update(_measured(clips, window, fresh))
-        fine = {ends for ends, transition in measured.items() if transition.cost < threshold}
-        bad = [a for a, b in zip(old, new, strict=True) if a != b and b not in fine]
-        if not bad:
-            return from_transitions(clips, [measured[ends] for ends in dict.fromkeys(new)], window=window)
-        for back in {max(ends, key=lambda node: abs(node[1] - goals[node][1])) for ends in bad}:
-            goals[back] = back
+    originals = list(measured)
+    targets = _merge_targets(originals, within)
+    while True:  # each iteration restores at least one choice point, or is the last
+        merged = [(targets[a], targets[b]) for a, b in originals]
+        unmeasured = [ends for ends in dict.fromkeys(merged) if ends not in measured]
+        measured.update(_measure(clips, window, unmeasured))
+        valid = {ends for ends, transition in measured.items() if transition.cost < threshold}
+        pairs = zip(originals, merged, strict=True)
+        rejected = [original for original, ends in pairs if original != ends and ends not in valid]
+        if not rejected:
+            return from_transitions(clips, [measured[ends] for ends in dict.fromkeys(merged)], window=window)
+        for node in {max(ends, key=lambda node: abs(node[1] - targets[node][1])) for ends in rejected}:
+            targets[node] = node
 
 
 def _transition(a: Node, b: Node, window: int, cost: float, transform: PlanarTransform) -> Transition:
-    """Return the transition between two nodes; it enters its clip `window` frames before the second."""
+    """Return the transition between two nodes; its second window ends at the second node."""
     source, leave = a
     target, end = b
     return Transition(source, leave, target, end - window, cost, transform)
 
 
-def _goals(transitions: Sequence[Ends], within: int) -> dict[Node, Node]:
-    """Map each choice point to that of its group where the last transition leaves, else to the first one."""
+def _merge_targets(transitions: Sequence[Ends], within: int) -> dict[Node, Node]:
+    """Map each choice point to the last exit of its group, or to its first point if it has no exit."""
     exits = {leave for leave, _ in transitions}
     entries = {enter for _, enter in transitions}
     groups: list[list[Node]] = []
@@ -342,17 +347,18 @@ def _goals(transitions: Sequence[Ends], within: int) -> dict[Node, Node]:
             last.append(node)
         else:
             groups.append([node])
-    goals: dict[Node, Node] = {}
+    targets: dict[Node, Node] = {}
     for group in groups:
-        goal = max((node for node in group if node in exits), default=group[0])
-        goals.update(dict.fromkeys(group, goal))
-    return goals
+        target = max((node for node in group if node in exits), default=group[0])
+        targets.update(dict.fromkeys(group, target))
+    return targets
 
 
-def _measured(
-    clips: Sequence[Motion], window: int, ends: Sequence[Ends]
-) -> Iterator[tuple[Ends, Transition]]:
-    """Align windows from node to node, where they lie inside their clips apart, and measure what remains."""
+def _measure(clips: Sequence[Motion], window: int, ends: Sequence[Ends]) -> Iterator[tuple[Ends, Transition]]:
+    """Align the windows between pairs of nodes, and yield the resulting transitions.
+
+    Pairs whose windows overlap or extend beyond their clips are skipped.
+    """
     ends = [(a, b) for a, b in ends if _has_windows(clips, window, a, b)]
     cloud = join_clouds(clips, None, window, 0, np.float64)
     starts = np.cumsum([0, *map(len, clips)])
@@ -364,7 +370,7 @@ def _measured(
 
 
 def _has_windows(clips: Sequence[Motion], window: int, a: Node, b: Node) -> bool:
-    """Check that the windows of a transition from a to b are inside their clips, and do not overlap."""
+    """Return whether the windows of a transition from a to b are inside their clips, and do not overlap."""
     source, leave = a
     target, end = b
     enter = end - window

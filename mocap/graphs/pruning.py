@@ -1,10 +1,10 @@
-"""Pruning: remove the dead ends and sinks of a graph, so that a walk can go on for ever [KGP02, 3.4].
+"""Pruning: remove the dead ends and sinks of a graph, so that every walk can be continued [KGP02, 3.4].
 
-A walk that never ends and can return to every place needs a strongly connected graph: every node reaches
-every other. So pruning keeps the largest strongly connected component. To keep every kind of motion, it can
-keep one component for each set of labels, made of the edges with exactly these labels, and all edges between
-the kept nodes. In the paper only transitions lead from one kept component to another. Here a stretch of clip
-can do this too, for example one that passes from walking to running: it is better than any blend.
+In a strongly connected graph every node is reachable from every other. Pruning therefore keeps the largest
+strongly connected component. To keep every kind of motion, it can keep a component for each set of labels,
+which consists of the edges with exactly these labels, and all edges between the kept nodes. In the paper,
+only transitions lead from one kept component to another. Here a stretch of clip may also do so, for example
+one from walking to running, because a recorded change is better than any blend.
 
 The functions take any `networkx.MultiDiGraph`. Its edges must have `frames` and `kind`, and `labels` for
 pruning by labels.
@@ -26,30 +26,31 @@ from mocap.graphs.motion_graph import MotionGraph, require_graph
 
 
 def prune(motion_graph: MotionGraph, *, by_labels: bool = False) -> MotionGraph:
-    """Keep the largest strongly connected component: from each of its nodes a walk can go on for ever.
+    """Keep the largest strongly connected component, in which every walk can be continued.
 
     In the paper: [KGP02, 3.4].
 
-    The largest component is the one that plays most frames of clip [KGP02, 3.4]. Dead ends are removed, and
-    sinks that a walk could never leave. `graphs.prune_graph` also gives a reason for each removed edge.
+    The largest component is the one with the most frames of clips [KGP02, 3.4]. Dead ends are removed, and
+    sinks, which no walk can leave. `graphs.prune_graph` also returns a reason for each removed edge.
 
     Parameters
     ----------
     motion_graph : the graph; it is not changed.
-    by_labels : keep one component for each set of labels, from the edges with exactly these, and the edges
-        between the components.
+    by_labels : keep a component for each set of labels, from the edges with exactly these labels, and the
+        edges between the components.
 
     Raises
     ------
-    NoWalk : where no component has an edge, so that every walk ends.
+    NoWalk : if the graph has no cycle, and therefore every walk ends.
 
     Warns
     -----
-    MocapWarning : for components without a frame of clip, and for those that do not reach another one.
+    MocapWarning : for components without a frame of a clip, and for those from which another one cannot be
+        reached.
 
     Examples
     --------
-    One transition back makes a cycle; the start and the end of the clip are not on it:
+    A transition back closes a cycle, which does not contain the start and the end of the clip:
 
     >>> from mocap import body, datasets, graphs, matching
     >>> clip = body.resample(datasets.sample("walk_circle"), 30)
@@ -67,7 +68,7 @@ Edge = tuple[Hashable, Hashable, int]  # start, end, key
 
 
 class Reason(StrEnum):
-    """Why an edge is removed: the reason is the state of the node at one of its ends.
+    """The reason for which an edge is removed, a property of the node at one of its ends.
 
     Examples
     --------
@@ -83,14 +84,14 @@ class Reason(StrEnum):
 
 @dataclass(frozen=True)
 class Pruning:
-    """The result of pruning: what stays, and what is removed; `prune_graph` shows an example.
+    """The result of pruning: the kept graph, and the removed nodes and edges. `prune_graph` shows an example.
 
     Parameters
     ----------
-    graph : the nodes and edges that stay.
-    components : for each label set with a cycle the nodes of its kept component; without labels, one entry
-        for the empty set.
-    removed : every removed edge, and the reason.
+    graph : the kept nodes and edges.
+    components : for each label set with a cycle, the nodes of its kept component; without labels, a single
+        entry for the empty set.
+    removed : the removed edges, each with a reason.
     orphans : the removed nodes.
     """
 
@@ -100,7 +101,7 @@ class Pruning:
     orphans: tuple[Hashable, ...]
 
     def report(self) -> str:
-        """Summarise in a few lines what stays, and the number of edges removed for each reason."""
+        """Summarise the kept graph, and the number of edges removed for each reason, in a few lines."""
         lines = [f"kept {self.graph.number_of_nodes()} nodes and {self.graph.number_of_edges()} edges"]
         if len(self.components) > 1:
             lines += [f"  {len(nodes)} nodes: {name(labels)}" for labels, nodes in self.components.items()]
@@ -111,7 +112,7 @@ class Pruning:
 
 
 def name(labels: Labels) -> str:
-    """Write a label set as text.
+    """Format a label set as text.
 
     Examples
     --------
@@ -128,8 +129,8 @@ def notes_example() -> nx.MultiDiGraph:
 
     Examples
     --------
-    >>> found = prune_graph(notes_example())
-    >>> sorted(found.graph), sorted(found.orphans)
+    >>> pruning = prune_graph(notes_example())
+    >>> sorted(pruning.graph), sorted(pruning.orphans)
     ([1, 2, 3, 6, 7, 8], [4, 5])
 
     Notebook: 06-pruning
@@ -146,28 +147,28 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
 
     In the paper: [KGP02, 3.4; warnings].
 
-    The largest component is the one whose stretches of clip have most frames. The time is linear in the
-    edges; by labels, in the edges times the label sets that stay.
+    The largest component is the one whose stretches of clip have the most frames. The time is linear in the
+    number of edges; by labels, in the number of edges times that of the kept label sets.
 
     Parameters
     ----------
     graph : the graph; it is not changed.
-    by_labels : keep one component for each label set, and the edges between them.
-    least_frames : every label set whose component has fewer frames of clip gives a warning. Sets that are the
-        union of smaller sets do not count: they mark the passages from one kind of motion to another.
+    by_labels : keep a component for each label set, and the edges between them.
+    least_frames : the number of frames of clips in a component below which a label set gives a warning. Sets
+        that are the union of smaller sets give none, because they mark changes between kinds of motion.
 
     Returns
     -------
-    What stays, as a new graph in which no walk ever ends; and what is removed.
+    The kept part as a new graph in which every walk can be continued, and the removed nodes and edges.
 
     Raises
     ------
-    NoWalk : where there is no cycle, or none of one label set, so that every walk ends.
+    NoWalk : if there is no cycle, or none with a single label set, and therefore every walk ends.
 
     Warns
     -----
-    MocapWarning : for label sets with too few frames, and for ordered pairs without a way from the first
-        component to the second.
+    MocapWarning : for label sets with too few frames, and for ordered pairs of components without a path from
+        the first to the second.
 
     Examples
     --------
@@ -186,7 +187,7 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
         edges = " of edges with the same labels" if len(largest) > 1 else ""
         raise NoWalk(f"The graph has no cycle{edges}, so a walk through it ends: allow costlier transitions.")
     kept: Nodes = frozenset().union(*components.values())
-    pruned = graph.copy()  # its nodes keep their order, which random walks depend on
+    pruned = graph.copy()  # keeps the order of the nodes, on which random walks depend
     pruned.remove_nodes_from([node for node in graph if node not in kept])
     frames = {labels: count for labels, (_, count) in largest.items()}
     for message in _shortcomings(frames, least_frames, pruned, components):
@@ -198,7 +199,7 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
 
 
 def _reasons(graph: nx.MultiDiGraph, kept: Nodes) -> dict[Hashable, Reason]:
-    """Find why each node that is not kept is removed, in the order of the graph."""
+    """Return the reason for removing each node that is not kept, in the order of the graph."""
     on_cycle = set(nx.nodes_with_selfloops(graph))
     on_cycle.update(*(part for part in nx.strongly_connected_components(graph) if len(part) > 1))
     descendants = reached(graph, kept)
@@ -217,7 +218,7 @@ def _reasons(graph: nx.MultiDiGraph, kept: Nodes) -> dict[Hashable, Reason]:
 def _shortcomings(
     frames: Mapping[Labels, int], minimum: int, graph: nx.MultiDiGraph, components: Mapping[Labels, Nodes]
 ) -> Iterator[str]:
-    """Say of which label sets fewer frames stay than asked for, and which components do not reach another."""
+    """Yield a message for each label set with too few frames, and each pair of components without a path."""
     for labels, count in frames.items():
         together = NO_LABELS.union(*(subset for subset in frames if subset < labels))
         if count < minimum and (labels != together or not labels):

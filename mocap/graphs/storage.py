@@ -1,6 +1,6 @@
-"""Save a motion graph to one file: nodes and edges as arrays in an `.npz`, clips by name and fingerprint.
+"""Motion graphs in `.npz` files: nodes and edges as arrays, clips by name and fingerprint.
 
-The file holds no frames of the clips and no code: it is safe to read a file from a stranger.
+A file contains no frames of the clips and no code. Files from untrusted sources are safe to read.
 """
 
 from collections.abc import Sequence
@@ -51,18 +51,18 @@ class GraphFile(NamedTuple):
 
 
 def save(motion_graph: MotionGraph, path: str | Path, origins: Sequence[Origin] = ()) -> None:
-    """Write a motion graph to an `.npz` file; an old file is replaced when the new one is complete.
+    """Write a motion graph to an `.npz` file; an existing file is replaced once the new one is complete.
 
     Parameters
     ----------
-    motion_graph : as from `graphs.build` or `prune`.
+    motion_graph : from `graphs.build` or `prune`.
     path : the file.
-    origins : where the clips were read from, so that `load` finds them again; one for each, or none.
-        Each place is kept twice: from the file's own folder, and from the root.
+    origins : the files from which the clips were read, one for each clip, by which `load` finds them again;
+        or none. Each path is stored relative to the folder of the graph, and absolute.
 
     Raises
     ------
-    MocapError : for another suffix, what is no graph, and where the file cannot be written.
+    MocapError : for another suffix, an object that is not a motion graph, and a file that cannot be written.
 
     Examples
     --------
@@ -86,7 +86,7 @@ def save(motion_graph: MotionGraph, path: str | Path, origins: Sequence[Origin] 
 
 
 def _arrays_of_graph(graph: nx.MultiDiGraph) -> dict[str, Any]:
-    """Arrays of nodes, edges, transitions and labels."""
+    """Convert a graph to arrays of nodes, edges, transitions and labels."""
     number = {node: row for row, node in enumerate(graph)}
     edges = list(graph.edges(keys=True, data=True))
     attributes = [edge for *_, edge in edges]
@@ -116,15 +116,15 @@ def load(
     skeleton: Path | None = None,
     progress: Progress = iter,
 ) -> MotionGraph:
-    """Read a motion graph, and join it with its clips, at its frame rate; `save` shows an example.
+    """Read a motion graph and its clips, resampled to its frame rate; `save` shows an example.
 
     Parameters
     ----------
     path : a file from `save`.
-    clips : the motions that it was built of, in any order; other motions are ignored. By default they are
-        bundled samples, or the files that the graph remembers, or files of their names beside it.
-    skeleton : the `.asf` file of `.amc` clips; by default the one that the graph remembers, or one that fits.
-    progress : wraps the files of the clips, to show a bar.
+    clips : the motions from which it was built, in any order; other motions are ignored. By default they are
+        bundled samples, or the files that the graph stores, or files of their names in its folder.
+    skeleton : the `.asf` file of `.amc` clips; by default the one that the graph stores, or one that fits.
+    progress : wraps the iterable of files of clips, to show a progress bar.
 
     Returns
     -------
@@ -132,13 +132,13 @@ def load(
 
     Raises
     ------
-    FormatError : for a file that is no motion graph, is damaged, or has a newer version.
+    FormatError : for a file that is not a motion graph, is damaged, or has a newer version.
     MocapError : for a clip that is missing, cannot be read, or has changed.
 
     Warns
     -----
-    MocapWarning : for a file of version 1, which knows its clips by digits that differ between machines, so
-        that only their names and lengths are compared.
+    MocapWarning : for a file of version 1, whose fingerprints depend on the machine. Only names and lengths
+        of its clips are compared.
 
     Notebook: 05b-choice-points
     """
@@ -151,12 +151,12 @@ def load(
 
 
 def _references(content: GraphFile) -> ClipReferences:
-    """Return what a file says of its clips."""
+    """Return the references to the clips in a file."""
     return ClipReferences._make(getattr(content, key) for key in ClipReferences._fields)
 
 
 def read(path: str | Path) -> GraphFile:
-    """Read a file without its clips.
+    """Read the content of a file, without its clips.
 
     Raises
     ------
@@ -169,7 +169,7 @@ def read(path: str | Path) -> GraphFile:
 
 
 def _graph(arrays: Arrays) -> nx.MultiDiGraph:
-    """Build the graph of the arrays of a file."""
+    """Build the graph from the arrays of a file."""
     nodes = [(clip, frame) for clip, frame in arrays["nodes"].tolist()]
     labels = np.array(arrays["labels"], object)
     transitions = zip(arrays["costs"].tolist(), arrays["transforms"].tolist(), strict=True)
@@ -186,12 +186,12 @@ def _graph(arrays: Arrays) -> nx.MultiDiGraph:
 
 
 def find_origins(path: str | Path) -> list[Origin]:
-    """Find the files of a saved graph's clips, as `load` reads them; none for bundled samples."""
+    """Find the files of the clips of a saved graph, as `load` does; none for bundled samples."""
     return clip_references.find_files_of(_references(read(path)), path)
 
 
 def _rules(arrays: Arrays) -> Rules:
-    """Yield what must hold; each rule needs those before it."""
+    """Yield the validity rules of a file; each rule assumes those before it."""
     window = arrays["window"]
     lengths = arrays["frames"]
     nodes = arrays["nodes"]
@@ -208,7 +208,7 @@ def _rules(arrays: Arrays) -> Rules:
 
 
 def _rules_of_edges(arrays: Arrays) -> Rules:
-    """Yield what must hold of edges, where clips and nodes are right."""
+    """Yield the validity rules of edges, given valid clips and nodes."""
     window = arrays["window"]
     edges = arrays["edges"]
     nodes = arrays["nodes"]
@@ -223,5 +223,5 @@ def _rules_of_edges(arrays: Arrays) -> Rules:
     yield "edges play what lies between their ends", np.where(arrays["is_transition"], blends, plays_on)
 
 
-VERSION = 2  # in version 1 fingerprints were of all digits
+VERSION = 2  # fingerprints of version 1 were computed from all digits
 GRAPH = Kind("a motion graph", ARRAYS, _rules, version=VERSION)

@@ -1,4 +1,4 @@
-"""The size and the quality of the motion graph at many thresholds, from one list of transitions."""
+"""The size and the quality of a motion graph as a function of the threshold."""
 
 from bisect import bisect_left
 from collections.abc import Sequence
@@ -20,7 +20,7 @@ from mocap.matching.transitions import Transitions, find_transitions
 
 
 def smallest_threshold(clips: Sequence[Motion], *, window: int) -> float:
-    """Find the lowest threshold, in metres, at which the motion graph of some clips has a cycle.
+    """Find the lowest threshold, in metres, at which the motion graph of clips has a cycle.
 
     Raises
     ------
@@ -39,7 +39,7 @@ def smallest_threshold(clips: Sequence[Motion], *, window: int) -> float:
         graph = from_transitions(clips, transitions[: last + 1], window=window).graph
         return not nx.is_directed_acyclic_graph(graph)
 
-    # More transitions never remove a cycle, so the first that closes one is found by bisection.
+    # Additional transitions never remove a cycle, therefore bisection finds the first that closes one.
     closing = bisect_left(range(len(transitions)), True, key=has_cycle)
     if closing == len(transitions):
         raise NoWalk(
@@ -48,18 +48,19 @@ def smallest_threshold(clips: Sequence[Motion], *, window: int) -> float:
     return transitions[closing].cost
 
 
-AT_ONCE = 4096  # transitions measured together, to limit the memory
-ENOUGH = 0.9  # of the frames that the largest component plays at any threshold
+AT_ONCE = 4096  # transitions whose velocities are compared at a time, to limit the memory
+ENOUGH = 0.9  # fraction of the largest number of frames that the largest component has at any threshold
 
 
 class ThresholdCurve(NamedTuple):
-    """The motion graph at each of T thresholds, shape (T,) each; `threshold_curve` shows an example.
+    """Properties of the motion graph at T thresholds, shape (T,) each; `threshold_curve` shows an example.
 
     threshold : metres.
-    transitions, nodes, edges : their numbers in the whole graph.
-    frames : the number of frames of clip that the largest strongly connected component plays.
+    transitions, nodes, edges : their numbers in the graph before pruning.
+    frames : the number of frames of clips in the largest strongly connected component.
     cost : the mean cost of the transitions, metres; 0 without transitions.
-    gap : the mean of their `velocity_gaps`, metres per second, a measure of how visible the seams are.
+    velocity_difference : the mean of their `velocity_differences`, metres per second, a measure of the
+        visibility of the seams.
     """
 
     threshold: Array
@@ -68,10 +69,10 @@ class ThresholdCurve(NamedTuple):
     edges: Indices
     frames: Indices
     cost: Array
-    gap: Array
+    velocity_difference: Array
 
     def suggest(self) -> float:
-        """Return the lowest threshold at which the largest component plays 90 % of its maximum of frames.
+        """Return the lowest threshold at which the largest component has 90 % of its maximum of frames.
 
         Raises
         ------
@@ -87,16 +88,15 @@ class ThresholdCurve(NamedTuple):
 def threshold_curve(
     clips: Sequence[Motion], transitions: Transitions, *, window: int, thresholds: ArrayLike
 ) -> ThresholdCurve:
-    """Compute the size of the motion graph at many thresholds, and the part of it that pruning keeps.
+    """Compute the size of the motion graph at many thresholds, before and after pruning.
 
-    The transitions are sorted by cost once. Those below a threshold come first, so all means are running
-    sums. Components take time linear in the edges. A curve therefore takes as long as T prunings, without a
-    search for transitions.
+    The transitions are found once and sorted by cost: all means are then cumulative sums. The remaining time
+    is that of T prunings, linear in the number of edges.
 
     Parameters
     ----------
     clips : the motions.
-    transitions : found between them with the loosest threshold of interest.
+    transitions : the transitions between them, found with the highest threshold of interest.
     window : frames in a transition.
     thresholds : shape (T,), metres.
 
@@ -133,24 +133,24 @@ def threshold_curve(
     sizes = [_size(lengths, transitions[:count], window) for count in counts]
     nodes, frames = np.array(sizes, np.intp).reshape(-1, 2).T
     edges = counts + nodes - len(clips)  # a clip of n nodes has n - 1 stretches
-    gaps = velocity_gaps(clips, transitions, window=window)
-    sums = [np.cumsum([0.0, *column])[counts] for column in (transitions.cost, gaps)]
-    cost, gap = sums / np.maximum(counts, 1)
-    return ThresholdCurve(values, counts, nodes, edges, frames, cost, gap)
+    differences = velocity_differences(clips, transitions, window=window)
+    sums = [np.cumsum([0.0, *column])[counts] for column in (transitions.cost, differences)]
+    cost, velocity_difference = sums / np.maximum(counts, 1)
+    return ThresholdCurve(values, counts, nodes, edges, frames, cost, velocity_difference)
 
 
 def _size(lengths: Indices, transitions: Transitions, window: int) -> tuple[int, int]:
-    """Count the nodes of a graph, and the frames that its largest strongly connected component plays.
+    """Return the number of nodes of a graph, and of frames in its largest strongly connected component.
 
-    The clips follow one another on one axis, and a node is a position on it.
+    A node is represented by a position in the concatenated clips.
     """
-    clip_starts = np.cumsum(lengths + 1) - lengths - 1  # one more each: a clip's last node follows its frames
+    clip_starts = np.cumsum(lengths + 1) - lengths - 1  # + 1 for the last node of a clip, after its frames
     clip_ends = clip_starts + lengths
     leave = clip_starts[transitions.source] + transitions.leave
     enter = clip_starts[transitions.target] + transitions.enter + window
     choice_points = np.concatenate([clip_ends, clip_starts, leave, enter])
     positions, number = np.unique(choice_points, return_inverse=True)
-    # A stretch of clip leaves every node but the ends of clips, and enters the next one.
+    # A stretch of clip leads from every node to the next one, except from the ends of clips.
     stretches = np.setdiff1d(np.arange(len(positions)), number[: len(lengths)])
     sources, targets = np.split(number[2 * len(lengths) :], 2)
     starts = np.concatenate([stretches, sources])
@@ -160,13 +160,13 @@ def _size(lengths: Indices, transitions: Transitions, window: int) -> tuple[int,
     return len(positions), played
 
 
-def velocity_gaps(clips: Sequence[Motion], transitions: Transitions, *, window: int) -> Array:
-    """Compute the difference of the two clips' point velocities in the middle of each transition.
+def velocity_differences(clips: Sequence[Motion], transitions: Transitions, *, window: int) -> Array:
+    """Compute the RMS difference between the point velocities of two clips, in the middle of each transition.
 
     Parameters
     ----------
     clips : the motions.
-    transitions : N of them, between these clips.
+    transitions : N transitions between these clips.
     window : frames in a transition.
 
     Returns
@@ -175,12 +175,12 @@ def velocity_gaps(clips: Sequence[Motion], transitions: Transitions, *, window: 
 
     Examples
     --------
-    A transition from a frame to itself has no gap:
+    The difference is 0 for a transition from a frame to itself:
 
     >>> from mocap import datasets
     >>> zero = np.zeros(1, int)
     >>> same = Transitions(zero, zero, zero, zero, np.zeros(1), PlanarTransform(zero, zero, zero))
-    >>> velocity_gaps([datasets.sample("walk_curve_1")], same, window=10)
+    >>> velocity_differences([datasets.sample("walk_curve_1")], same, window=10)
     array([0.])
 
     Notebook: 05b-choice-points
@@ -189,11 +189,11 @@ def velocity_gaps(clips: Sequence[Motion], transitions: Transitions, *, window: 
         [velocities(point_cloud(clip), clip.fps) for clip in clips]
     )  # (F, P, 3)
     middles = np.cumsum([0, *(len(clip) for clip in clips)]) + window // 2
-    gaps = [np.zeros(0)]
+    differences = [np.zeros(0)]
     for first in range(0, len(transitions), AT_ONCE):
         batch = transitions[first : first + AT_ONCE]
         rotation = PlanarTransform(np.asarray(batch.transform.angle)[:, None], 0.0, 0.0)
         leaving = point_velocities[middles[batch.source] + batch.leave]
         entering = rotation.apply_points(point_velocities[middles[batch.target] + batch.enter])
-        gaps.append(np.sqrt(((leaving - entering) ** 2).sum(-1).mean(-1)))
-    return np.concatenate(gaps)
+        differences.append(np.sqrt(((leaving - entering) ** 2).sum(-1).mean(-1)))
+    return np.concatenate(differences)

@@ -1,19 +1,19 @@
-"""Which moments of two clips are alike? Point clouds, distance grids, and the transitions they allow.
+"""Similarity of motions: point cloud distances, distance grids, transitions, and time alignment.
 
-The metric is that of [KGP02, 3.1]: lay one window of frames on the other by the best planar transform, and
-measure how far apart the points still are. At its local minima one clip can pass into another. (*Motion
-matching*, as games use it, is another method: it looks for the next frame while the character walks.)
+The metric is that of [KGP02, 3.1]: align one window of frames with the other by the best planar transform,
+and compute the distance that remains between their points. Its local minima are candidates for transitions.
+(*Motion matching* in games is another method: it searches for the next frame while the character walks.)
 
 Reading order (notebooks 02, 05, 15)
 --------------------------------
-1. `point_clouds`: the points a motion drives, and how to align two clouds of them
-2. `distance_grids`: all windows against all, by matrix products
-3. `other_metrics`: the homework's two metrics, and why they fail; `Metric`, the signature that all have
-4. `lower_bound`: a bound of the distance that is nearly as large, with its derivation
-5. `near_pairs`: the few pairs of windows that the bound leaves, and their distances
-6. `minima`: the entries of a grid that are lower than all eight neighbours, however large it is
-7. `transitions`: where one clip can pass into another
-8. `time_paths`: which frame of one clip belongs to which of another
+1. `point_clouds`: the point cloud of a motion, and the alignment of two clouds
+2. `distance_grids`: the distances between all windows of two clips, by matrix products
+3. `other_metrics`: the two metrics of the homework, and their faults; `Metric`, the common signature
+4. `lower_bound`: a tight lower bound of the distance, with its derivation
+5. `near_pairs`: the pairs of windows that the bound does not rule out, and their distances
+6. `minima`: local minima of distance grids of any size
+7. `transitions`: the transitions between clips
+8. `time_paths`: dynamic time warping of one clip to another
 
 References
 ----------

@@ -1,22 +1,21 @@
-"""The point cloud distance between all windows of two clips, at the speed of matrix products.
+"""The point cloud distance between all windows of two clips, by matrix products.
 
-A point on the ground is the complex number g = z + ix: to turn it about +y by θ is to multiply it by
-exp(iθ). When g is measured from the centroid of its window, and the weights add up to one, the best turn
-of Eq. 1 of [KGP02] brings Σ w g ḡ' to the real axis, and leaves the distance
+A point on the ground is the complex number g = z + ix, and a rotation about +y by θ multiplies it by exp(iθ).
+If g is measured from the centroid of its window, and the weights sum to one, the optimal rotation of Eq. 1 of
+[KGP02] makes Σ w g ḡ' real and positive. The remaining distance is
 
     D = S + S' - 2 Σ w y y' - 2 |Σ w g ḡ'|,    S = Σ w (y² + |g|²).
 
-Both sums run over the k frames of a window and the P points of a frame. For all pairs of windows at once:
+The sums run over the k frames of a window and the P points of a frame. For all pairs of windows at once:
 
-1. The sums over points, for all pairs of *frames*, are two matrix products.
-2. The sums over frames run along the diagonals of these products: [i, j] + [i + 1, j + 1] + ... Sums over
-   k/2 frames make sums over k, so it takes not k additions but about log₂ k.
-3. Step 1 works on frames and cannot know a window's centroid, so it measures g from the *frame's* centroid
-   c. This leaves out how c moves within the window, Σ (c - mean of c) · (the same of b)‾: a third matrix
-   product, this time of windows.
+1. Two matrix products compute the sums over points, for all pairs of *frames*.
+2. The sums over frames run along the diagonals of these products: [i, j] + [i + 1, j + 1] + ... A sum over k
+   frames consists of two sums over k/2 frames, which takes about log₂ k additions instead of k.
+3. Step 1 works on frames, and therefore measures g from the centroid c of the *frame*, not of the window. A
+   third matrix product, of windows, adds the variation of c: Σ (c - mean of c) · (the same of b)‾.
 
-No step adds up numbers larger than a body and its path within a window. So the errors do not depend on where
-a clip is or how far it goes, and 32 bits are enough.
+No summand is larger than a body and its path within a window. Rounding errors therefore do not depend on the
+position of a clip or the length of its path, and 32 bits are sufficient.
 """
 
 from collections.abc import Sequence
@@ -29,31 +28,32 @@ from numpy.typing import ArrayLike, NDArray
 from mocap._shared.arrays import Array
 from mocap._shared.records import NamedTuple
 from mocap._shared.tasks import one_blas_thread, run_in_order, thread_count
-from mocap.body.motion import Motion, require_alike
+from mocap.body.motion import Motion, require_compatible
 from mocap.body.planar import on_ground
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import point_cloud, require_near, unit_weights
 
 Floats = NDArray[np.floating[Any]]
 
-SMALL = 500_000  # entries up to which a grid is not worth a thread: some 10 ms
-TILE = 256, 640  # rows and columns worked on at a time: few enough to stay in a core's cache
+SMALL = 500_000  # entries: smaller grids take about 10 ms, and are computed without threads
+TILE = 256, 640  # rows and columns computed at a time, to stay in the cache of a core
 
-# m²: distances D that differ by less are equal, but for rounding, which is some 1e-14 m² for a body that
-# walks. Windows that are alike have a D of 1e-4 to 1e-2 m². A D below this one is 0: its root, less than a
-# micrometre, would be rounding alone, made larger.
+# m²: the tolerance for equal distances D. Rounding is about 1e-14 m² for a walking body, and similar windows
+# have a D of 1e-4 to 1e-2 m². A smaller D is set to 0, because the root would amplify its rounding error.
 EQUAL = 1e-12
 
 
 class Cloud(NamedTuple):
-    """A clip ready for matching; its arrays are already multiplied by square roots of the weights.
+    """The point clouds of a clip, prepared for matching: multiplied by the square roots of the weights.
 
-    heights : (F, P), each above the mean height of the same point.
-    ground : (F, P), complex; z + ix from the frame's centroid.
-    paths : (F, k), complex; the frames' centroids in the window that starts at a frame, from their mean.
-    sizes : (F,), S of that window; infinite where it would run off the clip's end.
-    centres : (F,), complex, 128 bits; the centroid of that window.
-    frame_weights : (k,), of the frames within a window; they add up to one.
+    The last four fields describe the window that starts at a frame.
+
+    heights : (F, P), relative to the mean height of each point.
+    ground : (F, P), complex; z + ix relative to the centroid of the frame.
+    paths : (F, k), complex; the centroids of the frames of a window, relative to their mean.
+    sizes : (F,), S of a window; infinite if it extends beyond the end of the clip.
+    centres : (F,), complex, 128 bits; the centroid of a window.
+    frame_weights : (k,), weights of the frames in a window; their sum is one.
     """
 
     heights: Floats
@@ -65,11 +65,11 @@ class Cloud(NamedTuple):
 
     @property
     def window(self) -> int:
-        """The frames k of a window."""
+        """The number k of frames in a window."""
         return len(self.frame_weights)
 
     def part(self, windows: slice) -> "Cloud":
-        """Take the windows that start at these frames, with all frames that they cover."""
+        """Select the windows that start at these frames, with all frames that they cover."""
         frames = slice(windows.start, windows.stop + self.window - 1)
         heights = self.heights[frames]
         ground = self.ground[frames]
@@ -77,7 +77,7 @@ class Cloud(NamedTuple):
         return Cloud(heights, ground, paths, self.sizes[windows], self.centres[windows], self.frame_weights)
 
 
-def cloud(  # noqa: PLR0913 (the points, what they are measured from, and what each counts)
+def cloud(  # noqa: PLR0913 (the points, their level, and their weights)
     points: Array,
     level: Array,
     weights: Array,
@@ -91,10 +91,10 @@ def cloud(  # noqa: PLR0913 (the points, what they are measured from, and what e
     Parameters
     ----------
     points : shape (F, P, 3), metres.
-    level : shape (P,), metres: heights to measure from, the same for all clips to be compared.
-    weights : shape (P,), of the points; they add up to one.
-    window : frames k of a window.
-    dtype : the precision of the result; the work is done in 64 bits.
+    level : shape (P,), metres: reference heights, the same for all clips to be compared.
+    weights : shape (P,), of the points; their sum is one.
+    window : the number k of frames in a window.
+    dtype : the precision of the result; the computation is in 64 bits.
     taper : shape (k,), weights of the frames in a window, of any scale; equal ones by default.
 
     Raises
@@ -115,7 +115,7 @@ def cloud(  # noqa: PLR0913 (the points, what they are measured from, and what e
     path_sizes = (np.abs(paths) ** 2).sum(1)
     sizes = sliding_window_view(frame_sizes, window) @ frame_weights + path_sizes
 
-    cut_off = (0, window - 1)  # windows that would run off the clip's end
+    cut_off = (0, window - 1)  # windows that extend beyond the end of the clip
     paths = np.pad(paths, (cut_off, (0, 0)))
     sizes = np.pad(sizes, cut_off, constant_values=np.inf)
     centres = np.pad(centres, cut_off)
@@ -131,7 +131,7 @@ def cloud(  # noqa: PLR0913 (the points, what they are measured from, and what e
 
 
 def join(clouds: Sequence[Cloud]) -> Cloud:
-    """Put clouds of the same window one after the other."""
+    """Concatenate clouds of the same window."""
     heights = np.concatenate([part.heights for part in clouds])
     ground = np.concatenate([part.ground for part in clouds])
     paths = np.concatenate([part.paths for part in clouds])
@@ -143,7 +143,7 @@ def join(clouds: Sequence[Cloud]) -> Cloud:
 def window_vectors(
     cloud: Cloud, starts: NDArray[np.intp]
 ) -> tuple[NDArray[np.complexfloating[Any, Any]], Floats]:
-    """Return whole windows as vectors, multiplied by the roots of all weights.
+    """Return whole windows as vectors, multiplied by the square roots of all weights.
 
     Parameters
     ----------
@@ -152,8 +152,8 @@ def window_vectors(
 
     Returns
     -------
-    The points on the ground and their frames' centroids, complex, shape (N, k, P + 1), and the heights,
-    shape (N, k, P). Their squares add up to S.
+    The points on the ground and the centroids of the frames, complex, shape (N, k, P + 1), and the heights,
+    shape (N, k, P). The sum of their squares is S.
     """
     frames = starts[:, None] + np.arange(cloud.window)
     root_weights = np.sqrt(cloud.frame_weights).astype(cloud.heights.dtype)[:, None]
@@ -163,7 +163,7 @@ def window_vectors(
 
 
 def cloud_distances(a: Cloud, b: Cloud, *, zero_below: float = 0.0) -> Floats:
-    """Measure D between all windows of two clouds, by the three steps at the head of this module.
+    """Compute D between all windows of two clouds, by the three steps at the head of this module.
 
     Parameters
     ----------
@@ -172,7 +172,7 @@ def cloud_distances(a: Cloud, b: Cloud, *, zero_below: float = 0.0) -> Floats:
 
     Returns
     -------
-    Shape (n, m), m², never negative; infinite where a window runs off its clip.
+    Shape (n, m), m²; infinite if a window extends beyond its clip.
 
     Examples
     --------
@@ -182,22 +182,22 @@ def cloud_distances(a: Cloud, b: Cloud, *, zero_below: float = 0.0) -> Floats:
     array([[0. , 0.5],
            [0.5, 0. ]])
     """
-    # Factors are applied before the products, to arrays that are smaller than the grid.
+    # Constant factors are applied before the products, because these arrays are smaller than the grid.
     ground = frame_sums(2 * a.ground, b.ground.conj(), a.frame_weights)
     ground += (2 * a.paths) @ b.paths.conj().T
     grid: Floats = frame_sums(-2 * a.heights, b.heights, a.frame_weights)
     grid += a.sizes[:, None]
     grid += b.sizes
     grid -= np.abs(ground)
-    if grid.min(initial=np.inf) < zero_below:  # which is rare, and quicker to see than to mend
+    if grid.min(initial=np.inf) < zero_below:  # rare, and the test is faster than the assignment
         grid[grid < zero_below] = 0.0
     return grid
 
 
 def frame_sums(a: NDArray[Any], b: NDArray[Any], weights: Array) -> NDArray[Any]:
-    """Add up weights[f] · (a[i + f] · b[j + f]) over the frames f, for all pairs of windows i and j.
+    """Sum weights[f] · (a[i + f] · b[j + f]) over the frames f, for all pairs of windows i and j.
 
-    Equal weights take about log₂ k additions for each pair, others k.
+    Equal weights take about log₂ k additions for each pair, other weights k.
 
     Parameters
     ----------
@@ -228,7 +228,7 @@ def frame_sums(a: NDArray[Any], b: NDArray[Any], weights: Array) -> NDArray[Any]
 
 
 def diagonal_sum(products: NDArray[Any], window: int) -> NDArray[Any]:
-    """Add up products[i + f, j + f] over the frames f < window, from sums over half as many frames.
+    """Sum products[i + f, j + f] over the frames f < window, by recursive doubling.
 
     Examples
     --------
@@ -238,15 +238,15 @@ def diagonal_sum(products: NDArray[Any], window: int) -> NDArray[Any]:
     """
     rows, columns = products.shape
     row_by_row = products.ravel()
-    next_on_diagonal = columns + 1  # entries further: one row down and one column to the right
+    next_on_diagonal = columns + 1  # stride: one row down and one column to the right
     sums = _strided_sum(row_by_row, window, next_on_diagonal)
-    # The sums at the end of a row, which run on into the next row, are left out.
+    # The shape leaves out the last sums of each row, which extend into the next row.
     shape = (rows - window + 1, columns - window + 1)
     return np.asarray(as_strided(sums, shape, (columns * sums.itemsize, sums.itemsize)))
 
 
 def _strided_sum(values: NDArray[Any], count: int, step: int) -> NDArray[Any]:
-    """Add up values[n], values[n + step], ... `count` of them, for all n; in a new array if count > 1."""
+    """Sum `count` values at stride `step` from each n, by recursive doubling; in a new array if count > 1."""
     if count == 1:
         return values
     half = count // 2
@@ -258,7 +258,7 @@ def _strided_sum(values: NDArray[Any], count: int, step: int) -> NDArray[Any]:
     return np.asarray(sums)
 
 
-def distance_grid(  # noqa: PLR0913 (what to compare, what each point and frame counts, and where to work)
+def distance_grid(  # noqa: PLR0913 (two clips, a window, weights, and threads)
     a: Motion | ArrayLike,
     b: Motion | ArrayLike,
     *,
@@ -267,31 +267,31 @@ def distance_grid(  # noqa: PLR0913 (what to compare, what each point and frame 
     taper: ArrayLike | None = None,
     jobs: int | None = None,
 ) -> Floats:
-    """Measure the point cloud distance between all windows of two clips [KGP02, Eq. 1], [KGP02, 3.1].
+    """Compute the point cloud distances between all windows of two clips [KGP02, Eq. 1], [KGP02, 3.1].
 
-    D = min over T of Σ w ‖p - T p'‖², by the closed form at the head of this module. Entry [i, j] lays
-    the frames j ... j + k - 1 of b on the frames i ... i + k - 1 of a: it is the paper's
-    D(A_i, B_{j + k - 1}). The weights add up to one, so √D is the RMS distance of the points, in metres.
+    D = min over T of Σ w ‖p - T p'‖², by the closed form at the head of this module. Entry [i, j] compares
+    the frames i ... i + k - 1 of a with the frames j ... j + k - 1 of b: it is the paper's
+    D(A_i, B_{j + k - 1}). The weights sum to one, therefore √D is the RMS distance of the points in metres.
 
     Parameters
     ----------
     a, b : motions, or their points of shape (F, P, 3), metres. Two arrays of 32-bit points are compared in
-        32 bits, twice as fast; everything else in 64.
-    window : frames k in a window.
+        32 bits, twice as fast, and all others in 64 bits.
+    window : the number k of frames in a window.
     joint_weights : shape (P,), not negative, one for each point in the order of `distinct_joints`; equal ones
         by default.
-    taper : shape (k,), not negative, weights of the frames in a window, as the w_i of the paper, which may
-        taper off towards its ends; equal ones by default. Others take longer for long windows.
-    jobs : threads; by default one for each core that the process may use. The result is the same, bit for
-        bit. A grid of few tiles needs no threads.
+    taper : shape (k,), not negative: the weights w_i of the frames in a window, which may taper off towards
+        its ends; equal ones by default. Unequal weights take longer for long windows.
+    jobs : the number of threads; by default one for each core that the process may use. The result does not
+        depend on it. Small grids are computed without threads.
 
     Returns
     -------
-    D, shape (F_a - k + 1, F_b - k + 1), m². Never negative, 0 in 64 bits where it is below 1e-12 m², and
-    exactly symmetric where a and b are the same points. Otherwise the error is below 4e-6 · (S + S') in 32
-    bits and 1e-14 · (S + S') in 64, with S as at the head of this module and y from the ground. Far from the
-    origin the points themselves have fewer digits: this adds 1e-15 · √(S + S') times that distance. On real
-    walks the error in 32 bits is at most 4e-7 m²: 7 µm where √D is 3 cm.
+    D, shape (F_a - k + 1, F_b - k + 1), m². It is not negative, and exactly symmetric if a and b are the same
+    points. In 64 bits, values below 1e-12 m² are 0. The error is below 4e-6 · (S + S') in 32 bits and
+    1e-14 · (S + S') in 64, with S as at the head of this module and y from the ground. At a distance from the
+    origin the points themselves are less precise, which adds 1e-15 · √(S + S') times that distance. On real
+    walks the error in 32 bits is at most 4e-7 m², which is 7 µm if √D is 3 cm.
 
     Raises
     ------
@@ -309,7 +309,7 @@ def distance_grid(  # noqa: PLR0913 (what to compare, what each point and frame 
     Notebook: 02-matching
     """
     if isinstance(a, Motion) and isinstance(b, Motion):
-        a, b = require_alike([a, b])
+        a, b = require_compatible([a, b])
     points_a = _checked_points(a, window)
     points_b = _checked_points(b, window)
     thread_count(jobs)
@@ -348,7 +348,7 @@ def _checked_points(clip: Motion | ArrayLike, window: int) -> Floats:
     return points
 
 
-def tiled_distances(  # noqa: PLR0913 (what to measure, what to leave out, and where to work)
+def tiled_distances(  # noqa: PLR0913 (two clouds, the parts to compute, and threads)
     a: Cloud,
     b: Cloud,
     *,
@@ -357,13 +357,13 @@ def tiled_distances(  # noqa: PLR0913 (what to measure, what to leave out, and w
     zero_below: float = 0.0,
     jobs: int | None = 1,
 ) -> Floats:
-    """Measure D between all windows of two clouds, by tiles.
+    """Compute D between all windows of two clouds, tile by tile.
 
     Parameters
     ----------
     a, b : `Cloud.part`s of n and m windows.
-    upper : leave out tiles that are below the diagonal; they are infinite.
-    mirror : measure what is above the diagonal, and write it below, too; for two clouds of the same points.
+    upper : skip the tiles below the diagonal, and fill them with infinity.
+    mirror : compute the entries above the diagonal, and mirror them; for two clouds of the same points.
     zero_below : a D below this is 0, m².
     jobs : threads, as for `distance_grid`.
 
@@ -399,7 +399,7 @@ def tiled_distances(  # noqa: PLR0913 (what to measure, what to leave out, and w
 
 
 def _mirror(grid: Floats, block: slice) -> None:
-    """Write what a block of rows holds above the diagonal below it."""
+    """Copy the entries above the diagonal in a block of rows to their places below it."""
     later = slice(block.stop, None)
     grid[later, block] = grid[block, later].T
     corner = grid[block, block]
@@ -408,7 +408,7 @@ def _mirror(grid: Floats, block: slice) -> None:
 
 
 def check_window(window: int, frames: int, name: str) -> None:
-    """Raise unless a clip of this many frames holds at least one window."""
+    """Raise unless a clip with this number of frames has at least one window."""
     if not isinstance(window, int | np.integer) or window < 1:
         raise MocapError(f"A window needs a whole number of frames, at least one frame, got {window}.")
     if frames < window:
@@ -416,8 +416,8 @@ def check_window(window: int, frames: int, name: str) -> None:
 
 
 def require_windows(clips: Sequence[Motion], window: int) -> tuple[Motion, ...]:
-    """Raise unless clips go together, as by `require_alike`, and each holds at least one window."""
-    alike = require_alike(clips)
+    """Return clips on one skeleton, as by `require_compatible`; raise if one is shorter than a window."""
+    alike = require_compatible(clips)
     for clip in alike:
         check_window(window, len(clip), f"'{clip.name}'")
     return alike

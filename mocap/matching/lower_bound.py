@@ -1,34 +1,35 @@
-"""A lower bound of the distance between two windows, so tight that few pairs need to be measured.
+"""A tight lower bound of the distance between two windows, by which few pairs remain to be measured.
 
-A window is two vectors, multiplied by the roots of the weights: its heights y, and its points g on the
-ground, complex numbers from the window's centroid. A rotation by θ multiplies g by exp(iθ). With r = ‖g‖, the
-distance of `distance_grids` is
+A window is described by two vectors, multiplied by the square roots of the weights: its heights y, and its
+points g on the ground, complex numbers relative to the centroid of the window. A rotation by θ multiplies g
+by exp(iθ). With r = ‖g‖, the distance of `distance_grids` is
 
     D = ‖y - y'‖² + r² + r'² - 2 |⟨g, g'⟩|.
 
-*The bound.* No rotation changes the matrix G = g gᴴ / r. Its norm is ‖G‖ = r, and the product of two is
-⟨G, G'⟩ = |⟨g, g'⟩|² / (r r'). Let c = |⟨g, g'⟩| / (r r'). Because 2c ≤ 1 + c²,
+*Bound.* The matrix G = g gᴴ / r is invariant to rotations. Its norm is ‖G‖ = r, and the inner product of two
+is ⟨G, G'⟩ = |⟨g, g'⟩|² / (r r'). Let c = |⟨g, g'⟩| / (r r'). Because 2c ≤ 1 + c²,
 
     ½ ‖G - G'‖² + ½ (r - r')² = r² + r'² - r r' (1 + c²) ≤ r² + r'² - 2 r r' c.
 
-Each window thus becomes one point f = (y, G / √2, r / √2) of a Euclidean space, with ‖f - f'‖² ≤ D.
+Each window is thus embedded as a point f = (y, G / √2, r / √2) of a Euclidean space, with ‖f - f'‖² ≤ D.
 
-*It is tight.* The two sides differ by r r' (1 - c)². If D ≤ ε², then 2 r r' (1 - c) ≤ ε², and they differ by
-at most ε⁴ / (4 r r'): half a percent of ε² if ε is 4 cm and r is 30 cm.
+*Tightness.* The two sides differ by r r' (1 - c)². If D ≤ ε², then 2 r r' (1 - c) ≤ ε², and they differ by at
+most ε⁴ / (4 r r'): half a percent of ε² if ε is 4 cm and r is 30 cm.
 
-*Few numbers.* An orthonormal projection makes no vector longer, so it leaves a lower bound. With orthonormal
-columns U, the matrix Uᴴ G U = (Uᴴ g)(Uᴴ g)ᴴ / r needs only Uᴴ g. Principal directions of a sample of windows
-make the bound large: first those of g and of y, then of f. To search in few dimensions with a distance that
-is never too large, and to measure what remains, is the scheme of GEMINI [FRM94]. This bound is ours.
+*Dimension.* An orthogonal projection makes no vector longer and therefore preserves a lower bound. With
+orthonormal columns U, the matrix Uᴴ G U = (Uᴴ g)(Uᴴ g)ᴴ / r depends only on Uᴴ g. The principal directions of
+a sample of windows keep the bound large: first those of g and of y, then those of f. The search in few
+dimensions with a lower bound, followed by exact distances of the remaining pairs, is the GEMINI method
+[FRM94]. This bound is ours.
 
-*Rounding.* `squared_reach` is what the squared distance of two projections can be if D is measured below ε².
-Let u be the rounding of the cloud's numbers, v = 2⁻²⁴ that of the projections, S the largest size of a
-window, R the length of the longest of the d-dimensional projections. A sum of n products a b is off by at
-most n u Σ |a b|.
+*Rounding.* `squared_reach` is an upper bound of the squared distance of two projections if D is computed as
+less than ε². Let u be the rounding unit of the cloud, v = 2⁻²⁴ that of the projections, S the largest size of
+a window, and R the length of the longest of the d-dimensional projections. The error of a sum of n products
+a b is at most n u Σ |a b|.
 
-1. D is measured by sums of P products and of k frames, and fewer than 16 other steps: (P + k + 16) u · 2 S.
-2. f and its projection are computed in 64 bits from vectors that are rounded twice (2 u √S), and then rounded
-   themselves (v · 2 √S, because their mean is subtracted). Two windows: at most 8 max(u, v) √S.
+1. D is computed by sums of P products and of k frames, and fewer than 16 other steps: (P + k + 16) u · 2 S.
+2. f and its projection are computed in 64 bits from vectors that were rounded twice (2 u √S), and are then
+   rounded themselves (v · 2 √S, because their mean is subtracted). For two windows: at most 8 max(u, v) √S.
 3. The squared distance is |p|² + |p'|² - 2 p p', in 32 bits: (d + 4) v · 4 R².
 """
 
@@ -44,16 +45,16 @@ from mocap.matching.distance_grids import Cloud, window_vectors
 Singles = NDArray[np.float32]
 Number = TypeVar("Number", np.float64, np.complex128)
 
-SAMPLE = 256  # windows that choose the directions: any orthonormal ones are right, these are good
-GROUND_DIRECTIONS = 10  # of the vectors g, which make 100 numbers of G
+SAMPLE = 256  # windows that determine the directions; the bound holds for any orthonormal ones
+GROUND_DIRECTIONS = 10  # of the vectors g, for 100 numbers of G
 HEIGHT_DIRECTIONS = 40  # of the vectors y
-DIRECTIONS = 48  # of f: more leave hardly fewer pairs
-TOGETHER = 256  # windows whose vectors are held at a time
-TINY = 1e-300  # metres: keeps a window of one point, with r = 0, from a division by 0
+DIRECTIONS = 48  # of f; with more, hardly fewer pairs remain
+TOGETHER = 256  # windows whose vectors are in memory at a time
+TINY = 1e-300  # metres: avoids a division by 0 for a window of one point, whose r is 0
 
 
 class Directions(NamedTuple):
-    """Orthonormal directions that windows are projected on.
+    """Orthonormal directions on which windows are projected.
 
     ground : (k (P + 1), m), complex: U.
     heights, height_mean : (k P, n) and (k P,), of y and their mean.
@@ -68,22 +69,22 @@ class Directions(NamedTuple):
 
 
 def sample_windows(cloud: Cloud, count: int) -> Indices:
-    """Return the first frames of about this many windows, evenly spaced, and of all if there are fewer."""
+    """Return the first frames of about `count` evenly spaced windows, of all windows if there are fewer."""
     starts = np.flatnonzero(np.isfinite(cloud.sizes))
     return starts[:: max(1, -(-len(starts) // count))]
 
 
 def principal_directions(vectors: NDArray[Number], count: int) -> NDArray[Number]:
-    """Return the orthonormal directions in which vectors are longest, from their products with each other.
+    """Compute the first principal directions of vectors, about the origin, from their Gram matrix.
 
     Parameters
     ----------
     vectors : shape (N, n), real or complex.
-    count : directions at most; there are no more than vectors or their numbers.
+    count : the largest number of directions; there are at most N and at most n.
 
     Returns
     -------
-    Shape (n, count), orthonormal columns, the longest first.
+    Shape (n, count), orthonormal columns, in descending order of the singular values.
 
     Examples
     --------
@@ -97,7 +98,7 @@ def principal_directions(vectors: NDArray[Number], count: int) -> NDArray[Number
 
 
 def sample_directions(cloud: Cloud) -> Directions:
-    """Choose good directions by a sample of the cloud's windows."""
+    """Compute principal directions from a sample of the windows of a cloud."""
     ground, heights = _vectors(cloud, sample_windows(cloud, SAMPLE))
     height_mean = heights.mean(axis=0)
     ground_directions = principal_directions(ground, GROUND_DIRECTIONS)
@@ -109,13 +110,13 @@ def sample_directions(cloud: Cloud) -> Directions:
 
 
 def projections(cloud: Cloud, starts: Indices, directions: Directions) -> Singles:
-    """Project windows: the distance of two projections is at most √D, but for rounding.
+    """Project windows such that the distance of two projections is at most √D, up to rounding.
 
     Parameters
     ----------
     cloud : of one clip or several.
-    starts : shape (N,), the first frames of windows that do not run off a clip.
-    directions : as by `sample_directions`, of any cloud with as many points and frames in a window.
+    starts : shape (N,), the first frames of windows that lie within a clip.
+    directions : from `sample_directions`, for any cloud of the same number of points and frames in a window.
 
     Returns
     -------
@@ -123,7 +124,7 @@ def projections(cloud: Cloud, starts: Indices, directions: Directions) -> Single
 
     Examples
     --------
-    Two frames of two points; the second frame stands 1 m higher, which is a distance of √D = 1 m.
+    Two frames of two points. The second frame is 1 m higher, a distance of √D = 1 m:
 
     >>> from mocap.matching.distance_grids import cloud
     >>> stick = np.array([[[0.0, 0, 0], [0, 1, 2]], [[0, 1, 0], [2, 2, 0]]])
@@ -160,29 +161,29 @@ def _points(
     scaled = (ground @ ground_directions) / np.sqrt(np.maximum(radius, TINY))[:, None]
     rows, columns = np.triu_indices(ground_directions.shape[1], 1)
     diagonal = np.abs(scaled) ** 2 / np.sqrt(2)
-    # Each entry above the diagonal stands for two, so its square counts twice: √2 / √2.
+    # The entries above the diagonal represent both halves: their factor is √2 / √2.
     upper = scaled[:, rows] * scaled[:, columns].conj()
     parts = [diagonal, upper.real, upper.imag, radius[:, None] / np.sqrt(2), heights @ height_directions]
     return np.concatenate(parts, axis=1)
 
 
-def squared_length(places: Singles) -> float:
+def squared_length(projected: Singles) -> float:
     """Return the square of the longest projection, m²."""
-    return float(np.vecdot(places, places).max(initial=0))
+    return float(np.vecdot(projected, projected).max(initial=0))
 
 
 def squared_reach(cloud: Cloud, below: float, longest: float) -> float:
-    """Return the squared distance of two projections up to which a pair may be measured below a threshold.
+    """Return the largest squared distance that the projections of a pair below a threshold can have.
 
     Parameters
     ----------
     cloud : all windows.
-    below : metres.
-    longest : R² of the projections, as by `squared_length`.
+    below : the threshold, metres.
+    longest : R² of the projections, from `squared_length`.
 
     Returns
     -------
-    Square metres: `below` squared, and the margin for rounding that is derived at the head of this module.
+    Square metres: `below` squared plus the margin for rounding that is derived at the head of this module.
 
     Examples
     --------

@@ -1,13 +1,13 @@
-"""The local minima of a distance grid: pairs of windows that are more alike than all their neighbours.
+"""The local minima of a distance grid: pairs of windows that are more similar than all their neighbours.
 
-A grid that is too large to hold is cut into blocks, one for a worker at a time. Two searches find the same
-minima:
+A grid that does not fit into memory is divided into blocks, which workers process one at a time. Two searches
+find the same minima:
 
-1. *By products*: all pairs of a block are measured by matrix products, and searched by `local_minima`.
-2. *By the bound* of `lower_bound`: only near pairs are measured, as `near_pairs` says. A neighbour that was
-   not measured costs more than the threshold, and therefore more than any minimum.
+1. *By products*: all distances of a block are computed by matrix products, and searched by `local_minima`.
+2. *By the bound* of `lower_bound`: only the distances of near pairs are computed, by `near_pairs`. All other
+   entries are above the threshold, and therefore higher than any minimum.
 
-`find_minima` takes the second one if there are many windows, of which few pairs are near.
+`find_minima` chooses the second search if there are many windows and few near pairs.
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -41,35 +41,35 @@ from mocap.matching.near_pairs import (
     sort_by_diagonal,
 )
 
-AT_ONCE = 1024  # pairs measured together, to limit the memory
-BLOCK = 1280  # windows on a side of a block that is measured by products
+AT_ONCE = 1024  # pairs aligned at a time, to limit the memory
+BLOCK = 1280  # windows on a side of a block that is searched by products
 WIDE_BLOCK = 8192  # windows on a side of a block that is searched by the bound
-FEW = 5000  # windows up to which products are quicker
+FEW = 5000  # windows up to which the search by products is faster
 
-# Rows and columns from an entry to its eight neighbours, in reading order: the first four are before it.
+# Offsets (rows, columns) from an entry to its neighbours, in row-major order: the first four precede it.
 NEIGHBOURS = ((-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1))
 
 
 def local_minima(grid: ArrayLike, below: float = np.inf, *, equal: float = EQUAL) -> Indices:
-    """Find the entries under a threshold that are lower than all eight neighbours [KGP02, 3.2].
+    """Find the entries below a threshold that are lower than all eight neighbours [KGP02, 3.2].
 
-    Entries beyond the border count as infinite. Of neighbours that are equal, the first in reading order
-    counts as the lower one. A plateau therefore has one minimum or more, and no two of them side by side.
+    Entries beyond the border are infinite. Of equal neighbours, the first in row-major order counts as the
+    lower one. A plateau therefore has at least one minimum, and no two of its minima are neighbours.
 
     Parameters
     ----------
     grid : shape (n, m).
-    below : only entries under this value, in the grid's unit.
-    equal : neighbours that differ by no more are equal, in the grid's unit. By default 1e-12, rounding of a
-        `distance_grid`: where a body stands still or a clip repeats itself, distances differ by that alone.
+    below : the threshold, in the unit of the grid.
+    equal : the tolerance for equal neighbours, in the unit of the grid. The default 1e-12 is for the rounding
+        of a `distance_grid`: if a body stands still or a clip repeats itself, distances differ only by that.
 
     Returns
     -------
-    Rows and columns, shape (N, 2), in reading order.
+    Rows and columns, shape (N, 2), in row-major order.
 
     Raises
     ------
-    MocapError : for a grid that is not of two dimensions, or holds NaN.
+    MocapError : for a grid that does not have two dimensions, or contains NaN.
 
     Examples
     --------
@@ -101,12 +101,12 @@ def _lowest(
     Parameters
     ----------
     values : shape (N,), of the entries.
-    neighbours : returns the values so many rows down and columns to the right of entries.
+    neighbours : a function of entries, rows and columns that returns the values at this offset from them.
     equal : as for `local_minima`.
 
     Returns
     -------
-    Indices of entries, in their order.
+    Indices of the lowest entries, in ascending order.
     """
     lowest = np.arange(len(values))
     for down, right in NEIGHBOURS:
@@ -114,23 +114,23 @@ def _lowest(
         beside_entries = neighbours(lowest, down, right)
         is_earlier = (down, right) < (0, 0)
         is_lower = entries < beside_entries - equal if is_earlier else entries <= beside_entries + equal
-        lowest = lowest[is_lower]  # the first neighbour already rules out most entries
+        lowest = lowest[is_lower]  # the first neighbour rules out most entries
     return lowest
 
 
 def listed_minima(pairs: Indices, values: Floats, *, equal: float = EQUAL) -> Indices:
-    """Find the local minima of a grid of which only some entries are listed, as `local_minima` does.
+    """Find the local minima of a sparse grid, as `local_minima` does for a dense one.
 
     Parameters
     ----------
-    pairs : rows and columns, shape (2, N), sorted as by `sort_by_diagonal`. Entries that are not listed count
-        as infinite.
+    pairs : rows and columns, shape (2, N), sorted by `sort_by_diagonal`. Entries that are not listed are
+        infinite.
     values : shape (N,).
     equal : as for `local_minima`.
 
     Returns
     -------
-    Rows and columns, shape (N, 2), in reading order.
+    Rows and columns, shape (N, 2), in row-major order.
 
     Examples
     --------
@@ -139,7 +139,7 @@ def listed_minima(pairs: Indices, values: Floats, *, equal: float = EQUAL) -> In
     """
     rows, columns = pairs
     diagonals = columns - rows
-    length = rows.max(initial=0) + 3  # of a diagonal; what is next to its ends is on no other diagonal
+    length = rows.max(initial=0) + 3  # of a diagonal, padded so that no key beyond its ends is on another one
     keys = diagonals * length + rows  # ascending
     infinite_end = np.append(values, np.inf)
     no_key = np.append(keys, np.iinfo(keys.dtype).max)
@@ -154,9 +154,10 @@ def listed_minima(pairs: Indices, values: Floats, *, equal: float = EQUAL) -> In
 
 
 def fit(a: Cloud, b: Cloud, i: Indices, j: Indices) -> Array:
-    """Align windows j with windows i: the remaining RMS distance, and the transform's angle, x and z.
+    """Align windows j with windows i: return the remaining RMS distance and the transform.
 
-    In the grid D is a difference of larger numbers. Measured point by point, as here, it is right down to 0.
+    The grid computes D as a difference of larger numbers. Here it is computed point by point, and therefore
+    accurate down to 0.
 
     Parameters
     ----------
@@ -165,7 +166,7 @@ def fit(a: Cloud, b: Cloud, i: Indices, j: Indices) -> Array:
 
     Returns
     -------
-    Shape (4, N): metres, radians, metres and metres.
+    Shape (4, N): the RMS distance in metres, and the angle (radians), x and z (metres) of the transform.
 
     Examples
     --------
@@ -190,9 +191,9 @@ def fit(a: Cloud, b: Cloud, i: Indices, j: Indices) -> Array:
 class Side(NamedTuple):
     """One side of a block.
 
-    windows : the windows whose minima the block finds.
-    cloud : these, and one window more at each end if there is one: the neighbours of the outermost.
-    first : the first window of `cloud`.
+    windows : the windows whose minima belong to the block.
+    cloud : these and, if there is one, a further window at each end, the neighbour of the outermost.
+    first : the number of the first window in `cloud`.
     leaves : the windows of `cloud`, numbered from 0, for the search by the bound.
     """
 
@@ -214,18 +215,18 @@ def find_minima(
 
     Parameters
     ----------
-    cloud : all clips one after the other.
-    below : only minima whose RMS distance is under this one, metres.
+    cloud : all clips, concatenated.
+    below : the largest RMS distance of a minimum, metres.
     progress, executor, jobs : as for `find_transitions`.
 
     Returns
     -------
-    Shape (6, N): the first window and the second, at least a window's length later; the RMS distance in
-    metres; and the angle, x and z of the transform that lays the second on the first.
+    Shape (6, N): the first window; the second window, at least a window's length later; the RMS distance in
+    metres; and the angle, x and z of the transform that aligns the second with the first.
 
     Examples
     --------
-    A point rises and falls back; its last frame is 1 cm from its first.
+    A point rises and falls back to within 1 cm of its first frame:
 
     >>> from mocap.matching.distance_grids import cloud as prepare
     >>> points = np.array([[[0, height, 0]] for height in (1.0, 1.3, 1.6, 1.9, 1.01)])
@@ -251,7 +252,7 @@ def find_minima(
 
 
 def _choose_bound(cloud: Cloud, below: float) -> Directions | None:
-    """Return directions for the search by the bound, or None if the search by products is quicker."""
+    """Return directions for the search by the bound, or None if the search by products is faster."""
     if np.count_nonzero(np.isfinite(cloud.sizes)) <= FEW:
         return None
     directions = sample_directions(cloud)
@@ -259,7 +260,7 @@ def _choose_bound(cloud: Cloud, below: float) -> Directions | None:
 
 
 def _side(cloud: Cloud, windows: range, bound: Directions | None) -> Side:
-    """Cut a side of blocks out of a cloud."""
+    """Prepare one side of blocks: a range of windows of a cloud."""
     first = max(windows.start - 1, 0)
     stop = min(windows.stop + 1, len(cloud.sizes) - cloud.window + 1)
     part = cloud.part(slice(first, stop))
@@ -271,13 +272,13 @@ def _side(cloud: Cloud, windows: range, bound: Directions | None) -> Side:
 
 def _reach(cloud: Cloud, below: float, sides: Iterable[Side]) -> float:
     """Return the squared reach of the projections in the leaves of all sides."""
-    longest = max(squared_length(side.leaves.places) for side in sides if side.leaves)
+    longest = max(squared_length(side.leaves.projections) for side in sides if side.leaves)
     return squared_reach(cloud, below, longest)
 
 
 def _block_minima(a: Side, b: Side, below: float, reach: float) -> Array:
     """Find the minima of a block, the unit of work of one worker."""
-    with one_blas_thread():  # also in a process of its own
+    with one_blas_thread():  # a worker may be another process
         pairs = _near_pairs(a, b, reach)
         if pairs is not None:
             distances = pair_distances(a.cloud, b.cloud, pairs)
@@ -288,10 +289,10 @@ def _block_minima(a: Side, b: Side, below: float, reach: float) -> Array:
 
 
 def _near_pairs(a: Side, b: Side, reach: float) -> Indices | None:
-    """Find the near pairs of a block, sorted by diagonal; None if all are measured by products."""
+    """Find the near pairs of a block, sorted by diagonal; None if the block is searched by products."""
     if a.leaves is None or b.leaves is None:
         return None
-    # Neighbours of windows that do not overlap may overlap by two frames.
+    # The neighbours of two windows that do not overlap may overlap by two frames.
     shift = a.cloud.window - 2 - (b.first - a.first)
     at_most = SPARSE * len(a.windows) * len(b.windows)
     pairs = near_pairs(a.leaves, b.leaves, reach, shift=shift, at_most=at_most)
@@ -299,7 +300,7 @@ def _near_pairs(a: Side, b: Side, reach: float) -> Indices | None:
 
 
 def _cut(side: Side) -> Iterator[Side]:
-    """Cut a side into sides of blocks that are measured by products."""
+    """Divide a side into the smaller sides of blocks that are searched by products."""
     end = side.first + len(side.cloud.sizes)
     for start in range(side.windows.start, side.windows.stop, BLOCK):
         windows = range(start, min(start + BLOCK, side.windows.stop))
@@ -309,18 +310,18 @@ def _cut(side: Side) -> Iterator[Side]:
 
 
 def _minima_by_products(a: Side, b: Side, below: float) -> Array:
-    """Find the minima of a block among all its pairs."""
+    """Find the minima of a block by computing all its distances."""
     grid = tiled_distances(a.cloud, b.cloud, upper=a.windows == b.windows)
     return _fits(a, b, local_minima(grid, below**2))
 
 
 def _fits(a: Side, b: Side, minima: Indices) -> Array:
-    """Align the minima of a block that are its own, and not those of a block beside it."""
+    """Select the minima that belong to a block, not to a neighbouring one, and align their windows."""
     i, j = minima.T
     rows = i + a.first
     columns = j + b.first
     kept = (rows >= a.windows.start) & (rows < a.windows.stop)
     kept &= (columns >= b.windows.start) & (columns < b.windows.stop)
-    kept &= columns - rows >= a.cloud.window  # no window overlaps itself, and each pair counts once
+    kept &= columns - rows >= a.cloud.window  # windows do not overlap, and each pair counts once
     fits = fit(a.cloud, b.cloud, i[kept], j[kept])
     return np.concatenate([[rows[kept], columns[kept]], fits])

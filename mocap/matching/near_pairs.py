@@ -1,11 +1,12 @@
-"""Pairs of windows that the lower bound leaves, and their distances.
+"""Near pairs: the pairs of windows that the lower bound does not rule out, and their distances.
 
-1. *Leaves.* Windows are cut in half across the direction in which their projections vary most, and the halves
-   again, until a leaf has few windows. Leaves whose boxes are farther apart than the reach have no near pair.
-2. *Near pairs.* All pairs of two near leaves are compared by one small product of matrices.
-3. *Distances.* Near pairs lie in runs along the diagonals of the grid, as motions that are alike stay alike
-   for a while. The pairs (i, j) and (i + 1, j + 1) share all pairs of frames but one, which are multiplied
-   once.
+1. *Leaves.* As in a k-d tree, windows are divided at the median of the coordinate in which their projections
+   vary most, recursively, until a leaf has few windows. Two leaves have no near pair if the distance of their
+   bounding boxes is larger than the reach.
+2. *Near pairs.* All pairs of windows in two near leaves are compared by one small matrix product.
+3. *Distances.* Near pairs form runs along the diagonals of the grid, because similar motions remain similar
+   for a while. The pairs (i, j) and (i + 1, j + 1) share all pairs of frames but one, and a shared pair of
+   frames is multiplied once.
 """
 
 import numpy as np
@@ -24,39 +25,39 @@ from mocap.matching.lower_bound import (
     squared_reach,
 )
 
-LEAF = 128  # windows in a leaf at most
-TOGETHER = 1024  # pairs measured at a time, to stay in a core's cache
-SAMPLE = 600  # windows that tell whether few pairs are near
-SPARSE = 0.05  # fraction of near pairs up to which they are measured one by one
+LEAF = 128  # the largest number of windows in a leaf
+TOGETHER = 1024  # pairs whose distances are computed at a time, to stay in the cache of a core
+SAMPLE = 600  # windows by which the fraction of near pairs is estimated
+SPARSE = 0.05  # the largest fraction of near pairs for which the search by the bound is faster
 
 
 class Leaves(NamedTuple):
-    """Windows with their projections, leaf by leaf.
+    """Windows with their projections, sorted by leaf.
 
-    windows : (n,), which windows, in the order of the leaves.
-    places : (n, d), their projections.
-    starts : (L + 1,), where leaves start in this order, and the end of the last one.
-    low, high : (L, d), the corners of each leaf's box.
+    windows : (n,), the numbers of the windows.
+    projections : (n, d), their projections.
+    starts : (L + 1,), the index of the first window of each leaf, and the end of the last leaf.
+    low, high : (L, d), the corners of the bounding box of each leaf.
     """
 
     windows: Indices
-    places: Singles
+    projections: Singles
     starts: Indices
     low: Singles
     high: Singles
 
     def leaf(self, number: int) -> slice:
-        """Return where a leaf is in `windows` and `places`."""
+        """Return the slice of a leaf in `windows` and `projections`."""
         return slice(self.starts[number], self.starts[number + 1])
 
 
-def cut_into_leaves(windows: Indices, places: Singles) -> Leaves:
-    """Cut windows into leaves.
+def cut_into_leaves(windows: Indices, projected: Singles) -> Leaves:
+    """Divide windows into leaves by their projections.
 
     Parameters
     ----------
     windows : shape (n,), their numbers.
-    places : shape (n, d), their projections.
+    projected : shape (n, d), their projections.
 
     Examples
     --------
@@ -65,26 +66,26 @@ def cut_into_leaves(windows: Indices, places: Singles) -> Leaves:
     >>> leaves.starts.tolist(), leaves.low[:, 0].tolist()
     ([0, 75, 150, 225, 300], [0.0, 75.0, 150.0, 225.0])
     """
-    parts = _halves(places, np.arange(len(windows)))
+    parts = _halves(projected, np.arange(len(windows)))
     starts = np.cumsum([0, *map(len, parts)])
     order = np.concatenate([np.empty(0, np.intp), *parts])
-    ordered = places[order]
+    ordered = projected[order]
     low = np.minimum.reduceat(ordered, starts[:-1])
     high = np.maximum.reduceat(ordered, starts[:-1])
     return Leaves(windows[order], ordered, starts, low, high)
 
 
-def _halves(places: Singles, members: Indices) -> list[Indices]:
-    """Cut members in half where they vary most, and each half again, down to leaves."""
+def _halves(projected: Singles, members: Indices) -> list[Indices]:
+    """Divide members at the median of the coordinate of largest variance, recursively, down to leaves."""
     if len(members) <= LEAF:
         return [members] if len(members) else []
-    own_places = places[members]
-    values = own_places[:, own_places.var(axis=0).argmax()]
+    coordinates = projected[members]
+    values = coordinates[:, coordinates.var(axis=0).argmax()]
     middle = len(members) // 2
     order = np.argpartition(values, middle)
-    lower = np.sort(order[:middle])  # in the order of time, for quick look-up
+    lower = np.sort(order[:middle])  # in the order of time, for fast access
     upper = np.sort(order[middle:])
-    return _halves(places, members[lower]) + _halves(places, members[upper])
+    return _halves(projected, members[lower]) + _halves(projected, members[upper])
 
 
 def near_pairs(a: Leaves, b: Leaves, reach: float, *, shift: int, at_most: float) -> Indices | None:
@@ -92,14 +93,14 @@ def near_pairs(a: Leaves, b: Leaves, reach: float, *, shift: int, at_most: float
 
     Parameters
     ----------
-    a, b : the windows of the first and of the second ones.
-    reach : of `squared_reach`, m².
-    shift : only pairs whose second window is at least so much later than the first.
-    at_most : pairs; if there are more, the search ends.
+    a, b : the first and the second windows of the pairs.
+    reach : the largest squared distance, from `squared_reach`, m².
+    shift : the smallest number of frames from the first window of a pair to the second.
+    at_most : the largest number of pairs; if there are more, the search ends.
 
     Returns
     -------
-    Windows of a and of b, shape (2, N); None if there are more than `at_most`.
+    Windows of a and of b, shape (2, N); None if there are more than `at_most` pairs.
 
     Examples
     --------
@@ -108,11 +109,11 @@ def near_pairs(a: Leaves, b: Leaves, reach: float, *, shift: int, at_most: float
     >>> near_pairs(leaves, leaves, 1.0, shift=1, at_most=99).tolist()
     [[0, 1], [2, 3]]
     """
-    squares_a = np.vecdot(a.places, a.places)[:, None]
-    squares_b = np.vecdot(b.places, b.places)[:, None]
-    # One product makes |p|² + |p'|² - 2 p p'.
-    rows = np.hstack([a.places, squares_a, np.ones_like(squares_a)])
-    columns = np.hstack([-2 * b.places, np.ones_like(squares_b), squares_b]).T.copy()
+    squares_a = np.vecdot(a.projections, a.projections)[:, None]
+    squares_b = np.vecdot(b.projections, b.projections)[:, None]
+    # A single product of these computes |p|² + |p'|² - 2 p p'.
+    rows = np.hstack([a.projections, squares_a, np.ones_like(squares_a)])
+    columns = np.hstack([-2 * b.projections, np.ones_like(squares_b), squares_b]).T.copy()
     parts = [np.empty((2, 0), np.intp)]
     count = 0
     for first, second in _near_leaves(a, b, reach):
@@ -131,17 +132,17 @@ def near_pairs(a: Leaves, b: Leaves, reach: float, *, shift: int, at_most: float
 
 
 def _near_leaves(a: Leaves, b: Leaves, reach: float) -> list[list[int]]:
-    """List the pairs of leaves whose boxes are within reach."""
+    """List the pairs of leaves whose bounding boxes are within reach."""
     pairs = []
     for first in range(len(a.low)):
-        gaps = np.maximum(b.low - a.high[first], a.low[first] - b.high)
-        squares = (np.maximum(gaps, 0) ** 2).sum(axis=1)
+        separations = np.maximum(b.low - a.high[first], a.low[first] - b.high)
+        squares = (np.maximum(separations, 0) ** 2).sum(axis=1)
         pairs += [[first, second] for second in np.flatnonzero(squares <= reach).tolist()]
     return pairs
 
 
 def sort_by_diagonal(pairs: Indices) -> Indices:
-    """Sort pairs (2, N) by their diagonal j - i, and along it.
+    """Sort pairs (2, N) by their diagonal j - i, then by i.
 
     Examples
     --------
@@ -159,16 +160,16 @@ def sort_by_diagonal(pairs: Indices) -> Indices:
 
 
 def pair_distances(a: Cloud, b: Cloud, pairs: Indices) -> Floats:
-    """Measure D of pairs, as `cloud_distances` does for all.
+    """Compute D for some pairs of windows, as `cloud_distances` does for all.
 
     Parameters
     ----------
     a, b : two clouds, or the same one twice.
-    pairs : shape (2, N), first frames of the windows, sorted as by `sort_by_diagonal`.
+    pairs : shape (2, N), first frames of the windows, sorted by `sort_by_diagonal`.
 
     Returns
     -------
-    Shape (N,), m², never negative.
+    Shape (N,), m², not negative.
 
     Examples
     --------
@@ -186,16 +187,16 @@ def pair_distances(a: Cloud, b: Cloud, pairs: Indices) -> Floats:
 
 
 def _distances_of_runs(a: Cloud, b: Cloud, i: Indices, j: Indices) -> Floats:
-    """Measure D of pairs, with each pair of frames of a run multiplied once."""
+    """Compute D of pairs; each pair of frames in a run along a diagonal is multiplied once."""
     window = a.window
     step = np.diff(i, prepend=i[0] - window)
     is_same_diagonal = np.diff(j - i, prepend=j[0] - i[0]) == 0
     continues = is_same_diagonal & (step < window)
-    fresh = np.where(continues, step, window)  # pairs of frames that the pair before does not have
-    ends = np.cumsum(fresh)
+    new_frames = np.where(continues, step, window)  # pairs of frames not shared with the previous pair
+    ends = np.cumsum(new_frames)
     starts = ends - window
-    frames_a = np.repeat(i - starts, fresh) + np.arange(ends[-1])
-    frames_b = frames_a + np.repeat(j - i, fresh)
+    frames_a = np.repeat(i - starts, new_frames) + np.arange(ends[-1])
+    frames_b = frames_a + np.repeat(j - i, new_frames)
 
     ground = np.vecdot(a.ground[frames_a], b.ground[frames_b])
     heights = np.vecdot(a.heights[frames_a], b.heights[frames_b])
@@ -206,16 +207,16 @@ def _distances_of_runs(a: Cloud, b: Cloud, i: Indices, j: Indices) -> Floats:
 
 
 def _window_sums(products: NDArray[np.inexact], starts: Indices, weights: Floats) -> NDArray[np.inexact]:
-    """Add up the weighted products of the frames of each window."""
+    """Sum the weighted products of the frames of each window."""
     return np.asarray(sliding_window_view(products, len(weights))[starts] @ weights)
 
 
 def is_sparse(cloud: Cloud, directions: Directions, below: float) -> bool:
-    """Judge by a sample of windows whether few pairs are within reach of each other.
+    """Estimate from a sample of windows whether few pairs are within reach.
 
     Examples
     --------
-    Windows that are all the same are all near each other.
+    All pairs of windows of a constant pose are near:
 
     >>> from mocap.matching.distance_grids import cloud as prepare
     >>> from mocap.matching.lower_bound import sample_directions
@@ -224,11 +225,11 @@ def is_sparse(cloud: Cloud, directions: Directions, below: float) -> bool:
     False
     """
     starts = sample_windows(cloud, SAMPLE)
-    places = projections(cloud, starts, directions)
-    reach = squared_reach(cloud, below, squared_length(places))
+    projected = projections(cloud, starts, directions)
+    reach = squared_reach(cloud, below, squared_length(projected))
     if not np.isfinite(reach):
         return False
-    squares = np.vecdot(places, places)
-    is_near = squares[:, None] + squares - 2 * (places @ places.T) <= reach
+    squares = np.vecdot(projected, projected)
+    is_near = squares[:, None] + squares - 2 * (projected @ projected.T) <= reach
     is_apart = np.abs(starts[:, None] - starts) >= cloud.window
     return bool(np.count_nonzero(is_near & is_apart) <= SPARSE * np.count_nonzero(is_apart))

@@ -1,9 +1,9 @@
-"""The homework's two metrics for how alike two moments of motion are, and why each of them fails.
+"""The two distance metrics of the homework, for comparison with point clouds.
 
-Each takes two motions and a `window`, and gives a grid as `distance_grid` does: entry [i, j] compares the
-`window` frames of b that start at j with those of a that start at i. `root_grid` sees only the root, and
-`euler_grid` only the pose; 3.1 of [KGP02] says what goes wrong. `distance_grid` sees the points of the whole
-body. All three are a `Metric`, so where one is asked for you can try the others.
+Each takes two motions and a `window`, and returns a grid like `distance_grid`: entry [i, j] compares the
+`window` frames of a from frame i with those of b from frame j. `root_grid` depends only on the root, and
+`euler_grid` only on the pose, with the faults that 3.1 of [KGP02] describes. `distance_grid` depends on
+points of the whole body. All three have the signature `Metric`, and each can be used in place of another.
 """
 
 from collections.abc import Callable, Mapping
@@ -18,25 +18,25 @@ from mocap.body.motion import Motion
 from mocap.errors import MocapError, shortened
 from mocap.matching.distance_grids import diagonal_sum, distance_grid, require_windows
 
-_DIVISOR = 480  # of the weights
+_DIVISOR = 480  # common divisor of the weights
 _SIDED = {"femur": 50, "tibia": 30, "foot": 15, "toes": 5, "clavicle": 30, "humerus": 15, "radius": 5}
 _MIDDLE = {"lowerback": 50, "upperback": 40, "thorax": 30, "lowerneck": 20, "upperneck": 15, "head": 5}
 _BOTH_SIDES = {side + bone: weight for bone, weight in _SIDED.items() for side in "lr"}
 HOMEWORK_WEIGHTS: Mapping[str, float] = {
     bone: weight / _DIVISOR for bone, weight in (_MIDDLE | _BOTH_SIDES).items()
 }
-"""The weight of each bone in the homework's metric; the other bones do not count."""
+"""The weight of each bone in the homework's metric; that of other bones is 0."""
 
 
 Metric = Callable[..., NDArray[np.floating]]
-"""What all metrics have in common: `metric(a, b, window=k)`; their other keywords have defaults."""
+"""The common signature of all metrics, `metric(a, b, window=k)`; other keywords have defaults."""
 
 
 def root_grid(a: Motion, b: Motion, *, window: int) -> Array:
-    """Measure the distance in the homework's report: the roots' distance plus the angle between them.
+    """Compute the distance of the homework's report: the roots' distance plus the angle between them.
 
-    It is the mean over the window of ‖p - p'‖ + angle(q, q'): a metre counts as much as a radian. It ignores
-    the limbs, and it does not know that a motion can be moved over the ground [KGP02, 3.1].
+    It is the mean over the window of ‖p - p'‖ + angle(q, q'), in which a metre counts as much as a radian. It
+    ignores the limbs, and is not invariant to planar rigid transforms of a motion [KGP02, 3.1].
 
     Parameters
     ----------
@@ -68,11 +68,11 @@ def root_grid(a: Motion, b: Motion, *, window: int) -> Array:
 
 
 def euler_grid(a: Motion, b: Motion, *, window: int) -> Array:
-    """Measure the distance in the homework's program: the difference of the bones' Euler angles.
+    """Compute the distance of the homework's program: the weighted difference of the bones' Euler angles.
 
-    It is the sum over the window, and over the bones, of w ‖Δ‖, with w of `HOMEWORK_WEIGHTS`. Δ are the
-    differences in degrees of the angles that the file gives for the bone, each wrapped to [-180, 180]. The
-    root is left out.
+    It is the sum over the window and over the bones of w ‖Δ‖, with w from `HOMEWORK_WEIGHTS`. Δ are the
+    differences in degrees between the angles that the file has for the bone, each wrapped to [-180, 180]. The
+    root is ignored.
 
     Parameters
     ----------
@@ -90,8 +90,8 @@ def euler_grid(a: Motion, b: Motion, *, window: int) -> Array:
 
     Notes
     -----
-    A motion holds quaternions, not the angles of its file. The skeleton remembers in which axes C and about
-    which `dofs` the file gives a bone's angles, so they can be read off M = C⁻¹ L C.
+    A motion stores quaternions L, not the angles of its file. The angles are recovered from M = C⁻¹ L C, with
+    the axes C and the `dofs` of the bone, which the skeleton stores.
 
     Examples
     --------
@@ -111,7 +111,7 @@ def euler_grid(a: Motion, b: Motion, *, window: int) -> Array:
         raise MocapError(f"This skeleton has no bone with a weight: {shortened(', '.join(weights))}.")
     grid = np.zeros((len(a), len(b)))
     for bone in bones:
-        # In whole circles, so that the nearest integer is what wraps a difference.
+        # In revolutions, so that the nearest integer wraps a difference.
         angles = (file_angles(clip, bone).T / 360 for clip in (a, b))  # (dofs, F)
         differences = (np.subtract.outer(*pair) for pair in zip(*angles, strict=True))
         square = sum((difference - np.rint(difference)) ** 2 for difference in differences)
@@ -120,11 +120,11 @@ def euler_grid(a: Motion, b: Motion, *, window: int) -> Array:
 
 
 def file_angles(motion: Motion, joint: int) -> Array:
-    """Read the angles that a motion's file gives for a joint, in degrees: shape (F, D) for D dofs.
+    """Recover the angles of a joint in a motion's file, in degrees: shape (F, D) for D dofs.
 
-    The joint's rotation is L = C M C⁻¹ with C the skeleton's `axes`; these are the angles of M about the
-    joint's `dofs`, in their order. Several triples of angles mean the same M: this is the one whose middle
-    angle is within ±90°.
+    The joint's rotation is L = C M C⁻¹, with C from the skeleton's `axes`. The result are the angles of M
+    about the joint's `dofs`, in their order. Of equivalent triples, it is the one whose middle angle is
+    within ±90°.
 
     Examples
     --------
@@ -148,4 +148,4 @@ METRICS: Mapping[str, Metric] = {
     "roots": root_grid,
     "Euler angles": euler_grid,
 }
-"""All metrics, by name. One test holds each of them to the interface of `Metric`."""
+"""All metrics by name, with the signature of `Metric`."""

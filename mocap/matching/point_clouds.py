@@ -1,20 +1,20 @@
-"""The points that a motion drives, and the planar transform that lays one cloud of points on another best."""
+"""The point cloud of a motion, and the planar transform that best aligns one point cloud with another."""
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
 from mocap.body.kinematics import forward_kinematics
-from mocap.body.motion import Motion, require_alike
+from mocap.body.motion import Motion, require_compatible
 from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
 
-FARTHEST = 1e6  # metres: farther than any motion goes; squares of such numbers are still finite in 32 bits
+FARTHEST = 1e6  # metres: the largest coordinate, whose square is finite in 32 bits
 
 
 def distinct_joints(skeleton: Skeleton) -> list[int]:
-    """List the joints that are different points: of joints that always coincide, only the first one.
+    """List the joints without duplicates: of joints that always coincide, only the first.
 
     Examples
     --------
@@ -30,7 +30,7 @@ def distinct_joints(skeleton: Skeleton) -> list[int]:
 
 
 def point_cloud(motion: Motion) -> Array:
-    """Give the points a motion drives: its distinct joints.
+    """Return the point cloud of a motion: the positions of its distinct joints.
 
     Parameters
     ----------
@@ -52,17 +52,18 @@ def point_cloud(motion: Motion) -> Array:
     return forward_kinematics(motion).positions[:, distinct_joints(motion.skeleton)]
 
 
+# reads: name: `others` is public
 def align(points: ArrayLike, others: ArrayLike, weights: ArrayLike | None = None) -> PlanarTransform:
-    """Find the planar transform that lays `others` on `points` best, in closed form [KGP02, Eqs. 2-4].
+    """Compute the planar transform that best aligns `others` with `points`, in closed form [KGP02, Eqs. 2-4].
 
-    It minimises Σ w ‖p - T p'‖²; with bars for sums Σ w ·, and Σ w = 1,
+    It minimises Σ w ‖p - T p'‖². With bars for the weighted means Σ w ·, and Σ w = 1,
     θ = atan2(Σ w (x z' - x' z) - (x̄ z̄' - x̄' z̄), Σ w (x x' + z z') - (x̄ x̄' + z̄ z̄')),
     x₀ = x̄ - x̄' cos θ - z̄' sin θ and z₀ = z̄ + x̄' sin θ - z̄' cos θ.
 
     Parameters
     ----------
-    points, others : shape (..., P, 3), metres; the n-th point of one belongs to the n-th of the other.
-    weights : shape (P,), not negative; equal by default. Any scale: they are divided by their sum.
+    points, others : shape (..., P, 3), metres, with points in corresponding order.
+    weights : shape (P,), not negative; equal by default. They are divided by their sum.
 
     Returns
     -------
@@ -82,27 +83,32 @@ def align(points: ArrayLike, others: ArrayLike, weights: ArrayLike | None = None
 
     Notebook: 02-matching
     """
-    a, b = np.asarray(points, float), np.asarray(others, float)
+    a = np.asarray(points, float)
+    b = np.asarray(others, float)
     if a.shape[-2:] != b.shape[-2:] or a.shape[-1:] != (3,) or a.ndim < 2:
         raise MocapError(f"Clouds of shapes {a.shape} and {b.shape} do not match: both need (..., P, 3).")
     for cloud in (a, b):
         require_near(cloud, "the cloud")
     w = unit_weights(weights, a.shape[-2])
-    mean_a, mean_b = w @ a, w @ b
-    # Clouds far from the origin lose no digits when they are measured from their means.
+    mean_a = w @ a
+    mean_b = w @ b
+    # Measured from their means, clouds far from the origin lose no digits.
     xa, _, za = np.moveaxis(a - mean_a[..., None, :], -1, 0)
     xb, _, zb = np.moveaxis(b - mean_b[..., None, :], -1, 0)
-    angle = np.arctan2((xa * zb - xb * za) @ w, (xa * xb + za * zb) @ w)
-    turned = PlanarTransform(angle, 0.0, 0.0).apply_points(mean_b)
-    return PlanarTransform(angle, mean_a[..., 0] - turned[..., 0], mean_a[..., 2] - turned[..., 2])
+    sine = (xa * zb - xb * za) @ w
+    cosine = (xa * xb + za * zb) @ w
+    angle = np.arctan2(sine, cosine)
+    rotation = PlanarTransform(angle, 0.0, 0.0)
+    x, _, z = np.moveaxis(mean_a - rotation.apply_points(mean_b), -1, 0)
+    return PlanarTransform(angle, x, z)
 
 
 def rms_distance(first: Motion, second: Motion) -> float:
-    """Measure how far apart the points of two motions are as they stand: the root mean square, metres.
+    """Compute the RMS distance of the points of two motions, without alignment, in metres.
 
     Parameters
     ----------
-    first, second : as many frames of the same skeleton. They stay where they are, so align them first.
+    first, second : motions of the same skeleton and length. Align them first, if only poses are compared.
 
     Raises
     ------
@@ -117,18 +123,18 @@ def rms_distance(first: Motion, second: Motion) -> float:
 
     Notebook: 09b-blend-window
     """
-    first, second = require_alike([first, second])
+    first, second = require_compatible([first, second])
     if len(first) != len(second):
         raise MocapError(f"'{first.name}' has {len(first)} frames, '{second.name}' has {len(second)}.")
     return float(np.sqrt(((point_cloud(first) - point_cloud(second)) ** 2).sum(-1).mean()))
 
 
 def unit_weights(weights: ArrayLike | None, count: int) -> Array:
-    """Scale weights to a sum of one; equal ones by default.
+    """Normalise weights to a sum of one; equal ones by default.
 
     Raises
     ------
-    MocapError : unless they are `count` numbers, not negative, and not all 0.
+    MocapError : unless they are `count` numbers, not negative and not all 0.
 
     Examples
     --------
@@ -136,17 +142,20 @@ def unit_weights(weights: ArrayLike | None, count: int) -> Array:
     array([0.25, 0.75])
     """
     w = np.ones(count) if weights is None else np.asarray(weights, float)
-    if w.shape != (count,) or not np.isfinite(w).all() or np.any(w < 0) or not np.any(w > 0):
-        shown = w.tolist() if w.size <= 8 else f"an array of shape {w.shape} from {w.min():g} to {w.max():g}"
+    is_valid = np.isfinite(w).all() and np.all(w >= 0) and np.any(w > 0)
+    if w.shape != (count,) or not is_valid:
+        shown: object = w.tolist()
+        if w.size > 8:
+            shown = f"an array of shape {w.shape} from {w.min():g} to {w.max():g}"
         raise MocapError(f"Weights must be {count} numbers, not negative and not all 0, got {shown}.")
-    w = w / w.max()  # so that not even the largest numbers overflow in the sum
+    w = w / w.max()  # avoids overflow in the sum
     return np.asarray(w / w.sum())
 
 
 def require_near(points: Array, name: str) -> None:
     """Raise unless all coordinates are finite, and at most FARTHEST metres."""
-    near = np.abs(points) <= FARTHEST  # NaN is not
-    if not near.all():
-        at = tuple(np.argwhere(~near)[0].tolist())
-        got = f"{name} holds {points[at]} at {list(at)}"
+    is_near = np.abs(points) <= FARTHEST  # False for NaN
+    if not is_near.all():
+        index = tuple(np.argwhere(~is_near)[0].tolist())
+        got = f"{name} holds {points[index]} at {list(index)}"
         raise MocapError(f"Points must be numbers within {FARTHEST:g} m; {got}.")

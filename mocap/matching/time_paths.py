@@ -1,23 +1,24 @@
-"""Which frame of one clip belongs to which of another: the best path through a grid of their distances.
+"""Dynamic time warping: the frame of one clip for each frame of another, by a path through a distance grid.
 
-A path goes down and to the right by the steps (1, 1), (1, 0) and (0, 1), so time never runs backwards. At
-most W straight steps of one direction follow each other, so neither clip plays more than W + 1 times as fast
-as the other. [KG03] asks for the same three things: continuity, causality and a limit of the slope.
+A path consists of the steps (1, 1), (1, 0) and (0, 1), therefore time is monotonic. At most W straight steps
+in the same direction follow each other, therefore neither clip plays more than W + 1 times as fast as the
+other. These are the constraints of [KG03]: continuity, causality and a slope limit.
 
-The best way to a cell depends on how long the last run of straight steps is: a path that has used up its run
-may be cheaper and still the wrong one to go on with. So each length of the run is a *state* of its own,
-2 W + 1 of them for each cell, and dynamic programming is exact. All cells of a row are worked on at once:
+The continuation of a path depends on the length of its last run of straight steps: the path of least cost to
+a cell may not be extensible in the direction needed. Each length of a run is therefore a separate *state*.
+With 2 W + 1 states for each cell, dynamic programming is exact. All cells of a row are computed at once:
 
     A[j] = 2 c + M₋[j - 1]                           after a diagonal step; ₋ is the row above
     V₁ = c + A₋,  V_k = c + V_{k - 1}₋               after k steps down
     H₁[j] = c + A[j - 1],  H_k[j] = c + H_{k - 1}[j - 1]     after k steps to the right
-    M = the least of all of them
+    M = the minimum of all of them
 
-A run to the right is a chain of W shifted sums, which is why a row needs only few calls of NumPy. A cell
-counts by the frames it advances, 2 for a diagonal step and for the first cell, 1 for a straight one: so the
-sum of these weights depends on a path's ends alone, and detours gain nothing. For W = 1 and 2 these are the
-symmetric rules of [SC78] for P = 1 and P = 1/2. (That [KG03] weighs all steps alike is recalled, not checked.
-With the weight 1 for all of them, a known timewarp comes back 16 % less exactly. The free ends are ours.)
+A run to the right is a chain of W shifted sums, and a row therefore takes only a few NumPy calls. The weight
+of a cell is the number of frames by which it advances: 2 for a diagonal step and for the first cell, 1 for a
+straight step. The sum of these weights depends only on the ends of a path, and detours have no advantage. For
+W = 1 and 2 these are the symmetric rules of [SC78] for P = 1 and P = 1/2. (It has not been checked whether
+[KG03] gives all steps the same weight. With weight 1 for all steps, the error of a recovered known timewarp
+is 16 % larger. The free ends are ours.)
 """
 
 from typing import Any
@@ -32,22 +33,23 @@ from mocap.errors import MocapError
 
 Floats = NDArray[np.floating[Any]]
 
-ROUNDS = 50  # of the search for the least mean, which takes two to four
-SETTLED = 1e-9  # of the mean: a round that changes it by no more is the last
+ROUNDS = 50  # the largest number of iterations for the minimum mean, which takes two to four
+SETTLED = 1e-9  # relative change of the mean at which the iteration has converged
 
-# Of the largest cost: sums of costs that differ by less are equal, and the earlier kind of step is taken.
-# Rounding of a sum is some 1e-13 of that cost.
+# Relative to the largest cost: the tolerance for equal sums of costs, of which the first kind of step is
+# chosen. The rounding error of a sum is about 1e-13 of that cost.
 EQUAL = 1e-9
 
 
 class PathSums(NamedTuple):
-    """The best path to each cell, by its sum and its last step.
+    """The best path to each cell, given by its sum and its last steps.
 
-    totals : (n, m), the least sum of a path that ends there; infinite where none does.
-    steps : (n, m), how this path ends: 0 for a diagonal step, k for k steps down, W + k for k to the right.
-    begins : (n, m), whether a path that is here after a diagonal step begins here.
+    totals : (n, m), the minimum sum of a path that ends at a cell; infinite if there is none.
+    steps : (n, m), the last steps of this path: 0 for a diagonal step, k for k steps down, W + k for k steps
+        to the right.
+    begins : (n, m), whether the best path that reaches a cell by a diagonal step begins at this cell.
     slope : W.
-    equal : sums that differ by no more are equal, in the unit of the costs.
+    equal : the tolerance for equal sums, in the unit of the costs.
     """
 
     totals: Floats
@@ -58,19 +60,19 @@ class PathSums(NamedTuple):
 
 
 def path_sums(costs: Floats, starts: Mask, *, slope: int) -> PathSums:
-    """Add up costs along the best path to each cell, row by row.
+    """Compute the minimum sum of costs along a path to each cell, by dynamic programming over rows.
 
     Parameters
     ----------
-    costs : shape (n, m); each counts 2 after a diagonal step and where a path begins, and 1 otherwise. They
-        may be negative: a path begins afresh only where the best sum before is not below 0.
-    starts : shape (n, m), booleans: where a path may begin. True everywhere makes it a local alignment.
-    slope : W, at least 1 and at most 63.
+    costs : shape (n, m), with weight 2 after a diagonal step and at the start of a path, and 1 otherwise.
+        They may be negative: a path begins at a cell only if the sum of its diagonal predecessor is not.
+    starts : shape (n, m), booleans: cells at which a path may begin. True everywhere is a local alignment.
+    slope : W, from 1 to 63.
 
     Returns
     -------
-    The sums. Of equal paths to a cell the one is kept that ends with a diagonal step, else with fewer steps
-    down, else with fewer to the right.
+    The sums. Ties are broken in favour of a diagonal last step, then of fewer steps down, then of fewer steps
+    to the right.
 
     Examples
     --------
@@ -104,7 +106,7 @@ def path_sums(costs: Floats, starts: Mask, *, slope: int) -> PathSums:
 
 
 def origins(sums: PathSums) -> Indices:
-    """Find, for each cell, the number of the cell where its best path begins.
+    """Return, for each cell, the number of the cell at which its best path begins.
 
     Parameters
     ----------
@@ -124,10 +126,10 @@ def origins(sums: PathSums) -> Indices:
     numbers = np.arange(rows * columns).reshape(rows, columns)
     runs_down = columns * np.arange(sums.slope + 1)
     runs_right = np.arange(1, sums.slope + 1)
-    # For each cell the last one after a diagonal step on its best path: before its run of straight steps.
+    # For each cell, the cell at which the last run of straight steps on its best path starts.
     corners = numbers - np.concatenate([runs_down, runs_right])[sums.steps]
-    best = np.empty_like(numbers)  # the cell where the best path begins
-    after_diagonal = np.empty_like(numbers)  # and where the best one that ends with a diagonal step does
+    best = np.empty_like(numbers)  # the origin of the best path
+    after_diagonal = np.empty_like(numbers)  # the origin of the best path that ends with a diagonal step
     for i in range(rows):
         beside_diagonal = np.roll(best[i - 1], 1)
         after_diagonal[i] = np.where(sums.begins[i], numbers[i], beside_diagonal)
@@ -136,16 +138,16 @@ def origins(sums: PathSums) -> Indices:
 
 
 def trace(sums: PathSums, end: tuple[int, int]) -> Indices:
-    """Walk back from a cell to where its best path begins.
+    """Backtrack the best path to a cell.
 
     Parameters
     ----------
-    sums : as by `path_sums`.
+    sums : from `path_sums`.
     end : a cell whose total is finite.
 
     Returns
     -------
-    The path's cells from its first to this one, shape (N, 2).
+    The cells of the path from its first to this one, shape (N, 2).
 
     Examples
     --------
@@ -172,30 +174,32 @@ def trace(sums: PathSums, end: tuple[int, int]) -> Indices:
 
 
 def time_path(grid: ArrayLike, *, slope: int = 2, slack: int = 0) -> Indices:
-    """Find the path through a grid whose mean is least, from its first corner to its last or nearly so.
+    """Find the path of minimum mean cost through a grid, from its first corner to its last.
 
     In the paper: [KG03, time path].
 
-    It begins in the first row or column and ends in the last one, each at most `slack` from the corner. Of
-    all such paths it is the one of the least mean Σ c a / Σ a, where a counts the frames that a cell advances
-    (as in `path_mean`). The least *sum* would prefer short paths that cut the corners. The least mean is
-    found by Dinkelbach's way [Din67]: subtract the mean of the last path from the grid, find the least sum,
-    and repeat until the mean stays. (The free ends are ours.)
+    The path begins in the first row or column and ends in the last one, each within `slack` of the corner. It
+    minimises the mean Σ c a / Σ a, where a is the number of frames by which a cell advances (as in
+    `path_mean`). The minimum *sum* would prefer short paths that cut off the corners. The minimum mean is
+    computed by Dinkelbach's method [Din67]: subtract the mean of the last path from the grid, find the path
+    of minimum sum, and repeat until the mean converges. (The free ends are ours.)
 
     Parameters
     ----------
-    grid : shape (n, m), how badly each frame of one clip fits each of another: √D of `distance_grid`, say.
-    slope : W, how many straight steps of one direction may follow each other.
-    slack : how many frames of one clip may be left out at the start, and how many at the end.
+    grid : shape (n, m), the cost of matching each frame of one clip with each frame of another, for example
+        √D of `distance_grid`.
+    slope : W, the largest number of consecutive straight steps in one direction.
+    slack : the largest number of frames of one clip that are skipped at the start, and also at the end.
 
     Returns
     -------
-    The path's cells (i, j), shape (N, 2); both columns never fall.
+    The cells (i, j) of the path, shape (N, 2), in ascending order.
 
     Raises
     ------
-    MocapError : for a grid that is not of two dimensions, is empty or holds a number that is not finite; for
-        a slope outside 1 … 63, a slack below 0 or as long as a clip, and lengths that no slope allows.
+    MocapError : for a grid that is empty, does not have two dimensions, or contains a number that is not
+        finite; for a slope outside 1 … 63, a slack below 0 or as long as a clip, and lengths that the slope
+        does not allow.
 
     Examples
     --------
@@ -215,7 +219,7 @@ def time_path(grid: ArrayLike, *, slope: int = 2, slack: int = 0) -> Indices:
     starts[0, : slack + 1] = True
     starts[: slack + 1, 0] = True
     ends = np.argwhere(starts[::-1, ::-1])
-    level = float(costs.min(axis=1).mean()) if slack else 0.0  # a mean that is nearly that of the path
+    level = float(costs.min(axis=1).mean()) if slack else 0.0  # the initial estimate of the mean
     for _ in range(ROUNDS):
         sums = path_sums(costs - level, starts, slope=slope)
         totals = sums.totals[ends[:, 0], ends[:, 1]]
@@ -232,12 +236,12 @@ def time_path(grid: ArrayLike, *, slope: int = 2, slack: int = 0) -> Indices:
 
 
 def path_mean(grid: ArrayLike, path: ArrayLike) -> float:
-    """Average a grid along a path, each cell weighted by the frames it advances.
+    """Compute the mean of a grid along a path, each cell weighted by the frames by which it advances.
 
     Parameters
     ----------
     grid : shape (n, m).
-    path : cells, shape (N, 2). The first one and those after a diagonal step count 2, all others 1.
+    path : cells, shape (N, 2). The weight of the first cell and of a diagonal step is 2, of all others 1.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Where can one clip pass into another? The local minima of the distance grids of all pairs of clips."""
+"""Transitions between clips: the local minima of the distance grids of all pairs of clips."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ Thresholds = float | Mapping[tuple[str, str], float]
 """One threshold in metres, or one for each pair of labels."""
 
 
-FEW = 20_000  # frames up to which the work is done in 64 bits
+FEW = 20_000  # frames up to which the distances are computed in 64 bits
 
 
 class Transition(NamedTuple):
-    """A way from one clip into another: two windows alike enough to be blended.
+    """A transition from one clip to another: two windows that are similar enough to be blended.
 
-    The window of clip `source` starts at frame `leave`, that of clip `target` at frame `enter`; `transform`
-    lays the second on the first, and `cost` is the RMS distance of the points that is left, in metres.
+    The window of clip `source` starts at frame `leave`, that of clip `target` at frame `enter`. `transform`
+    aligns the second with the first, and `cost` is the remaining RMS distance of the points, in metres.
     """
 
     source: int
@@ -45,9 +45,9 @@ class Transition(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Transitions(Sequence[Transition]):
-    """Many transitions: a sequence of `Transition` records, kept as one array of shape (N,) per field.
+    """A sequence of `Transition` records, stored as one array of shape (N,) per field.
 
-    An index gives a record; a slice, a mask of booleans or an array of indices gives Transitions.
+    An index returns a record. A slice, a mask or an array of indices returns Transitions.
 
     Examples
     --------
@@ -95,7 +95,7 @@ class Transitions(Sequence[Transition]):
             yield Transition(source, leave, target, enter, cost, PlanarTransform(*transform))
 
 
-def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to work)
+def find_transitions(  # noqa: PLR0913 (clips, a window, thresholds, weights, and workers)
     clips: Sequence[Motion],
     *,
     window: int,
@@ -106,58 +106,58 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
     executor: Executor | None = None,
     jobs: int | None = None,
 ) -> Transitions:
-    """Find where one clip can pass into another: local minima of the distance grids of all pairs.
+    """Find the transitions between clips: the local minima of the distance grids of all pairs of clips.
 
     In the paper: [KGP02, thresholds].
 
-    The grids are never held as a whole: memory grows with the number of frames and of transitions found. A
-    pair of windows is measured once, for both ways between them.
+    The grids are never stored as a whole: memory grows linearly with the number of frames and of transitions.
+    The distance of two windows is computed once, for the transitions in both directions.
 
-    Of two searches the quicker is taken. Up to 5 000 windows, or if a sample of them says that more than one
-    pair in twenty may be below the threshold, all pairs are measured: four times the time for twice the
-    frames. Otherwise a lower bound of the distance rules out most pairs: of many kinds of motion, twice the
-    frames take 3.4 times the time (exponent 1.75). The minima are the same.
+    The faster of two searches is chosen. For up to 5 000 windows, or if a sample indicates that more than one
+    pair in twenty may be below the threshold, all distances are computed, in quadratic time. Otherwise a
+    lower bound of the distance rules out most pairs: for clips with different kinds of motion, twice the
+    number of frames takes 3.4 times the time (exponent 1.75). Both searches find the same minima.
 
     Parameters
     ----------
     clips : motions of one skeleton and one frame rate.
     window : frames in a window; about a third of a second.
     below : the largest RMS distance of the points, metres. Or one for each pair of labels, as {("walk",
-        "run"): 0.05, ...}: from windows in which the first label is on to windows with the second, or back
-        where that pair is not named itself. Where several pairs apply the strictest counts; where none
-        applies there is no transition.
-    joint_weights, taper : of the points and of the frames in a window, as for `distance_grid`.
-    progress : wraps the pairs of blocks as they are worked through, to show a bar.
-    executor : where to work: processes, or a cluster by `dask.distributed`'s `Client.get_executor()`; by
-        default on threads of this process.
-    jobs : threads without an executor; by default one for each core that the process may use. On machines of
-        one kind the result is the same, bit for bit, for any number of threads and for any executor.
+        "run"): 0.05, ...}, for transitions from windows with the first label to windows with the second, and
+        for the opposite direction unless that pair is named itself. If several pairs apply, the lowest
+        threshold is used; if none applies, there is no transition.
+    joint_weights, taper : weights of the points and of the frames in a window, as for `distance_grid`.
+    progress : wraps the iterable of pairs of blocks, to show a progress bar.
+    executor : a pool of processes, or a cluster by `dask.distributed`'s `Client.get_executor()`; by default,
+        threads of this process are used.
+    jobs : the number of threads without an executor; by default one for each core that the process may use.
+        On machines of one kind, the result is bit-identical for any number of threads and any executor.
 
     Returns
     -------
-    Transitions both ways between all pairs, within a clip too, ordered by clip and frame; costs are right
-    to a micrometre. Windows of one clip that overlap are left out: they would lead from a moment to itself.
-    Above 20 000 frames in all clips the work is done in 32 bits, up to twice as fast. Where a valley of the
-    grid is flat, a minimum is then found a few frames further, or twice: of CMU subject 16's, 1 in 2000 at 30
-    frames per second, and 7 in 1000 at 120. The two searches then differ in such minima, too: in 20 of 4 900,
-    of 77 606 frames.
+    Transitions in both directions between all pairs of clips, also within a clip, ordered by clip and frame.
+    Costs are accurate to a micrometre. Overlapping windows of one clip are excluded, because they would lead
+    from a moment to itself. For more than 20 000 frames in all clips, distances are computed in 32 bits, up
+    to twice as fast. In a flat valley of the grid, a minimum may then be displaced by a few frames, or found
+    twice: for CMU subject 16, 1 in 2000 minima at 30 frames per second, and 7 in 1000 at 120. The two
+    searches may also differ in such minima: in 20 of 4 900 minima for 77 606 frames.
 
     Raises
     ------
-    SkeletonMismatch, MocapError : for different skeletons or rates, clips shorter than the window, points
-        out of reach, thresholds that are not above 0, labels that no clip has, weights that are negative, all
-        0 or of the wrong shape, and jobs that are not at least 1.
+    SkeletonMismatch, MocapError : for different skeletons or rates, clips shorter than the window,
+        coordinates above 1000 km, thresholds that are not above 0, labels that no clip has, weights that are
+        negative, all 0 or of the wrong shape, and jobs that are not at least 1.
 
     Examples
     --------
-    One point that rises, and one that sinks: their middle frames are 1 cm apart.
+    One point rises and another one sinks; their middle frames are 1 cm apart:
 
     >>> from mocap.body.skeleton import Skeleton
-    >>> dot, turns = Skeleton(["root"], [-1], [[0, 0, 0]]), np.tile([1.0, 0, 0, 0], (3, 1, 1))
-    >>> rise = Motion(dot, [[0, 1.0, 0], [0, 1.3, 0], [0, 1.6, 0]], turns, 30.0)
-    >>> sink = Motion(dot, [[0, 2.0, 0], [0, 1.31, 0], [0, 0.5, 0]], turns, 30.0)
-    >>> found = find_transitions([rise, sink], window=1, below=0.05)
-    >>> [(t.source, t.leave, t.target, t.enter, round(t.cost, 6)) for t in found]
+    >>> dot, rotations = Skeleton(["root"], [-1], [[0, 0, 0]]), np.tile([1.0, 0, 0, 0], (3, 1, 1))
+    >>> rise = Motion(dot, [[0, 1.0, 0], [0, 1.3, 0], [0, 1.6, 0]], rotations, 30.0)
+    >>> sink = Motion(dot, [[0, 2.0, 0], [0, 1.31, 0], [0, 0.5, 0]], rotations, 30.0)
+    >>> transitions = find_transitions([rise, sink], window=1, below=0.05)
+    >>> [(t.source, t.leave, t.target, t.enter, round(t.cost, 6)) for t in transitions]
     [(0, 1, 1, 1, 0.01), (1, 1, 0, 1, 0.01)]
 
     Notebook: 05b-choice-points
@@ -165,7 +165,7 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
     clips = require_windows(clips, window)
     check_threshold(below)
     thresholds = _thresholds(below, clips)
-    gap = int(window == 1)  # longer windows that run off a clip keep the clips apart by themselves
+    gap = int(window == 1)  # longer windows need no gap: those that extend beyond a clip separate the clips
     is_small = sum(map(len, clips)) <= FEW
     dtype = np.float64 if is_small else np.float32
     ready = join_clouds(clips, joint_weights, window, gap, dtype, taper=taper)
@@ -179,7 +179,7 @@ LabelPair = tuple[str, str]
 
 
 def _thresholds(below: Thresholds, clips: Sequence[Motion]) -> dict[LabelPair | None, float]:
-    """Return the threshold for each pair of labels, or one for None; raise unless they can be met."""
+    """Return the threshold for each pair of labels, or one for None; raise for invalid ones."""
     by_labels = below if isinstance(below, Mapping) else {None: below}
     thresholds: dict[LabelPair | None, float] = dict(by_labels.items())
     if not thresholds:
@@ -193,24 +193,24 @@ def _thresholds(below: Thresholds, clips: Sequence[Motion]) -> dict[LabelPair | 
     return thresholds
 
 
-def join_clouds(  # noqa: PLR0913 (what to join, and what each point and frame counts)
+def join_clouds(  # noqa: PLR0913 (clips, a window, and weights)
     clips: Sequence[Motion],
     weights: ArrayLike | None,
     window: int,
-    gap: int,
+    padding: int,
     dtype: type[np.floating[Any]],
     *,
     taper: ArrayLike | None = None,
 ) -> Cloud:
-    """Put all clips one after the other; windows that would run from one into the next have infinite size.
+    """Prepare and concatenate the clouds of all clips; windows across two clips have infinite size.
 
-    After each clip `gap` more frames are infinite, so that no window is a neighbour of one of another clip.
+    After each clip, `padding` more frames are infinite, so that windows of two clips are never neighbours.
     """
     unit = unit_weights(weights, len(distinct_joints(clips[0].skeleton)))
     level = _checked_cloud(clips[0])[..., 1].mean(axis=0)
     clouds = []
     for clip in clips:
-        points = np.pad(_checked_cloud(clip), ((0, gap), (0, 0), (0, 0)), mode="edge")
+        points = np.pad(_checked_cloud(clip), ((0, padding), (0, 0), (0, 0)), mode="edge")
         prepared = cloud(points, level, unit, window, dtype, taper=taper)
         prepared.sizes[len(clip) - window + 1 :] = np.inf
         clouds.append(prepared)
@@ -218,20 +218,20 @@ def join_clouds(  # noqa: PLR0913 (what to join, and what each point and frame c
 
 
 def _checked_cloud(clip: Motion) -> Array:
-    """Return the points of a clip, shape (F, P, 3); raise if they are out of reach."""
+    """Return the points of a clip, shape (F, P, 3); raise if they are too far from the origin."""
     points = point_cloud(clip)
     require_near(points, f"'{clip.name}'")
     return points
 
 
 def _both_ways(minima: Array, clips: Sequence[Motion], gap: int) -> Transitions:
-    """Turn what `find_minima` found into transitions both ways; the way back is the inverse."""
+    """Convert minima to transitions in both directions; the opposite one has the inverse transform."""
     first, second = minima[:2].astype(np.int64)
     cost, *alignment = minima[2:]
     transform = PlanarTransform(*alignment)
     leave = np.concatenate([first, second])
     enter = np.concatenate([second, first])
-    order = np.lexsort((enter, leave))  # by the first of the two, then by the second
+    order = np.lexsort((enter, leave))  # by `leave`, then by `enter`
     starts = np.cumsum([0, *(len(clip) + gap for clip in clips)])
     source, leave = _clip_and_frame(starts, leave[order])
     target, enter = _clip_and_frame(starts, enter[order])
@@ -241,7 +241,7 @@ def _both_ways(minima: Array, clips: Sequence[Motion], gap: int) -> Transitions:
 
 
 def _clip_and_frame(starts: Integers, frames: Integers) -> tuple[Integers, Integers]:
-    """Return which clips frames of all clips are in, and which of its frames they are."""
+    """Convert frames of the concatenated clips to numbers of clips and frames within them."""
     clip = np.searchsorted(starts, frames, side="right") - 1
     return clip.astype(np.int32), (frames - starts[clip]).astype(np.int32)
 
@@ -252,13 +252,13 @@ def _limits(
     window: int,
     transitions: Transitions,
 ) -> Array:
-    """Return the threshold of each transition: NaN, which no cost is below, if no pair of labels applies."""
+    """Return the threshold of each transition; NaN, which no cost is below, if no pair of labels applies."""
     starts = np.cumsum([0, *map(len, clips)])
     leave = starts[transitions.source] + transitions.leave
     enter = starts[transitions.target] + transitions.enter
 
     def has_label(label: str, frame: Integers) -> NDArray[np.bool_]:
-        """Mark the windows in which a label is on in any of their frames."""
+        """Return which windows have a label in any of their frames."""
         marks = [np.broadcast_to(motion.labels.get(label, False), len(motion)) for motion in clips]
         marked_frames = np.append(0, np.cumsum(np.concatenate(marks)))
         return np.asarray(marked_frames[frame + window] > marked_frames[frame])

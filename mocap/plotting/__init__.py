@@ -1,16 +1,16 @@
-"""Pictures, by matplotlib: stick figures, distance images, paths, curves and graphs.
+"""Plots with matplotlib: stick figures, distance images, paths, curves and graphs.
 
-Every function draws on `ax` (new axes by default), and returns the artists that it made, or the axes. It
-computes nothing but the picture. `show` puts the picture into a notebook, with a sentence for readers who do
-not see it.
+Each function draws on `ax`, by default new axes, and returns the artists that it added, or the axes.
+Functions only draw: quantities are computed elsewhere. `show` displays a picture in a notebook, with an
+alternative text for readers who do not see it.
 
 Reading order (notebooks 00 to 19)
 ----------------------------------
-1. `style`: colours that colour-blind readers can tell apart
+1. `style`: colours that colour-blind readers can distinguish
 2. `bodies`: bodies as lines, on flat axes, and a whole walk in one picture
 3. `stick_figures`: bodies on 3D axes with a ground
 4. `grids`: distances and costs as images
-5. `charts`: curves and bands; paths seen from above
+5. `charts`: curves, bands, and paths seen from above
 6. `graph_drawing`: motion graphs as timelines and as nodes with arrows
 7. `picture`: a figure as a picture in a notebook
 

@@ -28,7 +28,7 @@ def bones(skeleton: Skeleton) -> tuple[Indices, Indices, NDArray[np.str_]]:
     """Return the B bones of a body as lines: their start joints, end joints and sides, shapes (B,).
 
     Joints at the same position share one line. The line from a parent to its child is the parent's bone, and
-    therefore on the parent's side.
+    therefore has the parent's side.
 
     Examples
     --------
@@ -45,7 +45,7 @@ def bones(skeleton: Skeleton) -> tuple[Indices, Indices, NDArray[np.str_]]:
 
 
 def head_joints(skeleton: Skeleton) -> list[int]:
-    """Find the joints with "head" in their names; the last is the tip of the head."""
+    """Find the joints with "head" in their names, of which the last is the tip of the head."""
     return [joint for joint, name in enumerate(skeleton.names) if "head" in name.lower()]
 
 
@@ -65,8 +65,8 @@ def draw_body(
     ax : flat axes.
     skeleton : the body.
     points : the positions of its joints on the axes, shape (J, 2).
-    colour : one for all bones; by default that of their side.
-    head : options of the dot for the head, such as {"markersize": 8}; without them there is no dot.
+    colour : the colour of all bones, by default that of their sides.
+    head : options of the dot for the head, such as {"markersize": 8}. By default there is no dot.
     look : options of the bones, such as `linewidths` and `alpha`.
 
     Examples
@@ -88,7 +88,7 @@ def draw_body(
 def _require_frames(
     motion: object = None, frames: object = None, view: object = "side", *_looks: object, **_options: object
 ) -> None:
-    """Raise unless a motion comes with a list of its frames, and a view that there is."""
+    """Raise unless the arguments are a motion, a list of its frames, and a known view."""
     count = len(require_motion(motion))
     example = f"such as flat_bodies(motion, [0, {count - 1}])"
     if isinstance(frames, int | str) or not isinstance(frames, Iterable):
@@ -114,14 +114,14 @@ def flat_bodies(
     ----------
     motion : a walk along z.
     frames : the frames to draw.
-    view : from the side, with z to the right; or from the front, with x to the right. From the front the
-        walker comes towards the reader, so the left side of the body, at +x, is on the right.
-    alpha : 1 for solid bodies, less for ghosts.
-    ax : flat axes; by default new ones.
+    view : "side", with z to the right, or "front", with x to the right. From the front, the walker comes
+        towards the reader, so the left side of the body, at +x, is on the right.
+    alpha : opacity, 1 for solid bodies, less for ghosts.
+    ax : flat axes, by default new ones.
 
     Raises
     ------
-    MocapError : for what is no motion, frames that it does not have, and another view.
+    MocapError : for objects that are not motions, frames outside the motion, and another view.
 
     Examples
     --------
@@ -147,8 +147,8 @@ def film_strip(motions: Sequence[Motion], *, count: int = 6) -> Figure:
 
     Parameters
     ----------
-    motions : one or more; the positions are relative to the root of the first.
-    count : the number of poses; fewer if the first motion has fewer frames.
+    motions : one or more. Positions are relative to the root of the first motion.
+    count : the number of poses, or fewer if the first motion has fewer frames.
 
     Returns
     -------
@@ -185,9 +185,9 @@ WIDTH = 9.0  # inches
 LOW = 1.9  # inches, the least height of the picture
 HIGH = 4.6  # inches, the greatest height of the picture
 RISE = np.radians(24)  # the angle at which the camera looks down
-COLUMNS = 4  # of the legend
-MOST = 15  # bodies; more would hide one another
-FEW = 3  # characters; of more, the bodies of one moment are drawn together
+COLUMNS = 4  # columns of the legend
+MOST = 15  # largest number of bodies, because more would hide each other
+FEW = 3  # characters: for more than these, the bodies at the same moments are drawn
 APART = 0.7  # metres, the least distance between two bodies
 VERTICAL = np.array([0, 1, 0])  # the direction upwards
 ACROSS = 0  # row of a view
@@ -202,21 +202,21 @@ def bodies_along(
     seams: Iterable[int] = (),
     path: ArrayLike = (),
     discs: ArrayLike = (),
-    places: Sequence[Array] = (),
+    positions: Sequence[Array] = (),
 ) -> Figure:
-    """Draw motions as bodies along their paths, evenly spread over the ground, from the side and above.
+    """Draw motions as bodies along their paths, evenly spread over the ground, seen from the side and above.
 
     Parameters
     ----------
-    motions : one or more characters; sources and seams are those of the first. More than three are drawn at
-        the same three moments, so that one sees the group.
-    sources : pairs (first frame, name of the clip), as from `synthesis.sources`: bodies and path have the
-        colour of their clip. Without them one character has the colours of left and right, and several
-        have a colour each.
+    motions : one or more characters. Sources and seams are those of the first. More than three characters are
+        drawn at the same three moments, to show the group.
+    sources : pairs (first frame, name of the clip), as from `synthesis.sources`, which define the colours of
+        bodies and path. Without them, one character has the colours of left and right, and each of several
+        has a colour of its own.
     seams : frames at which a transition starts, marked on the path.
     path : the requested path, shape (N, 2), points (x, z) in metres.
     discs : obstacles on the ground, shape (N, 3), x, z and radius in metres.
-    places : the joint positions of each motion, shape (F, J, 3); by default those of `joint_positions`.
+    positions : those of the joints of each motion, shape (F, J, 3), by default those of `joint_positions`.
 
     Returns
     -------
@@ -230,7 +230,7 @@ def bodies_along(
     ['walked path', 'seam']
     """
     request = np.insert(np.reshape(np.asarray(path, float), (-1, 2)), 1, 0.0, axis=-1)
-    positions = places or [joint_positions(motion) for motion in motions]
+    positions = positions or [joint_positions(motion) for motion in motions]
     paths = [joints[:, 0] * [1, 0, 1] for joints in positions]
     figure = Figure(figsize=(WIDTH, LOW), layout="constrained")
     ax = figure.add_subplot(aspect="equal", anchor="S")  # the rest of the height is for the legend
@@ -262,11 +262,11 @@ class _Span(NamedTuple):
     start: int
     end: int
     colour: str | None
-    name: str  # in the legend; "" for none
+    name: str  # entry in the legend, "" for none
 
 
 def _whole(motions: Sequence[Motion], number: int) -> _Span:
-    """Return a whole motion as one span; one of several is named if their names differ."""
+    """Return a whole motion as one span, with a name for one of several motions with different names."""
     motion = motions[number]
     name = "walked path"
     if len(motions) > 1:
@@ -283,7 +283,7 @@ def _spans_of_sources(sources: Sequence[tuple[int, str]], count: int) -> list[_S
 
 
 def _colour_of(spans: Sequence[_Span], frame: int) -> str | None:
-    """Return the colour of the span that holds a frame."""
+    """Return the colour of the span that contains a frame."""
     (colour,) = [span.colour for span in spans if span.start <= frame < span.end]
     return colour
 
@@ -301,7 +301,7 @@ def _draw_spans(ax: Axes, view: Array, path: Array, spans: Sequence[_Span]) -> N
 
 
 def _draw_pose(ax: Axes, view: Array, skeleton: Skeleton, joints: Array, colour: str | None) -> None:
-    """Draw a body with joint positions (J, 3), over the bodies that are farther from the camera."""
+    """Draw a body with joint positions (J, 3), in front of the bodies that are farther from the camera."""
     depth = view[DEPTH] @ joints[0]
     zorder = 4 - float(np.tanh(depth / 50))
     head = {"markersize": 7, "zorder": zorder, "clip_on": False}
@@ -309,7 +309,7 @@ def _draw_pose(ax: Axes, view: Array, skeleton: Skeleton, joints: Array, colour:
 
 
 def _view(ground: Array) -> Array:
-    """Return a view in which the longest extent of points (N, 3) on the ground is across the picture.
+    """Return a view in which the longest extent of points (N, 3) on the ground is horizontal in the picture.
 
     Its rows are the directions across and up in the picture, and away from the camera along the ground.
     """
@@ -321,7 +321,7 @@ def _view(ground: Array) -> Array:
 
 
 def _draw_floor(ax: Axes, view: Array, ground: Array) -> None:
-    """Draw squares of 1 m below points (N, 3); of 10, 100, ... m if more than a thousand were in a row."""
+    """Draw squares of 1 m below points (N, 3), or of 10, 100, ... m so that a row has at most a thousand."""
     floor = view[[ACROSS, DEPTH]]
     low = np.min(ground @ floor.T, axis=0)
     high = np.max(ground @ floor.T, axis=0)
@@ -335,7 +335,7 @@ def _draw_floor(ax: Axes, view: Array, ground: Array) -> None:
 
 
 def _frame(ax: Axes, figure: Figure) -> Figure:
-    """Make the figure as high as its content, and add a legend above it, with each name once."""
+    """Fit the height of the figure to its content, and add a legend above it, with each name once."""
     ax.set_axis_off()
     ax.margins(0.02, 0.04)
     ax.autoscale_view()
@@ -355,9 +355,9 @@ def _frame(ax: Axes, figure: Figure) -> Figure:
 
 
 def _spaced(path: Array) -> list[int]:
-    """Choose frames of a path on the ground, shape (F, 3), that are far enough from each other.
+    """Choose frames of a path on the ground, shape (F, 3), at a minimum distance from each other.
 
-    The least distance is `APART`, or more if there would be more than `MOST` frames.
+    The minimum distance is `APART`, or larger if there would be more than `MOST` frames.
     """
     distance = APART
     while True:
@@ -371,7 +371,7 @@ def _spaced(path: Array) -> list[int]:
 
 
 def rims(discs: ArrayLike) -> Array:
-    """Return points on the rims of discs on the ground, shape (N, 48, 3).
+    """Compute points on the rims of discs on the ground, shape (N, 48, 3).
 
     Parameters
     ----------

@@ -27,7 +27,7 @@ def joint_curve(
     values : shape (F,) or (F, K), such as a joint's heights or its angles.
     fps : frames per second.
     labels : the names of the K curves, with their units.
-    ax : axes; new ones by default.
+    ax : axes, by default new ones.
 
     Returns
     -------
@@ -59,19 +59,19 @@ def joint_curve(
 def quartile_band(
     x: ArrayLike, samples: ArrayLike, *, label: str = "", colour: str = CURVES[0], ax: Axes | None = None
 ) -> Line2D:
-    """Draw the median of samples as a line, and the range from quartile to quartile as a band.
+    """Draw the median of samples as a line, and the interquartile range as a band.
 
     Parameters
     ----------
     x : shape (n,), the varied quantity.
     samples : shape (n, k), k measurements at each x.
-    label : for the legend.
-    colour : of line and band.
-    ax : axes; new ones by default.
+    label : the entry in the legend.
+    colour : the colour of the line and the band.
+    ax : axes, by default new ones.
 
     Returns
     -------
-    The median's line.
+    The line of the median.
 
     Examples
     --------
@@ -89,7 +89,7 @@ def quartile_band(
 
 
 def seen_from_above(ax: Axes | None = None) -> Axes:
-    """Make axes for the ground seen from above, with z upwards and x to the left (y points at the viewer)."""
+    """Create axes of the ground seen from above, with z upwards, x to the left, and y towards the viewer."""
     ax = ax or plt.figure(figsize=(4.5, 4.5), layout="constrained").add_subplot()
     ax.set(xlabel="x (m)", ylabel="z (m)", aspect="equal")
     ax.xaxis.set_inverted(True)
@@ -102,12 +102,12 @@ def path_from_above(motion: Motion, *, colour: str = PATH, ax: Axes | None = Non
     Parameters
     ----------
     motion : the motion.
-    colour : of the path.
-    ax : axes; new ones by default.
+    colour : the colour of the path.
+    ax : axes, by default new ones.
 
     Returns
     -------
-    The path, and the start.
+    The path and its start.
 
     Examples
     --------
@@ -135,16 +135,15 @@ def draw_group_plan(
 ) -> Figure:
     """Draw the paths of the members of a group, seen from above: z upwards, x to the left.
 
-    White dots mark their positions at the start, black dots those at five evenly spaced moments until the
-    end.
+    White dots mark the positions at the start, and black dots those at five evenly spaced later moments.
 
     Parameters
     ----------
-    positions : of the members, shape (F, N), complex z + ix, metres.
-    points : to pass in order; each is numbered, and has a circle of `radius` metres.
+    positions : the positions of the members, shape (F, N), complex z + ix, metres.
+    points : points to pass in order, drawn with their numbers and circles of `radius` metres.
     discs : obstacles, centre and radius.
     radius : the distance from a point within which it counts as passed, metres.
-    ax : axes to draw on; by default those of a new figure that pyplot does not manage.
+    ax : axes to draw on, by default those of a new figure that pyplot does not manage.
 
     Examples
     --------

@@ -18,13 +18,13 @@ from mocap.errors import MocapError
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.plotting.style import COLOURS, MARK, QUIET, SOURCES
 
-Places = Mapping[Any, Sequence[float]]
+Positions = Mapping[Any, Sequence[float]]
 
 MOST_NODES = 100
 """With more nodes, the arrows of `node_link` cover each other."""
 
-POINTS = 13  # of an arc
-LIFT = 0.45  # rows by which the middle of an arc is above its clip's bar
+POINTS = 13  # points of an arc
+LIFT = 0.45  # rows, the height of the middle of an arc above its clip's bar
 PALE = "#E8E8E8"  # the colour of nodes that pruning removes
 
 
@@ -34,16 +34,16 @@ def timeline(
 ) -> LineCollection:
     """Draw a motion graph: one bar per clip, over time, and one arc per transition.
 
-    Arcs within a clip are bent, arcs to another clip are straight. If not all transitions are drawn, a line
-    below the axes says which, and how many of how many.
+    Arcs within a clip are bent, and arcs to another clip are straight. If not all transitions are drawn, a
+    note below the axes states the selection and its size.
 
     Parameters
     ----------
-    motion_graph : the graph; parts of its clips that are not in the graph are drawn thin.
-    most : the largest number of transitions to draw; of more, those of least cost.
-    each : the largest number from each clip to each clip, those of least cost, drawn with the nodes where
-        they leave and enter; unlimited by default.
-    ax : axes; new ones by default.
+    motion_graph : the graph. Parts of its clips that are not in the graph are drawn as thin lines.
+    most : the largest number of transitions to draw, in ascending order of cost.
+    each : the largest number of transitions for each pair of clips, in ascending order of cost. These are
+        drawn with the nodes that they leave and enter. Unlimited by default.
+    ax : axes, by default new ones.
 
     Returns
     -------
@@ -106,7 +106,7 @@ def _draw_bars(motion_graph: MotionGraph, stretches: Indices, ax: Axes) -> None:
 
 
 def _selection(each: int | None) -> str:  # reads: name: as in `timeline`
-    """Describe in words the transitions that are drawn."""
+    """Describe the selection of transitions that are drawn."""
     if each is None:
         return "the cheapest"
     number = f"{each} " if each > 1 else ""
@@ -115,13 +115,13 @@ def _selection(each: int | None) -> str:  # reads: name: as in `timeline`
 
 # reads: name: as in `timeline`
 def cheapest(pairs: Indices, costs: Array, each: int | None) -> Iterator[int]:
-    """Yield the numbers of transitions by cost, the lowest first, at most `each` from each clip to each clip.
+    """Yield the numbers of transitions in ascending order of cost, at most `each` for each pair of clips.
 
     Parameters
     ----------
-    pairs : shape (E, 2), the clip that a transition leaves, and the one that it enters.
+    pairs : shape (E, 2), the clips that a transition leaves and enters.
     costs : shape (E,).
-    each : the largest number for each pair; None for all.
+    each : the largest number for each ordered pair of clips, or None for all.
     """
     counts: Counter[tuple[int, ...]] = Counter()
     for number in np.argsort(costs, kind="stable").tolist():
@@ -132,7 +132,7 @@ def cheapest(pairs: Indices, costs: Array, each: int | None) -> Iterator[int]:
 
 
 def _draw_ends(arcs: Array, ax: Axes) -> None:
-    """Draw the ends of arcs: rings where transitions leave, discs where they enter."""
+    """Draw the ends of arcs: rings for nodes that transitions leave, discs for nodes that they enter."""
     for point, face, label in ((0, "white", "leaves"), (-1, MARK, "enters")):
         x, y = arcs[:, point].T
         ax.plot(x, y, "o", color=face, markeredgecolor=MARK, markersize=4.5, label=label, zorder=2)
@@ -140,7 +140,7 @@ def _draw_ends(arcs: Array, ax: Axes) -> None:
 
 
 def _arcs(ends: Array) -> Array:
-    """Draw lines (E, 2, 2) as points (E, 13, 2), bent upwards if both ends are in one clip."""
+    """Sample arcs between the ends of lines (E, 2, 2), (E, 13, 2), bent upwards if both are in one clip."""
     t = np.linspace(0, 1, POINTS)[:, None]
     start = ends[:, :1]
     end = ends[:, 1:]
@@ -149,16 +149,20 @@ def _arcs(ends: Array) -> Array:
 
 
 def node_link(
-    graph: nx.DiGraph, *, places: Places | None = None, kept: nx.DiGraph | None = None, ax: Axes | None = None
+    graph: nx.DiGraph,
+    *,
+    positions: Positions | None = None,
+    kept: nx.DiGraph | None = None,
+    ax: Axes | None = None,
 ) -> tuple[PathCollection, list[FancyArrowPatch]]:
     """Draw a small directed graph: nodes as discs with their names, edges as bent arrows.
 
     Parameters
     ----------
-    graph : 1 to 100 nodes.
-    places : the positions of the nodes, {node: (x, y)}; on a circle by default.
-    kept : the graph after pruning; other nodes are drawn pale, other edges dashed.
-    ax : axes; new ones by default.
+    graph : a graph of 1 to 100 nodes.
+    positions : those of the nodes, {node: (x, y)}, by default on a circle.
+    kept : the graph after pruning. Other nodes are drawn pale, and other edges dashed.
+    ax : axes, by default new ones.
 
     Returns
     -------
@@ -183,12 +187,12 @@ def node_link(
         nodes = f"1 to {MOST_NODES} nodes, this one has {len(graph)}"
         raise MocapError(f"Nodes and arrows show graphs of {nodes}: `plotting.timeline` shows large ones.")
     ax = ax or plt.figure(figsize=(4, 4), layout="constrained").add_subplot()
-    places = places or nx.circular_layout(graph)
+    positions = positions or nx.circular_layout(graph)
     kept = graph if kept is None else kept
-    discs = _draw_nodes(graph, places, kept, ax)
+    discs = _draw_nodes(graph, positions, kept, ax)
     arrows = []
     for start, end in graph.edges():
-        arrow = _arrow(places[start], places[end], is_kept=kept.has_edge(start, end))
+        arrow = _arrow(positions[start], positions[end], is_kept=kept.has_edge(start, end))
         ax.add_patch(arrow)
         arrows.append(arrow)
     ax.set(aspect="equal")
@@ -197,10 +201,10 @@ def node_link(
     return discs, arrows
 
 
-def _draw_nodes(graph: nx.DiGraph, places: Places, kept: nx.DiGraph, ax: Axes) -> PathCollection:
+def _draw_nodes(graph: nx.DiGraph, positions: Positions, kept: nx.DiGraph, ax: Axes) -> PathCollection:
     """Draw nodes as discs with their names, pale if they are not in `kept`."""
     ink = COLOURS["middle"]
-    centres = np.array([places[node] for node in graph], float)
+    centres = np.array([positions[node] for node in graph], float)
     faces = [ink if node in kept else PALE for node in graph]
     discs = ax.scatter(centres[:, 0], centres[:, 1], s=420, c=faces, edgecolors=ink, zorder=2)
     look: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 9, "zorder": 3}
@@ -211,9 +215,10 @@ def _draw_nodes(graph: nx.DiGraph, places: Places, kept: nx.DiGraph, ax: Axes) -
 
 
 def _arrow(start: Sequence[float], end: Sequence[float], *, is_kept: bool) -> FancyArrowPatch:
-    """Make the arrow of an edge, dashed if it is not kept.
+    """Create the arrow of an edge, dashed if it is not kept.
 
-    It bends to its left, so that it does not cover the arrow back; a loop goes over the top of its node.
+    It bends to its left, so that it does not cover the arrow in the other direction. A loop is above its
+    node.
     """
     look: dict[str, Any] = {"arrowstyle": "-|>", "mutation_scale": 12, "shrinkA": 11, "shrinkB": 11}
     look |= {"linewidth": 1.2, "zorder": 1}
@@ -224,6 +229,6 @@ def _arrow(start: Sequence[float], end: Sequence[float], *, is_kept: bool) -> Fa
 
 
 def _loop(start: Sequence[float], _: object, *, shrinkA: float, **__: object) -> Path:
-    """Draw a loop over the top of a disc of radius `shrinkA`, pixels."""
+    """Return the path of a loop above a disc of radius `shrinkA`, pixels."""
     corners = np.array([(-0.5, 0.8), (-1.5, 2.8), (1.5, 2.8), (0.5, 0.95)])
     return Path(start + shrinkA * corners, [Path.MOVETO, Path.CURVE4, Path.CURVE4, Path.CURVE4])

@@ -20,19 +20,19 @@ STEPS = LinearSegmentedColormap.from_list("steps", ["#E4E4E4", QUIET])
 def distance_image(
     grid: Grid, *, fps: float, minima: ArrayLike = (), names: Sequence[str] = ("", ""), ax: Axes | None = None
 ) -> AxesImage:
-    """Draw a distance grid, dark where windows are similar, with its minima marked [KGP02, Fig. 3].
+    """Draw a distance grid, in which similar windows are dark, with its minima marked [KGP02, Fig. 3].
 
     Parameters
     ----------
     grid : D, shape (n, m), square metres, as from `matching.distance_grid`.
-    fps : frames per second; the axes are in seconds, from the start of each window.
-    minima : shape (N, 2), rows (i, j) to mark.
-    names : of the motions in the rows and in the columns.
-    ax : axes; new ones by default.
+    fps : frames per second. The axes are in seconds, from the start of each window.
+    minima : shape (N, 2), the cells (i, j) to mark.
+    names : the names of the motions in the rows and in the columns.
+    ax : axes, by default new ones.
 
     Returns
     -------
-    The image: RMS distance in centimetres.
+    The image of RMS distances in centimetres.
 
     Examples
     --------
@@ -46,7 +46,7 @@ def distance_image(
     Notebook: 02b-distance-grids
     """
     ax = ax or plt.figure(figsize=(5, 4.2), layout="constrained").add_subplot()
-    centimetres = 100 * np.sqrt(grid, dtype=np.float32)  # half the bytes, so the image is drawn faster
+    centimetres = 100 * np.sqrt(grid, dtype=np.float32)  # half the memory, and faster to draw
     extent = 0, grid.shape[1] / fps, grid.shape[0] / fps, 0
     image = ax.imshow(centimetres, cmap="cividis", extent=extent, interpolation="nearest", aspect="equal")
     rows, columns = (np.reshape(minima, (-1, 2)).T + 0.5) / fps
@@ -61,14 +61,14 @@ def walk_rows(costs: ArrayLike, *, highest: float, ax: Axes | None = None) -> Ax
 
     Parameters
     ----------
-    costs : shape (walks, steps): the cost of the transition that a step takes, 0 for a step that stays in its
-        clip, NaN after the end of a walk.
+    costs : shape (walks, steps), the cost of the transition of a step, 0 for a step within a clip, and NaN
+        after the end of a walk.
     highest : the cost that is drawn darkest.
-    ax : axes; new ones by default.
+    ax : axes, by default new ones.
 
     Returns
     -------
-    The image; a `colorbar` of it explains the costs.
+    The image, for a `colorbar` of the costs.
 
     Examples
     --------

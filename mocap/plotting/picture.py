@@ -1,4 +1,4 @@
-"""Pictures in notebooks: a small PNG, and a sentence for readers who do not see it."""
+"""Pictures in notebooks: a small PNG with an alternative text for readers who do not see it."""
 
 from __future__ import annotations
 
@@ -18,27 +18,27 @@ from PIL.PngImagePlugin import PngInfo
 from mocap.errors import MocapError
 
 DPI = 110
-COLOURS = 256  # in the palette: the loss is hardly visible, and the file is less than half as large
-SLIDE = (1168, 480)  # pixels that a slide has for a picture, across and down
-LETTERS = 21  # pixels, the size of the smallest letters there
+COLOURS = 256  # colours of the palette. The loss is hardly visible, and the file is less than half as large
+SLIDE = (1168, 480)  # pixels, the width and the height of a picture on a slide
+LETTERS = 21  # pixels, the size of the smallest letters on a slide
 POINTS = 72  # points of type in an inch
 
 
 def show(drawn: Any, alt: str) -> Picture:  # noqa: ANN401 (whatever a plotting function returns)
-    """Show a picture as the last line of a cell, with a sentence that describes it.
+    """Show a picture as the last line of a cell, with an alternative text that describes it.
 
     Parameters
     ----------
-    drawn : artists, axes or a figure, as the functions of `plotting` return them; the whole figure is shown.
+    drawn : artists, axes or a figure, as returned by the functions of `plotting`. The whole figure is shown.
     alt : a sentence that describes the picture, for readers who do not see it.
 
     Returns
     -------
-    The picture. The figure is closed; otherwise the notebook would show it a second time.
+    The picture. The figure is closed, because otherwise the notebook would show it a second time.
 
     Raises
     ------
-    MocapError : without a sentence, and if `drawn` is on no figure.
+    MocapError : without a sentence, and if `drawn` belongs to no figure.
 
     Examples
     --------
@@ -56,7 +56,7 @@ def show(drawn: Any, alt: str) -> Picture:  # noqa: ANN401 (whatever a plotting 
 
 @dataclass(frozen=True)
 class Picture:
-    """A PNG and the sentence that describes it; a notebook shows both.
+    """A PNG and the sentence that describes it, both displayed by a notebook.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ def figure_of(drawn: Any) -> Figure:  # noqa: ANN401
 
     Raises
     ------
-    MocapError : if they are on no figure.
+    MocapError : if they belong to no figure.
     """
     parts = [drawn]
     while parts:
@@ -107,8 +107,8 @@ def legible(figure: Figure, room: tuple[int, int] = SLIDE) -> Figure:
 
     Parameters
     ----------
-    figure : the figure, which is changed.
-    room : the space on the slide, pixels across and down.
+    figure : the figure, which is changed in place.
+    room : the width and the height of the picture on the slide, pixels.
     """
     pixels_per_inch = np.min(room / figure.get_size_inches())
     smallest = POINTS * LETTERS / pixels_per_inch
@@ -118,13 +118,13 @@ def legible(figure: Figure, room: tuple[int, int] = SLIDE) -> Figure:
 
 
 def letters_of(figure: Figure) -> float:
-    """Return the size of a figure's smallest visible letters, inches; infinite without letters."""
+    """Return the size of a figure's smallest visible letters, inches, or infinity without letters."""
     texts = [text for text in figure.findobj(Text) if text.get_visible() and text.get_text().strip()]
     return min((float(text.get_fontsize()) for text in texts), default=np.inf) / POINTS
 
 
 def small_png(figure: Figure, **notes: str) -> bytes:
-    """Draw a figure as a PNG of few colours, with notes in its metadata."""
+    """Encode a figure as a PNG of few colours, with notes in its metadata."""
     png = io.BytesIO()
     figure.savefig(png, format="png", dpi=DPI, pil_kwargs={"compress_level": 1})
     return few_colours(Image.open(png), letters_of(figure) * DPI, **notes)
@@ -136,7 +136,7 @@ def few_colours(picture: Image.Image, letters: float = np.inf, **notes: str) -> 
     Parameters
     ----------
     picture : the picture.
-    letters : the size of its smallest letters, pixels, which is noted in the metadata.
+    letters : the size of its smallest letters, pixels, which is stored in the metadata.
     notes : further metadata, by name.
     """
     quantized = picture.convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE)

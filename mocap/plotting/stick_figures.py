@@ -15,14 +15,14 @@ from mocap.body import Skeleton
 from mocap.plotting.bodies import bones, head_joints
 from mocap.plotting.style import COLOURS, FLOOR
 
-TALL = 1.9  # metres above the ground that pictures show
-ZOOM = 1.55  # of the camera, unless points would be outside the picture
+TALL = 1.9  # metres, the height of the visible space above the ground
+ZOOM = 1.55  # zoom of the camera, unless points would be outside the picture
 SPACING = 0.5  # metres between the lines of the ground
-FILL = 0.92  # of the picture's width and height that points may take
+FILL = 0.92  # fraction of the picture's width and height that points may occupy
 
 
 def to_picture(points: ArrayLike) -> Array:
-    """Convert y-up world coordinates, shape (..., 3), to matplotlib's z-up ones, without mirroring.
+    """Convert y-up world coordinates, shape (..., 3), to matplotlib's z-up coordinates, without mirroring.
 
     Examples
     --------
@@ -35,14 +35,14 @@ def to_picture(points: ArrayLike) -> Array:
 def ground_axes(
     centre: ArrayLike = (0.0, 0.0), reach: float = 1.0, *, tall: float = TALL, ax: Axes3D | None = None
 ) -> Axes3D:
-    """Set up a square of ground with lines every half metre.
+    """Set up 3D axes with a square of ground, with lines every half metre.
 
     Parameters
     ----------
-    centre : its middle (x, z), metres.
+    centre : the middle (x, z) of the square, metres.
     reach : half the side of the square, metres.
     tall : the height of the visible space, metres.
-    ax : 3D axes; by default they fill a new figure.
+    ax : 3D axes, by default those of a new figure, which they fill.
 
     Examples
     --------
@@ -55,7 +55,7 @@ def ground_axes(
     """
     ax = ax or plt.figure(figsize=(5, 5)).add_subplot(projection="3d", position=(0, 0, 1, 1))
     ax.set_axis_off()
-    ax.computed_zorder = False  # the ground is drawn below the feet, wherever the camera stands
+    ax.computed_zorder = False  # the ground is drawn below the feet, for all positions of the camera
     ax.view_init(elev=14, azim=-55)
     ax.set_proj_type("persp", focal_length=0.6)
     ax.set_box_aspect((2 * reach, 2 * reach, tall), zoom=ZOOM)
@@ -65,7 +65,7 @@ def ground_axes(
     ax.set(xlim=(z_low, z_high), ylim=(x_low, x_high))
     lines = [[(x, 0, z_low), (x, 0, z_high)] for x in _multiples(x_low, x_high)]
     lines += [[(x_low, 0, z), (x_high, 0, z)] for z in _multiples(z_low, z_high)]
-    # The limits stay as they are: matplotlib 3.9 finds none if there is no line.
+    # The limits are not updated, because matplotlib 3.9 finds none if there is no line.
     ax.add_collection3d(Line3DCollection(to_picture(lines), colors=FLOOR, lw=0.8, zorder=0), autolim=False)
     return ax
 
@@ -76,11 +76,11 @@ def _multiples(low: float, high: float) -> Array:
 
 
 def keep_inside(ax: Axes3D, points: Array) -> None:
-    """Zoom out until all points, shape (..., 3), metres, are inside the picture; never zoom in."""
+    """Zoom out, never in, until all points, shape (..., 3), metres, are inside the picture."""
     coordinates = to_picture(points).reshape(-1, 3)
     zoom = ZOOM
     spans = np.ptp([ax.get_xlim(), ax.get_ylim(), ax.get_zlim()], axis=1)
-    for _ in range(3):  # in perspective, a step is only nearly right
+    for _ in range(3):  # iterated, because in perspective a step is only approximate
         ax.apply_aspect()
         across, up, _ = proj3d.proj_transform(*coordinates.T, ax.get_proj())
         pixels = ax.transData.transform(np.stack([across, up], axis=-1))
@@ -97,8 +97,8 @@ class StickFigure:
     ----------
     skeleton : the body.
     ax : 3D axes, as from `ground_axes`.
-    alpha : 1 for a solid body, less for a ghost.
-    colour : one for all bones, to tell two bodies apart; by default that of their side.
+    alpha : opacity, 1 for a solid body, less for a ghost.
+    colour : the colour of all bones, to distinguish several bodies. By default that of their sides.
 
     Examples
     --------

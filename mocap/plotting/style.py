@@ -1,8 +1,7 @@
-"""One look for all pictures: colours that colour-blind readers tell apart, after Okabe and Ito, and Tol.
+"""Colours of all pictures, which colour-blind readers can distinguish, after Okabe and Ito, and Tol.
 
-Each colour has one meaning in the whole course: blue and vermilion are the left and the right of a body and
-nothing else, purple is a seam or a transition, orange is the path that was walked, black the path that was
-requested.
+Each colour has one meaning in the whole course. Blue and vermilion are the left and the right of a body.
+Purple is a seam or a transition, orange is the path that was walked, and black is the requested path.
 """
 
 COLOURS = {"left": "#0072B2", "right": "#D55E00", "middle": "#333333"}
@@ -12,7 +11,7 @@ SOURCES = ("#009E73", "#56B4E9", "#8A6D00", "#332288", "#DDCC77", "#882255", "#6
 """The colours of clips, characters and stretches of a walk, in order."""
 
 CURVES = ("#009E73", "#882255", "#56B4E9", "#8A6D00")
-"""The colours of curves that share axes: first the method of the text, second the one it is compared with."""
+"""The colours of curves that share axes: first the method of the text, then the method to compare with."""
 
 PATH = "#E69F00"
 """The colour of a path that was walked."""
@@ -34,7 +33,7 @@ QUIET = "#999999"
 
 
 def source_colours(names: list[str]) -> dict[str, str]:
-    """Assign a colour to each different name, in the order of first appearance.
+    """Assign a colour to each distinct name, in the order of first appearance.
 
     Examples
     --------
@@ -45,7 +44,7 @@ def source_colours(names: list[str]) -> dict[str, str]:
 
 
 def own_colour(number: int, count: int) -> str | None:
-    """Return the colour of one of several characters; None for a single one, whose sides are coloured.
+    """Return the colour of one of several characters, or None for a single one, whose sides are coloured.
 
     Examples
     --------

@@ -1,16 +1,16 @@
 """Measures: flaws of a clip, the quality of a seam, the acceleration of a fall, and judgements of motions.
 
-A seam is compared with the clips' own windows of the same length: a jump that the clips also have does not
-count. A new measure of clips goes into `clip_flaws`, one of seams into `seam_measures`, and one of whole
-motions into `judging`, with its limit.
+A seam is compared with windows of the same length in the clips, because clips also have jumps of velocity.
+A new measure of clips belongs in `clip_flaws`, one of seams in `seam_measures`, and one of whole motions in
+`judging`, with its limit.
 
 Reading order (notebooks 01, 04, 09 to 11)
 ----------------------------------------
 1. `clip_flaws`: a clip's duration, its path and its flaws
-2. `seam_measures`: foot sliding, jumps of velocity at a seam, rotating knees
+2. `seam_measures`: foot sliding, jumps of velocity at a seam, rotations of the knees
 3. `falling`: the centre of mass, and its acceleration in a flight
-4. `joint_limits`: joints that bend beyond the limits of people's
-5. `judging`: any motion in a few numbers, each divided by its limit
+4. `joint_limits`: joint angles and the human range of motion
+5. `judging`: a few measures of any motion, each divided by its limit
 
 References
 ----------

@@ -4,8 +4,8 @@ from .falling import gravity as gravity
 from .judging import Judgement as Judgement
 from .judging import Measure as Measure
 from .judging import judge as judge
+from .seam_measures import foot_sliding as foot_sliding
 from .seam_measures import jumps as jumps
-from .seam_measures import knee_turns as knee_turns
-from .seam_measures import plant_slides as plant_slides
+from .seam_measures import knee_rotations as knee_rotations
 from .seam_measures import seam_quality as seam_quality
 from .seam_measures import spread as spread

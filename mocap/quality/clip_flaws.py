@@ -16,7 +16,7 @@ from mocap.body.motion import Motion
 from mocap.body.planar import heading
 from mocap.errors import printable, shortened, warn
 
-# Frames in a row that repeat the frame before. Two trials have such frames, 6 and 13 in a row; in the
+# Consecutive frames that repeat the frame before. Two trials have such frames, 6 and 13 in a row. In the
 # others no frame repeats the one before.
 FROZEN = 3
 
@@ -43,7 +43,7 @@ FLIP = 2.0
 # 2 cm under the floor, those of the others up to 9 cm.
 UNDER = 0.03
 
-# Metres. Beyond these, a wrong unit of length is likelier than a body so small or so tall.
+# Metres. Beyond these limits, a wrong unit of length is likelier than a body so small or so tall.
 SMALLEST = 0.15
 TALLEST = 3.5
 
@@ -78,22 +78,22 @@ class Flaw(NamedTuple):
 
 
 class Report(NamedTuple):
-    """A clip's measures in metres and radians, and its flaws: what `inspect` returns."""
+    """The measures of a clip, in metres and radians, and its flaws, as returned by `inspect`."""
 
     motion: Motion
     height: float
-    turn: float
+    heading_change: float
     path: float
     flaws: list[Flaw]
 
     def table(self) -> str:
-        """Write the report in a few aligned lines."""
+        """Format the report as a few aligned lines of text."""
         motion = self.motion
         frames = f"{len(motion)} at {motion.fps:g} Hz, {motion.duration:.2f} s"
         height = f"{self.height:.2f} m"
         if not SMALLEST < self.height < TALLEST:
             height += ": is its scale right?"
-        degrees = round(np.degrees(self.turn))
+        degrees = round(np.degrees(self.heading_change))
         side = " left" if degrees > 0 else " right" if degrees < 0 else ""
         heading = f"turns{side} by {abs(degrees)}° in all"
         path = f"{self.path:.2f} m over the ground"
@@ -112,7 +112,7 @@ class Report(NamedTuple):
 
 
 def warn_of_size(motions: Iterable[Motion]) -> None:
-    """Warn of the first body of an impossible height, for which all measures in metres would be wrong.
+    """Warn about the first body of an impossible height, for which all measures in metres would be wrong.
 
     Warns
     -----
@@ -131,19 +131,19 @@ def warn_of_size(motions: Iterable[Motion]) -> None:
 
 
 def inspect(motion: Motion, angles: Mapping[str, Array] | None = None) -> Report:
-    """Measure a clip and look for flaws.
+    """Measure a clip and detect flaws in its data.
 
     Parameters
     ----------
     motion : F frames.
-    angles : the file's own angles (F, axes), degrees, by joint, as `files.read_angles` returns them. If an
-        angle jumps and the joint does not, another program that reads the file may go wrong.
+    angles : the Euler angles of the file, shape (F, axes) for each joint, degrees, as returned by
+        `files.read_angles`. An angle that jumps while its joint does not may mislead other programs.
 
     Returns
     -------
-    A report. Height: the median over time of the body's vertical extent. Turn: the total change of heading,
-    above 0 to the left. Path: the length of the root's path over the ground. Flaws: frozen stretches,
-    teleports of the root, joints that snap, Euler flips, frames of zeros, joints under the floor.
+    A report. Height: the median over time of the body's vertical extent. Heading: its total change,
+    positive to the left. Path: the length of the root's path over the ground. Flaws: frozen stretches,
+    teleports of the root, joints that snap, Euler flips, frames of zeros, and joints below the floor.
 
     Examples
     --------
@@ -193,7 +193,7 @@ def _marked_frames(
 
 
 def _frozen(motion: Motion) -> Mask:
-    """Mark frames that repeat the one before exactly, as no living body does."""
+    """Mark frames that are equal to the one before to the bit, which does not happen in captured motion."""
     numbers = np.hstack([motion.root_positions, motion.rotations.reshape(len(motion), -1)])
     repeats = np.append(False, (numbers[1:] == numbers[:-1]).all(axis=1))
     for start, stop in runs(repeats):
@@ -202,14 +202,14 @@ def _frozen(motion: Motion) -> Mask:
 
 
 def _zeros(motion: Motion) -> Mask:
-    """Mark frames with the root at the origin and all rotations 0."""
+    """Mark frames with the root at the origin and all rotations equal to the identity."""
     rotation_errors = np.abs(np.abs(motion.rotations) - rotations.IDENTITY).max(axis=(1, 2))
     root_errors = np.abs(motion.root_positions).max(axis=1)
     return np.asarray((rotation_errors < STILL) & (root_errors < STILL))
 
 
 def _teleports(motion: Motion) -> tuple[Mask, str]:
-    """Mark steps of the root that are much longer than the neighbouring ones."""
+    """Mark steps of the root that are much longer than those of the neighbouring frames."""
     speeds = np.linalg.norm(np.diff(motion.root_positions, axis=0), axis=1) * motion.fps
     neighbourhoods = [speeds[max(0, i - AROUND) : i + AROUND + 1] for i in range(len(speeds))]
     usual = np.array([np.median(neighbours) for neighbours in neighbourhoods])
@@ -228,7 +228,7 @@ def _snaps(motion: Motion, rotation_angles: Array, too_fast: float) -> tuple[Mas
 def _flips(
     motion: Motion, rotation_angles: Array, too_fast: float, angles: Mapping[str, Array]
 ) -> tuple[Mask, str]:
-    """Mark Euler angles that jump although their joint does not: rotations have no flips."""
+    """Mark Euler flips: angles that jump while the rotation of their joint is continuous."""
     flips = np.zeros(rotation_angles.shape, bool)
     for name in set(angles) & set(motion.skeleton.names):
         joint = motion.skeleton.index(name)

@@ -15,8 +15,8 @@ from mocap.body.motion import Motion
 from mocap.errors import MocapError
 
 Part = tuple[str, str, float, float]
-"""Two joints, one above the other; a fraction of the body's mass; and the fraction of the line from the one
-to the other at which the mass is."""
+"""The upper and the lower joint of a body segment, its fraction of the body's mass, and the position of its
+centre of mass as a fraction of the line from the upper joint to the lower one."""
 
 
 _SIDED: tuple[Part, ...] = (
@@ -31,7 +31,7 @@ _SIDED: tuple[Part, ...] = (
 
 
 def _of_side(part: Part, side: str) -> Part:
-    """Return a part of the left or the right side; `side` is "l" or "r"."""
+    """Return a part of the left side, "l", or the right side, "r"."""
     above, below, mass, centre = part
     return side + above, side + below, mass, centre
 
@@ -40,16 +40,16 @@ SEGMENTS: tuple[Part, ...] = (
     *(_of_side(part, side) for part in _SIDED for side in "lr"),
     ("head", "head_end", 0.081, 0.5),  # with the neck
 )
-"""The body's masses by [Winter09], Table 4.1, after Dempster; the joints are those of CMU's skeletons."""
+"""The segments of CMU's skeletons, with the masses of [Winter09, Table 4.1] (after Dempster)."""
 
 
 def centre_of_mass(motion: Motion, segments: Sequence[Part] = SEGMENTS) -> Array:
-    """Compute the centre of mass of a body from its parts, Σ m p / Σ m.
+    """Compute the centre of mass of a body from its segments, Σ m p / Σ m.
 
     Parameters
     ----------
     motion : F frames.
-    segments : the body's parts; those of CMU's skeletons and the bundled clips by default.
+    segments : the body's segments, by default those of CMU's skeletons and the bundled clips.
 
     Returns
     -------
@@ -75,7 +75,7 @@ def centre_of_mass(motion: Motion, segments: Sequence[Part] = SEGMENTS) -> Array
 
 
 def gravity(motion: Motion, first: int, last: int, segments: Sequence[Part] = SEGMENTS) -> float:
-    """Fit a parabola to the height of the centre of mass in the air, and return the acceleration of its fall.
+    """Estimate the gravitational acceleration in a flight, by a parabola through the centre of mass.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def gravity(motion: Motion, first: int, last: int, segments: Sequence[Part] = SE
 
     Raises
     ------
-    MocapError : for frames that are not on the clip, or fewer than four of them.
+    MocapError : for frames outside the clip, or fewer than four of them.
 
     Examples
     --------

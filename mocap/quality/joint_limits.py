@@ -1,11 +1,12 @@
-"""Joint angles of knees, elbows, hips, wrists and the neck, and the limits of people's joints.
+"""Joint angles of knees, elbows, hips, wrists and the neck, and the human range of motion.
 
-Rest poses differ from file to file, and nothing is measured against them: an angle is between two bones, or
-between a bone and the trunk, which is the line from the middle of the hips to the neck. The spine bends the
-trunk. Therefore a limit against it is that of the joint plus that of the spine, both by [AAOS65]: the thigh
-bends 30° + 30° behind the trunk, 45° + 35° out to its side and 30° + 35° past the other leg; the head bends
-by 45° + 35°, a wrist by 80°. For knees and elbows the limits are ours. In 75 captured files, dances and
-cartwheels among them, the head bends by 60° at most, a wrist by 70°; thighs bend 43° behind and 76° out.
+Rest poses differ from file to file, so no angle is measured from them. An angle is between two bones, or
+between a bone and the trunk, which is the line from the middle of the hips to the neck. The spine also bends.
+Therefore a limit of the angle to the trunk is that of the joint plus that of the spine, both by [AAOS65]. For
+the thigh it is 30° + 30° backwards, 45° + 35° outwards and 30° + 35° inwards, past the other leg. For the
+head it is 45° + 35°, and for a wrist 80°. The limits of knees and elbows are our own. In 75 captured files,
+which include dances and cartwheels, the head bends by at most 60°, a wrist by 70°, and a thigh by 43°
+backwards and 76° outwards.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ OUT = 80.0  # degrees that a thigh may bend out to its side
 ACROSS = 65.0  # degrees that a thigh may bend past the other leg
 NOD = 80.0  # degrees between trunk and head
 WRIST = 80.0  # degrees between forearm and hand
-SURE = 0.5  # the fraction of a knee's bending that has to be about one axis to tell that it bends backwards
+SURE = 0.5  # the fraction of a knee's bending that has to be about one axis to decide that it bends backwards
 
 # In the names of joints.
 ELBOW = "elbow|radius|forearm|lowerarm"
@@ -38,37 +39,37 @@ HEAD = "head"
 
 
 class Bend(NamedTuple):
-    """A joint's angle in each frame (F,), degrees, with the least and the largest angle of people's joints.
+    """A joint's angle in each frame (F,), degrees, with the smallest and the largest human angle.
 
     Examples
     --------
-    >>> Bend("lfemur", "back", np.array([30.0, 90.0]), -np.inf, 60.0).share
+    >>> Bend("lfemur", "back", np.array([30.0, 90.0]), -np.inf, 60.0).fraction
     array([0.5, 1.5])
     """
 
     joint: str
-    way: str  # reads: name: public, and users read it
+    direction: str
     angles: Array
     least: float  # reads: name: public, and users read it
     most: float  # reads: name: public, and users read it
 
     @property
-    def share(self) -> Array:
-        """The fraction of the limit that is used in each frame; above 1 the joint is beyond it."""
+    def fraction(self) -> Array:
+        """The angle in each frame as a fraction of its limit. Above 1 the joint exceeds the limit."""
         return np.maximum(self.angles / self.least, self.angles / self.most)
 
 
 def joint_bends(motion: Motion, legs: Sequence[Leg] = ()) -> list[Bend]:
     """Measure the angles of the joints whose limits are known.
 
-    The axis of a knee or an elbow is that about which it bends most in the clip. A knee whose shank is in
-    front is recognised as bent backwards. An arm may point anywhere, therefore an elbow that is bent
+    The axis of a knee or an elbow is the axis about which it bends most in the clip. A knee whose shank is in
+    front is recognised as bent backwards. An arm may have any direction, therefore an elbow that is bent
     backwards in all frames is not recognised.
 
     Parameters
     ----------
     motion : F frames.
-    legs : the left and the right leg, as `body.find_legs` finds them; without them knees, hips and the neck
+    legs : the left and the right leg, as returned by `body.find_legs`. Without them knees, hips and the neck
         are left out. Elbows, wrists and the neck are found by their roles or names.
 
     Examples
@@ -76,7 +77,7 @@ def joint_bends(motion: Motion, legs: Sequence[Leg] = ()) -> list[Bend]:
     >>> from mocap.body.limbs import find_legs
     >>> from mocap.datasets.samples import sample
     >>> walk = sample("walk_straight")
-    >>> sorted({bend.way for bend in joint_bends(walk, find_legs(walk.skeleton))})
+    >>> sorted({bend.direction for bend in joint_bends(walk, find_legs(walk.skeleton))})
     ['back', 'bent', 'nodding', 'out']
     """
     skeleton = motion.skeleton
@@ -89,7 +90,7 @@ def joint_bends(motion: Motion, legs: Sequence[Leg] = ()) -> list[Bend]:
 
 
 def _hip_axis(positions: Array, legs: Sequence[Leg]) -> Array:
-    """Return the unit vectors (F, 3) from the right hip to the left one; zeros unless there are two legs."""
+    """Return the unit vectors (F, 3) from the right hip to the left one, or zeros without two legs."""
     if len(legs) != 2:
         return np.zeros(3)
     axis = positions[:, legs[0].hip] - positions[:, legs[1].hip]
@@ -105,7 +106,7 @@ def _arms(skeleton: Skeleton) -> list[list[int]]:
 
 
 def _elbows(skeleton: Skeleton) -> list[int]:
-    """List the joints that have the name of an elbow, and a joint below."""
+    """List the joints that have the name of an elbow and at least one child."""
     joints = range(1, len(skeleton))
     named = [joint for joint in joints if re.search(ELBOW, skeleton.names[joint].lower())]
     return [joint for joint in named if skeleton.children(joint)]
@@ -155,10 +156,10 @@ def _named(skeleton: Skeleton, part: str) -> int | None:
 
 
 def _hinge_bend(poses: GlobalPoses, name: str, joints: Sequence[int], hip_axis: Array) -> Bend:
-    """Measure the bending of a hinge between two bones, degrees; below 0 backwards.
+    """Measure the flexion of a hinge joint between two bones, degrees, negative backwards.
 
-    Forwards is the direction in which it mostly bends in the clip, unless that is to the right about
-    `hip_axis`, unit vectors (F, 3), as in no person's knee.
+    Forwards is the direction in which the joint mostly bends in the clip. It is reversed if this is a
+    negative rotation about `hip_axis`, unit vectors (F, 3), which no human knee allows.
     """
     upper, lower = np.diff(poses.positions[:, list(joints)], axis=1).swapaxes(0, 1)
     normals = np.cross(upper, lower)

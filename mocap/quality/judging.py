@@ -1,13 +1,13 @@
-"""Judgement of a motion of any origin: measures, each divided by a limit that captured people keep.
+"""Judgement of a motion of any origin: measures, each divided by a limit that captured motion keeps.
 
-Up to 1 a measure does not stand out. The limits are ours, except those of joints, which `joint_limits`
-explains. Of 30 captured files from nine sources 11 keep all of them. In six, of one source, an elbow bends
-backwards. In ten, joints snap from one frame to the next, as after an Euler flip. Two are in inches, and in
-one of these the body lies with the hands in the floor. One is a smoothed copy with sliding feet.
+A ratio up to 1 is inconspicuous. The limits are our own, except those of joints, which `joint_limits`
+explains. Of 30 captured files from nine sources, 11 keep all limits. In six files, of one source, an elbow
+bends backwards. In ten, joints snap from one frame to the next, as after an Euler flip. Two are in inches,
+and in one of these the body lies with its hands below the floor. One is a smoothed copy with sliding feet.
 
-Not measured are: whether a motion is the one that was wanted, whether it looks alive, and its style; hands
-and faces; a body that walks through itself or through things; balance. Limits of joints are measured at
-knees, elbows, hips, wrists and the neck, not at shoulders, ankles and fingers.
+The following are not measured: agreement with a request, liveliness and style, hands and faces,
+interpenetration of the body with itself or with objects, and balance. Joint limits are measured at knees,
+elbows, hips, wrists and the neck, but not at shoulders, ankles and fingers.
 """
 
 from __future__ import annotations
@@ -32,32 +32,41 @@ from mocap.feet.footplants import mark_plants
 from mocap.matching.point_clouds import point_cloud
 from mocap.quality.clip_flaws import FAST, UNDER, height_of
 from mocap.quality.joint_limits import joint_bends
-from mocap.quality.seam_measures import LEAP, MOSTLY, USUAL, Spread, feet_of, jumps, mean_slide, plant_slides
+from mocap.quality.seam_measures import (
+    LEAP,
+    MOSTLY,
+    USUAL,
+    Spread,
+    feet_of,
+    foot_sliding,
+    jumps,
+    mean_foot_sliding,
+)
 
 WINDOW = 1 / 3  # seconds: a jump in a window is compared with those in windows of the clips
-FLAT = 0.1  # seconds: the window of the smooth curves from which a trembling joint differs
-STILL = 0.02  # m/s: a jump of velocity that a standing body makes
+FLAT = 0.1  # seconds: the window of the smoothing filter from which a trembling joint deviates
+STILL = 0.02  # m/s: jumps of velocity of a body that stands
 SLOWEST = 25  # percentile of the frames, by the speed of the slowest joint of the feet
-SLOW = 0.5  # m/s: a slower body's foot sliding is divided by this speed
-SHORTEST = 0.75  # metres, of a body that walks; a grown one in inches, read as cm, is 0.7 at most
+SLOW = 0.5  # m/s: the foot sliding of a slower body is divided by this speed
+SHORTEST = 0.75  # metres, of a body that walks. An adult in inches, read as cm, is at most 0.7 m tall
 TALLEST = 2.5  # metres
 
 
 @dataclass(frozen=True)
 class Limits:
-    """The limits of the measures, which captured people keep; `judge` explains the measures."""
+    """The limits of the measures, which captured motion keeps. `judge` explains the measures."""
 
     jolt: float = LEAP  # times the percentile `MOSTLY` of the motion's frames
     seam_jolt: float = 1.5  # times the percentile `USUAL` of the windows of the clips
     tremble: float = 3.0  # mm, median over the frames
-    slide: float = 2.5  # cm, mean over the plants
-    skate: float = 8.0  # percent of the body's speed
+    foot_sliding: float = 2.5  # cm, mean over the footplants
+    sliding_speed: float = 8.0  # percent of the body's speed
     sunk: float = 100 * UNDER  # cm
-    aloft: float = 25.0  # cm; in 153 clips the lowest joint comes down to 12.5 cm or lower, also on stairs
+    aloft: float = 25.0  # cm. In 153 clips the lowest joint comes down to 12.5 cm or lower, even on stairs
     lopsided: float = 20.0  # mm
     bones: float = 5.0  # mm
-    turn: float = float(np.degrees(FAST))  # degrees per second
-    path: float = 15.0  # cm, mean over the frames; `steering.follow_path` warns above it
+    rotation: float = float(np.degrees(FAST))  # degrees per second
+    path: float = 15.0  # cm, mean over the frames. `steering.follow_path` warns above it
 
 
 LIMITS = Limits()
@@ -68,9 +77,9 @@ class Measure(NamedTuple):
 
     Examples
     --------
-    >>> slide = Measure("slide", 5.0, 2.5, "cm", "'lfoot', frame 30")
-    >>> slide, slide.ratio
-    (Measure(slide 5 cm, limit 2.5, 'lfoot', frame 30), 2.0)
+    >>> sliding = Measure("foot_sliding", 5.0, 2.5, "cm", "'lfoot', frame 30")
+    >>> sliding, sliding.ratio
+    (Measure(foot_sliding 5 cm, limit 2.5, 'lfoot', frame 30), 2.0)
     """
 
     name: str
@@ -96,7 +105,7 @@ def _with_limit(measure: Measure) -> str:
 
 
 def measure_smoothness(motion: Motion, positions: Array, against: Sequence[Motion]) -> Iterator[Measure]:
-    """Measure jolts and trembling; `positions` are those of the joints, (F, J, 3)."""
+    """Measure jolts and trembling, from a motion and the positions (F, J, 3) of its joints."""
     yield _jolt(motion, positions, against)
     points = point_cloud(motion)
     window = max(5, 2 * round(FLAT * motion.fps / 2) + 1)
@@ -138,7 +147,8 @@ def measure_joints(motion: Motion, positions: Array) -> Iterator[Measure]:
     depth = 100 * max(0.0, float(depths.max()))
     yield Measure("sunk", depth, LIMITS.sunk, "cm", _largest_at(depths, skeleton))
     speeds = np.degrees(rotations.angle_between(motion.rotations[1:], motion.rotations[:-1])) * motion.fps
-    yield Measure("turn", float(speeds.max()), LIMITS.turn, "°/s", _largest_at(speeds, skeleton, first=1))
+    fastest = _largest_at(speeds, skeleton, first=1)
+    yield Measure("rotation", float(speeds.max()), LIMITS.rotation, "°/s", fastest)
     partners = [skeleton.partner(joint) for joint in range(len(skeleton))]
     if partners != list(range(len(skeleton))):
         lengths = np.linalg.norm(skeleton.offsets, axis=-1)
@@ -160,33 +170,33 @@ def _largest_at(values: Array, skeleton: Skeleton, first: int = 0) -> str:
 def measure_limbs(motion: Motion, positions: Array, legs: Sequence[Leg]) -> Iterator[Measure]:
     """Measure foot sliding, if there are `legs`, and joints that bend too far."""
     if legs:
-        yield _slide(motion, positions, legs)
-        yield _skate(motion, positions, legs)
+        yield _foot_sliding(motion, positions, legs)
+        yield _sliding_speed(motion, positions, legs)
     bends = joint_bends(motion, legs)
     if bends:
-        worst = max(bends, key=lambda bend: float(bend.share.max()))
-        frame = int(worst.share.argmax())
-        detail = f"'{worst.joint}' {worst.way} by {worst.angles[frame]:.0f}°, frame {frame}"
-        yield Measure("bent", float(worst.share[frame]), 1.0, "of its limit", detail)
+        worst = max(bends, key=lambda bend: float(bend.fraction.max()))
+        frame = int(worst.fraction.argmax())
+        detail = f"'{worst.joint}' {worst.direction} by {worst.angles[frame]:.0f}°, frame {frame}"
+        yield Measure("bent", float(worst.fraction[frame]), 1.0, "of its limit", detail)
 
 
-def _slide(motion: Motion, positions: Array, legs: Sequence[Leg]) -> Measure:
-    """Measure the foot sliding distance, the mean over the plants."""
-    slides = plant_slides(mark_plants(motion, legs), feet_of(legs), positions=positions)
-    detail = "no foot stands"
+def _foot_sliding(motion: Motion, positions: Array, legs: Sequence[Leg]) -> Measure:
+    """Measure the foot sliding distance, the mean over the footplants."""
+    slides = foot_sliding(mark_plants(motion, legs), feet_of(legs), positions=positions)
+    detail = "no foot contact"
     if slides:
         worst = max(slides, key=lambda slide: slide.far)
         detail = f"'{worst.joint}', frames {worst.start} to {worst.stop - 1}"
-    return Measure("slide", mean_slide(slides), LIMITS.slide, "cm", detail)
+    return Measure("foot_sliding", mean_foot_sliding(slides), LIMITS.foot_sliding, "cm", detail)
 
 
-def _skate(motion: Motion, positions: Array, legs: Sequence[Leg]) -> Measure:
+def _sliding_speed(motion: Motion, positions: Array, legs: Sequence[Leg]) -> Measure:
     """Measure the foot sliding speed, in percent of the body's speed."""
     feet = positions[:, feet_of(legs)]
     slowest = (_ground_steps(feet) * motion.fps).min(axis=1)
     body_speed = float(_ground_steps(motion.root_positions).mean()) * motion.fps
     percent = 100 * float(np.percentile(slowest, SLOWEST)) / max(SLOW, body_speed)
-    return Measure("skate", percent, LIMITS.skate, "% of speed")
+    return Measure("sliding_speed", percent, LIMITS.sliding_speed, "% of speed")
 
 
 def _ground_steps(positions: Array) -> Array:
@@ -197,7 +207,7 @@ def _ground_steps(positions: Array) -> Array:
 def measure_body(
     motion: Motion, positions: Array, path: GroundPath | None, stretch: Mapping[str, float] | None
 ) -> Iterator[Measure]:
-    """Measure bones that stretch and the root's distance from its path, if these are known, and the size."""
+    """Measure the body's size and, if known, stretching bones and the root's distance from its path."""
     if stretch is not None:
         change, joint = max(((change, joint) for joint, change in stretch.items()), default=(0.0, ""))
         yield Measure("bones", 1000 * change, LIMITS.bones, "mm", f"'{joint}'")
@@ -210,7 +220,7 @@ def measure_body(
 
 
 def _size(positions: Array) -> Measure:
-    """Compare a body with the smallest and the tallest people; the length of one who lies is its height."""
+    """Compare a body's height with that of people. For a body that lies, the height is its length."""
     height = height_of(positions)
     if not SHORTEST <= height <= TALLEST:
         height = float(np.median(np.ptp(positions, axis=1).max(axis=-1)))
@@ -224,10 +234,10 @@ def _size(positions: Array) -> Measure:
 
 
 class Judgement(NamedTuple):
-    """The measures of a motion; `left_out` lists what was not measured, and why.
+    """The measures of a motion, and in `left_out` the omitted measures with reasons.
 
-    `height` is the body's vertical extent, the median over the frames, and `bones` the length of each joint's
-    bone, from its parent to it; both in metres.
+    `height` is the body's vertical extent, the median over the frames. `bones` has the length of each joint's
+    bone, from its parent to it. Both are in metres.
 
     Examples
     --------
@@ -258,11 +268,11 @@ class Judgement(NamedTuple):
 
     @property
     def score(self) -> float:
-        """The number of halvings that bring all measures within their limits, Σ log₂ ratio; 0 is best."""
+        """The excess of all measures over their limits, Σ log₂ max(ratio, 1). 0 is best."""
         return float(sum(np.log2(max(measure.ratio, 1.0)) for measure in self.measures))
 
     def as_dict(self) -> dict[str, Any]:
-        """Return plain numbers and texts, for JSON."""
+        """Return the judgement as a dictionary of plain numbers and texts, for JSON."""
         rows = [measure._asdict() | {"ratio": measure.ratio} for measure in self.measures]
         summary = {"left_out": list(self.left_out), "worst": self.worst.name, "score": self.score}
         return self._asdict() | {"measures": rows} | summary
@@ -275,34 +285,34 @@ def judge(
     path: GroundPath | VectorsLike | None = None,
     stretch: Mapping[str, float] | None = None,
 ) -> Judgement:
-    """Measure a motion and compare each number with its limit.
+    """Measure the quality of a motion and compare each measure with its limit.
 
     - jolt: the largest jump of velocity from one frame to the next, divided by the 90th percentile of all
-      frames; with `against`, by the usual jump in windows of a third of a second of these clips.
-    - tremble: the distance of joints from smooth curves.
-    - slide: the foot sliding distance, mean over the plants.
-    - skate: the foot sliding speed, the 25th percentile of the slowest joint of the feet, in percent of the
-      body's speed. It finds a body that glides and has no plants.
+      frames, or, with `against`, by the usual jump in windows of a third of a second of these clips.
+    - tremble: the distance of joints from their smoothed trajectories.
+    - foot_sliding: the foot sliding distance, mean over the footplants.
+    - sliding_speed: the foot sliding speed, the 25th percentile of the slowest joint of the feet, in percent
+      of the body's speed. It detects a body that glides and has no footplants.
     - sunk: the depth of the lowest joint below the ground, y = 0.
-    - aloft: the least height of the lowest joint; reported if it never comes down to 25 cm.
+    - aloft: the minimum height of the lowest joint, reported if it is above 25 cm in all frames.
     - lopsided: the largest difference in length between a left bone and a right one.
     - size: the ratio of a body's height to 2.5 m, or of 0.75 m to its height, above 1: its unit may be wrong.
     - bones: the largest change in the length of a bone of the file.
-    - bent: the angle of a knee, elbow, hip, wrist or the neck, divided by people's limit.
-    - turn: the largest rotation speed of a joint.
+    - bent: the angle of a knee, elbow, hip, wrist or the neck, divided by the human limit.
+    - rotation: the largest rotation speed of a joint.
     - path: the distance of the root from a path, mean over the frames.
 
     Parameters
     ----------
     motion : F frames, at least 12.
-    against : the clips of which it was made, if any; they are resampled to its frame rate.
-    path : the path that it should follow, or its points (x, z), metres.
-    stretch : the changes of the bones' lengths in the motion's file, metres, by joint, as
-        `files.load_save.read` returns them; a motion that was loaded has rigid bones.
+    against : the clips from which the motion was made, if any. They are resampled to its frame rate.
+    path : the path that the motion should follow, or its points (x, z), metres.
+    stretch : the changes of the bones' lengths in the motion's file, metres, by joint, as returned by
+        `files.load_save.read`. The bones of a loaded motion are rigid.
 
     Raises
     ------
-    MocapError : for a motion that is too short, and what is no motion.
+    MocapError : for a motion that is too short, and objects that are not motions.
 
     Examples
     --------
@@ -311,7 +321,7 @@ def judge(
     >>> walk = sample("walk_straight")
     >>> gliding = replace(walk, root_positions=walk.root_positions * [0.8, 1, 0.8])
     >>> [measure.name for measure in judge(gliding).measures if measure.ratio > 1]
-    ['slide', 'skate']
+    ['foot_sliding', 'sliding_speed']
     """
     require_motion(motion)
     against = require_motions(against)
@@ -340,15 +350,15 @@ def judge(
 
 
 def judgement_table(judgements: Sequence[Judgement]) -> str:
-    """Write a line for each motion, the best first: score, height, all ratios to limits, the worst measure.
+    """Format a line for each motion, best first: score, height, ratios to limits, and the worst measure.
 
     Examples
     --------
     >>> from mocap.datasets.samples import sample
     >>> for line in judgement_table([judge(sample("walk_straight"))]).splitlines():
-    ...     print(line[:60])
-    name          score  height    jolt tremble    sunk    turn
-    walk_straight   0.0  1.71 m    0.34    0.06    0.00    0.25
+    ...     print(line[:61])
+    name          score  height    jolt tremble    sunk rotation
+    walk_straight   0.0  1.71 m    0.34    0.06    0.00     0.25
     """
     names = list(dict.fromkeys(measure.name for judged in judgements for measure in judged.measures))
     width = max([4, *(len(shortened(judged.name, 40)) for judged in judgements)])
@@ -362,13 +372,13 @@ def judgement_table(judgements: Sequence[Judgement]) -> str:
 
 
 def _ratios(judged: Judgement, names: Sequence[str]) -> str:
-    """Write the ratios of measures to their limits in columns, "-" for one that was not measured."""
+    """Format the ratios of measures to their limits in columns, with "-" for a missing measure."""
     ratios = {measure.name: f"{measure.ratio:.2f}" for measure in judged.measures}
     return " ".join(f"{ratios.get(name, '-'):>{max(7, len(name))}}" for name in names)
 
 
 def _worst(judged: Judgement) -> str:
-    """Write the name, value and place of the worst measure."""
+    """Format the name, the value and the place of the worst measure."""
     worst = judged.worst
     text = f"{worst.name} {worst.value:.3g} {worst.unit}"
     return f"{text} ({worst.where})" if worst.where else text.rstrip()

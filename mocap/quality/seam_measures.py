@@ -1,9 +1,9 @@
-"""Quality of a seam: foot sliding, jumps of velocity, and knees that rotate.
+"""Quality of a seam: foot sliding, jumps of velocity, and rotation of the knees.
 
 The foot sliding distance is a measure of seams, motions and characters. A jump of velocity from one frame to
-the next is |x_{f+1} - 2 x_f + x_{f-1}| · fps in metres per second, the RMS over the joints. Clips also have
-such jumps: a foot that touches the ground stops. Therefore `seam_quality` compares those of a seam with those
-that are usual in its clips.
+the next is |x_{f+1} - 2 x_f + x_{f-1}| · fps in metres per second, the RMS over the joints. Captured clips
+also have such jumps, for example when a foot hits the ground. Therefore `seam_quality` compares the jumps at
+a seam with the usual ones in its clips.
 """
 
 from collections.abc import Iterable, Sequence
@@ -16,15 +16,15 @@ from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import Leg, find_legs
-from mocap.body.motion import Motion, require_alike
+from mocap.body.motion import Motion, require_compatible
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import point_cloud
 
 
-class PlantSlide(NamedTuple):
-    """The largest distance `far` of a joint from its mean position on the ground in one plant, centimetres.
+class FootSliding(NamedTuple):
+    """The foot sliding distance of a joint in one footplant, from frame `start` to just before frame `stop`.
 
-    The plant is from frame `start` to just before frame `stop`.
+    `far` is the joint's largest distance from its mean position on the ground, centimetres.
     """
 
     joint: str
@@ -33,16 +33,16 @@ class PlantSlide(NamedTuple):
     far: float  # reads: name: public, and users read it
 
 
-def plant_slides(
+def foot_sliding(
     motion: Motion, joints: Sequence[int] | None = None, *, positions: Array | None = None
-) -> list[PlantSlide]:
-    """Measure the foot sliding distance of each plant: from the mean position on the ground, at most.
+) -> list[FootSliding]:
+    """Measure the foot sliding distance of each footplant: the largest from the mean position on the ground.
 
     Parameters
     ----------
     motion : F frames, with contacts for the joints.
-    joints : the indices of joints; by default all that have contacts.
-    positions : those of all joints, shape (F, J, 3), metres; they are computed by default.
+    joints : the indices of joints, by default of all that have contacts.
+    positions : the positions of all joints, shape (F, J, 3), metres. They are computed by default.
 
     Raises
     ------
@@ -51,7 +51,7 @@ def plant_slides(
     Examples
     --------
     >>> from mocap.datasets.samples import sample
-    >>> slides = plant_slides(sample("walk_straight"))
+    >>> slides = foot_sliding(sample("walk_straight"))
     >>> len(slides) > 20, max(slide.far for slide in slides) < 1e-6
     (True, True)
 
@@ -60,28 +60,29 @@ def plant_slides(
     if positions is None:
         positions = joint_positions(motion)
     ground = positions[..., [0, 2]]
-    slides = []
+    footplants = []
     for name, contacts in _contacts(motion, joints).items():
         for start, stop in runs(contacts):
             planted = ground[start:stop, motion.skeleton.index(name)]
             distances = np.linalg.norm(planted - planted.mean(axis=0), axis=-1)
-            slides.append(PlantSlide(name, start, stop, 100 * float(distances.max())))
-    return slides
+            footplants.append(FootSliding(name, start, stop, 100 * float(distances.max())))
+    return footplants
 
 
-def mean_slide(slides: Iterable[PlantSlide]) -> float:
-    """Average the foot sliding distance of plants, cm; 0 if there are none.
+def mean_foot_sliding(footplants: Iterable[FootSliding]) -> float:
+    """Average the foot sliding distance over footplants, cm, or 0 without any.
 
     Examples
     --------
-    >>> mean_slide([PlantSlide("lfoot", 3, 9, 1.5), PlantSlide("lfoot", 30, 39, 0.5)]), mean_slide([])
+    >>> footplants = [FootSliding("lfoot", 3, 9, 1.5), FootSliding("lfoot", 30, 39, 0.5)]
+    >>> mean_foot_sliding(footplants), mean_foot_sliding([])
     (1.0, 0.0)
     """
-    distances = [slide.far for slide in slides]
+    distances = [footplant.far for footplant in footplants]
     return float(np.mean(distances)) if distances else 0.0
 
 
-def ground_slides(motion: Motion) -> Array:
+def sliding_per_frame(motion: Motion) -> Array:
     """Measure the foot sliding of planted joints from each frame to the next, cm.
 
     Parameters
@@ -90,18 +91,18 @@ def ground_slides(motion: Motion) -> Array:
 
     Returns
     -------
-    Shape (F - 1, joints): the step of each ankle and ball from each frame to the next if the joint is planted
-    in both, else 0. Its sum is the foot sliding distance of all of them.
+    Shape (F - 1, joints): the distance that each ankle and ball moves from each frame to the next if the
+    joint is planted in both, else 0. Its sum is the foot sliding distance of all of them.
 
     Raises
     ------
-    MocapError : for legs that cannot be found, and feet without contacts.
+    MocapError : if the legs cannot be found, or the feet have no contacts.
 
     Examples
     --------
     >>> from mocap.datasets.samples import sample
     >>> walk = sample("walk_straight")
-    >>> bool(ground_slides(walk).max() < 1e-6)  # in the bundled clips planted feet stand still
+    >>> bool(sliding_per_frame(walk).max() < 1e-6)  # in the bundled clips planted feet stand still
     True
     """
     feet = feet_of(find_legs(motion.skeleton))
@@ -112,7 +113,7 @@ def ground_slides(motion: Motion) -> Array:
 
 
 def _contacts(motion: Motion, joints: Sequence[int] | None) -> dict[str, Mask]:
-    """Return the contacts (F,) of joints, by name; of all joints that have contacts by default."""
+    """Return the contacts (F,) of joints by name, by default of all joints that have contacts."""
     names = motion.contacts if joints is None else [motion.skeleton.names[joint] for joint in joints]
     if missing := [name for name in names if name not in motion.contacts]:
         raise MocapError(f"'{motion.name}' does not say when '{missing[0]}' stands; mark_plants finds out.")
@@ -127,14 +128,14 @@ def feet_of(legs: Sequence[Leg]) -> list[int]:
 USUAL = 99.9  # percentile of the clips' windows: all but one window in a thousand are below
 
 # A jump of velocity above LEAP times the percentile MOSTLY of all frames is a leap in the data. At 30 Hz, in
-# the walks, runs and jumps of CMU's subject 16, leaps have 20 times the percentile, and all other frames but
-# one at most 3.3 times.
+# the walks, runs and jumps of CMU's subject 16, leaps reach 20 times the percentile. All other frames except
+# one reach at most 3.3 times.
 LEAP = 5.0  # times
 MOSTLY = 90  # percentile of the frames
 
 
 def jumps(motion: Motion) -> Array:
-    """Measure the jump of velocity at each frame: the RMS over joints of |x_{f+1} - 2 x_f + x_{f-1}| · fps.
+    """Compute the jump of velocity in each frame: the RMS over joints of |x_{f+1} - 2 x_f + x_{f-1}| · fps.
 
     Parameters
     ----------
@@ -142,7 +143,7 @@ def jumps(motion: Motion) -> Array:
 
     Returns
     -------
-    Shape (F,), m/s; 0 at both ends, which have a neighbour on one side only.
+    Shape (F,), m/s. The first and the last frame, which have only one neighbour, have 0.
 
     Examples
     --------
@@ -163,16 +164,16 @@ def jumps(motion: Motion) -> Array:
 class Spread(NamedTuple):
     """The usual jumps of velocity in some clips, with which a seam between them is compared.
 
-    `velocity`: the jump in each frame, clip by clip, m/s; NaN where the data leap.
+    `velocity`: the jump in each frame, clip by clip, m/s, NaN for leaps in the data.
     """
 
     velocity: tuple[Array, ...]
 
     def within(self, frames: int) -> Array:
-        """List the largest jump of velocity in each window of `frames` frames, sorted.
+        """List the largest jump of velocity in each window of `frames` frames, in ascending order.
 
         A seam is also a window: its largest jump is compared with the largest in other windows of its length,
-        not with single frames. Windows in which the data leap are left out. A shorter clip is one window.
+        not with single frames. Windows with leaps in the data are left out. A shorter clip is one window.
 
         Examples
         --------
@@ -188,7 +189,7 @@ def spread(clips: Sequence[Motion]) -> Spread:
     """Measure the usual jumps of velocity in some clips.
 
     Captured clips leap if a marker was lost or mistaken for another. A jump of velocity above five times the
-    90th percentile is such a leap: it must neither excuse a seam nor be blamed on one.
+    90th percentile counts as such a leap. It must neither excuse a seam nor be attributed to one.
 
     Parameters
     ----------
@@ -196,7 +197,7 @@ def spread(clips: Sequence[Motion]) -> Spread:
 
     Raises
     ------
-    SkeletonMismatch, MocapError : for clips that do not go together, and no clips.
+    SkeletonMismatch, MocapError : for clips of several skeletons or frame rates, and for no clips.
 
     Examples
     --------
@@ -207,26 +208,26 @@ def spread(clips: Sequence[Motion]) -> Spread:
 
     Notebook: 04b-feet
     """
-    clips = require_alike(clips)
+    clips = require_compatible(clips)
     velocity_jumps = [jumps(clip) for clip in clips]
     leap = LEAP * float(np.percentile(np.concatenate(velocity_jumps), MOSTLY))
     return Spread(tuple(np.where(of_clip > leap, np.nan, of_clip) for of_clip in velocity_jumps))
 
 
 class SeamQuality(NamedTuple):
-    """The quality of a seam in two numbers, both small for a good one.
+    """The quality of a seam in two numbers, both small for a good seam.
 
-    `velocity_jump` is the largest jump of velocity at the seam, divided by the jump that 99.9 % of the clips'
-    windows of its length stay below: up to 1 it is as usual. `slide` is the foot sliding distance, cm: the
-    largest in each plant, the mean over the plants that the seam touches.
+    `velocity_jump` is the largest jump of velocity at the seam, divided by the 99.9th percentile of the
+    clips' windows of its length. Up to 1 it is usual. `foot_sliding` is the foot sliding distance, cm, the
+    mean over the footplants that overlap the seam.
     """
 
     velocity_jump: float
-    slide: float
+    foot_sliding: float
 
 
 def seam_quality(motion: Motion, seam: tuple[int, int], usual: Spread) -> SeamQuality:
-    """Measure a seam against the clips that it joins.
+    """Measure the quality of a seam relative to the clips that it joins.
 
     Parameters
     ----------
@@ -236,8 +237,8 @@ def seam_quality(motion: Motion, seam: tuple[int, int], usual: Spread) -> SeamQu
 
     Raises
     ------
-    MocapError : for a seam that runs off the motion, clips that do not move, feet without contacts, and legs
-        that cannot be found.
+    MocapError : for a seam that is not within the motion, clips that do not move, feet without contacts, and
+        legs that cannot be found.
 
     Examples
     --------
@@ -256,21 +257,21 @@ def seam_quality(motion: Motion, seam: tuple[int, int], usual: Spread) -> SeamQu
     largest = usual.within(len(seam_jumps))
     if len(largest) == 0 or not largest[-1] > 0:
         raise MocapError("The clips do not move, so nothing at a seam can be measured against them.")
-    slides = plant_slides(motion, feet_of(find_legs(motion.skeleton)))
-    touched = [slide for slide in slides if slide.start < seam[1] and seam[0] < slide.stop]
-    return SeamQuality(float(seam_jumps.max() / np.percentile(largest, USUAL)), mean_slide(touched))
+    footplants = foot_sliding(motion, feet_of(find_legs(motion.skeleton)))
+    touched = [slide for slide in footplants if slide.start < seam[1] and seam[0] < slide.stop]
+    return SeamQuality(float(seam_jumps.max() / np.percentile(largest, USUAL)), mean_foot_sliding(touched))
 
 
-def knee_turns(motion: Motion) -> Array:
+def knee_rotations(motion: Motion) -> Array:
     """Measure the rotation of each knee from one frame to the next, degrees, shape (F - 1, legs).
 
-    A leg's bones are rigid, and their lengths do not show a knee that snaps. The rotation of the knee does.
+    The lengths of a leg's rigid bones do not reveal a knee that snaps, but its rotation does.
 
     Examples
     --------
     >>> from mocap.datasets.samples import sample
     >>> walk = sample("walk_straight")
-    >>> knee_turns(walk).shape, bool(knee_turns(walk).max() < 5)  # at 120 Hz
+    >>> knee_rotations(walk).shape, bool(knee_rotations(walk).max() < 5)  # at 120 Hz
     ((1157, 2), True)
 
     Notebook: 09b-blend-window

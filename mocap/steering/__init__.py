@@ -1,28 +1,28 @@
-"""Steering: walks that follow a wish: along a path, through waypoints, in a crowd, by commands.
+"""Steering: walks along paths, through waypoints and in crowds, and characters that obey commands.
 
-A walk that is searched for: the path objective says what is asked for and what each deviation costs, a
-layered search finds the walk with the lowest cost, and `follow_path` joins the two; `waypoints_and_crowds`
-calls it. A new kind of wish is a field of `Wishes`, with its price in `Settings` and its cost in
-`PathSearch.hop_costs`.
+Search for a walk: the path objective defines the requests and the cost of each deviation, a layered search
+finds a walk of low cost, and `follow_path` combines the two. `waypoints_and_crowds` calls it. A new kind of
+request is a field of `PathRequest`, with its price in `Settings` and its cost in
+`PathSearch.macro_edge_costs`.
 
-A character that is commanded: all fit one protocol, `Character`; its `step` takes a heading and a speed and
-gives the next pose. So whatever steers, records or measures one of them does so for all. A new way of control
-is a class with the same members, in a file of its own.
+Control of a character: all characters implement the protocol `Character`, whose `step` takes a heading and a
+speed and returns the next pose. Therefore code that steers, records or measures one of them works for all. A
+new kind of control is a class with the same members, in a file of its own.
 
 Reading order (notebooks 08, 12, 17, 18)
 ----------------------------------------
- 1. `path_objective`: a path, the wishes along it, and their prices
- 2. `layered_search`: many walks as arrays, lengthened together
- 3. `path_search`: what walks along a path cost, and which of them go on
- 4. `followed`: the walk that was found along a path, and how well it follows the path
+ 1. `path_objective`: a path, the requests along it, and the prices of deviations
+ 2. `layered_search`: beam search over many walks, stored as arrays and extended together
+ 3. `path_search`: the costs of walks along a path, and the selection of those to extend
+ 4. `followed`: a walk along a path, and measures of its distance from the path
  5. `smooth_paths`: the paths of clips and walks without the sway of the root
  6. `bent_following`: walks that are bent onto a path
- 7. `path_following`: find a walk along a path, in layers and by the paper's branch and bound
- 8. `waypoints_and_crowds`: places, labels and times to pass; many characters that keep apart
- 9. `characters`: the protocol, the pose that a step gives, a walk by given commands, how soon they are obeyed
-10. `graph_control`: a character on a motion graph, and how it looks ahead
-11. `foot_turning`: a character that turns about the foot that stands, beyond what its clips turn
-12. `judged_control`: one protocol for all characters
+ 7. `path_following`: search for a walk along a path, by layers and by the paper's branch and bound
+ 8. `waypoints_and_crowds`: waypoints with labels and times, and characters that avoid each other
+ 9. `characters`: the protocol, the pose of a step, a walk by given commands, and the delay of its response
+10. `graph_control`: a character on a motion graph, and its look-ahead
+11. `foot_turning`: additional rotation about the planted foot, beyond that of the clips
+12. `judged_control`: one evaluation protocol for all characters
 
 References
 ----------

@@ -11,8 +11,8 @@ from .judged_control import judge_control as judge_control
 from .layered_search import LayeredSearch as LayeredSearch
 from .path_following import follow_as_2002 as follow_as_2002
 from .path_following import follow_path as follow_path
+from .path_objective import PathRequest as PathRequest
 from .path_objective import Settings as Settings
-from .path_objective import Wishes as Wishes
 from .waypoints_and_crowds import Waypoint as Waypoint
 from .waypoints_and_crowds import through_waypoints as through_waypoints
 from .waypoints_and_crowds import walk_crowd as walk_crowd

@@ -1,7 +1,7 @@
 """Walks that are bent onto a path by path editing [Gle01]: the route of the search, and the bent walk.
 
-A walk from the graph turns only where its clips turn. Path editing rotates it further. A search for a walk to
-be bent therefore counts the rotation beyond that of its clips, not the distance from the path.
+A walk through the graph turns only as its clips turn. Path editing rotates it further. Therefore a search for
+a walk to be bent prices the rotation beyond that of its clips, not the distance from the path.
 """
 
 from collections.abc import Callable
@@ -21,38 +21,39 @@ from mocap.editing.turning import places_on
 from mocap.errors import MocapError
 from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.steering.followed import Followed
-from mocap.steering.path_objective import Route, Wishes, make_route
+from mocap.steering.path_objective import PathRequest, Route, make_route
 from mocap.steering.path_search import SLOWEST, Found, too_slow
 from mocap.steering.smooth_paths import path_of_walk, smooth_graph
 from mocap.synthesis.walk_to_motion import to_motion
 
-EXTRA = 0.5  # metres that the search continues beyond the end of the path; the excess is cut
+EXTRA = 0.5  # metres by which the search continues beyond the end of the path, before the excess is cut
 EXTRA_FRACTION = 0.02  # of the path's length, in addition
 
 
 def plan_bending(
-    graph: CompiledGraph, path: GroundPath, wishes: Wishes, limit: float
+    graph: CompiledGraph, path: GroundPath, request: PathRequest, limit: float
 ) -> tuple[Route, Callable[[Found], Followed]]:
-    """Round a path for the usual pace of the clips, and make the route of a search for a walk to be bent.
+    """Prepare a search for a walk to be bent: its route, and the function that bends the walk.
 
     Parameters
     ----------
-    graph, path, wishes : as for `follow_path`.
-    limit : the highest angular speed of a bent walk, radians per second.
+    graph, path, request : as for `follow_path`.
+    limit : the highest additional angular speed of a bent walk, radians per second.
 
     Returns
     -------
-    The route, which is rounded, so that the search does not expect rotations beyond the limit, and a little
-    longer than the path. And a function that bends a walk from the search onto the path.
+    route : the path, rounded for the usual pace of the clips, so that the search does not expect rotations
+        beyond the limit. It is slightly longer than the path.
+    bend_walk : a function that bends a walk from the search onto the path and measures it.
 
     Raises
     ------
-    MocapError : for a limit that is not above 0, and wishes that make no sense.
+    MocapError : for a limit that is not above 0, and invalid requests.
     NoWalk : for a label that no clip of the graph has, and clips that only stand.
     """
     if not limit > 0:
         raise MocapError(f"A walk is bent by more than 0 radians per second, got bend={limit}.")
-    make_route(graph, path, wishes)  # refuses a path that is too long, and requests that are not on it
+    make_route(graph, path, request)  # refuses a path that is too long, and requests that are not on it
     smooth, rotations = smooth_graph(graph)
     walking_steps = smooth.step[smooth.step * graph.fps > SLOWEST]
     if not len(walking_steps):
@@ -61,26 +62,27 @@ def plan_bending(
     walked = np.arange(0.0, 2 * path.length + 2.0, float(np.median(walking_steps)))
     pace = Ride(GroundPath(np.array([[0.0, 0.0], [0.0, walked[-1]]])), walked)
     line = round_line(path, pace, graph.fps, limit)
-    route_wishes = _rounded_wishes(wishes, line)
+    rounded_request = _rounded_request(request, line)
     # A slower walk, or one whose clips turn, needs less rounding, so that its line is longer.
     longest = max(path.length, line.path.length)
     extra = EXTRA + (1 + EXTRA_FRACTION) * longest - line.path.length
     route_path = _extended(line.path, extra)
     along, ratio = places_on(route_path, pace, graph.fps, limit)
-    route = make_route(graph, route_path, route_wishes)
+    route = make_route(graph, route_path, rounded_request)
     route = _spaced_by_walk(route, route_path, along, ratio, walked)
-    return replace(route, own=smooth, turns=rotations), partial(_bend_walk, graph, path, route_wishes, limit)
+    route = replace(route, smooth=smooth, rotations=rotations)
+    return route, partial(_bend_walk, graph, path, rounded_request, limit)
 
 
-def _rounded_wishes(wishes: Wishes, line: RoundedLine) -> Wishes:
-    """Map the labels and times of wishes from metres along a path to metres along the rounded one."""
+def _rounded_request(request: PathRequest, line: RoundedLine) -> PathRequest:
+    """Map the labels and times of requests from metres along a path to metres along the rounded path."""
 
     def rounded(metres: float) -> float:
         return float(np.interp(metres, line.asked, line.along))
 
-    labels = [(rounded(metres), label) for metres, label in wishes.labels]
-    times = [(rounded(metres), seconds) for metres, seconds in wishes.times]
-    return replace(wishes, labels=labels, times=times, slide=0.0)
+    labels = [(rounded(metres), label) for metres, label in request.labels]
+    times = [(rounded(metres), seconds) for metres, seconds in request.times]
+    return replace(request, labels=labels, times=times, correction=0.0)
 
 
 def _extended(path: GroundPath, metres: float) -> GroundPath:
@@ -95,10 +97,10 @@ def _spaced_by_walk(route: Route, path: GroundPath, along: Array, ratio: Array, 
 
     Parameters
     ----------
-    route : of the path.
+    route : the route along the path.
     path : the path.
-    along : shape (F,), metres along the path in each frame of a straight walk at usual pace.
-    ratio : shape (F,), as from `places_on`: a frame lasts 1/√ratio as long there.
+    along : shape (F,), metres along the path in each frame of a straight walk at the usual pace.
+    ratio : shape (F,), as from `places_on`. The duration of a frame is multiplied by 1/√ratio.
     walked : shape (F,), metres of the straight walk before it is slowed down.
     """
     length = float(np.interp(path.length, along, walked))
@@ -115,8 +117,10 @@ def _spaced_by_walk(route: Route, path: GroundPath, along: Array, ratio: Array, 
     return replace(route, points=points, spacing=spaced[1], label=label, clock=clock, curvature=curvature)
 
 
-def _bend_walk(graph: CompiledGraph, path: GroundPath, wishes: Wishes, limit: float, walk: Found) -> Followed:
-    """Bend a walk from the search onto the path, and measure how well it follows."""
+def _bend_walk(
+    graph: CompiledGraph, path: GroundPath, request: PathRequest, limit: float, walk: Found
+) -> Followed:
+    """Bend a walk from the search onto the path, and measure its distance from the path."""
     edges = [graph.edges[edge] for edge in walk.edges]
     smooth, _ = smooth_graph(graph)
     ride = path_of_walk(smooth, walk.edges)
@@ -134,16 +138,16 @@ def _bend_walk(graph: CompiledGraph, path: GroundPath, wishes: Wishes, limit: fl
         along=bent.along,
         off=bent.off,
         off_at_length=np.hypot(*(track - path.at(bent.walked)).T),
-        unlabelled=_unlabelled(bent.motion, bent.walked, wishes),
+        unlabelled=_unlabelled(bent.motion, bent.walked, request),
         found=walk,
         bent=bent,
     )
 
 
-def _unlabelled(motion: Motion, walked: Array, wishes: Wishes) -> Mask:
-    """Mark the frames without the label that is asked for at the metres walked."""
+def _unlabelled(motion: Motion, walked: Array, request: PathRequest) -> Mask:
+    """Mark the frames without the requested label, as a function of the metres walked."""
     unlabelled = np.zeros(len(motion), bool)
-    for start, label in sorted(wishes.labels):
+    for start, label in sorted(request.labels):
         is_asked = walked >= start
         is_labelled = motion.labels.get(label, np.zeros(len(motion), bool))
         unlabelled[is_asked] = bool(label) & ~is_labelled[is_asked]

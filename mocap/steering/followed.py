@@ -1,4 +1,4 @@
-"""The walk that a search found along a path, and measures of how well it follows the path.
+"""A walk along a path, and measures of its quality.
 
 A walk is either played as it was found, or bent onto the path by path editing (`bent_following`).
 """
@@ -20,36 +20,37 @@ from mocap.steering.path_objective import Route
 from mocap.steering.path_search import Found
 from mocap.synthesis.walk_to_motion import to_motion
 
-ASTRAY = 0.15  # metres from the path at which a walk has left it
-NEAR = 0.04  # metres from the path on average, at most, for a path that is followed well
-SEAMS = 1.0  # transitions per second, at most, for a walk that plays well
-BENT_SEAMS = 0.7  # transitions per second, at most, for a bent walk that plays well
-REACH = 0.5  # metres before and after a point of the path within which a distance from it is measured
+ASTRAY = 0.15  # metres, the distance from the path beyond which a walk has left it
+NEAR = 0.04  # metres, the largest mean distance from the path of a walk that follows it well
+SEAMS = 1.0  # transitions per second, at most, for a walk of good quality
+BENT_SEAMS = 0.7  # transitions per second, at most, for a bent walk of good quality
+REACH = 0.5  # metres before and after a point of the path, in which its nearest point is searched
 
 
 @dataclass(frozen=True, eq=False)
 class Followed:
-    """A walk along a path, and how well it follows the path; `follow_path` shows an example.
+    """A walk along a path, and its distances from the path. `follow_path` has an example.
 
     Parameters
     ----------
     graph, path : the graph and the path.
-    walk : its edges.
-    place : the transform of the walk's first clip to the start of the path.
+    walk : the edges of the walk.
+    transform : the planar transform of the walk's first clip to the start of the path.
     track : shape (F, 2), the root's ground positions (x, z), metres.
     along : shape (F,), metres along the path in each frame.
-    off : shape (F,), metres from the path in each frame: from its nearest point within 0.5 m of `along`.
+    off : shape (F,), metres, the distance from the path in each frame. The nearest point of the path is
+        searched within 0.5 m of `along`.
     off_at_length : shape (F,), metres from the point of the path at equal arc length, as in [KGP02, Eq. 9].
-    unlabelled : shape (F,), the frames without the label asked for.
+    unlabelled : shape (F,), the frames without the requested label.
     found : the result of the search.
-    bent : the motion bent onto the path, or None. With one, `walk` and `found` are those of the search,
-        `track`, `along` and `off` those of the bent motion, and `place` is the identity.
+    bent : the motion bent onto the path, or None. For a bent motion, `walk` and `found` are those of the
+        search, `track`, `along` and `off` are those of the bent motion, and `transform` is the identity.
     """
 
     graph: MotionGraph
     path: GroundPath
     walk: list[Edge]
-    place: PlanarTransform
+    transform: PlanarTransform
     track: Array
     along: Array
     off: Array  # reads: name: public, and users read it
@@ -65,10 +66,10 @@ class Followed:
         return f"Followed({part}, {distances}, {seams}{', bent' if self.bent else ''})"
 
     def motion(self, *, name: str = "walk", clean: bool | None = None) -> Motion:
-        """Return the motion along the path; `clean` removes foot sliding, by default only of a bent walk."""
+        """Return the motion along the path, without foot sliding if `clean` (default: if bent)."""
         if self.bent:
             return replace(self.bent.laid if clean is False else self.bent.motion, name=name)
-        return to_motion(self.graph, self.walk, name=name, start=self.place, clean=bool(clean))
+        return to_motion(self.graph, self.walk, name=name, start=self.transform, clean=bool(clean))
 
     @property
     def seconds(self) -> float:
@@ -77,33 +78,33 @@ class Followed:
 
     @property
     def seams_per_second(self) -> float:
-        """Transitions per second of motion."""
+        """The number of transitions per second of motion."""
         kinds = [self.graph.graph.edges[edge]["kind"] for edge in self.walk]
         return kinds.count("transition") / self.seconds
 
     @property
     def restless(self) -> float:
-        """Seams per second, divided by the most for a good walk: 1, or 0.7 for a bent one."""
+        """Seams per second, divided by the limit of a good walk, which is 1, or 0.7 if it is bent."""
         return self.seams_per_second / (BENT_SEAMS if self.bent else SEAMS)
 
     @property
     def far(self) -> float:  # reads: name: public, and users read it
-        """The larger of mean distance / 4 cm and worst distance / 15 cm; 0 for a bent walk."""
+        """The larger of mean distance / 4 cm and worst distance / 15 cm, or 0 for a bent walk."""
         return 0.0 if self.bent else float(max(self.off.mean() / NEAR, self.off.max() / ASTRAY))
 
     @property
     def excess(self) -> float:
-        """The larger of `far` and `restless`: at most 1 for a walk that follows well."""
+        """The larger of `far` and `restless`, at most 1 for a walk that follows its path well."""
         return max(self.far, self.restless)
 
     @property
     def progress(self) -> float:
-        """The fraction of the path that was walked, 1 for all of it."""
+        """The fraction of the path that the walk covers, at most 1."""
         return float(min(1.0, self.along[-1] / self.path.length))
 
     @property
     def departures(self) -> list[tuple[float, float, float]]:
-        """The stretches more than 15 cm off the path: starts and ends along it, worst distances."""
+        """The start, end and worst distance of each stretch more than 15 cm off the path, metres."""
         stretches = []
         for start, stop in runs(self.off > ASTRAY).tolist():
             worst = self.off[start:stop].max()
@@ -111,7 +112,7 @@ class Followed:
         return stretches
 
     def report(self) -> str:
-        """Summarise in one line how well the walk follows the path, and where a bent path was rounded."""
+        """Summarise the distances from the path, the rounding of a bent path, and the seams in one line."""
         line = self.bent.report() + "; " if self.bent else self._distances() + ", "
         line += f"{self.seams_per_second:.2f} seams per second"
         if self.unlabelled.any():
@@ -121,7 +122,7 @@ class Followed:
         return line
 
     def _distances(self) -> str:
-        """Return the duration, the part of the path that was walked, and the distances from it, as text."""
+        """Format the duration, the fraction of the path that was covered, and the distances from it."""
         covered = f"{self.seconds:.1f} s along {self.progress:.0%} of {self.path.length:.1f} m"
         mean = f"{100 * self.off.mean():.1f} cm off on average"
         worst = f"{100 * self.off.max():.1f} cm at worst"
@@ -130,13 +131,14 @@ class Followed:
 
 
 def measure_walk(graph: CompiledGraph, path: GroundPath, route: Route, walk: Found) -> Followed:
-    """Measure the distances of a walk from its path, and find the frames without the label asked for.
+    """Measure the distances of a walk from its path, and find the frames without the requested label.
 
     Parameters
     ----------
     graph : the graph of the walk.
-    path : the path, and `route`, its evenly spaced points.
-    walk : from a search.
+    path : the path.
+    route : evenly spaced points of the path.
+    walk : the result of a search.
     """
     points, rows = walk_track(graph, walk.edges, walk.rotation, walk.translation)
     label = route.label[route.point(walk.along)]
@@ -157,7 +159,7 @@ def measure_walk(graph: CompiledGraph, path: GroundPath, route: Route, walk: Fou
 
 
 def _distances_from(route: Route, points: Points, along: Array) -> Array:
-    """Compute the distances of F points from the segments of a route near some metres along it, (F,)."""
+    """Compute the distances (F,) of points from a route, of which only segments near `along` are compared."""
     reach = int(REACH / route.spacing) + 1
     nearby = (along / route.spacing).astype(np.intp)[:, None] + np.arange(-reach, reach)
     nearby = np.clip(nearby, 0, len(route.points) - 2)  # (F, number of segments)

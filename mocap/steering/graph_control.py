@@ -1,9 +1,9 @@
 """Control on a motion graph: a character that gets a new command in any frame while it walks [KGP02, 5.3].
 
-It looks ahead: many walks grow by one hop per round, and the best stay. The cost of a walk is the sum of
-‖v - v'‖² Δt over its hops: v is the mean velocity of the root over the hop, v' the velocity of the command,
-and Δt the hop's duration. Each transition adds `SEAM`; each second without the label of the command adds
-`LABEL`.
+It looks ahead: many walks grow by one macro-edge per round, and the best stay. The cost of a walk is the sum
+of ‖v - v'‖² Δt over its macro-edges: v is the mean velocity of the root over the macro-edge, v' the velocity
+of the command, and Δt the macro-edge's duration. Each transition adds `SEAM`; each second without the label
+of the command adds `LABEL`.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph, Node
 from mocap.steering.characters import Pose, require_command
-from mocap.steering.layered_search import EQUAL, States, hop_states, start_states
+from mocap.steering.layered_search import EQUAL, States, macro_edge_states, start_states
 
 SEAM = 0.1  # m²/s, as all costs here
 LABEL = 4.0  # m²/s per second
@@ -34,9 +34,9 @@ WIDTH = 64  # walks that stay in each round
 class Controller:
     """A character on a motion graph; each `step` takes a command and gives the next pose [KGP02, 5.3].
 
-    While it plays one hop, it looks ahead from the end of this hop: in each frame all walks ahead grow by one
-    round, so that no step takes long. At the end of the hop it takes the first hop of the best walk. The cost
-    of a walk compares its velocity with the command, as this file says.
+    While it plays one macro-edge, it looks ahead from the end of this macro-edge: in each frame all walks
+    ahead grow by one round, so that no step takes long. At the end of the macro-edge it takes the first
+    macro-edge of the best walk. The cost of a walk compares its velocity with the command, as this file says.
 
     A step makes little garbage. But when Python's collector visits a large graph, this takes 30 to 90 ms.
     Where every step must be on time, call `gc.freeze()` after the graph is built.
@@ -59,7 +59,7 @@ class Controller:
     (38, 4)
     """
 
-    walks: States  # from the end of the hop under way; `hop` is the first of each
+    walks: States  # from the end of the macro-edge under way; `macro_edge` is the first of each
 
     def __init__(self, graph: MotionGraph | CompiledGraph, *, start: Node | None = None) -> None:
         self.graph = compile_graph(graph)
@@ -67,14 +67,15 @@ class Controller:
         self.fps = self.graph.fps
         self.displacements = _displacements(self.graph)
         seams = np.where(self.graph.blended, SEAM, 0.0)
-        self.hops = hop_states(self.graph, np.abs(self.displacements), seams)
+        self.macro_edges = macro_edge_states(self.graph, np.abs(self.displacements), seams)
         self.seconds_without = _seconds_without(self.graph)
-        self.edges: list[int] = []  # of the hop under way, still to be played; the first one is being played
+        # Those of the macro-edge under way that are still to be played; the first one is being played.
+        self.edges: list[int] = []
         self.frame = 0  # of the first edge
         # The transform of its clip: p ↦ turn · p + move.
         self.turn = 1 + 0j
         self.move = 0j
-        # The node where the hop under way ends, and the rotation of its clip there.
+        # The node where the macro-edge under way ends, and the rotation of its clip there.
         self.node = 0 if start is None else self.graph.index(start)
         self.end_turn = self.turn
         self.command = (0j, -1)  # velocity, label
@@ -123,7 +124,7 @@ class Controller:
 
     @property
     def frames_left(self) -> int:
-        """The frames until the next choice: the rest of the hop under way."""
+        """The frames until the next choice: the rest of the macro-edge under way."""
         if not self.edges:
             return 0
         return int(self.graph.frames[self.edges].sum()) - self.frame
@@ -150,7 +151,7 @@ class Controller:
     def turn_about(self, point: complex, angle: float) -> None:
         """Turn what comes from now on about a point on the ground, z + ix, by an angle in radians.
 
-        The walks ahead turn along; what their first hops cost stays, as good as the angle is small.
+        The walks ahead turn along; what their first macro-edges cost stays, as good as the angle is small.
         """
         rotation = cmath.exp(1j * angle)
         self.turn = rotation * self.turn
@@ -186,41 +187,41 @@ class Controller:
         return transform.apply_frames(clip.root_positions[frame], clip.rotations[frame])
 
     def _restart(self) -> None:
-        """Look ahead anew, from the end of the hop under way, with one walk without hops."""
+        """Look ahead anew, from the end of the macro-edge under way, with one walk without macro-edges."""
         self.walks = start_states(np.array([self.node]), np.array([self.end_turn]), np.zeros(1, complex))
         self.decided = False
 
     def _look(self) -> None:
-        """Lengthen every walk below the horizon by every hop that leaves its node; keep the best walks.
+        """Lengthen every walk below the horizon by every macro-edge that leaves its node.
 
-        The best are the `WIDTH` with the lowest cost per frame. Without longer walks the choice is clear.
+        The `WIDTH` walks with the lowest cost per frame stay. Without longer walks the choice is clear.
         """
         velocity, label = self.command
         is_short = self.walks.frames < AHEAD * self.fps
         short = self.walks.take(is_short)
-        row, hop = self.graph.hops.leaving(short.node)
-        self.decided = not len(hop)
+        row, macro_edge = self.graph.macro_edges.leaving(short.node)
+        self.decided = not len(macro_edge)
         if self.decided:
             return
-        steps = self.hops.take(hop)
+        steps = self.macro_edges.take(macro_edge)
         seconds = steps.frames / self.fps
-        error = short.rotation[row] * self.displacements[hop] - velocity * seconds
+        error = short.rotation[row] * self.displacements[macro_edge] - velocity * seconds
         cost = (error.real**2 + error.imag**2) / seconds + steps.cost
         if label >= 0:
-            cost += LABEL * self.seconds_without[label, hop]
+            cost += LABEL * self.seconds_without[label, macro_edge]
         longer = short.then(row, steps._replace(cost=cost))
-        first_hop = np.where(short.hop[row] < 0, hop, short.hop[row])
-        walks = States.join([self.walks.take(~is_short), longer._replace(hop=first_hop)])
+        first_macro_edge = np.where(short.macro_edge[row] < 0, macro_edge, short.macro_edge[row])
+        walks = States.join([self.walks.take(~is_short), longer._replace(macro_edge=first_macro_edge)])
         self.walks = walks.take(in_order(walks.cost / walks.frames, EQUAL)[:WIDTH])
 
     def _choose(self) -> None:
-        """Take the first hop of the best walk, and look ahead from its end."""
+        """Take the first macro-edge of the best walk, and look ahead from its end."""
         while not self.decided:
             self._look()
-        hop = int(self.walks.hop[0])
-        if hop < 0:
+        macro_edge = int(self.walks.macro_edge[0])
+        if macro_edge < 0:
             raise NoWalk(f"The walk ends at node {self.graph.nodes[self.node]}: prune the graph first.")
-        self.edges = self.graph.hops.edges(np.array([hop])).tolist()
+        self.edges = self.graph.macro_edges.edges(np.array([macro_edge])).tolist()
         last = self.edges[-1]
         self.frame = 0
         self.node = int(self.graph.target[last])
@@ -229,18 +230,18 @@ class Controller:
 
 
 def _displacements(graph: CompiledGraph) -> Points:
-    """Compute the root's displacement over each hop (H,), in the coordinates of the clip that it leaves."""
-    hops = graph.hops
-    starts = np.repeat(graph.at, np.diff(hops.first))
-    targets = graph.target[hops.last]
-    ends = graph.rotation[hops.last] * graph.at[targets] + graph.translation[hops.last]
+    """Compute the root's displacement over each macro-edge (H,), in coordinates of the clip it leaves."""
+    macro_edges = graph.macro_edges
+    starts = np.repeat(graph.at, np.diff(macro_edges.first))
+    targets = graph.target[macro_edges.last]
+    ends = graph.rotation[macro_edges.last] * graph.at[targets] + graph.translation[macro_edges.last]
     return ends - starts
 
 
 def _seconds_without(graph: CompiledGraph) -> Array:
-    """Compute the seconds of each of H hops without each of L labels, (L, H)."""
-    hops = graph.hops
+    """Compute the seconds of each of H macro-edges without each of L labels, (L, H)."""
+    macro_edges = graph.macro_edges
     frames = np.pad(np.cumsum(~graph.bears, axis=1), ((0, 0), (1, 0)))  # without the label so far, (L, T + 1)
-    stops = hops.starts + hops.counts
-    of_edges: Indices = frames[:, stops] - frames[:, hops.starts]  # (L, H, 2)
+    stops = macro_edges.starts + macro_edges.counts
+    of_edges: Indices = frames[:, stops] - frames[:, macro_edges.starts]  # (L, H, 2)
     return np.asarray(of_edges.sum(axis=-1) / graph.fps)

@@ -13,7 +13,7 @@ from mocap.body.motion import Motion
 from mocap.body.planar import on_ground
 from mocap.errors import MocapError, MocapWarning
 from mocap.feet.footskate import clean_up
-from mocap.quality.seam_measures import USUAL, Spread, jumps, mean_slide, plant_slides
+from mocap.quality.seam_measures import USUAL, Spread, foot_sliding, jumps, mean_foot_sliding
 from mocap.steering.characters import Character, Delay, measure_delay, steer
 
 TURNS = np.radians([30, 120])  # of a command
@@ -98,7 +98,9 @@ def judge_control(
     for some in (motion, cleaned):
         planted.append(sum(int(mark.sum()) for mark in some.contacts.values()))
         # Two frames are too few to slide.
-        slides.append(mean_slide(slide for slide in plant_slides(some) if slide.stop - slide.start > 2))
+        slides.append(
+            mean_foot_sliding(slide for slide in foot_sliding(some) if slide.stop - slide.start > 2)
+        )
     limit = np.percentile(usual.within(1), USUAL)
     return ControlReport(
         measure_delay(make(), speed=speed, seed=seed),

@@ -1,12 +1,12 @@
-"""One search in layers: many unfinished walks as arrays, lengthened together; the best of each layer go on.
+"""Layered beam search: partial walks as arrays, extended together, with a selection in each layer.
 
-A depth-first search, as in the paper, is too slow for a dense graph: there are dozens of choices per second,
-and it tries few of them before the time is over. But what a walk can still do depends only on its node, its
-place and its direction. So here all walks advance together, a layer at a time: a few centimetres of a path,
-or a tenth of a second. The time is linear in the number of layers.
+The depth-first search of the paper is too slow for a dense graph, with dozens of choices per second of
+motion: it explores few of them in the available time. The possible continuations of a walk, however, depend
+only on its node, its position and its direction. Therefore all walks advance together, layer by layer. A
+layer is a few centimetres of a path, or a tenth of a second. The time is linear in the number of layers.
 
-Ground points are complex numbers z + ix, and p ↦ rotation · p + translation is the transform of the clip of a
-walk's last node.
+Ground points are complex numbers z + ix, and p ↦ rotation · p + translation is the transform of the clip of
+the last node of a walk.
 """
 
 from __future__ import annotations
@@ -22,17 +22,17 @@ from mocap._shared.records import NamedTuple
 from mocap._shared.ties import in_order
 from mocap.graphs.compiled_graph import CompiledGraph
 
-# In the unit of costs, m² or m²/s: walks whose costs differ by less are equally good, and go in the order in
-# which they were found. Rounding of a cost is some 1e-12; a frame that is 1 cm off a path costs 1e-4 m².
+# The tolerance for equal costs, m² or m²/s: such walks remain in the order in which they were found. The
+# rounding error of a cost is about 1e-12, and a frame that is 1 cm off a path costs 1e-4 m².
 EQUAL = 1e-7
 
-# Of a cell's width: a place or a direction so little below a cell's border is on it. Straight paths have
-# places whose x is 0, but for rounding.
+# Fraction of the width of a cell: values that are below a border of cells by less are on the border. On
+# straight paths, x is often 0 up to rounding.
 ON_BORDER = 1e-6
 
 
 class States(NamedTuple):
-    """N unfinished walks: where each ends, and its cost so far; each field has shape (N,).
+    """N partial walks, described by their ends and costs; each field has shape (N,).
 
     Examples
     --------
@@ -43,66 +43,67 @@ class States(NamedTuple):
     """
 
     node: Indices
-    rotation: Points  # with `translation`, the transform of the node's clip
+    rotation: Points  # with `translation`, the transform of the clip of the node
     translation: Points
     along: Array  # metres
     frames: Indices
     cost: Array
-    trail: Indices  # the number of the state before, -1 at a start
-    hop: Indices  # what led here, -1 at a start
+    trail: Indices  # the number of the previous state, -1 at a start
+    macro_edge: Indices  # the last macro-edge, -1 at a start
 
     def take(self, chosen: slice | NDArray[Any]) -> States:
-        """Take some of the walks."""
+        """Select some of the walks."""
         return States._make(values[chosen] for values in self)
 
     def then(self, rows: Indices, steps: States) -> States:
-        """Lengthen walks by steps, each a walk in its first clip's coordinates; step n continues `rows[n]`.
+        """Extend walks by steps: step n, in the coordinates of its first clip, continues walk `rows[n]`.
 
-        The longer walks' `trail` are the rows of those that they continue, their `hop` is the step's.
+        In the result, `trail` is `rows`, and `macro_edge` that of the steps.
         """
         rotation = self.rotation[rows] * steps.rotation
         translation = self.translation[rows] + self.rotation[rows] * steps.translation
         along = self.along[rows] + steps.along
         frames = self.frames[rows] + steps.frames
         cost = self.cost[rows] + steps.cost
-        return States(steps.node, rotation, translation, along, frames, cost, trail=rows, hop=steps.hop)
+        macro_edge = steps.macro_edge
+        return States(steps.node, rotation, translation, along, frames, cost, rows, macro_edge)
 
     @staticmethod
     def join(parts: Sequence[States]) -> States:
-        """Put several sets of walks into one."""
+        """Concatenate sets of walks."""
         return States._make(np.concatenate(values) for values in zip(*parts, strict=True))
 
 
 def start_states(nodes: Indices, rotation: Points, translation: Points) -> States:
-    """Start a walk at each of some nodes, whose clips are transformed by p ↦ rotation · p + translation."""
+    """Create a walk without edges at each of some nodes, with the transforms of their clips."""
     zero = np.zeros(len(nodes))
     no_frames = np.zeros(len(nodes), np.intp)
-    start = np.full(len(nodes), -1, np.intp)  # no state and no hop leads here
+    start = np.full(len(nodes), -1, np.intp)  # no previous state, and no macro-edge
     return States(
-        nodes, rotation, translation, along=zero, frames=no_frames, cost=zero, trail=start, hop=start
+        nodes, rotation, translation, along=zero, frames=no_frames, cost=zero, trail=start, macro_edge=start
     )
 
 
-def hop_states(graph: CompiledGraph, along: Array, price: Array) -> States:
-    """Take each of the H hops of a graph as a walk of its own.
+def macro_edge_states(graph: CompiledGraph, along: Array, price: Array) -> States:
+    """Represent each of the H macro-edges of a graph as a walk, a step for `States.then`.
 
     Parameters
     ----------
     graph : the compiled graph.
-    along : metres of each hop (H,).
-    price : of each edge (E,); a hop costs what the edge costs by which it leaves its clip.
+    along : the progress of each macro-edge, metres (H,).
+    price : the cost of each edge (E,); that of a macro-edge is the cost of its last edge.
     """
-    last = graph.hops.last
-    frames = graph.hops.frames
+    last = graph.macro_edges.last
+    frames = graph.macro_edges.frames
     numbers = np.arange(len(along))
     transform = (graph.rotation[last], graph.translation[last])
     return States(graph.target[last], *transform, along, frames, price[last], numbers, numbers)
 
 
 def standing(states: States, roots: Points, cell: float, sector: float) -> Indices:
-    """Round the state of walks to integers (4, N): node, and cells of `cell` metres and `sector` radians.
+    """Quantise walks to cells (4, N): node, x and z in units of `cell` metres, direction of `sector` radians.
 
-    `roots`, shape (nodes,), are the root's positions at the nodes, in the coordinates of their clips.
+    `roots`, one for each node, are the positions of the root at the nodes in the coordinates of their clips.
     """
     body = (states.translation + states.rotation * roots[states.node]) / cell
     cells = np.floor(np.array([body.real, body.imag, np.angle(states.rotation) / sector]) + ON_BORDER)
@@ -110,13 +111,13 @@ def standing(states: States, roots: Points, cell: float, sector: float) -> Indic
 
 
 def select(scores: Array, cells: Indices, width: int) -> Indices:
-    """Choose the best one of the walks that stand alike, and of these the `width` best, in order.
+    """Select the best walk of each cell, and of these the `width` best, in order.
 
     Parameters
     ----------
-    scores : shape (N,); small is good.
-    cells : shape (C, N), whole numbers; walks with the same column stand alike.
-    width : how many to choose.
+    scores : shape (N,); lower is better.
+    cells : shape (C, N), integers; walks with equal columns are in the same cell.
+    width : the largest number of walks selected.
 
     Examples
     --------
@@ -127,34 +128,35 @@ def select(scores: Array, cells: Indices, width: int) -> Indices:
     """
     order = in_order(scores, EQUAL)
     cells = cells[:, order]
-    alike = np.lexsort(cells)  # walks that stand alike come together, the best of them first
-    cells = cells[:, alike]
-    new = np.concatenate([[True], (cells[:, 1:] != cells[:, :-1]).any(axis=0)])
-    return np.asarray(order[np.sort(alike[new])[:width]])
+    by_cell = np.lexsort(cells)  # stable: the first walk of each cell is the best
+    cells = cells[:, by_cell]
+    is_first = np.concatenate([[True], (cells[:, 1:] != cells[:, :-1]).any(axis=0)])
+    return np.asarray(order[np.sort(by_cell[is_first])[:width]])
 
 
 class LayeredSearch:
-    """A search in layers; iterate over it, and each round gives the walks that stayed.
+    """A layered search as an iterator, which yields the walks that are kept in each round.
 
-    The caller drives it, so that a clock, a bar, a key press or a picture can come between two rounds. A
-    subclass defines in `expand`, `score`, `cells`, `layers` and `done` what it searches for.
+    Because the caller drives the iteration, it can check a deadline, show progress, respond to a key or draw
+    between two rounds. A subclass defines the search by `expand`, `score`, `cells`, `layers` and `done`.
+    Walks that cost as much as the best one that has arrived are dropped.
 
     Parameters
     ----------
-    starts : the first walks.
-    width : walks that stay in a round. No walk goes on that costs as much as the best one that arrived.
+    starts : the initial walks.
+    width : the largest number of walks that are kept in a round.
     """
 
-    expand: Callable[[States], States]  # longer walks; the `trail` of each is the row that it goes on from
-    score: Callable[[States], Array]  # (N,), small is good: the cost, and what is expected to come
-    cells: Callable[[States], Indices]  # columns of whole numbers (C, N), equal where walks stand alike
+    expand: Callable[[States], States]  # extended walks; the `trail` of each is the row of its predecessor
+    score: Callable[[States], Array]  # (N,), lower is better: the cost plus the expected cost
+    cells: Callable[[States], Indices]  # (C, N), integers; walks with equal columns are in the same cell
     layers: Callable[[States], Indices]  # (N,)
     # reads: name: all kinds of search define it
-    done: Callable[[States], Mask]  # (N,), which have arrived
+    done: Callable[[States], Mask]  # (N,), whether a walk has arrived
 
     def __init__(self, starts: States, width: int) -> None:
         self.waiting: dict[int, list[States]] = {0: [starts]}
-        self.width = self.first = width  # `first` of the starts go on
+        self.width = self.first = width  # `first` is the width of the first round
         self.history: list[States] = []
         self.arrived: list[States] = []
         self.expanded = self.cut = 0
@@ -164,7 +166,7 @@ class LayeredSearch:
             yield from self.rounds(min(self.waiting))
 
     def rounds(self, layer: int) -> Iterator[States]:
-        """Work through a layer: keep its best walks, and put what they become into the layers they reach."""
+        """Process a layer: yield its best walks, and put their extensions into the layers that they reach."""
         while parts := self.waiting.pop(layer, []):
             states = States.join(parts)
             width = self.width if self.history else self.first
@@ -175,23 +177,23 @@ class LayeredSearch:
             longer = self.expand(chosen)
             longer = self.still_going(longer._replace(trail=longer.trail + self.expanded))
             self.expanded += len(chosen.node)
-            # A walk that has not left the layer goes on in it, or it would compete with those ahead.
+            # Walks that are still in this layer get another round, instead of competing with walks ahead.
             reached = np.maximum(self.layers(longer), layer)
             for then in set(reached.tolist()):
                 self.waiting.setdefault(then, []).append(longer.take(reached == then))
 
     def still_going(self, states: States) -> States:
-        """Put aside the walks that have arrived, and drop those that cannot become the best one."""
+        """Select the walks to extend: store those that have arrived, and drop those that cannot be best."""
         has_arrived = self.done(states)
         if not has_arrived.any():
             return states
         self.arrived.append(states.take(has_arrived))
-        # No cost is below 0, so a walk that costs as much as the best one cannot become better.
+        # Costs never decrease: a walk that costs as much as the best one that has arrived cannot improve.
         best = min(arrived.cost.min() for arrived in self.arrived)
         return states.take(~has_arrived & (states.cost < best - EQUAL))
 
     def trace(self, states: States, row: int) -> States:
-        """Return the states of one walk, from its start over all rounds to this row of some states."""
+        """Backtrack a walk: return its states in all rounds, from its start to row `row` of `states`."""
         history = States.join(self.history)
         rows = [int(states.trail[row])]
         while rows[-1] >= 0:

@@ -1,4 +1,4 @@
-"""Find a walk along a path on the ground: in layers, and by the paper's branch and bound [KGP02, 5.1]."""
+"""Search for a walk along a path on the ground: by layers, and by branch and bound [KGP02, 5.1]."""
 
 import itertools
 import warnings
@@ -21,67 +21,69 @@ from mocap.graphs.motion_graph import MotionGraph
 from mocap.steering.bent_following import plan_bending
 from mocap.steering.followed import ASTRAY, Followed, measure_walk
 from mocap.steering.layered_search import States, start_states
-from mocap.steering.path_objective import Route, Settings, Wishes, make_route
+from mocap.steering.path_objective import PathRequest, Route, Settings, make_route
 from mocap.steering.path_search import SLOWEST, Found, find_walk, too_slow
 from mocap.synthesis.bounded_search import Problem, SearchEdge, search_ahead
 from mocap.synthesis.ground_walks import GroundWalks, Stand
 
-WIDE = 400  # walks that stay in each layer, where all else leaves the path
-FAR = 1.0  # metres from the path on average: a walk does not follow it
-CHEAP = (1 / 3, 0.0)  # shares of the price of seams, for walks that leave the path
-AGAIN = 1.25  # a repeated search multiplies or divides the price of a seam by this
+WIDE = 400  # beam width of the last searches, if all others leave the path
+FAR = 1.0  # metres, the mean distance from the path above which a walk does not follow it
+LOWER_SEAM_PRICES = (1 / 3, 0.0)  # factors of the price of a seam in the last searches
+AGAIN = 1.25  # factor or divisor of the price of a seam in a repeated search
 
 
 def follow_path(
     graph: MotionGraph | CompiledGraph,
     path: GroundPath | VectorsLike,
-    wishes: Wishes | None = None,
+    request: PathRequest | None = None,
     *,
     settings: Settings | None = None,
     bend: float = 0.0,
 ) -> Followed:
-    """Find a walk whose root, seen from above, follows a path [KGP02, 5.1].
+    """Find a walk through a motion graph whose root follows a path on the ground [KGP02, 5.1].
 
-    The search is a `LayeredSearch`; its time is linear in the path's length. No single price of a seam suits
-    all paths. So where seams are too frequent, or the walk is too far off (`Followed.excess` above 1), the
-    search is repeated with a wider beam, and with the price of a seam times or divided by 1.25. The best walk
-    is taken. Where it still leaves the path, a search keeps 400 walks, at a third of the price of seams, and
-    where that leaves it, too, a last one where they are free. Where no clip turns as the path does, the walk
-    cuts the corner; a warning says where.
+    The search is a `LayeredSearch`, whose time is linear in the path's length. No single price of a seam
+    suits all paths. If seams are too frequent, or the walk is too far off (`Followed.excess` above 1), the
+    search is repeated with a wider beam, and with the price of a seam multiplied or divided by 1.25. The best
+    walk is returned. If it still leaves the path, two more searches have a beam width of 400: one with a
+    third of the price of a seam, and, if necessary, one with free seams. If no clip turns as the path does,
+    the walk cuts the corner, and a warning reports the position.
 
-    Seams cost, so a walk can be nearer: the paper's own search, `follow_as_2002`, takes two to three times as
-    many, and is nearer to 23 of the 40 lines of `figures/BENCHMARK.md`, mostly by a centimetre. With
-    `Settings(seam=0, match=0, width=200, tries=1)`, where seams are free here, too, it is nearer to 4 of the
-    20 of `figures/following.md`. Where a walk leaves its path, the warning says that it may come nearer.
+    Because seams have a price, other walks can be nearer to the path. The search of the paper,
+    `follow_as_2002`, uses two to three times as many seams, and is nearer to 23 of the 40 lines of
+    `figures/BENCHMARK.md`, mostly by a centimetre. If seams are also free here, with `Settings(seam=0,
+    match=0, width=200, tries=1)`, the search of the paper is nearer to only 4 of the 20 lines of
+    `figures/following.md`. The warning about a walk that leaves its path mentions that search.
 
-    With `bend`, any walk follows any path: the search prices by how much a walk must be turned beyond what
-    its clips turn, instead of its distance from the path. Then it is laid on the path [Gle01], and its feet
-    are cleaned up. Where the path turns too fast, it is rounded; `report` says where and by how much.
+    With `bend`, any walk can follow any path. The search prices the rotation of a walk beyond that of its
+    clips instead of its distance from the path. Then the walk is bent onto the path by path editing [Gle01],
+    and foot sliding is removed. If the path turns too fast, it is rounded. `report` shows the position and
+    the amount of the rounding.
 
     Parameters
     ----------
-    graph : pruned, so that walks do not end; compile it yourself to follow many paths.
-    path : where to walk, or its points (x, z), metres.
-    wishes : labels, times and the start.
-    settings : how thoroughly to search, and what deviations cost.
-    bend : the fastest that a walk is turned beyond its own turning, radians per second: `editing.LIMIT`, 100°
-        per second, as people turn. 0 leaves walks as they are.
+    graph : pruned, so that walks do not end. To follow many paths, pass a graph that is compiled already.
+    path : the path, or its points (x, z), metres.
+    request : labels, times and the start.
+    settings : the effort of the search, and the prices of deviations.
+    bend : the highest angular speed that bending adds to a walk, radians per second, for example
+        `editing.LIMIT`, 100° per second, which people reach. 0 does not bend.
 
     Returns
     -------
-    The walk, and how well it follows the path; with `bend` also how it was laid on the path, `bent`.
+    The walk and its distances from the path. With `bend`, its field `bent` describes the bending.
 
     Raises
     ------
-    NoWalk : for a label that no walk can reach, a start that is not in the graph, a dead end, and clips of
-        which no walk goes on at 0.3 m/s; without `bend` where the walk is a metre off on average; with
-        `Settings(tries=1)` it is given all the same. For a deadline before the first step of the search.
-    MocapError : for a path that takes these clips more than an hour, and wishes that make no sense.
+    NoWalk : for a label that no walk can reach, a start that is not in the graph, a dead end, clips from
+        which no walk keeps a speed of 0.3 m/s, and a deadline before the first step of the search. Also for a
+        walk that is more than a metre off the path on average, except with `bend` or `Settings(tries=1)`.
+    MocapError : for a path that would take more than an hour with these clips, and invalid requests.
 
     Warns
     -----
-    MocapWarning : where the walk is more than 15 cm off the path, and with `bend` for plants that are let go.
-        Where `Settings.deadline` ended the search, with how much of the path the walk covers.
+    MocapWarning : if the walk is more than 15 cm off the path, if bending released foot contacts, and if
+        `Settings.deadline` ended the search, with the part of the path that the walk covers.
 
     Examples
     --------
@@ -99,43 +101,43 @@ def follow_path(
     """
     compiled = compile_graph(graph)
     path = as_path(path)
-    wishes = wishes or Wishes()
+    request = request or PathRequest()
     settings = settings or Settings()
     deadline = Deadline(settings.deadline)
     if settings.tries < 1:
         raise MocapError(f"A path takes at least one search, got tries={settings.tries}.")
     measure: Callable[[Found], Followed]
     if bend:
-        route, measure = plan_bending(compiled, path, wishes, bend)
+        route, measure = plan_bending(compiled, path, request, bend)
     else:
-        route = make_route(compiled, path, wishes)
+        route = make_route(compiled, path, request)
         measure = partial(measure_walk, compiled, path, route)
-    starts = start_of(compiled, route, wishes)
-    _require_labels(compiled, [label for _, label in sorted(wishes.labels)], starts.node)
+    starts = start_of(compiled, route, request)
+    _require_labels(compiled, [label for _, label in sorted(request.labels)], starts.node)
 
-    said: dict[int, list[str]] = {}  # by each walk; only what the best one says is told
+    messages: dict[int, list[str]] = {}  # warnings, by the id of a walk: only those of the best are issued
 
     def search(settings: Settings) -> Followed:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             walk = measure(find_walk(compiled, route, starts, settings, deadline))
-        said[id(walk)] = [str(warned.message) for warned in caught]
+        messages[id(walk)] = [str(warned.message) for warned in caught]
         return walk
 
     followed, is_ended = _best_of(search, replace(settings, width=settings.width_on(route)), deadline)
-    for sentence in said[id(followed)]:
-        warn(sentence)
+    for message in messages[id(followed)]:
+        warn(message)
     if is_ended and deadline.is_over:
-        _tell_deadline(followed, settings.deadline)
-    if not wishes.others:  # with others it goes aside to give way
+        _warn_of_deadline(followed, settings.deadline)
+    if not request.others:  # a walk that gives way to others may leave the path
         if settings.tries > 1 and not bend and not is_ended:
             _require_near(compiled, followed)
-        _tell_departures(followed, bend)
+        _warn_of_departures(followed, bend)
     return followed
 
 
-def _tell_deadline(followed: Followed, seconds: float) -> None:
-    """Warn of a search that a deadline ended, with how much of the path the walk covers."""
+def _warn_of_deadline(followed: Followed, seconds: float) -> None:
+    """Warn that a deadline ended the search, with the part of the path that the walk covers."""
     length = f"{followed.path.length:.1f} m"
     if followed.progress < 1:
         percent = min(99, round(100 * followed.progress))
@@ -146,7 +148,7 @@ def _tell_deadline(followed: Followed, seconds: float) -> None:
 
 
 def _require_near(graph: CompiledGraph, followed: Followed) -> None:
-    """Raise `NoWalk` for a walk that does not follow the path at all."""
+    """Raise `NoWalk` for a walk that is more than a metre off the path on average."""
     if followed.off.mean() > FAR and not followed.found.stopped:
         distance = f"The nearest walk is {followed.off.mean():.1f} m off the line on average"
         speed = np.abs(np.diff(on_ground(followed.track))).sum() / followed.seconds
@@ -155,8 +157,8 @@ def _require_near(graph: CompiledGraph, followed: Followed) -> None:
         raise NoWalk(f"{distance}: no clips turn as it does; try `bend`, or add clips that turn.")
 
 
-def _tell_departures(followed: Followed, bend: float) -> None:
-    """Warn of a walk that leaves the path."""
+def _warn_of_departures(followed: Followed, bend: float) -> None:
+    """Warn about a walk that leaves the path, with the worst place and a likely cause."""
     if departures := followed.departures:
         start, end, worst = max(departures, key=lambda stretch: stretch[2])
         often = "once" if len(departures) == 1 else f"{len(departures)} times"
@@ -171,7 +173,7 @@ def _tell_departures(followed: Followed, bend: float) -> None:
 def _best_of(
     search: Callable[[Settings], Followed], settings: Settings, deadline: Deadline
 ) -> tuple[Followed, bool]:
-    """Search, and search again with other settings while that may help.
+    """Search repeatedly, with changed settings, until the walk is good or no settings remain.
 
     Returns
     -------
@@ -194,7 +196,7 @@ def _best_of(
 
 @contextmanager
 def _ending(deadline: Deadline) -> Iterator[None]:
-    """Suppress NoWalk if the deadline is over: a search may end before its first step."""
+    """Suppress `NoWalk` after the deadline, because a search may end before its first step."""
     try:
         yield
     except NoWalk:
@@ -203,10 +205,10 @@ def _ending(deadline: Deadline) -> Iterator[None]:
 
 
 def _next_settings(best: Followed, settings: Settings, count: int) -> Settings | None:
-    """Return the settings of the next search after so many; None where the best walk needs no other.
+    """Return the settings of the next search after `count` searches, or None if there is no next one.
 
-    While `excess` is above 1, the beam grows, and the price of a seam changes. Where the best walk still
-    leaves the path, far more walks are kept, of cheap seams and then of free ones.
+    While `excess` is above 1, the beam is widened, and the price of a seam changes. If the best walk still
+    leaves the path, the beam is much wider, and seams have a low price, and finally none.
     """
     if count < settings.tries:
         if best.excess <= 1:
@@ -214,23 +216,23 @@ def _next_settings(best: Followed, settings: Settings, count: int) -> Settings |
         factor = AGAIN if best.restless > 1 else 1 / AGAIN
         width = settings.width or WIDE
         return replace(settings, seam=factor * settings.seam, width=round((1 + count / 2) * width))
-    cheap = count - settings.tries
-    if settings.tries == 1 or cheap >= len(CHEAP) or not (best.far and best.off.max() > ASTRAY):
+    extra = count - settings.tries
+    if settings.tries == 1 or extra >= len(LOWER_SEAM_PRICES) or not (best.far and best.off.max() > ASTRAY):
         return None
-    share = CHEAP[cheap]
-    return replace(settings, seam=share * settings.seam, match=share * settings.match, width=WIDE)
+    factor = LOWER_SEAM_PRICES[extra]
+    return replace(settings, seam=factor * settings.seam, match=factor * settings.match, width=WIDE)
 
 
-def start_of(graph: CompiledGraph, route: Route, wishes: Wishes) -> States:
-    """Start at the first point of the route, at every node or the one asked for, in the route's direction."""
-    nodes = np.arange(len(graph.nodes)) if wishes.start is None else np.array([graph.index(wishes.start)])
+def start_of(graph: CompiledGraph, route: Route, request: PathRequest) -> States:
+    """Return the states at the start of a route, heading along it, at the requested node or at all nodes."""
+    nodes = np.arange(len(graph.nodes)) if request.start is None else np.array([graph.index(request.start)])
     first = route.points[: int(0.3 / route.spacing) + 2]
     rotation = np.exp(1j * (np.angle(first[-1] - first[0]) - graph.going[nodes]))
     return start_states(nodes, rotation, first[0] - rotation * graph.at[nodes])
 
 
 def _require_labels(graph: CompiledGraph, labels: Sequence[str], starts: Indices) -> None:
-    """Raise `NoWalk` unless a walk can reach the labels one after the other."""
+    """Raise `NoWalk` unless a walk can reach the labels in their order."""
     source = graph.source.graph
     nodes = {graph.nodes[start] for start in starts}
     for label in filter(None, labels):
@@ -242,7 +244,7 @@ def _require_labels(graph: CompiledGraph, labels: Sequence[str], starts: Indices
 
 
 def cost_along(walks: GroundWalks, route: Route, stand: Stand, edge: SearchEdge) -> tuple[float, Stand]:
-    """Give g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖² [KGP02, Eq. 9] after a walk, and where it leads."""
+    """Compute the cost of an edge, Σ_i ‖P'(s(e_i)) - P(s(e_i))‖² [KGP02, Eq. 9], and the state at its end."""
     rows, points, end = walks.step(stand, edge)
     along = stand.along + np.cumsum(walks.graph.progress[rows])
     distances = np.abs(points - route.at(along))
@@ -250,15 +252,15 @@ def cost_along(walks: GroundWalks, route: Route, stand: Stand, edge: SearchEdge)
 
 
 def path_problem(walks: GroundWalks, route: Route) -> Problem:
-    """Make the paper's search problem: edges cost `cost_along`; a walk ends with the path."""
+    """Formulate path following as the paper's search problem, with `cost_along` as the cost of an edge."""
     step = partial(cost_along, walks, route)
     return Problem(walks.graph.source.graph, step, lambda stand: stand.along >= route.length)
 
 
-def follow_as_2002(  # noqa: PLR0913 (a path, wishes, and three limits)
+def follow_as_2002(  # noqa: PLR0913 (a path, a request, and three limits)
     graph: MotionGraph | CompiledGraph,
     path: GroundPath | VectorsLike,
-    wishes: Wishes,
+    request: PathRequest,
     *,
     look: tuple[int, int] = (90, 28),
     budget: float = np.inf,
@@ -269,29 +271,29 @@ def follow_as_2002(  # noqa: PLR0913 (a path, wishes, and three limits)
     Parameters
     ----------
     graph, path : as for `steering.follow_path`.
-    wishes : give a `start`, else the walk starts at the first node; labels and times are ignored.
-    look : n and m, the frames to look ahead and the frames to keep; as for `synthesis.search_ahead`.
-    budget : of each stretch of the search.
-    deadline : seconds of wall time for the whole search; then it is the walk so far.
+    request : of these, only `start` is used, by default the first node. Labels and times are ignored.
+    look : n and m, the frames to look ahead and the frames to keep, as for `synthesis.search_ahead`.
+    budget : the largest number of walks to expand in each stretch of the search.
+    deadline : seconds of wall time for the whole search, after which it returns the walk so far.
 
     Returns
     -------
-    The walk, and how well it follows the path.
+    The walk and its distances from the path.
 
     Raises
     ------
-    NoWalk, MocapError : as for `steering.follow_path`, and where the budget ends before the first step.
+    NoWalk, MocapError : as for `steering.follow_path`, and if the budget is used up before the first step.
 
     Warns
     -----
-    MocapWarning : where the deadline ended the search, with how much of the path the walk covers.
+    MocapWarning : if the deadline ended the search, with the part of the path that the walk covers.
 
     Examples
     --------
     >>> from mocap import body, datasets, graphs
     >>> clips = [body.resample(datasets.sample(name), 30) for name in ("walk_circle", "walk_curve_1")]
     >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
-    >>> path, wishes = body.GroundPath([[0, 0], [0, 1]]), Wishes(start=(0, 10))
+    >>> path, wishes = body.GroundPath([[0, 0], [0, 1]]), PathRequest(start=(0, 10))
     >>> followed = follow_as_2002(graph, path, wishes, budget=100)
     >>> followed.progress, followed.found.stopped
     (1.0, 'out of nodes')
@@ -300,8 +302,8 @@ def follow_as_2002(  # noqa: PLR0913 (a path, wishes, and three limits)
     """
     compiled = compile_graph(graph)
     path = as_path(path)
-    route = make_route(compiled, path, wishes)
-    start = start_of(compiled, route, wishes)
+    route = make_route(compiled, path, request)
+    start = start_of(compiled, route, request)
     stand = Stand(complex(start.rotation[0]), complex(start.translation[0]))
     walks = GroundWalks(compiled)
     node = compiled.nodes[int(start.node[0])]
@@ -315,5 +317,5 @@ def follow_as_2002(  # noqa: PLR0913 (a path, wishes, and three limits)
     walk = Found(edges, stand.rotation, stand.translation, along, result.cost, *counts)
     followed = measure_walk(compiled, path, route, walk)
     if result.stopped == OUT_OF_TIME:
-        _tell_deadline(followed, deadline)
+        _warn_of_deadline(followed, deadline)
     return followed

@@ -1,8 +1,9 @@
-"""The layered search for the best walk along a route: what its walks cost, and which of them go on.
+"""Beam search for the best walk along a route: the costs of walks, and the selection in each layer.
 
-1. Of the walks in a layer that stand alike, only the best one stays (dominance).
-2. Of these, only the `width` best stay (the beam).
-3. Each of them is lengthened by every hop that leaves its node, and put into the layer that it reaches.
+1. Of the walks of a layer in the same cell (node, position and direction), only the best is kept (dominance).
+2. Of these, only the `width` best are kept (the beam width).
+3. Each of them is extended by every macro-edge that leaves its node, and enters the layer that it
+reaches.
 """
 
 from __future__ import annotations
@@ -19,31 +20,31 @@ from mocap._shared.ties import first_least
 from mocap.body.planar import on_ground
 from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import AHEAD, LEAST, CompiledGraph
-from mocap.steering.layered_search import EQUAL, LayeredSearch, States, hop_states, standing
+from mocap.steering.layered_search import EQUAL, LayeredSearch, States, macro_edge_states, standing
 from mocap.steering.path_objective import Route, Settings
 
-LAYER = 0.15  # metres of path
-IDLE = 0.1  # m²: the price of a frame of a bent walk that moves on by less than the least progress
-SLOWEST = 0.3  # metres per second: a bent walk that falls behind this speed is dropped,
-GRACE = 4.0  # seconds: if it is later than this
-QUICK = 0.5  # metres per second: clips that walk
-CREEP = 0.05  # metres per second: the least progress of a walk that is laid on the path, so that searches end
-CLOCK = 4  # per second: the cells of time in which walks that give way to others stand alike
-GIVING_WAY = np.array([0, 1, 2])  # times the distance ahead: how much farther walks that give way look
+LAYER = 0.15  # metres of path in a layer
+IDLE = 0.1  # m²: the price of a frame of a bent walk in which it advances by less than the least progress
+SLOWEST = 0.3  # metres per second: a bent walk is dropped if it is later than at this mean speed
+GRACE = 4.0  # seconds: the delay that is allowed before it is dropped
+QUICK = 0.5  # metres per second: clips that reach this speed walk
+CREEP = 0.05  # metres per second: the least progress of a bent walk, so that searches end
+CLOCK = 4  # cells per second, if walks avoid others
+GIVING_WAY = np.array([0, 1, 2])  # extensions of the look-ahead, as multiples of it, if walks avoid others
 
 
 Watch = Callable[["PathSearch", States], None]
 watching: ContextVar[Watch] = ContextVar("watching", default=lambda search, states: None)
-"""A function that is called in each round with a search and its walks, the best first, to draw them."""
+"""A callback to draw a search: called in each round with the search and its kept walks, the best first."""
 
 
 class Found(NamedTuple):
-    """The best walk found.
+    """The result of a search, its best walk.
 
-    `edges` are numbers in the compiled graph; the transform of the first one's clip is
-    p ↦ rotation · p + translation. `along` is each frame's progress along the path, metres. `expanded` is the
-    number of walks that were extended, `cut` of those that were dropped. `stopped` is "", or the reason why
-    the search ended early.
+    `edges` are numbers in the compiled graph, and p ↦ rotation · p + translation is the transform of the clip
+    of the first edge. `along` is the arc length along the path in each frame, metres. `expanded` is the
+    number of walks that were extended, `cut` the number of those that were dropped. `stopped` is "", or the
+    reason for which the search ended early.
     """
 
     edges: Indices
@@ -65,16 +66,16 @@ def find_walk(
 ) -> Found:
     """Find the best walk from one of the starts to the end of a route.
 
-    After Ctrl-C, or at the deadline, it is the best so far.
+    After Ctrl-C, or at the deadline, the best walk so far is returned.
 
     Parameters
     ----------
     graph, route, starts, settings : as for `PathSearch`.
-    deadline : of several searches; by default the one of the settings, from now on.
+    deadline : a deadline shared by several searches; by default that of the settings, from the call.
 
     Raises
     ------
-    NoWalk : where every walk ends before the route does, or the search before its first step.
+    NoWalk : if every walk ends before the route, or the search was stopped before its first step.
     """
     deadline = deadline or Deadline(settings.deadline)
     search = PathSearch(graph, route, starts, settings)
@@ -90,13 +91,14 @@ def find_walk(
 
 
 class PathSearch(LayeredSearch):
-    """A search along a route, with H hops of T frames together and N nodes.
+    """A layered search for a walk along a route, in a graph of N nodes, T frames and H macro-edges.
 
     Parameters
     ----------
-    graph, route : the graph, and the path with its wishes.
-    starts : where walks start.
-    settings : how thoroughly to search, and what deviations cost.
+    graph : the compiled graph.
+    route : the path and the requests along it.
+    starts : the initial walks.
+    settings : the effort of the search, and the prices of deviations.
     """
 
     def __init__(self, graph: CompiledGraph, route: Route, starts: States, settings: Settings) -> None:
@@ -104,81 +106,83 @@ class PathSearch(LayeredSearch):
         self.graph = graph
         self.route = route
         self.settings = settings
-        # Metres by which each frame of all edges moves on (T,).
-        if route.own or route.label[0] >= 0:
-            self.first = len(starts.node)  # all cost the same before they turn, or miss a label
-        if route.own:
-            self.progress = np.maximum(route.own.step, CREEP / graph.fps)
+        if route.smooth or route.label[0] >= 0:
+            self.first = len(starts.node)  # keep all starts: their costs do not differ before the first step
+        # The progress along the path in each frame of all edges, metres (T,).
+        if route.smooth:
+            self.progress = np.maximum(route.smooth.step, CREEP / graph.fps)
         else:
             self.progress = graph.progress
-        hops = graph.hops
+        macro_edges = graph.macro_edges
         cumulated = np.concatenate([[0.0], np.cumsum(self.progress)])
-        length = (cumulated[hops.starts + hops.counts] - cumulated[hops.starts]).sum(axis=1)  # (H,)
+        stops = macro_edges.starts + macro_edges.counts
+        length = (cumulated[stops] - cumulated[macro_edges.starts]).sum(axis=1)  # (H,)
         price = np.where(graph.blended, settings.seam + settings.match * graph.cost**2, 0.0)
-        self.hops = hop_states(graph, length, price)
-        # Metres from each node in the next `AHEAD` seconds (N, 3).
+        self.macro_edges = macro_edge_states(graph, length, price)
+        # The arc length of the root's track from each node in the next `AHEAD` seconds, metres (N, 3).
         self.ahead = np.cumsum(np.abs(np.diff(graph.ahead, axis=1, prepend=graph.at[:, None])), axis=1)
 
     def line(self, states: States) -> Points:
-        """Return the positions on the ground that the first of some walks has passed, one for each hop."""
+        """Return the root positions on the ground at the nodes of the first of some walks."""
         steps = self.trace(states, 0)
         return np.asarray(steps.translation + steps.rotation * self.graph.at[steps.node])
 
     def expand(self, states: States) -> States:
-        """Lengthen every walk by every hop that leaves its node.
+        """Extend every walk by every macro-edge that leaves its node.
 
         The cost of an edge is that of [KGP02, Eq. 9], g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖², plus the
-        prices. One departure from the paper: after each hop s moves half-way to the point of the path
-        abreast of the body, so that a walk which cuts a corner need not walk the metres that it saved; but
-        it moves on by γ in each frame, unless times are asked for. `Wishes.slide` is the share of that
-        distance. Walks that are laid on the path stay on it.
+        prices. One departure from the paper: after each macro-edge, s is moved half-way to the projection of
+        the body on the path, so that a walk that cuts a corner does not have to catch up the distance saved.
+        The progress remains at least γ in each frame, unless times are requested. `PathRequest.correction` is
+        the fraction, one half by default. Bent walks stay on the path.
         """
         route = self.route
-        row, hop = self.graph.hops.leaving(states.node)
-        hops = self.hops.take(hop)
-        cost = hops.cost + self.hop_costs(states, row, hop)
-        longer = states.then(row, hops._replace(cost=cost))
+        row, macro_edge = self.graph.macro_edges.leaving(states.node)
+        macro_edges = self.macro_edges.take(macro_edge)
+        cost = macro_edges.cost + self.macro_edge_costs(states, row, macro_edge)
+        longer = states.then(row, macro_edges._replace(cost=cost))
         root = self.graph.at[longer.node]
         point = route.point(longer.along)
         direction = route.directions[point]
         is_timed = np.isfinite(route.clock).any()
-        if route.own:
-            rotation = np.exp(-1j * route.own.going[longer.node]) * direction
+        if route.smooth:
+            rotation = np.exp(-1j * route.smooth.going[longer.node]) * direction
             longer = longer._replace(rotation=rotation, translation=route.at(longer.along) - rotation * root)
             in_time = longer.frames <= (longer.along / SLOWEST + GRACE) * self.graph.fps
             return longer.take(in_time | is_timed)
         error = longer.translation + longer.rotation * root - route.points[point]
-        abreast = np.clip((error * direction.conj()).real, -hops.along, hops.along)
-        least_progress = np.where(is_timed, 0.0, LEAST / self.graph.fps * hops.frames)
-        progress = np.maximum(hops.along + route.wishes.slide * abreast, least_progress)
+        abreast = np.clip((error * direction.conj()).real, -macro_edges.along, macro_edges.along)
+        least_progress = np.where(is_timed, 0.0, LEAST / self.graph.fps * macro_edges.frames)
+        progress = np.maximum(macro_edges.along + route.request.correction * abreast, least_progress)
         return longer._replace(along=states.along[row] + progress)
 
-    def frames_along(self, hop: Indices, start: Array) -> tuple[Indices, Indices, Array]:
-        """List the frames that n hops play: their rows, which hop each belongs to, and metres along the path.
+    def frames_along(self, macro_edge: Indices, start: Array) -> tuple[Indices, Indices, Array]:
+        """Return the frames of n macro-edges: rows, indices into `macro_edge`, and arc lengths on the path.
 
-        `start` (n,) are the metres along the path at which each of the hops begins.
+        `start` (n,) are the arc lengths at which the macro-edges begin.
         """
-        row, number = self.graph.hops.rows(hop)
+        row, number = self.graph.macro_edges.rows(macro_edge)
         along = np.cumsum(self.progress[row])
-        ends = along[np.cumsum(self.graph.hops.frames[hop]) - 1]
-        return row, number, along + (start - ends + self.hops.along[hop])[number]
+        ends = along[np.cumsum(self.graph.macro_edges.frames[macro_edge]) - 1]
+        return row, number, along + (start - ends + self.macro_edges.along[macro_edge])[number]
 
-    def hop_costs(self, states: States, chosen: Indices, hop: Indices) -> Array:
-        """Sum the costs of the frames of n hops (n,), which the walks `states.take(chosen)` take.
+    def macro_edge_costs(self, states: States, chosen: Indices, macro_edge: Indices) -> Array:
+        """Compute the costs (n,) of n macro-edges, by which the walks `states.take(chosen)` are extended.
 
-        They are the distance from the path, or what it costs to bend the walk, and missed wishes.
+        A cost is the sum over frames of the squared distance from the path, or of the price of bending the
+        walk, and of the prices of unmet requests.
         """
         graph = self.graph
         route = self.route
         prices = self.settings
-        if not len(hop):
+        if not len(macro_edge):
             return np.empty(0)
-        row, number, along = self.frames_along(hop, states.along[chosen])
+        row, number, along = self.frames_along(macro_edge, states.along[chosen])
         walk = chosen[number]
-        first = np.cumsum(graph.hops.frames[hop]) - graph.hops.frames[hop]
+        first = np.cumsum(graph.macro_edges.frames[macro_edge]) - graph.macro_edges.frames[macro_edge]
         body = states.translation[walk] + states.rotation[walk] * graph.ground[row]
-        if route.own:
-            costs = self._bending_costs(route.own, row, along)
+        if route.smooth:
+            costs = self._bending_costs(route.smooth, row, along)
         else:
             costs = _square(body - route.at(along))
             costs += prices.stray * costs**2
@@ -190,71 +194,72 @@ class PathSearch(LayeredSearch):
             is_missed = (label >= 0) & ~graph.bears[label, row]
             costs += np.where(is_missed, prices.label, 0.0)
         frame = states.frames[walk] + np.arange(len(walk)) - first[number]
-        delay = frame / graph.fps - route.clock[point]  # seconds; nan for any time
+        delay = frame / graph.fps - route.clock[point]  # seconds; nan if no time is requested
         costs += prices.late * np.where(np.isnan(delay), 0.0, delay) ** 2
         costs += self.crowding(body, frame)
         return np.asarray(np.add.reduceat(costs, first))
 
     def _bending_costs(self, unbent: CompiledGraph, row: Indices, along: Array) -> Array:
-        """Compute the costs of frames that are turned beyond what they turn themselves, or hardly move on."""
+        """Compute the costs of bending: those of added rotation, and of frames with little progress."""
         step = unbent.step[row]
-        bend = self.route.curvature[self.route.point(along)] * step - self.route.turns[row]  # radians
+        bend = self.route.curvature[self.route.point(along)] * step - self.route.rotations[row]  # radians
         costs = self.settings.bend * (bend * self.graph.fps) ** 2
         costs += np.where(step < LEAST / self.graph.fps, IDLE, 0.0)
         return costs
 
     def crowding(self, body: Points, frame: Indices) -> Array:
-        """Compute the cost of bodies that are too near to others, of the shape of `body`."""
+        """Compute the cost of bodies that are too near to others, with the shape of `body`."""
         cost = np.zeros(body.shape)
         for track in self.route.others:
             distance = np.abs(body - track[np.minimum(frame, len(track) - 1)])
-            shortfall = self.route.wishes.apart - distance
+            shortfall = self.route.request.apart - distance
             cost += self.settings.crowding * np.maximum(shortfall, 0.0) ** 2
         return cost
 
     def score(self, states: States) -> Array:
-        """Rate walks by their cost plus the expected cost if their clips play on; small is good.
+        """Compute the cost of walks plus the expected cost of continuing their clips; lower is better.
 
-        Without the second term a walk that has just paid for a turn looks worse than one about to leave the
-        path. The second term is at most `Settings.rescue` (m²), because a transition can still save the walk.
+        Without the expected cost, a walk that has just paid for a change of direction would be ranked behind
+        one that is about to leave the path. It is at most `Settings.rescue` (m²), because a transition may
+        lead the walk back.
         """
         graph = self.graph
         route = self.route
         node = states.node
         line = route.points[route.point(states.along[:, None] + self.ahead[node])]
         if_played = states.translation[:, None] + states.rotation[:, None] * graph.ahead[node]
-        ahead = line if route.own else if_played
+        ahead = line if route.smooth else if_played
         costs = _square(ahead - line)
-        if len(route.others):  # to give way takes longer: look up to three times as far
+        if len(route.others):  # avoiding others takes longer: look ahead up to three times as far
             body = states.translation + states.rotation * graph.at[node]
             last = ahead[:, -1:]
             farther = last + (last - body[:, None]) * GIVING_WAY
             frames = (GIVING_WAY + 1) * round(graph.fps * AHEAD[-1])
             costs += self.crowding(farther, states.frames[:, None] + frames)
-        loss = costs.sum(axis=1) * graph.fps * AHEAD[0]  # each point ahead stands for the frames up to it
-        return np.asarray(states.cost + np.minimum(loss, self.settings.rescue))
+        expected = costs.sum(axis=1) * graph.fps * AHEAD[0]  # a point ahead represents the frames before it
+        return np.asarray(states.cost + np.minimum(expected, self.settings.rescue))
 
     def cells(self, states: States) -> Indices:
-        """Return the node, cells of the ground and of directions and, among others, the time."""
-        alike = standing(states, self.graph.at, self.settings.alike, self.settings.alike)
+        """Return cells of node, position and direction and, if there are others, of time (5, N)."""
+        cells = standing(states, self.graph.at, self.settings.cell, self.settings.cell)
         time = np.zeros(len(states.node), np.intp)
         if len(self.route.others):
             time = (states.frames * (CLOCK / self.graph.fps)).astype(np.intp)
-        return np.concatenate([alike, time[None]])
+        return np.concatenate([cells, time[None]])
 
     def layers(self, states: States) -> Indices:
-        """Count layers of `LAYER` metres along the path."""
+        """Return the layers of walks, each of `LAYER` metres along the path."""
         return (states.along / LAYER).astype(np.intp)
 
     # reads: name: all kinds of search define it
     def done(self, states: States) -> Mask:
-        """Check which walks are at the end of the route."""
+        """Return which walks have reached the end of the route."""
         return states.along >= self.route.length
 
     def best_walk(self, stopped: str) -> Found:
-        """Return the best walk; if none has arrived, the one of the last layer with the lowest cost."""
+        """Return the walk of least cost at the end of the route, or in the last layer if none has arrived."""
         if not self.arrived and not stopped:
-            if self.route.own:
+            if self.route.smooth:
                 raise too_slow(self.graph)
             reached = max(float(states.along.max()) for states in self.history)
             raise NoWalk(f"Every walk ends after {reached:.1f} m of the path: prune the graph first.")
@@ -263,9 +268,9 @@ class PathSearch(LayeredSearch):
             raise NoWalk(f"The search was {stopped} before its first step{remedy}.")
         last = States.join(self.arrived or self.history[-1:])
         walk = self.trace(last, int(first_least(last.cost, EQUAL)))
-        hops = walk.hop[1:]
-        edges = self.graph.hops.edges(hops)
-        _, _, along = self.frames_along(hops, walk.along[:-1])
+        macro_edges = walk.macro_edge[1:]
+        edges = self.graph.macro_edges.edges(macro_edges)
+        _, _, along = self.frames_along(macro_edges, walk.along[:-1])
         rotation = complex(walk.rotation[0])
         translation = complex(walk.translation[0])
         cost = float(walk.cost[-1])
@@ -273,7 +278,10 @@ class PathSearch(LayeredSearch):
 
 
 def too_slow(graph: CompiledGraph, nearest: str = "") -> NoWalk:
-    """Return the error that no walk follows a line, or what the `nearest` unbent walk does, with a reason."""
+    """Return the error that no walk follows a line, with a probable reason.
+
+    `nearest` describes the nearest walk found without bending; it replaces the first sentence.
+    """
     fault = nearest or f"No walk goes along the line at {SLOWEST:g} m/s"
     clips = [on_ground(clip.root_positions) for clip in graph.source.clips]
     quick = [clip for clip in clips if np.percentile(np.abs(np.diff(clip)), 90) * graph.fps > QUICK]

@@ -19,7 +19,7 @@ from mocap.graphs.compiled_graph import CompiledGraph, walk_track
 from mocap.graphs.edge_tables import clip_rows
 
 
-@lru_cache(maxsize=2)  # computed twice, it makes following a line of 17 m a fifth slower
+@lru_cache(maxsize=2)  # a second computation would make following a line of 17 m 20 % slower
 def smooth_graph(graph: CompiledGraph) -> tuple[CompiledGraph, Array]:
     """Replace the root's trajectory along every edge by the smooth path about which the root sways.
 
@@ -28,8 +28,8 @@ def smooth_graph(graph: CompiledGraph) -> tuple[CompiledGraph, Array]:
 
     Returns
     -------
-    The graph, whose `ground`, `step` and `going` are those of the smooth paths. And the rotation along them
-    in each of its frames, (T,), radians.
+    smooth : the graph, with `ground`, `step` and `going` of the smooth paths.
+    rotations : shape (T,), the rotation along the smooth paths in each frame of the graph, radians.
 
     Examples
     --------
@@ -64,10 +64,10 @@ def smooth_graph(graph: CompiledGraph) -> tuple[CompiledGraph, Array]:
 
 
 def path_of_walk(smooth: CompiledGraph, edges: Indices) -> Ride:
-    """Join the smooth paths of a walk's edges to one path, and return the metres along it in each frame.
+    """Join the smooth paths of a walk's edges to one path, with the metres along it in each frame.
 
-    A spline through the whole walk would be too slow at a seam from a bend to the left into one to the right:
-    the walk deviates there from its own path, and from a line that it is bent onto, by up to 10 cm.
+    A spline through the whole walk would not follow a seam from a left bend to a right bend fast enough.
+    There the walk would deviate from its own path, and from a line that it is bent onto, by up to 10 cm.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ def path_of_walk(smooth: CompiledGraph, edges: Indices) -> Ride:
 def _smooth_path(clip: Motion) -> Array:
     """Return the heading of a clip's smooth path, the metres along it, its x and its z, (4, F).
 
-    A clip that stands has no path: its heading is that of the body, and x and z are those of the root.
+    A clip of a standing body has no path. Its heading is that of the body, and x and z are those of the root.
     """
     try:
         ride = ride_of(clip)

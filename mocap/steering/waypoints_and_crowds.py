@@ -1,7 +1,7 @@
-"""What following paths is used for: walks through waypoints, and crowds [KGP02, 5.3].
+"""Applications of path following: walks through waypoints, and crowds [KGP02, 5.3].
 
-A crowd is a few characters whose paths are given and cross. A group that stays together and must find its
-way among obstacles is planned by `groups`.
+A crowd is a few characters whose given paths may cross. For a group that stays together and must find a path
+among obstacles, see `methods.groups`.
 """
 
 from collections.abc import Iterable, Sequence
@@ -18,20 +18,18 @@ from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.steering.followed import Followed
 from mocap.steering.path_following import follow_path
-from mocap.steering.path_objective import Settings, Wishes
+from mocap.steering.path_objective import PathRequest, Settings
 
 WAITS = (0.0, 1.0, 2.0, 4.0)  # seconds, tried in this order
-WIDTH = 100  # walks that stay in each layer; of who gives way three times as many
-PASSING = (
-    0.02  # metres farther than the nearest point of the path: a waypoint is passed there, the first time
-)
-EQUAL = 1e-6  # metres: distances that differ by less are equal; the shortest wait is taken
+WIDTH = 100  # beam width, tripled for characters that give way
+PASSING = 0.02  # metres: a waypoint is passed at the first point within this of the minimal distance
+EQUAL = 1e-6  # metres: distances that differ by less are equal, and the shortest wait is preferred
 
 
 class Waypoint(NamedTuple):
-    """A place (x, z) in metres, the label of the motion from there on, and the time to be there.
+    """A position (x, z) in metres, the label of the motion after it, and the time of arrival.
 
-    The label "" stands for any motion, None for any time.
+    The label "" permits any motion, and None any time.
 
     Examples
     --------
@@ -48,7 +46,10 @@ class Waypoint(NamedTuple):
 
 
 class Arrival(NamedTuple):
-    """How a waypoint was met: metres `off`, the time, and how many seconds `late` (nan without a time)."""
+    """The distance `off` from a waypoint, metres, the time of arrival, and its delay `late`, seconds.
+
+    The delay is NaN for a waypoint without a time.
+    """
 
     off: float  # reads: name: users read it
     seconds: float
@@ -60,23 +61,23 @@ def through_waypoints(
 ) -> tuple[Followed, list[Arrival]]:
     """Find a walk through waypoints, with their labels and at their times [KGP02, 5.3].
 
-    The path between them is a spline. Where the clips are too slow or too fast for a time, the walk comes as
-    near to it as it can.
+    The path between them is a spline. If the clips are too slow or too fast for a time, the walk arrives as
+    close to it as possible.
 
     Parameters
     ----------
     graph : pruned.
-    waypoints : two or more; times count from the start of the motion.
+    waypoints : two or more. Times count from the start of the motion.
     bend : as for `steering.follow_path`.
 
     Returns
     -------
-    The walk, and how each waypoint was met.
+    The walk, and the arrival at each waypoint.
 
     Raises
     ------
-    NoWalk, MocapError : as for `steering.follow_path`, such as for a later waypoint at 0 s; for points that
-        are no waypoints.
+    NoWalk, MocapError : as for `steering.follow_path`, for example if a later waypoint has the time 0 s.
+    MocapError : for points that are not waypoints.
 
     Examples
     --------
@@ -92,7 +93,7 @@ def through_waypoints(
     _require_waypoints(waypoints)
     points = np.array([(point.x, point.z) for point in waypoints], float).reshape(-1, 2)
     path = spline(points)
-    passed = [0]  # the point of the path where it first passes each waypoint, in their order
+    passed = [0]  # indices of the points at which the path first passes each waypoint, in their order
     for point in points[1:-1]:
         distances = np.hypot(*(path.points[passed[-1] :] - point).T)
         passed.append(passed[-1] + int(first_least(distances, PASSING)))
@@ -102,7 +103,7 @@ def through_waypoints(
     times = [(along, point.seconds) for along, point in placed if point.seconds is not None]
     if times and waypoints[0].seconds is None:
         times.insert(0, (0.0, 0.0))
-    followed = follow_path(graph, path, Wishes(labels=labels, times=times), bend=bend)
+    followed = follow_path(graph, path, PathRequest(labels=labels, times=times), bend=bend)
     arrivals = []
     for along, point in placed:
         frame = min(int(np.searchsorted(followed.along, along)), len(followed.along) - 1)
@@ -114,7 +115,7 @@ def through_waypoints(
 
 
 def _require_waypoints(waypoints: object) -> None:
-    """Raise for one waypoint instead of a list, and for points (x, z) in it."""
+    """Raise for a single waypoint instead of a list, and for points (x, z) in a list."""
     needs = "Waypoints are a list of steering.Waypoint(x, z)"
     if isinstance(waypoints, Waypoint) or not isinstance(waypoints, Iterable):
         raise MocapError(f"{needs}, got {described(waypoints)}: write [Waypoint(0, 0), Waypoint(0, 4)].")
@@ -125,9 +126,9 @@ def _require_waypoints(waypoints: object) -> None:
 
 
 class Crowd(NamedTuple):
-    """Walks that begin together: each character waits in its first pose for `waits` seconds.
+    """The walks of K characters, each of which first waits in its first pose for `waits` seconds.
 
-    `nearest` (K, K) is the smallest distance of the roots of any two, metres; inf on the diagonal.
+    `nearest` (K, K) is the smallest distance between the roots of each pair, metres, inf on the diagonal.
     """
 
     walks: list[Followed]
@@ -141,17 +142,17 @@ def walk_crowd(
     *,
     apart: float = 0.8,  # reads: name: users give it as a keyword
 ) -> Crowd:
-    """Find a walk along each path, so that the characters keep apart [KGP02, 5.3].
+    """Find a walk along each path, so that the characters keep a distance from each other [KGP02, 5.3].
 
-    First each walk is found as if alone; then the characters are visited in order. One that comes too near to
-    an earlier one searches again, with a price on each frame too near. Where this does not help, it also
-    waits before it starts. So the first gives way to nobody, and the others give way to those before them.
+    First, each walk is found independently. Then the characters are processed in order. If one comes too near
+    to an earlier one, its search is repeated, with a price on each frame that is too near. If this does not
+    suffice, it also waits before it starts. Each character thus gives way to all earlier ones.
 
     Parameters
     ----------
     graph : pruned.
     paths : one per character.
-    apart : the least distance between the roots of any two, metres.
+    apart : the smallest permitted distance between the roots of any two characters, metres.
 
     Raises
     ------
@@ -159,7 +160,7 @@ def walk_crowd(
 
     Warns
     -----
-    MocapWarning : where two still come nearer than `apart`.
+    MocapWarning : if two characters still come nearer than `apart`.
 
     Examples
     --------
@@ -193,11 +194,11 @@ def walk_crowd(
 def _give_way(
     graph: CompiledGraph, path: GroundPath, earlier: Sequence[Array], least_distance: float
 ) -> tuple[Followed, float, Array]:
-    """Find a walk that keeps away from the tracks of `earlier` characters, with the shortest wait for it.
+    """Find a walk that keeps away from the tracks of `earlier` characters, with the shortest possible wait.
 
-    Who gives way is free to leave the path or to slow down. If no wait is long enough, the walk is taken that
-    keeps the largest distance; of equals the one with the shortest wait. Returns the walk, its wait in
-    seconds, and its track with the wait.
+    The walk may leave its path or slow down. If no wait is long enough, the walk with the largest distance is
+    returned. Ties are broken in favour of the shortest wait. Returns the walk, its wait in seconds, and its
+    track with the wait.
     """
     free = Settings(rescue=30.0, crowding=60.0, stray=0.0, tries=1, width=3 * WIDTH)
     candidates: list[tuple[Followed, float, Array]] = []
@@ -205,8 +206,8 @@ def _give_way(
     for wait in WAITS:
         frames = round(wait * graph.fps)
         tracks = [track[min(frames, len(track) - 1) :] for track in earlier]
-        wishes = Wishes(others=tracks, apart=1.1 * least_distance)
-        walk = follow_path(graph, path, wishes, settings=free)
+        request = PathRequest(others=tracks, apart=1.1 * least_distance)
+        walk = follow_path(graph, path, request, settings=free)
         waiting = np.repeat(walk.track[:1], frames, axis=0)
         candidates.append((walk, wait, np.concatenate([waiting, walk.track])))
         distances.append(_distance(candidates[-1][2], earlier))
@@ -216,12 +217,12 @@ def _give_way(
 
 
 def _too_near(distance: float, least_distance: float) -> bool:
-    """Check whether a distance is below the least one, by more than what counts as equal."""
+    """Return whether a distance is below the least one by more than the tolerance `EQUAL`."""
     return distance < least_distance - EQUAL
 
 
 def _distance(track: Array, others: Sequence[Array]) -> float:  # reads: name: the tracks of others
-    """Return the smallest distance of a track from others, metres; who has arrived stays at the end."""
+    """Return the smallest distance between a track and others, metres. A shorter one is held at its end."""
     distances = [np.inf]
     for other_track in others:
         frames = np.arange(max(len(track), len(other_track)))

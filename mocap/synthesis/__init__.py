@@ -1,13 +1,14 @@
-"""Synthesis: find walks through a motion graph, at random or by search, and turn them into motions.
+"""Synthesis: walks through a motion graph, at random or by search, and their conversion to motions.
 
-A walk is a list of edges; each edge starts where the one before ends. `to_motion` plays a walk. A new way to
-choose edges belongs in a file beside `random_walks`; ways that follow a user's wish belong in `steering`.
+A walk is a list of edges, each of which starts at the end of the previous one. `to_motion` converts it to a
+motion. A new method to choose edges belongs in a file beside `random_walks`; methods that follow the request
+of a user belong in `steering`.
 
 Reading order (notebook 07)
 ---------------------------
-1. `walk_to_motion`: turn a walk into a motion; its seams and the clips it plays
-2. `random_walks`: choose transitions at random; make hours of motion, piece by piece
-3. `bounded_search`: find the cheapest walk by branch and bound, as the paper does
+1. `walk_to_motion`: conversion of a walk to a motion; its seams and its clips
+2. `random_walks`: random walks; hours of motion in constant memory
+3. `bounded_search`: the walk of least cost by branch and bound, as in the paper
 4. `ground_walks`: trajectories of walks on the ground, for searches
 
 References

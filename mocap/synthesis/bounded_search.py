@@ -1,11 +1,11 @@
-"""The paper's search for a walk: depth-first branch and bound, one stretch after the other [KGP02, 4.2].
+"""The paper's search for a walk: depth-first branch and bound, with a receding horizon [KGP02, 4.2].
 
-The cost of a walk is the sum f(w) = Σ g([e₁ … e_{i-1}], e_i) over its edges [KGP02, Eq. 8], and g is never
-below 0. So a walk that costs as much as the best complete one cannot become better, and its branch is cut.
-The children with the smallest g are searched first, so that a good complete walk is found early.
+The cost of a walk is the sum f(w) = Σ g([e₁ … e_{i-1}], e_i) over its edges [KGP02, Eq. 8], and g is not
+negative. A branch that costs as much as the best complete walk therefore cannot improve on it, and is pruned.
+Children with the smallest g are searched first, so that a good complete walk is found early.
 
-The caller chooses the `state` of a walk: all that g and the halting rule must know of it. This can be the
-walk itself, or sums over it.
+The caller defines the `state` of a walk, on which g and the halting rule depend: the walk itself, or sums
+over it.
 """
 
 from collections.abc import Callable, Hashable
@@ -20,14 +20,14 @@ from mocap._shared.records import NamedTuple, dataclass
 from mocap._shared.ties import in_order
 from mocap.errors import MocapError, NoWalk
 
-# In the unit of the costs: walks whose costs differ by less cost the same, and the first one found is kept.
+# The tolerance for equal costs, in their unit; of walks with equal costs, the first one found is kept.
 EQUAL = 1e-9
 
 State = Any
 SearchEdge = tuple[Any, Any, int]
-"""The two nodes of an edge, of the kind that the graph has, and its key."""
+"""The start and end nodes of an edge, of any type, and its key."""
 Step = Callable[[State, SearchEdge], tuple[float, State]]
-"""g(w, e): from a walk's state and the next edge to the cost that the edge adds, and the next state."""
+"""g(w, e): a function of a walk's state and the next edge, which returns a cost and the next state."""
 
 
 @dataclass(frozen=True)
@@ -37,12 +37,13 @@ class Problem:
     Parameters
     ----------
     graph : any `networkx.MultiDiGraph` with `frames` on its edges.
-    step : g: from a walk's state and the next edge to the cost of this edge, 0 or more, and the next state.
-    done : the halting rule: whether a walk in this state is complete.
+    step : the function g of the state of a walk and the next edge, which returns the cost of this edge, 0 or
+        more, and the next state.
+    done : the halting rule, a function that returns whether a walk in a state is complete.
 
     Examples
     --------
-    The cheapest walk that collects 5 points, on a triangle:
+    The walk of least cost that collects 5 points, on a triangle:
 
     >>> graph = nx.MultiDiGraph()
     >>> _ = graph.add_edges_from([(1, 2), (2, 3), (3, 1), (2, 1)], frames=1)
@@ -57,11 +58,11 @@ class Problem:
 
 
 class SearchResult(NamedTuple):
-    """The best walk found, its cost and its last state.
+    """The result of a search: the best walk, its cost and its last state.
 
-    `complete` is whether the halting rule or the horizon was met. `expanded` counts the walks that were
-    lengthened, `cut` those that the bound cut. `stopped` is "" where the walk is optimal (within each
-    stretch); else it is the reason why the search ended early, and the walk is the best so far.
+    `complete` is whether the walk meets the halting rule or the horizon. `expanded` is the number of walks
+    that were extended, `cut` that of walks pruned by the bound. `stopped` is "" if the walk is optimal
+    (within each horizon). Otherwise the search ended early for this reason, with the best walk so far.
     """
 
     walk: list[SearchEdge]
@@ -74,7 +75,7 @@ class SearchResult(NamedTuple):
 
 
 class Branch(NamedTuple):
-    """A walk in the search tree: its last edge, and its `parent`, the branch without that edge.
+    """A node of the search tree, a walk: its last edge, and its `parent`, the branch without that edge.
 
     Examples
     --------
@@ -91,7 +92,7 @@ class Branch(NamedTuple):
     parent: "Branch | None" = None
 
     def walk(self) -> list[SearchEdge]:
-        """List the walk's edges in order."""
+        """List the edges of the walk, in order."""
         edges = []
         branch = self
         while branch.edge is not None and branch.parent is not None:
@@ -109,28 +110,28 @@ def branch_and_bound(  # noqa: PLR0913 (a problem, a start, and three limits)
     budget: float = np.inf,
     deadline: float | Deadline = np.inf,
 ) -> SearchResult:
-    """Find the cheapest walk that is complete, or at least `horizon` frames long [KGP02, Eq. 8].
+    """Find the walk of least cost that is complete, or at least `horizon` frames long [KGP02, Eq. 8].
 
     Parameters
     ----------
     problem : graph, costs and halting rule.
-    node, state : where the walk starts, and the state of an empty walk.
-    horizon : frames to look ahead.
-    budget : the largest number of walks to expand. Ctrl-C also stops the search.
-    deadline : seconds of wall time after which the search stops, or a moment that several searches share.
+    node, state : the start node, and the state of an empty walk.
+    horizon : the number of frames after which a walk is complete in any case.
+    budget : the largest number of walks to extend. Ctrl-C also stops the search.
+    deadline : seconds of wall time after which the search stops, or a deadline shared by several searches.
 
     Returns
     -------
-    The best walk; where the search stops before it has a complete one, the longest walk so far.
+    The best walk. If the search stops before it finds a complete one, the longest walk so far.
 
     Raises
     ------
-    NoWalk : for a node that is not in the graph, and where every walk ends before it is complete.
-    MocapError : for a cost below 0, with which the bound would be wrong; for a deadline that is not above 0.
+    NoWalk : for a node that is not in the graph, and if every walk ends before it is complete.
+    MocapError : for a negative cost, for which the bound is not valid; for a deadline that is not above 0.
 
     Examples
     --------
-    The cheap way from 1 to 3 goes through 2:
+    The path of least cost from 1 to 3 leads through 2:
 
     >>> graph = nx.MultiDiGraph()
     >>> graph.add_weighted_edges_from([(1, 2, 1.0), (2, 3, 1.0), (1, 3, 5.0)], frames=1)
@@ -163,7 +164,7 @@ def branch_and_bound(  # noqa: PLR0913 (a problem, a start, and three limits)
                 stopped = OUT_OF_TIME
             else:
                 expanded += 1
-                stack += children(problem, branch)  # the cheapest last, to be popped first
+                stack += children(problem, branch)  # that of least cost is last, and popped first
     except KeyboardInterrupt:
         stopped = "interrupted"
     if best is None and not stopped:
@@ -180,19 +181,19 @@ def _root(problem: Problem, node: Hashable, state: State) -> Branch:
 
 
 def _is_cut(branch: Branch, best: Branch | None) -> bool:
-    """Check the bound: whether a walk costs as much as the best complete one."""
+    """Return whether the bound prunes a walk, which costs as much as the best complete one."""
     return best is not None and branch.cost >= best.cost - EQUAL
 
 
 def _is_complete(problem: Problem, branch: Branch, horizon: float) -> bool:
-    """Check whether a walk meets the halting rule or the horizon."""
+    """Return whether a walk meets the halting rule or the horizon."""
     return problem.done(branch.state) or branch.frames >= horizon
 
 
 def children(problem: Problem, branch: Branch) -> list[Branch]:
-    """Lengthen a walk by every edge that leaves its node; the child with the highest cost comes first.
+    """Extend a walk by every edge that leaves its node, in descending order of costs.
 
-    In the paper: [KGP02, order]; the last is tried first.
+    In the paper: [KGP02, order]; the last child is searched first.
 
     Examples
     --------
@@ -221,16 +222,16 @@ def search_ahead(  # noqa: PLR0913 (a problem, a start, and three limits)
     budget: float = np.inf,
     deadline: float = np.inf,
 ) -> SearchResult:
-    """Search in stretches: find the best walk of n frames, keep its first m, repeat from there [KGP02, 4.2].
+    """Search with a receding horizon: find the best walk of n frames, keep its first m, repeat [KGP02, 4.2].
 
-    The time is linear in the walk's length; the walk is optimal only within each stretch.
+    The time is linear in the length of the walk, which is optimal only within each horizon.
 
     Parameters
     ----------
     problem, node, state : as for `branch_and_bound`.
-    look : n and m, frames; the paper takes 80-120 and 25-30.
-    budget : of each stretch; where it runs out, the best walk so far is used.
-    deadline : seconds of wall time for all stretches together.
+    look : n and m, frames; the paper uses 80-120 and 25-30.
+    budget : the budget of each search; if one is exhausted, its best walk so far is used.
+    deadline : seconds of wall time for all searches together.
 
     Returns
     -------
@@ -238,11 +239,11 @@ def search_ahead(  # noqa: PLR0913 (a problem, a start, and three limits)
 
     Raises
     ------
-    NoWalk, MocapError : as for `branch_and_bound`, and for n and m without 1 ≤ m ≤ n.
+    NoWalk, MocapError : as by `branch_and_bound`, and for n and m without 1 ≤ m ≤ n.
 
     Examples
     --------
-    A short look ahead takes the edge that is cheap now, and pays for it later:
+    A short horizon chooses the edge of low cost, whose successor has a high cost:
 
     >>> graph = nx.MultiDiGraph()
     >>> graph.add_weighted_edges_from([(1, 2, 1), (1, 3, 2), (2, 4, 9), (3, 4, 1)], frames=1)

@@ -1,8 +1,8 @@
 """Trajectories of walks on the ground, for searches whose cost depends on the root's position [KGP02, 4.2].
 
-Ground points are complex numbers z + ix: z runs ahead, x to the left. A clip of a walk is transformed by
-p ↦ rotation · p + translation. Each edge rotates and translates all later clips, so the transform of a clip
-is a running product.
+Ground points are complex numbers z + ix, with z ahead and x to the left. A clip of a walk is transformed by
+p ↦ rotation · p + translation. Each edge rotates and translates all later clips, therefore the transform of a
+clip is a cumulative product.
 """
 
 import math
@@ -21,13 +21,13 @@ Price = Callable[[Points, int, SearchEdge], float]
 
 
 class Stand(NamedTuple):
-    """The state of a walk after some edges: the transform p ↦ rotation · p + translation of the next clip.
+    """The state of a walk: the transform p ↦ rotation · p + translation of its next clip, and its length.
 
     Parameters
     ----------
-    rotation, translation : of the transform, complex; |rotation| = 1, and the translation is in metres.
-    frames : number of frames walked.
-    along : metres along the path, if the walk follows one.
+    rotation, translation : the transform, complex; |rotation| = 1, and the translation is in metres.
+    frames : the number of frames of the walk.
+    along : the arc length along the path, metres, if the walk follows one.
     """
 
     rotation: complex
@@ -64,17 +64,17 @@ class GroundWalks:
         self.number: dict[SearchEdge, int] = {edge: n for n, edge in enumerate(self.graph.edges)}
 
     def start(self, number: int) -> tuple[Node, Stand]:
-        """Return the node of a number, and the state that puts its root at the origin, heading along +z."""
+        """Return the node with a number, and the state in which its root is at the origin and moves to +z."""
         rotation = np.exp(-1j * self.graph.going[number])
         return self.graph.nodes[number], Stand(rotation, -rotation * self.graph.at[number])
 
     def step(self, stand: Stand, edge: SearchEdge) -> tuple[slice, Points, Stand]:
-        """Walk along one edge.
+        """Extend a walk by one edge.
 
         Returns
         -------
-        The rows of the edge's frames among those of all edges, the root's ground points in these frames, and
-        the state at the end of the edge.
+        The rows of the frames of the edge in the arrays of all frames, the ground points of the root in these
+        frames, and the state at the end of the edge.
         """
         graph = self.graph
         number = self.number[edge]
@@ -86,7 +86,7 @@ class GroundWalks:
         return rows, points, Stand(rotation, translation, stand.frames + int(frames), stand.along)
 
     def points(self, walk: Sequence[SearchEdge], stand: Stand) -> Points:
-        """Return the root's ground point in each frame of a walk, shape (F,)."""
+        """Compute the ground point of the root in each frame of a walk, shape (F,)."""
         edges = np.array([self.number[edge] for edge in walk])
         return walk_track(self.graph, edges, stand.rotation, stand.translation)[0]
 

@@ -1,6 +1,6 @@
-"""Random walks: choose the transitions of a motion graph at random, for a walk of any length.
+"""Random walks through a motion graph, of any length.
 
-A long one is written piece by piece while it is made: motion dumping [KGP02, 5.3].
+A long walk is written in pieces while it is generated: motion dumping [KGP02, 5.3].
 """
 
 from collections.abc import Iterator
@@ -11,7 +11,7 @@ import numpy as np
 from mocap._shared.arguments import called_as
 from mocap._shared.progress import Progress
 from mocap._shared.quantities import check_number
-from mocap.body.motion import Motion, concatenate, turning
+from mocap.body.motion import Motion, concatenate, rotating_joints
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import MocapError, NoWalk
 from mocap.feet.footskate import clean_up
@@ -19,7 +19,7 @@ from mocap.files import bvh
 from mocap.files.load_save import save
 from mocap.graphs.edge_tables import Edge, edge_table, require_node
 from mocap.graphs.motion_graph import MotionGraph, Node, require_graph
-from mocap.synthesis.walk_to_motion import to_motion, transforms_along, with_plants
+from mocap.synthesis.walk_to_motion import to_motion, transforms_along, with_footplants
 
 MARGIN = 5.0  # seconds: longer than any footplant of a walk, and than the reach of any correction
 LONGEST = 3600.0  # seconds of a walk that is made in memory
@@ -35,27 +35,27 @@ def random_walk(
     settle: float = 1.0,
     start: Node | None = None,
 ) -> list[Edge]:
-    """Walk through a graph at random for a given time.
+    """Draw a random walk of a given duration through a graph.
 
-    When `settle` seconds of clip have passed since the last transition, the walk takes one of the transitions
-    that leave its node, else it stays on the clip. At the end of a clip it takes a transition at once. The
-    odds of a transition are 1 / (cost + 1 mm).
+    If at least `settle` seconds of clip have passed since the last transition, the walk takes one of the
+    transitions that leave its node. Otherwise it stays in the clip. At the end of a clip it takes a
+    transition in any case. The probability of a transition is proportional to 1 / (cost + 1 mm).
 
     Parameters
     ----------
-    motion_graph : the graph, pruned, so that a walk never ends.
+    motion_graph : a pruned graph, in which every walk can be continued.
     seconds : the least duration of the motion.
-    seed : the same seed gives the same walk.
-    settle : seconds of clip between two transitions, where the graph allows this.
+    seed : seed of the random numbers; the same seed gives the same walk.
+    settle : seconds of clip between two transitions, if the graph allows this.
     start : the first node; by default a random one.
 
     Returns
     -------
-    The edges of the walk; their frames last `seconds` or a little longer.
+    The edges of the walk, whose frames last `seconds` or slightly longer.
 
     Raises
     ------
-    NoWalk : for a start that is not in the graph, and for a walk that reaches a dead end.
+    NoWalk : for a start that is not in the graph, and if the walk reaches a dead end.
     MocapError : for a duration that is not above 0.
 
     Examples
@@ -77,7 +77,7 @@ def random_walk(
 def cut_walk(
     motion_graph: MotionGraph, edges: Iterator[Edge], seconds: float, piece: float = np.inf
 ) -> Iterator[list[Edge]]:
-    """Cut a walk without end into pieces of at least `piece` seconds, and end it after `seconds`."""
+    """Divide an infinite walk into pieces of at least `piece` seconds, and end it after `seconds`."""
     check_number(seconds, "seconds")
     if not 0 < seconds < np.inf:
         raise MocapError(f"A walk must last longer than 0 s, got {seconds} s.")
@@ -101,11 +101,11 @@ def cut_walk(
 def wander(
     motion_graph: MotionGraph, *, seed: int = 0, settle: float = 1.0, start: Node | None = None
 ) -> Iterator[Edge]:
-    """Yield the edges of a random walk without end; the parameters are those of `random_walk`.
+    """Yield the edges of an infinite random walk; the parameters are those of `random_walk`.
 
     Examples
     --------
-    A clip with one transition back: the walk goes round for ever.
+    In a clip with a transition back, the walk is periodic:
 
     >>> from itertools import islice
     >>> from mocap import body, datasets, graphs, matching
@@ -137,17 +137,17 @@ def wander(
 
 
 def stream(motion_graph: MotionGraph, *, seconds: float, seed: int = 0) -> Iterator[Motion]:
-    """Play a random walk piece by piece, so that only one piece is in memory.
+    """Generate the motion of a random walk in pieces, with only one of them in memory.
 
     Parameters
     ----------
-    motion_graph : pruned, so that the walk never ends.
-    seconds : the least duration of all pieces together.
-    seed : the walk is that of `synthesis.random_walk` with this seed.
+    motion_graph : a pruned graph, in which every walk can be continued.
+    seconds : the least total duration.
+    seed : as for `synthesis.random_walk`, of the same walk.
 
     Yields
     ------
-    Motions of 30 s or more; each starts where the one before ends. Together they are the walk.
+    Motions of 30 s or more, each of which continues the previous one.
 
     Examples
     --------
@@ -165,10 +165,11 @@ def stream(motion_graph: MotionGraph, *, seconds: float, seed: int = 0) -> Itera
 
 
 def cleaned(pieces: Iterator[Motion]) -> Iterator[Motion]:
-    """Remove footskate from pieces of a motion, as `synthesis.to_motion` does from the whole.
+    """Remove footskate from consecutive pieces of a motion, as `synthesis.to_motion` does from the whole.
 
-    Each piece is cleaned together with 2 · `MARGIN` of the motion before it, and its last `MARGIN` is given
-    out later. So every frame is cleaned with all frames that it depends on, and the cuts do not show.
+    Each piece is cleaned together with the last 2 · `MARGIN` of the motion before it, and its own last
+    `MARGIN` is yielded with the next piece. Every frame is therefore cleaned with all frames on which it
+    depends, and the boundaries are not visible.
     """
     waiting = next(pieces)
     cleaned_frames = 0  # of `waiting`, that have been yielded
@@ -191,18 +192,18 @@ def dump(  # noqa: PLR0913 (which walk, where to, how long, and how)
     clean: bool = False,
     progress: Progress = iter,
 ) -> int:
-    """Write a random walk to a `.bvh` file while it is made; an hour needs no more memory than a minute.
+    """Write a random walk to a `.bvh` file while it is generated, in constant memory.
 
     In the paper: [KGP02, 5.3].
 
-    A `.glb` is made in memory, so it may last an hour at most.
+    A `.glb` file is built in memory, and limited to an hour.
 
     Parameters
     ----------
     motion_graph, seconds, seed : as for `stream`.
-    path : the file; it appears when it is complete.
+    path : the file, which is created once it is complete.
     clean : whether to remove footskate, as in `synthesis.to_motion`.
-    progress : wraps the pieces, to show a bar.
+    progress : wraps the iterable of pieces, to show a progress bar.
 
     Returns
     -------
@@ -227,15 +228,15 @@ def dump(  # noqa: PLR0913 (which walk, where to, how long, and how)
         raise MocapError(f"A long walk is written as .bvh or .glb, got '{path}'.")
     if suffix == ".glb" and seconds > LONGEST:
         raise MocapError(f"A .glb of a walk may last {LONGEST:g} s, not {seconds:g}: write .bvh.")
-    # A .bvh file starts with its number of frames. The same seed gives the same walk, so count them first.
+    # The header of a .bvh file contains the number of frames, which is known from the same walk.
     walks = cut_walk(motion_graph, wander(motion_graph, seed=seed), seconds, PIECE)
     counts = [sum(motion_graph.graph.edges[edge]["frames"] for edge in walk) for walk in walks]
-    pieces = stream(with_plants(motion_graph) if clean else motion_graph, seconds=seconds, seed=seed)
+    pieces = stream(with_footplants(motion_graph) if clean else motion_graph, seconds=seconds, seed=seed)
     pieces = cleaned(pieces) if clean else pieces
     shown = (next(pieces) for _ in progress(counts))
     if suffix == ".glb":
         save(concatenate(list(shown)), path)
         return sum(counts)
-    turns = np.any([turning(clip) for clip in motion_graph.clips], axis=0)
-    bvh.write(shown, path, frames=sum(counts), turns=turns)
+    rotates = np.any([rotating_joints(clip) for clip in motion_graph.clips], axis=0)
+    bvh.write(shown, path, frames=sum(counts), rotates=rotates)
     return sum(counts)

@@ -1,8 +1,7 @@
-"""Turn a walk into a motion: gather its frames, transform them, and blend its transitions.
+"""Conversion of a walk to a motion: gather its frames, transform them, and blend its transitions.
 
-A walk is a list of edges, each of which starts where the one before ends; an edge is (start node, end node,
-key). The frames of a walk are those of its edges in order. Every frame is one frame of a clip, or a blend of
-two.
+A walk is a list of edges (start node, end node, key), each of which starts at the end of the previous one.
+The frames of a walk are those of its edges, in order. A frame is either a frame of a clip or a blend of two.
 """
 
 from collections.abc import Sequence
@@ -32,11 +31,11 @@ class Seam(NamedTuple):
 
 
 def seams(motion_graph: MotionGraph, walk: Sequence[Edge]) -> list[Seam]:
-    """List the transitions that a walk takes.
+    """List the transitions of a walk.
 
     Examples
     --------
-    A clip with one transition back to an earlier frame, and a walk that takes it once:
+    A clip with a transition to an earlier frame, and a walk that takes it once:
 
     >>> from mocap import body, datasets, graphs, matching
     >>> clip = body.resample(datasets.sample("walk_circle"), 30)
@@ -52,7 +51,7 @@ def seams(motion_graph: MotionGraph, walk: Sequence[Edge]) -> list[Seam]:
 
 
 def sources(motion_graph: MotionGraph, walk: Sequence[Edge]) -> list[tuple[int, str]]:
-    """List the clips that a walk plays, each with its first frame; in a transition the clip changes half-way.
+    """List the clips of a walk, each with its first frame; the clip changes in the middle of a transition.
 
     Examples
     --------
@@ -72,7 +71,7 @@ def sources(motion_graph: MotionGraph, walk: Sequence[Edge]) -> list[tuple[int, 
 
 
 def require_walk(motion_graph: MotionGraph, walk: Sequence[Edge]) -> None:
-    """Raise `NoWalk` for an empty walk, a missing edge, or an edge that starts away from the last one's end.
+    """Raise `NoWalk` for an empty walk, a missing edge, or edges that are not consecutive.
 
     Examples
     --------
@@ -93,7 +92,7 @@ def require_walk(motion_graph: MotionGraph, walk: Sequence[Edge]) -> None:
 
 
 def require_edges(walk: object) -> None:
-    """Raise unless a walk is a list of edges (start, end, key), such as `random_walk` returns.
+    """Raise unless a walk is a list of edges (start, end, key), as returned by `random_walk`.
 
     Examples
     --------
@@ -120,35 +119,35 @@ def to_motion(
     start: PlanarTransform = IDENTITY,
     clean: bool = False,
 ) -> Motion:
-    """Play a walk: copy the stretches of clips, align each with the one before it, and blend the transitions.
+    """Convert a walk to a motion: gather its frames, align each clip with the previous one, and blend.
 
     In the paper: [KGP02, 4.1].
 
     Every frame is transformed by the product of the transforms of all transitions before it [KGP02, 4.1]. All
-    frames are gathered, placed and blended at once, so the time is linear in the walk's length. A walk
-    without transitions repeats its clip bit for bit.
+    frames are gathered, transformed and blended at once, and the time is linear in the length of the walk. A
+    walk without transitions repeats its clip bit for bit.
 
     Parameters
     ----------
     motion_graph : the graph.
-    walk : edges; each starts where the one before ends.
-    name : the new motion's name.
-    start : the transform of the first clip; by default it stays where it is.
-    clean : whether to remove footskate by `feet.clean_up`; footplants are marked first where no clip has
+    walk : consecutive edges.
+    name : the name of the new motion.
+    start : the transform of the first clip; by default the identity.
+    clean : whether to remove footskate by `feet.clean_up`. Footplants are marked first if no clip has
         contacts.
 
     Returns
     -------
-    As many frames as the edges have together. Labels and contacts come from the clips; in a transition they
-    come from the clip with the larger weight.
+    The frames of all edges. Labels and contacts are those of the clips; in a transition, those of the clip
+    with the larger weight.
 
     Raises
     ------
-    NoWalk : for an empty walk, a missing edge, or an edge that does not start where the last one ends.
+    NoWalk : for an empty walk, a missing edge, or edges that are not consecutive.
 
     Examples
     --------
-    A clip with one transition back to an earlier frame, and a walk of 40 frames of clip and 10 of blend:
+    A clip with a transition to an earlier frame, and a walk of 40 frames of clip and 10 of blend:
 
     >>> from mocap import body, datasets, graphs, matching
     >>> clip = body.resample(datasets.sample("walk_circle"), 30)
@@ -162,7 +161,7 @@ def to_motion(
     """
     require_walk(motion_graph, walk)
     if clean:
-        motion_graph = with_plants(motion_graph)
+        motion_graph = with_footplants(motion_graph)
     edges = edge_table(motion_graph, walk)
     transforms = transforms_along(edges, start)
     roots, local_rotations = _transformed_frames(motion_graph, edges.here, transforms, edges.of)
@@ -183,15 +182,15 @@ def to_motion(
     return clean_up(motion) if clean else motion
 
 
-def with_plants(motion_graph: MotionGraph) -> MotionGraph:
-    """Mark the footplants of all clips by `feet.mark_plants`, unless some clip has contacts already.
+def with_footplants(motion_graph: MotionGraph) -> MotionGraph:
+    """Mark the footplants of all clips by `feet.mark_plants`, unless any clip has contacts.
 
     Examples
     --------
     >>> from dataclasses import replace
     >>> from mocap import datasets, graphs
     >>> clip = replace(datasets.sample("walk_curve_1"), contacts={})
-    >>> sorted(with_plants(graphs.from_transitions([clip], [], window=10)).clips[0].contacts)
+    >>> sorted(with_footplants(graphs.from_transitions([clip], [], window=10)).clips[0].contacts)
     ['lfoot', 'ltoes', 'rfoot', 'rtoes']
     """
     if any(clip.contacts for clip in motion_graph.clips):
@@ -200,20 +199,20 @@ def with_plants(motion_graph: MotionGraph) -> MotionGraph:
 
 
 def transforms_along(edges: EdgeTable, start: PlanarTransform = IDENTITY) -> PlanarTransform:
-    """Compose the transforms along a walk of n edges: n + 1 of them, before each edge and at the end.
+    """Compose the transforms along a walk of n edges: n + 1 transforms, before each edge and at the end.
 
-    Both the angle and the translation are running sums. With ground points as complex numbers z + ix, a
-    rotation by θ is a product with exp(iθ): the translation of an edge is rotated by the angles before it,
-    then added.
+    Both the angle and the translation are cumulative sums. With ground points as complex numbers z + ix, a
+    rotation by θ is a multiplication by exp(iθ). The translation of an edge is rotated by the sum of the
+    previous angles, then added.
 
     Parameters
     ----------
-    edges : the walk's edges, from `graphs.edge_tables.edge_table`.
+    edges : the edges of the walk, from `graphs.edge_tables.edge_table`.
     start : the transform of the first clip.
 
     Examples
     --------
-    Two transitions, each of which rotates to the left by 90° and translates 1 m forward:
+    Two transitions, each of which rotates to the left by 90° and translates by 1 m forward:
 
     >>> from mocap import datasets, graphs, matching
     >>> back = matching.Transition(0, 60, 0, 10, 0.02, PlanarTransform(np.pi / 2, 0.0, 1.0))
@@ -231,7 +230,7 @@ def transforms_along(edges: EdgeTable, start: PlanarTransform = IDENTITY) -> Pla
 def _transformed_frames(
     motion_graph: MotionGraph, frames: Indices, transforms: PlanarTransform, chosen: Indices
 ) -> tuple[Array, Array]:
-    """Gather frames (F, 2), apply `transforms[chosen]`, and return root positions and rotations."""
+    """Gather frames (F, 2), and transform them by `transforms[chosen]`: root positions and rotations."""
     joints = len(motion_graph.clips[0].skeleton)
     roots = np.empty((len(frames), 3))
     local_rotations = np.empty((len(frames), joints, 4))

@@ -1,22 +1,22 @@
-"""Pictures that move in a browser: the player, and experiments with sliders.
+"""Animations in a browser: the player, and experiments with sliders.
 
-The player is one script that runs in JupyterLab and on a page of its own, without a network. An experiment is
-a picture that is drawn anew when its controls move.
+The player is one script that runs in JupyterLab and in a stand-alone page, without a network. An experiment
+is a picture that is redrawn when its controls move.
 
 Reading order (notebooks 00 to 19)
 ----------------------------------
-1. `embedding`: a player as part of a page, as a page, and as a picture where no script runs
-2. `player`: motions as numbers for all scripts, and one that plays, on a page or in a notebook
+1. `embedding`: a player as part of a page, as a page, and as a picture without scripts
+2. `player`: motions packed as numbers for all scripts, and the player for pages and notebooks
 3. `live`: live widgets, and a picture when the notebook is opened again
 4. `shared_traits`: the state that browser and Python share
-5. `live_player`: players whose scene Python changes: a canvas for paths, sliders that mix
+5. `live_player`: players whose scene Python changes: a canvas for paths, and sliders of a blend
 6. `pointing`: handles to drag
 7. `experiments`: a picture with controls
 8. `walk_figure`: the capsules of a body
 9. `shaded_picture`: bodies and their shadows, drawn without a browser
-10. `filmed_scene`: the picture of a player at a moment
+10. `filmed_scene`: the picture of a player at a given time
 11. `film`: a motion as a film, a strip of poses or a page
-12. `company`: characters that take their steps together, and the seconds until each obeys
+12. `company`: characters that are stepped together, and the delay of each response
 13. `steered_widget`: characters side by side that obey one command of the reader
 14. `walking_page`: a page on which a figure walks along drawn lines
 

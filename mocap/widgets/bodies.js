@@ -1,13 +1,13 @@
-// Figures of shaded capsules with their shadows, by WebGL 2. Places are [x, y, z], metres, y up. `Bodies` lays them
-// over another picture; the scene of the walking page adds a ground to them.
+// Figures of shaded capsules with their shadows, by WebGL 2. Positions are [x, y, z], metres, y up. `Bodies` draws them
+// over another picture. The scene of the walking page adds a ground to them.
 
 /**
  * @typedef {typeof LOOKS.light} Look
  *
- * What the shaders ask of a camera: the matrix of its view, and places and a direction of the world.
+ * The data of a camera for the shaders: its view matrix, and positions and a direction of the world.
  * @typedef {{ view: Float32Array, eye: number[], target: number[], sun: number[] }} Sight
  *
- * Attributes with their sizes, as texts, that a buffer holds; 1 where they go on with each instance, else 0.
+ * The attributes of a buffer, with their sizes, as texts, and a divisor: 1 if they advance with each instance, else 0.
  * @typedef {[attributes: string[], each: number, source: WebGLBuffer]} Layout
  */
 
@@ -21,8 +21,8 @@ export const FIGURES = {
     // of a capsule: a soft stadium, the softer and the paler the higher the capsule is
     `in vec2 corner; in vec4 a, b; out vec2 p; flat out vec4 ends, size; void main() {
       vec2 A = a.xz - sun.xz / sun.y * a.y, B = b.xz - sun.xz / sun.y * b.y, soft = .02 + .12 * max(vec2(a.y, b.y), 0.);
-      vec2 way = B - A; float l = length(way); way = l > 1e-4 ? way / l : vec2(0, 1); vec2 across = vec2(way.y, -way.x);
-      float reach = max(a.w + soft.x, b.w + soft.y); p = (A + B) / 2. + across * corner.x * reach + way * corner.y * (l / 2. + reach);
+      vec2 along = B - A; float l = length(along); along = l > 1e-4 ? along / l : vec2(0, 1); vec2 across = vec2(along.y, -along.x);
+      float reach = max(a.w + soft.x, b.w + soft.y); p = (A + B) / 2. + across * corner.x * reach + along * corner.y * (l / 2. + reach);
       ends = vec4(A, B); size = vec4(a.w, b.w, soft); gl_Position = view * vec4(p.x, .002, p.y, 1.); }`,
     `in vec2 p; flat in vec4 ends, size; uniform vec3 shade; uniform float over; out vec4 o; void main() {
       vec2 d = ends.zw - ends.xy; float u = clamp(dot(p - ends.xy, d) / max(dot(d, d), 1e-6), 0., 1.);
@@ -48,9 +48,9 @@ export const FIGURES = {
   ],
 };
 const SHADED = /** @type {const} */ (["ground", "sky", "shade", "middle", "near", "far"]); // colours
-const PLACE = ["a 4", "b 4", "left 4", "side 1"];
-// Numbers of a capsule: an end and its radius, the other end and its radius, the way to the body's left, how flat it
-// is, and its side (-1 right, 0, 1 left).
+const INSTANCE = ["a 4", "b 4", "left 4", "side 1"];
+// Numbers of a capsule: an end and its radius, the other end and its radius, the direction of the body's left, its
+// flatness, and its side (-1 right, 0, 1 left).
 export const SIZE = 13;
 /** @type {Record<string, string>} */
 const SHAPES = { shadow: "corner 2", limb: "corner 4" };
@@ -81,6 +81,49 @@ export const LOOKS = {
     night: 1,
   },
 };
+/**
+ * The inner product of vectors.
+ * @param {number[]} a
+ * @param {number[]} b
+ */
+export const inner = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+
+/**
+ * The matrix of a perspective view from `eye`, with the axes of the picture, and its scale across and up.
+ * @param {{ eye: number[], right: number[], up: number[], back: number[] }} camera
+ * @param {number[]} scale
+ * @param {number} near
+ * @param {number} end
+ */
+export function perspective({ eye, right, up, back }, [across, upward], near, end) {
+  const depth = (end + near) / (near - end);
+  const offset = (2 * end * near) / (near - end);
+  const rows = [
+    right.map((v) => v * across),
+    up.map((v) => v * upward),
+    back.map((v) => v * depth),
+    back.map((v) => -v),
+  ];
+  const view = [0, 1, 2].flatMap((k) => rows.map((row) => row[k]));
+  view.push(...rows.map((row, k) => -inner(row, eye) + (k === 2 ? offset : 0)));
+  return new Float32Array(view);
+}
+
+/**
+ * Write the numbers of a capsule, and return where the next one begins.
+ * @param {Float32Array} out
+ * @param {number} at
+ * @param {number[][]} ends
+ * @param {number[]} radii
+ * @param {number[]} left
+ * @param {number} flatness
+ * @param {number} side
+ */
+export function writeCapsule(out, at, ends, radii, left, flatness, side) {
+  out.set([...ends[0], radii[0], ...ends[1], radii[1], ...left, flatness, side], at);
+  return at + SIZE;
+}
+
 /** @param {string} colour */
 export const rgb = (colour) => [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16) / 255);
 
@@ -118,7 +161,7 @@ function ball(around, heights) {
   const corners = [];
   /** @type {number[]} */
   const faces = [];
-  const turn = around + 1;
+  const ringSize = around + 1;
   heights.forEach((degrees, ring) => {
     const up = (degrees * Math.PI) / 180;
     const upper = ring * 2 >= heights.length ? 1 : 0;
@@ -127,12 +170,12 @@ function ball(around, heights) {
       corners.push(Math.cos(up) * Math.cos(angle), Math.sin(up), Math.cos(up) * Math.sin(angle), upper);
       if (ring && i < around) {
         faces.push(
-          ring * turn + i,
-          (ring - 1) * turn + i,
-          ring * turn + i + 1,
-          ring * turn + i + 1,
-          (ring - 1) * turn + i,
-          (ring - 1) * turn + i + 1,
+          ring * ringSize + i,
+          (ring - 1) * ringSize + i,
+          ring * ringSize + i + 1,
+          ring * ringSize + i + 1,
+          (ring - 1) * ringSize + i,
+          (ring - 1) * ringSize + i + 1,
         );
       }
     }
@@ -143,12 +186,12 @@ function ball(around, heights) {
 export class Bodies {
   /**
    * @param {WebGL2RenderingContext} gl
-   * @param {number} most
+   * @param {number} capacity capsules
    * @param {Record<string, string[]>} shaders
    */
-  constructor(gl, most, shaders = FIGURES) {
+  constructor(gl, capacity, shaders = FIGURES) {
     this.gl = gl;
-    this.instances = new Float32Array(SIZE * most);
+    this.instances = new Float32Array(SIZE * capacity);
     // Two balls, a fine one and a coarse one for many figures.
     const [[fine, few], [coarse, fewer]] = [
       ball(16, [-90, -64, -40, -18, 0, 0, 18, 40, 64, 90]),
@@ -160,7 +203,7 @@ export class Bodies {
       [few.length, 0],
       [fewer.length, 2 * few.length],
     ];
-    this.places = this.buffer(this.instances);
+    this.instanceBuffer = this.buffer(this.instances);
     this.triangles = this.buffer(faces, gl.ELEMENT_ARRAY_BUFFER);
     /** @type {Record<string, WebGLBuffer>} */
     this.shapes = {
@@ -190,7 +233,7 @@ export class Bodies {
   layouts(name) {
     return [
       [[SHAPES[name]], 0, this.shapes[name]],
-      [PLACE, 1, this.places],
+      [INSTANCE, 1, this.instanceBuffer],
     ];
   }
 
@@ -265,7 +308,7 @@ export class Bodies {
    */
   shadows(camera, look, count, over = 0) {
     const { gl } = this;
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.places);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.instanceBuffer);
     gl.bufferSubData(gl.ARRAY_BUFFER, 0, this.instances.subarray(0, SIZE * count));
     gl.enable(gl.BLEND);
     gl.blendEquation(over ? gl.MAX : gl.MIN);

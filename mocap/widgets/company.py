@@ -1,6 +1,7 @@
-"""Characters that take their steps together, under one order, and the seconds until each obeys.
+"""Characters that are stepped together by one command, and the delay until each obeys.
 
-A reader gives the commands, at any time, and may drag a heading along: each character has a `CommandClock`.
+A reader may change the command at any time, and drag the heading. Therefore each character has a
+`CommandClock`.
 """
 
 from __future__ import annotations
@@ -19,17 +20,17 @@ from mocap.errors import MocapError, MocapWarning, shortened
 from mocap.steering.characters import Character, CommandClock, Pose, as_motion, require_command
 from mocap.widgets.player import packed_body
 
-MOST = 4  # characters side by side
-LONGEST_FAULT = 200  # letters of the sentence of an error
-DELAYS = 20  # the last delays that a browser is sent
+MOST = 4  # largest number of characters side by side
+LONGEST_FAULT = 200  # letters of an error message
+DELAYS = 20  # number of the last delays that are sent to a browser
 
 Command = tuple[float, float, str]
-"""Heading in radians (0 is +z, π/2 is +x), speed in metres per second, and a label."""
+"""Heading in radians (0 along +z, π/2 along +x), speed in metres per second, and a label."""
 START: Command = (0.0, 1.1, "")
 
 
 def checked(heading: float, speed: float, label: str) -> Command:
-    """Return a command; a heading or speed that no character could take is an error."""
+    """Return a command, or raise for a heading or speed that no character accepts."""
     require_command(float(heading), float(speed))
     return float(heading), float(speed), str(label)
 
@@ -37,25 +38,25 @@ def checked(heading: float, speed: float, label: str) -> Command:
 class Walked(NamedTuple):
     """The last F steps of a character.
 
-    poses : one for each step.
-    places : the positions of its drawn joints, (F, K, 3), metres.
-    told : a message to the browser. It has for each step the seconds `waited`, and whether the command is
-        `obeyed` and the pose `blending`; the number of the `first` step; the last `delays`; and the `fault`:
-        the sentence of the error because of which the character stands still, or "".
+    poses : a pose for each step.
+    positions : those of its drawn joints, (F, K, 3), metres.
+    report : a message to the browser. It has, for each step, the seconds `waited` and whether the command is
+        `obeyed` and the pose `blending`. It also has the number of the `first` step, the last `delays`, and
+        the `fault`, which is the message of the error that stopped the character, or "".
     """
 
     poses: list[Pose]
-    places: Array
-    told: dict[str, Any]  # reads: name: the name that the course's tools read
+    positions: Array
+    report: dict[str, Any]
 
 
 class Member:
-    """One character of a company: its clock, its last pose, and its last error.
+    """A character of a company, with its clock, its last pose, and its last error.
 
     Parameters
     ----------
     name : the name in the pictures.
-    character : any controller.
+    character : any object that implements `steering.Character`.
     """
 
     def __init__(self, name: str, character: Character) -> None:
@@ -65,11 +66,11 @@ class Member:
         self.joints, self.body = packed_body(character.skeleton)
         self.steps = 0
         self.fault = ""
-        self.order: Command | None = None  # the last one that it took
+        self.order: Command | None = None  # the last command
         self.last: tuple[Pose, Array] | None = None  # the last pose, and the positions of its joints
 
     def walk(self, order: Command, count: int) -> Walked:
-        """Take some steps; after an error the character stands still until the order changes."""
+        """Take `count` steps. After an error, the character stands still until the command changes."""
         if order != self.order:
             self.order = order
             self.fault = ""
@@ -91,13 +92,13 @@ class Member:
         return Walked(poses, positions, report)
 
     def _step(self, order: Command) -> tuple[Pose, Array]:
-        """Take a step, or stand still after an error; return the pose and the positions of its joints."""
+        """Take a step, or stand still after an error. Return the pose and the positions of its joints."""
         try:
             if not self.fault:
                 pose = self.character.step(*order)
                 positions = joint_positions(as_motion(self.character, [pose]))
                 self.last = (pose, positions[0, self.joints])
-        except Exception as error:  # of any kind: it may come from a student's character
+        except Exception as error:  # any exception, because a student's character may raise it
             if self.last is None:
                 raise
             self.fault = shortened(f"{type(error).__name__}: {error}", LONGEST_FAULT)
@@ -106,16 +107,17 @@ class Member:
 
 
 class Company:
-    """Characters that take their steps together; seconds are counted for all, frames for each.
+    """Characters that are stepped together for the same time, each at its own frame rate.
 
     Parameters
     ----------
-    characters : one to four, by name; each takes its first step.
+    characters : one to four characters, by name. Each takes its first step.
 
     Raises
     ------
-    MocapError : for no characters or more than four, and for the same one under two names.
-    Exception : whatever a character raises at its first step. Later, it stands still, and says why.
+    MocapError : for no characters or more than four, and for one character under two names.
+    Exception : any exception of a character at its first step. Later, the character stands still, and the
+        message to the browser contains the error.
 
     Examples
     --------
@@ -124,7 +126,7 @@ class Company:
     >>> database = motion_matching.tabulate([body.resample(datasets.sample("walk_curve_1"), 30)])
     >>> company = Company({"matching": motion_matching.MotionMatcher(database)})
     >>> (walked,) = company.walk((np.pi / 2, 0.8, ""), 0.5)
-    >>> walked.places.shape, walked.told["waited"][-1], walked.told["obeyed"][-1]
+    >>> walked.positions.shape, walked.report["waited"][-1], walked.report["obeyed"][-1]
     ((15, 38, 3), 0.5, False)
     """
 
@@ -135,12 +137,12 @@ class Company:
             raise MocapError("One character has two names, and would take two steps at once.")
         self.members = [Member(str(name), character) for name, character in characters.items()]
         self.seconds = 0.0
-        self.cost = 0.0  # of the last walk, CPU ms per step of all
+        self.cost = 0.0  # CPU time of the last walk, ms per step of all characters
         self.notes: list[str] = []  # warnings of the last walk
         self.walk(START, 0.0)
 
     def walk(self, order: Command, seconds: float) -> list[Walked]:
-        """Move all characters on by some seconds under one order; warnings are kept as `notes`."""
+        """Advance all characters by some seconds with one command, and store the warnings as `notes`."""
         self.seconds += seconds
         start = time.thread_time()
         previous_steps = self.members[0].steps

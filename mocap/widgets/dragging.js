@@ -1,7 +1,7 @@
 // Handles to drag on a picture: by mouse, by touch, or by the arrow keys.
 //
 // `dragging.py` sends the picture as a PNG. `value` has a point for each handle, in the units of the axes; `limits` are
-// the axes' [[left, right], [bottom, top]], and `box` is where these lie: [left, top, right, bottom], shares of the picture.
+// the axes' [[left, right], [bottom, top]], and `box` is where these lie: [left, top, right, bottom], as fractions of the picture.
 
 /** @import { Rendered } from "./player_page.js" */
 
@@ -45,7 +45,7 @@ export default {
       picture.src = URL.createObjectURL(new Blob([model.get("picture")], { type: "image/png" }));
     };
 
-    // A share of the picture is the same affine function of the value on both axes; the picture's y points down.
+    // A fraction of the picture is the same affine function of the value on both axes; the picture's y points down.
     const spans = () => {
       const [left, top, right, bottom] = model.get("box");
       const [across, up] = limits();
@@ -58,7 +58,7 @@ export default {
      * @param {number} value
      * @param {number[]} span
      */
-    const share = (value, [from, to, low, high]) => from + ((to - from) * (value - low)) / (high - low);
+    const fraction = (value, [from, to, low, high]) => from + ((to - from) * (value - low)) / (high - low);
     /**
      * @param {number} at
      * @param {number[]} span
@@ -112,8 +112,8 @@ export default {
     const show = () => {
       const [across, up] = spans();
       values().forEach(([x, y], k) => {
-        buttons[k].style.left = `${100 * share(x, across)}%`;
-        buttons[k].style.top = `${100 * share(y, up)}%`;
+        buttons[k].style.left = `${100 * fraction(x, across)}%`;
+        buttons[k].style.top = `${100 * fraction(y, up)}%`;
       });
     };
 

@@ -1,4 +1,4 @@
-"""Players on a page, as a notebook shows them: live, as a picture or as a sentence."""
+"""Players as part of a page or a notebook: live, as a picture, or as an alternative text."""
 
 import base64
 import html
@@ -12,7 +12,7 @@ from mocap.plotting.picture import Picture
 
 FOLDER = Path(__file__).parent
 
-# Scripts of the player that others use as well.
+# Scripts of the player that other pages share.
 SCENE = FOLDER / "player_scene.js"
 PICTURE = FOLDER / "player_picture.js"
 PAGE = FOLDER / "player_page.js"
@@ -22,15 +22,15 @@ SHADED = [FOLDER / "bodies.js", FOLDER / "player_body.js"]
 TOUCH = FOLDER / "touch.js"
 WHOLE = FOLDER / "page.html"
 
-# Lines of a script that are no part of the joined module. No line of a template may start like one of them:
-# eslint checks that.
+# Lines of a script that are removed from the joined module. No line of a template may start like one of them,
+# which eslint checks.
 COMMENT = re.compile(r"^ *(//.*|/\*\*([^*]|\*(?!/))*\*/)\n", re.MULTILINE)
 IMPORT = re.compile(r"^import [^;]*;\n", re.MULTILINE)
 EXPORT = re.compile(r"^export (?!default)", re.MULTILINE)
 
 
 def joined(*files: Path) -> str:
-    """Join scripts, without their comments, to the single module that a page or a widget runs."""
+    """Join scripts, without their comments, into the single module that a page or a widget runs."""
     script = "\n".join(file.read_text("utf-8") for file in files)
     for removed in (COMMENT, IMPORT, EXPORT):
         script = removed.sub("", script)
@@ -38,36 +38,36 @@ def joined(*files: Path) -> str:
 
 
 class Embedded(Protocol):
-    """A part of a page; its class there is its class here, in small letters after `mocap-`."""
+    """A part of a page, whose CSS class is `mocap-` and the name of the Python class in lower case."""
 
-    scripts: ClassVar[tuple[Path, ...]]  # that draw the scene
+    scripts: ClassVar[tuple[Path, ...]]  # the scripts that draw the scene
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.alt!r})"
 
     @property
     def alt(self) -> str:
-        """A sentence for readers who do not see it."""
+        """The alternative text, a sentence for readers who do not see it."""
 
     @property
     def scene(self) -> dict[str, Any]:
-        """The scene that scripts draw; its `data` are bytes."""
+        """The scene that scripts draw, with bytes as `data`."""
 
     @property
     def picture(self) -> bytes:
-        """The picture for places where no script runs: a PNG."""
+        """The picture without scripts, a PNG."""
 
     @property
     def heading(self) -> str:
-        """The heading of a page of its own."""
+        """The heading of a stand-alone page."""
         return ""
 
     def still(self) -> Picture:
-        """Return the picture alone, for captured clips, which a notebook must not hold."""
+        """Return only the picture, for captured clips, whose data must not be stored in a notebook."""
         return Picture(self.picture, self.alt)
 
     def html(self) -> str:
-        """Return it as part of a page; where no script runs, its picture stays."""
+        """Return the HTML of a part of a page, which shows the picture if no script runs."""
         kind = type(self).__name__
         data = base64.b64encode(self.scene["data"]).decode()
         scene = json.dumps({**self.scene, "data": data}).replace("<", "\\u003c")
@@ -79,7 +79,7 @@ class Embedded(Protocol):
         )
 
     def page(self) -> str:
-        """Return it as a whole page, with everything that it needs."""
+        """Return the HTML of a stand-alone page, which needs no other file."""
         heading = f"<h1>{html.escape(self.heading)}</h1>\n" if self.heading else ""
         parts = {"title": html.escape(self.alt), "heading": heading, "body": self.html()}
         return Template(WHOLE.read_text("utf-8")).substitute(parts)

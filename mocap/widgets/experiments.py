@@ -1,8 +1,8 @@
-"""Experiments for notebooks: a picture with controls, drawn anew when a control moves.
+"""Experiments for notebooks: a picture with controls, redrawn when a control moves.
 
-What `explore` shows has three forms: live controls where Python runs, a PNG where it does not (a code host, a
-printed page, a notebook that is opened again), and a sentence where there are no pictures. While a control is
-dragged, the browser sends its latest value as soon as the last picture is drawn.
+An experiment has three forms: live controls while Python runs, a PNG without Python (on a code host, on a
+printed page, in a notebook that is opened again), and an alternative text without pictures. While a control
+is dragged, the browser sends its latest value as soon as the last picture is drawn.
 """
 
 from __future__ import annotations
@@ -26,31 +26,33 @@ from mocap.plotting.picture import Picture, few_colours, figure_of, legible, let
 from mocap.widgets.live import display_live
 from mocap.widgets.shared_traits import Naming, ipywidgets
 
-Drawn = Any  # a figure, what a function of `plotting` gives, or a list of moved artists
+Drawn = Any  # a figure, the result of a function of `plotting`, or a list of changed artists
 
 
 def explore(draw: Callable[..., Drawn], *, alt: str, **controls: Any) -> Experiment:  # noqa: ANN401
-    """Show a picture with controls, and draw it anew whenever one of them moves.
+    """Show a picture with controls, and redraw it when one of them moves.
 
-    Where little moves, let `draw` move the artists of one figure and return them: then only these are drawn
-    again, over a stored picture of the rest, which is faster.
+    If only a small part of the picture changes, `draw` can change the artists of one figure and return them.
+    Then only these are redrawn, over a stored picture of the rest, which is faster.
 
     Parameters
     ----------
-    draw : called with the controls' values by name; returns what it drew, or a list of the artists it moved.
-    alt : a sentence that says what the picture shows, for readers who do not see it.
+    draw : called with the values of the controls as keyword arguments. It returns a figure, axes or artists,
+        or a list of the artists that it changed.
+    alt : a sentence that describes the picture, for readers who do not see it.
     controls : name=(low, high) or (low, high, step) for a slider, a bool for a check box, a list or
-        {label: value} for a choice, `handles` to drag on what `draw` returns, or a widget. A control starts
-        at the default in `draw`'s signature, handles where they were made.
+        {label: value} for a choice, `handles` to drag on the picture, or a widget. A control starts at the
+        default in `draw`'s signature, and handles at their own positions.
 
     Returns
     -------
-    The experiment; a notebook shows it as the last line of a cell.
+    The experiment. A notebook shows it as the last line of a cell.
 
     Raises
     ------
-    MocapError : for a control that `draw` does not take, and for a value that makes no control.
-    Exception : whatever `draw` raises at first. Later, the notebook shows the error in the picture's place.
+    MocapError : for a control that is not a parameter of `draw`, and for a value that defines no control.
+    Exception : any exception of the first call of `draw`. Later, the notebook shows the error in place of the
+        picture.
 
     Examples
     --------
@@ -75,7 +77,7 @@ def explore(draw: Callable[..., Drawn], *, alt: str, **controls: Any) -> Experim
 
 
 def _widget(name: str, control: object, default: object) -> Any:  # noqa: ANN401
-    """Make the widget of a control, with its name as the description."""
+    """Create the widget of a control, with its name as the description."""
     try:
         widget = ipywidgets.interactive.widget_from_abbrev(control, default)
     except (ValueError, TypeError):
@@ -87,11 +89,11 @@ def _widget(name: str, control: object, default: object) -> Any:  # noqa: ANN401
 
 
 def step_aside(reason: object) -> None:
-    """Print in one sentence why a notebook cannot go on, and make the cells below do nothing.
+    """Print the reason why a notebook cannot continue, and disable the cells below.
 
     Parameters
     ----------
-    reason : an error, or a sentence.
+    reason : an error or a sentence.
 
     Examples
     --------
@@ -109,7 +111,7 @@ def step_aside(reason: object) -> None:
 
 
 class Experiment:
-    """The controls, the picture and the last error of an experiment, as `explore` returns it.
+    """The controls, the picture and the last error of an experiment, as returned by `explore`.
 
     Parameters
     ----------
@@ -153,11 +155,11 @@ class Experiment:
         return f"Experiment({self.draw.__name__}{values})"
 
     def values(self) -> dict[str, Any]:
-        """Return the controls' values by name."""
+        """Return the values of the controls by name."""
         return {name: control.value for name, control in self.controls.items()}
 
     def set(self, **values: Any) -> Experiment:  # noqa: ANN401
-        """Move controls as a reader would, draw at once, and raise what `draw` raises; for tests."""
+        """Set controls as a reader would, redraw, and raise any exception of `draw`, for tests."""
         for name, value in values.items():
             self.controls[name].value = value
         self.refresh()
@@ -166,7 +168,7 @@ class Experiment:
         return self
 
     def refresh(self) -> None:
-        """Draw anew; an error is shown in the picture's place until a drawing works again."""
+        """Redraw the picture, or show the error in its place until a call of `draw` succeeds."""
         try:
             self.png = self._png(self.draw(**self.values()))
             self.error = None
@@ -174,7 +176,7 @@ class Experiment:
                 self._dragged.show(self.png)
             else:
                 self.picture.value = self.png
-        except Exception as error:  # of any kind: it comes from a student's function
+        except Exception as error:  # any exception, because a student's function raises it
             self.error = error
             said = traceback.format_exception_only(error)[-1].strip()
             for frame in traceback.extract_tb(error.__traceback__)[1:2]:  # in the student's function
@@ -185,10 +187,10 @@ class Experiment:
         self.message.layout.display = None if self.error else "none"
 
     def _png(self, drawn: Drawn) -> bytes:
-        """Draw a whole figure; or, for a list of artists, these over the stored picture of all others.
+        """Draw a whole figure, or the artists of a list over the stored picture of all others.
 
-        Matplotlib leaves `animated` artists out of a full drawing, and their changes do not make a figure
-        stale. While the figure is not stale, the stored background is valid, and the artists are drawn on it.
+        Matplotlib omits `animated` artists from a full drawing, and their changes do not make a figure stale.
+        While the figure is not stale, the stored background is valid, and the artists are drawn on it.
         """
         figure = figure_of(drawn)
         moved = isinstance(drawn, Sequence) and all(isinstance(part, Artist) for part in drawn)
@@ -215,8 +217,8 @@ class Experiment:
         return stream.getvalue()
 
     def _take(self, figure: Figure) -> None:
-        """Take a new figure; its axes get the old ones' positions: a layout takes as long as a drawing."""
-        plt.close(figure)  # or the notebook shows it a second time, and pyplot keeps it for ever
+        """Take a new figure, and reuse the positions of its axes, as a layout is as slow as a drawing."""
+        plt.close(figure)  # otherwise the notebook shows it a second time, and pyplot never releases it
         previous = self._figure
         self._figure = figure
         self._canvas = FigureCanvasAgg(figure)
@@ -227,7 +229,7 @@ class Experiment:
         figure.stale = True
 
     def still(self) -> tuple[dict[str, str], dict[str, Any]]:
-        """Return the picture for where no Python runs, with its handles, as a PNG."""
+        """Return the picture with its handles as a PNG, for notebooks without Python."""
         drawn = self._dragged.with_handles() if self._dragged else Image.open(io.BytesIO(self.png))
         small = few_colours(drawn, letters_of(self._canvas.figure) * self._canvas.figure.dpi)
         return Picture(small, self.alt)._repr_mimebundle_()
@@ -237,6 +239,6 @@ class Experiment:
 
 
 def _have_same_layout(figure: Figure, previous: Figure) -> bool:
-    """Check whether two figures have the same size and number of axes."""
+    """Return whether two figures have the same size and number of axes."""
     sizes_agree = (figure.get_size_inches() == previous.get_size_inches()).all()
     return bool(sizes_agree and len(figure.axes) == len(previous.axes))

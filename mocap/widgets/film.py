@@ -1,4 +1,4 @@
-"""Motions as files to look at: films, strips of poses, pages with the player."""
+"""Animations and pictures of motions as files: films, strips of poses, and pages with the player."""
 
 import re
 import subprocess
@@ -20,10 +20,10 @@ from mocap.widgets.filmed_scene import FilmedScene
 from mocap.widgets.player import play
 
 SUFFIXES = (".gif", ".mp4", ".png", ".html")
-SIZES = {".gif": (640, 360), ".mp4": (848, 480)}  # pixels of a film
-COLOURS = 128  # of a .gif
+SIZES = {".gif": (640, 360), ".mp4": (848, 480)}  # width and height of a film, pixels
+COLOURS = 128  # number of colours of a .gif
 BACKGROUND = slice(8)  # columns of pixels at the left edge, for the colours of the background
-ROUNDING = 1e-9  # frames, by which seconds · fps may be below a whole number
+ROUNDING = 1e-9  # frames, the rounding error of seconds · fps
 
 
 def save_animation(
@@ -34,24 +34,25 @@ def save_animation(
     fps: float = 25.0,
     progress: Progress = iter,
 ) -> Path:
-    """Write a motion as a file to look at: a body on the ground, its path, a camera that follows it.
+    """Save an animation of a motion: a body on the ground, its path, and a camera that follows it.
 
     Parameters
     ----------
-    motion : what to show; of several, each has a colour, and the camera follows them all.
-    path : the file to write; nothing is left behind when writing fails. Its ending decides: .gif or .mp4 is a
-        film, .png a strip of poses, .html a page with the player, which needs nothing else.
+    motion : one or more motions. Each of several has its own colour, and the camera follows all of them.
+    path : the file. Its suffix selects the format: .gif or .mp4 for a film, .png for a strip of poses, .html
+        for a stand-alone page with the player. If writing fails, no file is left.
     discs : obstacles on the ground, shape (N, 3), x, z and radius in metres.
-    fps : frames per second of a film; a GIF counts in hundredths of a second, so 20, 25 and 50 are exact.
+    fps : frames per second of a film. The frames of a GIF last whole hundredths of a second, so 20, 25 and 50
+        are exact.
     progress : wraps the frames of a film as they are drawn, to show a bar.
 
     Returns
     -------
-    The path.
+    The path of the file.
 
     Raises
     ------
-    MocapError : for another ending, for no motion, where the file cannot be written, and for .mp4 without
+    MocapError : for another suffix, for no motion, if the file cannot be written, and for .mp4 without
         imageio-ffmpeg.
 
     Examples
@@ -85,7 +86,7 @@ def save_animation(
 
 
 def _write_gif(pictures: Iterator[NDArray[np.uint8]], path: Path, fps: float) -> None:
-    """Write all pictures with one palette, so that pixels that do not change are written once."""
+    """Write all pictures with one palette, so that unchanged pixels are written only once."""
     picture = next(pictures)
     colours = np.unique(picture.reshape(-1, 3) // 4 * 4, axis=0)  # a body has few pixels, but many colours
     background = picture[:, BACKGROUND].reshape(-1, 3)
@@ -96,17 +97,17 @@ def _write_gif(pictures: Iterator[NDArray[np.uint8]], path: Path, fps: float) ->
 
 
 def write_mp4(pictures: Iterator[NDArray[np.uint8]], path: Path, fps: float) -> None:
-    """Send the pictures to ffmpeg, one after the other, and raise its error, if any.
+    """Encode pictures with ffmpeg, and raise its error, if any.
 
     Parameters
     ----------
-    pictures : each of shape (height, width, 3), of even height and width.
+    pictures : pictures of shape (height, width, 3), of even height and width.
     path : the file to write.
     fps : pictures per second.
 
     Raises
     ------
-    MocapError : with the last line that ffmpeg writes.
+    MocapError : with the last line of ffmpeg's output.
     """
     import imageio_ffmpeg
 
@@ -119,7 +120,7 @@ def write_mp4(pictures: Iterator[NDArray[np.uint8]], path: Path, fps: float) -> 
         ffmpeg = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=said, stderr=said)
         assert ffmpeg.stdin
         try:
-            with suppress(OSError), ffmpeg.stdin as pipe:  # it has ended, and says why; on Windows EINVAL
+            with suppress(OSError), ffmpeg.stdin as pipe:  # ffmpeg has ended with a message (Windows: EINVAL)
                 for picture in chain([first], pictures):
                     pipe.write(np.ascontiguousarray(picture).data)
         finally:
@@ -127,12 +128,12 @@ def write_mp4(pictures: Iterator[NDArray[np.uint8]], path: Path, fps: float) -> 
         said.seek(0)
         if failed:
             *_, last = said.read().decode(errors="replace").splitlines() or ["it ended early"]
-            reason = re.sub(r"^(\[[^]]*\] )*", "", last)  # without ffmpeg's own names
+            reason = re.sub(r"^(\[[^]]*\] )*", "", last)  # without the names of ffmpeg's components
             raise MocapError(f"ffmpeg cannot write the film: {reason[:120].strip()}.")
 
 
 def require_ffmpeg() -> None:
-    """Raise a sentence if imageio-ffmpeg is not installed."""
+    """Raise MocapError with a remedy if imageio-ffmpeg is not installed."""
     try:
         import imageio_ffmpeg  # noqa: F401
     except ImportError as error:

@@ -1,6 +1,7 @@
-"""The scene of a player, drawn at a moment without a browser: for films.
+"""The scene of a player, drawn at a given time without a browser, for films.
 
-A scene holds what the player's scripts draw: joints as 16-bit numbers, sent as second differences over time.
+A scene contains the data of the player's scripts: joint positions as 16-bit numbers, stored as second
+differences over time.
 """
 
 from __future__ import annotations
@@ -22,22 +23,22 @@ from mocap.plotting.style import FLOOR, QUIET
 from mocap.widgets.shaded_picture import GROUND, ShadedPicture, blend
 from mocap.widgets.walk_figure import capsules_at
 
-AROUND = 9  # metres of ground that are drawn to each side, beyond the characters
-FADE = 2.0  # seconds from now, until which a path gets paler
-PALE = 0.7  # weight of the ground's colour in a path after that time
+AROUND = 9  # metres of ground that are drawn on each side, beyond the characters
+FADE = 2.0  # seconds before and after the current time in which a path becomes paler
+PALE = 0.7  # weight of the ground's colour in a path beyond that time
 GREY = "#737B8C"  # the middle of a body
 STEP = 0.1  # seconds between points of a path
-SMOOTHING = 0.4  # seconds, the standard deviation by which the camera's path is smoothed
-ROUNDING = 1e-6  # frames: a time so near to a frame is that frame
+SMOOTHING = 0.4  # seconds, the standard deviation of the Gaussian that smooths the camera's path
+ROUNDING = 1e-6  # frames, tolerance of the time of a frame
 GRID_PIECES = 14  # pieces of a line of the grid on the ground, each of one colour
 PATH_WIDTH = 2.5  # pixels
-ASKED_WIDTH = 5  # pixels, of the path that was asked for
+ASKED_WIDTH = 5  # pixels, width of the requested path
 SEAM_RADIUS = 0.07  # metres
 FOOTPRINT_RADIUS = 0.055  # metres
-EYE_LEVEL = np.array([0, 0.9, 0])  # metres: the camera looks at this height
-NEAREST = 4.2  # metres from the camera to one character
-ZOOM = 1.5  # metres further for each metre between characters
-FLAT = [1, 0, 1]  # a factor that moves points to the ground
+EYE_LEVEL = np.array([0, 0.9, 0])  # metres, the height at which the camera looks
+NEAREST = 4.2  # metres, the distance of the camera from a single character
+ZOOM = 1.5  # additional metres of distance for each metre between characters
+FLAT = [1, 0, 1]  # factor that projects points to the ground
 XZ = [0, 2]
 SCENE = re.compile(r'<div class="mocap-player">.*?<script type="application/json">(.*?)</script>', re.DOTALL)
 
@@ -80,7 +81,7 @@ class FilmedScene:
         return np.array([self.pose(number, time)[0] for time in self.times])
 
     def pose(self, number: int, time: float) -> Array:
-        """Return positions of a character's drawn joints, (J, 3), metres: the last ones beyond its end."""
+        """Interpolate the positions of a character's drawn joints, (J, 3), metres, constant after its end."""
         cloud = self.clouds[number]
         frames = time * self.scene["characters"][number]["fps"]
         frame = min(int(frames + ROUNDING), len(cloud) - 1)
@@ -93,7 +94,7 @@ class FilmedScene:
 
         Parameters
         ----------
-        time : seconds; beyond the end the motion starts again.
+        time : seconds. After the end, the motion starts again.
         size : width and height of the picture, pixels.
         """
         time = time % self.seconds if time > self.seconds > 0 else time
@@ -114,7 +115,7 @@ class FilmedScene:
         return page.finished(np.concatenate(pieces), np.array(colours))
 
     def _draw_grid(self, page: ShadedPicture, centre: Array) -> None:
-        """Draw lines on the ground, metres apart, that fade into it with their distance from the centre."""
+        """Draw a grid on the ground that fades with the distance from the centre."""
         reach = AROUND + round(self.spread)
         ends = np.linspace(-reach, reach, GRID_PIECES + 1)
         middles = ends[1:] - reach / GRID_PIECES
@@ -144,14 +145,14 @@ class FilmedScene:
                 page.area(rims([[x, z, FOOTPRINT_RADIUS]])[0], colour)
 
     def _path_colours(self, number: int, times: Array) -> Array:
-        """Return the colours of a path at some times, (T, 3): those of its sources."""
+        """Return the colours of a path at some times, (T, 3), which are those of its sources."""
         character = self.scene["characters"][number]
         sources = character["sources"] or [{"start": 0.0, "colour": character["path_colour"]}]
         colours = np.array([to_rgb(source["colour"]) for source in sources])
         return np.asarray(colours[_sources_at(sources, times)])
 
     def _body_colours(self, number: int, time: float) -> list[ArrayLike]:
-        """Return the colours of the middle, the left and the right of a body: indices 0, 1 and -1."""
+        """Return the colours of the middle, the left and the right of a body, at indices 0, 1 and -1."""
         character = self.scene["characters"][number]
         colour = character["colour"]
         if character["sources"]:
@@ -165,7 +166,7 @@ class FilmedScene:
 
 
 def _sources_at(sources: list[dict[str, Any]], times: ArrayLike) -> Any:  # noqa: ANN401
-    """Return the indices of the sources from which a motion comes at some times."""
+    """Return the indices of the sources of a motion at some times."""
     return np.searchsorted([source["start"] for source in sources], times, "right") - 1
 
 

@@ -1,9 +1,9 @@
-"""Live widgets in a notebook, and the pictures that remain when the kernel has ended.
+"""Live widgets in a notebook, and the pictures that replace them without a kernel.
 
-JupyterLab shows a widget whose kernel has ended as an error, and prefers that to the picture beside it. A
-cell therefore has two outputs here, the picture and the widget. A rule hides the picture while the widget
-lives, and the widget's output when it does not. In the dark theme it dims the notebook's pictures, which are
-drawn on white paper: inverted, they would have other colours than the text names.
+JupyterLab shows a widget without a kernel as an error, even if the same output contains a picture. Therefore
+a cell has two outputs here, the picture and the widget. A CSS rule hides the picture while the widget is
+live, and otherwise the output of the widget. In the dark theme, it dims the pictures of the notebook, which
+have a white background. Inverted, their colours would not match the names in the text.
 """
 
 from typing import Any
@@ -31,14 +31,14 @@ def display_live(
     ----------
     still : the data and the metadata of a picture, as `Picture` and `Player` return them.
     widget : the widget.
-    control : a word for what the reader gets by running the cell again.
+    control : a word for the controls that the reader gets by running the cell again.
     """
     from IPython.display import display
 
     data, metadata = still
     widget.add_class(LIVE)
     hint = f"<p><small>Run this cell to get its {control}.</small></p>"
-    page = f'<div class="{STILL}">{data["text/html"]}{hint}</div>{_RULE}'  # where the rule finds the picture
+    page = f'<div class="{STILL}">{data["text/html"]}{hint}</div>{_RULE}'  # the rule selects this class
     display(data | {"text/html": page}, metadata=metadata, raw=True)  # type: ignore[no-untyped-call]
     live = {"version_major": 2, "version_minor": 0, "model_id": widget.model_id}
     display({WIDGET: live}, raw=True)  # type: ignore[no-untyped-call]

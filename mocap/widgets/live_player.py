@@ -1,4 +1,4 @@
-"""Players whose scene Python changes: a canvas to draw a path on, and sliders that mix."""
+"""Players whose scene Python changes: a canvas on which a path is drawn, and sliders of blend weights."""
 
 import warnings
 from collections.abc import Callable
@@ -23,13 +23,13 @@ from mocap.widgets.player import Player, play
 from mocap.widgets.shared_traits import AnyWidget, ipywidgets, shared
 
 Follow = Callable[[Array], Motion | Player]
-FPS = 30.0  # frames per second of a mix
-TELL = 0.1  # seconds between two reports of the best walk so far
+FPS = 30.0  # frames per second of a blend
+REPORT_INTERVAL = 0.1  # seconds between two reports of the best walk so far
 EASE = 0.4  # seconds until new weights are reached
 
 
 class LivePlayer(AnyWidget):
-    """A player whose scene Python changes, and which reports to Python the frame that it shows."""
+    """A player whose scene Python changes, and which reports the current frame to Python."""
 
     _esm = joined(*Player.scripts)
     scene = shared({"number": 0})
@@ -37,29 +37,29 @@ class LivePlayer(AnyWidget):
     move = shared([0, 0])  # Python sets it: the number of a scene, and a frame
     path = shared([])
     message = shared("")
-    best = shared([])  # the line of the best walk so far, while a search is under way
+    best = shared([])  # the line of the best walk so far, during a search
     player: Player
     error: Exception | None = None
-    reported = 0.0  # seconds by the clock, when the best walk so far was reported
+    reported = 0.0  # clock time of the last report of the best walk so far, seconds
 
     def show(self, player: Player, frame: int = 0, **extra: bool) -> None:
-        """Show another player in the same position, from a frame on."""
+        """Replace the player, and continue at a frame."""
         number = self.scene["number"] + 1
-        # The browser gets the frame before the scene: a frame that comes later would stop the player.
+        # The browser gets the frame before the scene, because a later frame would stop the player.
         self.move = [number, frame]
         self.player = player
         self.scene = player.scene | extra | {"number": number}
 
     def watch(self, search: PathSearch, walks: States) -> None:
-        """Report to the browser the best walk so far of a search that is under way."""
-        if monotonic() > self.reported + TELL:
+        """Send the best walk so far of a running search to the browser."""
+        if monotonic() > self.reported + REPORT_INTERVAL:
             line = search.line(walks)
             self.reported = monotonic()
             self.best = np.stack([line.imag, line.real], axis=-1).round(2).tolist()
 
     @property
     def frame(self) -> int:
-        """The frame of this scene that the browser reported last, or that Python set."""
+        """The last frame of this scene that the browser reported or that Python set."""
         number, frame = self.at
         if number != self.scene["number"]:
             _, frame = self.move
@@ -77,21 +77,21 @@ def draw_path(follow: Follow, path: ArrayLike) -> LivePlayer:
 
     Parameters
     ----------
-    follow : called with a path, shape (N, 2), points (x, z) in metres; returns a motion, or a `play` of one.
-        Its `alt`, which can give the walk's distance from the path, and all warnings are shown below the
-        canvas. While a `steering.follow_path` in it searches, the best walk so far is drawn.
-        Its `path`, if it has one, is drawn instead of the reader's line: use it for the path that was
-        followed, such as a spline.
+    follow : called with a path, shape (N, 2), points (x, z) in metres. It returns a motion, or a `play` of a
+        motion, whose `alt`, for example with the walk's distance from the path, is shown below the canvas,
+        with all warnings. If it has a `path`, such as the spline that was followed, this is drawn instead of
+        the reader's line. While `steering.follow_path` searches in this function, the best walk so far is
+        drawn.
     path : the first path, shape (N, 2).
 
     Returns
     -------
-    A live player; its `path` is the reader's last line, its `error` the exception of `follow` there, or None.
+    A live player, with the reader's last line as `path` and the exception of `follow`, or None, as `error`.
 
     Raises
     ------
     MocapError : if anywidget is not installed.
-    Exception : whatever `follow` raises at the first path. Later, the canvas shows the error.
+    Exception : any exception of `follow` for the first path. Later, the canvas shows the error.
 
     Examples
     --------
@@ -119,7 +119,7 @@ def draw_path(follow: Follow, path: ArrayLike) -> LivePlayer:
                 player = replace(player, path=line)
             canvas.show(player, drawable=True, follow=False, reports=False, autoplay=not is_first)
             canvas.message = "\n".join([player.alt, *(str(warning.message) for warning in caught)])
-        except Exception as error:  # of any kind: it comes from a student's function
+        except Exception as error:  # any exception, because a student's function raises it
             canvas.error = error
             canvas.message = f"{type(error).__name__}: {error}"
         finally:
@@ -133,15 +133,15 @@ def draw_path(follow: Follow, path: ArrayLike) -> LivePlayer:
 
 
 class Mixer:
-    """A player of a blend, and a slider for each clip; when a slider moves, the rest of the blend changes.
+    """A player of a blend with a slider for the weight of each clip, which changes the rest of the blend.
 
-    The frames that have been played do not change. From the frame that is shown, the weights ease to those of
-    the sliders. (To steer a blend in this way while it plays is one of the uses that [KG03] names.)
+    The frames that have been played do not change. After the current frame, the weights ease to those of the
+    sliders. Such interactive control of a blend is one of the applications in [KG03].
 
     Parameters
     ----------
-    registration : of C clips.
-    weights : those at the start, shape (C,); by default all equal.
+    registration : the registration of C clips.
+    weights : the initial weights, shape (C,), by default all equal.
 
     Raises
     ------
@@ -153,7 +153,7 @@ class Mixer:
     >>> from mocap.datasets import sample
     >>> slow, brisk = (sample(name) for name in ("walk_5m_0.8_0", "walk_5m_1.1_0"))
     >>> mixer = Mixer(register([slow, brisk]), [1, 0])
-    >>> mixer.player.at = [mixer.player.scene["number"], 30]  # as the browser says where it is
+    >>> mixer.player.at = [mixer.player.scene["number"], 30]  # as the browser reports its frame
     >>> mixer.sliders[0].value, mixer.sliders[1].value = 0.0, 1.0  # as a reader moves them
     >>> mixer.weights(0.0, 0.5).round(2), mixer.weights(0.0, 2.0).round(2)
     (array([1., 0.]), array([0., 1.]))
@@ -169,7 +169,7 @@ class Mixer:
         start = checked(start, count)
         self.registration = registration
         self.start = frozen(start, np.float64)
-        self.changes: list[tuple[float, Array]] = []  # new weights, and the blend's second when they begin
+        self.changes: list[tuple[float, Array]] = []  # times of the blend, seconds, and weights from then
         self.player = LivePlayer()
         self.player.show(self._blend_player(), reports=True)
         self.sliders = []
@@ -182,7 +182,7 @@ class Mixer:
         self.box = ipywidgets.VBox([*self.sliders, self.player])
 
     def weights(self, u: float, t: float) -> Array:
-        """Return the weights at second t of the blend, as `blending.mix` asks for them."""
+        """Return the weights at time t of the blend, seconds, as a callback of `blending.mix`."""
         mixed = np.array(self.start)
         for begin, weights in self.changes:
             mixed += float(quintic_step((t - begin) / EASE)) * (weights - mixed)
@@ -194,7 +194,7 @@ class Mixer:
         return play(blend, alt="A blend whose weights sliders change.")
 
     def _take_weights(self, _change: dict[str, Any]) -> None:
-        """Take the sliders' weights from the frame that is shown; all at 0 leave the weights as they were."""
+        """Apply the sliders' weights after the current frame, unless all of them are 0."""
         values = np.array([slider.value for slider in self.sliders])
         if not values.sum() > 0:
             return

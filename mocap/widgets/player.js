@@ -199,13 +199,19 @@ class Player {
   frameAll() {
     this.camera.reset(this.scene.drawable ? 0.9 : 0.25);
     this.panned = [0, 0];
-    const places = [...this.characters.flatMap((c) => c.path.map(([, x, z]) => [x, z])), ...this.scene.asked];
+    const positions = [
+      ...this.characters.flatMap((c) => c.path.map(([, x, z]) => [x, z])),
+      ...this.scene.asked,
+    ];
     /** @param {number} i */
     const span = (i) =>
-      places.reduce(([low, high], p) => [Math.min(low, p[i]), Math.max(high, p[i])], [Infinity, -Infinity]);
+      positions.reduce(
+        ([low, high], p) => [Math.min(low, p[i]), Math.max(high, p[i])],
+        [Infinity, -Infinity],
+      );
     const [[x0, x1], [z0, z1]] = [span(0), span(1)];
     this.centre = [(x0 + x1) / 2, 0.8, (z0 + z1) / 2];
-    const corners = places.flatMap(([x, z]) =>
+    const corners = positions.flatMap(([x, z]) =>
       [-0.3, 0.3].flatMap((d) => [
         [x + d, 0, z + d],
         [x + d, 1.9, z + d],
@@ -337,10 +343,10 @@ class Player {
   // Put the characters beside each other, seen from here, or back where they walk.
   beside() {
     const { right } = this.camera;
-    const gap = this.aside.checked ? 1.1 : 0;
+    const spacing = this.aside.checked ? 1.1 : 0;
     const middle = (this.characters.length - 1) / 2;
     this.characters.forEach((character, k) =>
-      character.move(gap * (k - middle) * right[0], gap * (k - middle) * right[2], this.scene.marks),
+      character.move(spacing * (k - middle) * right[0], spacing * (k - middle) * right[2], this.scene.marks),
     );
     this.update();
   }
@@ -436,13 +442,13 @@ class Player {
     const { camera, time } = this;
     const [first] = this.characters;
     /** @param {number} rate */
-    const share = (rate) => 1 - Math.exp(-rate * seconds);
+    const fraction = (rate) => 1 - Math.exp(-rate * seconds);
     const [a, b] = [first.pose(time - 0.5), first.pose(time + 0.2)];
-    const turn = Math.atan2(b[0] - a[0], b[2] - a[2]) + 0.75 - camera.yaw;
-    camera.yaw += share(this.near < 0.9 ? 2 : 0.5) * Math.atan2(Math.sin(turn), Math.cos(turn));
-    camera.pitch += share(2) * (0.3 - camera.pitch);
-    camera.zoom += share(2) * (1 - camera.zoom);
-    this.near += share(2) * (1 - this.near);
+    const error = Math.atan2(b[0] - a[0], b[2] - a[2]) + 0.75 - camera.yaw;
+    camera.yaw += fraction(this.near < 0.9 ? 2 : 0.5) * Math.atan2(Math.sin(error), Math.cos(error));
+    camera.pitch += fraction(2) * (0.3 - camera.pitch);
+    camera.zoom += fraction(2) * (1 - camera.zoom);
+    this.near += fraction(2) * (1 - this.near);
   }
 
   /**
@@ -467,12 +473,12 @@ class Player {
     const whole = [this.centre[0] + x, this.centre[1], this.centre[2] + z];
     if (!this.follow.checked) return whole;
     const mean = [x, 0.85, z];
-    const share = 1 / (9 * this.characters.length);
+    const fraction = 1 / (9 * this.characters.length);
     for (const character of this.characters) {
       for (let i = -4; i <= 4; i++) {
         const pose = character.pose(this.time + i / 8);
-        mean[0] += share * pose[0];
-        mean[2] += share * pose[2];
+        mean[0] += fraction * pose[0];
+        mean[2] += fraction * pose[2];
       }
     }
     return mean.map((value, k) => whole[k] + near * (value - whole[k]));
@@ -480,11 +486,11 @@ class Player {
 
   // How far the characters are from the middle between them, at most, in metres.
   spread() {
-    const places = this.characters.map((character) => character.pose(this.time));
+    const positions = this.characters.map((character) => character.pose(this.time));
     /** @param {number} k */
-    const mean = (k) => places.reduce((sum, place) => sum + place[k] / places.length, 0);
+    const mean = (k) => positions.reduce((sum, position) => sum + position[k] / positions.length, 0);
     const [x, z] = [mean(0), mean(2)];
-    return Math.max(...places.map((place) => Math.hypot(place[0] - x, place[2] - z)));
+    return Math.max(...positions.map((position) => Math.hypot(position[0] - x, position[2] - z)));
   }
 
   showState() {

@@ -1,9 +1,9 @@
-"""A player for notebooks and pages: bodies that move; it needs nothing but a browser.
+"""A player of motions for notebooks and pages, which needs only a browser.
 
-Scripts draw; this module packs what they draw, for all scripts of the package. Coordinates are sent as 16-bit
-numbers between the lowest and the highest of a clip, so 20 metres are cut into steps of 0.3 mm, and at no
-more than 60 frames per second. What is sent, channel by channel, are their second differences over time:
-these are small, and compress well; `numbersOf` in `player_scene.js` sums them up again.
+Scripts draw the scene, and this module packs its data for all scripts of the package. Coordinates are
+quantised to 16 bits between the minimum and the maximum of a clip, so that 20 metres are divided into steps
+of 0.3 mm, at no more than 60 frames per second. Each channel is stored as second differences over time, which
+are small and compress well. `numbersOf` in `player_scene.js` integrates them.
 """
 
 from __future__ import annotations
@@ -33,18 +33,19 @@ from mocap.widgets.walk_figure import posed
 
 SIDES = ("middle", "left", "right")  # in scripts a side is its index here
 LOOK = {"sides": [COLOURS[side] for side in SIDES], "marks": {"seam": MARK, "astray": ASTRAY}}
-SCREEN = 60.0  # frames per second that a screen shows; of a faster clip, frames are left out
+SCREEN = 60.0  # frames per second of a screen. Frames of a faster clip are left out
 LARGEST_UINT16 = 65535
-SMALLEST_RANGE = 1e-6  # metres, of coordinates: so that no step is 0
+SMALLEST_RANGE = 1e-6  # metres, the smallest range of coordinates, so that no step is 0
 
 
 def packed_body(skeleton: Skeleton) -> tuple[Indices, dict[str, Any]]:
-    """Choose the joints of a body that are drawn, and pack what is drawn around them.
+    """Choose the joints of a body that are drawn, and pack its bones and capsules.
 
     Returns
     -------
-    The joints at which bones end, and the root, in order; and what counts these joints: `bones` in rows
-    (from, to, number of the side), the `head` or None, and the `parts` and `pieces` of `posed`.
+    joints : the root and the joints at which bones end, in order.
+    body : a description in which joints are numbered in this order: `bones` in rows (from, to, number of the
+        side), the `head` or None, and the `parts` and `pieces` of `posed`.
 
     Examples
     --------
@@ -64,12 +65,12 @@ def packed_body(skeleton: Skeleton) -> tuple[Indices, dict[str, Any]]:
 
 
 def packed(values: Array, low: Array | float, step: Array | float, kind: str) -> bytes:
-    """Pack numbers over time, shape (F, ...), as whole multiples of a step above the lowest.
+    """Quantise channels over time, and pack their second differences.
 
     Parameters
     ----------
-    values : shape (F, ...); each index of the other axes is a channel.
-    low, step : the origin and the unit of the numbers; one for all, or one for each index of the last axis.
+    values : shape (F, ...), a channel for each index of the other axes.
+    low, step : the origin and the unit of the numbers, one for all or one for each index of the last axis.
     kind : "<u2" for numbers up to 65535, whose differences wrap around, or "<i4".
 
     Examples
@@ -83,20 +84,20 @@ def packed(values: Array, low: Array | float, step: Array | float, kind: str) ->
 
 
 def packed_character(
-    motion: Motion, colour: str, step: float | None = None, places: Array | None = None
+    motion: Motion, colour: str, step: float | None = None, positions: Array | None = None
 ) -> tuple[dict[str, Any], bytes]:
     """Pack the positions of a motion's drawn joints, for `Character` in `player_scene.js`.
 
     Parameters
     ----------
-    motion : the motion; of more than 60 frames per second, some are left out.
-    colour : of the body and its path.
-    step : metres; by default the smallest that 16 bits allow.
-    places : of all joints, shape (F, J, 3), metres; by default those of `joint_positions`.
+    motion : the motion, of which at most 60 frames per second are packed.
+    colour : the colour of the body and its path.
+    step : the unit of coordinates, metres, by default the smallest that 16 bits allow.
+    positions : the positions of all joints, shape (F, J, 3), metres, by default those of `joint_positions`.
 
     Returns
     -------
-    A description of the numbers, and the numbers.
+    A description of the numbers, and the packed numbers.
 
     Examples
     --------
@@ -107,7 +108,8 @@ def packed_character(
     """
     joints, body = packed_body(motion.skeleton)
     stride = max(1, int(motion.fps / SCREEN))
-    positions = joint_positions(motion) if places is None else places
+    if positions is None:
+        positions = joint_positions(motion)
     points = positions[::stride, joints]  # (F, J, 3)
     low = points.min(axis=(0, 1))
     high = points.max(axis=(0, 1))
@@ -120,7 +122,7 @@ def packed_character(
 
 
 def with_contacts(motion: Motion) -> Motion:
-    """Mark the footplants of a captured clip, which has no contacts; a body without legs has none."""
+    """Mark the footplants of a motion without contacts, unless its body has no legs."""
     if motion.contacts:
         return motion
     try:
@@ -130,7 +132,7 @@ def with_contacts(motion: Motion) -> Motion:
 
 
 def _packed_footprints(motion: Motion) -> list[list[float]]:
-    """List the footprints of a motion: from, until (seconds), x, z (metres), number of the side."""
+    """List the footprints of a motion in rows (start, end, x, z, number of the side), seconds and metres."""
     rows = []
     for footprint in find_footprints(with_contacts(motion)):
         start = footprint.start / motion.fps
@@ -141,8 +143,8 @@ def _packed_footprints(motion: Motion) -> list[list[float]]:
 
 
 Sources = Sequence[tuple[int, str]]
-FAR = 0.15  # metres from the path that was asked for: a walk's path is red beyond
-WALKS = 1.0  # metres of ground that a motion covers at least, to be drawn along its path
+FAR = 0.15  # metres, the distance from the requested path beyond which the path of a walk is red
+WALKS = 1.0  # metres, the smallest extent on the ground of a motion that is drawn along its path
 
 
 def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to look at it)
@@ -152,34 +154,34 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     path: ArrayLike = (),
     off: ArrayLike = (),  # reads: name: a public parameter
     discs: ArrayLike = (),
-    places: Sequence[Array] = (),
+    positions: Sequence[Array] = (),
     follow: bool = True,
     alt: str = "",
 ) -> Player:
-    """Play motions in the notebook; the reader can turn the view, step, and change the speed.
+    """Play motions in a notebook. The reader can rotate the view, step, and change the speed.
 
     Parameters
     ----------
-    motions : one or more characters; frames are counted by the first.
-    sources : where the first motion comes from, as pairs (frame, name of the clip from there on), as from
-        `synthesis.sources`; each clip has its colour.
-    seams : where the first motion takes a transition, as from `synthesis.seams`, or frames; they are marked.
-    path : a path that was asked for, shape (N, 2), points (x, z) in metres.
+    motions : one or more characters. Frames are those of the first.
+    sources : the sources of the first motion, as pairs (first frame, name of the clip), as from
+        `synthesis.sources`. Each clip has its own colour.
+    seams : the transitions of the first motion, as from `synthesis.seams`, or their frames, which are marked.
+    path : the requested path, shape (N, 2), points (x, z) in metres.
     off : distance from that path in each frame of the first motion, shape (F,), metres, as in
-        `steering.Followed.off`; beyond 15 cm, the path of the motion is red.
+        `steering.Followed.off`. Beyond 15 cm, the path of the motion is red.
     discs : obstacles on the ground, shape (N, 3), x, z and radius in metres.
-    places : positions of the joints of each motion, shape (F, J, 3), metres; by default those of
+    positions : those of the joints of each motion, shape (F, J, 3), metres, by default those of
         `body.joint_positions`.
     follow : whether the camera follows the first character.
-    alt : a sentence for readers who do not see it; by default it gives names and seconds.
+    alt : a sentence for readers who do not see the player. By default it contains names and durations.
 
     Returns
     -------
-    The player; a notebook shows it as the last line of a cell, and `Player.page` makes a file to share.
+    The player. A notebook shows it as the last line of a cell, and `Player.page` returns a page to share.
 
     Raises
     ------
-    MocapError : without a motion, and for what is no motion, such as a list of motions.
+    MocapError : without a motion, and for objects that are not motions, such as a list of motions.
 
     Examples
     --------
@@ -199,15 +201,15 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     points = np.reshape(np.asarray(path, float), (-1, 2))
     astray = runs(np.asarray(off, float) > FAR)
     obstacles = np.reshape(np.asarray(discs, float), (-1, 3))
-    positions = tuple(places) or tuple(joint_positions(motion) for motion in motions)
+    shown = tuple(positions) or tuple(joint_positions(motion) for motion in motions)
     return Player(
-        motions, tuple(sources), seam_frames, points, astray, obstacles, positions, follow=follow, said=alt
+        motions, tuple(sources), seam_frames, points, astray, obstacles, shown, follow=follow, description=alt
     )
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Player(Embedded):
-    """A player, as `play` returns it; a notebook shows it live, as a picture or a sentence.
+    """A player, as returned by `play`, which a notebook shows live, as a picture, or as a sentence.
 
     Examples
     --------
@@ -225,33 +227,33 @@ class Player(Embedded):
     path: Array
     astray: Indices  # stretches of frames [start, end)
     discs: Array
-    places: Sequence[Array]
+    positions: Sequence[Array]
     follow: bool
-    said: str
+    description: str
     scripts = (*SHADED, *SHARED, Path(__file__).with_name("player.js"))
     __repr__ = Embedded.__repr__  # a record would print its fields
 
     @property
     def alt(self) -> str:
-        """The sentence that came with the motions, or their names and seconds."""
+        """The alternative text, by default with the names and the duration of the motions."""
         count = len(self.motions)
         subject = "A figure plays" if count == 1 else f"{count} figures play"
         seconds = max(motion.duration for motion in self.motions)
-        return self.said or f"{subject} {self.heading}, {seconds:.1f} s."
+        return self.description or f"{subject} {self.heading}, {seconds:.1f} s."
 
     @property
     def heading(self) -> str:
-        """The different names of the motions."""
+        """The distinct names of the motions."""
         return ", ".join(dict.fromkeys(motion.name for motion in self.motions))
 
     @cached_property
     def scene(self) -> dict[str, Any]:
-        """The scene that scripts draw; `data` holds all characters' numbers, each from its `offset`."""
+        """The scene that scripts draw, with the numbers of each character in `data`, at its `offset`."""
         characters: list[dict[str, Any]] = []
         data = b""
-        for number, (motion, positions) in enumerate(zip(self.motions, self.places, strict=True)):
+        for number, (motion, positions) in enumerate(zip(self.motions, self.positions, strict=True)):
             colour = own_colour(number, len(self.motions)) or COLOURS["middle"]
-            character, block = packed_character(motion, colour, places=positions)
+            character, block = packed_character(motion, colour, positions=positions)
             characters.append(character | {"offset": len(data), "prints": _packed_footprints(motion)})
             data += block
         self._mark_first(characters[0])
@@ -273,9 +275,10 @@ class Player(Embedded):
 
     @cached_property
     def picture(self) -> bytes:
-        """The whole motion as a PNG, for places where no script runs; without a path, as a strip of poses."""
+        """The picture without scripts: a PNG of the whole motion, or a strip of poses without a path."""
         ground = self.motions[0].root_positions[:, [0, 2]]
         if max(np.ptp(ground, axis=0)) < WALKS and not len(self.path):
             return small_png(film_strip(self.motions))
         marks: dict[str, Any] = {"sources": self.sources, "seams": self.seams, "path": self.path}
-        return small_png(legible(bodies_along(*self.motions, discs=self.discs, places=self.places, **marks)))
+        marks |= {"discs": self.discs, "positions": self.positions}
+        return small_png(legible(bodies_along(*self.motions, **marks)))

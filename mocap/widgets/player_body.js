@@ -1,8 +1,8 @@
-// The bodies of a player: shaded capsules, which find their place by the joints alone. All pictures of a page share
-// one canvas for them, as a browser keeps few with WebGL; where there is none, `player_picture.js` draws strokes.
+// The bodies of a player: shaded capsules, whose positions follow from the joints alone. All pictures of a page share
+// one canvas for them, because browsers limit the number with WebGL. Without WebGL, `player_picture.js` draws strokes.
 
-import { Bodies, SIZE } from "./bodies.js";
-import { NEAR, placeOf } from "./player_picture.js";
+import { Bodies, SIZE, inner, perspective, writeCapsule } from "./bodies.js";
+import { NEAR, positionOf } from "./player_picture.js";
 
 /**
  * @import { Look, Sight } from "./bodies.js"
@@ -27,11 +27,6 @@ const less = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
  * @param {number[]} a
  * @param {number[]} b
  */
-const inner = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-/**
- * @param {number[]} a
- * @param {number[]} b
- */
 const outer = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 /**
  * The unit vector of a at right angles to the unit vector b.
@@ -52,8 +47,8 @@ const without = (a, b) => {
  * @param {number[]} part
  */
 function axesOf(pose, [, from, to, left, right, level]) {
-  const across = less(placeOf(pose, left), placeOf(pose, right));
-  const along = less(placeOf(pose, to), placeOf(pose, from));
+  const across = less(positionOf(pose, left), positionOf(pose, right));
+  const along = less(positionOf(pose, to), positionOf(pose, from));
   /** @param {number[]} v */
   const whole = (v) => without(v, [0, 0, 0]);
   if (level) {
@@ -77,12 +72,11 @@ function capsulesAt({ parts, pieces }, pose, out, at) {
   const axes = parts.map((part) => axesOf(pose, part));
   for (const [part, a, ra, b, rb, flat, side] of pieces) {
     const [x, y, z] = axes[part];
-    const origin = placeOf(pose, parts[part][0]);
+    const origin = positionOf(pose, parts[part][0]);
     const ends = [a, b].map((end) =>
       origin.map((value, c) => value + x[c] * end[0] + y[c] * end[1] + z[c] * end[2]),
     );
-    out.set([...ends[0], ra, ...ends[1], rb, ...x, flat, side], at);
-    at += SIZE;
+    at = writeCapsule(out, at, ends, [ra, rb], x, flat, side);
   }
   return at;
 }
@@ -91,25 +85,25 @@ export class Shading {
   /** @type {Shading | undefined} of this page */
   static one;
 
-  /** @param {number} most */
-  constructor(most) {
+  /** @param {number} capacity */
+  constructor(capacity) {
     const flat = new URLSearchParams(location.search).has("flat");
     const gl = flat ? null : document.createElement("canvas").getContext("webgl2", { antialias: true });
-    this.bodies = gl && new Bodies(gl, most);
-    this.most = most;
+    this.bodies = gl && new Bodies(gl, capacity);
+    this.capacity = capacity;
     this.sharp = 1;
     this.slow = 0;
   }
 
   /**
    * The one of this page, with room for so many capsules.
-   * @param {number} most
+   * @param {number} capacity
    */
-  static of(most) {
+  static of(capacity) {
     let { one } = Shading;
-    if (!one || one.most < most) {
+    if (!one || one.capacity < capacity) {
       one?.bodies?.gl.getExtension("WEBGL_lose_context")?.loseContext();
-      one = new Shading(Math.max(most, 64));
+      one = new Shading(Math.max(capacity, 64));
       Shading.one = one;
     }
     return one.bodies && !one.bodies.gl.isContextLost() ? one : null;
@@ -155,28 +149,17 @@ export class Shading {
 }
 
 /**
- * What the shaders ask of a camera of `player_scene.js`; the picture is `wide` × `high`.
+ * The data for the shaders from a camera of `player_scene.js`; the picture is `wide` × `high`.
  * @param {Camera} camera
  * @param {number} wide
  * @param {number} high
  * @returns {Sight}
  */
 function viewOf({ eye, right, up, ahead, focus }, wide, high) {
-  const near = NEAR;
-  const end = 300;
-  const a = (end + near) / (end - near);
-  const b = (-2 * end * near) / (end - near);
   const back = ahead.map((v) => -v);
-  const rows = [
-    right.map((v) => (2 * v * focus) / wide),
-    up.map((v) => (2 * v * focus) / high),
-    ahead.map((v) => v * a),
-    ahead,
-  ];
-  const view = [0, 1, 2].flatMap((k) => rows.map((row) => row[k]));
-  view.push(...rows.map((row, k) => -inner(row, eye) + (k === 2 ? b : 0)));
+  const view = perspective({ eye, right, up, back }, [(2 * focus) / wide, (2 * focus) / high], NEAR, 300);
   const level = without([right[0], 0, right[2]], [0, 1, 0]);
   const behind = without(back, [0, 1, 0]);
   const sun = [0, 1, 2].map((k) => SUN[0] * level[k] + (k === 1 ? SUN[1] : 0) + SUN[2] * behind[k]);
-  return { view: new Float32Array(view), eye, target: [0, 0, 0], sun };
+  return { view, eye, target: [0, 0, 0], sun };
 }

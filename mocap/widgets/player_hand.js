@@ -30,7 +30,7 @@ const SHORTEST = 0.5; // metres of a path that can be walked
 const LONGEST = 100;
 const PEN_STEP = 0.25; // metres per press of an arrow key
 /** @type {Record<string, number[]>} */
-const TURNS = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] }; // radians
+const ARROWS = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] }; // radians
 const PAN = 300; // pixels per radian of these
 
 // What keys do on the canvas, beside the arrows.
@@ -177,10 +177,12 @@ export class Hand {
 
   // ---- the path that is drawn ----
 
-  /** @param {number[] | null} place */
-  draw(place) {
+  /** @param {number[] | null} position */
+  draw(position) {
     const last = this.drawn.at(-1);
-    if (place && (!last || Math.hypot(place[0] - last[0], place[1] - last[1]) > 0.05)) this.drawn.push(place);
+    if (position && (!last || Math.hypot(position[0] - last[0], position[1] - last[1]) > 0.05)) {
+      this.drawn.push(position);
+    }
     this.player.update();
   }
 
@@ -227,10 +229,10 @@ export class Hand {
    */
   onCanvas(event) {
     const { player } = this;
-    const turn = TURNS[event.key];
-    const drawn = this.pen ? this.penKey(event.key, event.shiftKey ? undefined : turn) : undefined;
+    const direction = ARROWS[event.key];
+    const drawn = this.pen ? this.penKey(event.key, event.shiftKey ? undefined : direction) : undefined;
     if (drawn) return drawn;
-    if (turn) return this.turnKey(turn, event);
+    if (direction) return this.arrowKey(direction, event);
     if (event.key === "p" && player.drawing) return () => this.takePen();
     if (event.key === "l" && player.mark) return () => player.mark?.();
     const act = ON_CANVAS[event.key];
@@ -239,11 +241,11 @@ export class Hand {
 
   /**
    * What an arrow does: it turns or moves the view, or goes to the next frame.
-   * @param {number[]} turn
+   * @param {number[]} direction
    * @param {KeyboardEvent} event
    * @returns {(() => void) | undefined}
    */
-  turnKey([yaw, pitch], event) {
+  arrowKey([yaw, pitch], event) {
     const { player } = this;
     if (event.shiftKey) return () => this.orbit(yaw, pitch);
     if (event.altKey) return () => this.pan(PAN * yaw, PAN * pitch);
@@ -265,11 +267,11 @@ export class Hand {
   /**
    * What a key does with the pen down, if it does anything: arrows draw.
    * @param {string} key
-   * @param {number[] | undefined} turn
+   * @param {number[] | undefined} direction
    * @returns {(() => void) | undefined}
    */
-  penKey(key, turn) {
-    if (turn) return () => this.penStep(Math.sign(turn[0]), Math.sign(turn[1]));
+  penKey(key, direction) {
+    if (direction) return () => this.penStep(Math.sign(direction[0]), Math.sign(direction[1]));
     if (key === "Backspace" && this.drawn.length > 1) return () => this.takeBack();
     if (key === "Enter") return () => this.putPenAway(() => this.walk());
     if (key === "Escape") return () => this.putPenAway(() => this.forget());

@@ -30,7 +30,7 @@ import { penOf } from "./player_page.js";
  * @property {number} time
  * @property {number[][]} asked a path [x, z] on the ground
  * @property {number[][]} drawn another one
- * @property {number[] | null} [pen] a place on it
+ * @property {number[] | null} [pen] a position on it
  * @property {number[][]} [obstacles] discs on it (x, z, radius)
  * @property {string[]} sides the colours of a body's sides
  * @property {Partial<Marks>} marks
@@ -44,7 +44,7 @@ import { penOf } from "./player_page.js";
 
 export const NEAR = 0.1; // metres before the camera, from where on something is drawn
 const APART = 3; // pixels between points of a line; nearer ones would cost time, and nobody would see them
-const GAPS = [1, 2, 5, 10, 20, 50]; // metres between lines of the ground
+const SPACINGS = [1, 2, 5, 10, 20, 50]; // metres between lines of the ground
 // Seconds from now, how strong a line is drawn again.
 const TRAIL = [
   [Infinity, 0.25],
@@ -54,7 +54,7 @@ const TRAIL = [
   [0.5, 0.3],
 ];
 const GHOSTS = 6; // earlier poses
-const GHOST_GAP = 0.25; // seconds between them
+const GHOST_INTERVAL = 0.25; // seconds between them
 
 export class Picture {
   /** @type {Drawn[]} */
@@ -111,8 +111,8 @@ export class Picture {
     this.camera.place(target, distance, wide, high);
     this.drawGround(target, reach);
     for (const disc of obstacles) this.drawObstacle(disc);
-    /** @param {number[][]} places */
-    const flat = (places) => places.map(([x, z]) => [x, 0, z]);
+    /** @param {number[][]} positions */
+    const flat = (positions) => positions.map(([x, z]) => [x, 0, z]);
     this.stroke([flat(asked)], palette.asked, 6, 0.75);
     this.stroke([flat(drawn)], palette.asked, 3);
     if (pen) this.disc([pen[0], 0.005, pen[1]], 0.12, palette.asked, 0.8, true);
@@ -138,7 +138,7 @@ export class Picture {
   }
 
   /**
-   * What lies around the body: the sky, and a ground that gets brighter towards it.
+   * The surroundings of the body: the sky, and a ground that gets brighter towards it.
    * @param {Look} light
    * @param {number[]} size
    */
@@ -158,13 +158,13 @@ export class Picture {
    */
   drawGround([x, , z], reach) {
     const wide = (1.3 * reach) / Math.min(1, this.camera.zoom);
-    const gap = GAPS.find((metres) => wide <= 30 * metres) ?? GAPS[GAPS.length - 1];
-    const lines = Math.max(6, Math.ceil(wide / gap));
-    const x0 = gap * Math.round(x / gap);
-    const z0 = gap * Math.round(z / gap);
-    const end = lines * gap;
+    const spacing = SPACINGS.find((metres) => wide <= 30 * metres) ?? SPACINGS[SPACINGS.length - 1];
+    const lines = Math.max(6, Math.ceil(wide / spacing));
+    const x0 = spacing * Math.round(x / spacing);
+    const z0 = spacing * Math.round(z / spacing);
+    const end = lines * spacing;
     for (let i = 0; i <= lines; i++) {
-      const both = [i * gap, -i * gap].slice(0, i ? 2 : 1);
+      const both = [i * spacing, -i * spacing].slice(0, i ? 2 : 1);
       const along = both.map((off) => [
         [x0 + off, 0, z0 - end],
         [x0 + off, 0, z0 + end],
@@ -175,7 +175,7 @@ export class Picture {
       ]);
       this.stroke([...along, ...across], this.palette.line, 1, 1 - i / (lines + 1));
     }
-    if (gap > 1) this.write(`lines ${gap} m apart`);
+    if (spacing > 1) this.write(`lines ${spacing} m apart`);
   }
 
   /**
@@ -195,16 +195,16 @@ export class Picture {
 
   /**
    * A line on the ground from above, small in the upper right corner, as one saw it from `yaw`, and who walks on it.
-   * @param {number[][]} places
+   * @param {number[][]} positions
    * @param {ArrayLike<number> & Iterable<number>} walker
    * @param {number} yaw
    * @param {Palette} palette
    */
-  drawInset(places, [x, , z], yaw, { asked, ink }) {
+  drawInset(positions, [x, , z], yaw, { asked, ink }) {
     const { pen, canvas } = this;
     const size = Math.min(120, canvas.clientWidth / 4);
     const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
-    const seen = [...places, [x, z]].map(([px, pz]) => [px * c - pz * s, px * s + pz * c]);
+    const seen = [...positions, [x, z]].map(([px, pz]) => [px * c - pz * s, px * s + pz * c]);
     const walking = seen[seen.length - 1];
     const [[left, right], [top, bottom]] = [0, 1].map((k) => [
       Math.min(...seen.map((p) => p[k])),
@@ -212,12 +212,12 @@ export class Picture {
     ]);
     const scale = size / Math.max(right - left, bottom - top, 1);
     /**
-     * @param {number[]} place
+     * @param {number[]} position
      * @returns {[number, number]}
      */
     const put = ([px, py]) => [canvas.clientWidth - 16 - (right - px) * scale, 16 + (py - top) * scale];
     pen.beginPath();
-    for (const place of seen.slice(0, -1)) pen.lineTo(...put(place));
+    for (const position of seen.slice(0, -1)) pen.lineTo(...put(position));
     this.paintStroke(asked, 4, 0.5);
     pen.fillStyle = ink;
     pen.beginPath();
@@ -264,14 +264,14 @@ export class Picture {
 
   drawGhosts() {
     for (let k = GHOSTS; k > 0; k--) {
-      const time = this.time - k * GHOST_GAP;
+      const time = this.time - k * GHOST_INTERVAL;
       if (time < 0) continue;
       for (const character of this.characters) {
         const pose = character.pose(time);
         const colour = this.ink(character.colourAt(time));
         const alpha = 0.5 * (1 - k / (GHOSTS + 1));
         this.strokeBones(pose, character.bones, colour, 0.03, alpha);
-        if (character.head !== null) this.disc(placeOf(pose, character.head), 0.095, colour, alpha, false);
+        if (character.head !== null) this.disc(positionOf(pose, character.head), 0.095, colour, alpha, false);
       }
     }
   }
@@ -347,8 +347,11 @@ export class Picture {
       }
     });
     if (character.head !== null) {
-      const place = placeOf(pose, character.head);
-      parts.push({ far: this.camera.see(...place)[2], paint: () => this.disc(place, 0.095, own, 1, false) });
+      const position = positionOf(pose, character.head);
+      parts.push({
+        far: this.camera.see(...position)[2],
+        paint: () => this.disc(position, 0.095, own, 1, false),
+      });
     }
     for (const part of parts.sort((a, b) => b.far - a.far)) part.paint();
   }
@@ -450,8 +453,12 @@ export class Picture {
   passNear(a, b, leaves) {
     const { camera, pen } = this;
     const there = camera.see(b[0], b[1], b[2])[2];
-    const share = (NEAR - there) / (camera.see(a[0], a[1], a[2])[2] - there);
-    camera.project(b[0] + share * (a[0] - b[0]), b[1] + share * (a[1] - b[1]), b[2] + share * (a[2] - b[2]));
+    const fraction = (NEAR - there) / (camera.see(a[0], a[1], a[2])[2] - there);
+    camera.project(
+      b[0] + fraction * (a[0] - b[0]),
+      b[1] + fraction * (a[1] - b[1]),
+      b[2] + fraction * (a[2] - b[2]),
+    );
     if (leaves) pen.lineTo(camera.across, camera.down);
     else pen.moveTo(camera.across, camera.down);
     camera.project(b[0], b[1], b[2]);
@@ -473,31 +480,31 @@ export class Picture {
 
   /**
    * A ball, or, where `flat`, a disc on the ground.
-   * @param {number[]} place
+   * @param {number[]} position
    * @param {number} radius
    * @param {string} colour
    * @param {number} alpha
    * @param {boolean} flat
    */
-  disc(place, radius, colour, alpha, flat) {
-    this.discs([place], radius, colour, alpha, flat);
+  disc(position, radius, colour, alpha, flat) {
+    this.discs([position], radius, colour, alpha, flat);
   }
 
   /**
    * Many of them at once, which is much quicker than one after the other.
-   * @param {number[][]} places
+   * @param {number[][]} positions
    * @param {number} radius
    * @param {string} colour
    * @param {number} alpha
    * @param {boolean} flat
    */
-  discs(places, radius, colour, alpha, flat) {
-    if (!places.length) return;
+  discs(positions, radius, colour, alpha, flat) {
+    if (!positions.length) return;
     const { camera, pen } = this;
     pen.globalAlpha = alpha;
     pen.fillStyle = colour;
     pen.beginPath();
-    for (const [x, y, z] of places) {
+    for (const [x, y, z] of positions) {
       camera.project(x, y, z);
       if (camera.far < NEAR) continue;
       const r = (radius * camera.focus) / camera.far;
@@ -515,33 +522,33 @@ export class Picture {
 }
 
 /**
- * Blend a colour with a share of another one.
+ * Blend a colour with a fraction of another one.
  * @param {string} colour
  * @param {string} other
- * @param {number} share
+ * @param {number} fraction
  */
-function blend(colour, other, share) {
+function blend(colour, other, fraction) {
   const to = rgb(other);
-  const mixed = rgb(colour).map((value, k) => Math.round(255 * (value + share * (to[k] - value))));
+  const mixed = rgb(colour).map((value, k) => Math.round(255 * (value + fraction * (to[k] - value))));
   return `#${mixed.map((value) => value.toString(16).padStart(2, "0")).join("")}`;
 }
 
 /**
- * Where a joint of a pose is.
+ * The position of a joint of a pose.
  * @param {Float32Array} pose
  * @param {number} joint
  * @returns {[number, number, number]}
  */
-export function placeOf(pose, joint) {
+export function positionOf(pose, joint) {
   return [pose[3 * joint], pose[3 * joint + 1], pose[3 * joint + 2]];
 }
 
 /**
- * The bones of one side of a character; they are looked for once.
- * @param {Drawn} character
+ * The bones of one side of a character, computed once.
+ * @param {{ bones: number[][], bySide?: number[][][] }} character
  * @param {number} side
  */
-function sideOf(character, side) {
+export function sideOf(character, side) {
   character.bySide ??= [0, 1, 2].map((wanted) => character.bones.filter((bone) => bone[2] === wanted));
   return character.bySide[side];
 }

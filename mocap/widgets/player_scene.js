@@ -44,7 +44,7 @@
  * @property {Marks} marks
  * @property {number} fps
  * @property {number} frames
- * @property {number[][]} asked places [x, z] of the path that was asked for
+ * @property {number[][]} asked positions [x, z] of the path that was asked for
  * @property {number[][]} obstacles discs [x, z, radius]
  * @property {PackedCharacter[]} characters
  * @property {Packed} data
@@ -105,7 +105,7 @@ export class Camera {
   }
 
   /**
-   * Where a point is, seen from the camera: [to the right, up, ahead], metres.
+   * The position of a point relative to the camera: [to the right, up, ahead], metres.
    * @param {number} x
    * @param {number} y
    * @param {number} z
@@ -191,9 +191,9 @@ export function summed(numbers, frames) {
   return numbers;
 }
 
-// A character: where its joints are at any time. A coordinate is low + step · number metres, with a 16-bit number.
+// A character: the positions of its joints at any time. A coordinate is low + step · number metres, with a 16-bit number.
 export class Character {
-  /** @type {number[]} metres from its own place */
+  /** @type {number[]} its displacement, metres */
   away;
   /** @type {number[][]} */
   prints;
@@ -235,7 +235,7 @@ export class Character {
   }
 
   /**
-   * Walk so many metres beside its own place.
+   * Displace the character by some metres.
    * @param {number} x
    * @param {number} z
    * @param {Partial<Marks>} marks
@@ -258,24 +258,25 @@ export class Character {
   pose(time) {
     const at = Math.min(Math.max(time, 0), this.seconds) * this.fps;
     const frame = Math.min(Math.floor(at), this.frames - 1);
-    const share = at - frame;
+    const fraction = at - frame;
     const next = Math.min(frame + 1, this.frames - 1);
-    const places = new Float32Array(this.joints * 3);
-    for (let i = 0; i < places.length; i++) {
-      places[i] = this.place(i, frame) * (1 - share) + this.place(i, next) * share;
+    const positions = new Float32Array(this.joints * 3);
+    for (let i = 0; i < positions.length; i++) {
+      positions[i] = this.coordinate(i, frame) * (1 - fraction) + this.coordinate(i, next) * fraction;
     }
-    return places;
+    return positions;
   }
 
   /**
-   * @param {number} coordinate
+   * A coordinate of a joint in a frame, metres.
+   * @param {number} index
    * @param {number} frame
    */
-  place(coordinate, frame) {
+  coordinate(index, frame) {
     return (
-      this.away[coordinate % 3] +
-      this.low[coordinate % 3] +
-      this.step[coordinate % 3] * this.numbers[coordinate * this.frames + frame]
+      this.away[index % 3] +
+      this.low[index % 3] +
+      this.step[index % 3] * this.numbers[index * this.frames + frame]
     );
   }
 
@@ -284,7 +285,7 @@ export class Character {
     const every = Math.max(1, Math.floor(this.frames / 1000));
     const path = [];
     for (let frame = 0; frame < this.frames; frame += every) {
-      path.push([frame / this.fps, this.place(0, frame), this.place(2, frame)]);
+      path.push([frame / this.fps, this.coordinate(0, frame), this.coordinate(2, frame)]);
     }
     return path;
   }

@@ -1,6 +1,6 @@
 """Handles to drag, by mouse, by touch or by the arrow keys.
 
-They lie on the picture that an experiment draws, so the reader drags the very thing that answers.
+They are drawn on the picture of an experiment, so that the reader drags points of the picture itself.
 """
 
 from __future__ import annotations
@@ -20,21 +20,21 @@ from mocap.plotting.picture import figure_of
 from mocap.widgets.embedding import joined
 from mocap.widgets.shared_traits import AnyWidget, ValueWidget, shared, validate
 
-RADIUS = 9  # pixels, of a handle
+RADIUS = 9  # pixels, radius of a handle
 WHITE = "#FFFFFF"
 INK = "#222222"
 
 
 def handles(ax: Axes, points: ArrayLike) -> Handles:
-    """Make a control of points on axes: its value is a tuple of (across, up), in the units of the axes.
+    """Create a control of points on axes, whose value is a tuple of (across, up) in the units of the axes.
 
-    `explore` shows it on the picture that `draw` returns. Let `draw` move artists of the figure of these axes
-    and return them; it may also return a new figure whose axes have the same position.
+    `explore` shows it on the picture that `draw` returns. `draw` can change artists of the figure of these
+    axes and return them, or return a new figure whose axes have the same position.
 
     Parameters
     ----------
-    ax : linear axes, whose limits stay; no handle leaves them. Their labels name the two numbers.
-    points : shape (K, 2), the handles' first positions.
+    ax : linear axes, whose limits are constant and bound the handles. Their labels name the two coordinates.
+    points : shape (K, 2), the initial positions of the handles.
 
     Returns
     -------
@@ -42,14 +42,14 @@ def handles(ax: Axes, points: ArrayLike) -> Handles:
 
     Raises
     ------
-    MocapError : if anywidget is not installed, for points of another shape or outside the axes, here and when
-        they are set later, and for axes that are not linear.
+    MocapError : if anywidget is not installed, for points of another shape or outside the axes, initially or
+        later, and for axes that are not linear.
 
     Examples
     --------
     >>> ax = plt.figure().add_subplot(xlim=(3, -3), ylim=(0, 6), xlabel="x (m)", ylabel="z (m)")
     >>> dragged = handles(ax, [[0, 1], [0, 3], [0, 5]])
-    >>> dragged.value = ((0, 1), (1.5, 3), (0, 5))  # as a drag of the second one does
+    >>> dragged.value = ((0, 1), (1.5, 3), (0, 5))  # as dragging the second handle does
     >>> dragged.value[1]
     (1.5, 3.0)
 
@@ -71,15 +71,15 @@ def handles(ax: Axes, points: ArrayLike) -> Handles:
 
 
 class Handles(AnyWidget, ValueWidget):  # type: ignore[misc]
-    """A picture with points as its `value`, which Python and the reader may set."""
+    """A picture with points as its `value`, which Python and the reader may change."""
 
     _esm = joined(Path(__file__).with_name("dragging.js"))
     picture = shared(b"")
     box = shared([0.0, 0.0, 1.0, 1.0])  # left, top, right, bottom of the axes, as fractions of the figure
-    limits = shared([])  # of the axes: (left, right), (bottom, top)
-    names = shared([])  # of the two axes
+    limits = shared([])  # limits of the axes: (left, right), (bottom, top)
+    names = shared([])  # names of the two axes
     description = shared("")
-    step = shared(0.05)  # of an arrow key, in the units of the axes
+    step = shared(0.05)  # step of an arrow key, in the units of the axes
     value = shared(())
     ax: Axes
     count: int
@@ -98,7 +98,7 @@ class Handles(AnyWidget, ValueWidget):  # type: ignore[misc]
         return tuple((float(x), float(y)) for x, y in positions)
 
     def show(self, png: bytes) -> None:
-        """Take the picture that was just drawn, with the axes' position in it, which may have changed."""
+        """Show a new picture, and update the position of the axes in it."""
         (left, right), (bottom, top) = self.limits
         corners = self.ax.transData.transform([(left, top), (right, bottom)])
         fractions = figure_of(self.ax).transFigure.inverted().transform(corners)  # from left and bottom
@@ -106,7 +106,7 @@ class Handles(AnyWidget, ValueWidget):  # type: ignore[misc]
         self.picture = png
 
     def with_handles(self) -> Image.Image:
-        """Draw the handles into the picture."""
+        """Return the picture with the handles drawn into it."""
         picture = Image.open(io.BytesIO(self.picture)).convert("RGB")
         draw = ImageDraw.Draw(picture)
         low, high = np.array(self.limits).T

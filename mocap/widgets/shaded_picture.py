@@ -1,8 +1,8 @@
-"""A picture of shaded bodies on a ground, by NumPy alone: a film is written without a browser.
+"""Ray casting of shaded bodies on a ground with NumPy, so that films are written without a browser.
 
-A body is round cones, as `bodies.js` draws them: balls whose centre moves from one end to the other while
-their radius changes linearly, flattened from front to back. The first ball that the ray of a pixel meets is
-found in closed form. Camera, light and colours are the player's.
+A body consists of tapered capsules (round cones), as `bodies.js` draws them: the union of balls whose centre
+moves from one end to the other while their radius changes linearly, flattened from front to back. The first
+intersection of the ray of a pixel is found in closed form. Camera, light and colours are those of the player.
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ from mocap._shared.records import NamedTuple
 
 YAW = 0.7  # radians
 PITCH = 0.25  # radians, downwards
-FOCUS = 1.5  # focal length, in smaller sides of the picture
-NEAR = 0.1  # metres: a nearer point is not drawn
-TWICE = 2  # drawn larger by this, then made smaller, so that edges are smooth
+FOCUS = 1.5  # focal length, as a multiple of the smaller side of the picture
+NEAR = 0.1  # metres: nearer points are not drawn
+TWICE = 2  # supersampling factor, which smooths edges
 SKY = "#FAF7F0"
 GROUND = "#ECE6DA"
 WARM = np.array([1.22, 1.1, 0.95], np.float32)  # the light of the sun
-SUN = (-0.45, 0.78, 0.44)  # to the right, up and back, seen from the camera
-SHADOW = 0.3  # darkness, from 0 to 1
+SUN = (-0.45, 0.78, 0.44)  # direction of the sun: right, up and back, relative to the camera
+SHADOW = 0.3  # darkness of shadows, from 0 to 1
 
 # Columns of a capsule, as from `capsules_at`.
 START = slice(0, 3)
@@ -53,9 +53,9 @@ def blend(colour: str, second: str, weight: float) -> Array:
 
 
 class _Cone(NamedTuple):
-    """A capsule in the axes of the camera: balls around a + u s with the radius r + u k, u from 0 to 1.
+    """A capsule in camera coordinates: balls around a + u s with the radius r + u k, u from 0 to 1.
 
-    Lengths are measured by `metric` = 1 + flat z zᵀ, in which flattened balls are round.
+    Lengths are measured with `metric` = 1 + flat z zᵀ, in which flattened balls are spheres.
     """
 
     a: Array
@@ -68,13 +68,13 @@ class _Cone(NamedTuple):
 
 
 class ShadedPicture:
-    """A picture to which lines on the ground are drawn, and then bodies with their shadows.
+    """A picture on which lines on the ground are drawn, and then bodies with their shadows.
 
     Parameters
     ----------
     size : width and height, pixels.
-    target : the position (x, y, z) that the camera looks at, metres.
-    distance : metres from the camera to there.
+    target : the position (x, y, z) at which the camera looks, metres.
+    distance : the distance of the camera from the target, metres.
     """
 
     def __init__(self, size: tuple[int, int], target: Array, distance: float) -> None:
@@ -97,13 +97,13 @@ class ShadedPicture:
         self.pen = ImageDraw.Draw(self.paper)
 
     def pixels(self, points: ArrayLike) -> tuple[Array, Array]:
-        """Project points (N, 3) to pixels (N, 2), with the pixels of a metre there; NaN behind the camera."""
+        """Project points (N, 3) to pixels (N, 2), with the scale, pixels per metre. NaN behind the camera."""
         right, up, ahead = self.axes @ (np.asarray(points, float) - self.eye).T
         scale = self.focus / np.where(ahead > NEAR, ahead, np.nan)
         return self.size / 2 + np.stack([right, -up], -1) * scale[:, None], scale
 
     def line(self, points: ArrayLike, colours: ArrayLike, width: float) -> None:
-        """Draw a line through points (N, 3), `width` pixels wide, of one colour or of N - 1."""
+        """Draw a line through points (N, 3), `width` pixels wide, with one colour or N - 1 colours."""
         ends = (TWICE * self.pixels(points)[0]).tolist()
         inks = np.broadcast_to(_bytes(colours), (max(len(ends) - 1, 0), 3)).tolist()
         for start, end, ink in zip(ends[:-1], ends[1:], inks, strict=True):
@@ -111,19 +111,19 @@ class ShadedPicture:
                 self.pen.line([*start, *end], tuple(ink), round(TWICE * width))
 
     def area(self, points: ArrayLike, colour: ArrayLike) -> None:
-        """Fill a polygon with corners (N, 3); those behind the camera are left out."""
+        """Fill a polygon with corners (N, 3), without those behind the camera."""
         pixels = TWICE * self.pixels(points)[0]
         corners = pixels[~np.isnan(pixels[:, 0])]
         if len(corners) > 2:
             self.pen.polygon(corners.ravel().tolist(), tuple(_bytes(colour).tolist()))
 
     def finished(self, pieces: Array, colours: Array) -> NDArray[np.uint8]:
-        """Return the picture with bodies and their shadows, shape (height, width, 3).
+        """Draw bodies and their shadows, and return the picture, shape (height, width, 3).
 
         Parameters
         ----------
         pieces : capsules as from `capsules_at`, shape (P, 12).
-        colours : of each, shape (P, 3), from 0 to 1.
+        colours : the colours of the capsules, shape (P, 3), from 0 to 1.
         """
         picture = np.asarray(self.paper.reduce(TWICE), np.float32) / 255
         width, height = self.size.tolist()
@@ -145,7 +145,7 @@ class ShadedPicture:
         return _bytes(picture)
 
     def _window(self, balls: Array, fine: int = 1) -> Window:
-        """Return the rows and columns that hold balls, each a row (x, y, z, radius), metres."""
+        """Return the rows and columns of pixels that contain balls (x, y, z, radius), metres."""
         centres, scale = self.pixels(balls[:, :RADIUS])
         reach = 1.1 * balls[:, RADIUS] * scale + 1
         low = (centres.T - reach).min(axis=1)
@@ -155,7 +155,7 @@ class ShadedPicture:
         return slice(top, bottom), slice(left, right)
 
     def _rays(self, window: Window, fine: int = 1) -> tuple[Floats, Floats]:
-        """Return the offset of pixels' rays one metre ahead: to the right (1, W) and up (H, 1), metres."""
+        """Return the rays of pixels at a depth of one metre: right (1, W) and up (H, 1), metres."""
         rows, columns = window
         down = (np.arange(rows.start, rows.stop, dtype=np.float32) + 0.5) / fine
         right = (np.arange(columns.start, columns.stop, dtype=np.float32) + 0.5) / fine
@@ -165,9 +165,9 @@ class ShadedPicture:
         return to_right[None], to_top[:, None]
 
     def _on_ground(self, window: Window) -> tuple[Array, Array]:
-        """Return x and z, (H, W) each, metres, of the points where the rays of pixels meet the ground."""
+        """Return the intersections of the rays of pixels with the ground, x and z, (H, W) each, metres."""
         right, up = self._rays(window)
-        axis_x, axis_y, axis_z = self.axes.T  # of the world, in those of the camera
+        axis_x, axis_y, axis_z = self.axes.T  # axes of the world in camera coordinates
         x = axis_x[0] * right + axis_x[1] * up + axis_x[2]
         y = axis_y[0] * right + axis_y[1] * up + axis_y[2]
         z = axis_z[0] * right + axis_z[1] * up + axis_z[2]
@@ -175,12 +175,12 @@ class ShadedPicture:
         return self.eye[0] + distance * x, self.eye[2] + distance * z
 
     def _cast(self, shadows: Floats, piece: Array) -> None:
-        """Add a capsule's shadow: a stadium on the ground, softer and paler with the capsule's height."""
+        """Add the shadow of a capsule, a stadium on the ground that is softer and paler for high capsules."""
         start_radius = piece[START_RADIUS]
         end_radius = piece[END_RADIUS]
         ends = np.stack([piece[START], piece[END]])
         softness = 0.02 + 0.12 * ends[:, 1].clip(0)  # metres, at either end
-        ends = ends - self.sun / self.sun[1] * ends[:, 1:2]  # on the ground, along the light
+        ends = ends - self.sun / self.sun[1] * ends[:, 1:2]  # projected to the ground along the light
         reaches = np.array([start_radius, end_radius]) + softness
         window = self._window(np.column_stack([ends, reaches]))
         x, z = self._on_ground(window)
@@ -189,7 +189,7 @@ class ShadedPicture:
         x = x - start_x
         z = z - start_z
         u = (x * axis_x + z * axis_z) / max(axis_x * axis_x + axis_z * axis_z, 1e-9)
-        u = u.clip(0, 1)  # of the nearest point on the axis
+        u = u.clip(0, 1)  # parameter of the nearest point on the axis
         radius = start_radius + u * (end_radius - start_radius)
         soft = softness[0] + u * (softness[1] - softness[0])
         distance = np.hypot(x - u * axis_x, z - u * axis_z)
@@ -199,7 +199,7 @@ class ShadedPicture:
         np.maximum(shadows[window], shade, out=shadows[window])
 
     def _cone(self, piece: Array) -> _Cone:
-        """Convert a capsule to the axes of the camera; if one ball holds the other, that ball remains."""
+        """Convert a capsule to camera coordinates, or only the larger ball if it contains the other."""
         a = self.axes @ (piece[START] - self.eye)
         b = self.axes @ (piece[END] - self.eye)
         z = self.axes @ piece[AHEAD]
@@ -215,11 +215,11 @@ class ShadedPicture:
         return _Cone(a, s, r, k, z, flat, metric)
 
     def _meet(self, piece: Array, number: int, met: Floats) -> None:
-        """Find where rays meet a capsule before other ones: update the distance, the capsule and the u.
+        """Intersect rays with a capsule, and update the distance, the capsule and the u of first hits.
 
-        The ball around a + u s has the radius r + u k. A point at a + e is farthest inside the ball of
-        u = (e · s + r k) / (s · s - k²). A ray t d enters the cone of all balls, u of any size, at a zero of
-        a quadratic in t. There u, clipped to the ends, chooses the ball, which the ray enters at a zero of
+        The ball around a + u s has the radius r + u k. A point at a + e is deepest inside the ball with
+        u = (e · s + r k) / (s · s - k²). A ray t d enters the cone of all balls, with unbounded u, at a root
+        of a quadratic in t. There u, clipped to the ends, selects the ball, which the ray enters at a root of
         another quadratic.
         """
         a, s, r, k, z, flat, metric = self._cone(piece)
@@ -247,7 +247,7 @@ class ShadedPicture:
             np.copyto(values[window], new, where=is_first, casting="unsafe")
 
     def _lit(self, pieces: Array, colours: Array, pixels: tuple[Indices, ...], met: Floats) -> Floats:
-        """Return the light of the points that rays meet, (N, 3), as the shader of limbs in `bodies.js`."""
+        """Shade the intersections of rays with bodies, (N, 3), as the shader of limbs in `bodies.js` does."""
         rows, columns = pixels
         distances, numbers, u = met[..., None]
         order = numbers[:, 0].astype(int)
@@ -260,7 +260,7 @@ class ShadedPicture:
         return self._shade(colours.astype(np.float32)[order], points, normals, _unit(view))
 
     def _shade(self, colours: Floats, points: Floats, normals: Floats, view: Floats) -> Floats:
-        """Light points (N, 3) of a surface by sky, ground and sun, with a bright rim and a highlight."""
+        """Shade points (N, 3) of a surface with sky, ground and sun light, a bright rim and a highlight."""
         sky = np.array(to_rgb(SKY), np.float32)
         ground = np.array(to_rgb(GROUND), np.float32)
         sun = self.sun.astype(np.float32)
@@ -278,7 +278,7 @@ class ShadedPicture:
 
 
 def _paper(size: tuple[int, int]) -> Image.Image:
-    """Make the background: the sky, which fades into the ground below the upper quarter."""
+    """Create the background, a gradient from the sky in the upper quarter to the ground."""
     weights = np.linspace(-1 / 3, 1, TWICE * size[1]).clip(0)[:, None]
     rows = (1 - weights) * to_rgb(SKY) + weights * to_rgb(GROUND)
     pixels = np.repeat(_bytes(rows)[:, None], TWICE * size[0], axis=1)
@@ -286,7 +286,7 @@ def _paper(size: tuple[int, int]) -> Image.Image:
 
 
 def _normals(capsules: Floats, u: Floats, points: Floats) -> Floats:
-    """Return unit normals (N, 3) at points on the balls u of capsules, one capsule for each point."""
+    """Return unit normals (N, 3) at points on capsules, on the ball with parameter u of each."""
     offsets = points - (1 - u) * capsules[:, START] - u * capsules[:, END]
     ahead = capsules[:, AHEAD]
     flattening = (capsules[:, FLATNESS] ** -2 - 1) * (offsets * ahead).sum(-1)
@@ -294,7 +294,7 @@ def _normals(capsules: Floats, u: Floats, points: Floats) -> Floats:
 
 
 def _unit(vectors: Floats) -> Floats:
-    """Divide vectors (N, 3) by their lengths."""
+    """Normalise vectors (N, 3)."""
     unit: Floats = vectors / np.sqrt((vectors * vectors).sum(-1, keepdims=True))
     return unit
 

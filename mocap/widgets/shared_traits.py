@@ -17,12 +17,12 @@ except ImportError as error:
 
 
 def shared(value: Any) -> Any:  # noqa: ANN401
-    """Make a trait that the browser knows as well, with its value at first."""
+    """Create a trait that is synchronised with the browser, with its initial value."""
     return traitlets.Any(value).tag(sync=True)
 
 
 class Naming(AnyWidget):
-    """Gives the other widgets their names, which screen readers say."""
+    """A widget that sets the accessible names of the other widgets, for screen readers."""
 
     _esm = joined(Path(__file__).with_name("naming.js"))
     alt = shared("")

@@ -6,7 +6,7 @@
  * A character that is steered, as `steered_widget.py` packs it.
  * @typedef {PackedBody & { name: string, fps: number, colour: string }} PackedMember
  *
- * What Python tells of the frames that it has walked, as `Walked.told` in `company.py`.
+ * What Python tells of the frames that it has walked, as `Walked.report` in `company.py`.
  * @typedef {{
  *   first: number, waited: number[], obeyed: boolean[], blending: boolean[], fault: string, delays: number[],
  * }} Told
@@ -15,7 +15,7 @@
 const KEPT = 6; // seconds of its way that stay in sight
 
 export class Walker {
-  /** @type {{ places: Float32Array, waited: number, obeyed: boolean, blending: boolean }[]} */
+  /** @type {{ positions: Float32Array, waited: number, obeyed: boolean, blending: boolean }[]} */
   frames = [];
   /** @type {number} the number of the first frame that is kept */
   first = 0;
@@ -57,7 +57,7 @@ export class Walker {
     const size = 3 * this.joints;
     for (let k = 0; k < waited.length; k++) {
       this.frames.push({
-        places: numbers.subarray(k * size, (k + 1) * size),
+        positions: numbers.subarray(k * size, (k + 1) * size),
         waited: waited[k],
         obeyed: obeyed[k],
         blending: blending[k],
@@ -88,10 +88,10 @@ export class Walker {
   pose(time) {
     const at = Math.min(Math.max(time * this.fps - this.first, 0), this.frames.length - 1);
     const k = Math.floor(at);
-    const share = at - k;
-    const a = this.frames[k].places;
-    const b = this.frames[Math.min(k + 1, this.frames.length - 1)].places;
-    return a.map((from, i) => from + share * (b[i] - from));
+    const fraction = at - k;
+    const a = this.frames[k].positions;
+    const b = this.frames[Math.min(k + 1, this.frames.length - 1)].positions;
+    return a.map((from, i) => from + fraction * (b[i] - from));
   }
 
   /**
@@ -106,7 +106,7 @@ export class Walker {
   }
 
   /**
-   * The way of its last seconds, as lines of one colour: its own, or that of seams.
+   * The path of its last seconds, as lines of one colour: its own, or that of seams.
    * @param {number} time
    * @param {string} seam
    */
@@ -121,11 +121,11 @@ export class Walker {
       k <= until && k < this.frames.length;
       k += every
     ) {
-      const { places, blending } = this.frames[k];
+      const { positions, blending } = this.frames[k];
       const colour = blending ? seam : this.colour;
       const last = lines.at(-1);
-      last?.line.push([places[0], 0, places[2]]);
-      if (last?.colour !== colour) lines.push({ colour, line: [[places[0], 0, places[2]]] });
+      last?.line.push([positions[0], 0, positions[2]]);
+      if (last?.colour !== colour) lines.push({ colour, line: [[positions[0], 0, positions[2]]] });
     }
     const [x, , z] = this.pose(time);
     lines.at(-1)?.line.push([x, 0, z]);
@@ -140,11 +140,11 @@ export class Walker {
   target(time, seconds) {
     const [x, , z] = this.pose(time);
     this.centre ??= [x, 0.85, z];
-    const share = 1 - Math.exp(-seconds / 0.3);
+    const fraction = 1 - Math.exp(-seconds / 0.3);
     this.centre = [
-      this.centre[0] + share * (x - this.centre[0]),
+      this.centre[0] + fraction * (x - this.centre[0]),
       0.85,
-      this.centre[2] + share * (z - this.centre[2]),
+      this.centre[2] + fraction * (z - this.centre[2]),
     ];
     return this.centre;
   }

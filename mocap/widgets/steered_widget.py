@@ -1,7 +1,8 @@
-"""Pictures of steered characters in a notebook, the reader's command, and a recording for other pages.
+"""A notebook widget in which the reader steers characters, with a recording for pages without Python.
 
-The browser asks for the next frames when it has few left, and sends the command. Python takes that many steps
-and returns the positions of the joints. Nothing runs between two requests: no thread, and nothing to stop.
+The browser requests the next frames when its buffer is nearly empty, and sends the command. Python takes as
+many steps and returns the positions of the joints. Nothing runs between two requests, so there is no thread
+to stop.
 """
 
 import math
@@ -23,14 +24,14 @@ from mocap.widgets.player import LOOK, play
 from mocap.widgets.shared_traits import AnyWidget, shared, validate
 
 OWN = ("steered_walker.js", "steering_page.js", "steering.js")
-RECORDED = ((0.0, 2.0), (math.pi / 2, 4.0), (-math.pi / 4, 4.0))  # headings, and seconds of each
+RECORDED = ((0.0, 2.0), (math.pi / 2, 4.0), (-math.pi / 4, 4.0))  # headings, radians, and their seconds
 APART = 1.5  # metres between two characters of the recording
-MOST = 1.0  # seconds of one answer
-USUAL_SPEED = 1.1  # metres per second of the recording, if the reader can ask for it
+MOST = 1.0  # longest duration of one answer, seconds
+USUAL_SPEED = 1.1  # metres per second of the recording, if it is within the range of speeds
 
 
 class Steered(AnyWidget):
-    """Pictures of characters, and a `command` that the reader and Python may set."""
+    """A widget with pictures of characters, and a `command` that the reader and Python may set."""
 
     _esm = joined(*SHADED, SCENE, PICTURE, PAGE, TOUCH, *map(Path(__file__).with_name, OWN))
     scene = shared({})
@@ -41,16 +42,16 @@ class Steered(AnyWidget):
 
     @validate("command")
     def _check(self, proposal: dict[str, Any]) -> list[Any]:
-        """Raise if no character could obey the command."""
+        """Return the command, or raise if no character accepts it."""
         return list(checked(*proposal["value"]))
 
     @property
     def delays(self) -> dict[str, list[float]]:
-        """The seconds until each character obeyed, a number for each command that it did not obey already."""
+        """The delays of each character, seconds, one for each command that it did not already obey."""
         return {member.name: list(member.clock.delays) for member in self.company.members}
 
     def answer(self, _: object, request: dict[str, Any], __: object = None) -> None:
-        """Answer a request of the browser: walk on and send the frames, or send an error."""
+        """Answer a request of the browser with the next frames, or with an error."""
         try:
             order = checked(*request["command"])
             seconds = min(max(0.0, float(request["seconds"])), MOST)
@@ -61,8 +62,8 @@ class Steered(AnyWidget):
         walks = self.company.walk(order, seconds)
         reply = {"kind": "walked", "view": request.get("view"), "number": request.get("number")}
         reply |= {"cost": self.company.cost, "notes": self.company.notes}
-        reply["members"] = [walked.told for walked in walks]
-        self.send(reply, buffers=[walked.places.astype("<f4").tobytes() for walked in walks])
+        reply["members"] = [walked.report for walked in walks]
+        self.send(reply, buffers=[walked.positions.astype("<f4").tobytes() for walked in walks])
 
     def __repr__(self) -> str:
         return f"Steered({', '.join(member.name for member in self.company.members)})"
@@ -78,29 +79,29 @@ def steered(
     labels: Sequence[str] = (),
     alt: str = "",
 ) -> Steered:
-    """Show characters side by side that the reader steers: one command for all, by mouse, keys or touch.
+    """Show characters side by side that the reader steers by one command, with mouse, keys or touch.
 
-    The command goes from the browser to Python and comes back as steps. The line below the pictures shows the
-    time that this takes, and the time until each character obeys. First, each character walks ten seconds
-    that are recorded: two ahead, four to the left, four to the right. A notebook that is opened without
-    Python plays them.
+    The browser sends the command to Python, which returns steps. The line below the pictures shows the time
+    of this exchange, and the delay until each character obeys. First, ten seconds of each character are
+    recorded: two ahead, four to the left, and four to the right. A notebook that is opened without Python
+    plays the recording.
 
     Parameters
     ----------
-    characters : one to four by name, anything with the members of `steering.Character`. They walk on from
-        where they are.
-    speeds : the least and the most that the reader can ask for, metres per second.
-    labels : kinds of motion to choose from, as `step` takes them; "" stands for any.
-    alt : a sentence for readers who do not see it; by default it gives the names.
+    characters : one to four characters by name, which implement `steering.Character`. They continue from
+        their current positions.
+    speeds : the lowest and the highest speed that the reader can request, metres per second.
+    labels : kinds of motion to choose from, as arguments of `step`, where "" permits any.
+    alt : a sentence for readers who do not see the widget. By default it contains the names.
 
     Returns
     -------
-    A widget; a notebook shows it as the last line of a cell. Its `command` is [heading, speed, label], which
-    Python may set; its `delays` has the seconds until each character obeyed the reader, by name.
+    A widget. A notebook shows it as the last line of a cell. Its `command` is [heading, speed, label], which
+    Python may set. Its `delays` has the delays, seconds, of each character by name.
 
     Raises
     ------
-    MocapError : as `Company`, for speeds that do not rise from 0 on, and where anywidget is not installed.
+    MocapError : as for `Company`, for speeds that are not 0 <= low < high, and if anywidget is not installed.
 
     Examples
     --------
@@ -148,7 +149,7 @@ def _packed_members(company: Company) -> list[dict[str, Any]]:
 
 
 def _recorded(company: Company, speed: float) -> list[Motion]:
-    """Return the motions of the recording, side by side, the first at the left."""
+    """Return the motions of the recording, side by side, the first one on the left."""
     parts = [company.walk((heading, speed, ""), seconds) for heading, seconds in RECORDED]
     motions = []
     middle = (len(company.members) - 1) / 2

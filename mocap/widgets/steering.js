@@ -69,7 +69,7 @@ class Steering {
   /** @type {number[]} milliseconds that the last answers took */
   trips = [50];
   /** @type {number[]} milliseconds that the last commands were under way */
-  ways = [];
+  latencies = [];
   /** @type {UnderWay | null} */
   under = null;
   /** @type {Set<string>} the keys that are held down */
@@ -273,11 +273,11 @@ class Steering {
   onGround(event, { camera, walker }) {
     this.panelsPart.focus({ preventScroll: true });
     if (this.time === null || !camera.eye) return; // nothing was drawn yet
-    const place = camera.ground(event.offsetX, event.offsetY);
-    if (!place) return;
+    const point = camera.ground(event.offsetX, event.offsetY);
+    if (!point) return;
     const [x, , z] = walker.pose(this.time);
-    const right = place[0] - x;
-    const ahead = place[1] - z;
+    const right = point[0] - x;
+    const ahead = point[1] - z;
     if (Math.hypot(right, ahead) > 0.2) this.order({ heading: Math.atan2(right, ahead) });
   }
 
@@ -288,9 +288,9 @@ class Steering {
   key(event) {
     if (this.leaves(event)) return;
     const name = keyName(event);
-    const way = DIRECTIONS[name];
-    if (way && event.shiftKey && name.startsWith("Arrow")) this.orbit(way);
-    else if (way) this.hold(name, event.repeat);
+    const direction = DIRECTIONS[name];
+    if (direction && event.shiftKey && name.startsWith("Arrow")) this.orbit(direction);
+    else if (direction) this.hold(name, event.repeat);
     else if (ORDERS[name]) ORDERS[name](this);
     else return;
     event.preventDefault();
@@ -449,7 +449,7 @@ class Steering {
   arrived(time) {
     const { under } = this;
     if (under && under.start !== null && time >= under.start) {
-      this.ways = [...this.ways.slice(-8), performance.now() - under.since];
+      this.latencies = [...this.latencies.slice(-8), performance.now() - under.since];
       this.under = null;
     }
     const [oldest] = this.asked.values();
@@ -537,12 +537,12 @@ class Steering {
       state.textContent = `${walker.speed(time).toFixed(1)} m/s${told}`;
       if (fault.textContent !== walker.fault) fault.textContent = walker.fault;
     }
-    const ways = [...this.ways].sort((a, b) => a - b);
-    const way = ways.length ? (ways[ways.length >> 1] / 1000).toFixed(2) : null;
-    this.underPart.textContent = way
-      ? `A command is under way to Python and back for ${way} s, which are not counted above.`
+    const latencies = [...this.latencies].sort((a, b) => a - b);
+    const median = latencies.length ? (latencies[latencies.length >> 1] / 1000).toFixed(2) : null;
+    this.underPart.textContent = median
+      ? `A command is under way to Python and back for ${median} s, which are not counted above.`
       : "";
-    Object.assign(this.root.dataset, { playing: this.playing, way: way ?? "" });
+    Object.assign(this.root.dataset, { playing: this.playing, latency: median ?? "" });
   }
 }
 

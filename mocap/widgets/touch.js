@@ -1,13 +1,13 @@
-const SLOP = 8; // pixels that a finger moves before its way is known
+const SLOP = 8; // pixels that a finger moves before its direction is known
 
 /**
  * Call `point` where a mouse presses or drags, and where a finger taps or moves across. A finger that moves up or down
- * scrolls the page, so it points at nothing before its way is known.
+ * scrolls the page, so it points at nothing before its direction is known.
  * @param {HTMLElement} part
  * @param {(event: PointerEvent) => void} point
  */
 export function whenPointed(part, point) {
-  /** @type {PointerEvent | null} where a finger came down whose way is not known yet */
+  /** @type {PointerEvent | null} where a finger came down whose direction is not known yet */
   let from = null;
   part.style.touchAction = "pan-y";
   part.addEventListener("pointerdown", (event) => {

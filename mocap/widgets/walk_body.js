@@ -1,23 +1,24 @@
-// Bodies: where all joints of a walk are, at any moment, and the capsules around them. No page, no picture.
+// Bodies: the positions of all joints of a walk at any time, and the capsules around them, without a page or a picture.
 
-import { after } from "./walk_search.js";
+import { writeCapsule } from "./bodies.js";
+import { compose } from "./walk_search.js";
 
 /**
- * @import { Clip, Edge, Graph, Lay, Piece } from "./walk_search.js"
+ * @import { Clip, Edge, Graph, Piece, Transform } from "./walk_search.js"
  *
- * The root's place [x, y, z], and the quaternions of all joints.
- * @typedef {{ root: number[], turns: number[][] }} Pose
+ * The root's position [x, y, z], and the quaternions of all joints.
+ * @typedef {{ root: number[], rotations: number[][] }} Pose
  *
- * The places and orientations of all joints in the world.
- * @typedef {{ places: number[][], turns: number[][] }} Body
+ * The positions and orientations of all joints in the world.
+ * @typedef {{ positions: number[][], rotations: number[][] }} Body
  *
- * What is asked of a walk to see it: its edges with how each is laid, and its first frame.
+ * The data of a walk that its display needs: its edges, with the transform and the first frame of each.
  * @typedef {{
- *   graph: Graph, edges: PlayedEdge[], lays: Lay[], begins: number[], frames: number,
+ *   graph: Graph, edges: PlayedEdge[], transforms: Transform[], begins: number[], frames: number,
  * }} Played
- * @typedef {Pick<Edge, "start" | "end" | "seam" | "frames" | "lay">} PlayedEdge
+ * @typedef {Pick<Edge, "start" | "end" | "seam" | "frames" | "transform">} PlayedEdge
  *
- * Where a foot stands: the frame in which it comes down, its place, heading and side.
+ * A footprint: the frame in which the foot comes down, its position, heading and side.
  * @typedef {{ frame: number, z: number, x: number, angle: number, side: number }} Print
  */
 
@@ -35,7 +36,7 @@ const product = ([w, x, y, z], [s, u, v, t]) => [
 
 /**
  * Rotate a vector v by a quaternion (w, u): v + 2w (u × v) + 2 u × (u × v).
- * @param {number[]} turn
+ * @param {number[]} rotation
  * @param {number[]} v
  */
 export const rotate = ([w, a, b, c], [x, y, z]) => {
@@ -46,53 +47,53 @@ export const rotate = ([w, a, b, c], [x, y, z]) => {
 };
 
 /**
- * Spherical linear interpolation from p to q, the short way round.
+ * Spherical linear interpolation from p to q, along the shorter arc.
  * @param {number[]} p
  * @param {number[]} q
- * @param {number} share
+ * @param {number} fraction
  */
-function slerp(p, q, share) {
+function slerp(p, q, fraction) {
   const dot = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
   const angle = Math.acos(Math.min(Math.abs(dot), 1));
   const near = angle < 1e-4;
   const sine = near ? 1 : Math.sin(angle);
-  const a = near ? 1 - share : Math.sin((1 - share) * angle) / sine;
-  const b = (near ? share : Math.sin(share * angle) / sine) * Math.sign(dot || 1);
+  const a = near ? 1 - fraction : Math.sin((1 - fraction) * angle) / sine;
+  const b = (near ? fraction : Math.sin(fraction * angle) / sine) * Math.sign(dot || 1);
   return p.map((value, c) => a * value + b * q[c]);
 }
 
 /**
- * A frame of a clip, laid on the ground: the root's place [x, y, z], and the turns of all joints.
+ * A frame of a clip, transformed: the root's position [x, y, z], and the rotations of all joints.
  * @param {Clip} clip
  * @param {number} joints
  * @param {number} frame
- * @param {Lay} lay
+ * @param {Transform} transform
  * @returns {Pose}
  */
-function laid(clip, joints, frame, [c, s, z, x]) {
+function transformed(clip, joints, frame, [c, s, z, x]) {
   const [px, py, pz] = clip.roots.subarray(3 * frame, 3 * frame + 3);
   const half = Math.atan2(s, c) / 2;
-  const turns = Array.from({ length: joints }, (_, j) => [
-    ...clip.turns.subarray(4 * (joints * frame + j), 4 * (joints * frame + j) + 4),
+  const rotations = Array.from({ length: joints }, (_, j) => [
+    ...clip.rotations.subarray(4 * (joints * frame + j), 4 * (joints * frame + j) + 4),
   ]);
-  turns[0] = product([Math.cos(half), 0, Math.sin(half), 0], turns[0]);
-  return { root: [s * pz + c * px + x, py, c * pz - s * px + z], turns };
+  rotations[0] = product([Math.cos(half), 0, Math.sin(half), 0], rotations[0]);
+  return { root: [s * pz + c * px + x, py, c * pz - s * px + z], rotations };
 }
 
 /**
  * A pose between two.
- * @param {Pose} one
- * @param {Pose} other
- * @param {number} share
+ * @param {Pose} first
+ * @param {Pose} second
+ * @param {number} fraction
  * @returns {Pose}
  */
-const mixed = (one, other, share) => ({
-  root: one.root.map((value, c) => value + share * (other.root[c] - value)),
-  turns: one.turns.map((turn, j) => slerp(turn, other.turns[j], share)),
+const mixed = (first, second, fraction) => ({
+  root: first.root.map((value, c) => value + fraction * (second.root[c] - value)),
+  rotations: first.rotations.map((rotation, j) => slerp(rotation, second.rotations[j], fraction)),
 });
 
 /**
- * The edge that plays in a frame of a walk, and how far it has come.
+ * The index of the edge that plays in a frame of a walk, and the frame within the edge.
  * @param {Played} walk
  * @param {number} frame
  */
@@ -117,15 +118,15 @@ export function poseAt(walk, frame) {
   const edge = walk.edges[at];
   const { graph } = walk;
   const joints = graph.about.parents.length;
-  const one = laid(graph.clips[edge.start.clip], joints, edge.start.frame + i, walk.lays[at]);
-  if (!edge.seam) return one;
-  const lay = after(walk.lays[at], edge.lay);
-  const other = laid(graph.clips[edge.end.clip], joints, edge.end.frame - edge.frames + i, lay);
-  return mixed(one, other, 1 - graph.weights[i]);
+  const first = transformed(graph.clips[edge.start.clip], joints, edge.start.frame + i, walk.transforms[at]);
+  if (!edge.seam) return first;
+  const transform = compose(walk.transforms[at], edge.transform);
+  const second = transformed(graph.clips[edge.end.clip], joints, edge.end.frame - edge.frames + i, transform);
+  return mixed(first, second, 1 - graph.weights[i]);
 }
 
 /**
- * The pose at any time, in frames, with all joints' places and orientations in the world.
+ * The positions and orientations of all joints in the world at any time, in frames.
  * @param {Played} walk
  * @param {number} time
  * @returns {Body}
@@ -133,39 +134,39 @@ export function poseAt(walk, frame) {
 export function bodyAt(walk, time) {
   const last = walk.frames - 1;
   const first = Math.max(0, Math.min(Math.floor(time), last));
-  const share = Math.max(0, Math.min(time - first, 1));
+  const fraction = Math.max(0, Math.min(time - first, 1));
   let pose = poseAt(walk, first);
-  if (share > 0 && first < last) pose = mixed(pose, poseAt(walk, first + 1), share);
+  if (fraction > 0 && first < last) pose = mixed(pose, poseAt(walk, first + 1), fraction);
   const { parents, offsets } = walk.graph.about;
-  const places = [pose.root];
-  const turns = [pose.turns[0]];
+  const positions = [pose.root];
+  const rotations = [pose.rotations[0]];
   for (let j = 1; j < parents.length; j++) {
-    const way = rotate(turns[parents[j]], offsets[j]);
-    places.push(places[parents[j]].map((value, c) => value + way[c]));
-    turns.push(product(turns[parents[j]], pose.turns[j]));
+    const offset = rotate(rotations[parents[j]], offsets[j]);
+    positions.push(positions[parents[j]].map((value, c) => value + offset[c]));
+    rotations.push(product(rotations[parents[j]], pose.rotations[j]));
   }
-  return { places, turns };
+  return { positions, rotations };
 }
 
 /**
- * The capsules of a body, 13 numbers each: an end and its radius, the other end and its radius, the way to the
- * body's left, how flat it is, and its side (-1 right, 0, 1 left).
+ * Write the capsules of a body.
  * @param {Piece[]} pieces
  * @param {Body} body
  * @param {Float32Array} out
  * @param {number} at
  */
-export function capsules(pieces, { places, turns }, out, at = 0) {
-  for (const [joint, a, ra, b, rb, flat, side] of pieces) {
-    const ends = [a, b].map((end) => rotate(turns[joint], end).map((value, c) => value + places[joint][c]));
-    out.set([...ends[0], ra, ...ends[1], rb, ...rotate(turns[joint], [1, 0, 0]), flat, side], at);
-    at += 13;
+export function capsules(pieces, { positions, rotations }, out, at = 0) {
+  for (const [joint, a, ra, b, rb, flatness, side] of pieces) {
+    const ends = [a, b].map((end) =>
+      rotate(rotations[joint], end).map((value, c) => value + positions[joint][c]),
+    );
+    at = writeCapsule(out, at, ends, [ra, rb], rotate(rotations[joint], [1, 0, 0]), flatness, side);
   }
   return at;
 }
 
 /**
- * Where feet stand: the toes rest near the ground. It is that for three frames.
+ * The footprints of a walk: a ball of a foot is at rest for three frames.
  * @param {Played} walk
  * @param {number[][]} feet
  * @param {number} from
@@ -173,21 +174,21 @@ export function capsules(pieces, { places, turns }, out, at = 0) {
 export function footprints(walk, feet, from = 0) {
   /** @type {Print[]} */
   const prints = [];
-  const rests = feet.map(() => ({ frames: 0, place: [Infinity, Infinity] }));
+  const rests = feet.map(() => ({ frames: 0, position: [Infinity, Infinity] }));
   for (let frame = from; frame < walk.frames; frame++) {
-    const { places } = bodyAt(walk, frame);
+    const { positions } = bodyAt(walk, frame);
     feet.forEach(([ankle, ball], side) => {
       const rest = rests[side];
-      const [x, , z] = places[ball];
-      const still = Math.hypot(x - rest.place[0], z - rest.place[1]) < 0.012;
+      const [x, , z] = positions[ball];
+      const still = Math.hypot(x - rest.position[0], z - rest.position[1]) < 0.012;
       rest.frames = still ? rest.frames + 1 : 0;
-      rest.place = [x, z];
+      rest.position = [x, z];
       if (rest.frames !== 3) return;
-      const angle = Math.atan2(x - places[ankle][0], z - places[ankle][2]);
+      const angle = Math.atan2(x - positions[ankle][0], z - positions[ankle][2]);
       prints.push({
         frame: frame - 3,
-        z: 0.6 * z + 0.4 * places[ankle][2],
-        x: 0.6 * x + 0.4 * places[ankle][0],
+        z: 0.6 * z + 0.4 * positions[ankle][2],
+        x: 0.6 * x + 0.4 * positions[ankle][0],
         angle,
         side,
       });

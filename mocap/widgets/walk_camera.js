@@ -1,5 +1,7 @@
 // A camera that holds a whole line, or follows a figure from three quarters in front; the reader's hand turns it.
 
+import { perspective } from "./bodies.js";
+
 /**
  * @import { Sight } from "./bodies.js"
  * @import { Line } from "./walk_search.js"
@@ -10,12 +12,6 @@
 
 /** @param {number[]} v */
 const unit = (v) => v.map((value) => value / Math.hypot(...v));
-/**
- * @param {number[]} a
- * @param {number[]} b
- */
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-
 const NAMES = /** @type {const} */ (["z", "x", "y", "yaw", "pitch", "far"]);
 
 export class Camera {
@@ -44,20 +40,20 @@ export class Camera {
   }
 
   /**
-   * `reach`: how far others are from the place.
+   * Follow a position with a heading; `reach` is the extent of the group of figures, in metres.
    * @param {number} seconds
-   * @param {number[]} place
+   * @param {number[]} position
    * @param {number} heading
    * @param {boolean} tall
    * @param {number} reach
    */
-  follow(seconds, place, heading, tall, reach = 0) {
-    const turn = heading + 0.75 - this.goal.yaw;
+  follow(seconds, position, heading, tall, reach = 0) {
+    const error = heading + 0.75 - this.goal.yaw;
     const lag = 1 - Math.exp(-0.5 * seconds); // it swings round slowly
-    const yaw = this.goal.yaw + lag * Math.atan2(Math.sin(turn), Math.cos(turn));
+    const yaw = this.goal.yaw + lag * Math.atan2(Math.sin(error), Math.cos(error));
     Object.assign(this.goal, {
-      z: place[0],
-      x: place[1],
+      z: position[0],
+      x: position[1],
       y: 0.8,
       pitch: 0.3 + 0.06 * reach,
       yaw,
@@ -71,14 +67,14 @@ export class Camera {
    */
   step(seconds, snap) {
     for (const name of NAMES) {
-      const share = snap ? 1 : 1 - Math.exp(-seconds * (name === "z" || name === "x" ? 3.5 : 2.2));
-      const way = this.goal[name] - this.at[name];
-      this.at[name] += share * (name === "yaw" ? Math.atan2(Math.sin(way), Math.cos(way)) : way);
+      const fraction = snap ? 1 : 1 - Math.exp(-seconds * (name === "z" || name === "x" ? 3.5 : 2.2));
+      const error = this.goal[name] - this.at[name];
+      this.at[name] += fraction * (name === "yaw" ? Math.atan2(Math.sin(error), Math.cos(error)) : error);
     }
   }
 
   /**
-   * What the scene needs; right, up and back of the picture stay for `ground`.
+   * The view that the scene needs. The axes of the picture are kept for `ground`.
    * @param {number} width
    * @param {number} height
    * @returns {View}
@@ -95,21 +91,10 @@ export class Camera {
     const eye = [at.x + far * back[0], at.y + far * back[1], at.z + far * back[2]];
     const zoom = 1 / Math.tan(width < height ? 0.42 : 0.34);
     const wide = (zoom * height) / width;
-    const near = 0.1;
-    const end = 200;
-    const a = (end + near) / (near - end);
-    const b = (2 * end * near) / (near - end);
-    const rows = [
-      right.map((v) => v * wide),
-      up.map((v) => v * zoom),
-      back.map((v) => v * a),
-      back.map((v) => -v),
-    ];
-    const view = [0, 1, 2].flatMap((k) => rows.map((row) => row[k]));
-    view.push(...rows.map((row, k) => -dot(row, eye) + (k === 2 ? b : 0)));
-    const sun = unit([-0.62 * cy + 0.34 * sy, 0.95, 0.62 * sy + 0.34 * cy]); // over the left shoulder of who looks
+    const view = perspective({ eye, right, up, back }, [wide, zoom], 0.1, 200);
+    const sun = unit([-0.62 * cy + 0.34 * sy, 0.95, 0.62 * sy + 0.34 * cy]); // over the left shoulder of the viewer
     Object.assign(this, { eye, right, up, back, zoom, wide, width, height });
-    return { view: new Float32Array(view), eye, target: [at.x, 0, at.z], sun, zoom };
+    return { view, eye, target: [at.x, 0, at.z], sun, zoom };
   }
 
   /**
@@ -120,9 +105,9 @@ export class Camera {
   ground(px, py) {
     const x = ((px / this.width) * 2 - 1) / this.wide;
     const y = (1 - (py / this.height) * 2) / this.zoom;
-    const way = [0, 1, 2].map((k) => this.right[k] * x + this.up[k] * y - this.back[k]);
-    if (way[1] > -0.02) return null;
-    const far = Math.min(-this.eye[1] / way[1], 60);
-    return [this.eye[2] + far * way[2], this.eye[0] + far * way[0]];
+    const ray = [0, 1, 2].map((k) => this.right[k] * x + this.up[k] * y - this.back[k]);
+    if (ray[1] > -0.02) return null;
+    const far = Math.min(-this.eye[1] / ray[1], 60);
+    return [this.eye[2] + far * ray[2], this.eye[0] + far * ray[0]];
   }
 }

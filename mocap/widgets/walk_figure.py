@@ -1,4 +1,4 @@
-"""The figure of the walking page and of players: tapered capsules around a body, whatever names it has."""
+"""The figure of the walking page and of players: tapered capsules around a body, for any joint names."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
 from mocap.files.gltf_capsules import THICK, reaches
 
-LEG = 0.86  # metres from hip to ankle of the person for whom the radii below are
+LEG = 0.86  # metres from hip to ankle of the person to whom the radii below apply
 LEG_PARTS = ("left hip", "left knee", "left ankle")
-LEVEL = ("pelvis", "chest")  # parts that keep their left, and not the direction that they are along
+LEVEL = ("pelvis", "chest")  # parts whose axis to the left is exact, instead of the axis along the part
 TRUNK = ("pelvis", "chest", "neck", "head", "left shoulder", "left elbow", "left wrist")
 SIDES = {"left": 1, "right": -1}
 
-# Of each part the roles that it is along, from and to, and the roles at its left and its right.
+# The roles at the start and the end of each part, and the roles at its left and its right.
 AXES = {
     "pelvis": ("pelvis", "chest", "left hip", "right hip"),
     "waist": ("waist", "chest", "left shoulder", "right shoulder"),
@@ -44,12 +44,12 @@ END = slice(5, 8)
 END_RADIUS = 8
 FLATNESS = 9
 
-SHORTEST_BONE = 1e-3  # of the longest limb: a shorter bone gets no capsule
-TIP = 0.05  # of the longest limb: the limb below the end of a bone looks so much longer
+SHORTEST_BONE = 1e-3  # fraction of the longest limb: a shorter bone gets no capsule
+TIP = 0.05  # fraction of the longest limb that is added to the limb below the end of a bone
 
 
 class Piece(NamedTuple):
-    """A capsule at the joint of a `role`; ends in metres, radii in metres of the person of `LEG`."""
+    """A capsule at the joint of a `role`, with ends in metres and radii for a person with a leg of `LEG`."""
 
     role: str
     start: Array
@@ -61,10 +61,10 @@ class Piece(NamedTuple):
 
 
 def figure(skeleton: Skeleton) -> list[list[Any]]:
-    """Return the capsules of a body: [joint, end, radius, other end, radius, flatness, side], metres.
+    """Return the capsules of a body in rows [joint, start, radius, end, radius, flatness, side], metres.
 
-    The ends are relative to the joint while no joint is rotated. A body whose legs, arms and trunk have no
-    known names gets a capsule for each bone, as the glTF writer draws it.
+    The ends are relative to the joint in the pose without rotations. A body whose legs, arms and trunk have
+    unknown names gets a capsule for each bone, as in the glTF writer.
     """
     joints = _roles(skeleton)
     if not set(TRUNK) <= set(joints):
@@ -83,19 +83,19 @@ def figure(skeleton: Skeleton) -> list[list[Any]]:
 
 
 def posed(skeleton: Skeleton, drawn: Indices) -> dict[str, list[list[Any]]]:
-    """Return the capsules of a body for a player, which has the positions of joints, but no rotations.
+    """Return the capsules of a body for a player, which has the positions of joints but no rotations.
 
     Parameters
     ----------
     skeleton : J joints.
-    drawn : the indices of the joints that the player has, in order.
+    drawn : the indices of the joints whose positions the player has, in order.
 
     Returns
     -------
-    `parts` of the body, each [origin, from, to, left, right, level], indices of drawn joints. The axes of a
-    part point to its left, along it, and ahead. If `level` is 1, the axis to the left is exact, else that
-    along it.
-    `pieces` as in `figure`, relative to the axes of a part, whose index comes first.
+    parts : rows [origin, from, to, left, right, level], with indices of drawn joints. The axes of a part
+        point to its left, along it, and ahead. If `level` is 1, the axis to the left is exact, else the axis
+        along the part.
+    pieces : rows as in `figure`, relative to the axes of a part, whose index comes first.
     """
     joints = _roles(skeleton)
     if set(TRUNK) <= set(joints):
@@ -108,7 +108,7 @@ def posed(skeleton: Skeleton, drawn: Indices) -> dict[str, list[list[Any]]]:
     order = list(parts)
 
     def index(joint: int) -> int:
-        """Return the index among the drawn joints; a joint that is not drawn is where its parent is."""
+        """Return the index of a joint among the drawn joints, or that of its nearest drawn ancestor."""
         return int(np.searchsorted(drawn, joint)) if joint in drawn else index(int(skeleton.parents[joint]))
 
     def in_axes(joint: int, end: list[float]) -> list[float]:
@@ -126,11 +126,11 @@ def posed(skeleton: Skeleton, drawn: Indices) -> dict[str, list[list[Any]]]:
 
 
 def capsules_at(character: Mapping[str, Any], pose: Array) -> Array:
-    """Return the capsules of a packed character in a pose, as `capsulesAt` in `player_body.js` does.
+    """Compute the capsules of a packed character in a pose, as `capsulesAt` in `player_body.js` does.
 
     Parameters
     ----------
-    character : with the `parts` and `pieces` of `posed`.
+    character : a packed character with the `parts` and `pieces` of `posed`.
     pose : positions of its drawn joints, shape (J, 3), metres.
 
     Returns
@@ -152,7 +152,7 @@ def capsules_at(character: Mapping[str, Any], pose: Array) -> Array:
 
 
 def _spans(joints: Mapping[str, int]) -> dict[int, tuple[Any, ...]]:
-    """Return for each joint with axes the part (origin, from, to, left, right, level) in joints."""
+    """Return the part (origin, from, to, left, right, level) of each joint with axes, as joint indices."""
     spans: dict[int, tuple[Any, ...]] = {}
     for role, joint in joints.items():
         *side, part = role.split()
@@ -163,7 +163,7 @@ def _spans(joints: Mapping[str, int]) -> dict[int, tuple[Any, ...]]:
 
 
 def _axes(positions: Array, part: tuple[int, ...]) -> Array:
-    """Return the axes of a part, in rows, as `axesOf` in `player_body.js` does."""
+    """Compute the axes of a part, in rows, as `axesOf` in `player_body.js` does."""
     _, start, end, left, right, level = part
     along = positions[end] - positions[start]
     across = positions[left] - positions[right]
@@ -177,14 +177,14 @@ def _axes(positions: Array, part: tuple[int, ...]) -> Array:
 
 
 def _perpendicular(a: Array, b: Array) -> Array:
-    """Return the unit vector of a's component at right angles to the unit vector b."""
+    """Return the unit vector of the component of a that is orthogonal to the unit vector b."""
     v = a - a @ b * b
     length = float(np.linalg.norm(v))
     return v / length if length > 1e-6 else _perpendicular(np.roll(b, -1), b)
 
 
 def _roles(skeleton: Skeleton) -> Mapping[str, int]:
-    """Return the joints by their roles; none if the legs have no known names."""
+    """Return the joints by their roles, or none if the names of the legs are unknown."""
     try:
         return roles(skeleton)
     except MocapError:
@@ -198,7 +198,7 @@ def feet(skeleton: Skeleton) -> list[list[int]]:
 
 
 def _end(position: Array, radius: float) -> tuple[list[float], float]:
-    """Round an end of a capsule."""
+    """Round the position and the radius of an end of a capsule."""
     return position.round(4).tolist(), round(radius, 4)
 
 
@@ -258,7 +258,7 @@ def _leg(positions: Mapping[str, Array], size: float, side: str) -> Iterator[Pie
 
 
 def _arm(positions: Mapping[str, Array], size: float, side: str) -> Iterator[Piece]:
-    """Yield the capsules of an arm, without its side; the hand points along the forearm."""
+    """Yield the capsules of an arm, without its side. The hand is aligned with the forearm."""
     shoulder = positions[f"{side} shoulder"]
     elbow = positions[f"{side} elbow"]
     wrist = positions[f"{side} wrist"]
@@ -278,7 +278,7 @@ def _bones(skeleton: Skeleton) -> dict[int, list[Any]]:
     for joint in range(1, len(skeleton)):
         length = lengths[joint]
         if length > SHORTEST_BONE * longest:
-            below = np.array([length, TIP * longest]) + limbs[joint]  # of the start and the end, metres
+            below = np.array([length, TIP * longest]) + limbs[joint]  # limb below each end, metres
             start_radius, end_radius = THICK * np.sqrt(longest * below)
             parent = int(skeleton.parents[joint])
             start = _end(np.zeros(3), start_radius)

@@ -1,24 +1,24 @@
-// What a hand does to the page: it draws, turns the view, points at a seam; by mouse, by touch or by keys.
+// Input to the page: drawing, rotating the view and pointing at a seam, by mouse, touch or keys.
 
 import { bodyAt } from "./walk_body.js";
 import { walkable } from "./walk_line.js";
-import { after } from "./walk_search.js";
+import { compose } from "./walk_search.js";
 
 /**
  * @import { Body } from "./walk_body.js"
  * @import { Page } from "./walk_page.js"
- * @import { Lay, Node } from "./walk_search.js"
+ * @import { Node, Transform } from "./walk_search.js"
  *
  * A moment of a clip.
  * @typedef {Pick<Node, "clip" | "frame">} Moment
  */
 
 const ASIDE = 0.5; // metres of two bodies from the seam that joins them
-const TURNS = new Map([
+const PEN_ANGLES = new Map([
   ["ArrowLeft", 0.26],
   ["ArrowRight", -0.26],
   ["ArrowUp", 0],
-]); // radians of the pen
+]); // radians by which the pen changes its heading
 
 /** @param {number} zoom */
 const clampedZoom = (zoom) => Math.max(0.35, Math.min(4, zoom));
@@ -36,8 +36,8 @@ export class Hands {
   touches = new Map();
   /** @type {number[][] | null} the points [z, x] of the line that is drawn */
   stroke = null;
-  /** @type {boolean} whether the hand turns the view */
-  turning = false;
+  /** @type {boolean} whether the hand rotates the view */
+  orbiting = false;
   /** @type {number} the heading of the pen that keys move */
   pen = 0;
   /** @type {{ bodies: Body[] } | null} what is shown while the walk stands still */
@@ -52,13 +52,13 @@ export class Hands {
       canvas.setPointerCapture(event.pointerId);
       if (this.touches.size > 1 || event.button === 2 || event.shiftKey) {
         this.stroke = null;
-        this.turning = true;
+        this.orbiting = true;
         return;
       }
       const point = this.camera.ground(event.clientX, event.clientY);
       if (point) this.stroke = [point];
     });
-    canvas.addEventListener("pointermove", (event) => this.move(event));
+    canvas.addEventListener("pointermove", (event) => this.drag(event));
     canvas.addEventListener("pointerup", (event) => this.lift(event));
     canvas.addEventListener("pointercancel", (event) => this.lift(event));
     canvas.addEventListener(
@@ -81,17 +81,20 @@ export class Hands {
    * @this {Page}
    * @param {PointerEvent} event
    */
-  move(event) {
-    const before = this.touches.get(event.pointerId);
+  drag(event) {
+    const previous = this.touches.get(event.pointerId);
     const { hand } = this.camera;
-    if (!before) return;
-    if (this.turning) {
+    if (!previous) return;
+    if (this.orbiting) {
       const others = [...this.touches.values()].filter((touch) => touch.pointerId !== event.pointerId);
       /** @param {PointerEvent} touch */
-      const far = (touch) => Math.hypot(touch.clientX - others[0].clientX, touch.clientY - others[0].clientY);
-      if (others.length) hand.zoom = clampedZoom((hand.zoom * far(before)) / Math.max(far(event), 1));
-      hand.yaw -= (event.clientX - before.clientX) / 180;
-      hand.pitch += (event.clientY - before.clientY) / 250;
+      const distance = (touch) =>
+        Math.hypot(touch.clientX - others[0].clientX, touch.clientY - others[0].clientY);
+      if (others.length) {
+        hand.zoom = clampedZoom((hand.zoom * distance(previous)) / Math.max(distance(event), 1));
+      }
+      hand.yaw -= (event.clientX - previous.clientX) / 180;
+      hand.pitch += (event.clientY - previous.clientY) / 250;
     } else if (this.stroke) {
       const parts = event.getCoalescedEvents?.() ?? [];
       for (const part of parts.length ? parts : [event]) {
@@ -110,7 +113,7 @@ export class Hands {
   lift(event) {
     const { stroke } = this;
     this.touches.delete(event.pointerId);
-    if (!this.touches.size) this.turning = false;
+    if (!this.touches.size) this.orbiting = false;
     this.stroke = null;
     if (!stroke || event.type === "pointercancel") return;
     const length = lengthOf(stroke);
@@ -127,18 +130,18 @@ export class Hands {
   }
 
   /**
-   * Show the two moments that a seam joins, side by side; walk on where there is none.
+   * Show the two moments that a seam joins, side by side, or walk on if there is no seam.
    * @this {Page}
    * @param {number[]} point
    */
   tap(point) {
     /** @param {number} frame */
-    const off = (frame) => {
-      const [z, x] = this.placeAt(frame);
+    const distance = (frame) => {
+      const [z, x] = this.positionAt(frame);
       return Math.hypot(z - point[0], x - point[1]);
     };
-    const near = this.shown ? [] : this.seams().filter(({ frame }) => off(frame) <= 0.35);
-    const [seam] = near.sort((a, b) => off(a.frame) - off(b.frame));
+    const near = this.shown ? [] : this.seams().filter(({ frame }) => distance(frame) <= 0.35);
+    const [seam] = near.sort((a, b) => distance(a.frame) - distance(b.frame));
     this.moments.hidden = true;
     this.shown = null;
     if (seam) this.showMoments(seam);
@@ -151,17 +154,19 @@ export class Hands {
   showMoments(seam) {
     const { walk, about } = this;
     const { at, frame } = seam;
-    const [edge, lay] = [walk.edges[at], walk.lays[at]];
+    const edge = walk.edges[at];
+    const transform = walk.transforms[at];
     const from = { clip: edge.start.clip, frame: edge.start.frame + 5 };
     const to = { clip: edge.end.clip, frame: edge.end.frame - 5 };
-    this.shown = { bodies: [this.still(from, lay, -ASIDE), this.still(to, after(lay, edge.lay), ASIDE)] };
+    const target = compose(transform, edge.transform);
+    this.shown = { bodies: [this.still(from, transform, -ASIDE), this.still(to, target, ASIDE)] };
     this.time = frame;
-    const [one, other] = [from, to].map(
+    const [first, second] = [from, to].map(
       (moment) =>
         `${about.clips[moment.clip].name.replaceAll("_", " ")}, ${(moment.frame / about.fps).toFixed(1)} s`,
     );
     this.moments.textContent =
-      `Two moments that are alike: ${one} and ${other}. ` +
+      `Two similar moments: ${first} and ${second}. ` +
       "Here the walk passes from one into the other. Tap to walk on.";
     this.moments.hidden = false;
   }
@@ -170,16 +175,19 @@ export class Hands {
    * The body of a moment, some metres to the right on the picture.
    * @this {Page}
    * @param {Moment} moment
-   * @param {Lay} lay
+   * @param {Transform} transform
    * @param {number} aside
    */
-  still(moment, lay, aside) {
+  still(moment, transform, aside) {
     const { right } = this.camera;
-    const [c, s, z, x] = lay;
+    const [c, s, z, x] = transform;
     const shifted = [c, s, z + aside * right[2], x + aside * right[0]];
     const node = { ...moment, number: 0, out: [], ahead: this.walk.edges[0].track };
-    const edge = { start: node, end: node, seam: false, frames: 1, lay: [1, 0, 0, 0] };
-    return bodyAt({ graph: this.walk.graph, edges: [edge], lays: [shifted], begins: [0], frames: 1 }, 0);
+    const edge = { start: node, end: node, seam: false, frames: 1, transform: [1, 0, 0, 0] };
+    return bodyAt(
+      { graph: this.walk.graph, edges: [edge], transforms: [shifted], begins: [0], frames: 1 },
+      0,
+    );
   }
 
   /**
@@ -187,8 +195,8 @@ export class Hands {
    * @param {KeyboardEvent} event
    */
   key(event) {
-    const turn = TURNS.get(event.key);
-    if (turn !== undefined) this.penStep(turn);
+    const angle = PEN_ANGLES.get(event.key);
+    if (angle !== undefined) this.penStep(angle);
     else if (event.key === "Enter" && this.stroke && this.stroke.length > 4) {
       const points = walkable(this.stroke);
       this.stroke = null;
@@ -202,16 +210,16 @@ export class Hands {
   }
 
   /**
-   * Turn the pen, and draw 30 cm.
+   * Rotate the pen, and draw 30 cm.
    * @this {Page}
-   * @param {number} turn
+   * @param {number} angle
    */
-  penStep(turn) {
+  penStep(angle) {
     if (!this.stroke) {
       this.pen = this.camera.at.yaw + Math.PI;
-      this.stroke = [this.walk.frames ? this.place() : [0, 0]];
+      this.stroke = [this.walk.frames ? this.position() : [0, 0]];
     }
-    this.pen += turn;
+    this.pen += angle;
     const [z, x] = this.stroke[this.stroke.length - 1];
     this.stroke.push([z + 0.3 * Math.cos(this.pen), x + 0.3 * Math.sin(this.pen)]);
   }

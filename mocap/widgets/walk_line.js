@@ -1,25 +1,25 @@
-// Lines on the ground: what a hand drew becomes smooth points 1 cm apart, {z, x}; and a line as a short word.
+// Lines on the ground: a drawn line is smoothed and sampled every 1 cm, {z, x}, and can be written as a short word.
 
 import { nearest } from "./walk_search.js";
 
 const LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
-const TIGHT = 0.8; // metres: nobody walks on a smaller circle
-const SET_OUT = 0.9; // metres that clips take to begin a turn
+const TIGHT = 0.8; // metres: the smallest radius of a circle that the clips can follow
+const SET_OUT = 0.9; // metres that clips need until they begin to turn
 const STRIDE = 0.25;
-const TURN = (Math.PI * 0.72) / 32; // a letter goes 25 cm, and turns by up to 31 times 4°
+const ANGLE_STEP = (Math.PI * 0.72) / 32; // a letter stands for 25 cm, and a rotation by up to 31 times 4°
 
 /**
  * Points [z, x] at equal distances.
  * @param {number[][]} points
- * @param {number} gap
+ * @param {number} spacing
  */
-export function even(points, gap) {
+export function even(points, spacing) {
   const out = [points[0]];
   let [z, x] = points[0];
   for (const [toZ, toX] of points.slice(1)) {
-    for (let far = Math.hypot(toZ - z, toX - x); far >= gap; far = Math.hypot(toZ - z, toX - x)) {
-      z += ((toZ - z) / far) * gap;
-      x += ((toX - x) / far) * gap;
+    for (let far = Math.hypot(toZ - z, toX - x); far >= spacing; far = Math.hypot(toZ - z, toX - x)) {
+      z += ((toZ - z) / far) * spacing;
+      x += ((toX - x) / far) * spacing;
       out.push([z, x]);
     }
   }
@@ -33,12 +33,12 @@ export function even(points, gap) {
  */
 export function smooth(points, metres) {
   let line = even(points, 0.02);
-  const most = Math.round(metres / 0.02);
+  const halfWidth = Math.round(metres / 0.02);
   for (let pass = 0; pass < 3; pass++) {
     const sums = [[0, 0]];
     line.forEach(([z, x], i) => sums.push([sums[i][0] + z, sums[i][1] + x]));
     line = line.map((_, i) => {
-      const reach = Math.min(most, i, line.length - 1 - i);
+      const reach = Math.min(halfWidth, i, line.length - 1 - i);
       const [a, b] = [sums[i - reach], sums[i + reach + 1]];
       return [(b[0] - a[0]) / (2 * reach + 1), (b[1] - a[1]) / (2 * reach + 1)];
     });
@@ -47,49 +47,49 @@ export function smooth(points, metres) {
 }
 
 /**
- * Turn per metre, over 30 cm.
+ * The largest curvature, 1/m, measured over 30 cm.
  * @param {number[][]} line
  */
-function sharpest(line) {
+function largestCurvature(line) {
   /** @param {number} i */
-  const way = (i) => Math.atan2(line[i + 10][1] - line[i - 10][1], line[i + 10][0] - line[i - 10][0]);
-  let most = 0;
+  const headingAt = (i) => Math.atan2(line[i + 10][1] - line[i - 10][1], line[i + 10][0] - line[i - 10][0]);
+  let largest = 0;
   for (let i = 10; i + 40 < line.length; i += 5) {
-    const turn = way(i + 30) - way(i);
-    most = Math.max(most, Math.abs(Math.atan2(Math.sin(turn), Math.cos(turn))) / 0.3);
+    const change = headingAt(i + 30) - headingAt(i);
+    largest = Math.max(largest, Math.abs(Math.atan2(Math.sin(change), Math.cos(change))) / 0.3);
   }
-  return most;
+  return largest;
 }
 
 /**
- * Smooth a line until it asks for no circle that is too tight.
+ * Smooth a line until its curvature is small enough for the clips.
  * @param {number[][]} points
  */
 export function walkable(points) {
   let line = smooth(points, 0.12);
-  for (let reach = 0.17; sharpest(line) > 1 / TIGHT && reach < 0.9; reach *= 1.35) {
+  for (let reach = 0.17; largestCurvature(line) > 1 / TIGHT && reach < 0.9; reach *= 1.35) {
     line = smooth(points, reach);
   }
   return line;
 }
 
 /**
- * A way from a place onto a line: straight on until clips have begun a turn, then by turns that can be walked
- * towards a place 70 cm further along the line.
+ * A path from a position onto a line: straight on until clips can have begun to turn, then with a curvature that they
+ * can follow, towards a point 70 cm further along the line.
  * @param {number[][]} line
- * @param {number[]} place
+ * @param {number[]} position
  * @param {number} heading
  */
-export function ledOnto(line, [z, x], heading) {
-  const way = [];
+export function pathOnto(line, [z, x], heading) {
+  const path = [];
   const at = arrays(line);
   let k = 0;
-  let off = Infinity;
-  for (let far = 0; far < 12 && k + 30 < line.length && off > 0.02; far += 0.05) {
-    way.push([z, x]);
+  let distance = Infinity;
+  for (let far = 0; far < 12 && k + 30 < line.length && distance > 0.02; far += 0.05) {
+    path.push([z, x]);
     if (far > SET_OUT) {
       k = nearest(at, [z, x], k, k + 30);
-      off = Math.hypot(line[k][0] - z, line[k][1] - x);
+      distance = Math.hypot(line[k][0] - z, line[k][1] - x);
       const [toZ, toX] = line[Math.min(k + 70, line.length - 1)];
       const wanted = Math.atan2(toX - x, toZ - z) - heading;
       heading += Math.max(
@@ -99,7 +99,7 @@ export function ledOnto(line, [z, x], heading) {
     }
     [z, x] = [z + 0.05 * Math.cos(heading), x + 0.05 * Math.sin(heading)];
   }
-  return smooth([...way, ...line.slice(k + 5)], 0.12);
+  return smooth([...path, ...line.slice(k + 5)], 0.12);
 }
 
 /** @param {number[][]} line */
@@ -123,20 +123,20 @@ export function written(line) {
   while (k < points.length - 8) {
     while (k < points.length - 1 && Math.hypot(points[k][0] - z, points[k][1] - x) < STRIDE) k++;
     const wanted = Math.atan2(points[k][1] - x, points[k][0] - z) - angle;
-    const turn = Math.max(
+    const steps = Math.max(
       -31,
-      Math.min(31, Math.round(Math.atan2(Math.sin(wanted), Math.cos(wanted)) / TURN)),
+      Math.min(31, Math.round(Math.atan2(Math.sin(wanted), Math.cos(wanted)) / ANGLE_STEP)),
     );
-    angle += turn * TURN;
+    angle += steps * ANGLE_STEP;
     z += STRIDE * Math.cos(angle);
     x += STRIDE * Math.sin(angle);
-    text += LETTERS[turn + 31];
+    text += LETTERS[steps + 31];
   }
   return LETTERS[first >> 6] + LETTERS[first & 63] + text;
 }
 
 /**
- * Null where the word is no line.
+ * Read a word as a line; null if it is not one.
  * @param {string} text
  */
 export function read(text) {
@@ -145,7 +145,7 @@ export function read(text) {
   let angle = ((numbers[0] * 64 + numbers[1]) / 4096) * 2 * Math.PI;
   const points = [[0, 0]];
   for (const number of numbers.slice(2)) {
-    angle += (number - 31) * TURN;
+    angle += (number - 31) * ANGLE_STEP;
     const [z, x] = points[points.length - 1];
     points.push([z + STRIDE * Math.cos(angle), x + STRIDE * Math.sin(angle)]);
   }

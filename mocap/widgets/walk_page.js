@@ -1,8 +1,8 @@
-// The page: a reader draws, the walk grows while it is played, and what plays lights up. `walking_page.py` fills it.
+// The page: a reader draws, the walk grows while it plays, and the current clip is highlighted. `walking_page.py` fills it.
 
 import { prepare, unpack, Walk, nearest } from "./walk_search.js";
 import { bodyAt, edgeAt, footprints } from "./walk_body.js";
-import { arrays, firstLine, ledOnto, read, written } from "./walk_line.js";
+import { arrays, firstLine, pathOnto, read, written } from "./walk_line.js";
 import { Camera } from "./walk_camera.js";
 import { Hands } from "./walk_hands.js";
 import { LOOKS, rgb } from "./bodies.js";
@@ -12,11 +12,11 @@ import { bvh, download, gif } from "./walk_saving.js";
 
 /**
  * @import { Print } from "./walk_body.js"
- * @import { Graph, Line, Path } from "./walk_search.js"
+ * @import { Graph, Line, SearchedWalk } from "./walk_search.js"
  */
 
 const LAG = 34; // frames from figure to figure of the parade
-const MOST = 12; // figures of it
+const PARADE = 12; // figures of it
 const RESTS = 1.5; // seconds at the end of a walk until it begins anew
 
 /**
@@ -59,9 +59,9 @@ export class Page extends Hands {
   points;
   /** @type {Line} that is walked along */
   line;
-  /** @type {Generator<Path, void> | null} the search that is under way */
+  /** @type {Generator<SearchedWalk, void> | null} the search that is under way */
   growing = null;
-  /** @type {Path | null} the best walk of it so far */
+  /** @type {SearchedWalk | null} the best walk of it so far */
   ghost = null;
   /** @type {Print[]} */
   prints = [];
@@ -77,7 +77,7 @@ export class Page extends Hands {
   figures = 1;
   above = false; // whether all of the line is seen
   rest = 0; // seconds since the walk is at its end
-  sharp = 1; // a share of the screen's pixels
+  sharp = 1; // as a fraction of the screen's pixels
   slow = 0; // pictures that came late, at most 20
   ticks = 0; // pictures
 
@@ -93,7 +93,7 @@ export class Page extends Hands {
     this.canvas = canvasOf("stage");
     this.small = canvasOf("small");
     this.camera = new Camera();
-    this.scene = new Scene(this.canvas, this.about.figure, MOST);
+    this.scene = new Scene(this.canvas, this.about.figure, PARADE);
     this.before = performance.now();
     this.listen();
     this.buttons();
@@ -110,17 +110,16 @@ export class Page extends Hands {
   // ---- a line, and the walk along it ----
 
   /**
-   * Walk along points; where they begin near the figure, it goes on from where it is, and turns round where they lead
-   * back.
+   * Walk along points. If they begin near the figure, it continues from its position, and turns around if they lead back.
    * @param {number[][]} points
-   * @param {boolean} told
+   * @param {boolean} announced
    */
-  set(points, told = true) {
+  set(points, announced = true) {
     if (points.length < 80) {
       this.say("Draw a longer line: a metre or more.");
       return;
     }
-    if (this.walk?.frames && this.isNear(points[0])) this.points = this.turnOnto(points);
+    if (this.walk?.frames && this.isNear(points[0])) this.points = this.redirect(points);
     else {
       this.points = points;
       this.walk = new Walk(this.graph);
@@ -135,7 +134,7 @@ export class Page extends Hands {
     this.shown = null;
     this.begun = performance.now();
     this.moments.hidden = true;
-    if (told) {
+    if (announced) {
       history.replaceState(null, "", `#${this.about.labels[this.kind] ?? "any"}.${written(this.points)}`);
       document.body.classList.add("walking");
     }
@@ -146,19 +145,20 @@ export class Page extends Hands {
    * @param {number[]} point
    */
   isNear([pz, px]) {
-    const [z, x] = this.place();
+    const [z, x] = this.position();
     return Math.hypot(pz - z, px - x) < 1.2;
   }
 
   /**
-   * Forget what the walk had before it, and lead from its new end onto a line.
+   * Cut the walk soon after the current frame, and return a path from its new end onto a line.
    * @param {number[][]} points
    */
-  turnOnto(points) {
-    const end = this.walk.turnFrom(this.time + 6);
+  redirect(points) {
+    const end = this.walk.cutAfter(this.time + 6);
     this.prints = this.prints.filter((print) => print.frame < this.walk.frames);
-    const [[z, x], here] = [this.placeAt(end - 8), this.placeAt(end)];
-    return ledOnto(points, here, Math.atan2(here[1] - x, here[0] - z));
+    const [z, x] = this.positionAt(end - 8);
+    const position = this.positionAt(end);
+    return pathOnto(points, position, Math.atan2(position[1] - x, position[0] - z));
   }
 
   fromAddress() {
@@ -195,7 +195,7 @@ export class Page extends Hands {
 
   grown() {
     const last = this.prints.at(-1);
-    const known = last ? last.frame + 4 : 0;
+    const begin = last ? last.frame + 4 : 0;
     this.growing = null;
     this.ghost = null;
     if (!this.walk.frames) {
@@ -203,27 +203,27 @@ export class Page extends Hands {
       return;
     }
     this.prints.push(
-      ...footprints(this.walk, this.about.feet, known).filter((print) => print.frame >= known),
+      ...footprints(this.walk, this.about.feet, begin).filter((print) => print.frame >= begin),
     );
     this.first ??= performance.now() - this.begun;
-    if (this.walk.done) this.tell();
+    if (this.walk.done) this.report();
   }
 
-  tell() {
+  report() {
     const { walk, about } = this;
     const seams = walk.edges.filter((edge, at) => edge.seam && walk.begins[at] >= walk.since).length;
     /** @type {number[]} */
-    const offs = [];
+    const distances = [];
     for (let frame = walk.since; frame < walk.frames; frame += 3) {
-      const place = this.placeAt(frame);
-      const k = nearest(this.line, place);
-      offs.push(Math.hypot(this.line.z[k] - place[0], this.line.x[k] - place[1]));
+      const position = this.positionAt(frame);
+      const k = nearest(this.line, position);
+      distances.push(Math.hypot(this.line.z[k] - position[0], this.line.x[k] - position[1]));
     }
-    const off = (100 * offs.reduce((sum, one) => sum + one, 0)) / offs.length;
+    const mean = (100 * distances.reduce((sum, distance) => sum + distance, 0)) / distances.length;
     const names = [...new Set(walk.edges.map((edge) => about.clips[edge.start.clip].name))];
     const metres = this.line.z.length / 100;
     const seconds = (walk.frames - walk.since) / about.fps;
-    this.say(`${metres.toFixed(1)} m · ${seams} seams · ${off.toFixed(0)} cm off the line`);
+    this.say(`${metres.toFixed(1)} m · ${seams} seams · ${mean.toFixed(0)} cm off the line`);
     this.canvas.setAttribute(
       "aria-label",
       `A figure walks ${metres.toFixed(0)} metres along a line in ${seconds.toFixed(0)} seconds, ` +
@@ -233,20 +233,20 @@ export class Page extends Hands {
 
   /** @param {string} text */
   say(text) {
-    $("told").textContent = text;
+    $("message").textContent = text;
   }
 
   /** @param {number} frame */
-  placeAt(frame) {
+  positionAt(frame) {
     const [at, i] = edgeAt(this.walk, clamp(Math.floor(frame), 0, this.walk.frames - 1));
-    const [c, s, z, x] = this.walk.lays[at];
+    const [c, s, z, x] = this.walk.transforms[at];
     const { track } = this.walk.edges[at];
     return [c * track.z[i] - s * track.x[i] + z, s * track.z[i] + c * track.x[i] + x];
   }
 
   /** @param {number} ahead */
-  place(ahead = 0) {
-    return this.placeAt(this.time + ahead);
+  position(ahead = 0) {
+    return this.positionAt(this.time + ahead);
   }
 
   // ---- pictures ----
@@ -269,9 +269,9 @@ export class Page extends Hands {
     if (this.above || !this.walk.frames) this.camera.hold(this.line, tall);
     else {
       const frame = Math.min(this.time, this.walk.frames - 1);
-      const [z, x] = this.placeAt(frame - (this.figures > 1 ? (this.figures * LAG) / 3 : 0));
-      const [az, ax] = this.placeAt(frame - 15);
-      const [bz, bx] = this.placeAt(frame + 5);
+      const [z, x] = this.positionAt(frame - (this.figures > 1 ? (this.figures * LAG) / 3 : 0));
+      const [az, ax] = this.positionAt(frame - 15);
+      const [bz, bx] = this.positionAt(frame + 5);
       this.camera.follow(seconds, [z, x], Math.atan2(bx - ax, bz - az), tall, this.figures > 1 ? 2.2 : 0);
     }
     this.camera.step(seconds, snap);
@@ -333,7 +333,7 @@ export class Page extends Hands {
     else {
       const step = Math.max(3, Math.ceil(this.points.length / 700));
       const thin = this.points.filter((_, i) => i % step === 0);
-      const here = walk.frames ? nearest(this.line, this.place()) / step : 0;
+      const here = walk.frames ? nearest(this.line, this.position()) / step : 0;
       scene.band(thin, half, line, (i) => (i < here ? 0.35 : 0.95));
     }
     if (this.ghost) this.drawGhost(this.ghost, half, ink);
@@ -368,24 +368,24 @@ export class Page extends Hands {
     for (const { at, frame } of this.seams()) {
       const near = Math.max(0, 1 - Math.abs(this.time - frame) / 12);
       const radius = half * (1.5 + 2 * near);
-      const place = this.placeAt(frame);
+      const position = this.positionAt(frame);
       const colour = rgb(COLOURS[this.walk.edges[at].end.clip % COLOURS.length]);
-      this.scene.disc(place, radius, radius, 0, colour, 0.95, 0.007);
-      this.scene.disc(place, half * 0.7, half * 0.7, 0, rgb(this.look.ground), 0.95, 0.008);
+      this.scene.disc(position, radius, radius, 0, colour, 0.95, 0.007);
+      this.scene.disc(position, half * 0.7, half * 0.7, 0, rgb(this.look.ground), 0.95, 0.008);
     }
   }
 
   /**
    * The best walk of a search that is under way.
-   * @param {Path} ghost
+   * @param {SearchedWalk} ghost
    * @param {number} half
    * @param {number[]} colour
    */
   drawGhost(ghost, half, colour) {
     /** @type {number[][]} */
     const points = [];
-    for (let walk = ghost; walk.before && walk.edge; walk = walk.before) {
-      const [c, s, z, x] = walk.before.lay;
+    for (let walk = ghost; walk.previous && walk.edge; walk = walk.previous) {
+      const [c, s, z, x] = walk.previous.transform;
       const { track } = walk.edge;
       for (let i = track.z.length - 1; i >= 0; i -= 3) {
         points.push([c * track.z[i] - s * track.x[i] + z, s * track.z[i] + c * track.x[i] + x]);
@@ -403,7 +403,7 @@ export class Page extends Hands {
     const from = Math.max(0, Math.floor(this.time) - 60);
     const to = Math.min(this.walk.frames - 1, Math.floor(this.time) + 60);
     const points = [];
-    for (let frame = from; frame <= to; frame += 2) points.push(this.placeAt(frame));
+    for (let frame = from; frame <= to; frame += 2) points.push(this.positionAt(frame));
     /** @param {number} i */
     const alpha = (i) => 0.6 * (1 - ((from + 2 * i - this.time) / 60) ** 2);
     this.scene.band(points, half * 0.4, colour, alpha, 0.006);
@@ -432,7 +432,7 @@ export class Page extends Hands {
   buttons() {
     const { labels } = this.about;
     labels.forEach((name, kind) => {
-      if (!this.about.going.includes(name)) return;
+      if (!this.about.moving.includes(name)) return;
       const button = Object.assign(document.createElement("button"), {
         id: `kind${kind}`,
         textContent: name,
@@ -448,7 +448,7 @@ export class Page extends Hands {
     $("play").onclick = () => this.play(!this.playing);
     $("above").onclick = () => this.view(!this.above);
     $("parade").onclick = () => {
-      this.figures = this.figures > 1 ? 1 : MOST;
+      this.figures = this.figures > 1 ? 1 : PARADE;
       $("parade").setAttribute("aria-pressed", String(this.figures > 1));
     };
     $("bvh").onclick = () => {

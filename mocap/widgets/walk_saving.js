@@ -8,8 +8,8 @@ import { poseAt } from "./walk_body.js";
 const degrees = (value) => ((value * 180) / Math.PI).toFixed(4);
 
 /**
- * Of turns about Z, X and Y, in this order.
- * @param {number[]} turn
+ * The angles of rotations about Z, X and Y, in this order.
+ * @param {number[]} quaternion
  */
 function angles([w, x, y, z]) {
   const lift = Math.asin(Math.max(-1, Math.min(2 * (y * z + w * x), 1)));
@@ -52,11 +52,11 @@ export function bvh(walk) {
   joint(0, "");
   lines.push("MOTION", `Frames: ${walk.frames}`, `Frame Time: ${(1 / fps).toFixed(8)}`);
   for (let frame = 0; frame < walk.frames; frame++) {
-    const { root, turns } = poseAt(walk, frame);
+    const { root, rotations } = poseAt(walk, frame);
     lines.push(
       [
         numbers(root.map((value, c) => value - (offsets[0][c] ?? 0))),
-        ...order.map((j) => angles(turns[j]).map(degrees).join(" ")),
+        ...order.map((j) => angles(rotations[j]).map(degrees).join(" ")),
       ].join(" "),
     );
   }
@@ -87,9 +87,9 @@ function squeezed(pixels) {
   put(CLEAR);
   for (let i = 1; i < pixels.length; i++) {
     const longer = (word << 8) | pixels[i];
-    const known = table.get(longer);
-    if (known !== undefined) {
-      word = known;
+    const code = table.get(longer);
+    if (code !== undefined) {
+      word = code;
       continue;
     }
     put(word);

@@ -1,5 +1,5 @@
-// What is seen on the walking page: a soft ground, lines and discs on it, and figures with their shadows; where there
-// is no WebGL 2, round strokes on a flat canvas.
+// The picture of the walking page: a soft ground, lines and discs on it, and figures with their shadows. Without
+// WebGL 2, it is drawn as round strokes on a flat canvas.
 
 import { capsules } from "./walk_body.js";
 import { Bodies, FIGURES, rgb, SIZE } from "./bodies.js";
@@ -13,29 +13,29 @@ import { Bodies, FIGURES, rgb, SIZE } from "./bodies.js";
 
 const GROUND = {
   floor: [
-    // a wheel around the target, coloured at its corners: cheap where there is no graphics card
+    // a wheel around the target, coloured at its corners, which is fast without a graphics card
     "in vec2 corner; out vec3 c; void main() { vec2 p = corner + target.xz; c = paper(p); gl_Position = view * vec4(p.x, 0., p.y, 1.); }",
     "in vec3 c; out vec4 o; void main() { o = vec4(c, 1.); }",
   ],
   ribbon: [
-    // what is drawn on the ground: places with an offset from the middle, for smooth rims, and a colour
-    "in vec4 place, tint; out vec4 c; out float side; out vec2 p; void main() { c = tint; side = place.w; p = place.xz; gl_Position = view * vec4(place.xyz, 1.); }",
+    // drawings on the ground: positions with an offset from the middle, for smooth rims, and a colour
+    "in vec4 position, tint; out vec4 c; out float side; out vec2 p; void main() { c = tint; side = position.w; p = position.xz; gl_Position = view * vec4(position.xyz, 1.); }",
     "in vec4 c; in float side; in vec2 p; out vec4 o; void main() { float w = fwidth(side); o = vec4(c.rgb, c.a * (1. - smoothstep(1. - 1.5 * w, 1., abs(side))) * clear(p)); }",
   ],
 };
 // Radii of the rings of the ground, metres.
 const RINGS = [0, 3, 6, 10, 16, 24, 90];
 const SPOKES = 32;
-const PER_POINT = 8; // numbers of a point of a band: its place, its side, its colour
+const PER_POINT = 8; // numbers of a point of a band: its position, its side, its colour
 export const COLOURS = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442"]; // after Okabe and Ito
 
 class Ground extends Bodies {
   /**
    * @param {WebGL2RenderingContext} gl
-   * @param {number} most
+   * @param {number} capacity
    */
-  constructor(gl, most) {
-    super(gl, most, { ...GROUND, ...FIGURES });
+  constructor(gl, capacity) {
+    super(gl, capacity, { ...GROUND, ...FIGURES });
   }
 
   /**
@@ -45,7 +45,9 @@ class Ground extends Bodies {
   layouts(name) {
     if (name in FIGURES) return super.layouts(name);
     if (!this.strip) this.strip = this.buffer(new Float32Array(PER_POINT));
-    return name === "ribbon" ? [[["place 4", "tint 4"], 0, this.strip]] : [[["corner 2"], 0, this.wheel()]];
+    return name === "ribbon"
+      ? [[["position 4", "tint 4"], 0, this.strip]]
+      : [[["corner 2"], 0, this.wheel()]];
   }
 
   wheel() {
@@ -92,15 +94,15 @@ export class Scene {
   /**
    * @param {HTMLCanvasElement} canvas
    * @param {Piece[]} pieces
-   * @param {number} most
+   * @param {number} capacity
    */
-  constructor(canvas, pieces, most) {
+  constructor(canvas, pieces, capacity) {
     this.canvas = canvas;
     this.pieces = pieces;
     const flat = new URLSearchParams(location.search).has("flat");
     this.gl = flat ? null : canvas.getContext("webgl2", { antialias: true, alpha: false });
-    this.figures = this.gl && new Ground(this.gl, pieces.length * most);
-    this.instances = this.figures?.instances ?? new Float32Array(SIZE * pieces.length * most);
+    this.figures = this.gl && new Ground(this.gl, pieces.length * capacity);
+    this.instances = this.figures?.instances ?? new Float32Array(SIZE * pieces.length * capacity);
   }
 
   /**
@@ -142,7 +144,7 @@ export class Scene {
 
   /**
    * An ellipse on the ground.
-   * @param {number[]} place
+   * @param {number[]} position
    * @param {number} long
    * @param {number} wide
    * @param {number} angle

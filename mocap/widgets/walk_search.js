@@ -1,20 +1,20 @@
-// A motion graph out of its bytes, and the layered search of `mocap/plain.py`, line by line: no page, no picture.
-// A point of the ground is z + ix: "z" is its real part. [c, s, z, x] lays a clip: turn = c + is, move = z + ix.
+// A motion graph from its bytes, and the beam search of `mocap/plain.py`, line by line, without a page or a picture.
+// Points of the ground are complex, z + ix. A transform [c, s, z, x] has the rotation c + is and the translation z + ix.
 
 /**
  * A planar rigid transform [c, s, z, x].
- * @typedef {number[]} Lay
+ * @typedef {number[]} Transform
  *
  * Points of the ground, 1 cm apart.
  * @typedef {{ z: Float64Array, x: Float64Array }} Line
  *
- * Where the root is in each frame, and the length of its way until then, metres.
+ * The positions of the root in each frame, and the length of its path until then, metres.
  * @typedef {Line & { along: Float64Array }} Track
  *
  * A capsule at a joint: [joint, end, radius, other end, its radius, how flat it is, side].
  * @typedef {[number, number[], number, number[], number, number, number]} Piece
  *
- * What the bytes hold, as `pack_graph` in `walking_page.py` says it.
+ * The description of the bytes that `pack_graph` in `walking_page.py` returns.
  * @typedef {object} About
  * @property {number} fps
  * @property {number} window frames of a seam
@@ -22,47 +22,51 @@
  * @property {string[]} joints
  * @property {number[]} parents
  * @property {number[][]} offsets
- * @property {{ metres: number, parts: number, turn: number, move: number }} steps of the numbers
+ * @property {{ root: number, quaternion: number, angle: number, translation: number }} steps units of the numbers
  * @property {Piece[]} figure
  * @property {number[][]} feet [ankle, ball]
- * @property {{ beam_width: number, layer: number, look: number, rescue: number, seam: number }} search how it is set
+ * @property {{ beam_width: number, layer: number, look: number, rescue: number, seam: number }} search its settings
  * @property {number} nodes
  * @property {number} edges
  * @property {string[]} labels the kinds of motion
- * @property {string[]} going those that go somewhere
+ * @property {string[]} moving the kinds that a figure can follow a line with
  *
  * @typedef {{ name: string, frames: number }} PackedClip
  *
- * `roots` are places [x, y, z], `turns` quaternions of all joints, frame by frame.
- * @typedef {{ frames: number, roots: Float64Array, turns: Float32Array }} Clip
+ * `roots` are positions [x, y, z], `rotations` are quaternions of all joints, frame by frame.
+ * @typedef {{ frames: number, roots: Float64Array, rotations: Float32Array }} Clip
  *
  * @typedef {{ number: number, clip: number, frame: number, out: Edge[], ahead: Track }} Node
  *
  * `labels` are bits.
  * @typedef {{
- *   number: number, start: Node, end: Node, seam: boolean, labels: number, frames: number, lay: Lay, track: Track,
+ *   number: number, start: Node, end: Node, seam: boolean, labels: number, frames: number, transform: Transform, track: Track,
  * }} Edge
  *
  * @typedef {{ about: About, clips: Clip[], nodes: Node[], edges: Edge[], weights: number[] }} Graph
  *
- * Where a walk ends: its node, and how the clip is laid from there on.
- * @typedef {{ node: Node, lay: Lay }} State
+ * The end of a walk: its node, and the transform of the clip that follows.
+ * @typedef {{ node: Node, transform: Transform }} State
  *
- * A walk of the search: what it costs, how far it comes, what it will cost, and its last edge after another walk.
- * @typedef {State & { cost: number, along: number, expected: number, edge?: Edge, before?: Path }} Path
+ * A walk of the search: its cost, the cost that is expected, its length along the line (metres), its last edge, and the
+ * walk without that edge.
+ * @typedef {State & {
+ *   cost: number, along: number, expected: number, edge?: Edge, previous?: SearchedWalk,
+ * }} SearchedWalk
  *
  * @typedef {(count: number, order?: number) => Int32Array} Reader
  */
 
+const CELL = 0.1; // metres, and radians of the heading: of two walks at one node in one cell, the better one is kept
 /** @type {Track} */
 const UNKNOWN = { z: new Float64Array(0), x: new Float64Array(0), along: new Float64Array(0) };
 
 /**
- * One transform after another.
- * @param {Lay} lay
- * @param {Lay} next
+ * Compose two transforms: first the second one, then the first.
+ * @param {Transform} transform
+ * @param {Transform} next
  */
-export const after = ([c, s, z, x], [d, t, y, w]) => [
+export const compose = ([c, s, z, x], [d, t, y, w]) => [
   c * d - s * t,
   s * d + c * t,
   c * y - s * w + z,
@@ -82,7 +86,7 @@ export const cubicWeights = (count) =>
 // ---- the graph ----
 
 /**
- * Bytes hold whole numbers, their signs folded in, lowest bytes first; they are summed up `order` times.
+ * Read whole numbers with folded signs, lowest bytes first, and sum them `order` times.
  * @param {Uint8Array} bytes
  * @returns {Reader}
  */
@@ -108,27 +112,31 @@ function reader(bytes) {
  * @param {number} joints
  * @param {About["steps"]} steps
  */
-function readClip(read, { frames }, joints, { metres, parts }) {
-  const clip = { frames, roots: new Float64Array(3 * frames), turns: new Float32Array(4 * joints * frames) };
+function readClip(read, { frames }, joints, { root, quaternion }) {
+  const clip = {
+    frames,
+    roots: new Float64Array(3 * frames),
+    rotations: new Float32Array(4 * joints * frames),
+  };
   for (let c = 0; c < 3; c++) {
     read(frames, 2).forEach((n, f) => {
-      clip.roots[3 * f + c] = n * metres;
+      clip.roots[3 * f + c] = n * root;
     });
   }
   for (let c = 0; c < 4 * joints; c++) {
     read(frames, 2).forEach((n, f) => {
-      clip.turns[4 * joints * f + c] = n * parts;
+      clip.rotations[4 * joints * f + c] = n * quaternion;
     });
   }
-  for (let q = 0; q < clip.turns.length; q += 4) {
-    const length = Math.hypot(...clip.turns.subarray(q, q + 4)) || 1;
-    for (let c = 0; c < 4; c++) clip.turns[q + c] /= length;
+  for (let q = 0; q < clip.rotations.length; q += 4) {
+    const length = Math.hypot(...clip.rotations.subarray(q, q + 4)) || 1;
+    for (let c = 0; c < 4; c++) clip.rotations[q + c] /= length;
   }
   return clip;
 }
 
 /**
- * `about` says what the bytes hold: clips, joints, numbers of nodes and edges, steps of the numbers.
+ * Unpack a graph; `about` describes the bytes.
  * @param {About} about
  * @param {Uint8Array} bytes
  * @returns {Graph}
@@ -146,50 +154,53 @@ export function unpack(about, bytes) {
     out: [],
     ahead: UNKNOWN,
   }));
-  const [from, to] = [read(about.edges, 1), read(about.edges, 1)];
-  const [kind, turn, dz, dx] = [0, 0, 0, 0].map(() => read(about.edges));
+  const starts = read(about.edges, 1);
+  const ends = read(about.edges, 1);
+  const [kinds, angles, offsetsZ, offsetsX] = [0, 0, 0, 0].map(() => read(about.edges));
   const { steps, window } = about;
-  const edges = Array.from(from, (leave, number) => {
-    const [start, end] = [nodes[leave], nodes[to[number]]];
-    const seam = Boolean(kind[number] & 1);
+  const edges = Array.from(starts, (startNumber, number) => {
+    const start = nodes[startNumber];
+    const end = nodes[ends[number]];
+    const seam = Boolean(kinds[number] & 1);
     const frames = seam ? window : end.frame - start.frame;
-    const ahead = [dz[number] * steps.move, dx[number] * steps.move];
-    const lay = seam ? layOf(start, end, turn[number] * steps.turn, ahead) : [1, 0, 0, 0];
+    const offset = [offsetsZ[number] * steps.translation, offsetsX[number] * steps.translation];
+    const transform = seam ? transformOf(start, end, angles[number] * steps.angle, offset) : [1, 0, 0, 0];
     /** @type {Edge} */
-    const edge = { number, start, end, seam, labels: kind[number] >> 1, frames, lay, track: UNKNOWN };
+    const edge = { number, start, end, seam, labels: kinds[number] >> 1, frames, transform, track: UNKNOWN };
     start.out.push(edge);
     return edge;
   });
   /**
-   * A seam knows how far its two roots are apart.
+   * The transform of a seam, from the angle and the offset between its two roots.
    * @param {Node} start
    * @param {Node} end
    * @param {number} angle
-   * @param {number[]} ahead
+   * @param {number[]} offset
    */
-  function layOf(start, end, angle, [aheadZ, aheadX]) {
+  function transformOf(start, end, angle, [offsetZ, offsetX]) {
     const a = 3 * start.frame;
     const b = 3 * (end.frame - window);
-    const [one, other] = [clips[start.clip].roots, clips[end.clip].roots];
+    const source = clips[start.clip].roots;
+    const target = clips[end.clip].roots;
     const c = Math.cos(angle);
     const s = Math.sin(angle);
-    const z = other[b + 2];
-    const x = other[b];
-    return [c, s, one[a + 2] + aheadZ - (c * z - s * x), one[a] + aheadX - (s * z + c * x)];
+    const z = target[b + 2];
+    const x = target[b];
+    return [c, s, source[a + 2] + offsetZ - (c * z - s * x), source[a] + offsetX - (s * z + c * x)];
   }
   return { about, clips, nodes, edges, weights: cubicWeights(about.window) };
 }
 
-// ---- tracks: where the root is while an edge plays, and how long its way is ----
+// ---- tracks: the root's positions while an edge plays, and the length of its path ----
 
 /**
  * The track of an edge.
  * @param {Graph} graph
  * @param {Edge} edge
  */
-function trackOf(graph, { start, frames, seam, end, lay: [c, s, z, x] }) {
+function trackOf(graph, { start, frames, seam, end, transform: [c, s, z, x] }) {
   const { roots } = graph.clips[start.clip];
-  const other = graph.clips[end.clip].roots;
+  const targetRoots = graph.clips[end.clip].roots;
   const points = [];
   for (let i = 0; i < frames; i++) {
     const f = 3 * (start.frame + i);
@@ -197,8 +208,8 @@ function trackOf(graph, { start, frames, seam, end, lay: [c, s, z, x] }) {
     const w = seam ? graph.weights[i] : 1;
     const point = [roots[f + 2], roots[f]];
     if (seam) {
-      point[0] = w * point[0] + (1 - w) * (c * other[g + 2] - s * other[g] + z);
-      point[1] = w * point[1] + (1 - w) * (s * other[g + 2] + c * other[g] + x);
+      point[0] = w * point[0] + (1 - w) * (c * targetRoots[g + 2] - s * targetRoots[g] + z);
+      point[1] = w * point[1] + (1 - w) * (s * targetRoots[g + 2] + c * targetRoots[g] + x);
     }
     points.push(point);
   }
@@ -206,18 +217,18 @@ function trackOf(graph, { start, frames, seam, end, lay: [c, s, z, x] }) {
 }
 
 /**
- * How far the root has come in each frame, from the frame before the first.
+ * Measure the root's path until each frame, from the frame before the first.
  * @param {Float64Array} roots
  * @param {number} frame
  * @param {number[][]} points
  * @returns {Track}
  */
 function measured(roots, frame, points) {
-  const before = 3 * Math.max(frame - 1, 0);
+  const previous = 3 * Math.max(frame - 1, 0);
   const along = new Float64Array(points.length);
   let length = 0;
-  let z = roots[before + 2];
-  let x = roots[before];
+  let z = roots[previous + 2];
+  let x = roots[previous];
   points.forEach((point, i) => {
     length += Math.hypot(point[0] - z, point[1] - x);
     [z, x] = point;
@@ -227,7 +238,7 @@ function measured(roots, frame, points) {
 }
 
 /**
- * Tracks serve every line, so they are made once: of each edge, and of the frames ahead of each node.
+ * Compute the tracks of all edges, and of the frames ahead of each node. They serve every line.
  * @param {Graph} graph
  */
 export function prepare(graph) {
@@ -245,7 +256,7 @@ export function prepare(graph) {
   return graph;
 }
 
-// ---- the search: all walks advance along a line together, layer by layer; the best of each layer go on ----
+// ---- a beam search: all walks advance along a line in layers, and each layer keeps the best ----
 
 export class Search {
   /**
@@ -270,12 +281,12 @@ export class Search {
   }
 
   /**
-   * What a track costs [KGP02, Eq. 9], and how far it comes: root and line, at equal lengths.
-   * @param {Pick<Path, "lay" | "along">} walk
+   * The cost of a track [KGP02, Eq. 9], by equal arc lengths, and its end along the line.
+   * @param {Pick<SearchedWalk, "transform" | "along">} walk
    * @param {Track} track
    */
   price(walk, track) {
-    const [c, s, z, x] = walk.lay;
+    const [c, s, z, x] = walk.transform;
     const { line } = this;
     const last = line.z.length - 1;
     let cost = 0;
@@ -285,88 +296,88 @@ export class Search {
       const k = Math.floor(Math.min(100 * along, last));
       const dz = c * track.z[i] - s * track.x[i] + z - line.z[k];
       const dx = s * track.z[i] + c * track.x[i] + x - line.x[k];
-      const off = dz * dz + dx * dx; // m²
-      cost += off + 100 * off * off; // 10 cm off cost twice what Eq. 9 says
+      const error = dz * dz + dx * dx; // m²
+      cost += error + 100 * error * error; // at 10 cm twice the cost of Eq. 9
     }
     return [cost, along];
   }
 
   /**
-   * What the walk will cost if its clip plays on.
-   * @param {Omit<Path, "expected">} walk
-   * @returns {Path}
+   * Estimate the cost of the frames ahead if the walk stays in its clip.
+   * @param {Omit<SearchedWalk, "expected">} walk
+   * @returns {SearchedWalk}
    */
   lookAhead(walk) {
     return Object.assign(walk, { expected: Math.min(this.price(walk, walk.node.ahead)[0], this.rescue) });
   }
 
   /**
-   * A walk with one more edge.
-   * @param {Path} walk
+   * Extend a walk by one edge.
+   * @param {SearchedWalk} walk
    * @param {Edge} edge
    */
   lengthen(walk, edge) {
     const [cost, along] = this.price(walk, edge.track);
-    const paid = walk.cost + (cost + (edge.seam ? this.seam : 0));
+    const total = walk.cost + (cost + (edge.seam ? this.seam : 0));
     return this.lookAhead({
-      cost: paid,
+      cost: total,
       along,
       node: edge.end,
-      lay: edge.seam ? after(walk.lay, edge.lay) : walk.lay,
+      transform: edge.seam ? compose(walk.transform, edge.transform) : walk.transform,
       edge,
-      before: walk,
+      previous: walk,
     });
   }
 
-  // Each node from which the root goes somewhere: at the line's start, and along it.
+  // A walk of no edges at each node that leads on, aligned with the start of the line.
   starts() {
     const { line, look } = this;
-    const far = Math.min(30, line.z.length - 1);
-    /** @type {Path[]} */
+    const reach = Math.min(30, line.z.length - 1);
+    /** @type {SearchedWalk[]} */
     const walks = [];
-    const way = Math.atan2(line.x[far] - line.x[0], line.z[far] - line.z[0]);
+    const heading = Math.atan2(line.x[reach] - line.x[0], line.z[reach] - line.z[0]);
     for (const node of this.graph.nodes) {
       const { z, x } = node.ahead;
       const last = look - 1;
       if (z.length < look || Math.hypot(z[last] - z[0], x[last] - x[0]) <= 0.3) continue;
-      const angle = way - Math.atan2(x[last] - x[0], z[last] - z[0]);
+      const angle = heading - Math.atan2(x[last] - x[0], z[last] - z[0]);
       const c = Math.cos(angle);
       const s = Math.sin(angle);
-      const lay = [c, s, line.z[0] - (c * z[0] - s * x[0]), line.x[0] - (s * z[0] + c * x[0])];
-      walks.push(this.lookAhead({ cost: 0, along: 0, node, lay }));
+      const transform = [c, s, line.z[0] - (c * z[0] - s * x[0]), line.x[0] - (s * z[0] + c * x[0])];
+      walks.push(this.lookAhead({ cost: 0, along: 0, node, transform }));
     }
     return walks;
   }
 
   /**
-   * Cross out what stands where another one stands and costs more; keep the best of the others.
-   * @param {Path[]} walks
+   * Keep the walk of lowest cost of each cell, and of these the best.
+   * @param {SearchedWalk[]} walks
    */
   bestOf(walks) {
-    /** @type {Map<string, Path>} */
+    /** @type {Map<string, SearchedWalk>} */
     const kept = new Map();
     for (const walk of walks.sort((a, b) => a.cost + a.expected - (b.cost + b.expected))) {
-      const [c, s, z, x] = walk.lay;
-      const point = walk.node.ahead;
-      const here = [
-        c * point.z[0] - s * point.x[0] + z,
-        s * point.z[0] + c * point.x[0] + x,
+      const [c, s, z, x] = walk.transform;
+      const { ahead } = walk.node;
+      const state = [
+        c * ahead.z[0] - s * ahead.x[0] + z,
+        s * ahead.z[0] + c * ahead.x[0] + x,
         Math.atan2(s, c),
       ];
-      const place = `${walk.node.number} ${here.map((value) => Math.floor(value / 0.1))}`;
-      if (!kept.has(place)) kept.set(place, walk);
+      const cell = `${walk.node.number} ${state.map((value) => Math.floor(value / CELL))}`;
+      if (!kept.has(cell)) kept.set(cell, walk);
       if (kept.size === this.beamWidth) break;
     }
     return [...kept.values()];
   }
 
   /**
-   * In each layer yield the walks that go on, and the best one at the line's end so far.
-   * @returns {Generator<[Path[], Path | null], void>}
+   * For each layer, yield the walks that are kept, and the best complete walk so far.
+   * @returns {Generator<[SearchedWalk[], SearchedWalk | null], void>}
    */
   *layers(starts = this.starts()) {
     const waiting = new Map([[0, starts]]);
-    /** @type {Path | null} */
+    /** @type {SearchedWalk | null} */
     let best = null;
     while (waiting.size) {
       const layer = Math.min(...waiting.keys());
@@ -374,7 +385,7 @@ export class Search {
       waiting.delete(layer);
       for (const walk of kept) {
         for (const edge of walk.node.out) {
-          if (!this.goesOn(edge)) continue;
+          if (!this.isPlayable(edge)) continue;
           const longer = this.lengthen(walk, edge);
           if (best && longer.cost >= best.cost) continue;
           if (longer.along >= this.end) {
@@ -382,8 +393,8 @@ export class Search {
             continue;
           }
           const next = Math.max(Math.floor(longer.along / this.layer), layer);
-          const others = waiting.get(next);
-          if (others) others.push(longer);
+          const walks = waiting.get(next);
+          if (walks) walks.push(longer);
           else waiting.set(next, [longer]);
         }
       }
@@ -395,21 +406,21 @@ export class Search {
    * Whether an edge may be played and leads to no dead end.
    * @param {Edge} edge
    */
-  goesOn({ labels, end }) {
+  isPlayable({ labels, end }) {
     return (labels & this.labels) !== 0 && end.ahead.z.length > 0 && !this.dead.has(end);
   }
 }
 
 /**
- * Nodes from which no walk of these kinds goes on for ever.
+ * The nodes from which each walk of these kinds ends.
  * @param {Graph} graph
  * @param {number} labels
  */
 function deadEnds({ nodes }, labels) {
   /** @type {Set<Node>} */
   const dead = new Set();
-  for (let before = -1; before < dead.size;) {
-    before = dead.size;
+  for (let previousSize = -1; previousSize < dead.size;) {
+    previousSize = dead.size;
     for (const node of nodes) {
       if (!node.out.some((edge) => edge.labels & labels && !dead.has(edge.end))) dead.add(node);
     }
@@ -418,74 +429,77 @@ function deadEnds({ nodes }, labels) {
 }
 
 /**
- * The edges of a walk, from its start on, and how its first clip is laid.
- * @param {Path} walk
+ * The edges of a walk, in order, and the transform of its first clip.
+ * @param {SearchedWalk} walk
  */
 export function edgesOf(walk) {
   /** @type {Edge[]} */
   const edges = [];
   let start = walk;
-  while (start.edge && start.before) {
+  while (start.edge && start.previous) {
     edges.push(start.edge);
-    start = start.before;
+    start = start.previous;
   }
-  return { edges: edges.reverse(), lay: start.lay };
+  return { edges: edges.reverse(), transform: start.transform };
 }
 
-// A walk that grows by pieces while it plays: each piece is searched on the next metres of the line from where the
-// last one ends, abreast of the line again. So a long line is begun at once, and lengths do not drift apart.
+// A walk that grows by pieces while it plays. Each piece is searched on the next metres of the line, from the point
+// nearest to the end of the last piece. A long line is begun at once, and arc lengths do not drift apart.
 export class Walk {
   /** @type {Edge[]} */
   edges = [];
-  /** @type {Lay[]} how each edge is laid */
-  lays = [];
+  /** @type {Transform[]} of each edge */
+  transforms = [];
   /** @type {number[]} the first frame of each edge */
   begins = [];
-  /** @type {State | null} where it ends */
+  /** @type {State | null} its end */
   state = null;
   /** @type {Line} the line that it follows */
   line = UNKNOWN;
   frames = 0;
-  at = 0; // the point of the line that is abreast of its end
+  at = 0; // the index of the point of the line that is nearest to its end
   since = 0; // the frame in which it began to follow the line
-  done = false; // whether it has come to the line's end
+  done = false; // whether it has reached the end of the line
 
   /**
    * @param {Graph} graph
    * @param {number} labels
-   * @param {{ far?: number, keep?: number }} pieces
+   * @param {{ reach?: number, keep?: number }} pieces
    */
-  constructor(graph, labels = -1, { far = 5, keep = 2 } = {}) {
+  constructor(graph, labels = -1, { reach = 5, keep = 2 } = {}) {
     this.graph = graph;
     this.labels = labels;
-    this.far = far; // metres of a piece
+    this.reach = reach; // metres of a piece
     this.keep = keep; // metres of it that are kept
   }
 
   /**
-   * Play an edge from where the walk ends, and return where it ends now.
+   * Append an edge, and return the new end.
    * @param {Edge} edge
    * @param {State} state
    */
-  add(edge, { lay }) {
+  add(edge, { transform }) {
     this.begins.push(this.frames);
     this.edges.push(edge);
-    this.lays.push(lay);
+    this.transforms.push(transform);
     this.frames += edge.frames;
-    this.state = { node: edge.end, lay: edge.seam ? after(lay, edge.lay) : lay };
+    this.state = {
+      node: edge.end,
+      transform: edge.seam ? compose(transform, edge.transform) : transform,
+    };
     return this.state;
   }
 
   /**
-   * Forget what was to come after the next node after a frame; give the frame of this node.
+   * Remove the edges that begin after the edge of a frame; return the last frame that remains.
    * @param {number} frame
    */
-  turnFrom(frame) {
-    const left = this.begins.findIndex((begin) => begin > frame);
-    if (left > 0) {
-      this.state = { node: this.edges[left].start, lay: this.lays[left] };
-      this.frames = this.begins[left];
-      for (const list of [this.edges, this.lays, this.begins]) list.length = left;
+  cutAfter(frame) {
+    const count = this.begins.findIndex((begin) => begin > frame);
+    if (count > 0) {
+      this.state = { node: this.edges[count].start, transform: this.transforms[count] };
+      this.frames = this.begins[count];
+      for (const list of [this.edges, this.transforms, this.begins]) list.length = count;
     }
     return this.frames - 1;
   }
@@ -499,25 +513,25 @@ export class Walk {
   }
 
   /**
-   * Where the root is at the walk's end.
+   * The position of the root at the end of the walk.
    * @param {State} state
    */
-  here({ lay: [c, s, z, x], node: { ahead } }) {
+  endPosition({ transform: [c, s, z, x], node: { ahead } }) {
     return [c * ahead.z[0] - s * ahead.x[0] + z, s * ahead.z[0] + c * ahead.x[0] + x];
   }
 
   /**
-   * Search the next piece; yields the best unfinished walk after each layer, and at last adds what was found.
-   * @returns {Generator<Path, void>}
+   * Search the next piece: yield the best unfinished walk after each layer, and finally append the result.
+   * @returns {Generator<SearchedWalk, void>}
    */
   *grow() {
     const { line, at } = this;
-    const ends = at + 100 * (this.far + 2) >= line.z.length;
-    const stop = ends ? line.z.length : at + 100 * this.far + 1;
+    const ends = at + 100 * (this.reach + 2) >= line.z.length;
+    const stop = ends ? line.z.length : at + 100 * this.reach + 1;
     const piece = { z: line.z.slice(at, stop), x: line.x.slice(at, stop) };
-    /** @type {Path | null} */
+    /** @type {SearchedWalk | null} */
     let best = null;
-    // So that the next line can be walked on from the end; else any walk of this kind; else, from here on, of any kind.
+    // First a walk from whose end the next line can be followed, then any walk of this kind, then, if it has begun, of any.
     const searches = [
       new Search(this.graph, piece, this.labels, deadEnds(this.graph, this.labels)),
       new Search(this.graph, piece, this.labels),
@@ -535,43 +549,43 @@ export class Walk {
       this.done = true;
       return;
     }
-    this.take(best, ends);
+    this.append(best, ends);
   }
 
   /**
-   * Play the first metres of what was found, or all of it at the line's end.
-   * @param {Path} best
+   * Append the first metres of a found walk, or all of it at the end of the line.
+   * @param {SearchedWalk} best
    * @param {boolean} ends
    */
-  take(best, ends) {
+  append(best, ends) {
     const { line, at } = this;
-    const { edges, lay } = edgesOf(best);
-    let state = this.state ?? { node: edges[0].start, lay };
-    let come = 0;
+    const { edges, transform } = edgesOf(best);
+    let state = this.state ?? { node: edges[0].start, transform };
+    let length = 0;
     for (const edge of edges) {
       state = this.add(edge, state);
-      come += edge.track.along.at(-1) ?? 0;
-      if (!ends && come > this.keep) break;
+      length += edge.track.along.at(-1) ?? 0;
+      if (!ends && length > this.keep) break;
     }
     this.done = ends;
-    this.at = nearest(line, this.here(state), at, at + 100 * (come + 1));
+    this.at = nearest(line, this.endPosition(state), at, at + 100 * (length + 1));
   }
 }
 
 /**
- * Which point of a line, of those between two, is nearest to a place.
+ * The index of the point of a line that is nearest to a position, among those from one index to another.
  * @param {Line} line
- * @param {number[]} place
+ * @param {number[]} position
  * @param {number} from
  * @param {number} to
  */
-export function nearest({ z, x }, [placeZ, placeX], from = 0, to = z.length) {
+export function nearest({ z, x }, [positionZ, positionX], from = 0, to = z.length) {
   let best = from;
-  let least = Infinity;
+  let smallest = Infinity;
   for (let k = Math.max(0, Math.floor(from)); k < Math.min(to, z.length); k++) {
-    const off = Math.hypot(z[k] - placeZ, x[k] - placeX);
-    if (off < least) {
-      least = off;
+    const distance = Math.hypot(z[k] - positionZ, x[k] - positionX);
+    if (distance < smallest) {
+      smallest = distance;
       best = k;
     }
   }

@@ -1,4 +1,4 @@
-// What plays, small: the line with the figure on it, and the clips as bars; what plays is lit, the last seams are arcs.
+// A small overview: the line with the figure, and the clips as bars, with the current one highlighted and seams as arcs.
 
 import { edgeAt } from "./walk_body.js";
 import { COLOURS, flatPen } from "./walk_scene.js";
@@ -41,7 +41,7 @@ export function drawSmall(page, canvas) {
   pen.stroke();
   pen.fillStyle = look.ink;
   pen.beginPath();
-  const [walkingZ, walkingX] = page.place();
+  const [walkingZ, walkingX] = page.position();
   pen.arc(...put(walkingZ, walkingX), width / 24, 0, 7);
   pen.fill();
   const { clips } = about;
@@ -63,7 +63,7 @@ export function drawSmall(page, canvas) {
     pen.lineTo(...spot(n, clip.frames));
     pen.stroke();
   });
-  const [now, come] = edgeAt(walk, page.time);
+  const [now, elapsed] = edgeAt(walk, page.time);
   for (let at = Math.max(0, now - 40); at <= now; at++) {
     const edge = walk.edges[at];
     const fade = Math.max(0, Math.min(1, 1 - (page.time - walk.begins[at] - edge.frames) / 120));
@@ -78,7 +78,7 @@ export function drawSmall(page, canvas) {
       const [bx, by] = spot(edge.end.clip, edge.end.frame);
       pen.quadraticCurveTo((ax + bx) / 2 + row, (ay + by) / 2, bx, by);
     } else {
-      const played = at === now ? Math.min(edge.frames, come) : edge.frames;
+      const played = at === now ? Math.min(edge.frames, elapsed) : edge.frames;
       pen.lineTo(...spot(edge.start.clip, edge.start.frame + played));
     }
     pen.stroke();

@@ -1,6 +1,6 @@
-"""A page on which a figure walks along the line that a reader draws: one file, without network or Python.
+"""A stand-alone page on which a figure walks along a line that a reader draws, without network or Python.
 
-The page holds a motion graph as whole numbers, and the layered search of `mocap.plain` in JavaScript.
+The page contains a motion graph as integers, and the layered search of `mocap.plain` in JavaScript.
 """
 
 from __future__ import annotations
@@ -24,18 +24,18 @@ from mocap.widgets.walk_figure import feet, figure
 
 HERE = Path(__file__).parent
 Node = tuple[int, int]
-# The units of whole numbers: metres of a root, parts of a quaternion, radians and metres of a transition.
-STEPS = {"metres": 0.0005, "parts": 1 / 2048, "turn": 2 * np.pi / 65536, "move": 0.0001}
+# The units of whole numbers: metres of a root, 1 of a quaternion, radians and metres of a transition.
+STEPS = {"root": 0.0005, "quaternion": 1 / 2048, "angle": 2 * np.pi / 65536, "translation": 0.0001}
 SETTINGS = ("BEAM_WIDTH", "LAYER", "LOOK", "RESCUE", "SEAM")  # of the search in `mocap.plain`
 # Scripts, each after those that it uses.
 WALKING = ("search", "body", "line", "camera", "scene", "saving", "small", "hands", "page")
 PARTS = ("bodies", *(f"walk_{part}" for part in WALKING))
-ZX = [2, 0]  # of a position (x, y, z), for complex numbers z + ix
-RAW_DEFLATE = -15  # zlib's window, negative: without a header
+ZX = [2, 0]  # columns of a position (x, y, z), for complex numbers z + ix
+RAW_DEFLATE = -15  # window size of zlib, negative for a stream without a header
 
 
 def numbers(values: ArrayLike, order: int = 0) -> bytes:
-    r"""Pack whole numbers for `reader` in `walk_search.js`: differenced, signs folded in, byte by byte.
+    r"""Pack integers for `reader` in `walk_search.js`: differences, zigzag encoding, bytes by significance.
 
     Examples
     --------
@@ -50,7 +50,7 @@ def numbers(values: ArrayLike, order: int = 0) -> bytes:
 
 
 def pack_graph(graph: MotionGraph) -> tuple[dict[str, Any], bytes]:
-    """Pack a motion graph: a description of its numbers, and the numbers, not yet deflated."""
+    """Pack a motion graph. Return a description of its numbers, and the numbers before compression."""
     labels = sorted({label for clip in graph.clips for label in clip.labels})
     data = [_packed_clip(clip) for clip in graph.clips]
     data.append(numbers([clip for clip, _ in graph.graph], 1))
@@ -60,9 +60,9 @@ def pack_graph(graph: MotionGraph) -> tuple[dict[str, Any], bytes]:
 
 
 def _packed_clip(clip: Motion) -> bytes:
-    """Pack the root's positions and the rotations of a clip, one channel after the other."""
-    roots = np.rint(clip.root_positions / STEPS["metres"])
-    quaternions = np.rint(rotations.continuous(clip.rotations) / STEPS["parts"])
+    """Pack the root's positions and the rotations of a clip, channel by channel."""
+    roots = np.rint(clip.root_positions / STEPS["root"])
+    quaternions = np.rint(rotations.continuous(clip.rotations) / STEPS["quaternion"])
     channels = [*roots.T, *quaternions.reshape(len(clip), -1).T]
     return b"".join(numbers(channel, 2) for channel in channels)
 
@@ -81,7 +81,7 @@ def _description(graph: MotionGraph, labels: list[str]) -> dict[str, Any]:
     """Describe the numbers of a graph: its clips, skeleton and counts, and the settings of the search."""
     skeleton = graph.clips[0].skeleton
     edges = list(graph.graph.edges(data=True))
-    going = {label for _, _, edge in edges for label in edge["labels"]} - {"stand"}
+    moving = {label for _, _, edge in edges for label in edge["labels"]} - {"stand"}
     description: dict[str, Any] = {"fps": graph.fps, "window": graph.window}
     description["clips"] = [{"name": clip.name, "frames": len(clip)} for clip in graph.clips]
     description["joints"] = list(skeleton.names)
@@ -92,13 +92,13 @@ def _description(graph: MotionGraph, labels: list[str]) -> dict[str, Any]:
     description["feet"] = feet(skeleton)
     description["search"] = {name.lower(): getattr(plain, name) for name in SETTINGS}
     description |= {"nodes": len(graph.graph), "edges": len(edges)}
-    return description | {"labels": labels, "going": sorted(going)}
+    return description | {"labels": labels, "moving": sorted(moving)}
 
 
 def _row(graph: MotionGraph, labels: list[str], nodes: tuple[Node, Node], edge: dict[str, Any]) -> list[int]:
-    """Return the whole numbers of an edge: kind and labels, rotation, and translation between its roots.
+    """Return the integers of an edge: kind and labels, rotation, and translation between its roots.
 
-    A bit stands for each label, the next one for an edge without labels, and the lowest for a transition.
+    The lowest bit marks a transition, the next bits the labels, and the highest bit an edge without labels.
     """
     kind = sum(2 << labels.index(label) for label in edge["labels"]) or 2 << len(labels)
     if edge["kind"] == "clip":
@@ -108,20 +108,21 @@ def _row(graph: MotionGraph, labels: list[str], nodes: tuple[Node, Node], edge: 
     source_root = complex(*graph.clips[source].root_positions[leave, ZX])
     target_root = complex(*graph.clips[target].root_positions[enter - graph.window, ZX])
     offset = transform.rotation * target_root + transform.translation - source_root
-    angle = round(np.angle(transform.rotation) / STEPS["turn"])
-    return [kind + 1, angle, round(offset.real / STEPS["move"]), round(offset.imag / STEPS["move"])]
+    angle = round(np.angle(transform.rotation) / STEPS["angle"])
+    step = STEPS["translation"]
+    return [kind + 1, angle, round(offset.real / step), round(offset.imag / step)]
 
 
 def walk_page(graph: MotionGraph) -> str:
-    """Make a page that walks along drawn lines, through a motion graph whose walks never end.
+    """Create a page on which a figure walks along drawn lines, through a motion graph without dead ends.
 
     Parameters
     ----------
-    graph : pruned; its clips, at 30 frames per second, are all in the page.
+    graph : a pruned graph. All its clips, at 30 frames per second, are in the page.
 
     Returns
     -------
-    HTML that needs no other file: half a megabyte for the bundled clips.
+    HTML that needs no other file, half a megabyte for the bundled clips.
     """
     description, data = pack_graph(graph)
     compressor = zlib.compressobj(9, zlib.DEFLATED, RAW_DEFLATE)

@@ -12,7 +12,7 @@ from mocap.datasets.samples import sample
 from mocap.feet import mark_plants
 from mocap.files.load_save import load
 from mocap.matching.point_clouds import align, point_cloud
-from mocap.quality.seam_measures import plant_slides
+from mocap.quality.seam_measures import foot_sliding
 
 SPEEDS, TURNS = (0.8, 1.1, 1.4), (-120, 0, 120)  # metres per second, degrees within 5 m
 HALF = np.array([0.5, 0.5])
@@ -36,7 +36,7 @@ def feet(motion):
     return [joint for leg in find_legs(motion.skeleton) for joint in (leg.ankle, leg.ball)]
 
 
-def skate(motion):
+def foot_sliding_speed(motion):
     """The least ground speed of any ankle or ball, cm/s, the mean of all frames: one foot always stands."""
     ground = on_ground(joint_positions(motion)[:, feet(motion)])
     return 100 * float(np.abs(np.diff(ground, axis=0)).min(axis=1).mean()) * motion.fps
@@ -44,7 +44,7 @@ def skate(motion):
 
 def slides(motion):
     """The largest stray of each whole plant from its mean place, cm."""
-    whole = [plant for plant in plant_slides(motion) if plant.start > 0 and plant.stop < len(motion)]
+    whole = [plant for plant in foot_sliding(motion) if plant.start > 0 and plant.stop < len(motion)]
     return np.array([plant.far for plant in whole])
 
 

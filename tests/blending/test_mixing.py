@@ -15,7 +15,16 @@ from mocap.errors import SkeletonMismatch
 from mocap.feet import clean_up
 from mocap.matching.point_clouds import align, point_cloud
 from tests.blending import registered
-from tests.blending.registered import HALF, at_times, captured, skate, slides, strike_errors, turned, walks
+from tests.blending.registered import (
+    HALF,
+    at_times,
+    captured,
+    foot_sliding_speed,
+    slides,
+    strike_errors,
+    turned,
+    walks,
+)
 from tests.conftest import SWEEP
 from tests.refusals import quietly, refusals, told, unwarned
 
@@ -74,7 +83,7 @@ def test_generated_walks_to_the_left_and_the_right_make_one_straight_on():
     blend = mix(registration, HALF)
     assert 0.98 <= registered.way(blend) / of_parts(registration, registered.way).mean() <= 1.02
     assert turned(blend) == pytest.approx(of_parts(registration, turned).mean(), abs=1)
-    assert skate(blend) <= 2.1 and slides(blend).mean() <= 0.45
+    assert foot_sliding_speed(blend) <= 2.1 and slides(blend).mean() <= 0.45
 
 
 PAIRS = [("16_15", "16_21"), ("16_31", "16_22"), ("16_47", "16_21")]
@@ -86,10 +95,15 @@ def test_captured_walks_of_two_speeds_stay_in_step(real_data):
     for names in PAIRS:
         a, b = (captured(real_data, name) for name in names)
         registration = register([a, b])
-        own, knee = of_parts(registration, skate).mean(), of_parts(registration, registered.knees).mean()
+        own, knee = (
+            of_parts(registration, foot_sliding_speed).mean(),
+            of_parts(registration, registered.knees).mean(),
+        )
         ways = [registered.frame_by_frame(a, b, stretch=stretch) for stretch in (False, True)]
         ways.insert(0, mix(registration, HALF))
-        ratios.append([*(skate(m) / own for m in ways), *(registered.knees(m) / knee for m in ways)])
+        ratios.append(
+            [*(foot_sliding_speed(m) / own for m in ways), *(registered.knees(m) / knee for m in ways)]
+        )
     ours, frames, stretched, knee, knee_of_frames, knee_stretched = np.array(ratios).T
     assert ours.max() <= 1.0 and np.all(ours <= frames / 2)
     assert np.median(ours) <= np.median(frames) / 3 and np.median(ours) <= np.median(stretched) / 3
@@ -105,7 +119,7 @@ def test_weights_may_swing_from_left_to_right_and_back(real_data):
     """Turns take a curve of angles: a straight line does not do [KG03, alignment]."""
     registration = register([captured(real_data, name) for name in ("16_15", "16_17", "16_19")])
     blend = mix(registration, swinging)
-    assert skate(blend) <= 1.2 * of_parts(registration, skate).mean()
+    assert foot_sliding_speed(blend) <= 1.2 * of_parts(registration, foot_sliding_speed).mean()
     assert jolts(blend, 95) <= np.mean([jolts(part, 95) for part in registration.parts])
 
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from mocap.blending import blend, mix, register
 from mocap.body import Motion, Skeleton, concatenate, resample, rotations
 from mocap.body.kinematics import forward_kinematics
-from mocap.body.motion import require_alike
+from mocap.body.motion import require_compatible
 from mocap.datasets import sample
 from mocap.errors import MocapError, SkeletonMismatch
 from mocap.graphs import build
@@ -138,7 +138,7 @@ def same_rig() -> list[Motion]:
 
 
 def test_all_get_the_end_sites_of_the_one_with_the_most():
-    for clip, wanted in zip(require_alike(laboratory()), same_rig(), strict=True):
+    for clip, wanted in zip(require_compatible(laboratory()), same_rig(), strict=True):
         np.testing.assert_array_equal(clip.skeleton.offsets, wanted.skeleton.offsets)
         np.testing.assert_array_equal(clip.rotations, wanted.rotations)
         assert clip.contacts.keys() == {"hand"} and clip.skeleton.names == wanted.skeleton.names
@@ -170,13 +170,13 @@ test_more_than_end_sites_still_parts_skeletons = refusals(
     (
         SkeletonMismatch,
         "'plain' and 'plain': .* these joints: foot, side",
-        require_alike,
+        require_compatible,
         other((*NAMES[:3], "foot"), BONES),
     ),
     (
         SkeletonMismatch,
         "'side' sits 10 cm apart",
-        require_alike,
+        require_compatible,
         other(NAMES, BONES + np.outer([0, 0, 0, 0.1], [1, 0, 0])),
     ),
 )

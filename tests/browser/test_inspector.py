@@ -53,7 +53,7 @@ def test_the_seam_and_its_jolts_are_those_of_the_package(resting, weights):
     page = resting(inspector(*WALKS, at=(56, 20)))
     page.locator("[data-tab=seam]").click()
     page.locator(".kinds").select_option(weights.__name__.removesuffix("_weights"))
-    found = np.array(page.evaluate(f"{IT}.seam.map((frame) => frame.places)"))
+    found = np.array(page.evaluate(f"{IT}.seam.map((frame) => frame.positions)"))
     laid = align_window(WALKS[0], 56, WALKS[1], 20, 10)
     joined = splice(WALKS[0], 56, blend(WALKS[0][56:66], laid[20:30], weights(10)), laid, 30)
     before, after = page.evaluate(f"[{IT}.before, {IT}.after]")
@@ -161,7 +161,7 @@ def test_seams_are_chosen_on_a_walk_and_lit_where_they_stand(resting):
     assert page.evaluate(f"{IT}.pick.seam") == (first - 1 if first else 1)
     page.locator("[data-tab=seam]").click()
     found, frame, before = page.evaluate(
-        f"[{IT}.seam.map((f) => f.places[0][1]), {IT}.pick.frame, {IT}.before]"
+        f"[{IT}.seam.map((f) => f.positions[0][1]), {IT}.pick.frame, {IT}.before]"
     )
     walked = to_motion(graph, followed.walk)[frame - before :][: len(found)]
     assert np.abs(np.array(found) - walked.root_positions[:, 1]).max() < 5e-4
@@ -169,7 +169,7 @@ def test_seams_are_chosen_on_a_walk_and_lit_where_they_stand(resting):
     for key in ("ArrowRight", "ArrowLeft", "ArrowUp"):
         page.keyboard.press(key)
     x, z = page.evaluate(
-        f"{IT}.maps.walk.place({IT}.walk?.path?.[0] ?? {IT}.scene.walk.path[{IT}.scene.walk.seams[0].frame])"
+        f"{IT}.maps.walk.positionOf({IT}.walk?.path?.[0] ?? {IT}.scene.walk.path[{IT}.scene.walk.seams[0].frame])"
     )
     page.locator(".walk").click(position={"x": x, "y": z})
     assert page.evaluate(f"{IT}.pick.seam") == 0

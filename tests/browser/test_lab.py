@@ -361,7 +361,7 @@ def test_keys_steer_and_nothing_else(notebook):
     for key in ("a", "s", "d", "d", "w", "a"):  # in JupyterLab: cell above, save, delete this cell
         page.keyboard.press(key)
     assert page.locator(".jp-CodeCell").count() == count
-    wait_until(lambda: root.evaluate("root => root.steering.ways.length"))
+    wait_until(lambda: root.evaluate("root => root.steering.latencies.length"))
     wait_until(lambda: "mean of" in root.locator("figcaption").first.inner_text())
 
 

@@ -100,7 +100,7 @@ def test_they_walk_from_the_first_command_on_and_the_way_of_a_command_is_said(st
     assert "obeyed" not in steering.locator("figcaption").first.inner_text()  # nobody has steered yet
     steering.get_by_role("button", name="walk").click()
     steering.keyboard.press("ArrowLeft")  # the button has the focus, and keys steer
-    wait_until(lambda: steering.evaluate(f"{IT}.ways.length"))
+    wait_until(lambda: steering.evaluate(f"{IT}.latencies.length"))
     x, _, z = steering.evaluate(place := f"Array.from({IT}.panels[0].walker.pose({IT}.time)).slice(0, 3)")
     later = wait_until(lambda: (now := steering.evaluate(place))[0] > x + 0.2 and now)
     assert later[2] == pytest.approx(z, abs=0.05)  # to the left alone, however long they walked ahead before

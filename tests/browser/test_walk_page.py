@@ -40,24 +40,31 @@ def wanderers(seed):
     return graphs.prune(graphs.build(clips, window=10, threshold=0.12))
 
 
+def as_packed_translation(offset):
+    """Round a translation as the page does."""
+    step = STEPS["translation"]
+    return (np.rint(offset.real / step) + 1j * np.rint(offset.imag / step)) * step
+
+
 def as_packed(graph):
     """Round a graph as the page does: clips and graph for the plain pages, edges in the page's order."""
-    step = STEPS["metres"]
+    step = STEPS["root"]
     clips = [replace(clip, root_positions=np.rint(clip.root_positions / step) * step) for clip in graph.clips]
     rounded = nx.MultiDiGraph()
     rounded.add_nodes_from(graph.graph)
     order = {}
     for number, (start, end, edge) in enumerate(graph.graph.edges(data=True)):
-        lay = (1, 0)
+        transform = (1, 0)
         if edge["kind"] == "transition":
-            here = plain.ground(graph.clips[start[0]].root_positions[start[1]])
-            there = plain.ground(graph.clips[end[0]].root_positions[end[1] - 10])
-            off = edge["transform"].rotation * there + edge["transform"].translation - here
-            off = (np.rint(off.real / STEPS["move"]) + 1j * np.rint(off.imag / STEPS["move"])) * STEPS["move"]
-            turn = np.exp(1j * np.rint(np.angle(edge["transform"].rotation) / STEPS["turn"]) * STEPS["turn"])
-            here, there = (clips[clip].root_positions[at] for clip, at in (start, (end[0], end[1] - 10)))
-            lay = turn, plain.ground(here) + off - turn * plain.ground(there)
-        key = rounded.add_edge(start, end, kind=edge["kind"], frames=edge["frames"], transform=lay)
+            source = plain.ground(graph.clips[start[0]].root_positions[start[1]])
+            target = plain.ground(graph.clips[end[0]].root_positions[end[1] - 10])
+            offset = edge["transform"].rotation * target + edge["transform"].translation - source
+            offset = as_packed_translation(offset)
+            angle = np.rint(np.angle(edge["transform"].rotation) / STEPS["angle"]) * STEPS["angle"]
+            rotation = np.exp(1j * angle)
+            source, target = (clips[clip].root_positions[at] for clip, at in (start, (end[0], end[1] - 10)))
+            transform = rotation, plain.ground(source) + offset - rotation * plain.ground(target)
+        key = rounded.add_edge(start, end, kind=edge["kind"], frames=edge["frames"], transform=transform)
         order[start, end, key] = number
     return clips, rounded, order
 
@@ -119,7 +126,7 @@ def test_a_hand_draws_and_it_walks(page, file, tmp_path):
     page.evaluate("page.finish()")
     walked = walks(page)
     assert 0.8 < walked["frames"] / 30 / walked["metres"] < 1.6  # seconds for a metre
-    told = page.locator("#told").text_content()
+    told = page.locator("#message").text_content()
     assert int(re.search(r"(\d+) cm off", told)[1]) <= 6, told
     assert "metres along a line" in page.locator("#stage").get_attribute("aria-label")
 
@@ -140,9 +147,9 @@ BACK = """([on, round]) => {
   page.walk = null;
   walk(way([0, 0], 0.3));
   page.time = on;
-  const before = page.place(), back = way(before, 0.3 + round);
+  const before = page.position(), back = way(before, 0.3 + round);
   walk(back);
-  const places = count(page.walk.frames - on, (i) => page.placeAt(on + i));
+  const places = count(page.walk.frames - on, (i) => page.positionAt(on + i));
   const steps = places.slice(1).map((place, i) => far(place, places[i]));
   const offs = places.slice(-15).map((place) => Math.min(...back.map((point) => far(place, point))));
   return [far(places[0], before), Math.max(...steps), Math.max(...offs)];
@@ -172,7 +179,7 @@ def test_it_is_saved_as_motion_and_as_pictures(page, file, tmp_path):
         page.click("#bvh")
     given.value.save_as(tmp_path / "walk.bvh")
     motion = mocap.load(tmp_path / "walk.bvh")
-    places = np.array([page.evaluate(f"page.placeAt({frame})") for frame in (0, 20, 40)])
+    places = np.array([page.evaluate(f"page.positionAt({frame})") for frame in (0, 20, 40)])
     assert motion.root_positions[[0, 20, 40]][:, [2, 0]] == pytest.approx(places, abs=1e-3)
     assert len(motion) == page.evaluate("page.walk.frames")
     with page.expect_download() as given:
@@ -196,8 +203,8 @@ def test_keys_draw_and_a_tap_on_a_seam_shows_both_moments(page, file):
         page.keyboard.press(key)
     page.evaluate("page.finish()")
     assert page.evaluate("drawn.length") == pytest.approx(420, abs=80)
-    page.evaluate("page.tap(page.placeAt(page.seams()[0].frame))")
-    assert "Two moments that are alike" in page.locator("#moments").text_content()
+    page.evaluate("page.tap(page.positionAt(page.seams()[0].frame))")
+    assert "Two similar moments" in page.locator("#moments").text_content()
     assert page.evaluate("page.bodies().length") == 2
     page.evaluate("page.tap([99, 99])")
     assert not page.locator("#moments").is_visible()

@@ -18,6 +18,7 @@ from walking import generate_walk
 
 import mocap
 from mocap.body.motion import resample
+from mocap.cli import help_pages
 from mocap.cli.main import main
 from mocap.cli.options import bar
 from mocap.course import opening
@@ -57,6 +58,11 @@ def test_help_is_a_command_too(capsys):
         told = capsys.readouterr().out
         assert main([*words[1:], "--help"]) == 0
         assert told == capsys.readouterr().out != ""
+
+
+def test_paragraphs_of_a_help_page_are_folded_but_for_those_with_indented_lines():
+    text = "one two three\n\nkeys:\n  at 1s"
+    assert help_pages._fold(text, 8) == "one two\nthree\n\nkeys:\n  at 1s"
 
 
 def test_examples_in_a_help_page_begin_a_line(capsys):

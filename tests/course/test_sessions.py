@@ -86,7 +86,8 @@ def test_the_weeks_go_along_the_way():
     way = [name for name in NAMES if name[2] == "-" and int(name[:2]) <= 10]
     assert [name for _, cell, _ in WEEKS for name, *_ in parts(cell)] == way
     in_class, at_home = (sum(part[2] for row in WEEKS for part in parts(row[n])) / 60 for n in (1, 2))
-    assert f"about {round(in_class)} hours of the fifteen, what is for home about {round(at_home)}," in PLAN
+    assert f"about {round(in_class)} of the fifteen hours." in PLAN
+    assert f"Work at home takes about {round(at_home)} hours," in PLAN
 
 
 def test_the_hours_in_all_are_those_of_the_sessions():
@@ -101,7 +102,7 @@ def test_the_hours_of_the_course_are_those_of_its_notebooks():
     first_halves = [minutes for name, minutes in until_ten.items() if name[2] == "-"]
     after = [minutes for name, minutes in stated.items() if name not in until_ten]
     for minutes, said in (
-        (sum(first_halves), r"The way, 00 to 10, takes about (\d+) hours"),
+        (sum(first_halves), r"The main sequence, 00 to 10, takes about (\d+) hours"),
         (sum(until_ten.values()) - sum(first_halves), r"01b to 09b, take about (\d+) more"),
         (sum(after), r"take about (\d+) hours\. They"),
     ):

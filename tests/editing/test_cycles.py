@@ -13,7 +13,7 @@ from mocap.errors import MocapWarning
 from mocap.feet.footplants import mark_plants
 from mocap.files import load_save
 from mocap.matching.point_clouds import point_cloud
-from mocap.quality.seam_measures import ground_slides, jumps
+from mocap.quality.seam_measures import jumps, sliding_per_frame
 from tests.refusals import refusals
 from tests.strategies import wave
 
@@ -68,7 +68,9 @@ def test_feet_that_a_straight_path_turns_are_put_back(name):
     clip = resample(samples.sample(name), 30)
     found = find_loop(clip)
     slides = {
-        clean: ground_slides(mark_plants(repeated(loop(clip, found, straight=True, clean=clean), 3))).sum()
+        clean: sliding_per_frame(
+            mark_plants(repeated(loop(clip, found, straight=True, clean=clean), 3))
+        ).sum()
         for clean in (False, True)
     }
     assert slides[False] > 3  # cm, all joints of the feet together

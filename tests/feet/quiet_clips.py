@@ -10,7 +10,7 @@ from mocap.body.kinematics import forward_kinematics, joint_positions
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
 from mocap.feet.leg_track import UP, pose_leg, track_leg
-from mocap.quality.seam_measures import plant_slides
+from mocap.quality.seam_measures import foot_sliding
 
 
 def noise(random: np.random.Generator, frames: int, width: float) -> np.ndarray:
@@ -87,7 +87,7 @@ def check_clean_up(clip: Motion, least: float) -> tuple[int, int]:
         for m in (cleaned, clip)
     )
     assert kept >= least * asked > 0
-    assert max(slide.far for slide in plant_slides(cleaned)) < 1e-6
+    assert max(slide.far for slide in foot_sliding(cleaned)) < 1e-6
     moved = cleaned.root_positions - clip.root_positions
     legs = find_legs(clip.skeleton)
     assert np.all(moved[:, [0, 2]] == 0)

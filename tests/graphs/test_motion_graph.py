@@ -16,7 +16,7 @@ from mocap.graphs.components import reached
 from mocap.graphs.graph_summary import summary
 from mocap.graphs.motion_graph import build, from_transitions, merge_choice_points
 from mocap.graphs.pruning import prune
-from mocap.graphs.thresholds import ThresholdCurve, smallest_threshold, threshold_curve, velocity_gaps
+from mocap.graphs.thresholds import ThresholdCurve, smallest_threshold, threshold_curve, velocity_differences
 from mocap.matching import Transition, align, find_transitions, point_cloud
 from mocap.matching.transitions import Transitions
 from mocap.synthesis import random_walk, to_motion
@@ -193,7 +193,7 @@ def kept_frames(graph):
 @given(seeds, st.integers(0, 20))
 def test_the_curve_is_what_building_and_pruning_gives(seed, count):
     found = made_up(seed, count)
-    gaps = velocity_gaps(CLIPS, found, window=WINDOW)
+    gaps = velocity_differences(CLIPS, found, window=WINDOW)
     curve = threshold_curve(CLIPS, found, window=WINDOW, thresholds=[0, 0.02, 0.035, 0.05, 1])
     for row in zip(*curve, strict=True):
         close = found.cost < row[0]
@@ -235,7 +235,7 @@ def gaps_of(clips, ways):
     count = len(ways)
     zero, thirty = np.zeros(count, int), np.full(count, 30)
     found = Transitions(zero, thirty, zero + 1, thirty, np.zeros(count), PlanarTransform(*np.array(ways).T))
-    return velocity_gaps(clips, found, window=WINDOW)
+    return velocity_differences(clips, found, window=WINDOW)
 
 
 @given(planar)
@@ -288,7 +288,7 @@ def test_labels_are_those_of_the_motion():
         assert np.array_equal(bears[rows], motion.labels.get(label, np.zeros(len(rows), bool)))
 
 
-def test_hops_are_all_ways_on_from_a_node():
+def test_macro_edges_are_all_ways_on_from_a_node():
     """Against rides and transitions followed in the graph itself."""
     source = GRAPH.source.graph
     least = np.ceil(GRAPH.fps / 6)
@@ -304,18 +304,18 @@ def test_hops_are_all_ways_on_from_a_node():
         return found
 
     for n in range(0, len(GRAPH.nodes), 53):
-        of, hops = GRAPH.hops.leaving(np.array([n]))
+        of, macro_edges = GRAPH.macro_edges.leaving(np.array([n]))
         assert not of.any()
-        told = [GRAPH.hops.edges(np.array([hop])) for hop in hops]
-        assert sorted(tuple(GRAPH.edges[e] for e in hop) for hop in told) == sorted(ways(GRAPH.nodes[n]))
+        told = [GRAPH.macro_edges.edges(np.array([macro_edge])) for macro_edge in macro_edges]
+        assert sorted(tuple(GRAPH.edges[e] for e in edges) for edges in told) == sorted(ways(GRAPH.nodes[n]))
 
 
-def test_a_hop_plays_the_frames_of_its_edges():
-    hops = np.arange(0, len(GRAPH.hops.last), 371)
-    rows, of = GRAPH.hops.rows(hops)
-    assert np.array_equal(np.bincount(of), GRAPH.hops.frames[hops])
-    for number, hop in enumerate(hops):
-        edges = GRAPH.hops.edges(np.array([hop]))
+def test_a_macro_edge_plays_the_frames_of_its_edges():
+    macro_edges = np.arange(0, len(GRAPH.macro_edges.last), 371)
+    rows, of = GRAPH.macro_edges.rows(macro_edges)
+    assert np.array_equal(np.bincount(of), GRAPH.macro_edges.frames[macro_edges])
+    for number, macro_edge in enumerate(macro_edges):
+        edges = GRAPH.macro_edges.edges(np.array([macro_edge]))
         _, expected = walk_track(GRAPH, edges, 1 + 0j, 0j)
         assert np.array_equal(rows[of == number], expected)
 

@@ -139,10 +139,10 @@ def test_each_window_is_in_one_leaf_and_in_its_box(seed, count, size):
     assert np.all(np.diff(leaves.starts) <= size)
     where = dict(zip(windows.tolist(), places, strict=True))
     assert all(
-        np.array_equal(where[w], p) for w, p in zip(leaves.windows.tolist(), leaves.places, strict=True)
+        np.array_equal(where[w], p) for w, p in zip(leaves.windows.tolist(), leaves.projections, strict=True)
     )
     for number in range(len(leaves.low)):
-        members = leaves.places[leaves.leaf(number)]
+        members = leaves.projections[leaves.leaf(number)]
         assert np.array_equal(leaves.low[number], members.min(0))
         assert np.array_equal(leaves.high[number], members.max(0))
 

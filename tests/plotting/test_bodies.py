@@ -60,7 +60,7 @@ def lost_marker():
 def small_graph():
     small = nx.DiGraph([(1, 2), (2, 1), (2, 3), (3, 3)])
     places = {1: (0, 0), 2: (1, 0), 3: (1, 1)}
-    discs, _ = plotting.node_link(small, places=places, kept=small.subgraph([1, 2]))
+    discs, _ = plotting.node_link(small, positions=places, kept=small.subgraph([1, 2]))
     return discs
 
 

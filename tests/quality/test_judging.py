@@ -56,10 +56,10 @@ FLAWS = {
     "tremble": trembling,
     "aloft": lambda: replace(WALK, root_positions=WALK.root_positions + 0.4 * np.eye(3)[1]),
     "sunk": lambda: replace(WALK, root_positions=WALK.root_positions - [0, 0.1, 0]),
-    "turn": lambda: turned("lhand", 90.0 * (np.arange(len(WALK)) == 100), [1, 0, 0]),
+    "rotation": lambda: turned("lhand", 90.0 * (np.arange(len(WALK)) == 100), [1, 0, 0]),
     "lopsided": lopsided,
-    "slide": lambda: replace(WALK, root_positions=WALK.root_positions * [0.8, 1, 0.8]),
-    "skate": lambda: replace(WALK, root_positions=WALK.root_positions * [0.5, 1, 0.5]),
+    "foot_sliding": lambda: replace(WALK, root_positions=WALK.root_positions * [0.8, 1, 0.8]),
+    "sliding_speed": lambda: replace(WALK, root_positions=WALK.root_positions * [0.5, 1, 0.5]),
     "bent": lambda: turned("ltibia", np.where(np.arange(len(WALK)) % 120 < 30, -40.0, 0.0), [1, 0, 0]),
 }
 
@@ -101,10 +101,10 @@ def test_an_elbow_that_bends_backwards_is_found():
 @given(planar)
 @settings(max_examples=5)
 def test_where_it_happens_and_which_way_makes_no_difference(place):
-    walk = FLAWS["slide"]()[:200]
+    walk = FLAWS["foot_sliding"]()[:200]
     values, there = ({m.name: m.value for m in judge(m).measures} for m in (walk, place.apply_motion(walk)))
     # A plant may end a frame sooner.
-    assert there.pop("slide") == pytest.approx(values.pop("slide"), rel=0.02)
+    assert there.pop("foot_sliding") == pytest.approx(values.pop("foot_sliding"), rel=0.02)
     assert there == pytest.approx(values, rel=1e-6, abs=1e-6)
 
 
@@ -136,11 +136,11 @@ def test_a_body_without_known_names_is_measured_as_one_with_them():
 def test_a_body_without_legs_is_measured_without_its_feet():
     judged = judge(wave(60))
     names = {measure.name for measure in judged.measures}
-    assert {"jolt", "tremble", "sunk", "turn", "bent", "size"} <= names
-    assert not names & {"slide", "skate"}
+    assert {"jolt", "tremble", "sunk", "rotation", "bent", "size"} <= names
+    assert not names & {"foot_sliding", "sliding_speed"}
     assert judged.left_out[0].startswith("feet and knees: No legs found")
     table = judgement_table([judged, judge(WALK)])
-    assert {"skate", "bent"} <= set(table.splitlines()[0].split())
+    assert {"sliding_speed", "bent"} <= set(table.splitlines()[0].split())
     assert " - " in table
 
 
@@ -173,7 +173,7 @@ def test_captured_people_pass_and_flaws_are_ranked_behind_them(real_data):
         name: {m.name: m.ratio for m in judge(load_save.load(real_data / name)).measures}
         for name in ("bvh/imusim/16_15.bvh", "cmu/16/16_15.amc", "bvh/pybvh/bvh_test1.bvh")
     }
-    assert skates["bvh/imusim/16_15.bvh"]["skate"] > 1 > skates["cmu/16/16_15.amc"]["skate"]
+    assert skates["bvh/imusim/16_15.bvh"]["sliding_speed"] > 1 > skates["cmu/16/16_15.amc"]["sliding_speed"]
     assert skates["bvh/pybvh/bvh_test1.bvh"]["sunk"] < 1
 
 
@@ -226,7 +226,7 @@ def test_a_clean_clip_has_no_flaws_and_true_measures(clean):
     turns = clean.rotations.copy()
     turns[:, 0] = rotations.about_y(np.linspace(0, 4, 120))
     report = inspect(replace(clean, rotations=turns))
-    assert report.turn == pytest.approx(4)
+    assert report.heading_change == pytest.approx(4)
     assert "turns left by 229° in all" in report.table()
 
 
@@ -302,8 +302,8 @@ def worst(motion, turns=()):
             rotations.from_rotvec(np.radians(degrees) * np.array(axis, float)), local[:, joint]
         )
     turned = replace(motion, rotations=local)
-    bend = max(joint_bends(turned, find_legs(motion.skeleton)), key=lambda bend: bend.share.max())
-    return bend.joint, bend.way, bend.share.max()
+    bend = max(joint_bends(turned, find_legs(motion.skeleton)), key=lambda bend: bend.fraction.max())
+    return bend.joint, bend.direction, bend.fraction.max()
 
 
 def test_a_walk_stays_within_all_limits():

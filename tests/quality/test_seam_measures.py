@@ -11,7 +11,14 @@ from mocap.blending import join
 from mocap.body import concatenate, joint_positions
 from mocap.datasets.samples import sample
 from mocap.errors import SkeletonMismatch
-from mocap.quality.seam_measures import ground_slides, jumps, knee_turns, plant_slides, seam_quality, spread
+from mocap.quality.seam_measures import (
+    foot_sliding,
+    jumps,
+    knee_rotations,
+    seam_quality,
+    sliding_per_frame,
+    spread,
+)
 from tests.refusals import refusals, refused
 from tests.strategies import glide, random_motion
 
@@ -30,7 +37,7 @@ def test_a_clip_s_own_frames_are_nothing_special():
     walk = generate("walk_straight")  # as stored, feet tremble by a nanometre
     inside = [seam_quality(walk, (start, start + 40), USUAL) for start in range(40, 1100, 120)]
     assert np.mean([q.velocity_jump <= 1.001 for q in inside]) > 0.9
-    assert max(q.slide for q in inside) < 1e-9
+    assert max(q.foot_sliding for q in inside) < 1e-9
 
 
 def test_a_cut_shows_and_a_blend_does_not():
@@ -43,9 +50,9 @@ def test_plants_that_touch_the_seam_slide_and_no_plants_do_not():
     drift = (np.arange(len(WALK)) / 120)[:, None] * [0.1, 0, 0]
     drifting = replace(WALK, root_positions=WALK.root_positions + drift)
     # A plant of n frames drifts by 10 cm/s · n / 120 s: at its ends it is half as far from its middle.
-    assert 1 < seam_quality(drifting, (600, 640), USUAL).slide < 5
+    assert 1 < seam_quality(drifting, (600, 640), USUAL).foot_sliding < 5
     floating = replace(WALK, contacts=dict.fromkeys(WALK.contacts, False))
-    assert seam_quality(floating, (600, 640), USUAL).slide == 0
+    assert seam_quality(floating, (600, 640), USUAL).foot_sliding == 0
 
 
 FROZEN = replace(WALK[:9], root_positions=WALK.root_positions[[0] * 9], rotations=WALK.rotations[[0] * 9])
@@ -75,10 +82,10 @@ def test_a_leap_in_the_data_is_neither_usual_nor_hides_a_seam():
 def test_a_knee_that_is_turned_by_hand_turns_as_far():
     knee, rotations = WALK.skeleton.index("ltibia"), WALK.rotations.copy()
     rotations[600:, knee] = rotations[599, knee]
-    assert knee_turns(replace(WALK, rotations=rotations))[600:, 0] == pytest.approx(0, abs=1e-5)
+    assert knee_rotations(replace(WALK, rotations=rotations))[600:, 0] == pytest.approx(0, abs=1e-5)
     half = np.sqrt(0.5)
     rotations[699:701, knee] = [1, 0, 0, 0], [half, half, 0, 0]
-    assert knee_turns(replace(WALK, rotations=rotations))[699, 0] == pytest.approx(90)
+    assert knee_rotations(replace(WALK, rotations=rotations))[699, 0] == pytest.approx(90)
 
 
 def pushed(step):
@@ -87,20 +94,20 @@ def pushed(step):
 
 
 def test_a_clip_s_own_feet_stand_and_no_plants_are_no_slide():
-    assert max(slide.far for slide in plant_slides(WALK)) < 1e-6
-    assert plant_slides(replace(WALK, contacts={})) == []
+    assert max(slide.far for slide in foot_sliding(WALK)) < 1e-6
+    assert foot_sliding(replace(WALK, contacts={})) == []
 
 
 def test_a_body_that_is_pushed_slides_by_what_it_is_pushed():
     body = pushed([1e-3, 0, 0])
     places = joint_positions(body)[..., [0, 2]]
-    slides = plant_slides(body)
+    slides = foot_sliding(body)
     assert len(slides) == sum(len(runs(mark)) for mark in WALK.contacts.values())
     for slide in slides:
         stood = places[slide.start : slide.stop, WALK.skeleton.index(slide.joint)]
         assert slide.far == pytest.approx(100 * np.linalg.norm(stood - stood.mean(0), axis=1).max())
         assert slide.far == pytest.approx(0.1 * (slide.stop - slide.start - 1) / 2, abs=1e-6)
-    slid = ground_slides(pushed([0.003, 0.01, 0.004]))  # 5 mm per frame over the ground
+    slid = sliding_per_frame(pushed([0.003, 0.01, 0.004]))  # 5 mm per frame over the ground
     planted = sum(int((on[1:] & on[:-1]).sum()) for on in WALK.contacts.values())
     assert slid.sum() == pytest.approx(0.5 * planted)
     assert slid[slid > 0.1] == pytest.approx(0.5)
@@ -108,6 +115,6 @@ def test_a_body_that_is_pushed_slides_by_what_it_is_pushed():
 
 def test_only_the_joints_asked_for_count_and_they_need_marks():
     foot = WALK.skeleton.index("lfoot")
-    assert {slide.joint for slide in plant_slides(WALK, [foot])} == {"lfoot"}
-    refused("does not say when 'head' stands; mark_plants", plant_slides, WALK, [WALK.skeleton.index("head")])
-    refused("mark_plants", lambda: ground_slides(replace(WALK, contacts={})))
+    assert {slide.joint for slide in foot_sliding(WALK, [foot])} == {"lfoot"}
+    refused("does not say when 'head' stands; mark_plants", foot_sliding, WALK, [WALK.skeleton.index("head")])
+    refused("mark_plants", lambda: sliding_per_frame(replace(WALK, contacts={})))

@@ -16,7 +16,7 @@ from mocap.errors import NoWalk
 from mocap.files.load_save import load
 from mocap.graphs import build, prune
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
-from mocap.steering import Settings, Wishes, follow_path, path_following
+from mocap.steering import PathRequest, Settings, follow_path, path_following
 from mocap.steering.bent_following import plan_bending
 from mocap.steering.smooth_paths import path_of_walk, smooth_graph
 from mocap.synthesis import random_walk, to_motion
@@ -113,24 +113,26 @@ def test_what_it_says_is_what_the_motion_does():
 def test_a_line_that_is_not_rounded_is_not_blamed_for_turning():
     followed = bent_walk(walking(), GroundPath([[0, 0], [0, 4]]))
     given = replace(followed, off=followed.off + 0.15), LIMIT
-    told("the clips sway so far", path_following._tell_departures, *given)
+    told("the clips sway so far", path_following._warn_of_departures, *given)
 
 
 def test_labels_and_times_are_kept_on_the_line():
     path = SOME["sine"]
-    followed = bent_walk(sneaking(), path, wishes=Wishes(labels=[(0, "walk"), (6, "sneak"), (12, "walk")]))
+    followed = bent_walk(
+        sneaking(), path, request=PathRequest(labels=[(0, "walk"), (6, "sneak"), (12, "walk")])
+    )
     sneaks = followed.bent.motion.labels["sneak"]
     assert sneaks[(followed.along > 7.5) & (followed.along < 11)].mean() > 0.9
     assert not sneaks[followed.along < 5].any()
     assert "without the label asked for" in followed.report()
-    late = Wishes(times=[(0, 0), (8, 14)])
-    slow = bent_walk(sneaking(), path, wishes=late)
+    late = PathRequest(times=[(0, 0), (8, 14)])
+    slow = bent_walk(sneaking(), path, request=late)
     arrival = np.searchsorted(slow.along, 8) / 30
     assert abs(arrival - 14) < 1.0
 
 
-def asked(bend=LIMIT, **wishes):
-    return follow_path(walking(), circle(2.0), Wishes(**wishes), bend=bend)
+def asked(bend=LIMIT, **request):
+    return follow_path(walking(), circle(2.0), PathRequest(**request), bend=bend)
 
 
 test_what_cannot_be_asked_is_told = refusals(
@@ -222,8 +224,8 @@ def test_a_seam_leads_smoothly_from_path_to_path():
 
 
 def test_a_route_of_a_circle_asks_for_its_curvature():
-    route, _ = plan_bending(GRAPH, circle(2.0), Wishes(), 1.0)
-    assert np.array_equal(route.turns, TURNS) and len(route.curvature) == len(route.points)
+    route, _ = plan_bending(GRAPH, circle(2.0), PathRequest(), 1.0)
+    assert np.array_equal(route.rotations, TURNS) and len(route.curvature) == len(route.points)
     steps = np.sqrt(
         (1 + (1.2 * 0.5) ** 2) ** -0.25
     )  # a slowed walk takes shorter steps: more of its own metres

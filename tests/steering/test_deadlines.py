@@ -11,7 +11,7 @@ from mocap.body.ground_path import GroundPath, s_curve
 from mocap.editing import LIMIT
 from mocap.errors import NoWalk
 from mocap.graphs import compile_graph
-from mocap.steering import Settings, Wishes, follow_as_2002, follow_path
+from mocap.steering import PathRequest, Settings, follow_as_2002, follow_path
 from mocap.steering.path_search import watching
 from tests.bundled import walking
 from tests.refusals import quietly, refused, told, unwarned
@@ -77,8 +77,8 @@ def test_the_warning_says_how_much_of_the_path_the_walk_covers(ticking):
 def test_a_deadline_before_the_first_step_is_an_error(ticking):
     words = "^The search was out of time before its first step: give it longer.$"
     refused(words, follow_path, GRAPH, s_curve(), settings=Settings(deadline=0.5), kind=NoWalk)
-    wishes = Wishes(start=GRAPH.nodes[300])
-    refused("out of time before its first step", follow_as_2002, GRAPH, s_curve(), wishes, deadline=0.5)
+    request = PathRequest(start=GRAPH.nodes[300])
+    refused("out of time before its first step", follow_as_2002, GRAPH, s_curve(), request, deadline=0.5)
 
 
 def rounds_of(path, settings):
@@ -115,11 +115,11 @@ def test_a_deadline_that_is_not_reached_changes_nothing(ticking):
 def test_a_deadline_is_in_the_future(seconds):
     words = "^A deadline is more than 0 seconds away, got"
     refused(words, follow_path, GRAPH, circle(2), settings=Settings(deadline=seconds))
-    refused(words, follow_as_2002, GRAPH, circle(2), Wishes(), deadline=seconds)
+    refused(words, follow_as_2002, GRAPH, circle(2), PathRequest(), deadline=seconds)
 
 
 def test_the_search_of_2002_gives_its_walk_so_far(ticking):
-    follow = partial(follow_as_2002, GRAPH, s_curve(), Wishes(start=GRAPH.nodes[300]), budget=50)
+    follow = partial(follow_as_2002, GRAPH, s_curve(), PathRequest(start=GRAPH.nodes[300]), budget=50)
     words = r"^The deadline of 300 s ended the search: the walk covers \d+ % of the path"
     followed = told(words, follow, deadline=300)
     whole = follow()

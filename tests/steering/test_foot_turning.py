@@ -11,7 +11,7 @@ from mocap._shared.arrays import runs
 from mocap.body import PlanarTransform, joint_positions, on_ground
 from mocap.feet.footplants import mark_plants
 from mocap.steering import Controller, FootTurner, measure_delay, steer
-from tests.blending.registered import feet, skate
+from tests.blending.registered import feet, foot_sliding_speed
 from tests.bundled import bundled
 from tests.refusals import refusals
 
@@ -67,7 +67,7 @@ def test_it_obeys_sooner_than_its_clips_turn_and_feet_slide_and_pivot_no_more():
     assert turned.slowest <= 2.0
     assert turned.mean < 0.85 * alone.mean
     motion, straight, angle = turned_and_not(BUNDLED, zigzag(40))
-    assert skate(motion) <= 1.05 * skate(straight)
+    assert foot_sliding_speed(motion) <= 1.05 * foot_sliding_speed(straight)
     assert np.degrees(pivots(straight, angle).max()) <= 25
     assert np.ptp(angle) > np.pi / 2  # and it was turned a good deal
 

@@ -18,7 +18,7 @@ from mocap.steering import followed as following
 from mocap.steering import path_following, waypoints_and_crowds
 from mocap.steering.followed import measure_walk
 from mocap.steering.path_following import follow_as_2002, follow_path, path_problem
-from mocap.steering.path_objective import Settings, Wishes, make_route
+from mocap.steering.path_objective import PathRequest, Settings, make_route
 from mocap.steering.path_search import find_walk
 from mocap.steering.waypoints_and_crowds import Waypoint, through_waypoints, walk_crowd
 from mocap.synthesis.ground_walks import GroundWalks, Stand
@@ -30,9 +30,9 @@ GRAPH = walking()
 BOUNDS = {"NEAR": following, "ASTRAY": following, "SEAMS": following}
 
 
-def walked(path, *wishes, **how):
+def walked(path, *request, **how):
     """Follow a path, whatever is warned of."""
-    return quietly(follow_path, GRAPH, path, *wishes, **how)
+    return quietly(follow_path, GRAPH, path, *request, **how)
 
 
 def shapes(first, without=()):
@@ -41,7 +41,7 @@ def shapes(first, without=()):
     return [first, *(pytest.param(shape, marks=pytest.mark.sweep) for shape in others)]
 
 
-STRAIGHT, START = GroundPath([[2, 1], [2, 9]]), Wishes(start=GRAPH.nodes[300])
+STRAIGHT, START = GroundPath([[2, 1], [2, 9]]), PathRequest(start=GRAPH.nodes[300])
 
 
 @pytest.mark.parametrize("shape", shapes("square", without={"letter S"}))  # two clips turn only so far
@@ -84,7 +84,7 @@ def test_with_every_term_off_the_cost_is_eq_9():
     As in [KGP02, Eq. 9].
     """
     plain = Settings(seam=0, match=0, stray=0, width=30, rescue=0, tries=1)
-    followed = walked(s_curve(10), Wishes(slide=0), settings=plain)
+    followed = walked(s_curve(10), PathRequest(correction=0), settings=plain)
     assert followed.found.cost == pytest.approx((followed.off_at_length**2).sum(), rel=1e-6)
     slid = walked(s_curve(10), settings=plain)
     assert slid.found.cost != pytest.approx((slid.off_at_length**2).sum(), rel=0.01)
@@ -146,8 +146,8 @@ def test_it_starts_where_asked_in_the_direction_of_the_path():
 def test_labels_are_had_where_they_are_asked_for():
     """As in [KGP02, labels]."""
     graph = sneaking()
-    wishes = Wishes(labels=[(0, "walk"), (4, "sneak"), (7, "walk")])
-    followed = follow_path(graph, GroundPath([[0, 0], [0, 10]]), wishes)
+    request = PathRequest(labels=[(0, "walk"), (4, "sneak"), (7, "walk")])
+    followed = follow_path(graph, GroundPath([[0, 0], [0, 10]]), request)
     motion = followed.motion()
     middle = (followed.along > 4.5) & (followed.along < 6.5)
     assert motion.labels["sneak"][middle].mean() > 0.9
@@ -175,8 +175,8 @@ def test_no_walk_dawdles():
     assert slow.seconds <= slow.along[-1] / 0.3 + 1
 
 
-def asked(path=STRAIGHT, **wishes):
-    return follow_path(GRAPH, path, Wishes(**wishes))
+def asked(path=STRAIGHT, **request):
+    return follow_path(GRAPH, path, PathRequest(**request))
 
 
 test_bad_wishes_are_told = refusals(
@@ -197,7 +197,7 @@ def test_a_label_out_of_reach_is_told_with_those_in_reach():
     cut = type(graph.source)(graph.source.clips, graph.source.window, source)
     start = next(node for node in sorted(source) if node[0] == 0)
     with pytest.raises(NoWalk, match="No walk comes to the label 'sneak' from there; it can reach: walk"):
-        follow_path(cut, STRAIGHT, Wishes(labels=[(0, "sneak")], start=start))
+        follow_path(cut, STRAIGHT, PathRequest(labels=[(0, "sneak")], start=start))
 
 
 @pytest.mark.parametrize("shape", shapes("S-curve"))
@@ -212,7 +212,7 @@ def test_real_walks_stay_on_their_paths(real_data, shape):
 def test_layers_keep_to_the_path_where_depth_first_does_not():
     """It counts squares of distances at equal arc length [KGP02, Eq. 9]."""
     ours = follow_path(GRAPH, s_curve(10))
-    theirs = follow_as_2002(GRAPH, s_curve(10), Wishes(start=ours.walk[0][0]), budget=300)
+    theirs = follow_as_2002(GRAPH, s_curve(10), PathRequest(start=ours.walk[0][0]), budget=300)
     assert theirs.progress == 1.0
     assert theirs.found.expanded > 300
     assert theirs.found.cut > 0 and theirs.found.cost == pytest.approx((theirs.off_at_length**2).sum())
@@ -228,8 +228,8 @@ def test_what_the_papers_search_gains_at_its_best_it_pays_in_seams(real_data):
     for seed in (500, 502, 507):
         path = GroundPath(random_line(seed).at(np.linspace(0, 7, 141)))
         usual = follow_path(graph, path)
-        wishes = Wishes(start=usual.walk[0][0], slide=0)
-        theirs = follow_as_2002(graph, path, wishes, look=(45, 15), budget=best)
+        request = PathRequest(start=usual.walk[0][0], correction=0)
+        theirs = follow_as_2002(graph, path, request, look=(45, 15), budget=best)
         found.append((follow_path(graph, path, settings=free), theirs, usual))
     off = np.array([[walk.off.mean() for walk in walks] for walks in found])
     seams = np.array([[walk.seams_per_second for walk in walks] for walks in found])
@@ -241,7 +241,7 @@ def test_who_stands_gets_on_by_a_little():
     """As in [KGP02, least progress]: else a walk that stands would never end."""
     graph, path = compile_graph(bundled("stop_and_go")), GroundPath([[0, 0], [0, 3]])
     walks = GroundWalks(graph)
-    problem = path_problem(walks, make_route(graph, path, Wishes()))
+    problem = path_problem(walks, make_route(graph, path, PathRequest()))
     own, counted = [], []
     for edge in walks.number:
         own.append(graph.step[walks.step(Stand(1 + 0j, 0j), edge)[0]])

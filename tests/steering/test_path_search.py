@@ -17,7 +17,7 @@ from mocap.steering import path_search
 from mocap.steering.bent_following import plan_bending
 from mocap.steering.layered_search import LayeredSearch, States, select, standing, start_states
 from mocap.steering.path_following import follow_path, path_problem, start_of
-from mocap.steering.path_objective import Route, Settings, Wishes, make_route
+from mocap.steering.path_objective import PathRequest, Route, Settings, make_route
 from mocap.steering.path_search import PathSearch
 from mocap.synthesis.bounded_search import branch_and_bound
 from mocap.synthesis.ground_walks import GroundWalks, Stand
@@ -51,7 +51,7 @@ class Stairs(LayeredSearch):
         twice = np.repeat(np.arange(len(states.node)), 2)
         step = np.tile([1, 2], len(states.node))
         node, cost = states.node[twice] + step, states.cost[twice] + step + 1
-        return states.take(twice)._replace(node=node, cost=cost, trail=twice, hop=step)
+        return states.take(twice)._replace(node=node, cost=cost, trail=twice, macro_edge=step)
 
     def score(self, states):
         return states.cost
@@ -78,8 +78,8 @@ def test_the_best_of_all_walks_arrives(merge):
     states, row = min(ends, key=lambda end: end[0].cost[end[1]])
     assert states.cost[row] == 11  # three double steps and a single one
     walk = search.trace(states, row)
-    assert walk.hop[1:].sum() == walk.node[-1] >= 7 and walk.node[0] == 0
-    assert walk.cost[-1] == (walk.hop[1:] + 1).sum()
+    assert walk.macro_edge[1:].sum() == walk.node[-1] >= 7 and walk.node[0] == 0
+    assert walk.cost[-1] == (walk.macro_edge[1:] + 1).sum()
 
 
 @given(seeds, st.integers(2, 20))
@@ -99,16 +99,18 @@ def test_points_are_met_and_lines_join_them(seed, count):
 def test_a_path_may_be_as_long_as_the_clips_walk_in_an_hour():
     graph = walking()
     speeds = graph.step[graph.first[~graph.blended]] * graph.fps
-    make_route(graph, GroundPath([[0, 0], [0, 3600 * speeds.mean()]]), Wishes())
-    refused("more than an hour", make_route, graph, GroundPath([[0, 0], [0, 3600 * speeds.max()]]), Wishes())
+    make_route(graph, GroundPath([[0, 0], [0, 3600 * speeds.mean()]]), PathRequest())
+    refused(
+        "more than an hour", make_route, graph, GroundPath([[0, 0], [0, 3600 * speeds.max()]]), PathRequest()
+    )
 
 
 GRAPH = walking()
 FREE = {"seam": 0.0, "match": 0.0, "stray": 0.0}
 
 
-def search_on(graph=GRAPH, wishes=None, **settings):
-    route = make_route(graph, s_curve(), wishes or Wishes())
+def search_on(graph=GRAPH, request=None, **settings):
+    route = make_route(graph, s_curve(), request or PathRequest())
     return PathSearch(graph, route, at_nodes(graph, [0]), Settings(**settings))
 
 
@@ -125,15 +127,15 @@ def test_without_cuts_and_prices_it_finds_what_branch_and_bound_finds():
     As in [KGP02, 5.1].
     """
     path = GroundPath([[0, 0], [0.1, 0.45], [0.3, 0.75]])
-    wishes, exact = Wishes(slide=0.0), Settings(**FREE, width=10**6, alike=1e-6, rescue=0.0)
-    route = make_route(GRAPH, path, wishes)
+    request, exact = PathRequest(correction=0.0), Settings(**FREE, width=10**6, cell=1e-6, rescue=0.0)
+    route = make_route(GRAPH, path, request)
     for node in (3, 200, 500):
         start = at_nodes(GRAPH, [node], 0.2)
         found = path_search.find_walk(GRAPH, route, start, exact)
         stand = Stand(complex(start.rotation[0]), complex(start.translation[0]))
         problem = path_problem(GroundWalks(GRAPH), route)
         best = branch_and_bound(problem, GRAPH.nodes[node], stand)
-        # A hop may ride on past the end of the path, to which the paper's walk stops: never for less.
+        # A macro-edge may ride on past the end of the path, to which the paper's walk stops: never for less.
         assert found.cost >= best.cost - 1e-12
         walked = 0.0
         for edge in found.edges:
@@ -157,9 +159,9 @@ def test_a_wider_beam_costs_more_and_follows_better_and_the_work_is_linear_in_th
 
 def test_a_search_is_driven_from_outside_a_round_at_a_time():
     """The rounds that it gives are its history, and the walk traced through them is the one that is found."""
-    wishes, settings = Wishes(), Settings()
-    route = make_route(GRAPH, s_curve(8), wishes)
-    starts = start_of(GRAPH, route, wishes)
+    request, settings = PathRequest(), Settings()
+    route = make_route(GRAPH, s_curve(8), request)
+    starts = start_of(GRAPH, route, request)
     search = PathSearch(GRAPH, route, starts, settings)
     rounds = list(search)
     assert [len(states.node) for states in rounds] == [len(states.node) for states in search.history]
@@ -168,9 +170,9 @@ def test_a_search_is_driven_from_outside_a_round_at_a_time():
     assert np.array_equal(found.edges, path_search.find_walk(GRAPH, route, starts, settings).edges)
     last = States.join(search.arrived)
     walk = search.trace(last, int(last.cost.argmin()))
-    assert np.array_equal(GRAPH.hops.edges(walk.hop[1:]), found.edges)
+    assert np.array_equal(GRAPH.macro_edges.edges(walk.macro_edge[1:]), found.edges)
     assert (np.diff(walk.cost) >= 0).all() and walk.trail[0] == -1
-    assert np.array_equal(GRAPH.target[GRAPH.hops.last[walk.hop[1:]]], walk.node[1:])
+    assert np.array_equal(GRAPH.target[GRAPH.macro_edges.last[walk.macro_edge[1:]]], walk.node[1:])
 
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
@@ -205,7 +207,7 @@ def test_walks_stand_alike_by_node_place_turn_and_where_others_walk_by_time():
     one = start_states(np.array([7]), np.ones(1, complex), np.zeros(1, complex))
     two = [one._replace(**{field: getattr(one, field) * 0 + value}) for field, value in apart.items()]
     for others, told in (((), 4), ([np.zeros((9, 2))], 5)):
-        cells = search_on(wishes=Wishes(others=others)).cells(States.join([one, one, *two]))
+        cells = search_on(request=PathRequest(others=others)).cells(States.join([one, one, *two]))
         assert len(np.unique(cells, axis=1).T) == told
 
 
@@ -213,25 +215,25 @@ def test_a_seam_costs_its_price_and_its_squared_distance():
     start = at_nodes(GRAPH, [3, 200, 500], 0.2)
     dear = search_on(**FREE | {"seam": 0.7, "match": 11.0}).expand(start)
     cheap = search_on(**FREE).expand(start)
-    edge = GRAPH.hops.last[dear.hop]
+    edge = GRAPH.macro_edges.last[dear.macro_edge]
     expected = np.where(GRAPH.blended[edge], 0.7 + 11.0 * GRAPH.cost[edge] ** 2, 0.0)
     assert GRAPH.blended[edge].any()
     assert dear.cost - cheap.cost == pytest.approx(expected)
 
 
-def test_a_hop_costs_what_its_frames_are_off():
-    """Against the frames of each hop, one after the other."""
+def test_a_macro_edge_costs_what_its_frames_are_off():
+    """Against the frames of each macro-edge, one after the other."""
     graph = sneaking()
-    wishes = Wishes(labels=[(0, "sneak"), (5, "")], times=[(0, 0.0), (19, 30.0)])
-    search = search_on(graph, wishes)
+    request = PathRequest(labels=[(0, "sneak"), (5, "")], times=[(0, 0.0), (19, 30.0)])
+    search = search_on(graph, request)
     route = search.route
     start = at_nodes(graph, [3, 400], 0.2)
     start = start._replace(along=np.array([1.0, 4.5]), frames=np.array([20, 90]))
-    of, hop = graph.hops.leaving(start.node)
-    costs = search.hop_costs(start, of, hop)
-    for number in range(0, len(hop), 3):
+    of, macro_edge = graph.macro_edges.leaving(start.node)
+    costs = search.macro_edge_costs(start, of, macro_edge)
+    for number in range(0, len(macro_edge), 3):
         walk, cost = of[number], 0.0
-        rows, _ = graph.hops.rows(hop[[number]])
+        rows, _ = graph.macro_edges.rows(macro_edge[[number]])
         along = start.along[walk] + np.cumsum(np.maximum(graph.step[rows], 0.3 / 30))
         for count, (row, metres) in enumerate(zip(rows, along, strict=True)):
             body = start.translation[walk] + start.rotation[walk] * graph.ground[row]
@@ -247,13 +249,13 @@ def test_a_hop_costs_what_its_frames_are_off():
 def test_a_bent_walk_pays_for_turning_the_clips_and_for_standing():
     """Frame by frame, on a straight line, where a clip that walks a bend has to be turned."""
     graph = compile_graph(build([resample(sample("stop_and_go"), 30)], window=10, threshold=0.04))
-    route, _ = plan_bending(graph, GroundPath([[0, 0], [0, 9]]), Wishes(), LIMIT)
+    route, _ = plan_bending(graph, GroundPath([[0, 0], [0, 9]]), PathRequest(), LIMIT)
     search = PathSearch(graph, route, at_nodes(graph, [0]), Settings(bend=0.5))
-    rows = np.arange(len(route.own.step))
-    costs = search._bending_costs(route.own, rows, np.full(len(rows), 1.0))
-    stands = route.own.step < 0.3 / 30
+    rows = np.arange(len(route.smooth.step))
+    costs = search._bending_costs(route.smooth, rows, np.full(len(rows), 1.0))
+    stands = route.smooth.step < 0.3 / 30
     assert 0.2 < stands.mean() < 0.8
-    assert costs == pytest.approx(0.5 * (route.turns * 30) ** 2 + 0.1 * stands)
+    assert costs == pytest.approx(0.5 * (route.rotations * 30) ** 2 + 0.1 * stands)
 
 
 def test_the_promise_of_a_walk_is_bounded_by_what_a_transition_could_save():
@@ -273,7 +275,7 @@ def test_others_are_seen_up_to_three_times_as_far_ahead_as_the_clip(times, seen)
     place = (body + times * (end - body))[0]
     other[frame] = place.imag, place.real
     alone, found = (
-        search_on(wishes=Wishes(others=others, apart=0.3), crowding=50.0, rescue=np.inf).score(walk)[0]
+        search_on(request=PathRequest(others=others, apart=0.3), crowding=50.0, rescue=np.inf).score(walk)[0]
         for others in ((), [other])
     )
     # The last point ahead stands for the frames since the one before.

@@ -21,7 +21,7 @@ from mocap.graphs.edge_tables import edge_table
 from mocap.matching.transitions import Transition
 from mocap.synthesis import random_walks
 from mocap.synthesis.random_walks import cleaned, dump, random_walk, stream, wander
-from mocap.synthesis.walk_to_motion import seams, sources, to_motion, transforms_along, with_plants
+from mocap.synthesis.walk_to_motion import seams, sources, to_motion, transforms_along, with_footplants
 from tests.bundled import bundled
 from tests.refusals import refusals
 from tests.strategies import seeds, wave
@@ -124,12 +124,12 @@ def test_sources_name_the_clip_that_each_frame_bears_the_label_of(seed):
 
 
 def test_plants_are_found_only_where_no_clip_tells():
-    assert with_plants(GRAPH) is GRAPH
+    assert with_footplants(GRAPH) is GRAPH
     walk = replace(sample("walk_straight")[:240], contacts={})
     unmarked = from_transitions([walk], [], window=WINDOW)
-    (found,) = with_plants(unmarked).clips
+    (found,) = with_footplants(unmarked).clips
     assert found.contacts.keys() == mark_plants(walk).contacts.keys() != set()
-    assert with_plants(unmarked).graph is unmarked.graph
+    assert with_footplants(unmarked).graph is unmarked.graph
 
 
 def test_cleaned_feet_stand_still():

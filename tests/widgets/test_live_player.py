@@ -109,7 +109,7 @@ def test_a_drawn_path_becomes_a_walk_and_warnings_and_errors_stand_below_it(canv
 
 
 def test_the_best_walk_so_far_is_told_while_a_search_is_under_way(monkeypatch):
-    monkeypatch.setattr("mocap.widgets.live_player.TELL", 0.0)
+    monkeypatch.setattr("mocap.widgets.live_player.REPORT_INTERVAL", 0.0)
     graph, told = walking(), []
     canvas = draw_path(lambda path: follow_path(graph, spline(path)).motion(), [[0, 0], [0, 2]])
     canvas.observe(lambda change: told.append(np.array(change["new"])), "best")

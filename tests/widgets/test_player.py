@@ -70,7 +70,7 @@ def test_places_are_sent_to_a_65535th_of_the_clip(seed, away):
     true = joint_positions(motion) + np.array(
         [0, seed % 2, 0]
     )  # where a function of the reader's puts the joints
-    character, places = unpacked(play(motion, places=[true]))
+    character, places = unpacked(play(motion, positions=[true]))
     starts, ends, _ = bones(motion.skeleton)
     for (a, b, _), start, end in zip(character["bones"], starts, ends, strict=True):
         assert places[:, a] == pytest.approx(true[:, start], abs=0.51 * max(character["step"]))

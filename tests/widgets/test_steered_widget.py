@@ -30,7 +30,7 @@ def test_frames_are_counted_by_seconds_however_they_are_asked_for(pieces):
         assert sum(len(one.poses) for one in frames) == member.steps - 1
         assert member.steps == 1 + round(sum(pieces) * member.character.fps)
         firsts = np.cumsum([1, *(len(one.poses) for one in frames)])[:-1]
-        assert [one.told["first"] for one in frames] == firsts.tolist()
+        assert [one.report["first"] for one in frames] == firsts.tolist()
 
 
 def test_places_are_the_joints_at_which_bones_end():
@@ -38,7 +38,7 @@ def test_places_are_the_joints_at_which_bones_end():
     (walked,) = company.walk((1.0, 1.1, ""), 0.3)
     motion = as_motion(company.members[0].character, walked.poses)
     joints, body = company.members[0].joints, company.members[0].body
-    np.testing.assert_allclose(walked.places, joint_positions(motion)[:, joints], atol=1e-12)
+    np.testing.assert_allclose(walked.positions, joint_positions(motion)[:, joints], atol=1e-12)
     assert joints[0] == 0 and max(max(line[:2]) for line in body["bones"]) < len(joints)
 
 
@@ -63,13 +63,13 @@ def test_who_fails_stands_still_until_the_order_changes_and_says_why():
     company = Company({"sure": Dot(), "stumbling": Odd(stumble)})
     company.walk((0, 1, "fly"), 0.2)
     _, forgotten = company.walk(START, 0.2)
-    assert forgotten.told["fault"] == "" and np.ptp(forgotten.places, axis=0).max() > 0.1
+    assert forgotten.report["fault"] == "" and np.ptp(forgotten.positions, axis=0).max() > 0.1
     for order, why in [((0, 1, "fly"), "MocapError: No clip flies."), ((2.0, 1.1, ""), "not finite")]:
         sure, stumbling = company.walk(order, 0.5)
-        assert why in stumbling.told["fault"] and len(stumbling.told["fault"]) <= 200
-        assert np.ptp(stumbling.places, axis=0).max() == 0
-        assert (sure.told["fault"], len(sure.poses)) == ("", len(stumbling.poses))
-        assert np.ptp(sure.places, axis=0).max() > 0.3
+        assert why in stumbling.report["fault"] and len(stumbling.report["fault"]) <= 200
+        assert np.ptp(stumbling.positions, axis=0).max() == 0
+        assert (sure.report["fault"], len(sure.poses)) == ("", len(stumbling.poses))
+        assert np.ptp(sure.positions, axis=0).max() > 0.3
 
 
 def test_an_error_at_the_first_step_is_raised():

@@ -202,7 +202,7 @@ def eight_node_graph(
     Notebook: 06-pruning
     """
     ax = ax or plt.figure(figsize=(4.8, 3.5), layout="constrained").add_subplot()
-    discs, arrows = node_link(graph, places=EIGHT_PLACES, ax=ax)
+    discs, arrows = node_link(graph, positions=EIGHT_PLACES, ax=ax)
     colour = {node: SOURCES[n % len(SOURCES)] for n, part in enumerate(parts) for node in part}
     discs.set_facecolor([colour.get(node, UNSEEN) for node in graph])
     discs.set_edgecolor("black")

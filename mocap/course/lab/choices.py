@@ -11,7 +11,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array, Mask
 from mocap.blending.joining import join
-from mocap.body.motion import Motion, require_alike
+from mocap.body.motion import Motion, require_compatible
 from mocap.body.planar import PlanarTransform
 from mocap.course.lab.adopting import slots, whose
 from mocap.course.lab.own import pages_of, squared_distances
@@ -128,7 +128,7 @@ def of_clips(clips: Sequence[Motion], window: int, at: Any) -> Choices:  # noqa:
     >>> of_clips([walk, walk], 40, (10, 20)).pick[:4]
     (0, 10, 1, 20)
     """
-    clips = require_alike(clips)
+    clips = require_compatible(clips)
     first, second = clips[0], clips[-1]
     _require_short(len(first) + len(second))
     names = "window_sums", "inner_minima"

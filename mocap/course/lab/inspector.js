@@ -5,7 +5,16 @@
 // page, so it needs no Python. The hand on the bodies is the player's.
 
 import { GraphMap, GridMap, PathMap } from "./inspector_maps.js";
-import { Clip, bestAngle, bestShift, gridAround, jolts, moved, seamOf, sums } from "./inspector_maths.js";
+import {
+  Clip,
+  bestAngle,
+  bestShift,
+  gridAround,
+  jolts,
+  transformed,
+  seamOf,
+  sums,
+} from "./inspector_maths.js";
 import { INSPECTOR_PARTS, INSPECTOR_STYLE, NAMES } from "./inspector_page.js";
 import { Chart, Stage } from "./inspector_stage.js";
 import { drawInspector } from "./inspector_views.js";
@@ -65,7 +74,7 @@ export class Inspector {
   /** @type {Cloud} the points of the first window */
   cloud;
   /** @type {Cloud} of the second one */
-  other;
+  otherCloud;
   /** @type {Sums} */
   sums;
   /** @type {number} the turn that aligns them best, radians */
@@ -77,14 +86,14 @@ export class Inspector {
   /** @type {number} where the body faces */
   heading;
   /** @type {Record<string, any>} what was computed for this pair */
-  known = {};
+  cache = {};
   /** @type {Weighting} */
   kind = "cubic";
   /** @type {number | null} the turn that the reader has chosen */
   theta = null;
   /** @type {boolean} whether the reader has turned the view of this pair */
   turned = false;
-  /** @type {number[]} metres [x, z] that the reader has moved the view */
+  /** @type {number[]} metres [x, z] by which the reader has panned the view */
   panned = [0, 0];
   /** @type {number} metres from the camera to what is looked at */
   reach = 4;
@@ -265,7 +274,7 @@ export class Inspector {
   // ---- what is looked at ----
 
   /**
-   * Take a pair of windows; its best turn is the one that is shown until the reader drags another.
+   * Take a pair of windows. Its best rotation is shown until the reader drags another one.
    * @param {Pair} pick
    */
   choose(pick) {
@@ -288,19 +297,19 @@ export class Inspector {
     const { first, second, pick, window, scene } = this;
     const { i, j } = pick;
     /**
-     * @param {number} wish
+     * @param {number} wanted
      * @param {number} have
      */
-    const room = (wish, have) => Math.max(0, Math.min(wish, have));
+    const room = (wanted, have) => Math.max(0, Math.min(wanted, have));
     this.before = room(pick.before, Math.min(i, first.frames));
     this.after = room(pick.after, second.frames - j - window);
     this.cloud = first.cloud(i, window);
-    this.other = second.cloud(j, window);
-    this.sums = sums(this.cloud, this.other);
+    this.otherCloud = second.cloud(j, window);
+    this.sums = sums(this.cloud, this.otherCloud);
     this.best = bestAngle(this.sums);
     this.angle = this.theta ?? this.best;
     this.transform = bestShift(this.sums, this.angle);
-    this.known = {};
+    this.cache = {};
     this.heading = facing(this.cloud, scene.skeleton, first.joints(i + Math.floor(window / 2)));
   }
 
@@ -312,7 +321,7 @@ export class Inspector {
    * @returns {T}
    */
   once(what, compute) {
-    return (this.known[what] ??= compute());
+    return (this.cache[what] ??= compute());
   }
 
   /** @returns {SeamFrame[]} */
@@ -325,8 +334,8 @@ export class Inspector {
 
   /** @returns {(number | null)[]} */
   get jolts() {
-    const places = this.seam.map((frame) => frame.places);
-    return this.once("jolts", () => jolts(places, this.scene.skeleton.points, this.fps));
+    const positions = this.seam.map((frame) => frame.positions);
+    return this.once("jolts", () => jolts(positions, this.scene.skeleton.points, this.fps));
   }
 
   /**
@@ -359,7 +368,7 @@ export class Inspector {
    * @param {number} p
    */
   aligned(p) {
-    return this.second.joints(this.pick.j + p).map((place) => moved(this.transform, place));
+    return this.second.joints(this.pick.j + p).map((position) => transformed(this.transform, position));
   }
 
   // ---- the player's words, which `Hand` uses ----
@@ -456,9 +465,9 @@ export class Inspector {
     const [i, j] = pick.centre;
     const every = Math.max(1, Math.round(this.fps / 30));
     const grid = gridAround(first, i, second, j, window, this.scene.cells, every);
-    const known = grid.values.filter((v) => !Number.isNaN(v));
-    const low = Math.min(...known);
-    const high = Math.max(...known);
+    const distances = grid.values.filter((v) => !Number.isNaN(v));
+    const low = Math.min(...distances);
+    const high = Math.max(...distances);
     const values = grid.values.map((v) => (v - low) / (high - low || 1));
     this.maps.grid.show({ ...grid, values }, [[i, j]]);
   }
@@ -481,14 +490,14 @@ export class Inspector {
  * Where a body faces: across the line from its right to its left side, which is the mean of its points on each.
  * @param {Cloud} cloud
  * @param {Skeleton} skeleton
- * @param {number[][]} places
+ * @param {number[][]} positions
  */
-function facing(cloud, { bones }, places) {
+function facing(cloud, { bones }, positions) {
   /** @param {number} side */
   const mean = (side) =>
     bones
       .filter((bone) => bone[2] === side)
-      .reduce(([x, z, n], [, to]) => [x + places[to][0], z + places[to][2], n + 1], [0, 0, 0]);
+      .reduce(([x, z, n], [, to]) => [x + positions[to][0], z + positions[to][2], n + 1], [0, 0, 0]);
   const [left, right] = [1, 2].map(mean).map(([x, z, n]) => [x / (n || 1), z / (n || 1)]);
   return Math.atan2(-(left[1] - right[1]), left[0] - right[0]);
 }

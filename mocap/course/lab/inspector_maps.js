@@ -22,7 +22,7 @@ import { whenPointed } from "../../widgets/touch.js";
  * `transitions` are [clip, frame, clip, frame, cost], `spans` [clip, start, end].
  * @typedef {{ transitions: number[][], spans: number[][] }} PackedGraph
  *
- * A walk from above: `path` and `asked` are places [x, z], the `pick` of a seam is [clip, frame, clip, frame].
+ * A walk from above: `path` and `asked` are positions [x, z], the `pick` of a seam is [clip, frame, clip, frame].
  * @typedef {{
  *   path: number[][], asked: number[][],
  *   seams: { pick: number[], before: number, after: number, frame: number }[],
@@ -35,8 +35,8 @@ import { whenPointed } from "../../widgets/touch.js";
  *
  * @typedef {Palette & { paper: string, thread: string }} MapPalette
  *
- * Where the seam stands while it plays: the frames of both clips, a share of the window, and the frame of the walk.
- * @typedef {{ part: "before" | "window" | "after", cell: [number, number], share: number, frame: number }} Lit
+ * Where the seam stands while it plays: the frames of both clips, a fraction of the window, and the frame of the walk.
+ * @typedef {{ part: "before" | "window" | "after", cell: [number, number], fraction: number, frame: number }} Lit
  *
  * @typedef {{ pick: Pair, lit: Lit, fps: number, path: number[][], colours: Colours }} ShownOnMap
  *
@@ -248,7 +248,7 @@ export class GridMap extends Map2D {
    * @param {number} wide
    * @param {number} high
    */
-  place(wide, high) {
+  boxFor(wide, high) {
     const { rows, columns } = this.grid;
     const scale = Math.min((wide - 50) / columns, (high - 38) / rows);
     return { left: 44, top: 6, scale: scale / this.grid.every };
@@ -334,7 +334,7 @@ export class GridMap extends Map2D {
     this.canvas.style.maxHeight = `${flat}px`;
     const { pen, wide, high } = sheet(this.canvas);
     this.drawn = true;
-    this.box = this.place(wide, high);
+    this.box = this.boxFor(wide, high);
     const { left, top, scale } = this.box;
     const size = [columns * every * scale, rows * every * scale];
     pen.imageSmoothingEnabled = false;
@@ -421,7 +421,7 @@ export class GraphMap extends Map2D {
    * @param {number} frame
    * @returns {[number, number]}
    */
-  place(clip, frame) {
+  positionOf(clip, frame) {
     const { wide, clips } = this;
     const longest = Math.max(...clips.map((c) => c.frames));
     const rows = clips.length;
@@ -437,8 +437,8 @@ export class GraphMap extends Map2D {
    * @returns {[number, number][]}
    */
   arc([source, leave, target, enter]) {
-    const [x0, y0] = this.place(source, leave);
-    const [x1, y1] = this.place(target, enter + this.inspector.window);
+    const [x0, y0] = this.positionOf(source, leave);
+    const [x1, y1] = this.positionOf(target, enter + this.inspector.window);
     const lift = source === target ? 20 : 0;
     return Array.from({ length: 13 }, (_, k) => k / 12).map((t) => [
       x0 + t * (x1 - x0),
@@ -458,7 +458,7 @@ export class GraphMap extends Map2D {
   }
 
   /**
-   * Left and right go along time, by the place that a transition leaves; up to a higher cost, down to a lower one.
+   * Left and right go along time, by the frame that a transition leaves; up to a higher cost, down to a lower one.
    * @param {number[]} step
    * @param {number} far
    */
@@ -497,12 +497,12 @@ export class GraphMap extends Map2D {
     pen.textAlign = "right";
     pen.fillStyle = palette.ink;
     this.clips.forEach((clip, k) => {
-      line(pen, [this.place(k, 0), this.place(k, clip.frames)], colours.quiet, 1);
-      pen.fillText(clip.name.slice(0, 16), NAME_WIDE - 6, this.place(k, 0)[1], NAME_WIDE - 8);
+      line(pen, [this.positionOf(k, 0), this.positionOf(k, clip.frames)], colours.quiet, 1);
+      pen.fillText(clip.name.slice(0, 16), NAME_WIDE - 6, this.positionOf(k, 0)[1], NAME_WIDE - 8);
     });
     for (const [clip, start, end] of this.graph.spans) {
       const colour = colours.sources[clip % colours.sources.length];
-      line(pen, [this.place(clip, start), this.place(clip, end)], colour, 5);
+      line(pen, [this.positionOf(clip, start), this.positionOf(clip, end)], colour, 5);
     }
     const fade = Math.min(1, 0.15 + 30 / (this.graph.transitions.length + 1));
     for (const transition of this.graph.transitions) line(pen, this.arc(transition), colours.seam, 1, fade);
@@ -512,9 +512,9 @@ export class GraphMap extends Map2D {
     dot(pen, ...arc[0], 4, palette.paper, colours.seam);
     dot(pen, ...arc[arc.length - 1], 4, colours.seam, palette.ink);
     const on = {
-      before: this.place(pick.first, lit.cell[0]),
-      window: arc[Math.round(12 * lit.share)],
-      after: this.place(pick.second, lit.cell[1]),
+      before: this.positionOf(pick.first, lit.cell[0]),
+      window: arc[Math.round(12 * lit.fraction)],
+      after: this.positionOf(pick.second, lit.cell[1]),
     };
     dot(pen, ...on[lit.part], 5, PLAYED, "#222");
   }
@@ -543,10 +543,10 @@ export class PathMap extends Map2D {
   }
 
   /**
-   * @param {number[]} place
+   * @param {number[]} point
    * @returns {[number, number]}
    */
-  place([x, z]) {
+  positionOf([x, z]) {
     const { wide, high } = this;
     /** @param {number[]} ends */
     const span = ([low, high_]) => Math.max(high_ - low, 0.5);
@@ -573,7 +573,7 @@ export class PathMap extends Map2D {
    */
   under(x, y) {
     const offs = this.walk.seams.map(({ frame }) => {
-      const [u, v] = this.place(this.walk.path[frame]);
+      const [u, v] = this.positionOf(this.walk.path[frame]);
       return Math.hypot(u - x, v - y);
     });
     return this.seam(offs.indexOf(Math.min(...offs)));
@@ -598,11 +598,11 @@ export class PathMap extends Map2D {
     this.wide = wide;
     this.high = high;
     this.drawn = true;
-    const [asked, path] = [walk.asked, walk.path].map((places) => places.map((p) => this.place(p)));
+    const [asked, path] = [walk.asked, walk.path].map((points) => points.map((p) => this.positionOf(p)));
     if (asked.length) line(pen, asked, palette.asked, 6, 0.75);
     line(pen, path, colours.path, 2.5);
     walk.seams.forEach(({ frame }, n) => {
-      const [x, y] = this.place(walk.path[frame]);
+      const [x, y] = this.positionOf(walk.path[frame]);
       const size = n === pick.seam ? 8 : 5;
       pen.fillStyle = colours.seam;
       pen.strokeStyle = n === pick.seam ? palette.ink : palette.paper;
@@ -617,6 +617,6 @@ export class PathMap extends Map2D {
       pen.stroke();
     });
     const at = walk.path[Math.round(lit.frame)];
-    if (at) dot(pen, ...this.place(at), 5, PLAYED, "#222");
+    if (at) dot(pen, ...this.positionOf(at), 5, PLAYED, "#222");
   }
 }

@@ -1,12 +1,12 @@
-// What the inspector computes: bodies out of rotations, the best turn, the blend. `tests/browser/test_inspector.py`
+// The computations of the inspector: bodies from rotations, the best rotation, the blend. `tests/browser/test_inspector.py`
 // holds each of these formulas against the package's function, which every comment names.
 
 import { summed } from "../../widgets/player_scene.js";
 
 /**
- * A clip, as `packed_clip` in `showing.py` packs it: `plants` has a digit for each frame.
+ * A clip, as `packed_clip` in `showing.py` packs it: `contacts` has a digit for each frame.
  * @typedef {{
- *   name: string, frames: number, channels: number, offset: number, origin: number[], plants: string,
+ *   name: string, frames: number, channels: number, offset: number, origin: number[], contacts: string,
  * }} PackedClip
  *
  * What draws and measures a body, as `packed_skeleton` packs it: `bones` are [from, to, side], `feet` [ball, side].
@@ -15,13 +15,13 @@ import { summed } from "../../widgets/player_scene.js";
  *   feet: number[][],
  * }} Skeleton
  *
- * The root's place, and the joints' quaternions, one after the other.
- * @typedef {{ root: number[], turns: Float64Array }} Pose
+ * The root's position, and the joints' quaternions, one after the other.
+ * @typedef {{ root: number[], rotations: Float64Array }} Pose
  *
  * The points of a window, frame by frame.
  * @typedef {number[][][]} Cloud
  *
- * A turn about +y, then a shift over the ground; who knows its cosine and sine says them.
+ * A rotation about +y, then a translation on the ground, with the cosine and the sine if they are known.
  * @typedef {{ angle: number, x: number, z: number, cos?: number, sin?: number }} Transform
  *
  * @typedef {{ A: number, B: number, fixed: number, mx: number, mz: number, mu: number, mw: number }} Sums
@@ -32,10 +32,10 @@ import { summed } from "../../widgets/player_scene.js";
  * @typedef {keyof typeof WEIGHTS} Weighting
  *
  * A frame of a seam: the weight of the first clip, where the joints are, and which feet stand, as bits.
- * @typedef {{ alpha: number, places: number[][], plants: number }} SeamFrame
+ * @typedef {{ alpha: number, positions: number[][], contacts: number }} SeamFrame
  */
 
-const STEP = 5e-6; // metres, and parts of a quaternion: what one unit of a number means
+const STEP = 5e-6; // the unit of the numbers: metres, and components of a quaternion
 
 /**
  * Undo what `player.py` does: four planes of bytes make 32-bit numbers, which the player's `summed` sums up. They are
@@ -59,7 +59,7 @@ function unpacked(bytes, { offset, frames, channels }) {
   );
 }
 
-// ---- quaternions: w, x, y, z; many of them in one array, so that a page can turn thousands in a few milliseconds ----
+// ---- quaternions: w, x, y, z; many of them in one array, so that a page can multiply thousands in a few milliseconds ----
 
 /**
  * The product of quaternions.
@@ -74,25 +74,25 @@ const times = ([a, b, c, d], [e, f, g, h]) => [
 ];
 
 /**
- * `rotations.slerp`: the short way round, and on a straight line where both are almost equal.
+ * `rotations.slerp`: along the shorter arc, and linear if both are almost equal.
  * @param {Float64Array} from
  * @param {Float64Array} to
- * @param {number} share
+ * @param {number} fraction
  * @param {number} k
  * @param {Float64Array} out
  */
-function slerp(from, to, share, k, out) {
+function slerp(from, to, fraction, k, out) {
   const dot = from[k] * to[k] + from[k + 1] * to[k + 1] + from[k + 2] * to[k + 2] + from[k + 3] * to[k + 3];
   const sign = dot < 0 ? -1 : 1;
   const angle = Math.acos(Math.min(1, Math.abs(dot)));
   const sine = Math.sin(angle);
   const near = sine < 1e-6;
-  const p = near ? 1 - share : Math.sin((1 - share) * angle) / sine;
-  const q = sign * (near ? share : Math.sin(share * angle) / sine);
+  const p = near ? 1 - fraction : Math.sin((1 - fraction) * angle) / sine;
+  const q = sign * (near ? fraction : Math.sin(fraction * angle) / sine);
   for (let n = k; n < k + 4; n++) out[n] = p * from[n] + q * to[n];
 }
 
-// ---- poses: the root's place, and the joints' quaternions, one after the other ----
+// ---- poses: the root's position, and the joints' quaternions, one after the other ----
 
 export class Clip {
   /** @type {Map<number, number[][]>} the joints of frames */
@@ -108,7 +108,7 @@ export class Clip {
     this.frames = packed.frames;
     this.channels = packed.channels;
     this.origin = packed.origin;
-    this.plants = packed.plants;
+    this.contacts = packed.contacts;
     this.skeleton = skeleton;
     this.numbers = unpacked(bytes, packed);
   }
@@ -123,7 +123,7 @@ export class Clip {
     const { numbers } = this;
     return {
       root: [numbers[at] + x0, numbers[at + 1], numbers[at + 2] + z0],
-      turns: numbers.subarray(at + 3, at + this.channels),
+      rotations: numbers.subarray(at + 3, at + this.channels),
     };
   }
 
@@ -134,9 +134,9 @@ export class Clip {
   joints(frame) {
     const known = this.known.get(frame);
     if (known) return known;
-    const places = joints(this.skeleton, this.pose(frame));
-    this.known.set(frame, places);
-    return places;
+    const positions = joints(this.skeleton, this.pose(frame));
+    this.known.set(frame, positions);
+    return positions;
   }
 
   /**
@@ -157,9 +157,9 @@ export class Clip {
  * @param {Skeleton} skeleton
  * @param {Pose} pose
  */
-function joints({ parents, offsets }, { root, turns }) {
-  const places = [root];
-  const worlds = Float64Array.from(turns);
+function joints({ parents, offsets }, { root, rotations }) {
+  const positions = [root];
+  const worlds = Float64Array.from(rotations);
   for (let j = 1; j < parents.length; j++) {
     const p = 4 * parents[j];
     const w = worlds[p];
@@ -170,31 +170,31 @@ function joints({ parents, offsets }, { root, turns }) {
     const u = 2 * (y * c - z * b);
     const v = 2 * (z * a - x * c);
     const t = 2 * (x * b - y * a);
-    const from = places[parents[j]]; // the arm, turned by its parent
-    places.push([
+    const from = positions[parents[j]]; // the offset, rotated by its parent
+    positions.push([
       from[0] + a + w * u + y * t - z * v,
       from[1] + b + w * v + z * u - x * t,
       from[2] + c + w * t + x * v - y * u,
     ]);
     const k = 4 * j;
-    const e = turns[k];
-    const f = turns[k + 1];
-    const g = turns[k + 2];
-    const h = turns[k + 3];
+    const e = rotations[k];
+    const f = rotations[k + 1];
+    const g = rotations[k + 2];
+    const h = rotations[k + 3];
     worlds[k] = w * e - x * f - y * g - z * h;
     worlds[k + 1] = w * f + x * e + y * h - z * g;
     worlds[k + 2] = w * g - x * h + y * e + z * f;
     worlds[k + 3] = w * h + x * g - y * f + z * e;
   }
-  return places;
+  return positions;
 }
 
 /**
- * `PlanarTransform`: turn by an angle about +y, then shift over the ground.
+ * `PlanarTransform`: a rotation about +y, then a translation on the ground.
  * @param {Transform} transform
- * @param {number[]} place
+ * @param {number[]} position
  */
-export function moved({ angle, x, z, cos = Math.cos(angle), sin = Math.sin(angle) }, [a, b, c]) {
+export function transformed({ angle, x, z, cos = Math.cos(angle), sin = Math.sin(angle) }, [a, b, c]) {
   return [a * cos + c * sin + x, b, c * cos - a * sin + z];
 }
 
@@ -203,18 +203,18 @@ export function moved({ angle, x, z, cos = Math.cos(angle), sin = Math.sin(angle
  * @param {Pose} pose
  * @returns {Pose}
  */
-function movedPose(transform, { root, turns }) {
+function transformedPose(transform, { root, rotations }) {
   const half = transform.angle / 2;
   const about = [Math.cos(half), 0, Math.sin(half), 0];
-  const all = Float64Array.from(turns);
-  all.set(times(about, turns.subarray(0, 4)));
-  return { root: moved(transform, root), turns: all };
+  const all = Float64Array.from(rotations);
+  all.set(times(about, rotations.subarray(0, 4)));
+  return { root: transformed(transform, root), rotations: all };
 }
 
 // ---- matching ----
 
 /**
- * The sums of [KGP02, Eqs. 2-4] over two clouds; from them come the best turn, and the distance at any turn.
+ * The sums of [KGP02, Eqs. 2-4] over two clouds; they give the best rotation, and the distance for any rotation.
  * @param {Cloud} cloud
  * @param {Cloud} other
  */
@@ -255,7 +255,7 @@ export function sums(cloud, other) {
 export const bestAngle = ({ A, B }) => Math.atan2(B, A);
 
 /**
- * The root of the mean squared distance, metres, when the second cloud is turned by an angle and shifted best.
+ * The root of the mean squared distance, metres, if the second cloud is rotated by an angle and optimally translated.
  * @param {Sums} sums
  * @param {number} angle
  */
@@ -268,7 +268,7 @@ export const distanceAt = ({ A, B, fixed }, angle) =>
  * @returns {Transform}
  */
 export function bestShift({ mx, mz, mu, mw }, angle) {
-  const [u, , w] = moved({ angle, x: 0, z: 0 }, [mu, 0, mw]);
+  const [u, , w] = transformed({ angle, x: 0, z: 0 }, [mu, 0, mw]);
   return { angle, x: mx - u, z: mz - w, cos: Math.cos(angle), sin: Math.sin(angle) };
 }
 
@@ -330,9 +330,9 @@ export function weightsOf(kind, window) {
  * @returns {Pose}
  */
 function blended(a, b, alpha) {
-  const turns = new Float64Array(a.turns.length);
-  for (let k = 0; k < turns.length; k += 4) slerp(b.turns, a.turns, alpha, k, turns);
-  return { root: a.root.map((v, k) => alpha * v + (1 - alpha) * b.root[k]), turns };
+  const rotations = new Float64Array(a.rotations.length);
+  for (let k = 0; k < rotations.length; k += 4) slerp(b.rotations, a.rotations, alpha, k, rotations);
+  return { root: a.root.map((v, k) => alpha * v + (1 - alpha) * b.root[k]), rotations };
 }
 
 /**
@@ -351,17 +351,17 @@ export function seamOf(first, i, second, j, { transform, window, before, after, 
    * @param {number} f
    * @param {number} alpha
    */
-  const placesAt = (f, alpha) => {
+  const positionsAt = (f, alpha) => {
     if (alpha === 1) return first.joints(i + f);
-    if (alpha === 0) return second.joints(j + f).map((place) => moved(transform, place));
-    const pose = movedPose(transform, second.pose(j + f));
+    if (alpha === 0) return second.joints(j + f).map((position) => transformed(transform, position));
+    const pose = transformedPose(transform, second.pose(j + f));
     return joints(first.skeleton, blended(first.pose(i + f), pose, alpha));
   };
   return Array.from({ length: before + window + after }, (_, k) => {
     const f = k - before;
     const alpha = f < 0 ? 1 : weightAt(f);
-    const plants = Number(alpha >= 0.5 ? first.plants[i + f] : second.plants[j + f]);
-    return { alpha, places: placesAt(f, alpha), plants };
+    const contacts = Number(alpha >= 0.5 ? first.contacts[i + f] : second.contacts[j + f]);
+    return { alpha, positions: positionsAt(f, alpha), contacts };
   });
 }
 

@@ -2,7 +2,7 @@
 // `Picture` and its colours for light and dark pages are the player's.
 
 import { dot, line, sheet } from "./inspector_maps.js";
-import { Picture } from "../../widgets/player_picture.js";
+import { Picture, sideOf } from "../../widgets/player_picture.js";
 import { whenPointed } from "../../widgets/touch.js";
 
 /**
@@ -27,7 +27,7 @@ import { whenPointed } from "../../widgets/touch.js";
 
 export class Stage extends Picture {
   /**
-   * Look at a place from the side of the body, as far away as it takes; the reader's own turns come on top.
+   * Look at a target from the side of the body, at a distance, unless the reader has rotated the view.
    * @param {number[]} target
    * @param {number} heading
    * @param {number} distance
@@ -43,33 +43,32 @@ export class Stage extends Picture {
   /**
    * One body; a second clip's is dashed, a ghost is pale.
    * @param {Skeleton} skeleton
-   * @param {number[][]} places
+   * @param {number[][]} positions
    * @param {{ alpha?: number, dashed?: boolean, wide?: number }} how
    */
-  body({ bones, head }, places, { alpha = 1, dashed = false, wide = 0.036 } = {}) {
-    /** @param {number} side */
-    const ends = (side) =>
-      bones.filter((bone) => bone[2] === side).map(([from, to]) => [places[from], places[to]]);
+  body({ bones, head }, positions, { alpha = 1, dashed = false, wide = 0.036 } = {}) {
+    const character = { bones };
+    const pose = Float32Array.from(positions.flat());
     this.pen.setLineDash(dashed ? [7, 5] : []);
     [0, 1, 2].forEach((side) =>
-      this.stroke(ends(side), side ? this.sides[side] : this.palette.ink, wide, alpha, true),
+      this.strokeBones(
+        pose,
+        sideOf(character, side),
+        side ? this.sides[side] : this.palette.ink,
+        wide,
+        alpha,
+      ),
     );
     this.pen.setLineDash([]);
-    if (head !== null) this.disc(places[head], 0.09, this.palette.ink, alpha * (dashed ? 0.45 : 1), false);
+    if (head !== null) this.disc(positions[head], 0.09, this.palette.ink, alpha * (dashed ? 0.45 : 1), false);
   }
 
   /**
    * @param {Skeleton} skeleton
-   * @param {number[][]} places
+   * @param {number[][]} positions
    */
-  shadow({ bones }, places) {
-    this.stroke(
-      bones.map(([from, to]) => [from, to].map((j) => [places[j][0], 0, places[j][2]])),
-      this.palette.shadow,
-      0.05,
-      0.15,
-      true,
-    );
+  shadow({ bones }, positions) {
+    this.strokeBones(Float32Array.from(positions.flat()), bones, this.palette.shadow, 0.05, 0.15, true);
   }
 
   /**
@@ -81,18 +80,18 @@ export class Stage extends Picture {
   }
 
   /**
-   * Where a foot goes: pale all along, strong up to now, thick while it stands.
-   * @param {number[][]} places
-   * @param {number[]} plants
+   * The path of a foot: pale, strong up to now, thick during contacts.
+   * @param {number[][]} positions
+   * @param {number[]} contacts
    * @param {number} now
    * @param {number} side
    */
-  traceFoot(places, plants, now, side) {
+  traceFoot(positions, contacts, now, side) {
     const colour = this.sides[side];
-    this.stroke([places], colour, 1.5, 0.3);
-    this.stroke([places.slice(0, now + 1)], colour, 2.5, 0.9);
-    places.forEach((place, f) => {
-      if (f <= now && plants[f]) this.disc(place, 0.028, colour, 0.5, true);
+    this.stroke([positions], colour, 1.5, 0.3);
+    this.stroke([positions.slice(0, now + 1)], colour, 2.5, 0.9);
+    positions.forEach((position, f) => {
+      if (f <= now && contacts[f]) this.disc(position, 0.028, colour, 0.5, true);
     });
   }
 }

@@ -1,6 +1,6 @@
 // What each tab draws on the stage and in the chart, and what it says.
 
-import { distanceAt, moved, weightsOf } from "./inspector_maths.js";
+import { distanceAt, transformed, weightsOf } from "./inspector_maths.js";
 import { DARK, LIGHT, isDark } from "../../widgets/player_page.js";
 
 /**
@@ -25,7 +25,7 @@ const centimetres = (metres) => round(100 * metres);
  * @param {number[][]} cloud
  * @param {number[][]} other
  */
-const paired = (cloud, other) => cloud.map((place, n) => [place, other[n]]);
+const paired = (cloud, other) => cloud.map((position, n) => [position, other[n]]);
 
 const SEAM_KEY =
   "Chart: green is the jolt of the seam, grey that of each clip alone; the window is shaded; " +
@@ -75,37 +75,37 @@ const VIEWS = {
 
   // The blend, and how much of each clip it holds.
   weights(it, p) {
-    const { alpha, places } = it.seam[it.before + p];
+    const { alpha, positions } = it.seam[it.before + p];
     /** @type {[number, number][]} */
     const points = weightsOf(it.kind, it.window).map((v, f) => [f + 1, v]);
     drawPair(it, p, 0.12 + 0.55 * alpha, 0.12 + 0.55 * (1 - alpha));
-    it.stage.shadow(it.scene.skeleton, places);
-    it.stage.body(it.scene.skeleton, places, { wide: 0.045 });
+    it.stage.shadow(it.scene.skeleton, positions);
+    it.stage.body(it.scene.skeleton, positions, { wide: 0.045 });
     drawCurve(it, points, { at: points[p], across: "frame of the window", up: "α", span: [1, it.window] });
-    const shares = `${round(alpha, 2)} of ${it.first.name}, ${round(1 - alpha, 2)} of ${it.second.name}`;
-    return `Frame ${p + 1} of ${it.window}: ${shares}.`;
+    const fractions = `${round(alpha, 2)} of ${it.first.name}, ${round(1 - alpha, 2)} of ${it.second.name}`;
+    return `Frame ${p + 1} of ${it.window}: ${fractions}.`;
   },
 
   // The seam as it plays, the traces of the feet, and the jolts.
   seam(it, f) {
-    const { places } = it.seam[f];
+    const { positions } = it.seam[f];
     const { skeleton } = it.scene;
     const p = f - it.before;
     for (const [joint, side] of skeleton.feet) {
       it.stage.traceFoot(
-        it.seam.map((frame) => frame.places[joint]),
-        it.seam.map(({ plants }) => (plants >> side) & 1),
+        it.seam.map((frame) => frame.positions[joint]),
+        it.seam.map(({ contacts }) => (contacts >> side) & 1),
         f,
         side,
       );
     }
-    const way = it.seam.map((frame) => [frame.places[0][0], 0, frame.places[0][2]]);
-    it.stage.stroke([way], it.scene.colours.path, 2.5);
-    it.stage.body(skeleton, it.seam[0].places, { alpha: 0.12 });
-    it.stage.body(skeleton, it.seam[it.seam.length - 1].places, { alpha: 0.12 });
+    const path = it.seam.map((frame) => [frame.positions[0][0], 0, frame.positions[0][2]]);
+    it.stage.stroke([path], it.scene.colours.path, 2.5);
+    it.stage.body(skeleton, it.seam[0].positions, { alpha: 0.12 });
+    it.stage.body(skeleton, it.seam[it.seam.length - 1].positions, { alpha: 0.12 });
     if (p >= 0 && p < it.window) drawPair(it, p, 0.22, 0.22);
-    it.stage.shadow(skeleton, places);
-    it.stage.body(skeleton, places, { wide: 0.045 });
+    it.stage.shadow(skeleton, positions);
+    it.stage.body(skeleton, positions, { wide: 0.045 });
     /**
      * @param {(number | null)[]} values
      * @param {number} from
@@ -129,7 +129,7 @@ const VIEWS = {
         up: "jolt (m/s)",
         span: inside,
         bands: [[0, (it.window - 1) / it.fps, it.scene.colours.seam]],
-        bars: plantBars(it),
+        bars: contactBars(it),
       },
       paletteNow(),
     );
@@ -161,7 +161,8 @@ export function drawInspector(it) {
   it.root.classList.toggle("dark", isDark());
   stage.palette = palette;
   stage.sides = scene.colours.sides;
-  const roots = tab === "seam" ? it.seam.map(({ places }) => places[0]) : it.cloud.map(([root]) => root);
+  const roots =
+    tab === "seam" ? it.seam.map(({ positions }) => positions[0]) : it.cloud.map(([root]) => root);
   const [[x0, , z0], [x1, , z1]] = [roots[0], roots[roots.length - 1]];
   const [x, z] = it.panned;
   it.reach = 3.3 + 0.75 * Math.hypot(x1 - x0, z1 - z0);
@@ -187,7 +188,7 @@ function litAt({ pick, window }, p) {
   return {
     part: p < 0 ? "before" : played,
     cell: [pick.i + p, pick.j + p],
-    share: Math.min(1, Math.max(0, p / Math.max(1, window - 1))),
+    fraction: Math.min(1, Math.max(0, p / Math.max(1, window - 1))),
     frame: begun < 0 ? -1 : begun + p,
   };
 }
@@ -211,7 +212,7 @@ function drawPair(it, p, alpha, beta) {
  * @param {number} p
  */
 function threadsAt(it, p) {
-  const aligned = it.other[p].map((place) => moved(it.transform, place));
+  const aligned = it.otherCloud[p].map((position) => transformed(it.transform, position));
   return paired(it.cloud[p], aligned);
 }
 
@@ -221,8 +222,8 @@ function threadsAt(it, p) {
  * @param {number} p
  */
 function apartAt(it, p) {
-  const gaps = threadsAt(it, p).map(([a, b]) => a.reduce((sum, v, k) => sum + (v - b[k]) ** 2, 0));
-  return Math.sqrt(gaps.reduce((sum, gap) => sum + gap, 0) / gaps.length);
+  const squares = threadsAt(it, p).map(([a, b]) => a.reduce((sum, v, k) => sum + (v - b[k]) ** 2, 0));
+  return Math.sqrt(squares.reduce((sum, square) => sum + square, 0) / squares.length);
 }
 
 /**
@@ -240,12 +241,12 @@ function drawCurve(it, points, plot) {
  * When each foot stands, seconds.
  * @param {Inspector} it
  */
-function plantBars({ seam, before, fps, scene }) {
+function contactBars({ seam, before, fps, scene }) {
   return [1, 2].flatMap((side) => {
     /** @type {Bar[]} */
     const bars = [];
-    seam.forEach(({ plants }, f) => {
-      if (!((plants >> side) & 1)) return;
+    seam.forEach(({ contacts }, f) => {
+      if (!((contacts >> side) & 1)) return;
       const [from, to] = [f - before, f + 1 - before].map((frame) => frame / fps);
       const last = bars[bars.length - 1];
       if (last?.[1] === from) last[1] = to;
@@ -267,10 +268,10 @@ function describe(it, text) {
    * @param {Clip} clip
    * @param {number} at
    */
-  const place = (clip, at) =>
+  const moment = (clip, at) =>
     `frames ${at} to ${at + window - 1} of ${clip.name} (from ${round(at / fps, 2)} s)`;
   const turn = scene.tabs.includes("turn") ? ` at θ = ${round(degrees(it.best), 0)}°` : ", aligned";
-  const pair = `${place(first, pick.i)} and ${place(second, pick.j)}: RMS distance ${centimetres(best)} cm${turn}.`;
+  const pair = `${moment(first, pick.i)} and ${moment(second, pick.j)}: RMS distance ${centimetres(best)} cm${turn}.`;
   const sentence = pair[0].toUpperCase() + pair.slice(1);
   if (it.status.textContent !== sentence) it.status.textContent = sentence;
   it.key.textContent = it.tab === "seam" ? SEAM_KEY : scene.key;

@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike
 from mocap import plain
 from mocap._shared.arrays import Array
 from mocap.body.ground_path import GroundPath
-from mocap.body.motion import Motion, require_alike
+from mocap.body.motion import Motion, require_compatible
 from mocap.body.skeleton import Skeleton
 from mocap.course.lab.adopting import NAMES as NAMES
 from mocap.course.lab.adopting import Tools, whose
@@ -278,7 +278,7 @@ class OwnGraph:
     """
 
     def __init__(self, clips: Sequence[Motion], window: int, threshold: float, by: Tools | None) -> None:
-        self.clips = require_alike(clips)
+        self.clips = require_compatible(clips)
         self.pages = pages_of(by, window, threshold)
         self.by = by or Tools()
         if not 2 <= window <= min(map(len, self.clips)):

@@ -1,15 +1,16 @@
-"""Group motion graphs: a crowd that was planned, after [LCF05].
+"""Group motion graphs: planned motion of a crowd, after [LCF05].
 
-A motion graph one level higher. A pose is a configuration: the positions and velocities of all members of a
-group. A clip is a few seconds of the whole group, simulated beforehand. Nodes are configurations that recur.
-A search finds a sequence of clips that passes points and avoids obstacles. Then a character of a motion graph
-follows the path of each member.
+A group motion graph is a motion graph one level higher. In place of a pose it has a configuration, the
+positions and velocities of all members of a group. In place of a captured clip it has a few seconds of the
+whole group, simulated beforehand. Nodes are configurations that recur. A search finds a sequence of clips
+that passes given points and avoids obstacles. Then a character of a motion graph follows the path of each
+member.
 
-Use this room if a group stays together and must find its path. `steering.walk_crowd` is for a few characters
-whose given paths cross.
+Use these functions if a group stays together and must find its path. `steering.walk_crowd` is for a few
+characters whose given paths cross.
 
-Only the abstract of [LCF05] was available. From it are: nodes by clustering, clips that join them by
-constrained simulation, and a search that known bounds make fast. All else is ours.
+Only the abstract of [LCF05] was available. It is the source of the nodes by clustering, of the clips that
+join them by constrained simulation, and of the search that known bounds accelerate. All other parts are ours.
 
 Reading order (notebook 19)
 ---------------------------
@@ -17,9 +18,9 @@ Reading order (notebook 19)
 2. `configurations`: the distance between two groups, and the configurations that recur
 3. `group_clips`: clips that lead from node to node, by constrained simulation
 4. `group_graphs`: the graph, and the trajectories of a walk through it
-5. `group_storage`: save a graph to .npz, and read it again
+5. `group_storage`: save a graph to .npz and load it
 6. `planning`: points, obstacles, and a search for a path
-7. `group_steering`: steering without a plan, and the faster of both
+7. `group_steering`: steering without a plan, and the faster of steering and planning
 8. `group_walkers`: a character of a motion graph for each member
 
 References

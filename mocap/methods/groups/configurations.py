@@ -1,9 +1,9 @@
 """Distance between configurations of a group, and the clusters of those that recur [LCF05].
 
-A configuration is the positions and velocities of all members of a group. Two of them are similar if an order
-of the members and a planar rigid transform align one with the other, as two windows of clips are similar if a
-planar transform aligns their points. All of this is ours; [LCF05] says only that configurations are
-clustered.
+A configuration is the positions and velocities of all members of a group. Two configurations are similar if
+an order of the members and a planar rigid transform align one with the other, as two windows of clips are
+similar if a planar transform aligns their points. All of this is ours. [LCF05] says only that configurations
+are clustered.
 """
 
 import numpy as np
@@ -18,22 +18,22 @@ from mocap.methods.groups.flocking import RATE, Configuration
 SECONDS = 0.7  # a difference of 1 m/s counts as much as 0.7 m
 STARTS = (0.0, 0.5, -0.5)  # radians from the rotation that aligns the mean velocities
 ROUNDS = 5
-EVERY = 1.0  # seconds between the frames that nodes are chosen from
-COVERED = 0.8  # fraction of the simulation near a node; `cluster` warns of less
-SLOWEST = 0.2  # m/s; the mean velocity of a slower group has no direction
+EVERY = 1.0  # seconds between the frames from which nodes are chosen
+COVERED = 0.8  # fraction of the simulation near a node, below which `cluster` warns
+SLOWEST = 0.2  # m/s, the speed below which the mean velocity of a group has no direction
 
 # m² and metres: orders of the members whose costs differ by less are equal, as are RMS distances. Rounding is
 # about 1e-12; similar configurations differ by decimetres.
 EQUAL_COSTS = 1e-6
 EQUAL = 1e-9
 
-TINY = 1e-12  # m²; groups whose positions and velocities correlate by less have no best rotation
+TINY = 1e-12  # m², the correlation of positions and velocities below which there is no best rotation
 
 
 class Match(NamedTuple):
     """A match of two configurations: p ↦ rotation · p[order] + translation, and the RMS residual, metres.
 
-    `order` (..., N): the member of the second that corresponds to each of the first.
+    `order` (..., N): the member of the second group that corresponds to each member of the first.
 
     Examples
     --------
@@ -48,11 +48,11 @@ class Match(NamedTuple):
 
 
 def seen_from_itself(group: Configuration) -> tuple[Configuration, Points, Points]:
-    """Express a group relative to its centre and mean velocity; also return the transform to the ground.
+    """Express a group relative to its centre and mean velocity, with the transform back to the ground.
 
     Raises
     ------
-    MocapError : for a group that stands still, which has no direction.
+    MocapError : for a group slower than 0.2 m/s, which has no direction.
 
     Examples
     --------
@@ -84,15 +84,15 @@ def compare(
 ) -> Match:
     """Match the members of two groups, and align the second with the first [ours].
 
-    The RMS over members of |p - T p'|² + τ² |v - e^{iθ} v'|² is reduced, τ = 0.7 s, in alternation. For a
-    given T = (θ, t) the best order is an assignment; for a given order the best T has a closed form,
+    Alternating minimisation of the mean over members of |p - T p'|² + τ² |v - e^{iθ} v'|², τ = 0.7 s. For a
+    given T = (θ, t), the best order is a linear assignment problem. For a given order, the best T is
     θ = arg(Σ (p - p̄)(p' - p̄')* + τ² Σ v v'*), t = p̄ - e^{iθ} p̄'. Both steps lower the same sum, so the
-    alternation converges. It starts from the rotation that aligns the mean velocities, and from half a radian
-    to the left and to the right of it.
+    alternation converges to a local minimum. It starts from the rotation that aligns the mean velocities,
+    and from half a radian to the left and to the right of it.
 
     Parameters
     ----------
-    first, second : (..., N); leading axes broadcast, and each pair is matched independently.
+    first, second : (..., N). Leading axes broadcast, and each pair is matched independently.
     starts : radians, the initial rotations, relative to that of the mean velocities.
     rounds : the largest number of rounds.
 
@@ -171,8 +171,8 @@ def assignment_costs(
 
     Examples
     --------
-    Two members are 1 m apart. The second group is the same one, transformed and twice as fast, which adds
-    0.7² m² to every cost.
+    Two members are 1 m apart. The second group is the first one, transformed and at twice the speed, which
+    adds 0.7² m² to every cost:
 
     >>> one = Configuration(np.array([[0j, 1 + 0j]]), np.array([[1 + 0j, 1 + 0j]]))
     >>> other = Configuration(np.array([[5j, 6j]]), np.array([[2j, 2j]]))
@@ -200,7 +200,7 @@ class Clusters(NamedTuple):
 
 
 def cluster(flock: Configuration, *, nodes: int = 8, reach: float = 0.5) -> Clusters:
-    """Choose configurations that recur [LCF05, nodes]; the rule is ours.
+    """Choose configurations that recur [LCF05, nodes], by a greedy rule of ours.
 
     Each node is the frame with the most frames within `reach` that no earlier node covers. The comparison
     takes O(S² N³) for S frames of N members, most of the time of building a graph.
@@ -208,7 +208,7 @@ def cluster(flock: Configuration, *, nodes: int = 8, reach: float = 0.5) -> Clus
     Parameters
     ----------
     flock : as from `simulate`.
-    nodes : largest number of nodes; fewer if these cover all frames.
+    nodes : largest number of nodes. There are fewer if these cover all frames.
     reach : metres, RMS.
 
     Raises

@@ -1,11 +1,11 @@
-"""A flock of walking people, simulated by Reynolds' three rules [Rey87], with whims of each member.
+"""A flock of walking people, simulated by Reynolds' three rules [Rey87], with random drift of each member.
 
-Members are repelled by those who are near, drawn to those in sight, and align their velocities with them.
-Each also steers towards a desired velocity and keeps a pace. The numbers are those of walking people, not of
-birds [ours]. Without whims a flock settles into a lattice that hardly changes, and a graph of it would be
-small.
+Members are repelled by those who are near, attracted by those in sight, and align their velocities with them.
+Each also steers towards a desired velocity and keeps a pace. The parameters are those of walking people, not
+of birds [ours]. Each member's desired velocity drifts at random: its *whim*. Without whims a flock settles
+into a lattice that hardly changes, and a graph of it would be small.
 
-Points on the ground are complex, z + ix, ten of them per second.
+Points on the ground are complex numbers, z + ix, at ten frames per second.
 """
 
 from collections.abc import Iterator
@@ -18,7 +18,7 @@ from mocap.errors import MocapError
 
 RATE = 10.0  # frames per second
 SETTLE = 20.0  # seconds of a simulation before its first frame
-APART = 0.6  # metres; members nearer than this collide
+APART = 0.6  # metres, the distance below which members collide
 MARGIN = 0.03  # metres that simulated members keep beyond APART
 WALL_FORCE = 3.0  # m/s² per metre too near to a wall
 BODY = 0.35  # metres that a member keeps from a wall
@@ -36,17 +36,17 @@ RATE_TIME = 3.0  # seconds in which the group's rate of turning decays
 RATE_DRIFT = 0.25  # rad/s per √s
 FASTEST_TURN = 0.5  # rad/s of the group's heading
 
-SELF = 1e9  # metres; a distance of each member from itself at which no rule applies
-STILL = 1e-9  # m/s, or m/s²; a divisor for members that do not move
+SELF = 1e9  # metres, a distance of each member from itself at which no rule applies
+STILL = 1e-9  # m/s or m/s², a divisor for members that do not move
 
 Disc = tuple[complex, float]
 """An obstacle: its centre on the ground and its radius, metres."""
 
 
 class Flock(NamedTuple):
-    """Parameters of the flocking rules; lengths in metres, speeds in m/s, accelerations in m/s².
+    """Parameters of the flocking rules: lengths in metres, speeds in m/s, accelerations in m/s².
 
-    Members repel within `space`; they align and cohere within `sight`. `separate`, `gather`, `align`, `steer`
+    Members repel within `space`, and align and cohere within `sight`. `separate`, `gather`, `align`, `steer`
     and `keep` are the weights of the rules. `whim` scales the drift of each member's desired velocity. Discs
     nearer than `avoid` repel. Flocks side by side may differ in `gather` and `avoid`, (K, 1).
 
@@ -87,7 +87,7 @@ class Configuration(NamedTuple):
 
 
 def whims(shape: tuple[int, ...], rules: Flock, random: np.random.Generator) -> Iterator[Points]:
-    """Yield the whims of the members frame by frame: a direction and a pace that drift about the group's.
+    """Yield the whims of the members frame by frame: random drifts of direction and pace about the group's.
 
     Both are Ornstein-Uhlenbeck processes, which decay in two and in four seconds.
 
@@ -122,10 +122,10 @@ def steering_force(
 
     Parameters
     ----------
-    group : positions and velocities, (..., N); leading axes hold independent runs.
+    group : positions and velocities, (..., N). Leading axes are independent runs.
     desired : (..., N), the desired direction times a fraction of the pace.
     rules : the parameters.
-    external : (..., N), other accelerations: of discs, of walls, or towards a goal.
+    external : (..., N), additional accelerations, such as from discs and walls, or towards a goal.
 
     Examples
     --------
@@ -170,10 +170,10 @@ def _offsets(positions: Points) -> tuple[Points, Array]:
 def advance(
     group: Configuration, desired: Points, rules: Flock, external: Points | float = 0.0, room: float = np.inf
 ) -> Configuration:
-    """Advance a flock by one frame; members who are too near are separated in three passes [ours].
+    """Advance a flock by one frame, and separate members who are too near, in three passes [ours].
 
-    A member farther than `room` from the line x = 0 is moved back by up to 2 cm a pass. Larger steps would
-    be visible as jerks.
+    A member farther than `room` from the line x = 0 is moved back by up to 2 cm in each pass. Larger steps
+    would be visible as jerks.
 
     Examples
     --------
@@ -193,7 +193,7 @@ def advance(
 
 
 def push_apart(positions: Points, distance: float) -> Points:
-    """Compute the displacements (..., N) that separate members nearer than a distance, half each.
+    """Compute the displacements (..., N) that separate pairs nearer than a distance, half for each member.
 
     Examples
     --------
@@ -214,9 +214,9 @@ def simulate(
     ----------
     count : number of members, at least 2.
     seconds : duration, after the first 20 seconds, which are left out.
-    corridor : metres between two walls, left and right of the line x = 0; there the group follows the line.
+    corridor : metres between two walls left and right of the line x = 0, along which the group then walks.
     rules : parameters of the members.
-    seed : of the start, the drifting heading of the group, and the whims.
+    seed : seed of the start, of the drifting heading of the group, and of the whims.
 
     Raises
     ------
@@ -225,11 +225,14 @@ def simulate(
     Examples
     --------
     >>> flock = simulate(6, 30)
-    >>> flock.positions.shape, bool(nearest_two(flock.positions).min() > APART)
-    ((300, 6), True)
+    >>> flock.positions.shape, float(nearest_two(flock.positions).min().round(2))
+    ((300, 6), 0.92)
+
+    In a corridor of 2 m, the group is narrower:
+
     >>> narrow = simulate(6, 30, corridor=2.0)
-    >>> bool(np.ptp(narrow.positions.imag, axis=1).mean() < 1.5)
-    True
+    >>> [float(np.ptp(group.positions.imag, axis=1).mean().round(1)) for group in (flock, narrow)]
+    [2.2, 1.2]
 
     Notebook: 19-group-graphs
     """
@@ -262,7 +265,7 @@ def simulate(
 
 
 def nearest_two(positions: Points) -> Array:
-    """Measure the least distance of any two members in each frame, (F,) of (F, N); inf for one member.
+    """Compute the smallest distance between two members in each frame, (F,) from (F, N), inf for one member.
 
     Examples
     --------

@@ -20,7 +20,8 @@ COLUMN = 60.0  # seconds of simulation in each corridor
 class GroupGraph:
     """Configurations of N members as nodes, and clips that lead from one to another.
 
-    `tried` counts all clips that were made; clips with collisions or high accelerations are left out.
+    `tried` is the number of clips that were simulated, including those that were rejected because of
+    collisions or high accelerations.
 
     Examples
     --------
@@ -52,7 +53,7 @@ def make_clips(nodes: Sequence[Configuration], *, seed: int = 0) -> GroupGraph:
     Parameters
     ----------
     nodes : configurations, each as from `seen_from_itself`.
-    seed : of the whims of the members.
+    seed : seed of the whims of the members.
 
     Returns
     -------
@@ -99,24 +100,24 @@ def build_group(  # noqa: PLR0913 (sizes, durations and distances)
     """Build a group motion graph: simulate, cluster, and join the nodes by clips [LCF05, graph].
 
     A group that walked only over open ground has no narrow node, and cannot pass a gap narrower than itself.
-    It is therefore also simulated for a minute in each corridor. The configurations that recur there are
-    *columns*, which are added to the nodes [ours].
+    Therefore the group is also simulated for a minute in each corridor. The configurations that recur there
+    are *columns*, which are added to the nodes [ours].
 
     Parameters
     ----------
     members : number of members, at least 2.
     nodes, reach : as for `cluster`, on open ground.
-    corridors : metres from wall to wall; each adds one or two columns. Without any, the group stays wide.
+    corridors : metres from wall to wall. Each adds one or two columns. Without any, the group stays wide.
     simulated : seconds of flocking over open ground from which the nodes are chosen.
     seed : as for `simulate`.
 
     Raises
     ------
-    MocapError : as `simulate`, `cluster` and `make_clips`.
+    MocapError : as for `simulate`, `cluster` and `make_clips`.
 
     Warns
     -----
-    MocapWarning : as `cluster` and `make_clips`.
+    MocapWarning : as for `cluster` and `make_clips`.
 
     Examples
     --------
@@ -165,7 +166,7 @@ def random_group_walk(graph: GroupGraph, clips: int, *, start: int = 0, seed: in
 def play_group(graph: GroupGraph, walk: Sequence[int], start: PlanarTransform = IDENTITY) -> Configuration:
     """Concatenate clips to the trajectories of all members, one column for each member [LCF05, playing].
 
-    The planar transforms of the clips are multiplied, *and so are the orders of the members*: the member that
+    The planar transforms of the clips are composed, *and so are the orders of the members*: the member that
     ends in slot `order[s]` of a clip continues from that slot in the next clip. Without the orders, members
     would jump by metres between clips.
 
@@ -173,7 +174,7 @@ def play_group(graph: GroupGraph, walk: Sequence[int], start: PlanarTransform = 
     ----------
     graph : the graph of the clips.
     walk : numbers of clips, each leaving the node where the previous one ends.
-    start : the transform of the first node to the ground; the identity by default.
+    start : the transform of the first node to the ground, by default the identity.
 
     Raises
     ------
@@ -209,5 +210,5 @@ def play_group(graph: GroupGraph, walk: Sequence[int], start: PlanarTransform = 
 
 
 def _concatenate(clips: Sequence[Points]) -> Points:
-    """Concatenate the frames of clips; the last frame of each is the first one of the next."""
+    """Concatenate the frames of clips, where the last frame of each is the first one of the next."""
     return np.concatenate([*(frames[:-1] for frames in clips), clips[-1][-1:]])

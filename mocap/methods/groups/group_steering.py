@@ -1,6 +1,7 @@
-"""Group steering without a plan: a flock steers to the next point, away from obstacles; the faster of both.
+"""Group steering without a plan: a flock steers to the next point and away from obstacles.
 
-Steering is enough on open ground. In a pocket of obstacles the flock does not get out.
+Steering is enough on open ground. From a pocket of obstacles a flock does not escape. `lead_group` returns
+the faster of steering and planning.
 """
 
 from collections.abc import Iterator, Sequence
@@ -14,11 +15,11 @@ from mocap.methods.groups.flocking import APART, RATE, Configuration, Disc, Floc
 from mocap.methods.groups.group_graphs import GroupGraph, play_group
 from mocap.methods.groups.planning import MOST, GroupWalk, Scene, plan_group
 
-DISC_FORCE = 3.0  # m/s² per metre
-LIMIT = 120.0  # seconds
+DISC_FORCE = 3.0  # m/s² per metre nearer than `Flock.avoid` to a disc
+LIMIT = 120.0  # seconds, the longest simulation
 AVOIDANCES = (0.8, 1.2, 1.6, 2.0)  # metres from a disc, as `Flock.avoid`
 COHESIONS = (0.0, 0.35, 1.0, 2.0)  # weights, as `Flock.gather`
-FLOCKS = len(AVOIDANCES) * len(COHESIONS)  # that are steered side by side
+FLOCKS = len(AVOIDANCES) * len(COHESIONS)  # simulated side by side
 AVOID = np.tile(AVOIDANCES, len(COHESIONS))[:, None]
 GATHER = np.repeat(COHESIONS, len(AVOIDANCES))[:, None]
 TRIED = Flock(whim=0.0, avoid=AVOID, gather=GATHER)
@@ -32,7 +33,7 @@ def steer_group(
     Parameters
     ----------
     start : positions and velocities of the members.
-    scene : points, obstacles and other groups; other groups are not avoided.
+    scene : points and obstacles. Other groups are not avoided.
     rules, seed : as for `simulate`.
     limit : seconds after which the simulation ends.
 
@@ -97,12 +98,12 @@ def lead_group(
 
     Returns
     -------
-    The trajectories of the members until the group's middle passes the last point, and the plan; None if the
-    flock steers.
+    The trajectories of the members until the group's middle passes the last point, and the plan, which is
+    None if the flock steers.
 
     Raises
     ------
-    MocapError, NoWalk : as `plan_group`, if no flock arrives either.
+    MocapError, NoWalk : as for `plan_group`, if no flock arrives either.
 
     Examples
     --------
@@ -127,7 +128,7 @@ def lead_group(
 
 
 def _steered(graph: GroupGraph, scene: Scene, start: PlanarTransform, limit: float) -> Configuration | None:
-    """Steer all flocks of `TRIED` side by side; return the first that arrives in time without a collision."""
+    """Steer all flocks of `TRIED` side by side, and return the first that arrives without a collision."""
     positions, velocities = (np.tile(start.rotation * field, (FLOCKS, 1)) for field in graph.nodes[0])
     starts = Configuration(positions + start.translation, velocities)
     frames: list[Configuration] = []
@@ -146,7 +147,7 @@ def _steered(graph: GroupGraph, scene: Scene, start: PlanarTransform, limit: flo
 
 
 def _is_clear(flock: Configuration, scene: Scene) -> bool:
-    """Check whether a flock keeps the distances of a plan: between members, from other groups and discs."""
+    """Return whether a flock keeps the distances of a plan: between members, from other groups and discs."""
     distances = [nearest_two(flock.positions).min()]
     frames = np.arange(len(flock.positions))
     for group in scene.others:
@@ -178,7 +179,7 @@ def away_from(discs: Sequence[Disc], positions: Points, avoid: float | Array = 2
 
 
 def clearances(flock: Configuration, scene: Scene) -> Array:
-    """Measure the least distance of any member from the rim of each disc, metres; negative inside.
+    """Measure the smallest distance of a member from the rim of each disc, metres, negative inside.
 
     Examples
     --------

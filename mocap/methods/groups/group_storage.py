@@ -1,6 +1,6 @@
-"""Save a group motion graph to one file: its configurations and clips as arrays in an `.npz`.
+"""Storage of a group motion graph in one file: its configurations and clips as arrays in an `.npz`.
 
-The file holds no code: it is safe to read a file from a stranger.
+The file contains no code, so that reading an untrusted file is safe.
 """
 
 from pathlib import Path
@@ -15,8 +15,8 @@ from mocap.methods.groups.group_clips import GroupClip
 from mocap.methods.groups.group_graphs import GroupGraph
 
 FARTHEST = 1e6  # metres, and metres per second
-ROUNDING = 1e-6  # metres, by which a clip may miss its nodes
-UNIT = 1e-9  # by which the length of a rotation may differ from 1
+ROUNDING = 1e-6  # metres, tolerance of the distance between the end of a clip and its node
+UNIT = 1e-9  # tolerance of the length of a rotation, 1
 # The arrays of the file, with K nodes, C clips, F + 1 frames of each (here F), and N members.
 # Positions and velocities are complex, as in `Configuration`; ends, orders and transforms as in `GroupClip`.
 # The keys keep their first names: "places" are positions, "turns" rotations, "moves" translations.
@@ -36,7 +36,7 @@ ARRAYS: Layout = {
 
 
 def save_group(graph: GroupGraph, path: str | Path) -> None:
-    """Write a group motion graph to an `.npz` file; an old file is replaced when the new one is complete.
+    """Save a group motion graph to an `.npz` file, which is replaced only when the new one is complete.
 
     A graph of twelve members takes 6 s to build, and 0.3 s to load from 30 MB.
 
@@ -47,8 +47,8 @@ def save_group(graph: GroupGraph, path: str | Path) -> None:
 
     Raises
     ------
-    MocapError : for another suffix, for clips that do not lead from node to node, and where the file cannot
-        be written.
+    MocapError : for another suffix, for clips that do not lead from node to node, and if the file cannot be
+        written.
 
     Examples
     --------
@@ -72,7 +72,7 @@ def save_group(graph: GroupGraph, path: str | Path) -> None:
 
 
 def load_group(path: str | Path) -> GroupGraph:
-    """Read a group motion graph; `save_group` shows an example.
+    """Load a group motion graph from a file. `save_group` has an example.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def load_group(path: str | Path) -> GroupGraph:
 
 
 def _rules(arrays: Arrays) -> Rules:
-    """Yield what must hold; each rule needs those before it."""
+    """Yield the rules of a valid file and their results. Each rule requires those before it."""
     positions = arrays["node_places"]
     velocities = arrays["node_velocities"]
     clips, frames, members = arrays["places"].shape
@@ -120,7 +120,7 @@ def _rules(arrays: Arrays) -> Rules:
 
 
 def _is_near(array: Points) -> bool:
-    """Check whether all numbers are finite, and at most `FARTHEST` from 0."""
+    """Return whether all numbers are finite and at most `FARTHEST` from 0."""
     is_near: Mask = np.abs(array) <= FARTHEST
     return bool(is_near.all())
 

@@ -17,20 +17,20 @@ from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.methods.groups.flocking import RATE, Configuration, nearest_two
 from mocap.steering.path_following import follow_path
-from mocap.steering.path_objective import Settings, Wishes
-from mocap.synthesis.walk_to_motion import with_plants
+from mocap.steering.path_objective import PathRequest, Settings
+from mocap.synthesis.walk_to_motion import with_footplants
 
-LATE = 1.0  # m² per s² of delay
+LATE = 1.0  # price of a delay, m² per s²
 EVERY = 1.0  # seconds between the positions that have a time
-KEPT = 0.9  # fraction of planted frames; a warning is given of less
+KEPT = 0.9  # fraction of planted frames below which a warning is issued
 NARROW = 40  # beam width
 BEYOND = 3.0  # seconds by which each path is extended
-MOVES = 0.05  # metres in a second; a slower member has no direction
+MOVES = 0.05  # metres in a second, below which a member has no direction
 
 
 @dataclass(frozen=True, eq=False)
 class GroupWalkers:
-    """A character for each member of a group; `walk_group` shows an example.
+    """The motions of one character for each member of a group. `walk_group` has an example.
 
     Parameters
     ----------
@@ -55,11 +55,11 @@ class GroupWalkers:
 
     @property
     def nearest(self) -> float:
-        """The least distance of any two roots, metres."""
+        """The smallest distance between two roots, metres."""
         return float(nearest_two(self.tracks).min())
 
     def report(self) -> str:
-        """Summarise in one line the errors and distances of the characters."""
+        """Summarise the errors of the characters and their distances in one line."""
         centimetres = 100 * self.errors
         seconds = len(centimetres) / self.motions[0].fps
         characters = f"{len(self.motions)} characters, {seconds:.1f} s"
@@ -74,9 +74,9 @@ def walk_group(
 ) -> GroupWalkers:
     """Follow the trajectory of each member with a character of a motion graph [ours].
 
-    Each character follows a path with a target time every second. That alone would bring characters to 0.15 m
-    of each other, although the members keep 0.9 m. With `bend` each walk is then transformed to the moving
-    frames of its member's path, as in `editing.on_path` [ours]. Finally the feet are cleaned.
+    Each character follows a path with a target time every second. This alone would bring characters to within
+    0.15 m of each other, although the members keep 0.9 m. With `bend`, each walk is then transformed to the
+    moving frames of its member's path, as in `editing.on_path` [ours]. Finally, foot sliding is removed.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def walk_group(
 
     Raises
     ------
-    MocapError, NoWalk : as `steering.follow_path`, and for a plan of less than a second.
+    MocapError, NoWalk : as for `steering.follow_path`, and for a plan of less than a second.
 
     Warns
     -----
@@ -120,7 +120,7 @@ def walk_group(
         got = f"{members} and {max(frames - 1, 0) / RATE:g} s: does it lead away from where the group starts?"
         raise MocapError(f"A plan that is walked has a member or more and lasts 1 s or more, got {got}")
     source = graph.source if isinstance(graph, CompiledGraph) else graph
-    marked = with_plants(source)
+    marked = with_footplants(source)
     compiled = compile_graph(graph if marked is source else marked)
     trajectories = list(flock.positions.T)
     with warnings.catch_warnings(action="ignore", category=MocapWarning):  # one warning is given for all
@@ -137,7 +137,7 @@ def walk_group(
 
 
 def _walk_one(graph: CompiledGraph, trajectory: Points, *, bend: bool) -> tuple[Motion, float]:
-    """Follow a trajectory (F,) at ten frames per second; return the walk, and the fraction of kept plants."""
+    """Follow a trajectory (F,) at ten frames per second, and measure the fraction of kept foot contacts."""
     extended = _extended(trajectory)
     path = GroundPath(from_ground(extended))
     along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(extended)))])
@@ -146,7 +146,7 @@ def _walk_one(graph: CompiledGraph, trajectory: Points, *, bend: bool) -> tuple[
     times = [(float(along[frame]), float(frame / RATE)) for frame in timed]
     # A walk that is bent onto its path afterwards needs no thorough search.
     settings = Settings(late=LATE, width=NARROW if bend else None, tries=1 if bend else 3)
-    walk = follow_path(graph, path, Wishes(times=times), settings=settings).motion()
+    walk = follow_path(graph, path, PathRequest(times=times), settings=settings).motion()
     walk = walk[: round((len(trajectory) - 1) / RATE * graph.fps) + 1]
     if bend:
         seconds = np.arange(len(walk)) / graph.fps
@@ -157,7 +157,7 @@ def _walk_one(graph: CompiledGraph, trajectory: Points, *, bend: bool) -> tuple[
 
 
 def _extended(trajectory: Points) -> Points:
-    """Extend a trajectory straight ahead, so that a walk along it does not wait at its end."""
+    """Extend a trajectory straight ahead by three seconds, so that a walk does not wait at its end."""
     last_second = trajectory[-1] - trajectory[-11]
     step = last_second / 10 if abs(last_second) > MOVES else MOVES
     steps = np.arange(1, round(BEYOND * RATE) + 1)

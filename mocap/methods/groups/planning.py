@@ -1,4 +1,4 @@
-"""Plans for a group: clips that lead past points, between obstacles and beside other groups [LCF05].
+"""Planning for a group: a sequence of clips that passes points and avoids obstacles and other groups [LCF05].
 
 The search for a sequence of clips and the bounds of clips are those of [LCF05]: because the extent of each
 clip is known, most collision tests compare two discs. The weighted A* and its cost estimate are ours.
@@ -21,19 +21,20 @@ from mocap.methods.groups.group_graphs import GroupGraph
 
 PACE = 1.05  # m/s, expected speed of a group
 TURNING = 1.3  # seconds per radian, expected for the first rotation
-CELL = 0.7  # metres; groups in one cell and one sector are one state
+CELL = 0.7  # metres, side of a cell: only one state in each cell and sector is expanded
 SECTOR = 0.3  # radians
-MOST = 4000  # states to expand
+MOST = 4000  # largest number of states to expand
 
-EQUAL = 1e-6  # seconds; estimates that differ by less are equal, and the first state found is expanded first
+EQUAL = 1e-6  # seconds: estimates that differ by less are equal, and the first state found is expanded first
 
 
 class Scene(NamedTuple):
-    """Points that a group passes, and its obstacles.
+    """The points that a group must pass, and its obstacles.
 
     `points` (complex, metres) are passed in order: the group's middle comes within `radius` of each. Members
-    keep `body` metres from the rims of `discs`, and 0.60 m from the members of `others`: their positions,
-    (F, N), ten per second from the same moment on. After its last frame another group stands still.
+    keep `body` metres from the rims of `discs`, and 0.60 m from the members of `others`. These are positions
+    (F, N) at ten frames per second, starting at the same time. After its last frame, another group stands
+    still.
 
     Examples
     --------
@@ -48,7 +49,7 @@ class Scene(NamedTuple):
     others: tuple[Points, ...] = ()  # reads: name: users give it as a keyword
 
     def check(self, start: complex, members: Sequence[complex] | Points = ()) -> None:
-        """Check a scene and the start of a group.
+        """Validate a scene and the start of a group.
 
         Raises
         ------
@@ -88,11 +89,11 @@ class Scene(NamedTuple):
 
 
 class Search:
-    """Expansion of states: the clips of a graph as arrays, the obstacles, and counts of collision tests.
+    """Expansion of states in the search, with the clips of a graph as arrays and counts of collision tests.
 
     Parameters
     ----------
-    graph : the graph of the group; its clips have the same duration.
+    graph : the graph of the group, whose clips all have the same duration.
     scene : points, discs and other groups.
     """
 
@@ -113,7 +114,7 @@ class Search:
         self.spared = 0  # pairs for which the bounds were enough
 
     def free(self, node: int, rotation: complex, translation: complex, frame: int) -> Indices:
-        """List the clips without a collision that leave a node, with its transform, at a frame."""
+        """List the clips from a node, at a transform and a frame, that do not collide."""
         clips = self.leaving[node]
         free = self._clear_of_discs(
             clips, (self.disc_centres - translation) / rotation
@@ -140,7 +141,7 @@ class Search:
         return free
 
     def _is_clear_of(self, members: Points, clip: int) -> bool:
-        """Check whether a clip keeps 0.60 m from the members of another group, (frames, members)."""
+        """Return whether a clip keeps 0.60 m from the members of another group, (frames, members)."""
         from_centre = np.abs(members - self.centres[clip]).min()
         if from_centre > self.radii[clip] + APART:
             self.spared += 1
@@ -167,9 +168,9 @@ class Search:
             yield expected, State(clip.end, rotation, translation, goal, last, elapsed, walk)
 
     def _pass_points(self, paths: Points, points: Points, goal: int) -> tuple[Indices, Indices]:
-        """Count the points passed after each path, if `goal` of them were passed before it.
+        """Count the points that are passed at the end of each path, if `goal` points were passed before.
 
-        Also return the frame of each path in which it passes its last point.
+        Also return the frame in which each path passes its last point.
         """
         goals = np.full(len(paths), goal)
         frames = np.zeros(len(paths), int)
@@ -194,9 +195,10 @@ class Search:
 
 
 class GroupWalk(NamedTuple):
-    """A planned path: numbers of clips, its seconds, and the effort of the search.
+    """A planned walk: the numbers of its clips, its duration, seconds, and the effort of the search.
 
-    `expanded` states; `tested` pairs of a clip and an obstacle, frame by frame; `spared` pairs, by bounds.
+    The effort is the number of `expanded` states, of pairs of a clip and an obstacle that were `tested` frame
+    by frame, and of pairs that were `spared` because of their bounds.
 
     Examples
     --------
@@ -235,25 +237,25 @@ def plan_group(
     weight: float = 1.5,
     most: int = MOST,  # reads: name: users give it as a keyword
 ) -> GroupWalk:
-    """Find clips that lead a group past all points and clear of all obstacles [LCF05, search].
+    """Find a sequence of clips that leads a group past all points and around all obstacles [LCF05, search].
 
-    Weighted A*: the state is expanded whose elapsed time plus `weight` times the expected remaining time is
-    least. The estimate is the distance over all points that remain, at 1.05 m/s, and 1.3 s per radian between
-    the heading and the next point. Of similar states, at one node within a cell of 0.7 m and 0.3 rad and with
-    the same next point, only the first is expanded.
+    Weighted A*: the next state to expand has the smallest sum of elapsed time and `weight` times the expected
+    remaining time. The estimate is the distance over all remaining points at 1.05 m/s, plus 1.3 s per radian
+    between the heading and the next point. Of similar states, at one node within a cell of 0.7 m and 0.3 rad
+    and with the same next point, only the first is expanded.
 
     Parameters
     ----------
-    graph : of the group.
+    graph : the graph of the group.
     scene : points and obstacles.
-    start : the transform of node 0, the first one, to the ground; by default at the origin, heading to +z.
-    weight : a larger weight finds a path sooner, and a longer one.
+    start : the transform of the first node, 0, to the ground. By default at the origin, heading to +z.
+    weight : a larger weight finds a path faster, but a longer path.
     most : largest number of states to expand.
 
     Raises
     ------
     MocapError : for an invalid scene.
-    NoWalk : if no path was found, with the number of points passed, what ended the search, and a remedy.
+    NoWalk : if no path was found, with the number of points passed, the reason, and a remedy.
 
     Examples
     --------
@@ -264,9 +266,6 @@ def plan_group(
     ([12, 3, 0], 9.0)
     >>> plan_group(graph, Scene((1.5 + 0j,))).seconds  # the middle moves 0.5 m
     0.5
-    >>> plan_group(graph, Scene((9 + 2j,), ((5 + 0j, 0.5),)), start=PlanarTransform(0, 0, 4.0))
-    Traceback (most recent call last):
-    mocap.errors.NoWalk: Member 1 starts -0.05 m from the rim of the obstacle at x=0, z=5: 0.3 m is the least.
 
     Notebook: 19-group-graphs
     """
@@ -296,9 +295,9 @@ def plan_group(
 
 
 def _cell(state: State, *, with_others: bool) -> tuple[float, ...]:
-    """Return the cell of a state; of the states in one cell only the first is expanded.
+    """Return the cell of a state, in which only the first state is expanded.
 
-    With other groups, only states at the same time share a cell.
+    If there are other groups, only states at the same time share a cell.
     """
     row = round(state.translation.real / CELL)
     column = round(state.translation.imag / CELL)
@@ -307,7 +306,7 @@ def _cell(state: State, *, with_others: bool) -> tuple[float, ...]:
 
 
 def _no_path(graph: GroupGraph, scene: Scene, farthest: int, limit: int | None) -> NoWalk:
-    """Describe a failed search: the points passed, what ended it, and a remedy."""
+    """Return the error for a failed search: the points passed, the reason, and a remedy."""
     if limit is not None:
         reason = f"the limit of {limit} states ended the search"
         advice = "Add a point before it, allow more states"

@@ -1,22 +1,22 @@
 """In-betweening: motion from one pose to another, each at its position, in a given time.
 
-An animator sets two poses and a time, and the frames between them are missing. A straight line between them
-slides. Here a walk through a motion graph [KGP02] takes the character from the one to the other. Walks from
-both poses that meet half-way are what the clips can do. The best of them are bent [Gle01], their steps are
-lengthened, and their time is stretched; the one that changes least is kept. Its ends fade into the poses, and
-its feet are cleaned up [KSG02].
+An animator sets two poses and a time, and the frames between them are missing. With a straight line between
+them the feet slide. Here a walk through a motion graph [KGP02] takes the character from the first pose to the
+second. A search from both poses finds walks that meet half-way. The best of them are bent [Gle01], their
+steps are lengthened, and their time is warped. The walk with the smallest changes is selected. Its ends are
+blended into the poses, and foot sliding is removed [KSG02].
 
-The papers follow a path. That a walk arrives at a pose in time is ours: the search from both sides, the
-bending to an end, and the ends that fade.
+The papers follow a path. Arrival at a pose in a given time is ours: the search from both sides, the bending
+to an end, and the blending of the ends.
 
 Reading order
 -------------
-1. `end_bending`: a walk bent and retimed so that it ends where it must
+1. `end_bending`: bending and retiming of a walk so that it ends at a given position
 2. `two_sided_search`: frames similar to two poses, and walks from both that meet
-3. `end_poses`: ends that become the poses, and feet that stand still
-4. `planted_feet`: the last millimetre by which feet slide
-5. `in_betweens`: the whole: search, bend, fade
-6. `interpolation`: gaps so short that a curve does better
+3. `end_poses`: blending of the ends into the poses, and removal of foot sliding
+4. `planted_feet`: removal of the last millimetre of foot sliding
+5. `in_betweens`: the complete method: search, bend, blend
+6. `interpolation`: cubic curves for short gaps
 
 References
 ----------

@@ -1,7 +1,8 @@
-"""Both ends of a walk made equal to two poses, and feet that stand still between them.
+"""Blending of both ends of a walk into two poses, and removal of foot sliding between them.
 
-The residuals at both ends fade into the walk, as those of a cut do in inertialization. Then feet slide a
-little, and `feet.clean_up` [KSG02] puts them back, except in the poses themselves. All of this is ours.
+The residuals at both ends decay into the walk, as those at a cut do in inertialization. This makes feet slide
+slightly, and `feet.clean_up` [KSG02] removes the sliding, except in the poses themselves. All of this is
+ours.
 """
 
 from __future__ import annotations
@@ -22,8 +23,8 @@ from mocap.feet.footplants import least_frames
 from mocap.feet.footskate import clean_up, marks_by_joint, settled_marks
 from mocap.methods.in_betweening.two_sided_search import pose_at
 
-FADE = 0.5  # seconds in which a residual fades, at most; half of a walk that is shorter than two of it
-NEAR = 0.3  # seconds from an end: a footplant so near to it keeps its position at its frame next to the end
+FADE = 0.5  # seconds in which a residual decays, or half of the walk if that is shorter
+NEAR = 0.3  # seconds: a footplant this near to an end keeps its position in the frame next to the end
 
 ANKLE = 0  # the rows of a foot's joints
 BALL = 1
@@ -31,16 +32,16 @@ FOOT = (ANKLE, BALL)
 
 
 def meet_poses(motion: Motion, start: Motion, end: Motion, *, speed: bool = True) -> Motion:
-    """Add the residuals of the first and the last frame to two poses, and let them fade into the walk.
+    """Blend the first and the last frame of a walk into two poses, by residuals that decay into the walk.
 
-    The residuals fade as in `blending.inertialize`: by a quintic that starts with their velocity at the pose,
-    and ends at rest. At the end of the walk it runs backwards.
+    The residuals decay as in `blending.inertialize`: by a quintic that starts with their velocity at the
+    pose, and ends at rest. At the end of the walk it runs backwards.
 
     Parameters
     ----------
     motion : F frames, which starts and ends near the poses.
-    start, end : the poses, the first frame of the one and the last frame of the other.
-    speed : whether the fades start with the velocities of the residuals; otherwise they start level.
+    start, end : the poses, which are the first frame of `start` and the last frame of `end`.
+    speed : whether the decay starts with the velocities of the residuals. Otherwise it starts level.
     """
     begin = _fading(motion, start, 1, speed=speed)
     finish = _fading(motion, end, -1, speed=speed)
@@ -48,9 +49,9 @@ def meet_poses(motion: Motion, start: Motion, end: Motion, *, speed: bool = True
 
 
 def _fading(motion: Motion, pose: Motion, direction: int, *, speed: bool) -> Displacement:
-    """Let the residual x of an end fade: x(u) = (1 - u)⁴ (x + (4 x + v T) u), and 0 for u ≥ 1.
+    """Compute the decay of the residual x of an end: x(u) = (1 - u)⁴ (x + (4 x + v T) u), and 0 for u ≥ 1.
 
-    `direction` is 1 for the first frames of both motions, -1 for their last ones.
+    `direction` is 1 for the first frames of both motions, and -1 for their last ones.
     """
     last = len(motion) - 1
     frame = 0 if direction > 0 else last
@@ -68,15 +69,16 @@ def _fading(motion: Motion, pose: Motion, direction: int, *, speed: bool) -> Dis
 
 
 def _quintic(x: Array, v: Array, u: Array) -> Array:
+    """Evaluate the quintic that decays from x with the velocity v at u = 0 to rest at u = 1."""
     return np.asarray((1 - u) ** 4 * (x + (4 * x + v) * u))
 
 
 def stand(motion: Motion) -> Motion:
-    """Clean up footskate, but leave the poses of the first and of the last frames.
+    """Remove foot sliding without changing the poses of the first and the last frames.
 
-    `feet.clean_up` moves a footplant to its mean position, and lets the change fade within 0.2 s. A pose at
-    an end would change. Therefore footplants near an end keep their position next to it, and from there to
-    the end both joints of the foot are held on their own path, as if they stood.
+    `feet.clean_up` moves a footplant to its mean position, and blends the change over 0.2 s, which would
+    change a pose at an end. Therefore footplants near an end keep their position next to it, and from there
+    to the end both joints of the foot are held on their own path, as if they were planted.
 
     Parameters
     ----------
@@ -84,18 +86,18 @@ def stand(motion: Motion) -> Motion:
 
     Returns
     -------
-    The motion; footplants that the clean-up released are no longer marked.
+    The motion, in which footplants that the clean-up released are no longer marked.
     """
     legs = find_legs(motion.skeleton)
     marks = settled_marks(motion, legs)
     places = joint_positions(motion)
     columns = [joint for leg in legs for joint in (leg.ankle, leg.ball)]
-    held = np.full((len(motion), len(columns), 3), np.nan)  # nan where nothing is held
+    held = np.full((len(motion), len(columns), 3), np.nan)  # NaN for joints that are not held
     for number, leg_marks in enumerate(marks):
         foot = slice(len(FOOT) * number, len(FOOT) * (number + 1))
         foot_places = places[:, columns[foot]]
         _hold_end(held[:, foot], foot_places, leg_marks, motion.fps)
-        # The start is the end of the motion run backwards.
+        # The start is the end of the reversed motion.
         _hold_end(held[::-1, foot], foot_places[::-1], leg_marks[:, ::-1], motion.fps)
     names = [motion.skeleton.names[joint] for joint in columns]
     settled = marks_by_joint(motion, legs, marks)
@@ -103,7 +105,7 @@ def stand(motion: Motion) -> Motion:
     ankle_last = range(len(columns))[::-1]  # its column counts where a foot without toes has its ball there
     constrained = {names[n]: settled[names[n]] | is_held[:, n] for n in ankle_last}
     by_joint = {columns[n]: held[:, n] for n in ankle_last}
-    # Its warnings would also list the frames that are held here.
+    # The warnings of `clean_up` would also list the frames that are held here.
     with warnings.catch_warnings(action="ignore", category=MocapWarning):
         cleaned = clean_up(replace(motion, contacts={**motion.contacts, **constrained}), legs, held=by_joint)
     contacts = {name: mark & settled.get(name, mark) for name, mark in cleaned.contacts.items()}
@@ -111,13 +113,13 @@ def stand(motion: Motion) -> Motion:
 
 
 def _hold_end(held: Array, places: Array, marks: Mask, fps: float) -> None:
-    """Fill in where the joints of a foot are held at the end of a motion, and in the footplant next to it.
+    """Fill in the positions at which a foot is held at the end of a motion and in its last footplant.
 
     Parameters
     ----------
-    held : (F, 2, 3), filled in; nan where nothing is held.
+    held : (F, 2, 3), positions that are filled in, NaN for joints that are not held.
     places : (F, 2, 3), the positions of ankle and ball.
-    marks : (2, F), when they stand.
+    marks : (2, F), the contacts of ankle and ball.
     fps : frames per second.
     """
     frames = len(places)
@@ -128,8 +130,8 @@ def _hold_end(held: Array, places: Array, marks: Mask, fps: float) -> None:
         first, begin = stands[-1].tolist()
         _hold_last_plant(held[:begin], places[:begin], marks[:, :begin], first)
     held[begin:] = places[begin:]
-    # Where one joint stands up to the end, the other is where the rotation of the foot puts it. This includes
-    # the gaps so short that a clean-up closes them.
+    # If one joint stands up to the end, the rotation of the foot determines the position of the other. This
+    # includes gaps in the contacts that are so short that the clean-up closes them.
     for joint in FOOT:
         partner = BALL - joint
         is_alone = np.isnan(held[:, joint, 0]) & ~np.isnan(held[:, partner, 0])
@@ -141,7 +143,8 @@ def _hold_end(held: Array, places: Array, marks: Mask, fps: float) -> None:
 def _hold_last_plant(held: Array, places: Array, marks: Mask, first: int) -> None:
     """Hold a foot in the footplant from frame `first` to the last frame.
 
-    What stands in the last frame is held at its position there; the other joint a foot's length away.
+    A joint that stands in the last frame is held at its position there, and the other joint at the distance
+    of a foot's length.
     """
     length = np.linalg.norm(places[0, ANKLE] - places[0, BALL])
     for joint in sorted(FOOT, key=lambda joint: not marks[joint, -1]):

@@ -1,7 +1,7 @@
-"""A motion from one pose to another, each at its position, in a given time: an in-between.
+"""In-betweens: a motion from one pose to another, each at its position, in a given time.
 
-The walks that `two_sided_search` finds are what the clips can do. Each of the best is bent and retimed, and
-the one of lowest cost is kept. Its ends fade into the poses, and its feet are cleaned up.
+`two_sided_search` finds walks through the clips. Each of the best is bent and retimed, and the one of lowest
+cost is selected. Its ends are blended into the poses, and foot sliding is removed.
 """
 
 from __future__ import annotations
@@ -22,25 +22,29 @@ from mocap.methods.in_betweening.end_bending import MOST_TURN, Arrived, bend_to
 from mocap.methods.in_betweening.end_poses import meet_poses, stand
 from mocap.methods.in_betweening.planted_feet import put_back
 from mocap.methods.in_betweening.two_sided_search import Candidates, Joined, TwoSided, find_candidates
-from mocap.synthesis.walk_to_motion import to_motion, with_plants
+from mocap.synthesis.walk_to_motion import to_motion, with_footplants
 
-TRIED = 24  # walks that are bent, of all that were found; the best that arrives is taken
-# Walks that are bent at most, TRIED at a time while none arrives: of 24 requests anywhere, 2 have none among
-# the first 24, and one of these has two among the first 72. More take tens of seconds to refuse.
+TRIED = 24  # walks that are bent at a time. The best that arrives is selected
+# Largest number of walks that are bent, TRIED at a time until one arrives. Of 24 requests at random
+# positions, 2 have none among the first 24, and one of these has two among the first 72. With more, a refusal
+# would take tens of seconds.
 MOST_TRIED = 72
-POSE = 0.1  # metres: the RMS distance by which joints may be moved where the ends fade into the poses
+POSE = 0.1  # metres: the largest RMS displacement of joints when the ends are blended into the poses
 
-# Times that feet are cleaned up and ends brought to the poses. The clean-up may release what it should hold
-# at the ends, by up to 1° of a joint; feet then slide by up to 0.3 mm. After the second round most do not.
-# Where a straight leg makes the clean-up lower the root near an end, 1 mm is left, which `put_back` removes.
+# Rounds of foot clean-up and blending into the poses. The clean-up may release constraints at the ends, which
+# changes a joint by up to 1° and makes feet slide by up to 0.3 mm. After the second round most do not slide.
+# If a straight leg makes the clean-up lower the root near an end, 1 mm is left, which `put_back` removes.
 ROUNDS = 2
 
 
 class InBetween(NamedTuple):
-    """A motion from one pose to another, and how it was made.
+    """A motion from one pose to another, and the walk from which it was made.
 
-    `motion`: N + 1 frames, the first and the last of them the requested poses; `walk`: the edges that it
-    plays; `arrived`: the walk before its ends faded, and by how much it was turned, lengthened and retimed.
+    Parameters
+    ----------
+    motion : N + 1 frames, of which the first and the last are the requested poses.
+    walk : the edges of the walk.
+    arrived : the walk before its ends were blended, with its rotation, lengthening and retiming.
     """
 
     motion: Motion
@@ -53,15 +57,16 @@ def in_between(graph: MotionGraph | CompiledGraph, start: Motion, end: Motion, s
 
     Parameters
     ----------
-    graph : pruned; for many in-betweens, compiled once by `graphs.compile_graph`.
-    start, end : motions of the graph's skeleton, at their positions: from the first frame of one to the last
-        frame of the other. Further frames show their velocities. Clips of the graph are met best.
+    graph : pruned. For several in-betweens, compile it once by `graphs.compile_graph`.
+    start, end : motions of the graph's skeleton, at their positions. The in-between leads from the first
+        frame of `start` to the last frame of `end`. Further frames of both define velocities. Poses from the
+        clips of the graph are met best.
     seconds : from the first frame to the last, rounded to whole frames.
 
     Raises
     ------
-    NoWalk : if no walk arrives although its pace and its steps change by up to a quarter, its turning by up
-        to 60° per second and the poses at its ends by up to 10 cm.
+    NoWalk : if no walk arrives when its pace and its steps may change by a quarter, its angular speed by 60°
+        per second and the poses at its ends by 10 cm.
     """
     compiled = compile_graph(graph)
     require_motion(start)
@@ -74,23 +79,25 @@ def in_between(graph: MotionGraph | CompiledGraph, start: Motion, end: Motion, s
 def fill_gap(graph: MotionGraph | CompiledGraph, first: Motion, second: Motion, seconds: float) -> InBetween:
     """Find a motion that fills the gap between two motions, each at its position.
 
-    As `in_between`, for poses whose past and future are known: a character continues the one motion and
-    arrives in the other. Its candidates move as both do, and its ends start with their velocities.
+    Like `in_between`, for poses whose past and future are known: the character continues the first motion and
+    arrives in the second. Candidates have similar velocities, and the ends are blended with the velocities of
+    both motions.
 
     Parameters
     ----------
     graph : as for `in_between`.
-    first, second : motions of the graph's skeleton. From the last frame of one to the first of the other.
-    seconds : from one to the other. In less than `SHORTEST` seconds `interpolate` does better.
+    first, second : motions of the graph's skeleton. The gap is from the last frame of `first` to the first
+        frame of `second`.
+    seconds : the duration of the gap. Below `SHORTEST` seconds, `interpolate` is more accurate.
 
     Returns
     -------
-    The in-between at the rate of the graph. Its first pose is the last of `first`, its last the first of
-    `second`.
+    The in-between at the rate of the graph. Its first pose is the last of `first`, and its last pose is the
+    first of `second`.
 
     Raises
     ------
-    NoWalk : as `in_between`.
+    NoWalk : as for `in_between`.
 
     Examples
     --------
@@ -98,8 +105,9 @@ def fill_gap(graph: MotionGraph | CompiledGraph, first: Motion, second: Motion, 
     >>> walk = body.resample(datasets.sample("walk_curve_1"), 30)
     >>> graph = graphs.build([walk], window=10, threshold=0.04)
     >>> found = fill_gap(graph, walk[:100], walk[130:], 31 / 30)  # frames 99 to 130
-    >>> len(found.motion), bool(abs(found.motion.root_positions - walk.root_positions[99:131]).max() < 0.01)
-    (32, True)
+    >>> errors = abs(found.motion.root_positions - walk.root_positions[99:131])  # metres
+    >>> len(found.motion), float(errors.max().round(2))
+    (32, 0.0)
     """
     compiled = compile_graph(graph)
     require_motion(first)
@@ -116,7 +124,7 @@ def fill_gap(graph: MotionGraph | CompiledGraph, first: Motion, second: Motion, 
 
 
 def _next_frame(earlier: Motion, pose: Motion) -> Motion:
-    """Continue for a frame with the velocity from one frame to the next."""
+    """Extrapolate a pose by one frame, with the velocity from an earlier frame to it."""
     return displaced(pose, difference(pose, earlier))
 
 
@@ -126,11 +134,11 @@ def _connect(
     poses: tuple[Motion, Motion],
     seconds: float,
 ) -> InBetween:
-    """Search, bend and fade: a motion from the first frame of one pose to the last frame of the other."""
+    """Search, bend and blend a motion from the first frame of the start to the last frame of the end."""
     start, end = poses
     frames = round(seconds * graph.fps)
     joined = TwoSided(graph, candidates, frames).best(MOST_TRIED)
-    source = with_plants(graph.source)
+    source = with_footplants(graph.source)
     walks: list[tuple[float, list[Edge], Arrived]] = []
     for group in range(0, len(joined), TRIED):
         walks = list(_arriving(source, graph, joined[group : group + TRIED], frames))
@@ -152,10 +160,10 @@ def _connect(
 def _arriving(
     source: MotionGraph, graph: CompiledGraph, joined: Sequence[Joined], frames: int
 ) -> Iterator[tuple[float, list[Edge], Arrived]]:
-    """Bend walks, and yield those that arrive within the limits, each with its cost."""
+    """Bend walks, and yield those that arrive within the limits, with their costs."""
     for candidate in joined:
         walk = [graph.edges[edge] for edge in candidate.edges]
-        played = to_motion(source, walk, start=candidate.place)
+        played = to_motion(source, walk, start=candidate.transform)
         played = played[candidate.first : candidate.first + candidate.frames + 1]
         arrived = bend_to(played, frames + 1, candidate.end, candidate.angle)
         if arrived.lack <= POSE / 2 and np.abs(arrived.turned).max() <= MOST_TURN:

@@ -1,15 +1,15 @@
-"""A short in-between by cubic curves: for gaps in which no step can be taken.
+"""In-betweens by cubic interpolation, for gaps that are too short for a step.
 
-In less than a third of a second a body only carries on with its movement, and a curve does that better than a
-walk that must be bent. Each coordinate runs along the cubic Hermite curve with the positions x₀, x₁ and the
+In less than a third of a second, a body only continues its movement. A curve reproduces this better than a
+walk that must be bent. Each coordinate follows the cubic Hermite curve with the positions x₀, x₁ and the
 velocities v₀, v₁ (per gap) of both ends:
 
     x(s) = x₀ + d s + (v₀ - d) s (1 - s)² - (v₁ - d) s² (1 - s),   d = x₁ - x₀,   0 ≤ s ≤ 1
 
-The curve is C. Hermite's; to run it through the rotation vectors of all joints is common practice. Where it
-is used is ours: in 38 gaps of five frames, in clips of four collections, its positions are nearer to the
-captured ones than a straight line's in 33. A walk is found for 31 of them, and is nearer in 18 by positions
-and in 8 by rotations. In gaps of 15 frames the walk is nearer by positions in all 32.
+Hermite interpolation of the rotation vectors of all joints is common practice. The limit of its use is ours.
+In 38 gaps of five frames, in clips of four collections, its positions are nearer to the captured ones than
+those of a straight line in 33. A walk is found for 31 of the gaps, and is nearer in 18 by positions and in 8
+by rotations. In gaps of 15 frames, the walk is nearer by positions in all 32.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from mocap.body.motion import Motion
 from mocap.editing.displacements import Displacement, difference, displaced
 from mocap.errors import MocapError
 
-SHORTEST = 1 / 3  # seconds: shorter gaps are interpolated, and longer ones filled with a walk
+SHORTEST = 1 / 3  # seconds: shorter gaps are interpolated, and longer gaps are filled with a walk
 
 
 def hermite(change: Array, start: Array, end: Array, s: Array) -> Array:
@@ -48,11 +48,12 @@ def hermite(change: Array, start: Array, end: Array, s: Array) -> Array:
 
 
 def interpolate(first: Motion, second: Motion, frames: int) -> Motion:
-    """Fill a gap by cubic curves that continue the velocities at both of its sides.
+    """Fill a gap by cubic curves that continue the velocities at both of its ends.
 
     Parameters
     ----------
-    first, second : motions of one skeleton and rate; one frame alone is taken to move as the gap does.
+    first, second : motions of one skeleton and rate. For a single frame, the mean velocity of the gap is
+        used.
     frames : from the last frame of `first` to the first of `second`, 1 or more.
 
     Returns
@@ -61,16 +62,16 @@ def interpolate(first: Motion, second: Motion, frames: int) -> Motion:
 
     Raises
     ------
-    SkeletonMismatch : for two skeletons.
-    MocapError : for two rates, and for less than one frame.
+    SkeletonMismatch : for different skeletons.
+    MocapError : for different rates, and for less than one frame.
 
     Examples
     --------
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_straight")
     >>> gap = interpolate(walk[:300], walk[320:], 21)  # frames 299 to 320: 0.175 s
-    >>> bool(abs(gap.root_positions - walk.root_positions[299:321]).max() < 0.005)
-    True
+    >>> float(abs(gap.root_positions - walk.root_positions[299:321]).max().round(3))  # metres
+    0.002
     """
     if first.fps != second.fps or frames < 1:
         rates = f"{first.fps:g} and {second.fps:g} Hz"
@@ -87,7 +88,7 @@ def interpolate(first: Motion, second: Motion, frames: int) -> Motion:
 
 
 def _velocity(frames: Motion, gap: int) -> Displacement | None:
-    """Return the change from a frame to the next one, times the frames of a gap; None for a single frame."""
+    """Return the change between two frames, times the frames of a gap, or None for a single frame."""
     if len(frames) < 2:
         return None
     change = difference(frames[1:], frames[:1])

@@ -1,10 +1,11 @@
-"""Feet put back by the last millimetre, exactly: two-bone inverse kinematics frame by frame.
+"""Removal of the last millimetre of foot sliding: two-bone inverse kinematics frame by frame.
 
-A clean-up may lower the root where a leg is straight. Near an end this fades back into the pose, and a foot
-that stands slides by up to 1 mm. Here the root stays, and the leg of each such foot is posed anew
-[KSG02, step 4]: its ankle and its ball are moved to where they stand, and the corrections fade around each
-footplant. A leg that cannot reach stretches as far as it can. That this comes last, without the root, is
-ours. In five in-betweens that slid by 0.24 to 0.74 mm, 0.01 to 0.10 mm are left; knees turn by up to 5° more.
+A clean-up may lower the root if a leg is straight. Near an end, this change is blended back into the pose,
+and a planted foot slides by up to 1 mm. Here the root is unchanged, and the leg of each such foot is posed
+again [KSG02, step 4]: its ankle and its ball are moved to the positions of the footplant, and the corrections
+are blended around each footplant. A leg that cannot reach its target is extended as far as possible. This
+last step, without the root, is ours. In five in-betweens that slid by 0.24 to 0.74 mm, 0.01 to 0.10 mm are
+left, and knees rotate by up to 5° more.
 """
 
 from __future__ import annotations
@@ -22,14 +23,15 @@ from mocap.feet.ankle_targets import smooth_fill
 from mocap.feet.footskate import settled_marks
 from mocap.feet.leg_track import ROUNDING, LegTrack, dot, pose_leg, track_leg
 
-SLIDE = 1e-4  # metres: a leg whose feet slide by less is left as it is
-STRAIGHT = 1e-5  # times the length of a leg: a leg stays so much shorter than straight
+SLIDE = 1e-4  # metres: a leg whose foot slides by less is not changed
+STRAIGHT = 1e-5  # fraction of a leg's length by which its extension stays below the maximum
 
 
 def put_back(motion: Motion) -> Motion:
-    """Move planted feet to one position each, without moving the root.
+    """Move each planted foot to a constant position, without changing the root.
 
-    A footplant at an end of the motion gets its position in the pose there, another one its mean position.
+    A footplant at an end of the motion gets its position in the pose there, and any other footplant its mean
+    position.
 
     Parameters
     ----------
@@ -37,13 +39,13 @@ def put_back(motion: Motion) -> Motion:
 
     Returns
     -------
-    The motion with other rotations of hips, knees and ankles. The poses at both ends stay.
+    The motion with changed rotations of hips, knees and ankles. The poses at both ends are unchanged.
 
     Examples
     --------
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_straight")[:240]
-    >>> float(abs(put_back(walk).rotations - walk.rotations).max())  # its feet stand already
+    >>> float(abs(put_back(walk).rotations - walk.rotations).max())  # its feet do not slide
     0.0
     """
     legs = find_legs(motion.skeleton)
@@ -55,7 +57,7 @@ def put_back(motion: Motion) -> Motion:
         ball = _residuals(track.ball, marks[1])
         if max(np.abs(ankle).max(), np.abs(ball).max()) < SLIDE:
             continue
-        # While only the ball stands, the foot moves as a whole.
+        # While only the ball stands, the foot is translated as a whole.
         ankle = np.where(marks[0][:, None], ankle, ball)
         offset = np.where((marks[0] & marks[1])[:, None], ball - ankle, 0.0)
         is_known = marks[0] | marks[1]
@@ -67,20 +69,20 @@ def put_back(motion: Motion) -> Motion:
 
 
 def _residuals(places: Array, marks: Mask) -> Array:
-    """Return the vectors from the positions of a joint to where it stands, (F, 3), metres; else 0."""
+    """Return the vectors from a joint to its position in the footplant, (F, 3), metres, and else 0."""
     residuals = np.zeros_like(places)
     for start, stop in runs(marks):
         plant = places[start:stop]
         at_both = start == 0 and stop == len(places)
         if at_both:
-            continue  # both poses stay
+            continue  # neither pose may change
         target = plant[-1] if stop == len(places) else plant[0] if start == 0 else plant.mean(axis=0)
         residuals[start:stop] = target - plant
     return residuals
 
 
 def _posed(track: LegTrack, ankle: Array, offset: Array) -> Array:
-    """Pose a leg so that its ankle moves by `ankle` and its ball by `offset` more, (F, 3) each, metres.
+    """Pose a leg so that its ankle moves by `ankle` and its ball by `ankle + offset`, (F, 3) each, metres.
 
     Returns
     -------

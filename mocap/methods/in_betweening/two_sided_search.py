@@ -1,15 +1,17 @@
-"""A search from two poses at once: walks from the start and walks back to the end, which meet half-way.
+"""Bidirectional search between two poses: walks from the start and back from the end meet half-way.
 
-A search from one side finds many walks that pass near the end and few that end in its pose. Therefore walks
-grow from both sides. Every node at which one of each kind ends joins two of them: n walks from each side give
-up to n² walks. This is the bidirectional search of I. Pohl (1971) with beams for its two fronts.
+A search from one side finds walks that pass near the end, but few that end in its pose. Therefore walks are
+extended from both sides. Each node at which walks from both sides end joins them, so that n walks from each
+side give up to n² walks. This is the bidirectional search of I. Pohl (1971), with a beam for each of its two
+fronts.
 
-The walks are `States`: `along` is their length in metres, and `hop` the edge of their last step. Positions
-are in the world: p ↦ rotation · p + translation transforms the clip of a walk's last node. If walk a from the
-start meets walk b from the end, b's clip should have the transform of a's. The difference remains to be bent.
+The walks are `States`: `along` is their length in metres, and `macro_edge` the edge of their last step.
+Positions are in the world: p ↦ rotation · p + translation transforms the clip of a walk's last node. If walk
+a from the start meets walk b from the end, the transforms of their clips should be equal. Bending removes the
+difference.
 
-The steps are `States` as well, walks of one edge each. Their points are the N nodes of the graph, then the K
-frames similar to the start, points N to N + K - 1, and then those similar to the end.
+Steps are also `States`, namely walks of one edge each. Their points are the N nodes of the graph, then the K
+frames similar to the start, points N to N + K - 1, and then the frames similar to the end.
 """
 
 from __future__ import annotations
@@ -28,31 +30,35 @@ from mocap.matching.point_clouds import align, point_cloud
 from mocap.methods.in_betweening.end_bending import MOST_PACE, MOST_STEPS, MOST_TURN, RISE, STRETCH, TURN
 from mocap.steering.layered_search import LayeredSearch, States, standing, start_states
 
-AHEAD = 0.1  # seconds from a pose to the one before or after it, and between two candidates at least
+AHEAD = 0.1  # seconds from a pose to the one before or after it, and the least time between two candidates
 CANDIDATES = 6  # frames of the clips that are tried for each pose
 
-# Costs of a walk beside `TURN` and `STRETCH`. A seam costs as much as a second turned by 57° per second.
-SEAM = 0.5  # for each seam
-MATCH = 300.0  # times the squared distance of a seam, m²
-POSE = 100.0  # times the squared distance of the end poses, m²
+# Costs of a walk, in addition to `TURN` and `STRETCH`. A seam costs as much as one second with an additional
+# angular speed of 57° per second.
+SEAM = 0.5  # cost of a seam
+MATCH = 300.0  # weight of the squared distance at a seam, m²
+POSE = 100.0  # weight of the squared distance from the poses at the ends, m²
 
-PEAK = 1.4  # times: the maximum of a smooth change that is level at both ends, over its mean
-BEYOND = 100.0  # for each radian per second, or unit of a step's logarithm, estimated beyond its limit
+PEAK = 1.4  # ratio of the maximum to the mean of a smooth change that is level at both ends
+BEYOND = 100.0  # cost of each radian per second, or unit of a step's logarithm, expected beyond its limit
 
-LAYER = 0.1  # seconds; walks in one layer compete
-WIDTH = 400  # walks that stay in a layer
+LAYER = 0.1  # seconds: walks in one layer compete
+WIDTH = 400  # beam width
 CELL = 0.1  # metres: walks at one node in one cell are similar
-ANGLE = 0.15  # radians: the same for their directions
+ANGLE = 0.15  # radians: the sector of headings of similar walks
 MEET = 3000  # walks from the start that are joined with those from the end
-PAIRS = 3_000_000  # joins that are compared, at most
+PAIRS = 3_000_000  # largest number of joins that are compared
 
 
 class Candidates(NamedTuple):
     """K frames similar to a pose, and the planar transforms that align their clips with it.
 
-    `stretch` (K,): the edge that plays the frame; `since` (K,): its number among the edge's frames;
-    `rotation` and `translation` (K,): p ↦ rotation · p + translation aligns its clip with the pose;
-    `distance` (K,): metres.
+    Parameters
+    ----------
+    stretch : shape (K,), the edge that contains the frame.
+    since : shape (K,), the number of the frame in the edge.
+    rotation, translation : shape (K,), p ↦ rotation · p + translation aligns the clip with the pose.
+    distance : shape (K,), the distance from the pose, metres.
     """
 
     stretch: Indices
@@ -63,22 +69,22 @@ class Candidates(NamedTuple):
 
 
 def pose_at(motion: Motion, direction: int, frames: int = 0) -> Motion:
-    """Return the frame `frames` after a motion's first one, or for direction -1 before its last one."""
+    """Return the pose `frames` after a motion's first frame, or, for direction -1, before its last frame."""
     number = frames if direction > 0 else len(motion) - 1 - frames
     return motion[number : number + 1]
 
 
 def find_candidates(graph: CompiledGraph, motion: Motion, *, direction: int, limit: float) -> Candidates:
-    """Find the frames of a graph's clips most similar to a motion's first or last pose and its velocity.
+    """Find the frames of a graph's clips that are most similar to a motion's first or last pose and velocity.
 
-    The distance is the one of [KGP02, Eqs. 1-4] over two poses that are 0.1 s apart, or over one pose if the
-    motion is shorter. The frames are at least 0.1 s apart as well.
+    The distance is that of [KGP02, Eqs. 1-4] over two poses that are 0.1 s apart, or over one pose if the
+    motion is shorter. The candidates are also at least 0.1 s apart.
 
     Parameters
     ----------
     graph : the compiled graph.
-    motion : begins or ends with the pose.
-    direction : 1 for its first frame, as for a start; -1 for its last one, as for an end.
+    motion : a motion that begins or ends with the pose.
+    direction : 1 for its first frame, as at a start, and -1 for its last frame, as at an end.
     limit : the largest distance, metres.
 
     Raises
@@ -115,9 +121,9 @@ def find_candidates(graph: CompiledGraph, motion: Motion, *, direction: int, lim
 
 
 def _separate_minima(distance: Array, lane: Indices, step: int) -> Indices:
-    """Return the `CANDIDATES` smallest distances, each the minimum among the frames within `step` of it.
+    """Return the `CANDIDATES` smallest distances, each the minimum of the frames within `step`.
 
-    `lane` numbers the frames; the lanes of two clips are further apart than `step`.
+    `lane` numbers the frames, with gaps longer than `step` between clips.
     """
     lanes = np.full(int(lane.max()) + 1, np.inf)
     lanes[lane] = distance
@@ -127,31 +133,36 @@ def _separate_minima(distance: Array, lane: Indices, step: int) -> Indices:
 
 
 class Joined(NamedTuple):
-    """A walk from start to end: its edges, and the frames that it plays of them.
+    """A walk from start to end: its edges, and their frames that it plays.
 
-    `edges`: numbers in the compiled graph; `first`: the frames of the first edge that it leaves out;
-    `frames`: from the start to the end; `place`: aligns the first clip with the start; `end`: the ground
-    point that the last frame's root must reach; `angle`: the rotation that it needs there, radians;
-    `cost`: of its seams, and of the poses at its ends.
+    Parameters
+    ----------
+    edges : the numbers of its edges in the compiled graph.
+    first : the number of frames of the first edge that are left out.
+    frames : the number of frames from the start to the end.
+    transform : the transform that aligns the first clip with the start.
+    end : the ground point that the root must reach in the last frame.
+    angle : the additional rotation of the last frame, radians.
+    cost : the cost of its seams and of the poses at its ends.
     """
 
     edges: Indices
     first: int
     frames: int
-    place: PlanarTransform
+    transform: PlanarTransform
     end: complex
     angle: float
     cost: float
 
 
 class TwoSided:
-    """A search between two poses; `best` returns the walks that need the least bending and the fewest seams.
+    """A bidirectional search for walks between two poses that need little bending and few seams.
 
     Parameters
     ----------
     graph : the compiled graph.
     ends : the frames similar to the start, and those similar to the end.
-    frames : from the start to the end.
+    frames : the number of frames from the start to the end.
     """
 
     def __init__(self, graph: CompiledGraph, ends: tuple[Candidates, Candidates], frames: int) -> None:
@@ -159,7 +170,7 @@ class TwoSided:
         self.frames = frames
         self.starts, self.ends = ends
         self.steps = steps_between(graph, *ends)
-        # Where the root is at each point, in the coordinates of its clip.
+        # The position of the root at each point, in the coordinates of its clip.
         roots = [graph.ground[graph.first[end.stretch] + end.since] for end in ends]
         self.roots = np.concatenate([graph.at, *roots])
         self.speed = float(np.percentile(graph.step * graph.fps, 75))
@@ -172,7 +183,7 @@ class TwoSided:
         return complex(end.translation[0] + end.rotation[0] * roots[0])
 
     def best(self, count: int) -> list[Joined]:
-        """Join the walks of both sides, and return those of lowest cost; none if no two of them meet."""
+        """Join the walks of both sides, and return those of lowest cost, or none if no two of them meet."""
         nodes = len(self.graph.nodes)
         forward = _Front(self, self.steps, self.starts, nodes)
         forward.aim(self.finish, self.frames / 2)
@@ -194,7 +205,7 @@ class TwoSided:
         return [self.join(forward.trace(middle, a), backward.trace(ending, b)) for a, b in pairs]
 
     def _reversed_steps(self) -> States:
-        """Return the same steps, walked from the point that they enter to the point that they leave."""
+        """Return the reversed steps, from the point that they enter to the point that they leave."""
         rotation = self.steps.rotation.conj()
         translation = -rotation * self.steps.translation
         return self.steps._replace(
@@ -202,13 +213,13 @@ class TwoSided:
         )
 
     def prices(self, first: States, second: States) -> Array:
-        """Estimate the cost of each pair of walks that meet, including that of the bending.
+        """Estimate the cost of each pair of walks that meet, including the cost of bending.
 
-        The end is off by a turn Δ and by a vector. A turn that grows evenly removes the first, and turns the
-        line from start to end by Δ/2. The remaining offset across this line, by an angle a, takes a curve
-        there and back, ∫ φ̇² = 12 a² / T. The offset along it, a fraction r of the metres walked, takes longer
-        steps or a bend of ∫ φ̇² = 24 r / T, since the chord of an arc of θ is shorter than the arc by θ² / 24.
-        Only longer steps lead further than the metres walked.
+        The residual at the end is a rotation Δ and a vector. A rotation that grows linearly removes the
+        first, and rotates the line from start to end by Δ/2. The remaining offset across this line, by an
+        angle a, requires a curve and a counter-curve, ∫ φ̇² = 12 a² / T. The offset along it, a fraction r of
+        the metres walked, requires longer steps, or a bend of ∫ φ̇² = 24 r / T, since the chord of an arc of
+        θ is shorter than the arc by θ² / 24. A target beyond the metres walked requires longer steps.
         """
         seconds = self.frames / self.graph.fps
         rotation = second.rotation * first.rotation.conj()
@@ -230,24 +241,24 @@ class TwoSided:
         return np.where(np.abs(pace) <= (1 - RISE) * np.log(MOST_PACE), price, np.inf)
 
     def join(self, forward: States, backward: States) -> Joined:
-        """List the edges of two walks that meet."""
+        """Concatenate two walks that meet."""
         graph = self.graph
-        edges = np.concatenate([forward.hop[1:], backward.hop[:0:-1]])
+        edges = np.concatenate([forward.macro_edge[1:], backward.macro_edge[:0:-1]])
         point = int(backward.node[0])
         start = int(forward.node[0]) - len(graph.nodes)
         end = point - len(graph.nodes) - len(self.starts.distance)
         start_rotation = complex(self.starts.rotation[start])
         end_rotation = complex(self.ends.rotation[end])
         angle = float(np.angle(end_rotation / (start_rotation * np.prod(graph.rotation[edges]))))
-        place = PlanarTransform.from_complex(start_rotation, complex(self.starts.translation[start]))
+        transform = PlanarTransform.from_complex(start_rotation, complex(self.starts.translation[start]))
         target = complex(self.ends.translation[end] + end_rotation * self.roots[point])
         frames = int(forward.frames[-1] + backward.frames[-1])
         cost = float(forward.cost[-1] + backward.cost[-1])
-        return Joined(edges, int(self.starts.since[start]), frames, place, target, angle, cost)
+        return Joined(edges, int(self.starts.since[start]), frames, transform, target, angle, cost)
 
 
 def pairs_at_nodes(first: Indices, second: Indices) -> tuple[Indices, Indices]:
-    """Pair every walk of one side with those of the other that end at the same node, `PAIRS` at most.
+    """Pair each walk of one side with those of the other that end at the same node, up to `PAIRS` pairs.
 
     Parameters
     ----------
@@ -255,7 +266,7 @@ def pairs_at_nodes(first: Indices, second: Indices) -> tuple[Indices, Indices]:
 
     Returns
     -------
-    The rows of the pairs in both.
+    The rows of the pairs in `first` and in `second`.
 
     Examples
     --------
@@ -270,7 +281,7 @@ def pairs_at_nodes(first: Indices, second: Indices) -> tuple[Indices, Indices]:
 
 
 class _Front(LayeredSearch):
-    """The walks of one side, from the points `first` and those after it."""
+    """The walks of one side, which start at the candidates, points `first`, `first` + 1 and so on."""
 
     def __init__(self, search: TwoSided, steps: States, seeds: Candidates, first: int) -> None:
         nodes = first + np.arange(len(seeds.distance))
@@ -281,12 +292,12 @@ class _Front(LayeredSearch):
         self.offsets = np.searchsorted(self.steps.trail, np.arange(len(search.roots) + 1))
 
     def aim(self, goal: complex, frames: float) -> None:
-        """Set the ground point that the walks lead to, and the length from which they are complete."""
+        """Set the goal of the walks on the ground, and the number of frames of a complete walk."""
         self.goal = goal
         self.longest = frames
 
     def expand(self, states: States) -> States:
-        """Lengthen every walk by every step that leaves its point."""
+        """Extend each walk by each step that leaves its point."""
         count = np.diff(self.offsets)[states.node]
         rows = np.repeat(np.arange(len(count)), count)
         step = ranges(self.offsets[states.node], count)
@@ -301,22 +312,22 @@ class _Front(LayeredSearch):
         return np.asarray(states.cost + STRETCH * remaining * shortfall**2)
 
     def cells(self, states: States) -> Indices:
-        """Return the point, and cells of the ground and of directions."""
+        """Return the point and the cells of position and heading of each walk."""
         return standing(states, self.search.roots, CELL, ANGLE)
 
     def layers(self, states: States) -> Indices:
-        """Count layers of `LAYER` seconds."""
+        """Return the number of the layer, of `LAYER` seconds, of each walk."""
         return states.frames // max(1, round(LAYER * self.search.graph.fps))
 
     def still_going(self, states: States) -> States:
-        """Put aside every walk that is long enough, since any of them may be joined."""
+        """Store each walk that is long enough, because any of them may be joined, and return the others."""
         is_long = states.frames >= self.longest
         self.arrived.append(states.take(is_long))
         return states.take(~is_long)
 
 
 class _Parts(NamedTuple):
-    """Parts of edges: the points that they leave and enter, the first frame and the one after the last."""
+    """Parts of edges: the points that they leave and enter, their frames [begin, stop), and their costs."""
 
     origin: Indices
     target: Indices
@@ -327,14 +338,14 @@ class _Parts(NamedTuple):
 
     @staticmethod
     def join(groups: list[_Parts]) -> _Parts:
-        """Put several groups into one."""
+        """Concatenate several groups of parts."""
         return _Parts._make(np.concatenate(columns) for columns in zip(*groups, strict=True))
 
 
 def steps_between(graph: CompiledGraph, starts: Candidates, ends: Candidates) -> States:
-    """List all edges of a graph as steps, with those from each start to the next node, and to each end.
+    """List the steps of the search: all edges, and the parts of edges from each start and to each end.
 
-    Each is a walk of one step from the point `trail` to the point `node`, along the edge `hop`.
+    Each is a walk of one step from the point `trail` to the point `node`, along the edge `macro_edge`.
     """
     number = {node: n for n, node in enumerate(graph.nodes)}
     origin = np.array([number[edge[0]] for edge in graph.edges])
@@ -349,7 +360,7 @@ def steps_between(graph: CompiledGraph, starts: Candidates, ends: Candidates) ->
     end = len(graph.nodes) + len(begin) + np.arange(len(finish))
     end_cost = POSE * ends.distance**2
     arriving = _Parts(origin[finish], end, finish, 0 * finish, ends.since, end_cost)
-    # An end on the same stretch as a start, after it.
+    # An end on the same edge as a start, and after it.
     is_later = starts.since[:, None] <= ends.since
     a, b = np.nonzero((begin[:, None] == finish) & is_later)
     cost = start_cost[a] + end_cost[b]

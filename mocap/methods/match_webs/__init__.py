@@ -1,18 +1,19 @@
 """Match webs: all motions similar to one example, and parameterised spaces of their blends [KG04].
 
-A set of clips contains the same action many times, and the numbers of any two instances may differ much. But
-each instance has a near neighbour. The search therefore proceeds in steps: motions similar to the query, then
-motions similar to those. The *match web* stores all long paths of similar frames, found once, so that each
-step is a lookup [KG04]. The matches are registered to one clock (`blending.register`) and become a *space*:
-for a target, such as a turn of 40° at 1.3 m/s or a position of the hand, it has the weights of a blend.
+A set of clips contains the same action n times, and two of its instances may differ much. But each instance
+has a near neighbour. The search therefore proceeds in steps: motions similar to the query, then motions
+similar to those. The *match web* stores all long paths of similar frames, found once, so that each step is a
+lookup [KG04]. The matches are registered to one clock (`blending.register`) and become a *space*. For a
+target, such as a change of heading of 40° at 1.3 m/s or a position of the hand, it provides the weights of a
+blend.
 
 Reading order (notebook 16)
 ---------------------------
 1. `local_alignment`: minima of a distance grid, and paths through it that begin and end anywhere
 2. `webs`: `MatchWeb`, all paths of a set of clips, found once
-3. `web_storage`: save a web to .npz, and read it again
+3. `web_storage`: save a web to .npz and load it
 4. `match_search`: motions similar to a query, step by step
-5. `motion_spaces`: measures of a motion; random blends of examples, and their measures
+5. `motion_spaces`: measures of a motion, and random blends of examples with their measures
 6. `target_weights`: blend weights for a target
 
 References

@@ -1,9 +1,9 @@
 """Local alignment in a distance grid: long paths of similar frames of two clips.
 
-Costs are negative for frames that are more similar than a limit, and positive for others. A path may begin
-and end anywhere, and ends where its sum is lowest [SW81]. It therefore follows similar frames, and crosses
-others as long as its sum stays negative. The dynamic programme is that of `matching.time_paths`, where every
-cell may begin a path:
+Costs are negative for frames that are more similar than a limit, and positive for others. A path may begin in
+any cell, and ends in the cell with the lowest sum [SW81]. It therefore follows similar frames, and crosses
+others as long as its sum stays negative. The dynamic programme is that of `matching.time_paths`, except that
+any cell may begin a path:
 
     A[j] = 2 c + min(0, M₋[j - 1]),    all other states as there.
 """
@@ -22,23 +22,23 @@ from mocap.matching import distance_grids
 from mocap.matching.distance_grids import Cloud, Floats, tiled_distances
 from mocap.matching.time_paths import origins, path_sums, trace
 
-# Metres: distances of windows that differ by no more are equal, except for rounding, about 1e-13 m.
+# Metres: distances of windows that differ by no more are equal. Rounding errors are about 1e-13 m.
 EQUAL = 1e-9
-# Metres: sums along a path, or their means, that differ by less are equal; the first path found is better.
+# Metres: sums along a path, or their means, that differ by less are equal. The first path found is preferred.
 RANKS = 1e-6
 
 
 def minima_1d(grid: ArrayLike) -> Mask:
-    """Mark the cells of a grid that are no higher than both neighbours in their row, or in their column.
+    """Mark one-dimensional minima: cells no higher than both neighbours in their row, or in their column.
 
     In the paper: [KG04, minima].
 
-    If two clips move similarly at any pace, the grid has a valley. Its floor consists of such minima [KG04].
-    It has only a few local minima in two dimensions.
+    If two clips are similar, at any pace, the grid has a valley. Its floor consists of one-dimensional minima
+    [KG04], but it has only a few local minima in two dimensions.
 
     Parameters
     ----------
-    grid : shape (n, m), metres; cells beyond the border count as infinite, and infinite cells are no minima.
+    grid : shape (n, m), metres. Cells beyond the border count as infinite, and infinite cells are not minima.
         Differences of a nanometre are ignored.
 
     Returns
@@ -66,22 +66,22 @@ def minima_1d(grid: ArrayLike) -> Mask:
 
 # reads: name: users give `least` as a keyword
 def local_paths(costs: ArrayLike, *, slope: int = 2, least: int = 1) -> Iterator[Indices]:
-    """Find paths of low cost that may begin and end anywhere in a grid [KG04, chains and bridges].
+    """Find paths of low cost that may begin and end in any cell of a grid [KG04, chains and bridges].
 
-    [KG04] takes three passes: chains of one-dimensional minima, those that are long enough, and bridges
-    between their ends. One pass of local alignment in their place is ours.
+    [KG04] uses three passes: find chains of one-dimensional minima, select those that are long enough, and
+    bridge the gaps between their ends. A single pass of local alignment replaces them [ours].
 
     Parameters
     ----------
-    costs : shape (n, m); a cell adds its cost once for each frame by which it advances the path. Infinite
+    costs : shape (n, m). A cell adds its cost once for each frame by which it advances the path. Infinite
         cells are never crossed.
-    slope : largest number of steps down, or to the right, in a row.
-    least : frames that a path advances in each of the two clips.
+    slope : largest number of consecutive steps down, or to the right.
+    least : the smallest number of frames by which a path advances in each of the two clips.
 
     Yields
     ------
-    Paths of cells, shape (N, 2), lowest sum first; of those that begin in one cell, only the best. They may
-    run side by side: `local_alignment.apart` keeps the distinct ones.
+    Paths of cells, shape (N, 2), in ascending order of their sums. Of the paths that begin in one cell, only
+    the best is yielded. Paths may run side by side: `local_alignment.apart` keeps the distinct ones.
 
     Examples
     --------
@@ -90,14 +90,10 @@ def local_paths(costs: ArrayLike, *, slope: int = 2, least: int = 1) -> Iterator
     >>> next(local_paths(costs)).tolist()
     [[0, 1], [1, 2], [1, 3], [2, 4]]
 
-    It advances two frames in the first clip. Three steps to the right in a row are too many for it:
+    The path advances two frames in the first clip, and three in the second:
 
     >>> [len(list(local_paths(costs, least=least))) for least in (2, 3)]
     [1, 0]
-    >>> costs = np.ones((4, 7))
-    >>> costs[[0, 1, 2], [1, 2, 6]] = -3
-    >>> next(local_paths(costs)).tolist(), next(local_paths(costs, slope=3)).tolist()
-    ([[0, 1], [1, 2]], [[0, 1], [1, 2], [1, 3], [1, 4], [1, 5], [2, 6]])
 
     Notebook: 16-match-webs
     """
@@ -112,7 +108,7 @@ def local_paths(costs: ArrayLike, *, slope: int = 2, least: int = 1) -> Iterator
     is_best = totals[cells] <= best[beginnings[cells]] + sums.equal
     ends = cells[is_best]
     _, firsts = np.unique(beginnings[ends], return_index=True)
-    ends = ends[firsts]  # of equal ones, the first
+    ends = ends[firsts]  # the first of several with equal sums
     advance = np.array(np.divmod(ends, columns)) - np.divmod(beginnings[ends], columns)
     ends = ends[advance.min(axis=0) >= least]
     for end in ends[in_order(totals[ends], RANKS)]:
@@ -121,12 +117,13 @@ def local_paths(costs: ArrayLike, *, slope: int = 2, least: int = 1) -> Iterator
 
 # reads: name: notebook 16 shows this function, and calls it
 def apart(paths: Iterable[NDArray[Any]], *, near: int) -> list[NDArray[Any]]:
-    """Keep distinct paths: at most half of each is near those kept before it.
+    """Select distinct paths, of which at most half is near the paths selected before.
 
     Parameters
     ----------
-    paths : shape (N, 2) or more, cells of one grid in their first two columns; best path first.
-    near : columns up to which two cells of a row are near each other.
+    paths : in descending order of quality. Each has shape (N, 2) or more columns, of which the first two are
+        the rows and columns of cells of one grid.
+    near : the largest difference in columns of two cells of a row that are near each other.
 
     Examples
     --------
@@ -135,11 +132,6 @@ def apart(paths: Iterable[NDArray[Any]], *, near: int) -> list[NDArray[Any]]:
     >>> [path[0].tolist() for path in kept]
     [[0, 0], [0, 2], [0, -2]]
 
-    A path of which half is near another one is kept:
-
-    >>> half = np.array([[0, 0], [1, 1], [2, 7], [3, 8]])
-    >>> len(apart([down, half], near=1)), len(apart([down, half[:3]], near=1))
-    (2, 1)
 
     Notebook: 16-match-webs
     """
@@ -154,22 +146,22 @@ def apart(paths: Iterable[NDArray[Any]], *, near: int) -> list[NDArray[Any]]:
     return kept
 
 
-ROWS = 600  # windows; with COLUMNS, the sides of the part of the grid that is worked on at a time
-COLUMNS = 4000  # windows
+ROWS = 600  # windows, the height of a tile of the grid that is processed at a time
+COLUMNS = 4000  # windows, the width of a tile
 OVERLAP = 300  # windows that two parts of a long clip share, 10 s: no query is longer
 SLOPE = 2  # largest number of frames of one clip that are aligned with one frame of the other
-LEAST = 9  # frames that a path advances in each clip, 0.3 s
-NEAR = 3  # frames; a path is left out if more than half of it is this near to a better one
-OFF_MINIMUM = 0.5  # additional cost of a cell that is no one-dimensional minimum, in units of `below`
+LEAST = 9  # frames by which a path advances at least in each clip, 0.3 s
+NEAR = 3  # frames: a path is dropped if more than half of it is this near to a better one
+OFF_MINIMUM = 0.5  # additional cost of a cell that is not a one-dimensional minimum, in units of `below`
 DISTANCE = 2  # column of a path with the RMS distances; 0 and 1 are its windows
 
 
 def find_paths(cloud: Cloud, starts: Indices, below: float, progress: Progress) -> list[Array]:
-    """Find the paths above the diagonal, each of shape (K, 3): two windows and their RMS distance.
+    """Find the paths above the diagonal, each of shape (K, 3) with two windows and their RMS distance.
 
     Parameters
     ----------
-    cloud : all windows of the clips, one clip after the other.
+    cloud : all windows of the clips, clip by clip.
     starts : first window of each clip, and the end of the last clip.
     below : the mean distance that a path may have, metres.
     progress : as for `build_web`.
@@ -189,13 +181,13 @@ def find_paths(cloud: Cloud, starts: Indices, below: float, progress: Progress) 
 
 
 def _paths_in_tile(cloud: Cloud, tile: tuple[slice, slice], below: float) -> list[Array]:
-    """Find the paths in a part of the grid: windows along its rows, and along its columns."""
+    """Find the paths in a tile of the grid, a slice of its rows and a slice of its columns."""
     windows = len(cloud.sizes) - cloud.window + 1
     sides = [cloud.part(slice(side.start, min(side.stop, windows))) for side in tile]
     squares = tiled_distances(*sides)
     grid: Floats = np.sqrt(np.where(squares < distance_grids.EQUAL, 0.0, squares))
     corner = [side.start for side in tile]
-    diagonal = corner[0] - corner[1] + LEAST  # the second window is at least so much later
+    diagonal = corner[0] - corner[1] + LEAST  # the second window is at least `LEAST` frames later
     if diagonal + len(grid) > 0:
         is_early = np.tri(len(grid), grid.shape[1], diagonal - 1, dtype=bool)
         grid[is_early] = np.inf
@@ -206,12 +198,12 @@ def _paths_in_tile(cloud: Cloud, tile: tuple[slice, slice], below: float) -> lis
 
 
 def pieces(starts: Sequence[int], size: int, overlap: int) -> list[slice]:
-    """Cut clips in a row into pieces: whole clips together, or overlapping parts of a long one.
+    """Partition consecutive clips into groups of whole clips and overlapping parts of long clips.
 
     Parameters
     ----------
     starts : first window of each clip, and the end of the last clip.
-    size : windows in a piece, at most.
+    size : largest number of windows in a piece.
     overlap : windows that two parts of a clip share.
 
     Examples

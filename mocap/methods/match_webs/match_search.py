@@ -19,17 +19,17 @@ from mocap.methods.match_webs.local_alignment import LEAST, RANKS
 from mocap.methods.match_webs.webs import MatchWeb
 
 SAME = 0.5  # overlap of two stretches, as a fraction of their union, above which they are one match
-COVER = 0.9  # fraction of a stretch that a path must cover; over the rest it is extended straight
-LEAK = 5  # a step leaks if it finds more than so many times the matches of the previous step
-FEW = 20  # matches; a step that finds no more does not leak
+COVER = 0.9  # fraction of a stretch that a path must cover. Over the rest it is extended straight
+LEAK = 5  # a step leaks if it finds more than 5 times the matches of the previous step
+FEW = 20  # matches: a step that finds no more than these does not leak
 
 
 class Match(NamedTuple):
     """A stretch of a clip that is similar to the query, or to another match.
 
     clip, start, stop : number of the clip, and its frames [start, stop).
-    cost : mean RMS distance to the match that found it, metres; 0 for the query itself.
-    via : the number of the match that found it; -1 for the query.
+    cost : mean RMS distance to the match that found it, metres, or 0 for the query itself.
+    via : the number of the match that found it, or -1 for the query.
     generation : number of steps from the query.
     rows, frames : shape (K,): frames of the query's clip, and the frames of this clip that are aligned with
         them, through all matches in between.
@@ -56,34 +56,35 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
     still: float = 0.05,
     keep: Callable[[Motion], bool] | None = None,
 ) -> list[Match]:
-    """Find motions similar to a query, then to those, until none is new [KG04, search in steps].
+    """Find motions similar to a query, then motions similar to those, and so on [KG04, search in steps].
 
-    One step finds only the nearest matches: two motions of one kind may differ more than two of different
-    kinds. But there are others between them [KG04]. The bound on lengths is ours: a wrong match becomes a
-    query, and the first one usually aligns a slow motion with a fast one, or the reverse.
+    One step finds only the nearest matches, because two motions of one kind may differ more than two of
+    different kinds. But there are others between them [KG04]. The bound on lengths is ours: a wrong match
+    becomes a query, and the first wrong match usually aligns a slow motion with a fast one, or the reverse.
 
-    Steps help if the motions of one kind vary, such as punches at many targets, or slow and brisk walks. If
-    they are similar, such as strides at one pace, one step finds as much, and cannot leak. Steps harm if one
-    kind passes into another, as turns by 90° into turns by 45°: restrict the matches by `keep`.
+    Further steps help if the motions of one kind vary, such as punches at n targets, or slow and brisk walks.
+    If they are similar, such as strides at one pace, one step finds as much, and cannot leak. Further steps
+    harm if one kind passes into another, such as turns of 90° into turns of 45°. Then restrict the matches by
+    `keep`.
 
     Parameters
     ----------
     web : as from `build_web`.
-    clip, frames : the query: the number of a clip, and its frames.
-    below : the mean RMS distance that a match may have from the match that found it, metres; by default that
-        of the web. Choose a value around which the number of matches is constant: above it, one wrong match
-        brings in all of its kind, and hundreds are found.
+    clip, frames : the query, given by the number of a clip and its frames.
+    below : the largest mean RMS distance between a match and the match that found it, metres. By default that
+        of the web. Choose a value around which the number of matches is constant. Above it, one wrong match
+        leads to all others of its kind, and hundreds are found.
     lengths : the shortest and the longest match, as fractions of the query's length.
-    steps : number of steps, the first one with the query; by default until no match is new.
-    still : matches that move less than this are not searched from, metres RMS about the mean position of each
-        point: standing still is similar to itself at any time. (Ours; the paper has no such bound.)
-    keep : a predicate of the motion of a match, by its change of heading for example; matches that do not
-        satisfy it are neither returned nor searched from (ours).
+    steps : number of steps, of which the first is that of the query. By default until no match is new.
+    still : matches that move less than this are not used as queries, metres RMS about the mean position of
+        each point, because standing still is similar to itself at any time. This bound is ours.
+    keep : a predicate of the motion of a match, for example of its change of heading. Matches that do not
+        satisfy it are neither returned nor used as queries [ours].
 
     Returns
     -------
-    The query, then its matches step by step, the nearest of each step first. A stretch that overlaps a match
-    by more than half of their union is that match.
+    The query, then its matches step by step, in ascending order of cost in each step. A stretch whose overlap
+    with a match is more than half of their union counts as that match.
 
     Raises
     ------
@@ -91,8 +92,8 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
 
     Warns
     -----
-    MocapWarning : for a query that finds only itself; for matches that are not searched from, because they
-        move less than `still`; and for a step that finds more than 5 times what the step before did.
+    MocapWarning : for a query that finds only itself, for matches that are not used as queries because they
+        move less than `still`, and for a step that finds more than 5 times the matches of the previous step.
 
     Examples
     --------
@@ -116,7 +117,7 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
     matches = [query]
     spans = np.array([query[1:3]])  # start and stop of each match
     newest = [0]  # numbers of the matches that the last step found
-    still_count = 0  # matches that nothing is searched from
+    still_count = 0  # matches that are not used as queries
     while newest and (steps is None or matches[-1].generation < steps):
         moving = [number for number in newest if _spread(web, matches[number]) >= still]
         still_count += len(newest) - len(moving)
@@ -137,7 +138,7 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
 
 
 def _is_new(match: Match, spans: NDArray[Any]) -> bool:
-    """Check whether a stretch overlaps each of the spans (N, 2) by no more than half of their union."""
+    """Return whether a stretch overlaps each of the spans (N, 2) by at most half of their union."""
     starts, stops = spans.T
     common = np.minimum(stops, match.stop) - np.maximum(starts, match.start)
     union = np.maximum(stops, match.stop) - np.minimum(starts, match.start)
@@ -145,17 +146,7 @@ def _is_new(match: Match, spans: NDArray[Any]) -> bool:
 
 
 def _query(web: MatchWeb, clip: int, frames: slice) -> Match:
-    """Return the query as a match in the numbering of all frames, as during the search.
-
-    Examples
-    --------
-    At 120 Hz the shortest query, 0.3 s, has 36 frames, and a web counts every fourth:
-
-    >>> from mocap.datasets.samples import sample
-    >>> web = MatchWeb((sample("walk_straight"),), [0, 290], 0.05, np.empty((0, 2)), [], [0])
-    >>> _query(web, 0, slice(0, 36))[:3], _query(web, 0, slice(1122, 1158))[:3]
-    ((0, 0, 9), (0, 280, 290))
-    """
+    """Return the query as a match in the numbering of all frames, as during the search."""
     if not isinstance(frames, slice):
         raise MocapError(f"The query's frames are a slice such as slice(60, 90), got {described(frames)}.")
     motion = web.clips[clip]
@@ -173,18 +164,7 @@ def _query(web: MatchWeb, clip: int, frames: slice) -> Match:
 
 
 def _spread(web: MatchWeb, match: Match) -> float:
-    """Compute the RMS distance of the points of a match from their mean positions, metres.
-
-    Examples
-    --------
-    In a stride the points of a walker move by tens of centimetres, in 0.3 s by less:
-
-    >>> from mocap.datasets.samples import sample
-    >>> walk = sample("walk_straight")
-    >>> web = MatchWeb((walk,), [0, 290], 0.05, np.empty((0, 2)), [], [0])
-    >>> [round(_spread(web, _query(web, 0, slice(240, stop))), 3) for stop in (276, 370)]
-    [0.117, 0.429]
-    """
+    """Compute the RMS distance of the points of a match from their mean positions, metres."""
     step = max(1, round(web.clips[0].fps / web.rate))
     motion = cut_out(web, _in_own_frames(web, match.clip, match))
     points = point_cloud(motion[::step])
@@ -202,7 +182,7 @@ def _in_own_frames(web: MatchWeb, query: int, match: Match) -> Match:
 
 
 def _warn(matches: Sequence[Match], still_count: int) -> None:
-    """Warn of a search with still matches, without matches, and with a step that leaks."""
+    """Warn about a search with still matches, without matches, or with a step that leaks."""
     messages = []
     if still_count:
         still = f"{still_count} of {len(matches)} matches hardly move, so nothing was searched from them"
@@ -223,20 +203,18 @@ def _warn(matches: Sequence[Match], still_count: int) -> None:
 def crossings(web: MatchWeb, match: Match, number: int, below: float) -> Iterator[Match]:
     """Find the stretches that the paths of a web align with a match, and through it with the query.
 
-    All frames are counted in the numbering of all.
-
-    A web is symmetric: a path serves a stretch in either of its clips.
+    All frames are in the numbering of all clips. A web is symmetric: a path applies to both of its clips.
 
     Parameters
     ----------
     web : as from `build_web`.
-    match, number : the match, and its number among all.
-    below : the mean RMS distance of a path inside the match, metres.
+    match, number : the match, and its number among all matches.
+    below : the largest mean RMS distance of a path inside the match, metres.
 
     Examples
     --------
-    A path covers 18 of the 20 frames of a match. Frame 11 lies on two frames, and gets their mean. The rest
-    goes on straight, but does not leave the second clip, which begins at 50:
+    A path covers 18 of the 20 frames of a match. Frame 11 is aligned with two frames, and gets their mean.
+    The path is extended straight to the rest, but not beyond the second clip, which begins at 50:
 
     >>> from mocap.body import resample
     >>> from mocap.datasets.samples import sample
@@ -250,7 +228,7 @@ def crossings(web: MatchWeb, match: Match, number: int, below: float) -> Iterato
     >>> hit.rows[[0, 1, -1]].tolist(), hit.frames[[0, 1, -1]].tolist()
     ([11.0, 12.0, 28.0], [50.5, 52.0, 68.0])
     """
-    first = web.cells[web.offsets[:-1]]  # of each path
+    first = web.cells[web.offsets[:-1]]  # first cell of each path
     last = web.cells[web.offsets[1:] - 1]
     needed = COVER * (match.stop - match.start)
     generation = match.generation + 1
@@ -270,14 +248,14 @@ def crossings(web: MatchWeb, match: Match, number: int, below: float) -> Iterato
 
 
 def _carry(web: MatchWeb, match: Match, source: Array, target: Array) -> tuple[int, int, Array, Array]:
-    """Carry a match over to a path's other clip: frames `source` (K,) of the match are like `target` (K,).
+    """Transfer a match to the other clip of a path, which aligns frames `source` (K,) with `target` (K,).
 
-    The path goes straight on to the ends of the match, but not beyond the other clip.
+    The path is extended straight to the ends of the match, but not beyond the other clip.
 
     Returns
     -------
     The start and stop of the new stretch, the frames of the query that the path covers, and the frames that
-    are like them. A frame that is like several gets their mean.
+    are aligned with them. A frame that is aligned with several gets their mean.
     """
     clip = web.clip_at(int(target[0]))
     extended_start = int(target[0] - (source[0] - match.start))
@@ -291,7 +269,7 @@ def _carry(web: MatchWeb, match: Match, source: Array, target: Array) -> tuple[i
 
 
 def cut_out(web: MatchWeb, match: Match) -> Motion:
-    """Cut a match out of its clip.
+    """Return the motion of a match, cut out of its clip.
 
     Examples
     --------
@@ -301,8 +279,6 @@ def cut_out(web: MatchWeb, match: Match) -> Motion:
     >>> match = search(web, 0, slice(240, 370))[1]
     >>> match.start, cut_out(web, match)
     (884, Motion('walk_straight', 132 frames at 120 Hz, 1.09 s, 38 joints))
-    >>> np.array_equal(cut_out(web, match).root_positions[0], web.clips[0].root_positions[884])
-    True
 
     Notebook: 16-match-webs
     """

@@ -1,8 +1,8 @@
 """Parameterised spaces of motions: random blends of examples, and their measured parameters [KG04].
 
-Any function of a `Motion` that returns one or several numbers can be the measure. Three are here: the change
-of heading, the mean speed, and the position that the hand reaches. The nodes of parametric graphs are also
-such spaces.
+Any function of a `Motion` that returns one or several numbers can be the measure. Three are provided: the
+change of heading, the mean speed, and the position that the hand reaches. The nodes of parametric graphs are
+also such spaces.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from mocap.body.planar import PlanarTransform, heading, on_ground
 from mocap.errors import MocapError, shortened
 
 FPS = 30.0  # frame rate of the blends that are measured
-TINY = 1e-9  # weights below this are 0
+TINY = 1e-9  # weights below this count as 0
 
 E = TypeVar("E")  # a `Registration`, or examples on a grid of phases, with a method `blend`
 
@@ -35,7 +35,7 @@ Measure = Callable[[Motion], ArrayLike]
 
 
 def heading_change(motion: Motion) -> float:
-    """Measure the change of heading from the first frame to the last, radians, positive to the left.
+    """Compute the change of heading from the first frame to the last, radians, positive to the left.
 
     Examples
     --------
@@ -51,7 +51,7 @@ def heading_change(motion: Motion) -> float:
 
 
 def mean_speed(motion: Motion) -> float:
-    """Measure the mean speed of the root over the ground, metres per second.
+    """Compute the mean speed of the root over the ground, metres per second.
 
     Examples
     --------
@@ -73,17 +73,18 @@ def hand_target(
     *,
     at: float | None = None,  # reads: name: users give it as a keyword
 ) -> Array:
-    """Measure the position of a hand at one moment, relative to the position and heading at the start.
+    """Compute the position of a hand at one moment, relative to the position and heading at the start.
 
     Parameters
     ----------
-    motion : such as a punch.
-    hand, shoulder : names of joints; by default those of the right arm in Acclaim files.
-    at : the moment, as a fraction of the frames; by default that at which the arm is longest.
+    motion : the motion, for example a punch.
+    hand, shoulder : names of joints, by default those of the right arm in Acclaim files.
+    at : the moment, as a fraction of the frames. By default that of the longest distance from shoulder to
+        hand.
 
     Returns
     -------
-    Metres to the left, above the ground, and ahead, shape (3,).
+    Shape (3,), metres to the left, above the ground, and ahead.
 
     Raises
     ------
@@ -117,17 +118,17 @@ def random_weights(
 
     One example is drawn at random, and d of those nearest to it. Their weights are uniform on the simplex,
     which is then scaled about its centre: w = (1 + (d + 1) δ) Dirichlet(1, …, 1) - δ. They add up to one, and
-    none is below -δ; a draw with one above 1 + δ is rejected [the sampling is that of KG04, as far as
-    recalled; the scaling is ours]. Uniform numbers divided by their sum would concentrate in the centre, and
-    weights clipped to -δ … 1 + δ would not add up to one.
+    none is below -δ. A draw with a weight above 1 + δ is rejected. The sampling is that of KG04 to the best
+    of our knowledge, and the scaling is ours. Uniform numbers divided by their sum would concentrate in the
+    centre, and weights clipped to -δ … 1 + δ would not add up to one.
 
     Parameters
     ----------
     values : shape (C, d), the measure of each example.
     count : number of blends.
     spread : δ, not negative.
-    neighbours : number of nearest examples that the d are drawn from, at least d; all by default.
-    seed : of the random numbers.
+    neighbours : number of nearest examples from which the d are drawn, at least d, by default all.
+    seed : seed of the random numbers.
 
     Returns
     -------
@@ -171,12 +172,12 @@ class MotionSpace(Generic[E]):
 
     Parameters
     ----------
-    examples : C examples on one clock: registered clips, or those on a grid of `parametric_graphs`.
-    weights : shape (S, C), of the samples.
+    examples : C examples on one clock, which are registered clips or examples on a grid of phases.
+    weights : shape (S, C), the blend weights of the samples.
     values : shape (S, d), the measure of each sample.
-    scale : shape (d,), amounts of each number that count as equal distances.
-    parameters : names of the d numbers, such as "turn"; for a node of a parametric graph.
-    low, high : shape (d,), the range of targets; by default that of the values.
+    scale : shape (d,), the unit of distance in each number.
+    parameters : names of the d numbers, such as "turn", for a node of a parametric graph.
+    low, high : shape (d,), the range of targets, by default that of the values.
     """
 
     examples: E
@@ -222,17 +223,18 @@ def sample_space(
 ) -> MotionSpace[E]:
     """Sample a space of motions: measure random blends of examples [KG04, sampling].
 
-    The measure is no simple function of the weights: the hand of the mean of two punches is not half-way
-    between their targets. Therefore blends are made and measured. The samples cover the accessible region.
+    The measure is not a simple function of the weights: the mean of two punches does not reach the point
+    half-way between their targets. Therefore blends are computed and measured. The samples cover the
+    accessible region.
 
     Parameters
     ----------
-    examples : registered clips, from `blending.register`; or examples on a grid, such as those of
+    examples : registered clips from `blending.register`, or examples on a grid of phases, such as those of
         `methods.parametric_graphs.cut_actions`, whose space can be a node of a graph.
     measure : a function of a `Motion` that returns d numbers, such as `heading_change` or `hand_target`.
     count : number of random blends, in addition to the examples.
-    scale : shape (d,): amounts of each number that count as equal distances, such as 10° and 0.1 m/s;
-        by default half the range of the samples' values.
+    scale : shape (d,), the unit of distance in each number, such as 10° and 0.1 m/s. By default half the
+        range of the samples' values.
     parameters : the names of the d numbers, for a node of a graph.
 
     Returns
@@ -286,9 +288,9 @@ def blend_of(
 
     Parameters
     ----------
-    registration : of C clips, such as that of a space.
+    registration : the registration of C clips, such as the examples of a space.
     weights : shape (C,), such as from `weights_for`.
-    fps : frames per second; by default that of the clips.
+    fps : frames per second, by default that of the clips.
     rounds : as for `blending.mix`.
 
     Raises
@@ -316,7 +318,7 @@ def blend_of(
 
 
 def _measured(blend: Callable[[Array], Motion], measure: Measure, rows: Array, numbers: int = 0) -> Array:
-    """Measure the blends of some weights (M, C): shape (M, d)."""
+    """Measure the blends with weights (M, C), shape (M, d)."""
     values: list[Array] = []
     for row in rows:
         value = np.atleast_1d(np.asarray(measure(blend(row)), float))

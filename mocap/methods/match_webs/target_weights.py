@@ -11,8 +11,8 @@ from mocap.errors import MocapError, shortened
 from mocap.methods.match_webs.motion_spaces import MotionSpace
 
 CONVEX = 12  # nearest samples that are mixed
-RIDGE = 5e-4  # preference for near samples
-HIT = 1e-12  # a sample is hit if its distance is below this fraction of the farthest
+RIDGE = 5e-4  # weight of the regularisation, which prefers near samples
+HIT = 1e-12  # a sample is hit if its distance is below this fraction of the farthest one
 
 
 def weights_for(
@@ -21,23 +21,24 @@ def weights_for(
     """Compute blend weights for a target [KG04, request].
 
     "neighbours" mixes the weights of the k nearest samples by v ∝ 1 / d - 1 / d_k, where d are their
-    distances from the target [HG07, Eqs. 1-2, after ACP02]. "convex" (ours) takes the mix v ≥ 0, Σ v = 1 of
-    the k nearest samples whose values are nearest to the target, by least squares. The first is not exact
-    even for a linear measure. The second is, and its error falls with the square of the samples' spacing.
+    distances from the target [HG07, Eqs. 1-2, after ACP02]. "convex" [ours] solves a least-squares problem
+    for the convex combination v ≥ 0, Σ v = 1 of the k nearest samples whose value is nearest to the target.
+    The first is not exact even for a linear measure. The second is, and its error decreases with the square
+    of the samples' spacing.
 
-    A mix of allowed weights is allowed: no weight leaves the range of the samples' weights. For a target far
-    outside the accessible region the blend stays at its boundary.
+    The result is a convex combination of the samples' weights and stays within their range. For a target far
+    outside the accessible region, the blend stays at its boundary.
 
     Parameters
     ----------
     space : from `sample_space` or `methods.parametric_graphs.make_space`.
-    target : shape (d,), or a number; or M targets (M, d).
-    k : number of nearest samples; by default 12, and d + 2 for "neighbours".
+    target : a number or shape (d,), or M targets of shape (M, d).
+    k : number of nearest samples, by default 12, or d + 2 for "neighbours".
     method : "convex" or "neighbours".
 
     Returns
     -------
-    Shape (C,), adding up to one; or (M, C).
+    Weights that add up to one, of shape (C,), or (M, C) for M targets.
 
     Raises
     ------
@@ -65,7 +66,7 @@ def weights_for(
 def sample_weights(
     space: MotionSpace[Any], targets: Array, *, k: int | None = None, method: str = "convex"
 ) -> tuple[Indices, Array]:
-    """Compute the samples that are mixed for targets (M, d), and their weights: (M, k) each.
+    """Find the samples to be mixed for targets (M, d), and compute their weights, (M, k) each.
 
     The parameters are those of `weights_for`.
 
@@ -116,7 +117,7 @@ def convex_weights(offsets: Array, distances: Array) -> Array:
 
 
 def nearest_samples(targets: Array, values: Array, scale: Array, count: int) -> tuple[Indices, Array]:
-    """Find the nearest of the values (S, d) to targets (M, d): their numbers and scaled distances, (M, k).
+    """Find the k nearest samples of values (S, d) to targets (M, d), with their scaled distances, (M, k).
 
     Examples
     --------
@@ -133,7 +134,7 @@ def neighbour_weights(distances: ArrayLike) -> Array:
 
     In the paper: [HG07, Eqs. 1-2, after ACP02].
 
-    A sample at distance 0 gets all the weight. So does the first sample if all distances are equal.
+    A sample at distance 0 gets all the weight. If all distances are equal, the first sample gets it.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
-"""Save a match web to one file: its paths as arrays in an `.npz`, its clips by name and fingerprint.
+"""Storage of a match web in one file: its paths as arrays in an `.npz`, its clips by name and fingerprint.
 
-The file holds no frames of the clips and no code: it is safe to read a file from a stranger.
+The file contains no frames of the clips and no code, so that reading an untrusted file is safe.
 """
 
 from collections.abc import Sequence
@@ -25,7 +25,7 @@ ARRAYS: Layout = {
     **clip_references.LAYOUT,
     "rate": (float, ()),
     "below": (float, ()),
-    "lengths": (int, ("C",)),  # of each clip, in frames at the web's rate; 0 if it is too short for a path
+    "lengths": (int, ("C",)),  # frames of each clip at the web's rate, or 0 if it is too short for a path
     "cells": (np.int32, ("N", 2)),
     "costs": (np.float32, ("N",)),
     "offsets": (int, ("X",)),
@@ -33,7 +33,7 @@ ARRAYS: Layout = {
 
 
 def save_web(web: MatchWeb, path: str | Path, origins: Sequence[Origin] = ()) -> None:
-    """Write a match web to an `.npz` file; an old file is replaced when the new one is complete.
+    """Save a match web to an `.npz` file, which is replaced only when the new one is complete.
 
     A web of 1080 paths through five bundled clips takes 6 s to build, and 0.1 s to load from 1.2 MB.
 
@@ -41,11 +41,11 @@ def save_web(web: MatchWeb, path: str | Path, origins: Sequence[Origin] = ()) ->
     ----------
     web : as from `build_web`.
     path : the file.
-    origins : where the clips were read from, as for `graphs.save`: one for each clip, or none.
+    origins : the sources of the clips, as for `graphs.save`, one for each clip or none.
 
     Raises
     ------
-    MocapError : for another suffix, and where the file cannot be written.
+    MocapError : for another suffix, and if the file cannot be written.
 
     Examples
     --------
@@ -76,14 +76,14 @@ def load_web(
     skeleton: Path | None = None,
     progress: Progress = iter,
 ) -> MatchWeb:
-    """Read a match web, and join it with its clips, at their frame rate; `save_web` shows an example.
+    """Load a match web and its clips, at their frame rate. `save_web` has an example.
 
     Parameters
     ----------
     path : a file from `save_web`.
-    clips : the motions that it was built of, in any order; other motions are ignored. By default they are
-        bundled samples, or the files that the web remembers, or files of their names beside it.
-    skeleton : the `.asf` file of `.amc` clips; by default the one that the web remembers, or one that fits.
+    clips : the motions from which it was built, in any order. Other motions are ignored. By default they are
+        bundled samples, or the files that the web stores, or files of the same names in its folder.
+    skeleton : the `.asf` file of `.amc` clips, by default the one that the web stores, or one that fits.
     progress : wraps the files of the clips, to show a bar.
 
     Returns
@@ -107,13 +107,13 @@ def load_web(
 
 
 def _lengths(clips: Sequence[Motion]) -> Indices:
-    """Count the frames of clips at the web's rate, as `body.resample` does; 0 if too short for a path."""
+    """Count the frames of clips at the web's rate, as `body.resample` does, or 0 if too short for a path."""
     counts = [int(clip.duration * MatchWeb.rate + 1e-9) + 1 for clip in clips]
     return np.array([count if count >= SHORTEST else 0 for count in counts], np.intp)
 
 
 def _rules(arrays: Arrays) -> Rules:
-    """Yield what must hold; each rule needs those before it."""
+    """Yield the rules of a valid file and their results. Each rule requires those before it."""
     cells = arrays["cells"]
     offsets = arrays["offsets"]
     lengths = arrays["lengths"]

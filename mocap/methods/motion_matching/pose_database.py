@@ -15,7 +15,7 @@ from mocap._shared.records import dataclass
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions, velocities
 from mocap.body.limbs import find_legs
-from mocap.body.motion import Motion, concatenate, require_alike
+from mocap.body.motion import Motion, concatenate, require_compatible
 from mocap.body.planar import heading, on_ground
 from mocap.errors import MocapError
 
@@ -203,7 +203,7 @@ def tabulate(clips: Sequence[Motion]) -> PoseDatabase:
 
     Notebook: 18-motion-matching
     """
-    clips = require_alike(clips)
+    clips = require_compatible(clips)
     rate = clips[0].fps
     longest = max(clips, key=len)
     if len(longest) <= END * rate + 1:

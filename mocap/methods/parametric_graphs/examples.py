@@ -1,7 +1,7 @@
-"""N examples of one action on one grid of phases: at each phase all examples do the same.
+"""N examples of one action on one grid of phases, so that corresponding events have the same phase.
 
-A margin before and after the action leaves room for the windows of transitions. Examples store no positions
-on the ground, but velocities and rotation rates relative to the body, which can be mixed.
+A margin before and after the action leaves room for the windows of transitions. Instead of positions on the
+ground, examples store velocities and rotation rates relative to the body, which can be mixed.
 """
 
 from collections.abc import Sequence
@@ -16,7 +16,7 @@ from mocap._shared.arrays import Array, Indices, Mask, Points
 from mocap._shared.records import dataclass
 from mocap.blending.registering import register
 from mocap.body import rotations
-from mocap.body.motion import Motion, require_alike
+from mocap.body.motion import Motion, require_compatible
 from mocap.body.planar import heading, on_ground
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
@@ -31,21 +31,22 @@ Cut = tuple[Motion, Array]
 
 @dataclass(frozen=True, eq=False)
 class Examples:
-    """N examples of one action on one grid of G phases; `cut_strides` and `cut_actions` make them.
+    """N examples of one action on one grid of G phases, as from `cut_strides` and `cut_actions`.
 
     Parameters
     ----------
-    skeleton, fps : of the clips.
-    grid : shape (G,), phases; the action, such as a stride, begins at 0 and ends at 1.
-    seconds : shape (N, G), since the action began: the time warp.
+    skeleton, fps : the skeleton and the frame rate of the clips.
+    grid : shape (G,), phases. The action, such as a stride, begins at 0 and ends at 1.
+    seconds : shape (N, G), the time warp: seconds since the beginning of the action.
     speeds : shape (N, G), complex z + ix, ground velocity relative to the heading, metres per phase.
     turning : shape (N, G), rotation rate of the heading, radians per phase.
-    heights : shape (N, G), of the root, metres.
-    poses : shape (N, G, J, 4), rotations; those of the root are relative to the heading.
-    contacts : shape (N, G, C), of the C joints `contact_names`.
-    values : shape (N, 2), the turn in radians and the speed in m/s.
-    sway : rotation of the pelvis in a straight example, radians: 0 for strides.
-    offset : angle from the heading at a strike to the direction of travel, radians; 0 if none is straight.
+    heights : shape (N, G), heights of the root, metres.
+    poses : shape (N, G, J, 4), rotations, of which those of the root are relative to the heading.
+    contacts : shape (N, G, C), contacts of the C joints `contact_names`.
+    values : shape (N, 2), the turn, which is the change of heading in radians, and the speed in m/s.
+    sway : rotation of the pelvis in a straight example, radians, which is 0 for strides.
+    offset : angle from the heading at a strike to the direction of travel, radians, or 0 if no example is
+        straight.
     dropped : number of examples that were left out.
     """
 
@@ -69,23 +70,23 @@ class Examples:
 
     @cached_property
     def joints(self) -> list[int]:
-        """The joints by which windows are compared, one for each position."""
+        """The joints whose positions are compared in windows, without coincident joints."""
         return distinct_joints(self.skeleton)
 
     @property
     def ends(self) -> tuple[int, int]:
-        """The numbers of phases 0 and 1 on the grid."""
+        """The indices of the phases 0 and 1 in the grid."""
         return _ends(self.grid)
 
     def take(self, rows: Mask | Indices) -> "Examples":
-        """Return some of the examples."""
+        """Return the examples of some rows."""
         if not len(self.values[rows]):
             raise MocapError(f"None of {len(self)} examples is left.")
         parts = ("seconds", "speeds", "turning", "heights", "poses", "contacts", "values")
         return replace(self, **{part: getattr(self, part)[rows] for part in parts})
 
     def integrated(self, rates: NDArray[Any]) -> NDArray[Any]:
-        """Integrate rates (M, G) over the phases; the integral is 0 at phase 0.
+        """Integrate rates (M, G) over the phases, with the value 0 at phase 0.
 
         Examples
         --------
@@ -103,11 +104,11 @@ class Examples:
         return np.asarray(total - total[:, first : first + 1])
 
     def blend(self, weights: Array) -> Motion:
-        """Blend the action by weights (N,): one frame for each phase from 0 to 1, at the mean duration.
+        """Blend the action with weights (N,), one frame for each phase from 0 to 1, at the mean duration.
 
         Examples
         --------
-        A foot is in contact if it is in more than half of the mix, here in both examples:
+        A foot is in contact if examples with more than half of the weight have the contact, here both:
 
         >>> from mocap import body, datasets
         >>> from mocap.methods.parametric_graphs.strides import cut_strides
@@ -124,7 +125,7 @@ class Examples:
         return self.motion(weights, np.arange(first, last + 1.0), rate)[0]
 
     def motion(self, weights: Array, positions: Array, fps: float) -> tuple[Motion, Array]:
-        """Blend by weights (N,) at F positions between the G phases: the motion, and its heading (F,)."""
+        """Blend with weights (N,) at F positions between the G phases. Also return the heading (F,)."""
         (roots,), (poses,), (facing,) = self.mixed(weights[None], positions[None])
         marks = np.tensordot(weights, self.contacts[:, np.rint(positions).astype(int)], 1) > 0.5
         contacts = dict(zip(self.contact_names, marks.T, strict=True))
@@ -133,13 +134,14 @@ class Examples:
     def mixed(self, weights: Array, positions: Array) -> tuple[Array, Array, Array]:
         """Mix M motions at F positions between the G phases.
 
-        The pose is a normalised sum of quaternions of one sign. Heights are weighted sums. The root's
-        velocities relative to the body are mixed [ours], and integrated.
+        A pose is a normalised sum of quaternions in one hemisphere. Heights are weighted sums. The root's
+        velocities relative to the body are mixed [ours] and integrated.
 
         Parameters
         ----------
         weights : shape (M, N).
-        positions : shape (M, F), from 0 to G - 1: 2.5 is half-way between the phases numbered 2 and 3.
+        positions : shape (M, F), from 0 to G - 1. For example, 2.5 is half-way between phases 2 and 3 of the
+            grid.
 
         Returns
         -------
@@ -147,7 +149,7 @@ class Examples:
 
         Examples
         --------
-        Half of a stride that turns by 77° to the left, and half of one by 41° to the right:
+        The mean of a stride that turns by 86° to the left and one that turns by 17° to the right:
 
         >>> from mocap import body, datasets
         >>> from mocap.methods.parametric_graphs.strides import cut_strides
@@ -177,7 +179,7 @@ class Examples:
         return np.stack([ground.imag, heights, ground.real], axis=-1), poses, facing
 
     def _mixed_poses(self, weights: Array, low: Indices, fraction: Array) -> Array:
-        """Mix poses, (M, F, J, 4), at a fraction (M, F) of the step from the phases numbered `low` (M, F)."""
+        """Mix poses, (M, F, J, 4), at fractions (M, F) of the steps that begin at phases `low` (M, F)."""
         used = np.flatnonzero(weights.any(axis=0))
         first = low.min()
         window = self.poses[used, first : low.max() + 2]
@@ -189,7 +191,7 @@ class Examples:
         return poses
 
     def require_joinable(self, other: "Examples") -> None:  # reads: name: as in `Skeleton.require_same`
-        """Raise SkeletonMismatch or MocapError for examples of another skeleton, rate or marks."""
+        """Raise SkeletonMismatch or MocapError for examples of another skeleton, rate or contacts."""
         self.skeleton.require_same(other.skeleton)
         if self.fps != other.fps:
             raise MocapError(f"Examples are joined at one rate, got {self.fps:g} and {other.fps:g} Hz.")
@@ -199,12 +201,12 @@ class Examples:
 
 
 def _between(start: NDArray[Any], end: NDArray[Any], fraction: Array) -> NDArray[Any]:
-    """Interpolate linearly: the start at 0, the end at 1."""
+    """Interpolate linearly from the start, at fraction 0, to the end, at 1."""
     return np.asarray(start * (1 - fraction) + end * fraction)
 
 
 def _ends(grid: Array) -> tuple[int, int]:
-    """Return the numbers of the phases 0 and 1 on a grid."""
+    """Return the indices of the phases 0 and 1 in a grid."""
     first, last = np.searchsorted(grid, [-1e-9, 1 - 1e-9])
     return int(first), int(last)
 
@@ -212,8 +214,8 @@ def _ends(grid: Array) -> tuple[int, int]:
 def register_cuts(cuts: Sequence[Cut], within: tuple[int, int]) -> list[Cut]:
     """Register all examples with the one of median rotation, by registration curves [KG03].
 
-    They are registered between two phases, given by their numbers on the grid. Outside of these each clip
-    continues at its own pace: before and after punches, say, the examples are not one action any more.
+    They are registered between two phases, given by their indices in the grid. Before and after these, each
+    clip keeps its own pace, because there the examples need not show the same action.
     """
     first, last = within
     starts = [int(frames[first]) for _, frames in cuts]
@@ -235,16 +237,17 @@ def register_cuts(cuts: Sequence[Cut], within: tuple[int, int]) -> list[Cut]:
 def cut_actions(clips: Sequence[Motion], spans: Sequence[tuple[int, int]]) -> Examples:
     """Cut one action out of each clip, register them, and sample all on one grid of phases [HG07, examples].
 
-    Before and after, 0.38 of the action is kept for the windows of transitions, which take 0.3 s.
+    Margins of 0.38 of the action are kept before and after it, for the windows of transitions, which last
+    0.3 s.
 
     Parameters
     ----------
-    clips : one for each example, of one skeleton and rate; feet that are not marked are marked.
-    spans : for each clip the frames at which the action begins and ends.
+    clips : one for each example, of one skeleton and rate. Footplants are detected unless they are marked.
+    spans : for each clip, the frames at which the action begins and ends.
 
     Raises
     ------
-    MocapError : for no clips, spans that are not one for each clip, and a margin that runs off a clip.
+    MocapError : for no clips, another number of spans than clips, and a margin that exceeds its clip.
 
     Examples
     --------
@@ -258,7 +261,7 @@ def cut_actions(clips: Sequence[Motion], spans: Sequence[tuple[int, int]]) -> Ex
     """
     if len(spans) != len(clips):
         raise MocapError(f"Actions are cut by one span for each clip, got {len(clips)} and {len(spans)}.")
-    clips = require_alike(clips)
+    clips = require_compatible(clips)
     margin = round(MARGIN * FINE)
     grid = np.arange(-margin, FINE + margin + 1) / FINE
     cuts = []
@@ -273,14 +276,14 @@ def cut_actions(clips: Sequence[Motion], spans: Sequence[tuple[int, int]]) -> Ex
 
 
 def sample_cuts(cuts: Sequence[Cut], grid: Array, *, dropped: int = 0) -> Examples:
-    """Sample the motion of each clip at its frames (G,)."""
+    """Sample the motion of each clip at its frames (G,), and collect the examples."""
     names = tuple(cuts[0][0].contacts)
     samples = [_sample(clip, frames, grid, names) for clip, frames in cuts]
     arrays: dict[str, Any] = {}
     for part in samples[0]:
         arrays[part] = np.array([sample[part] for sample in samples])
     poses = arrays["poses"]
-    poses[0] = rotations.continuous(poses[0])  # one sign from phase to phase, and for all examples
+    poses[0] = rotations.continuous(poses[0])  # consistent signs over the phases, and in all examples
     products = (poses * poses[0]).sum(axis=-1, keepdims=True)
     poses *= np.where(products < 0, -1, 1)
     clip, _ = cuts[-1]
@@ -289,7 +292,7 @@ def sample_cuts(cuts: Sequence[Cut], grid: Array, *, dropped: int = 0) -> Exampl
 
 
 def _sample(clip: Motion, frames: Array, grid: Array, names: Sequence[str]) -> dict[str, NDArray[Any]]:
-    """Sample one example at some frames (G,): the arrays of `Examples`, without N."""
+    """Sample one example at frames (G,). Return the arrays of `Examples` without the axis N."""
     first, last = _ends(grid)
     step = grid[1] - grid[0]
     motion = clip.at(frames)
@@ -313,14 +316,15 @@ def _sample(clip: Motion, frames: Array, grid: Array, names: Sequence[str]) -> d
 
 
 def mixed_trajectory(examples: Examples, weights: Array) -> tuple[Points, Array]:
-    """Mix velocities relative to the body, and integrate: θ(u) = ∫ Σ w θ', p(u) = ∫ Σ w v e^{iθ} [ours].
+    """Mix velocities relative to the body and integrate them: θ(u) = ∫ Σ w θ', p(u) = ∫ Σ w v e^{iθ} [ours].
 
-    To mix positions instead would shorten a mix of strides by 90° to the left and to the right by a third.
+    If positions were mixed instead, a mix of strides by 90° to the left and to the right would be shortened
+    by a third.
 
     Parameters
     ----------
     examples : N examples.
-    weights : shape (M, N), of M mixes.
+    weights : shape (M, N), the weights of M mixes.
 
     Returns
     -------

@@ -20,7 +20,7 @@ from mocap.steering.characters import Pose, require_command
 
 TARGET = ("left", "up", "ahead")  # the parameters of a position in the world, relative to the body at phase 0
 COMMANDED = ("turn", "speed")  # the parameters that a command sets
-ROUNDS = 8  # iterations for a position, at most: where a motion starts depends on its parameters
+ROUNDS = 8  # largest number of iterations, as the start of a motion depends on its parameters
 CLOSE = 0.002  # metres: a smaller change of the parameters ends the iterations
 
 
@@ -29,12 +29,12 @@ class Chosen(NamedTuple):
 
     Parameters
     ----------
-    node : of the graph.
-    requested : shape (d,), the parameters by the command; nan for those without a request, which take the
-        middle of the box.
+    node : the node of the motion.
+    requested : shape (d,), the parameters by the command, or NaN for those without a request, for which the
+        middle of the box is used.
     allowed : shape (d,), the nearest parameters in the box.
-    reached : shape (d,), the parameters of the motion, which differ in corners of the box without clips.
-    cost : of the transition, metres.
+    reached : shape (d,), the parameters of the motion. They differ in corners of the box without clips.
+    cost : the cost of the transition, metres.
 
     Examples
     --------
@@ -61,17 +61,18 @@ class _Seam(NamedTuple):
 
 
 class ParametricController:
-    """A character on a parametric motion graph; it fits `steering.Character` [HG07, 5; seam].
+    """A character on a parametric motion graph, which implements `steering.Character` [HG07, 5; seam].
 
     Five frames before a motion is left, the character looks up the box of targets that may follow, chooses
-    the parameters in it nearest to the command, makes that motion, and blends over 11 frames. All frames
-    until the next decision are made at once, so that most steps only read. Nodes with the parameters "left",
-    "up" and "ahead" get their position in the world by `aim`, and are entered by their label [ours].
+    the parameters in it nearest to the command, generates that motion, and blends over 11 frames. All frames
+    until the next decision are generated at once, so that most steps only read them. For nodes with the
+    parameters "left", "up" and "ahead", `aim` sets the position in the world. They are entered by their label
+    [ours].
 
     Parameters
     ----------
-    graph : of spaces, in which every node has a successor.
-    start : the first node; by default the first of the graph.
+    graph : a graph of spaces, as from `build_parametric`, in which every node has a successor.
+    start : the first node, by default the first of the graph.
 
     Raises
     ------
@@ -111,14 +112,14 @@ class ParametricController:
 
     @property
     def end(self) -> PlanarTransform:
-        """The position and heading of the body at the end of the current motion, from which to aim."""
+        """The position and heading of the body at the end of the current motion."""
         last = self.current.frame(1.0)
         x, _, z = self.current.motion.root_positions[last]
         return self.transform @ PlanarTransform(float(self.current.heading[last]), x, z)
 
     @property
     def frames_left(self) -> int:
-        """The frames until the next decision."""
+        """The number of frames until the next decision."""
         return len(self._frames) - self._next
 
     def aim(self, position: ArrayLike) -> None:
@@ -134,17 +135,17 @@ class ParametricController:
         self.target = target
 
     def step(self, heading: float, speed: float, label: str = "") -> Pose:
-        """Walk on by one frame.
+        """Advance the character by one frame.
 
         Parameters
         ----------
-        heading : the direction to go in, radians; 0 is +z, π/2 is +x.
+        heading : the desired heading, radians, 0 along +z and π/2 along +x.
         speed : metres per second.
-        label : the node to reach by the fewest motions; "" for any that walks.
+        label : the node to reach by the fewest motions, or "" for any that walks.
 
         Raises
         ------
-        MocapError : for a heading or speed that is no finite number, or a speed below 0.
+        MocapError : for a heading or speed that is not a finite number, or a speed below 0.
         NoWalk : for a node that is not in the graph, or cannot be reached.
         """
         require_command(heading, speed)
@@ -157,7 +158,7 @@ class ParametricController:
         return Pose(motion.root_positions[frame], motion.rotations[frame], frame in self._blended, marks)
 
     def _play(self, previous: list[Motion], blended: int, first: int) -> None:
-        """Append the current motion, from `first` to its decision, to others, whose last are blended."""
+        """Append the current motion, from frame `first` to the decision, after `blended` frames of a seam."""
         edges = self.graph.edges(self.node, data="edge")
         self.boxes: dict[str, TargetBox] = {node: edge.look_up(self.parameters) for _, node, edge in edges}
         soonest = min(self.current.frame(box.leave) for box in self.boxes.values()) - HALF
@@ -168,11 +169,11 @@ class ParametricController:
         self._frames = concatenate([*previous, *self._transformed(first, self._decision)])
 
     def _transformed(self, first: int, stop: int) -> list[Motion]:
-        """Return some frames of the current motion in the world: one motion, or none."""
+        """Return frames of the current motion in the world, as a list of one motion or none."""
         return [self.transform.apply_motion(self.current.motion[first:stop])] if first < stop else []
 
     def _choose(self, heading: float, speed: float, label: str) -> None:
-        """Choose the next motion, make it, and blend into it."""
+        """Choose the next motion, generate it, and blend into it."""
         node = self._next_node(label, heading, speed)
         space: Space = self.graph.nodes[node]["space"]
         box = self.boxes[node]
@@ -184,7 +185,7 @@ class ParametricController:
             goal = np.clip(complete, box.low, box.high)
             if np.abs(goal - parameters).max() < CLOSE:
                 break
-            # After the first, half steps: full steps oscillate about the goal.
+            # After the first step, half steps are used, because full steps oscillate about the goal.
             parameters = (parameters + goal) / 2 if number else goal
             motion = make_motion(space, parameters)
             seam = self._seam(box, motion, space.examples.joints)
@@ -213,14 +214,14 @@ class ParametricController:
         return _Seam(leave, enter, source, target, transform, cost)
 
     def _requested(self, space: Space, start: PlanarTransform, heading: float, speed: float) -> Array:
-        """Return the parameters that obey the command from a start; nan for those without a request."""
+        """Return the parameters that obey the command from a start, or NaN for those without a request."""
         turn = (heading - start.angle - space.examples.offset + np.pi) % (2 * np.pi) - np.pi
         target = start.inverse().apply_points(self.target)
         requests = {"turn": turn, "speed": speed, **dict(zip(TARGET, target, strict=True))}
         return np.array([requests.get(name, np.nan) for name in space.parameters])
 
     def _next_node(self, label: str, heading: float, speed: float) -> str:
-        """Choose the next node: on the shortest path to the label, or with the box nearest to the command."""
+        """Choose the next node, on the shortest path to the label or with the box nearest to the command."""
         graph = self.graph
         if label and label not in graph:
             raise NoWalk(f"There is no node '{label}'; there are: {', '.join(graph)}.")
@@ -236,13 +237,13 @@ class ParametricController:
         return min(candidates, key=lambda node: lengths[node])
 
     def _commanded_nodes(self) -> set[str]:
-        """Return the nodes that obey commands and that another one which obeys them may follow."""
+        """Return the nodes that obey commands and have a successor that also obeys them."""
         spaces = self.graph.nodes(data="space")
         obeying = {node for node, space in spaces if not set(space.parameters).isdisjoint(COMMANDED)}
         return {node for node in obeying if obeying & set(self.graph.successors(node))}
 
     def _shortfall(self, node: str, heading: float, speed: float) -> float:
-        """Sum the differences in turn, radians, and speed, m/s, of the command from the best in a box."""
+        """Sum the differences in turn, radians, and speed, m/s, between the command and a node's box."""
         space: Space = self.graph.nodes[node]["space"]
         box = self.boxes[node]
         requested = self._requested(space, self.end, heading, speed)

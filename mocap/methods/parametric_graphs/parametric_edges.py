@@ -17,14 +17,14 @@ from mocap.methods.parametric_graphs.stride_spaces import (
     spread_parameters,
 )
 
-NEIGHBOURS = 4  # sources beyond the number of parameters: with one, as in [HG07, 4], boxes jump
-BAD = 1.35  # T_BAD over T_GOOD: with 2 no bad target cuts a box
+NEIGHBOURS = 4  # interpolated sources in addition to the number of parameters. With 1 [HG07, 4], boxes jump
+BAD = 1.35  # T_BAD / T_GOOD. With 2, no bad target would cut a box
 SAMPLING = (50, 1000)  # number of sources and of targets of an edge
-EPSILON = 0.005  # fraction of half a range: the distance of a box from bad targets
+EPSILON = 0.005  # distance of a box from bad targets, as a fraction of half a range
 
 
 class TargetBox(NamedTuple):
-    """The targets that may follow a source.
+    """The box of targets that may follow a source, and the phases of the transition.
 
     Parameters
     ----------
@@ -45,12 +45,12 @@ class TargetBox(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class ParametricEdge:
-    """The boxes of targets that may follow S sampled sources; `build_edge` shows an example.
+    """The boxes of targets that may follow S sampled sources. `build_edge` has an example.
 
     Parameters
     ----------
-    sources : shape (S, d), their parameters.
-    low, high : shape (S, d'), the box of each.
+    sources : shape (S, d), the parameters of the sources.
+    low, high : shape (S, d'), the corners of the box of each source.
     leave, enter : shape (S,), phases near 1 and near 0.
     scale : shape (d,), the units in which distances between sources are measured.
     smallest_good : metres, the smallest T_GOOD at which every source has a target.
@@ -65,10 +65,10 @@ class ParametricEdge:
     smallest_good: float
 
     def look_up(self, parameters: Array, count: int | None = None) -> TargetBox:
-        """Interpolate the boxes of the sources nearest to some parameters (d,) [HG07, Eqs. 1-3].
+        """Interpolate the boxes of the sources nearest to given parameters (d,) [HG07, Eqs. 1-3].
 
-        The farthest of k sources always has the weight 0. With k = d + 1, as in [HG07, 4], one parameter
-        therefore selects the nearest source alone, and boxes jump. The default k is d + 4 [ours].
+        The farthest of k sources always has the weight 0. With k = d + 1, as in [HG07, 4], and one parameter,
+        only the nearest source has a weight, and boxes jump. The default k is d + 4 [ours].
 
         Examples
         --------
@@ -86,19 +86,19 @@ class ParametricEdge:
 
 
 def shrink_box(good: Array, bad: Array, scale: Array, eps: float = EPSILON) -> tuple[Array, Array]:
-    """Return the bounding box of good targets, shrunk until no bad one is inside [HG07, 3.2].
+    """Compute the bounding box of good targets, shrunk until no bad target is inside [HG07, 3.2].
 
     For each bad target inside, the side with the smallest loss is shifted inwards.
 
     Parameters
     ----------
-    good, bad : parameters (A, d) and (B, d); at least one good one.
+    good, bad : parameters (A, d) and (B, d) of good and bad targets, with A at least 1.
     scale : shape (d,), the units of the loss of a side.
-    eps : fraction of the scale: the distance of a box from a bad target.
+    eps : distance of a box from a bad target, as a fraction of the scale.
 
     Returns
     -------
-    The low and the high corner, (d,) each. The box may be empty: a low side above its high side.
+    The low and the high corner, (d,) each. In an empty box, a low side is above its high side.
 
     Examples
     --------
@@ -106,19 +106,11 @@ def shrink_box(good: Array, bad: Array, scale: Array, eps: float = EPSILON) -> t
     >>> shrink_box(good, bad, np.array([5.0, 5]), eps=0.01)
     (array([0., 0.]), array([ 8.95, 10.  ]))
 
-    With a larger unit of the second parameter, a loss of 2 units of it is smaller than one of 1 of the first:
+    With a larger unit of the second parameter, a loss of 2 along it is smaller than a loss of 1 along the
+    first:
 
     >>> shrink_box(good, bad, np.array([5.0, 20]), eps=0.1)
     (array([0., 4.]), array([10., 10.]))
-
-    The distance from a bad target is 0.1 · 5 along the first parameter and 0.1 · 20 along the second:
-
-    >>> bad = np.array([[10.5, 5], [-0.5, 5], [5, 12], [5, -2]])
-    >>> [part.tolist() for part in shrink_box(good, bad, np.array([5.0, 20]), eps=0.1)]
-    [[0.0, 0.0], [10.0, 10.0]]
-    >>> bad = np.array([[10.25, 5], [-0.25, 5], [5, 11], [5, -1]])
-    >>> [part.tolist() for part in shrink_box(good, bad, np.array([5.0, 20]), eps=0.1)]
-    [[0.25, 1.0], [9.75, 9.0]]
 
     Notebook: 17-parametric-graphs
     """
@@ -144,20 +136,20 @@ def build_edge(
     bad: float | None = None,
     sampling: tuple[int, int] = SAMPLING,
 ) -> ParametricEdge:
-    """Compute the boxes of targets, and when to leave and enter, of sampled sources [HG07, 3.2; no edge; 4].
+    """Compute the boxes of targets and the phases of transitions of sampled sources [HG07, 3.2; no edge; 4].
 
     Parameters
     ----------
-    source, target : spaces; one may follow itself.
-    good : T_GOOD, metres: targets with at most this cost bound the box; with ∞ all do.
-    bad : T_BAD, metres: targets with a higher cost are outside of it; 1.35 T_GOOD by default. Those between
-        may be inside.
-    sampling : number of sources to spread, and of targets to draw; 50 and 1000 as in the paper.
+    source, target : spaces, which may be the same one.
+    good : T_GOOD, metres. The box bounds the targets with at most this cost, or all targets with ∞.
+    bad : T_BAD, metres, by default 1.35 T_GOOD. Targets with a higher cost are outside the box. Targets with
+        a cost between the two may be inside.
+    sampling : number of sources to spread and of targets to draw, by default 50 and 1000 as in the paper.
 
     Raises
     ------
-    MocapError : for a T_BAD below T_GOOD, and spaces of different skeletons, rates or marks.
-    NoWalk : if a source has no good target: [HG07] has no edge then.
+    MocapError : for a T_BAD below T_GOOD, and spaces of different skeletons, rates or contacts.
+    NoWalk : if a source has no good target. In [HG07] there is no edge then.
 
     Examples
     --------
@@ -193,7 +185,7 @@ def build_edge(
         is_good = cost <= good
         low, high = shrink_box(targets[is_good], targets[cost > bad], target.scale)
         inside = is_good & ((targets >= low) & (targets <= high)).all(axis=1)
-        if not inside.any():  # surrounded by bad ones: only the best target
+        if not inside.any():  # good targets surrounded by bad ones: only the best target is used
             best = int(cost.argmin())
             low = high = targets[best]
             inside = np.arange(len(targets)) == best
@@ -203,7 +195,7 @@ def build_edge(
 
 
 def _no_edge(source: Space, parameters: Array, good: float, cost: float) -> NoWalk:
-    """Return the error for a source whose best target costs more than T_GOOD."""
+    """Return the error for a source whose best target has a cost above T_GOOD."""
     named = zip(source.parameters, parameters, strict=True)
     values = ", ".join(f"{name} {parameter_text(name, value)}" for name, value in named)
     below = f"{100 * good:.1f} cm (the best costs {100 * cost:.1f} cm)"
@@ -218,23 +210,24 @@ def build_parametric(
     good: float,
     sampling: tuple[int, int] = SAMPLING,
 ) -> nx.DiGraph:
-    """Build a parametric motion graph from named spaces and the pairs that may follow [HG07, graph].
+    """Build a parametric motion graph from named spaces and pairs of consecutive spaces [HG07, graph].
 
     Parameters
     ----------
-    spaces : by name, of one skeleton and rate.
-    edges : pairs of names. By default all pairs for which an edge exists: those whose sources all have a good
+    spaces : spaces of one skeleton and rate, by name.
+    edges : pairs of names. By default all pairs for which an edge exists, because all sources have a good
         target.
     good, sampling : as for `build_edge`.
 
     Returns
     -------
-    A `networkx.DiGraph` of the names: each node has its `space`, each edge its `ParametricEdge` as `edge`.
+    A `networkx.DiGraph` of the names, with the attribute `space` of a node and the attribute `edge`, a
+    `ParametricEdge`, of an edge.
 
     Raises
     ------
-    NoWalk : for a named edge that does not exist, with a remedy, and a node without successors.
-    MocapError : as `build_edge`, and for unknown names.
+    NoWalk : for a given edge that does not exist, with a remedy, and a node without successors.
+    MocapError : as for `build_edge`, and for unknown names.
 
     Examples
     --------
@@ -255,7 +248,7 @@ def build_parametric(
     unknown = [name for pair in pairs for name in pair if name not in spaces]
     if unknown:
         raise MocapError(f"There is no space '{unknown[0]}'; there are: {', '.join(spaces)}.")
-    for space in spaces.values():  # before any edge takes its seconds
+    for space in spaces.values():  # before the first edge, which takes seconds
         next(iter(spaces.values())).examples.require_joinable(space.examples)
     graph = nx.DiGraph()
     graph.add_nodes_from((name, {"space": space}) for name, space in spaces.items())

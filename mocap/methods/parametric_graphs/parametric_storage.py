@@ -1,7 +1,7 @@
-"""Save a parametric motion graph to one file: spaces, their examples, and edges as arrays in an `.npz`.
+"""Storage of a parametric motion graph in one file: spaces, examples and edges as arrays in an `.npz`.
 
-The examples are in the file, so that no clip is needed to walk again. It holds no code: it is safe to read a
-file from a stranger.
+The file contains the examples, so that no clip is needed to use it. It contains no code, so that reading an
+untrusted file is safe.
 """
 
 from pathlib import Path
@@ -18,11 +18,11 @@ from mocap.methods.parametric_graphs.examples import Examples
 from mocap.methods.parametric_graphs.parametric_edges import ParametricEdge
 from mocap.methods.parametric_graphs.stride_spaces import Space
 
-LARGEST = 1e6  # metres, seconds or radians: of all numbers of a file
+LARGEST = 1e6  # metres, seconds or radians, the largest number in a file
 RATES = (1.0, 1000.0)  # frames per second
-LONGEST = 10.0  # seconds of an example
-UNIT = 1e-5  # by which the square of a quaternion's length may differ from 1
-EVEN = 1e-6  # of a phase, a second, or a sum of weights
+LONGEST = 10.0  # seconds, the longest duration of an example
+UNIT = 1e-5  # tolerance of the squared length of a quaternion, 1
+EVEN = 1e-6  # tolerance of a phase, a second, or a sum of weights
 # The arrays of the file, with K nodes and E edges.
 ARRAYS: Layout = {"names": (str, ("K",)), "sources": (int, ("E",)), "targets": (int, ("E",))}
 SKELETON: Layout = {
@@ -32,7 +32,7 @@ SKELETON: Layout = {
     "axes": (float, ("j", 4)),
     "dofs": (str, ("j",)),
 }
-# Of n examples on g phases, with c marks.
+# The arrays of n examples on g phases, with c contacts.
 # reads: statement: a table
 EXAMPLES: Layout = {
     "fps": (float, ()),
@@ -49,7 +49,7 @@ EXAMPLES: Layout = {
     "offset": (float, ()),
     "dropped": (int, ()),
 }
-# Of s samples of d parameters.
+# The arrays of s samples of d parameters.
 # reads: statement: a table
 SPACE: Layout = {
     "sampled_weights": (float, ("s", "n")),
@@ -59,7 +59,7 @@ SPACE: Layout = {
     "low": (float, ("d",)),
     "high": (float, ("d",)),
 }
-# Of s sources of d parameters, with a box of t parameters for each.
+# The arrays of s sources of d parameters, with a box of t parameters for each.
 # reads: statement: a table
 EDGE: Layout = {
     "at": (float, ("s", "d")),
@@ -75,7 +75,7 @@ FIELDS = {"at": "sources", "least": "smallest_good"}
 
 
 def save_parametric(graph: nx.DiGraph, path: str | Path) -> None:
-    """Write a parametric motion graph to `.npz`; an old file is replaced when the new one is complete.
+    """Save a parametric motion graph to an `.npz` file, which is replaced only when the new one is complete.
 
     A graph of walks, jogs and the changes between them takes 40 s to build, and 0.7 s to load from 13 MB.
 
@@ -86,7 +86,7 @@ def save_parametric(graph: nx.DiGraph, path: str | Path) -> None:
 
     Raises
     ------
-    MocapError : for another suffix, and where the file cannot be written.
+    MocapError : for another suffix, and if the file cannot be written.
 
     Examples
     --------
@@ -128,7 +128,7 @@ def _arrays_of_space(space: Space) -> dict[str, Any]:
 
 
 def load_parametric(path: str | Path) -> nx.DiGraph:
-    """Read a parametric motion graph; `save_parametric` shows an example.
+    """Load a parametric motion graph from a file. `save_parametric` has an example.
 
     Parameters
     ----------
@@ -182,7 +182,7 @@ def _space(arrays: Arrays) -> Space:
 
 
 def _rules(arrays: Arrays) -> Rules:
-    """Yield what must hold; each rule needs those before it."""
+    """Yield the rules of a valid file and their results. Each rule requires those before it."""
     sources = arrays["sources"]
     targets = arrays["targets"]
     nodes = len(arrays["names"])
@@ -207,7 +207,7 @@ def _rules(arrays: Arrays) -> Rules:
 
 
 def _rules_of_examples(node: Arrays) -> Rules:
-    """Yield what must hold of the examples of a node, whose numbers are finite."""
+    """Yield the rules of the examples of a node, whose numbers are finite, and their results."""
     grid = node["grid"]
     seconds = node["seconds"]
     yield "rates are 1 to 1000 Hz", RATES[0] <= node["fps"] <= RATES[-1]
@@ -225,7 +225,7 @@ def _rules_of_examples(node: Arrays) -> Rules:
 
 
 def _rules_of_samples(node: Arrays) -> Rules:
-    """Yield what must hold of the samples of a node, whose numbers are finite."""
+    """Yield the rules of the samples of a node, whose numbers are finite, and their results."""
     parameters = node["parameters"].tolist()
     weights = node["sampled_weights"]
     yield "parameters have names of their own", 0 < len(set(parameters)) == len(parameters)
@@ -236,7 +236,7 @@ def _rules_of_samples(node: Arrays) -> Rules:
 
 
 def _rules_of_edges(edge: Arrays, source: int, target: int) -> Rules:
-    """Yield what must hold of an edge from a space of `source` parameters to one of `target` parameters."""
+    """Yield the rules of an edge between spaces of `source` and of `target` parameters, and their results."""
     yield "edges have the parameters of their source", edge["at"].shape[1] == source
     yield "edges have the parameters of their target", edge["low"].shape[1] == target
     yield "sources are enough", len(edge["at"]) >= source + 2

@@ -1,4 +1,4 @@
-"""Changes between two kinds of strides, such as from a walk into a jog: one kind fades into the other."""
+"""Strides that change from one kind to another, such as from a walk to a jog, by blending over the phases."""
 
 import warnings
 from dataclasses import replace
@@ -21,29 +21,29 @@ from mocap.methods.parametric_graphs.stride_spaces import measure_mixes
 
 FROM = 0.2  # phase at which a change begins
 TO = 0.8  # phase at which a change ends
-STEP = (0.05, 0.95)  # phases between which feet step to their new positions: seams blend the others
+STEP = (0.05, 0.95)  # phases between which feet step to their new positions. Seams blend the other phases
 STRIKE = 2  # phases of the grid by which a swing may end after a strike
-NEAR = np.radians(5)  # a turn may be this far outside those of the other kind
-EXAMPLES = 60  # number of examples of a change, at most
+NEAR = np.radians(5)  # largest difference of a turn from the range of the other kind
+EXAMPLES = 60  # largest number of examples of a change
 
 
 def changing_strides(first: Examples, second: Examples, *, stands: str = "") -> Examples:
-    """Fade strides of one kind into strides of another, phase by phase [ours; KG03's transition on phases].
+    """Blend strides of one kind into strides of another, phase by phase [ours; KG03's transition on phases].
 
-    Each stride of the first kind is paired with the one of the second with the most similar turn. Between the
-    phases 0.2 and 0.8 all rates and poses are faded smoothly. The start therefore fits the successors of the
-    first kind, and the end the predecessors of the second. A foot moves from its position in the first kind
-    to that in the second while it swings, and rests before and after.
+    Each stride of the first kind is paired with the stride of the second kind with the most similar turn. All
+    rates and poses are blended smoothly between the phases 0.2 and 0.8. Therefore the start matches strides
+    of the first kind, and the end those of the second. A foot moves from its position in the first kind to
+    that in the second while it swings, and rests before and after.
 
     Parameters
     ----------
     first, second : examples over the same phases, of one skeleton and rate.
-    stands : "first" or "second" for examples that do not walk, such as punches: only their end or their
-        beginning is used, and pairs need no similar turns.
+    stands : "first" or "second" for examples that do not walk, such as punches. Only their end or their
+        beginning is used, and the turns in a pair may differ.
 
     Returns
     -------
-    At most 60 examples, of turns that both kinds have; without pairs in which a foot does not swing.
+    At most 60 examples with turns that both kinds have, without pairs in which a foot does not swing.
 
     Raises
     ------
@@ -83,9 +83,9 @@ def changing_strides(first: Examples, second: Examples, *, stands: str = "") -> 
 
 
 def _fractions(first: Examples, second: Examples) -> Array:
-    """Compute the fraction of the second kind at each phase, for each joint, (N, G, J).
+    """Compute the blend weight of the second kind at each phase, for each joint, (N, G, J).
 
-    The joints of a leg are faded while it swings; their fractions are nan if it never does.
+    The joints of a leg are blended while it swings. Their weights are NaN if it never does.
     """
     grid = first.grid
     skeleton = first.skeleton
@@ -104,7 +104,7 @@ def _fractions(first: Examples, second: Examples) -> Array:
 
 
 def _swing(examples: Examples, ankle: Array, ball: Array) -> tuple[float, float]:
-    """Return the phases at which the longest swing of a foot starts and stops; nan if it never swings.
+    """Return the phases at which the longest swing of a foot starts and stops, or NaN if it never swings.
 
     Parameters
     ----------
@@ -122,9 +122,9 @@ def _swing(examples: Examples, ankle: Array, ball: Array) -> tuple[float, float]
 
 
 def _faded(first: Examples, second: Examples, fractions: Array) -> Examples:
-    """Fade poses by the fractions of their joints, and rates by those of the root.
+    """Blend poses with the weights of their joints, and rates with those of the root.
 
-    A foot has no contact while it is faded. The rate of time is faded, not time itself.
+    A foot has no contact while it is blended. The rate of time is blended, not time itself.
     """
     root_fraction = fractions[..., 0]
 
@@ -159,7 +159,7 @@ def _faded_poses(first: Array, second: Array, fractions: Array) -> Array:
 
 
 def _with_feet_led(faded: Examples, first: Examples, second: Examples, fractions: Array) -> Examples:
-    """Lead each foot from its path in the first kind to that in the second, aligned at phase 1."""
+    """Constrain each foot to a blend of its paths in both kinds, which are aligned at phase 1."""
     poses = faded.poses.copy()
     heights = faded.heights.copy()
     _, last = faded.ends
@@ -190,9 +190,9 @@ def _aligned_at(frame: int, motion: Motion, reference: Motion, rotation: complex
 
 
 def _lead_feet(motion: Motion, paths: Array) -> Motion:
-    """Bend the legs so that ankles and balls follow the paths of their joints (F, J, 3), then clean up.
+    """Make ankles and balls follow the paths of their joints (F, J, 3), and remove foot sliding.
 
-    `clean_up` solves the inverse kinematics: if a foot is marked in all frames, it is held on its path.
+    `clean_up` solves the inverse kinematics: a foot that is marked in all frames is held on its path.
     """
     always = dict.fromkeys(motion.contacts, np.ones(len(motion), bool))
     held = dict(enumerate(np.swapaxes(paths, 0, 1)))
@@ -202,7 +202,7 @@ def _lead_feet(motion: Motion, paths: Array) -> Motion:
 
 
 def _still_outside(examples: Examples, low: float, high: float) -> Examples:
-    """Hold the poses of examples, and stop them, before one phase and after another."""
+    """Freeze the poses and the motion of examples before phase `low` and after phase `high`."""
     rows = np.searchsorted(examples.grid, np.clip(examples.grid, low, high) - 1e-9)
     is_moving = rows == np.arange(len(rows))
     # reads: statement: one field a line
@@ -217,7 +217,7 @@ def _still_outside(examples: Examples, low: float, high: float) -> Examples:
 
 
 def _pairs(first: Examples, second: Examples, any_turn: bool) -> tuple[Indices, Indices]:
-    """Pair examples of two kinds, spread over their turns: any two, or those with the most similar turns.
+    """Pair examples of two kinds, in any combination or with the most similar turns.
 
     Without `any_turn`, examples whose turn is more than 5° outside those of the second kind are left out.
     """

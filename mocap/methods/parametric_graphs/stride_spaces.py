@@ -1,8 +1,8 @@
-"""A space of strides: from a turn to the weights of a blend that has it [KG04].
+"""A space of strides: the blend weights of a stride with a given turn [KG04].
 
-It is a `methods.match_webs.MotionSpace` like that of any motion (`methods.match_webs.sample_space`), but
-the weights of its samples are bells about a turn, because many strides share one parameter. Few examples of
-many parameters are blended d + 1 at a time.
+It is a `methods.match_webs.MotionSpace` as for any motion (`methods.match_webs.sample_space`). But the
+weights of its samples are Gaussian in the turn, because there are many strides for one parameter. A small
+number of examples of several parameters is blended d + 1 at a time.
 """
 
 import numpy as np
@@ -15,15 +15,15 @@ from mocap.methods.parametric_graphs.examples import Examples, mixed_trajectory
 
 Space = MotionSpace[Examples]
 
-SMALLEST = 1e-3  # a bell's weight below this fraction of the largest counts as 0
+SMALLEST = 1e-3  # weights below this fraction of the largest count as 0
 SAMPLES = 120  # number of samples of a space
 
 
 def bell_weights(values: Array, targets: Array, width: Array | float) -> Array:
-    """Weigh all examples by a bell: w ∝ exp(-|(λ - λ_i) / h|² / 2) [ours; HG07 takes the k nearest].
+    """Compute Gaussian weights of all examples: w ∝ exp(-|(λ - λ_i) / h|² / 2) [ours; HG07 uses k nearest].
 
-    With the k nearest strides, a change of the target by 2° changes the clip by 3 cm on average. With a bell
-    of 14° it is 0.2 cm. Edges need a smooth space.
+    With the k nearest strides, a change of the target by 2° changes the clip by 3 cm on average. With a
+    Gaussian of 14° it is 0.2 cm. Edges require a smooth space.
 
     Parameters
     ----------
@@ -33,15 +33,12 @@ def bell_weights(values: Array, targets: Array, width: Array | float) -> Array:
 
     Returns
     -------
-    Weights (M, N) with the sum one in each row.
+    Weights (M, N) whose rows sum to one.
 
     Examples
     --------
     >>> bell_weights(np.array([[0.0], [1.0]]), np.array([[0.0]]), np.ones(1)).round(3)
     array([[0.622, 0.378]])
-    >>> bell_weights(np.array([[0.0], [3.7], [3.75]]), np.array([[0.0], [0.05]]), 1.0).round(4)
-    array([[0.9989, 0.0011, 0.    ],
-           [0.9977, 0.0013, 0.0011]])
 
     Notebook: 17-parametric-graphs
     """
@@ -52,7 +49,7 @@ def bell_weights(values: Array, targets: Array, width: Array | float) -> Array:
 
 
 def measure_mixes(strides: Examples, weights: Array) -> Array:
-    """Measure the turn in radians and the speed in m/s of mixes with the weights (M, N): (M, 2).
+    """Compute the turn in radians and the speed in m/s of mixes with weights (M, N), shape (M, 2).
 
     Examples
     --------
@@ -74,21 +71,21 @@ def measure_mixes(strides: Examples, weights: Array) -> Array:
 
 
 def make_space(strides: Examples, width: float, low: float, high: float) -> Space:
-    """Make a space of turns: sample mixes over a range, and measure their turns [KG04], for [HG07, nodes].
+    """Build a space of turns: sample mixes over a range, and measure their turns [KG04], for [HG07, nodes].
 
-    The turn of a bell's mix differs from its target by 4° on average. Weights that are interpolated between
-    the measured samples (`methods.match_webs.weights_for`) meet a target to 0.01°.
+    The turn of a mix with Gaussian weights differs from its target by 4° on average. Weights that are
+    interpolated between the measured samples (`methods.match_webs.weights_for`) meet a target to 0.01°.
 
     Parameters
     ----------
     strides : N examples.
-    width : of the bell, radians; about 14° for captured strides.
-    low, high : the range of turns, radians; it is cut to the turns of the samples.
+    width : standard deviation of the Gaussian, radians. About 14° suits captured strides.
+    low, high : the range of turns, radians, which is reduced to that of the samples.
 
     Raises
     ------
-    MocapError : for an empty range or one with too few samples, fewer strides than three, and strides that do
-        not vary.
+    MocapError : for a range with fewer than three samples, fewer than three strides, and strides that do not
+        vary.
 
     Examples
     --------
@@ -103,13 +100,6 @@ def make_space(strides: Examples, width: float, low: float, high: float) -> Spac
     >>> space, space.scale.tolist(), space.values[[0, 59, -1], 0].round(3).tolist()
     (MotionSpace(26 examples, 120 samples of 1 numbers), [0.8], [-1.215, 0.023, 1.237])
 
-    Three samples in the range are enough. So are three strides that turn by -17° to 18°:
-
-    >>> len(make_space(strides, 0.4, 0.0, 0.04).reached)
-    3
-    >>> three = make_space(strides.take(np.argsort(strides.values[:, 0])[12:15]), 0.4, -0.8, 0.8)
-    >>> np.degrees([*three.low, *three.high]).round().tolist()
-    [-17.0, 18.0]
 
     Notebook: 17-parametric-graphs
     """
@@ -133,12 +123,12 @@ def make_space(strides: Examples, width: float, low: float, high: float) -> Spac
 
 
 def _range_text(turns: Array) -> str:
-    """Write the smallest and the largest of some turns."""
+    """Format the smallest and the largest of some turns."""
     return f"{parameter_text('turn', turns.min())} to {parameter_text('turn', turns.max())}"
 
 
 def parameter_text(name: str, value: float) -> str:
-    """Write a parameter with its unit.
+    """Format a parameter with its unit.
 
     Examples
     --------
@@ -155,8 +145,8 @@ def parameter_text(name: str, value: float) -> str:
 def draw_parameters(space: Space, count: int, random: np.random.Generator) -> Array:
     """Draw random parameters (count, d) that the space can reach.
 
-    One parameter is drawn uniformly from its range. More are drawn between samples, because the corners of
-    the range, such as fast and sharp at once, may be empty.
+    A single parameter is drawn uniformly from its range. Several are drawn between samples, because corners
+    of the range, such as sharp turns at high speed, may be empty.
 
     Examples
     --------
@@ -180,8 +170,9 @@ def draw_parameters(space: Space, count: int, random: np.random.Generator) -> Ar
 def spread_parameters(space: Space, count: int) -> Array:
     """Spread at most `count` parameters (C, d) over those that a space reaches, its ends first [ours].
 
-    One parameter is spread evenly over its range. Of more, each next one is the sample farthest from those
-    chosen. Random parameters cluster, so that boxes that are looked up among them jump.
+    A single parameter is spread evenly over its range. For several, the next sample is always the one
+    farthest from those chosen before. Random parameters would cluster, and boxes interpolated between them
+    would jump.
 
     Examples
     --------

@@ -1,7 +1,7 @@
 """Strides and steps cut out of clips, all on one grid of phases.
 
-A stride is the motion from a strike of one foot to its next strike, a step that to the next strike of the
-other foot. The strikes are at even phases from 0 to 1, so that at each phase all examples do the same.
+A stride is the motion from a strike of one foot to its next strike, and a step is that to the next strike of
+the other foot. Strikes have evenly spaced phases from 0 to 1, so that all examples correspond at each phase.
 
 Notebook: 17-parametric-graphs
 """
@@ -14,7 +14,7 @@ import numpy as np
 from mocap._shared.arrays import Array, runs
 from mocap._shared.records import NamedTuple
 from mocap.body.limbs import find_legs
-from mocap.body.motion import Motion, require_alike
+from mocap.body.motion import Motion, require_compatible
 from mocap.errors import MocapError
 from mocap.feet.footplants import mark_plants
 from mocap.methods.parametric_graphs.examples import (
@@ -27,10 +27,10 @@ from mocap.methods.parametric_graphs.examples import (
 )
 
 STRIDE = "lrl"  # the strikes of a stride
-STEP_LASTS = (0.23, 1.0)  # seconds from strike to strike; others are no steps of a walk or run
-CALM = np.radians(15)  # from the median turn; steps that turn by less count as straight ahead
-STRAIGHT = np.radians(20)  # a straight stride turns by less
-GOES = 0.3  # m/s; a straight stride is faster
+STEP_LASTS = (0.23, 1.0)  # seconds, the shortest and the longest step of a walk or run
+CALM = np.radians(15)  # largest difference from the median turn of a step that counts as straight
+STRAIGHT = np.radians(20)  # largest turn of a straight stride
+GOES = 0.3  # m/s, smallest speed of a straight stride
 
 
 def cut_strides(
@@ -41,22 +41,22 @@ def cut_strides(
     label: str = "",
     margin: float = MARGIN,
 ) -> Examples:
-    """Cut clips at the strikes of their feet, and sample all examples on one grid of phases [HG07, examples].
+    """Cut clips at foot strikes, and sample all examples on one grid of phases [HG07, examples].
 
     Parameters
     ----------
-    clips : of one skeleton and rate; feet that are not marked are marked by `feet.mark_plants`.
-    feet : the strikes of an example in their order: "lrl" for strides, "lr" and "rl" for steps.
-    by : "strikes" makes phases even in time between strikes [ours]; "curves" registers all examples with the
-        one of median rotation by registration curves [KG03], as the paper does.
-    label : keep examples of which every frame has this label; "" for all.
-    margin : fraction of a stride, kept before and after it for the windows of transitions; quick strides
-        need 0.5.
+    clips : clips of one skeleton and rate. Unless footplants are marked, `feet.mark_plants` detects them.
+    feet : the strikes of an example in their order, "lrl" for strides, "lr" and "rl" for steps.
+    by : "strikes" spaces phases evenly in time between strikes [ours]. "curves" registers all examples with
+        the one of median rotation by registration curves [KG03], as the paper does.
+    label : only examples with this label in every frame are kept, or all examples with "".
+    margin : fraction of a stride that is kept before and after it for the windows of transitions. Quick
+        strides need 0.5.
 
     Returns
     -------
-    The examples, except those with other strikes between, with steps outside 0.23 to 1 s, or too near the end
-    of a clip.
+    The examples, without those that contain other strikes, that have steps shorter than 0.23 s or longer than
+    1 s, or that are too near the ends of a clip.
 
     Raises
     ------
@@ -74,7 +74,7 @@ def cut_strides(
     """
     if by not in ("strikes", "curves"):
         raise MocapError(f"Examples are put on one clock by 'strikes' or by 'curves', got '{by}'.")
-    clips = require_alike(clips)
+    clips = require_compatible(clips)
     clips = [clip if clip.contacts else mark_plants(clip) for clip in clips]
     step = 2 / (len(feet) - 1) / FINE
     margin_phases = round(margin * FINE)
@@ -91,14 +91,14 @@ def cut_strides(
 
 
 class _Strike(NamedTuple):
-    """A foot, "l" or "r", comes down at a frame."""
+    """A foot strike: a frame and the foot, "l" or "r"."""
 
     frame: int
     foot: str
 
 
 def _example_frames(clip: Motion, feet: str, label: str, grid: Array) -> Iterator[Array | None]:
-    """Yield the frames (G,) of each example at the phases of a grid; None for an unusable example."""
+    """Yield the frames (G,) of each example at the phases of a grid, or None for an unusable example."""
     strikes = _strikes(clip)
     count = len(feet)
     labelled = clip.labels[label] if label in clip.labels else np.full(len(clip), not label)
@@ -112,7 +112,7 @@ def _example_frames(clip: Motion, feet: str, label: str, grid: Array) -> Iterato
 
 
 def _strikes(clip: Motion) -> list[_Strike]:
-    """Find the frames at which feet come down; a plant in the first frame began earlier."""
+    """Find the foot strikes. A footplant in the first frame is left out, because it began earlier."""
     left, right = (clip.skeleton.names[leg.ankle] for leg in find_legs(clip.skeleton))
     missing = [name for name in (left, right) if name not in clip.contacts]
     if missing:
@@ -125,9 +125,9 @@ def _strikes(clip: Motion) -> list[_Strike]:
 
 
 def _frames_at(grid: Array, strikes: Sequence[_Strike], first: int, feet: str, fps: float) -> Array | None:
-    """Interpolate the frames (G,) of the example that starts at a strike; None if `feet` do not follow.
+    """Interpolate the frames (G,) of the example that starts at a strike, or return None for other `feet`.
 
-    The margins extend to the strikes before and after, or by the step next to them if there are none.
+    The margins extend to the strikes before and after, or, without these, by the duration of the next step.
     """
     stop = first + len(feet)
     example = strikes[first:stop]
@@ -147,7 +147,7 @@ def _frames_at(grid: Array, strikes: Sequence[_Strike], first: int, feet: str, f
 
 
 def _calibrated(strides: Examples, *, steps: bool) -> Examples:
-    """Subtract the rotation of a straight step, and measure the direction of travel against the heading."""
+    """Subtract the turn of a straight step, and measure the direction of travel relative to the heading."""
     values = strides.values.copy()
     sway = 0.0
     if steps:

@@ -241,7 +241,7 @@ def test_the_command_writes_an_mp4(notebook, tmp_path, capsys, run):
     assert meta["size"] == (1280, 720)
     assert meta["fps"] == 20
     assert main(["course", "film", "--help"]) == 0
-    assert "For example: mocap course film" in capsys.readouterr().out
+    assert "Example: mocap course film" in capsys.readouterr().out
 
 
 def test_what_cannot_be_is_one_sentence(notebook, tmp_path, monkeypatch):

@@ -54,7 +54,7 @@ def merged():
 def past_others():
     line = body.s_curve()
     others = [line.points[::9] + 0.5, np.ones((3, 2))]
-    followed = steering.follow_path(walking(), body.s_curve(), steering.Wishes(others=others))
+    followed = steering.follow_path(walking(), body.s_curve(), steering.PathRequest(others=others))
     return {"track": numbers(followed.track, FRAME, Axis("", ("x", "z")), unit="m")}
 
 

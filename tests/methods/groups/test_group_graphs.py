@@ -144,6 +144,14 @@ def test_ends_do_not_move_when_members_are_pushed_apart_and_who_starts_too_near_
     np.testing.assert_array_equal(free[[0, 1, -2, -1]], crossing[[0, 1, -2, -1]])
 
 
+def test_members_who_meet_for_a_moment_are_displaced_for_a_second_only():
+    steps = np.linspace(0, 4, 41)
+    paths = np.stack([steps + 0.1j, 4 - steps - 0.1j], axis=1)  # they meet in frame 20
+    displacements = np.abs(separate(paths)[0] - paths)[:, 0]
+    assert np.flatnonzero(displacements)[[0, -1]].tolist() == [14, 26]
+    assert displacements.max() == pytest.approx(0.204, abs=1e-3)
+
+
 def test_frames_near_the_fixed_ends_of_a_path_are_pushed_less():
     """Two members side by side, 0.5 m apart except at the ends."""
     steps = np.linspace(0, 4, 41)

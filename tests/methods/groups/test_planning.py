@@ -13,7 +13,7 @@ from mocap.methods.groups.group_graphs import play_group, random_group_walk
 from mocap.methods.groups.group_steering import clearances, lead_group, steer_group
 from mocap.methods.groups.group_walkers import walk_group
 from mocap.methods.groups.planning import Scene, Search, plan_group
-from mocap.quality.seam_measures import ground_slides
+from mocap.quality.seam_measures import sliding_per_frame
 from tests.bundled import bundled
 from tests.methods.groups.built import around, course, gap, graph, pocket
 from tests.refusals import refusals, unwarned
@@ -235,7 +235,7 @@ def test_they_last_as_long_as_the_plan_and_wanted_is_the_led():
 
 def test_planted_feet_stand():
     for motion in walkers().motions:
-        assert ground_slides(motion).max() < 1e-4
+        assert sliding_per_frame(motion).max() < 1e-4
         planted = np.mean([mark.mean() for mark in motion.contacts.values()])
         assert planted > 0.3  # of the clips' own 0.35
 

@@ -7,6 +7,7 @@ from mocap.body import Motion, Skeleton
 from mocap.errors import MocapWarning
 from mocap.methods.match_webs import build_web, cut_out, heading_change, match_search, search
 from mocap.methods.match_webs.match_search import Match, crossings
+from mocap.methods.match_webs.webs import MatchWeb
 from tests.methods.match_webs.conftest import common, cycles, judge
 from tests.methods.match_webs.spaces_of_walks import PUNCHES
 from tests.refusals import refused, told
@@ -15,6 +16,24 @@ from tests.refusals import refused, told
 def stretch(start, stop):
     rows = np.arange(start, stop, dtype=float)
     return Match(0, start, stop, 0.0, -1, 0, rows, rows)
+
+
+def web_of_one():
+    """A web of one clip at 120 Hz, without a path."""
+    return MatchWeb((datasets.sample("walk_straight"),), [0, 290], 0.05, np.empty((0, 2)), [], [0])
+
+
+@pytest.mark.parametrize(("frames", "counted"), [((0, 36), (0, 9)), ((1122, 1158), (280, 290))])
+def test_the_shortest_query_is_counted_at_the_rate_of_the_web(frames, counted):
+    """0.3 s are 36 frames at 120 Hz, and a web counts every fourth."""
+    assert match_search._query(web_of_one(), 0, slice(*frames))[:3] == (0, *counted)
+
+
+@pytest.mark.parametrize(("stop", "metres"), [(276, 0.117), (370, 0.429)])
+def test_the_points_of_a_walker_move_by_tens_of_centimetres_in_a_stride_and_by_less_in_a_third(stop, metres):
+    web = web_of_one()
+    query = match_search._query(web, 0, slice(240, stop))
+    assert match_search._spread(web, query) == pytest.approx(metres, abs=1e-3)
 
 
 def test_a_path_serves_a_query_in_either_of_its_clips(bundled):

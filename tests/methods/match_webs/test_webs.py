@@ -175,6 +175,21 @@ def test_short_paths_are_left_out():
     assert not list(local_paths(costs, least=3))
 
 
+def test_more_steps_to_the_right_in_a_row_take_a_larger_slope():
+    costs = np.ones((4, 7))
+    costs[[0, 1, 2], [1, 2, 6]] = -3
+    assert next(local_paths(costs)).tolist() == [[0, 1], [1, 2]]
+    steep = next(local_paths(costs, slope=3)).tolist()
+    assert steep == [[0, 1], [1, 2], [1, 3], [1, 4], [1, 5], [2, 6]]
+
+
+def test_a_path_of_which_half_is_near_another_one_is_kept():
+    down = np.stack([np.arange(4), np.arange(4)], axis=1)
+    half = np.array([[0, 0], [1, 1], [2, 7], [3, 8]])
+    assert len(apart([down, half], near=1)) == 2
+    assert len(apart([down, half[:3]], near=1)) == 1
+
+
 def test_an_infinite_cell_is_never_crossed():
     costs = np.full((6, 6), -1.0)
     costs[3] = np.inf

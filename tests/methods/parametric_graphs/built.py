@@ -17,7 +17,7 @@ from mocap.methods.parametric_graphs.parametric_control import TARGET, Parametri
 from mocap.methods.parametric_graphs.parametric_edges import build_edge
 from mocap.methods.parametric_graphs.stride_changes import changing_strides
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, measure_mixes
-from mocap.quality import plant_slides
+from mocap.quality import foot_sliding
 from tests.bundled import clips
 
 SMALL = (12, 120)  # sources, targets
@@ -107,7 +107,7 @@ def walk_anywhere(character, count, speed=0.8):
 
 def slides(motion):
     """How far planted joints stray from their mean place, cm."""
-    return [plant.far for plant in plant_slides(motion) if plant.stop - plant.start > 2]
+    return [plant.far for plant in foot_sliding(motion) if plant.stop - plant.start > 2]
 
 
 def arm_moved(clip, middle, shoulder, elbow):

@@ -16,7 +16,7 @@ from mocap.methods.match_webs.motion_spaces import random_weights
 from mocap.methods.parametric_graphs import ParametricController, build_edge, cut_actions, optimal_transitions
 from mocap.methods.parametric_graphs.parametric_edges import BAD, build_parametric
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters
-from mocap.quality import jumps, plant_slides, spread
+from mocap.quality import foot_sliding, jumps, spread
 from mocap.steering import Controller, command_headings, measure_delay, steer
 from tests.bundled import WALKS, bundled, clips
 from tests.methods.parametric_graphs import built
@@ -205,7 +205,7 @@ def test_a_place_of_the_world_is_met_and_planted_feet_rest_in_the_changes_too(no
     slides = built.slides(done.motion)
     assert np.percentile(slides, 95) <= 2.5 and max(slides) <= 5  # cm, as in walks
     clean = clean_up(done.motion)
-    assert plants_kept(clean, done.motion) >= 0.97 and max(plant.far for plant in plant_slides(clean)) < 1e-3
+    assert plants_kept(clean, done.motion) >= 0.97 and max(plant.far for plant in foot_sliding(clean)) < 1e-3
     after = done.missed(clean)
     assert np.median(after) <= 0.02 and np.percentile(after, 90) <= 0.05
 

@@ -11,6 +11,7 @@ from hypothesis.extra.numpy import arrays
 from walking import generate_walk
 
 from mocap.body import joint_positions, resample
+from mocap.datasets import sample
 from mocap.errors import MocapError, NoWalk, SkeletonMismatch
 from mocap.matching.distance_grids import distance_grid
 from mocap.methods.match_webs import weights_for
@@ -25,6 +26,7 @@ from mocap.methods.parametric_graphs.examples import register_cuts
 from mocap.methods.parametric_graphs.made_motions import make_motion, near_end, optimal_transitions
 from mocap.methods.parametric_graphs.parametric_edges import BAD, build_edge, shrink_box
 from mocap.methods.parametric_graphs.stride_spaces import (
+    bell_weights,
     draw_parameters,
     measure_mixes,
     parameter_text,
@@ -204,6 +206,32 @@ def test_a_shrunk_box_holds_no_bad_target_and_lies_in_the_good_ones(good, bad):
     assert (low >= good.min(axis=0)).all() and (high <= good.max(axis=0)).all()
     if (low <= high).all():
         assert not ((bad > low) & (bad < high)).all(axis=1).any()
+
+
+@pytest.mark.parametrize(
+    ("bad", "low", "high"),
+    [
+        ([[10.5, 5], [-0.5, 5], [5, 12], [5, -2]], [0, 0], [10, 10]),
+        ([[10.25, 5], [-0.25, 5], [5, 11], [5, -1]], [0.25, 1], [9.75, 9]),
+    ],
+)
+def test_a_box_keeps_a_tenth_of_each_unit_from_bad_targets(bad, low, high):
+    box = shrink_box(np.array([[0.0, 0], [10, 10]]), np.array(bad), np.array([5.0, 20]), eps=0.1)
+    assert [side.tolist() for side in box] == [low, high]
+
+
+def test_weights_below_a_thousandth_of_the_largest_are_dropped():
+    weights = bell_weights(np.array([[0.0], [3.7], [3.75]]), np.array([[0.0], [0.05]]), 1.0)
+    expected = [[0.9989, 0.0011, 0], [0.9977, 0.0013, 0.0011]]
+    np.testing.assert_allclose(weights, expected, atol=5e-5)
+    assert weights[0, 2] == 0
+
+
+def test_three_samples_or_three_strides_make_a_space():
+    walk = cut_strides([resample(sample("walk_curve_2"), 30)])
+    assert len(make_space(walk, 0.4, 0.0, 0.04).reached) == 3
+    three = make_space(walk.take(np.argsort(walk.values[:, 0])[12:15]), 0.4, -0.8, 0.8)
+    assert np.degrees([*three.low, *three.high]).round().tolist() == [-17, 18]
 
 
 def test_the_side_that_loses_least_moves_and_shares_count_not_metres():
