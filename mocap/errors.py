@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 
 def shortened(text: str, length: int = 80) -> str:
-    """Truncate a text to at most `length` characters, with its original length; it is made `printable`.
+    """Truncate a text to at most `length` characters, with its original length. It is made `printable`.
 
     Examples
     --------
@@ -86,7 +86,7 @@ class MocapError(ValueError):
         return printable(super().__str__())
 
     def worded(self, names: Mapping[str, str]) -> str:
-        """Return the message with other names of parameters; without a name for it, the remedy is omitted.
+        """Return the message with other names of parameters. Without a name for it, the remedy is omitted.
 
         Parameters
         ----------
@@ -174,7 +174,7 @@ def missing(need: str, extra: str) -> MocapError:
 
 
 class MocapWarning(UserWarning):
-    """A request is met only in part; the message describes the part."""
+    """A request is met only in part. The message describes the part."""
 
 
 def warn(sentence: str) -> None:

@@ -117,7 +117,7 @@ def distance_grid(a: Array, b: Array) -> Array:
 
 
 def local_minima(grid: Array, below: float) -> list[tuple[int, int]]:
-    """Find the cells below a threshold that none of their eight neighbours undercuts [KGP02, 3.2]."""
+    """Find the cells below a threshold that are not higher than any of their neighbours [KGP02, 3.2]."""
     padded = np.pad(grid, 1, constant_values=np.inf)
     minima = []
     for i, j in np.argwhere(grid < below).tolist():
@@ -140,7 +140,7 @@ def find_transitions(clips: Sequence[Motion]) -> Transitions:
         for b in range(a, len(clips)):
             for i, j in local_minima(distance_grid(points[a], points[b]), BELOW):
                 if a == b and j < i + K:
-                    continue  # j near i: overlapping windows; j < i: the reverse is added with (j, i)
+                    continue  # overlapping windows, or the reverse of a pair (j, i)
                 cost = float(window_distance(points[a][i], points[b][j]))
                 rotation, translation = map(complex, align(points[a][i], points[b][j]))
                 transitions.append((a, i, b, j, cost, (rotation, translation)))
@@ -423,7 +423,7 @@ class Search:
                 yield self.lengthen(walk, edge)
 
     def starts(self) -> list[Walk]:
-        """Return an empty walk at each node whose clip then moves, aligned with the start of the line."""
+        """Return an empty walk at each node from which the body moves, aligned with the start of the line."""
         walks = []
         for node, track in self.ahead.items():
             if len(track) == LOOK and abs(track[-1] - track[0]) > 0.3:

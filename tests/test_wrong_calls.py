@@ -453,7 +453,11 @@ CALLS = {
         "[mocap.load(file) for file in Path(folder).glob('*.bvh')]",
         "[mocap.load(file) for file in Path(folder).glob('*.bvh')]",
     ),
-    "a format that is not read": ("mocap.load('walk.fbx')", "mocap reads .amc", "mocap.load('walk.bvh')"),
+    "a format that is not read": (
+        "mocap.load('walk.fbx')",
+        "in Blender, import it",
+        "mocap.load('walk.bvh')",
+    ),
     "a format that is not written": (
         "mocap.save(walk, 'w.fbx')",
         ".bvh and .glb",

@@ -28,11 +28,11 @@ from mocap.errors import FormatError, MocapError, Remedy
 
 Arrays = dict[str, NDArray[Any]]
 Layout = Mapping[str, tuple[type, tuple[int | str, ...]]]
-"""The type and the shape of each array; a letter is a size that is the same in the whole file."""
+"""The type and the shape of each array. A letter is a size that is the same in the whole file."""
 Rules = Iterator[tuple[str, ArrayLike]]
-"""Validity rules, each a sentence and booleans that must all be true; a rule may assume those before it."""
+"""Validity rules, each a sentence and booleans that must all be true. A rule may assume those before it."""
 ROOM = 2**20  # bytes of arrays that a file of any size may contain
-RATIO = 8  # further bytes of arrays for each byte of the file; those written here have about three
+RATIO = 8  # further bytes of arrays for each byte of the file (about three in those written here)
 MOST = 2**14  # members
 LAST = {"U": 0x10FFFF, "b": 1}  # the largest codes of characters and of booleans
 
@@ -87,7 +87,7 @@ class Member:
 
 
 def pack(path: str | Path, arrays: Mapping[str, Any]) -> None:
-    """Write an `.npz` file atomically; compressed, unless its ratio would then be too large for reading."""
+    """Write an `.npz` file atomically, compressed unless the ratio would be too large for reading."""
     members: dict[str, Any] = {name: np.asarray(array) for name, array in arrays.items()}
     if any(array.dtype.hasobject for array in members.values()):
         raise TypeError("an archive holds numbers, truths and texts, and no Python objects")
@@ -173,8 +173,8 @@ class Kind:
     name : such as "a match web"; a key of `LOADERS`. The array `format` of a file is "mocap: " and the name.
     arrays : the layout of the arrays, by name.
     rules : a function that yields the validity rules for all arrays of a file.
-    parts : by name; array `key` of part 3 of "node" is called "node_3_key".
-    version : the version of the layout; files of a later one are refused.
+    parts : by name. Array `key` of part 3 of "node" is called "node_3_key".
+    version : the version of the layout. Files of a later one are refused.
 
     Examples
     --------
@@ -234,7 +234,7 @@ def _in_part(size: int | str, of_part: str) -> int | str:
 def _has_shape(
     array: NDArray[Any] | Member | None, shape: tuple[int | str, ...], sizes: dict[str, int]
 ) -> bool:
-    """Check the shape of an array or `Member` against named sizes; new names are added to `sizes`."""
+    """Check the shape of an array or `Member` against named sizes. New names are added to `sizes`."""
     if array is None or len(array.shape) != len(shape):
         return False
     for size, actual in zip(shape, array.shape, strict=True):
@@ -280,8 +280,8 @@ def read_archive(path: str | Path, kind: Kind) -> Arrays:
     Raises
     ------
     MocapError : if the file cannot be read.
-    FormatError : for a file of another kind, with the function that reads it; for a later version, and a
-        damaged file.
+    FormatError : for a file of another kind, with the function that reads it, for a later version, and for
+        a damaged file.
 
     Examples
     --------
@@ -326,7 +326,7 @@ def other_kind(path: str | Path, expected: str, members: Mapping[str, Member]) -
 
 
 def _checked(path: str | Path, kind: Kind, members: Mapping[str, Member]) -> list[str]:
-    """List the names of all arrays of a kind; raise at the first that is missing or does not fit."""
+    """List the names of all arrays of a kind. Raise at the first that is missing or does not fit."""
     keys = []
     for key, dtype, fits in kind.fits(members):
         if key not in members:

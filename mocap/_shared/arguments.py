@@ -19,7 +19,7 @@ def checked_by(check: Callable[..., object]) -> Callable[[Call], Call]:
 
     Parameters
     ----------
-    check : takes the arguments of the function; its result is ignored.
+    check : a function of the same arguments, whose result is ignored.
 
     Examples
     --------

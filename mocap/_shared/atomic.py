@@ -38,7 +38,7 @@ def replacing(path: str | Path) -> Iterator[Path]:
 
     Parameters
     ----------
-    path : the file to create or replace; for a symbolic link, the file that it leads to.
+    path : the file to create or replace, or a symbolic link to it.
 
     Yields
     ------

@@ -39,5 +39,5 @@ class Deadline:
 
     @classmethod
     def of(cls, limit: "float | Deadline") -> "Deadline":
-        """Convert seconds to a deadline; a deadline is returned as it is."""
+        """Convert seconds to a deadline. A deadline is returned as it is."""
         return limit if isinstance(limit, Deadline) else cls(limit)

@@ -1,4 +1,4 @@
-"""Lazy imports of the names of a room; the error for an unknown name suggests another name or room.
+"""Lazy imports of the names of a room. The error for an unknown name suggests another name or room.
 
 A room's `__init__.py` calls `attach`, and its stub `__init__.pyi` lists the names.
 """

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from mocap._shared.arrays import Array
 from mocap.errors import MocapError, Remedy, shortened
 
-FARTHEST_WINDOW = 1.0  # metres (RMS): the largest plausible threshold; random windows are 0.2 m apart
+FARTHEST_WINDOW = 1.0  # metres (RMS): the largest plausible threshold (random windows are 0.2 m apart)
 FULL_TURN = 2 * math.pi  # radians
 
 
@@ -51,7 +51,7 @@ def check_number(value: Any, name: str) -> None:  # noqa: ANN401
 
 
 def check_threshold(metres: Any) -> None:  # noqa: ANN401
-    """Raise for a threshold above 1 m; also for each of a mapping from pairs of labels to thresholds.
+    """Raise for a threshold above 1 m, also for each of a mapping from pairs of labels to thresholds.
 
     Examples
     --------

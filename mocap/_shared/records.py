@@ -30,11 +30,11 @@ def one_line(record: Any) -> str:  # noqa: ANN401
     Examples
     --------
     >>> from typing import NamedTuple
-    >>> class Walked(NamedTuple):
+    >>> class Track(NamedTuple):
     ...     positions: object
     ...     seconds: float
-    >>> one_line(Walked(np.zeros((471, 3)), 3.9))
-    'Walked(positions=<array (471, 3)>, seconds=3.9)'
+    >>> one_line(Track(np.zeros((471, 3)), 3.9))
+    'Track(positions=<array (471, 3)>, seconds=3.9)'
     """
     values = {name: getattr(record, name) for name in _field_names(record)}
     parts = {name: _brief(value) for name, value in values.items()}
@@ -73,13 +73,7 @@ def _brief(value: object) -> str:
 
 
 def _abbreviation(value: object) -> str:
-    """Format the type of a value, with its shape or length if it has one.
-
-    Examples
-    --------
-    >>> _abbreviation(np.zeros((2, 3))), _abbreviation([1, 2]), _abbreviation(2.5)
-    ('<array (2, 3)>', '<list of 2>', '<float>')
-    """
+    """Format the type of a value, with its shape or length if it has one."""
     if isinstance(value, np.ndarray):
         return f"<array {value.shape}>"
     kind = type(value).__name__

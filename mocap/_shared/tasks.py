@@ -71,7 +71,7 @@ def one_blas_thread() -> AbstractContextManager[object]:
 
 @cache
 def blas() -> "ThreadpoolController":
-    """Return the controller of BLAS threads; finding the libraries takes some milliseconds."""
+    """Return the controller of BLAS threads. Finding the libraries takes some milliseconds."""
     import numpy  # noqa: F401 (its BLAS is found only after import)
     from threadpoolctl import ThreadpoolController
 
@@ -84,13 +84,13 @@ def run_in_order(
     executor: Executor | None,
     jobs: int | None = 1,
 ) -> Iterator[Result]:
-    """Execute tasks, and yield their results in order; at most AHEAD are submitted, to limit the memory.
+    """Execute tasks, and yield their results in order. At most AHEAD are submitted, to limit the memory.
 
     Parameters
     ----------
     work : the function to call for each task.
     tasks : the arguments of `work`, a tuple for each task.
-    executor : a pool of processes or a cluster; by default, threads of this process are used.
+    executor : a pool of processes or a cluster. By default, threads of this process are used.
     jobs : the number of threads without an executor, as for `thread_count`. A single task is executed in
         this thread.
 

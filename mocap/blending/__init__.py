@@ -10,7 +10,7 @@ Reading order (notebooks 04, 15)
 2. `joining`: transitions between two motions, by a blend over a window or by inertialization
 3. `timewarps`: smooth curves over time with bounded slopes
 4. `clocks`: clips on a common clock, their matching footplants, and the clock of a blend
-5. `mixing`: blends of registered clips, with constant or time-varying weights; long crossfades
+5. `mixing`: blends of registered clips, with constant or time-varying weights, and long crossfades
 6. `registering`: corresponding frames of clips, and the transforms that align them
 
 References

@@ -17,7 +17,7 @@ from mocap.body.motion import Motion
 from mocap.body.planar import on_ground
 from mocap.errors import MocapError
 
-SHORTEST = 0.02  # seconds of the common clock: shorter plants, and parts of plants, are dropped
+SHORTEST = 0.02  # seconds of the common clock: shorter footplants, and parts of footplants, are dropped
 
 
 SharedFootplant = tuple[str, Array]
@@ -45,7 +45,7 @@ def match_contacts(
 
     Parameters
     ----------
-    clips : C motions; if one has no contacts, there are no matches.
+    clips : C motions. If one has no contacts, there are no matches.
     times : for each clip, the curve from the common clock to the time of the clip in seconds.
     span : the interval of the common clock that is searched, seconds.
 
@@ -83,7 +83,7 @@ def _cut(plants: Iterable[Sequence[float]], low: float, high: float) -> list[Foo
 
 
 def _overlapping(plants: Sequence[list[Footplant]]) -> list[list[list[Footplant]]]:
-    """Group footplants of C clips whose time intervals overlap; a group lists the footplants of each clip."""
+    """Group footplants of C clips whose time intervals overlap. A group lists the footplants of each clip."""
     in_time = sorted((start, stop, clip) for clip, listed in enumerate(plants) for start, stop in listed)
     groups: list[list[list[Footplant]]] = []
     group_stop = -np.inf
@@ -96,7 +96,7 @@ def _overlapping(plants: Sequence[list[Footplant]]) -> list[list[list[Footplant]
 
 
 def _split(group: list[list[Footplant]]) -> Iterator[tuple[list[float], list[float]]]:
-    """Split a group at the pauses of the clip with the most footplants; yield starts and stops of matches.
+    """Split a group at the pauses of the clip with the most footplants. Yield starts and stops of matches.
 
     A part without a footplant of some clip is not a match.
     """
@@ -109,7 +109,7 @@ def _split(group: list[list[Footplant]]) -> Iterator[tuple[list[float], list[flo
 
 
 Weights = ArrayLike | Callable[[float, float], ArrayLike]
-"""Weights of C clips, whose sum is one; or a function of u and t that returns them."""
+"""Weights of C clips, whose sum is one, or a function of u and t that returns them."""
 
 FINE = 0.002  # seconds of the common clock between the points at which its speed is computed
 PACES = ("durations", "rates")
@@ -120,7 +120,7 @@ class Registration:
     """Clips on a common clock u, the time of a reference clip in seconds.
 
     clips, reference : C motions, and the number of the one with which the others are aligned.
-    times : for each clip, the curve S from u to the time of the clip in seconds; for the reference, S(u) = u.
+    times : for each clip, the curve S from u to the time of the clip in seconds. For the reference, S(u) = u.
     angles : for each clip, the curve of the angle that aligns it at u, radians; 0 for the reference.
     centres : for each clip, the centroid (x, z) of its points, averaged over a window, shape (F, 2), metres.
     span : the first and the last u at which all clips are defined.
@@ -165,7 +165,7 @@ class Registration:
 
 
 def require_registration(registration: object) -> Registration:
-    """Return a registration as it is; raise for anything else, with the call that makes one.
+    """Return a registration as it is. Raise for anything else, with the call that makes one.
 
     Examples
     --------

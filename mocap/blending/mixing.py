@@ -62,9 +62,9 @@ def mix(
     Parameters
     ----------
     registration : of C clips.
-    weights : shape (C,), with sum one; or a function of the common clock u and the time t of the blend, both
+    weights : shape (C,), with sum one, or a function of the common clock u and the time t of the blend, both
         in seconds, that returns them. Weights outside [0, 1], by up to about 0.1, extrapolate.
-    fps : frames per second; those of the clips by default.
+    fps : frames per second, by default those of the clips.
     pace : as for `frame_times`.
     rounds : as for `body.rotations.mean`; 0 is faster.
 
@@ -134,7 +134,7 @@ def ground_course(
     angles : shape (C, F), the angles θ that align each clip with the reference, radians.
     centres : shape (C, F), the centroids z + ix of the clips as captured, metres.
     weights : shape (F, C).
-    start : φ and the centroid in the first frame; by default 0, and that of the first clip.
+    start : φ and the centroid in the first frame, by default 0, and that of the first clip.
 
     Examples
     --------
@@ -211,7 +211,7 @@ def crossfade(registration: Registration, *, seconds: float = 1.0) -> Motion:
     Returns
     -------
     The unchanged reference, the fade, and the other clip, transformed to the end of the fade. Labels and
-    contacts are those of the clip that is played; in the fade, footplants are those that both clips have.
+    contacts are those of the clip that is played. In the fade, footplants are those that both clips have.
 
     Raises
     ------

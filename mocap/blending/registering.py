@@ -71,7 +71,7 @@ def register(
     clips : two motions or more, of one skeleton and one rate. Mark their footplants first
         (`feet.mark_plants`) if the blend should have contacts.
     reference : the number of the clip whose clock is the common one.
-    slack : seconds by which one clip may start or end before the other; at most half of the shortest clip,
+    slack : seconds by which one clip may start or end before the other, at most half of the shortest clip,
         and less if the clips would share less than half of it. Use 0 for clips with corresponding ends, such
         as strikes.
     slope : W, the largest number of consecutive frames of one clip at a single frame of the other. The pace
@@ -198,7 +198,7 @@ def _window_centres(clip: Motion, seconds: float) -> Array:
 
 
 def _warn(registration: Registration, rate: float, *, alike: bool) -> None:
-    """Warn of clips that may be of different kinds; the blend is not checked if they are cut `alike`."""
+    """Warn of clips that may be of different kinds. The blend is not checked if they are cut `alike`."""
     clips = registration.clips
     worst = int(np.argmax(registration.costs))
     distance = registration.costs[worst]

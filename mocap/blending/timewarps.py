@@ -53,7 +53,7 @@ class Curve(NamedTuple):
         return np.asarray(value + (u - inside) * self.slope(u))
 
     def slope(self, times: ArrayLike) -> Array:
-        """Evaluate the slope of the curve at times, per second; it is linear from knot to knot."""
+        """Evaluate the slope of the curve at times, per second. It is linear from knot to knot."""
         slopes = np.diff(self.coefficients) / self.step
         return np.asarray(np.interp(np.asarray(times, float), self.knots, slopes))
 
@@ -77,7 +77,7 @@ class Curve(NamedTuple):
 
 
 def _step_index(knots: Array, numbers: Array) -> Indices:
-    """Return the index of the knot interval of each number; beyond all knots, the first or last interval."""
+    """Return the index of the knot interval of each number, clamped to the first and the last interval."""
     return np.asarray(np.clip(np.searchsorted(knots, numbers, side="right") - 1, 0, len(knots) - 2))
 
 

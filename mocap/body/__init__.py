@@ -6,10 +6,10 @@ other rooms build on this one.
 Reading order (notebooks 01, 03)
 --------------------------------
  1. `skeleton`: a tree of joints
- 2. `motion`: the pose in every frame; resampling and concatenation
+ 2. `motion`: the pose in every frame, resampling, and concatenation
  3. `rotations`: unit quaternions (w, x, y, z) as arrays: product, slerp, conversions
  4. `joint_trees`: forward kinematics and velocities of arrays
- 5. `kinematics`: forward kinematics of a motion; detection of hinge joints
+ 5. `kinematics`: forward kinematics of a motion, and detection of hinge joints
  6. `planar`: planar rigid transforms, and the heading of a body
  7. `euler`: Euler angles, gimbal lock, and continuity over frames
  8. `ground_path`: paths on the ground, parametrised by arc length

@@ -8,7 +8,7 @@ from mocap.body.motion import Motion
 
 
 def fingerprint(motion: Motion) -> str:
-    """Compute a hash (SHA-256) of a clip's skeleton, poses, rate and labels, the input of a motion graph.
+    """Compute a hash (SHA-256) of a clip's skeleton, poses, rate and labels, which determine its graph.
 
     Numbers are rounded to six decimals, because the last digits depend on the machine.
 
@@ -18,9 +18,9 @@ def fingerprint(motion: Motion) -> str:
     >>> from mocap.body.skeleton import Skeleton
     >>> bone = Skeleton(["root"], [-1], [[0, 0, 0]])
     >>> still = Motion(bone, np.zeros((4, 3)), np.tile([1.0, 0, 0, 0], (4, 1, 1)), 30.0, "still")
-    >>> same = replace(still, name="other", root_positions=still.root_positions - 1e-12)  # metres
-    >>> lower = replace(still, root_positions=still.root_positions - 1e-5)
-    >>> fingerprint(same) == fingerprint(still), fingerprint(lower) == fingerprint(still)
+    >>> renamed = replace(still, name="other")
+    >>> slower = replace(still, fps=15.0)
+    >>> fingerprint(renamed) == fingerprint(still), fingerprint(slower) == fingerprint(still)
     (True, False)
     """
     skeleton = motion.skeleton

@@ -93,7 +93,7 @@ class GroundPath:
         return np.stack([np.interp(distances, knots, axis) for axis in self.points.T], axis=-1)
 
     def resampled(self, spacing: float) -> GroundPath:
-        """Resample at equal arc lengths of at most `spacing` metres; corners are cut by at most that."""
+        """Resample at equal arc lengths of at most `spacing` metres. Corners are cut by at most that."""
         if not (np.isfinite(spacing) and spacing > 0):
             raise MocapError(f"Points must be more than 0 m apart, got {spacing} m.")
         pieces = int(np.ceil(self.length / spacing * (1 - ROUNDING)))
@@ -105,7 +105,7 @@ def as_path(path: GroundPath | VectorsLike) -> GroundPath:
 
     Raises
     ------
-    MocapError : for other values, such as the name of a file; for points, as by `GroundPath`.
+    MocapError : as by `GroundPath`, and for other values, such as the name of a file.
 
     Examples
     --------
@@ -159,7 +159,7 @@ def arcs(start: tuple[float, float], heading: float, pieces: Sequence[tuple[floa
     ----------
     start : (x, z), metres.
     heading : radians; 0 is towards +z, π/2 towards +x.
-    pieces : (length in metres, rotation in radians) of each arc; a positive rotation is to the left, and 0
+    pieces : (length in metres, rotation in radians) of each arc. A positive rotation is to the left, and 0
         makes a straight line.
 
     Examples
@@ -258,4 +258,4 @@ SHAPES: dict[str, Callable[..., GroundPath]] = {
     "figure of eight": figure_of_eight,
     "letter S": letter_s,
 }
-"""The shapes by name; each can be called without arguments."""
+"""The shapes by name. Each can be called without arguments."""

@@ -64,7 +64,7 @@ def velocities(positions: Array, fps: float) -> Array:
 
     Parameters
     ----------
-    positions : shape (F, ...), metres; at least two frames.
+    positions : shape (F, ...), metres, with at least two frames.
     fps : frames per second.
 
     Returns

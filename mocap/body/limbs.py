@@ -326,7 +326,7 @@ def roles(skeleton: Skeleton) -> dict[str, int]:
 
     Returns
     -------
-    {role: joint}. Hips, knees, ankles and balls are always included; other roles only if the body has them.
+    {role: joint}. Hips, knees, ankles and balls are always included, other roles only if the body has them.
 
     Raises
     ------

@@ -21,6 +21,7 @@ from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, SkeletonMismatch, shortened
 
 Marks = Mapping[str, NDArray[np.bool_]]
+SAME_RATE = 1.001e-3  # relative difference of frame rates that are one: 29.97 and 30 Hz
 EXPRESSIONS = {
     "position": "motion.positions",
     "velocity": "motion.velocities",
@@ -47,7 +48,7 @@ class Motion:
     rotations : shape (F, J, 4), unit quaternions (w, x, y, z) relative to the parent's frame.
     fps : frames per second.
     name : the name in errors and figures.
-    labels : kinds of motion, as {label: (F,) booleans}, one per frame; a single boolean is for all frames.
+    labels : kinds of motion, as {label: (F,) booleans}, one per frame. A single boolean is for all frames.
     contacts : frames in which a joint is in contact with the ground, as {joint: (F,) booleans}.
 
     Raises
@@ -163,7 +164,7 @@ class Motion:
         return rebuilding(self)
 
     def __getitem__(self, frames: slice | Sequence[int] | NDArray[np.integer[Any]] | Mask) -> Motion:
-        """Select frames by a slice, by indices or by a mask; a step of n divides the frame rate by n."""
+        """Select frames by a slice, by indices or by a mask. A step of n divides the frame rate by n."""
         _check_frames(self, frames)
         step = (frames.step or 1) if isinstance(frames, slice) else 1
         if step < 1:
@@ -187,7 +188,7 @@ class Motion:
 
     @cached_property
     def positions(self) -> Array:
-        """World positions of the joints, shape (F, J, 3), metres; read-only.
+        """World positions of the joints, shape (F, J, 3), metres (read-only).
 
         They are computed by `body.forward_kinematics` on first access, and cached. The cache takes three
         quarters of the memory of the rotations.
@@ -199,7 +200,7 @@ class Motion:
     def velocities(self) -> Array:
         """Velocities of the joints in the world, shape (F, J, 3), metres per second.
 
-        Central differences of `positions`, one-sided at both ends; computed on each access.
+        Central differences of `positions`, one-sided at both ends, and computed on each access.
 
         Raises
         ------
@@ -246,7 +247,7 @@ def _check_frames(motion: Motion, frames: object) -> None:
 
 
 def require_motion(motion: object) -> Motion:
-    """Return a motion as it is; raise for anything else, with the call that makes a motion of it.
+    """Return a motion as it is. Raise for anything else, with the call that makes a motion of it.
 
     Raises
     ------
@@ -273,7 +274,7 @@ def require_motion(motion: object) -> Motion:
 
 
 def require_motions(motions: object) -> tuple[Motion, ...]:
-    """Return motions as a tuple; raise for a single one, for paths, and for other values.
+    """Return motions as a tuple. Raise for a single one, for paths, and for other values.
 
     Examples
     --------
@@ -305,7 +306,7 @@ def rotating_joints(motion: Motion) -> NDArray[np.bool_]:
 
 
 def _of_motion_and_rate(resampling: Resampling) -> Resampling:
-    """Check the arguments of a resampling; `resample`, which a notebook shows, holds the method alone."""
+    """Add checks of the arguments, so that `resample`, which a notebook shows, is the method alone."""
 
     @wraps(resampling)
     def checking(motion: Motion, fps: float) -> Motion:
@@ -353,7 +354,7 @@ def concatenate(motions: Sequence[Motion], name: str | None = None) -> Motion:
     ----------
     motions : one or more, with one skeleton and one frame rate. A label or contact that a motion lacks is
         False in its frames.
-    name : the new name; the first motion's by default.
+    name : the new name, by default that of the first motion.
 
     Raises
     ------
@@ -381,10 +382,11 @@ def concatenate(motions: Sequence[Motion], name: str | None = None) -> Motion:
 
 
 def require_compatible(motions: Sequence[Motion]) -> tuple[Motion, ...]:
-    """Return motions on one skeleton; raise unless they share it, except for end sites, and a frame rate.
+    """Return motions on one skeleton. Raise unless they share it, except for end sites, and a frame rate.
 
     Files of one laboratory may differ in end sites, which end the last bones and never rotate. All motions
-    get the end sites of the first motion with the most joints [ours].
+    get the end sites of the first motion with the most joints [ours]. Rates that differ by a
+    thousandth or less, such as 29.97 and 30 Hz, are one: that of the first motion [ours].
 
     Raises
     ------
@@ -408,14 +410,17 @@ def require_compatible(motions: Sequence[Motion]) -> tuple[Motion, ...]:
             alike.append(_with_ends(motion, fullest.skeleton))
         except SkeletonMismatch as error:
             raise SkeletonMismatch(f"'{fullest.name}' and '{motion.name}': {error}") from None
-        if motion.fps != motions[0].fps:
+        rate = motions[0].fps
+        if abs(motion.fps - rate) > SAME_RATE * rate:
             rates = f"'{motions[0].name}' runs at {motions[0].fps:g} Hz, '{motion.name}' at {motion.fps:g} Hz"
             raise MocapError(f"{rates}: resample one first.")
+        if motion.fps != rate:
+            alike[-1] = replace(alike[-1], fps=rate)
     return tuple(alike)
 
 
 def _with_ends(motion: Motion, skeleton: Skeleton) -> Motion:
-    """Transfer a motion to a skeleton that differs in end sites only; end sites new to it do not rotate."""
+    """Transfer a motion to a skeleton that differs in end sites only. End sites new to it do not rotate."""
     source = motion.skeleton
     if source is skeleton:
         return motion
@@ -428,7 +433,7 @@ def _with_ends(motion: Motion, skeleton: Skeleton) -> Motion:
 
 
 def gather_marks(sources: Sequence[Marks], frames: Indices) -> dict[str, Mask]:
-    """Gather labels or contacts frame by frame from several motions; one that a motion lacks is False there.
+    """Gather labels or contacts frame by frame from several motions. One that a motion lacks is False there.
 
     Parameters
     ----------

@@ -114,7 +114,7 @@ class PlanarTransform(NamedTuple):
         return self.apply_points(roots), transformed
 
     def apply_motion(self, motion: Motion) -> Motion:
-        """Transform a whole motion; only its root changes."""
+        """Transform a whole motion. Only its root changes."""
         root_positions, transformed = self.apply_frames(motion.root_positions, motion.rotations)
         return replace(motion, root_positions=root_positions, rotations=transformed)
 
@@ -196,7 +196,7 @@ def place(motion: Motion, direction: float, position: ArrayLike) -> Motion:
 
     Parameters
     ----------
-    motion : any motion; its heights do not change.
+    motion : any motion. Its heights do not change.
     direction : the heading, radians about +y.
     position : (x, z), metres.
 

@@ -123,8 +123,8 @@ def multiply(first: ArrayLike, second: ArrayLike) -> Array:
 
     Examples
     --------
-    >>> multiply(about_y(0.1), about_y(0.2)).round(6) == about_y(0.3).round(6)
-    array([ True,  True,  True,  True])
+    >>> to_rotvec(multiply(about_y(0.1), about_y(0.2))).round(6)
+    array([0. , 0.3, 0. ])
 
     Notebook: 01-skeletons-and-clips
     """
@@ -174,8 +174,8 @@ def between(start: ArrayLike, end: ArrayLike) -> Array:
 
     Examples
     --------
-    >>> between([0, 0, 1], [2, 0, 0]).round(6) == about_y(np.pi / 2).round(6)
-    array([ True,  True,  True,  True])
+    >>> to_rotvec(between([0, 0, 1], [2, 0, 0])).round(4) + 0.0
+    array([0.    , 1.5708, 0.    ])
     """
     a = _normalised(start)
     b = _normalised(end)
@@ -223,8 +223,8 @@ def slerp(start: ArrayLike, end: ArrayLike, amount: ArrayLike) -> Array:
 
     Examples
     --------
-    >>> slerp(about_y(0.2), about_y(0.4), 0.5).round(6) == about_y(0.3).round(6)
-    array([ True,  True,  True,  True])
+    >>> to_rotvec(slerp(about_y(0.2), about_y(0.4), 0.5)).round(6)
+    array([0. , 0.3, 0. ])
 
     Notebook: 04-blending
     """
@@ -271,7 +271,7 @@ def mean(quaternions: ArrayLike, weights: ArrayLike | None = None, *, rounds: in
     Parameters
     ----------
     quaternions : shape (..., C, 4).
-    weights : shape (..., C), leading axes broadcast; their sum is one, and some may be negative.
+    weights : shape (..., C), leading axes broadcast. Their sum is one, and some may be negative.
     rounds : the number of iterations; 0 for the weighted sum, which takes a third of the time. Its error is
         up to 8° for random rotations, and less than 1 mm at the hands of similar poses.
 
@@ -281,8 +281,8 @@ def mean(quaternions: ArrayLike, weights: ArrayLike | None = None, *, rounds: in
 
     Examples
     --------
-    >>> mean([about_y(0.2), about_y(0.6)], [0.25, 0.75]).round(6) == about_y(0.5).round(6)
-    array([ True,  True,  True,  True])
+    >>> to_rotvec(mean([about_y(0.2), about_y(0.6)], [0.25, 0.75])).round(6)
+    array([0. , 0.5, 0. ])
     """
     q = np.asarray(quaternions, float)
     if weights is None:

@@ -22,7 +22,7 @@ _SIDES = [pair for left, right in zip(_LEFT, _RIGHT, strict=True) for pair in ((
 
 @dataclass(frozen=True, eq=False)
 class Skeleton:
-    """A tree of joints; end sites are ordinary joints without children.
+    """A tree of joints. End sites are ordinary joints without children.
 
     Parameters
     ----------
@@ -197,7 +197,7 @@ class Skeleton:
         return "left" if name < image else "right"  # an l comes before an r
 
     def partner(self, joint: int) -> int:
-        """Return the mirror image of a joint by its name; for a joint in the middle, the joint itself.
+        """Return the mirror image of a joint by its name, or the joint itself if it is in the middle.
 
         Examples
         --------
@@ -221,11 +221,13 @@ class Skeleton:
             names = shorten(", ".join(sorted(missing)), 80)
             raise SkeletonMismatch(f"The skeletons differ in these joints: {names}. Retarget one first.")
         if tuple(self.names) != tuple(other.names) or not np.array_equal(self.parents, other.parents):
-            raise SkeletonMismatch("The skeletons have the same joints in another order or tree.")
+            raise SkeletonMismatch(
+                "The skeletons have the same joints in another order or tree. Retarget one first."
+            )
         gaps = np.linalg.norm(self.offsets - other.offsets, axis=-1)
         if gaps.max() > 1e-6:
             worst = f"'{self.names[gaps.argmax()]}' sits {100 * gaps.max():.2g} cm apart"
-            raise SkeletonMismatch(f"The skeletons' bones differ: {worst}.")
+            raise SkeletonMismatch(f"The skeletons' bones differ: {worst}. Retarget one first.")
 
     # reads: name: the other skeleton, as in `__eq__`
     def joints_in(self, other: Skeleton) -> Indices:

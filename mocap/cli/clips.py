@@ -11,8 +11,10 @@ from typing import Annotated, Literal
 
 from mocap import files, quality, widgets
 from mocap._shared.atomic import make_folder, require_folder
+from mocap.cli.clip_sets import read_found
 from mocap.cli.options import (
     CM,
+    READING,
     FileReading,
     Reading,
     Sources,
@@ -48,22 +50,29 @@ def info(file: Path, *, joints: bool = False, reading: FileReading) -> None:
     -----
     Example: mocap info walk.bvh --joints > map.toml
     """
+    from mocap.files.spaces import unit_name  # the help needs no NumPy
+
     reading.require_skeleton_of_use(file)
-    motion, angles, _ = reading.read(file)
+    recording = reading.read(file)
+    motion = recording.motion
     if joints:
         from mocap.files.role_maps import format_roles  # the help needs no NumPy
 
         print(format_roles(motion))
         return
     with timed_stage("measuring"):
-        table = quality.inspect(motion, angles).table()
+        table = quality.inspect(motion, recording.angles).table()
     print(table)
+    if recording.space:
+        print(f"space    {unit_name(recording.space.scale)} a unit, {recording.space.up} up")
+    if recording.assumed:
+        print(f"assumed  {recording.assumed.worded(READING[recording.assumed.parameter])}")
 
 
 def view(clip: Path, *, out: Path | None = None, reading: Reading) -> None:
     """Play a clip in the browser.
 
-    Play a clip in the browser. The page is one file that works without a network.
+    The page is one file that works without a network.
 
     Parameters
     ----------
@@ -97,11 +106,10 @@ def judge(
 ) -> int:
     """Measure the quality of motions from any source, and rank them.
 
-    Measure the quality of motions from any source, and list them from best to worst. The measures are jolts,
-    trembling, feet below or above the ground, foot sliding, joints that bend or rotate too far, bones of
-    varying length, a body of an unusual size, and the distance from a path. Each number is the ratio of a
-    measure to its limit, which captured motion keeps. Agreement with a request and liveliness are not
-    measured.
+    The motions are listed from best to worst. The measures are jolts, trembling, feet below or above the
+    ground, foot sliding, joints that bend or rotate too far, bones of varying length, a body of an unusual
+    size, and the distance from a path. Each number is the ratio of a measure to its limit, which captured
+    motion keeps. Agreement with a request and liveliness are not measured.
 
     Parameters
     ----------
@@ -117,14 +125,16 @@ def judge(
     from mocap.files.path_files import load_path
     from mocap.quality.judging import judgement_table
 
-    clips = [reading.load_any(clip) for clip in find_files(against)]
+    recordings, _ = read_found(reading.read, find_files(against), against, READING)
+    clips = [recording.motion for recording in recordings]
     line = load_path(path, scale=unit) if path else None
     judgements = []
     problems = []
-    for file in bar("judging")(find_files(motions, deep=True)):
+    for file in bar("judging")(find_files(motions)):
         try:
-            motion, _, stretch = reading.read(file, math.inf)
-            judgements.append(quality.judge(motion, against=clips, path=line, stretch=stretch))
+            recording = reading.read(file, math.inf)
+            judged = quality.judge(recording.motion, against=clips, path=line, stretch=recording.stretch)
+            judgements.append(judged)
         except MocapError as error:
             problems.append(str(error))
     if json:
@@ -170,8 +180,8 @@ def find(
 ) -> None:
     """Find all motions similar to an example, and cut them out.
 
-    Find motions in all clips that are similar to some frames of a clip, then motions similar to those. Print
-    the matches as a table, the most similar first, and with --out write each to a file.
+    The search finds motions in all clips that are similar to some frames of a clip, then motions similar to
+    those. The matches are printed as a table, the most similar first. With --out, each is written to a file.
 
     Parameters
     ----------
@@ -188,12 +198,13 @@ def find(
         require_folder(out)
     example, frames = _query(query)
     paths = find_files(clips)
-    places = [*(path.resolve() for path in paths), example.resolve()]
-    query_clip = places.index(example.resolve())  # the last index if the example is not one of the clips
-    motions = sources.load(paths if query_clip < len(paths) else [*paths, example])
+    is_among_clips = example.resolve() in [path.resolve() for path in paths]
+    motions, origins = sources.load(paths if is_among_clips else [*paths, example], [*clips, example])
+    query_clip = [origin.path.resolve() for origin in origins].index(example.resolve())
+    searched = len(motions) if is_among_clips else len(motions) - 1
     web = match_webs.build_web(motions, below=ROOM * below / 100, progress=bar("comparing"))
     matches = match_webs.search(web, query_clip, frames, below=below / 100)
-    shown = [match for match in matches[1:] if match.clip < len(paths)]
+    shown = [match for match in matches[1:] if match.clip < searched]
     print(f"{'clip':<20} {'frames':>13} {'seconds':>8} {'cm':>5} {'step':>5}")
     for match in shown:
         clip = motions[match.clip]

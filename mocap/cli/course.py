@@ -29,8 +29,8 @@ def handout(
 ) -> None:
     """Copy the notebooks without their solutions.
 
-    Copy the notebooks without their solutions, hints and outputs, together with the files that JupyterHub,
-    Binder and Colab need to run them.
+    Hints and outputs are also removed. The files that JupyterHub, Binder and Colab need to run the notebooks
+    are added.
 
     Parameters
     ----------
@@ -141,13 +141,12 @@ def mark(
 ) -> None:
     """Mark a folder of submitted notebooks, and write .csv files.
 
-    Mark a folder of submitted notebooks, and write four .csv files: OUT has a line for each exercise,
-    OUT-table has a line for each student, and OUT-moodle and OUT-canvas have the columns that Moodle and
-    Canvas import. Each notebook runs in its own process, with a new home folder, few environment variables,
-    and limits of time, memory, processes and files. The first line of the output reports the isolation on
-    this system: whether a notebook can read or write files outside Python and its home folder, and whether it
-    has a network. If you do not trust the submissions, first read "Hand out, and mark" in
-    notebooks/README.md.
+    There are four .csv files: OUT has a line for each exercise, OUT-table has a line for each student, and
+    OUT-moodle and OUT-canvas have the columns that Moodle and Canvas import. Each notebook runs in its own
+    process, with a new home folder, few environment variables, and limits of time, memory, processes and
+    files. The first line of the output reports the isolation on this system: whether a notebook can read or
+    write files outside Python and its home folder, and whether it has a network. If you do not trust the
+    submissions, first read "Hand out, and mark" in notebooks/README.md.
 
     Parameters
     ----------
@@ -200,7 +199,7 @@ def lab(
 ) -> int:
     """Open the course in JupyterLab.
 
-    Open the course in JupyterLab. Words after -- are passed to JupyterLab as options.
+    Words after -- are passed to JupyterLab as options.
 
     Parameters
     ----------

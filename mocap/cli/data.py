@@ -15,7 +15,7 @@ def list_trials(
 ) -> None:
     """List the trials of the CMU database.
 
-    List the trials of the CMU database, which the function datasets.cmu downloads by name.
+    The function datasets.cmu downloads them by name.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ def list_trials(
 def list_sets() -> None:
     """List the named sets of clips, with their licences and joints.
 
-    List the named sets of clips, which the function datasets.from_set reads, with their licences and joints.
+    The function datasets.from_set reads their clips.
     """
     from mocap.datasets.named_sets import SETS, clips_of
 
@@ -52,8 +52,8 @@ def list_sets() -> None:
 def fetch(set: SetName, *, accept: bool = False) -> None:
     """Download all clips of a named set.
 
-    Download all clips of a named set, unless they have been downloaded. An interrupted download is resumed
-    when the same command is run again.
+    Clips that have been downloaded before are skipped. An interrupted download is resumed when the same
+    command is run again.
 
     Parameters
     ----------

@@ -11,7 +11,7 @@ from mocap._shared.atomic import require_folder
 from mocap.cli import options
 from mocap.cli.options import TURN, Clean, Reading, Unit, bar, check_out, number, print_rows, write_out
 from mocap.errors import MocapError, Remedy, warn
-from mocap.files.conversion import convert, find_files, require_apart
+from mocap.files.conversion import convert, plan, require_apart
 
 if TYPE_CHECKING:
     from mocap.editing.stances import Stance
@@ -200,8 +200,7 @@ def blend(
     fade (SECONDS) : duration of a crossfade from the first clip to the second, in the middle of their common
         part, seconds.
     slack (SECONDS) : largest difference between the starts, or the ends, of the clips, seconds, at most half
-    of
-        the shortest clip.
+        of the shortest clip.
     clean : detect footplants, and remove foot sliding.
     out : file to write, .bvh or .glb.
 
@@ -217,6 +216,7 @@ def blend(
     if fade and (weights or len(clips) != 2):
         raise MocapError(f"--fade passes from one clip into another, got {len(clips)} clips.")
     motions = [reading.load(path) for path in bar("reading")(clips)]
+    motions = [body.resample(motion, motions[0].fps) for motion in motions]
     if clean:
         motions = [feet.mark_plants(motion) for motion in motions]
     registration = blending.register(motions, slack=slack)
@@ -260,7 +260,10 @@ def retarget(
     if out.suffix.lower() in (".bvh", ".glb", ".amc", ".npz") and not out.is_dir():
         raise MocapError(f"-o takes the folder for the new files, got '{out}', which names a file.")
     require_folder(out)
-    pairs = [(source, out / f"{source.stem}.{format}") for source in find_files(clips)]
+    pairs = []
+    for source in clips:
+        target = out if source.is_dir() else out / f"{source.stem}.{format}"
+        pairs += plan(source, target, f".{format}")
     require_apart(pairs, [to])
     wear = partial(_worn, reading, _body(to, to_scale, reading.joints))
     failed = convert(pairs, wear, progress=bar("retargeting"))

@@ -61,7 +61,9 @@ def demo(
     require_folder(out)
     paths = find_files(clips)
     require_other(out / "walk.bvh", paths)
-    motions = building.load(paths) if clips else [datasets.sample(name) for name in datasets.SAMPLES]
+    motions = [datasets.sample(name) for name in datasets.SAMPLES]
+    if clips:
+        motions, _ = building.load(paths, clips)
     whole = building.build(motions, bar("comparing"))
     try:
         pruned = graphs.prune(whole)
@@ -142,7 +144,7 @@ def build(
     if graphml:
         check_out("graph for other tools", graphml, paths, [".graphml"])
     with connect(cluster) if cluster else nullcontext() as executor:
-        motions, origins = _read_clips(paths, building, mirror=mirror)
+        motions, origins = _read_clips(paths, clips, building, mirror=mirror)
         with timed_stage("building"), _units_explained(building):
             graph = building.build(motions, bar("comparing"), jobs=jobs, executor=executor)
     if not whole:
@@ -178,11 +180,10 @@ def _units_explained(building: Building) -> Iterator[None]:
 
 
 def _read_clips(
-    paths: "Sequence[Path]", building: Building, *, mirror: bool
+    paths: "Sequence[Path]", named: "Sequence[Path]", building: Building, *, mirror: bool
 ) -> "tuple[list[Motion], list[Origin]]":
     """Read clips, add their mirror images, and return them with the origins of all."""
-    motions = building.load(paths)
-    origins = [Origin(path, building.skeleton, building.scale) for path in paths]
+    motions, origins = building.load(paths, named)
     if not mirror:
         return motions, origins
     with warnings.catch_warnings(record=True) as caught:
@@ -197,7 +198,7 @@ def _read_clips(
 def info(file: Path) -> None:
     """Describe a saved graph.
 
-    List the clips of a saved graph, with a summary of the graph and the motion that it can generate.
+    The description lists the clips of the graph, its size, and a summary of the motion that it can generate.
 
     Parameters
     ----------
@@ -218,9 +219,8 @@ def info(file: Path) -> None:
 
 TEXT = """Build a motion graph and save it, or describe a saved one.
 
-Build the motion graph of some clips, prune it and save it, or describe a saved graph. The file stores the
-locations of the clips, not the clips. The word `build` may be omitted. For a folder of clips with the name
-info, write ./info.
+The graph is pruned before it is saved. The file stores the locations of the clips, not the clips. The word
+`build` may be omitted. For a folder of clips with the name info, write ./info.
 
 Notes
 -----

@@ -8,13 +8,15 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from mocap import body, files, graphs
 from mocap._shared.atomic import require_writable
 from mocap._shared.progress import Progress
+from mocap.cli.clip_sets import named_apart, read_found, warn_of_space, warn_of_spaces
 from mocap.cli.messages import VERBOSITY, note
 from mocap.cli.typed_commands import ONE_EACH
+from mocap.datasets.clip_origins import Origin
 from mocap.errors import MocapError, SkeletonMismatch, printable
 
 if TYPE_CHECKING:
@@ -62,12 +64,22 @@ Joints = Annotated[
     "a .toml of the roles of joints, from mocap info CLIP --joints; may be repeated for several bodies",
 ]
 Unit = Annotated[float | None, LENGTH, "metres per unit of length in the path (default: 1; for .svg 0.01)"]
+Up = Annotated[
+    Literal["y", "z", "-y", "-z", "x", "-x"] | None,
+    "axis of the file that points up (default: as the frames show; y, for .npz z)",
+]
 Clean = Annotated[bool, "remove foot sliding"]
 Seed = Annotated[int, number(0, 2**32 - 1, int), "seed of the random numbers"]
 
 
 # The options for the parameters of `files.load`, which are named in its errors.
-READING = {"skeleton": "--skeleton", "fps": "--fps", "scale": "--scale", "roles": "--joints"}
+READING = {
+    "skeleton": "--skeleton",
+    "fps": "--fps",
+    "scale": "--scale",
+    "up": "--up",
+    "roles": "--joints",
+}
 SOURCES = READING | {"fps": "--fps to mocap convert"}  # here --fps is the rate of a graph, or is missing
 
 
@@ -171,8 +183,9 @@ class FileReading:
     scale: Annotated[
         float | None,
         LENGTH,
-        "metres per unit of length in the clip (default: 0.01; for .amc as in the .asf)",
+        "metres per unit of length in the clip (default: as the frames show)",
     ] = None
+    up: Up = None
 
     def read(self, path: Path, stretch: float | None = None) -> "Recording":
         """Read a clip, and raise the errors of `files.load` with the names of options.
@@ -191,7 +204,9 @@ class FileReading:
             raise MocapError(f"{path} is a skeleton without a motion: give an .amc file, or a .bvh.")
         limit = STRETCH if stretch is None else stretch
         with named_options(READING), timed_reading(path):
-            recording = read(path, self.skeleton, self.fps, self.scale, limit)
+            recording = read(path, self.skeleton, self.fps, self.scale, limit, self.up)
+        warn_of_space(path, recording, READING)
+        with named_options(READING):
             return recording._replace(motion=with_chosen_roles(recording.motion, self.joints))
 
     def require_skeleton_of_use(self, path: Path) -> None:
@@ -225,26 +240,53 @@ class Sources:
     """Options of a command that reads several clips."""
 
     skeleton: Skeleton = None
-    scale: Annotated[float | None, LENGTH, "metres per unit of length in .bvh clips (default: 0.01)"] = None
+    scale: Annotated[float | None, LENGTH, "metres per unit of a .bvh (default: as the frames show)"] = None
+    up: Up = None
     joints: Joints = ()
 
-    def load(self, paths: Sequence[Path]) -> "list[Motion]":
-        """Read the clips that `find_files` found, and warn about bodies of impossible sizes."""
+    def load(self, paths: Sequence[Path], named: Sequence[Path]) -> "tuple[list[Motion], list[Origin]]":
+        """Read clips as one set; warn of an unusual space, and of bodies of other sizes than people's.
+
+        Parameters
+        ----------
+        paths : the files.
+        named : the files and folders that the user named: see `read_found`.
+
+        Returns
+        -------
+        The clips that could be read, and their files with the options by which they can be read again.
+        """
         with timed_stage("loading packages"):
+            from mocap.files.clip_sets import agree
             from mocap.quality.clip_flaws import warn_of_size  # the help needs no NumPy
 
         with named_options(SOURCES):
-            clips = [self._load(path) for path in bar("reading")(paths)]
+            recordings, read = read_found(self._read, bar("reading")(paths), named, SOURCES)
+        recordings = agree(recordings, lambda number, scale, up: self._read(read[number], scale, up))
+        warn_of_spaces(read, recordings, SOURCES)
+        with named_options(SOURCES):
+            recordings = [self._with_roles(recording) for recording in recordings]
+        clips = named_apart(recordings, read)
         warn_of_size(clips)
-        return clips
+        return clips, [
+            self._origin(path, recording) for path, recording in zip(read, recordings, strict=True)
+        ]
 
-    def _load(self, path: Path) -> "Motion":
-        from mocap.files import load_save  # the help needs no NumPy
+    def _with_roles(self, recording: "Recording") -> "Recording":
+        return recording._replace(motion=with_chosen_roles(recording.motion, self.joints))
+
+    def _origin(self, path: Path, recording: "Recording") -> Origin:
+        """Return a file with the options by which its clip can be read again."""
+        if recording.space is None:
+            return Origin(path, self.skeleton, self.scale)
+        return Origin(path, self.skeleton, recording.space.scale, up=recording.space.up)
+
+    def _read(self, path: Path, scale: float | None = None, up: str | None = None) -> "Recording":
+        from mocap.files.load_save import read  # the help needs no NumPy
         from mocap.files.rigid_bones import STRETCH
 
         with timed_reading(path):
-            recording = load_save.read(path, self.skeleton, None, self.scale, STRETCH)
-            return with_chosen_roles(recording.motion, self.joints)
+            return read(path, self.skeleton, None, scale or self.scale, STRETCH, up or self.up)
 
 
 @dataclass(frozen=True)

@@ -58,9 +58,8 @@ def walk(
 ) -> int:
     """Walk through a saved graph, along a path or at random.
 
-    Walk through a graph saved by `mocap graph`, along a path on the ground or at random, and write the motion
-    as .bvh (centimetres) or .glb (for engines and viewers). Ctrl-C during the search writes the best walk so
-    far.
+    The motion is written as .bvh (centimetres) or .glb (for engines and viewers). Ctrl-C during the search
+    for a walk along a path writes the best walk so far.
 
     Parameters
     ----------
@@ -188,7 +187,7 @@ def _graph(path: Path, clips: Sequence[Path], sources: Sources, out: Path) -> "g
         warnings.filterwarnings("ignore", lopsided, MocapWarning)
         if not clips:
             return options.load_graph(path, sources.skeleton, sources.joints)
-        motions = sources.load(files_read)
+        motions, _ = sources.load(files_read, clips)
         motions += [editing.mirror(clip) for clip in motions if mirrored_name(clip.name) in content.names]
     return graphs.load(path, motions)
 

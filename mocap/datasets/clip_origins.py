@@ -9,9 +9,11 @@ from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 
+AXES = (None, "y", "z", "-y", "-z", "x", "-x")  # that may point up in a file
+
 
 class Origin(NamedTuple):
-    """The file from which a clip was read; `skeleton` and `scale` are those of `mocap.load`.
+    """The file from which a clip was read; `skeleton`, `scale` and `up` are those of `mocap.load`.
 
     If `mirrored`, the clip is the mirror image of the motion in the file.
     """
@@ -20,6 +22,7 @@ class Origin(NamedTuple):
     skeleton: Path | None = None
     scale: float | None = None
     mirrored: bool = False
+    up: str | None = None
 
     def text(self, folder: Path) -> str:
         """Serialise an origin as JSON, with the path of each file relative to a folder, and absolute.
@@ -31,8 +34,12 @@ class Origin(NamedTuple):
         """
         skeleton = _places(self.skeleton, folder) if self.skeleton else []
         scale = None if self.scale is None else float(self.scale)
-        kept = {"path": _places(self.path, folder), "skeleton": skeleton, "scale": scale}
-        return json.dumps(kept | ({"mirrored": True} if self.mirrored else {}))
+        kept: dict[str, object] = {"path": _places(self.path, folder), "skeleton": skeleton, "scale": scale}
+        if self.mirrored:
+            kept["mirrored"] = True
+        if self.up is not None:
+            kept["up"] = self.up
+        return json.dumps(kept)
 
 
 def _places(file: Path, folder: Path) -> list[str]:
@@ -53,7 +60,9 @@ def find_again(text: str, folder: Path) -> Origin | None:
     kept = json.loads(text)
     path = _first_file(folder / name for name in kept["path"])
     skeleton = _first_file(folder / name for name in kept["skeleton"])
-    return Origin(path, skeleton, kept["scale"], kept.get("mirrored", False)) if path else None
+    if path is None:
+        return None
+    return Origin(path, skeleton, kept["scale"], kept.get("mirrored", False), kept.get("up"))
 
 
 def _first_file(places: Iterable[Path]) -> Path | None:
@@ -71,6 +80,6 @@ def is_origin(text: str) -> bool:
     with suppress(ValueError):
         match json.loads(text):
             case {"path": [*path], "skeleton": [*skeleton], "scale": float() | None, **more}:
-                fine = isinstance(more.get("mirrored", False), bool)
+                fine = isinstance(more.get("mirrored", False), bool) and more.get("up") in AXES
                 return fine and all(isinstance(place, str) for place in path + skeleton)
     return False

@@ -9,6 +9,7 @@ import itertools
 from collections import defaultdict
 from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -80,7 +81,7 @@ def rules_of_clips(arrays: Arrays) -> Rules:
 
 
 def find_files_of(references: ClipReferences, path: str | Path) -> list[Origin]:
-    """Find the files of the clips to which a file at `path` refers; none for bundled samples.
+    """Find the files of the clips to which a file at `path` refers, none for bundled samples.
 
     A clip is searched at its stored paths, then by its name in the folder of the file.
 
@@ -115,7 +116,7 @@ def load_references(
     ----------
     references, path : the references in the file, and its path.
     clips : motions that include these clips; None to read them from their files, or to use bundled ones.
-    skeleton : the `.asf` file of `.amc` clips; by default that of the origin, or one that matches.
+    skeleton : the `.asf` file of `.amc` clips, by default that of the origin, or one that matches.
     progress : wraps the iterable of files of clips, to show a progress bar.
 
     Raises
@@ -126,7 +127,7 @@ def load_references(
         clips = _load_clips(references, path, skeleton, progress)
     resampled = [resample(clip, references.fps) for clip in clips]
     needed = [clip for clip in resampled if clip.name in references.names]
-    with suppress(MocapError):  # give all clips the same end sites; differences are reported below
+    with suppress(MocapError):  # give all clips the same end sites (differences are reported below)
         needed = list(require_compatible(needed))
     by_name = defaultdict[str, list[Motion]](list)
     for clip in needed:
@@ -152,9 +153,9 @@ def _load_clips(
     if not origins:
         return [sample(name) for name in references.names]
     clips = []
-    for origin in progress(origins):
-        clip = load(origin.path, skeleton=skeleton or origin.skeleton, scale=origin.scale)
-        clips.append(mirror(clip) if origin.mirrored else clip)
+    for name, origin in zip(references.names, progress(origins), strict=True):
+        clip = load(origin.path, skeleton=skeleton or origin.skeleton, scale=origin.scale, up=origin.up)
+        clips.append(replace(mirror(clip) if origin.mirrored else clip, name=name))
     return clips
 
 

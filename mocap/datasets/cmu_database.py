@@ -119,7 +119,7 @@ def cmu(
     Raises
     ------
     MocapError : for a trial that is not listed, a name that is not a text, and a file that cannot be
-        downloaded; with `skeleton`, as by `editing.wear`, for example for a trial in which a foot never
+        downloaded. With `skeleton` also as by `editing.wear`, for example for a trial in which a foot never
         stands.
 
     Examples

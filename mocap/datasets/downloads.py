@@ -36,7 +36,7 @@ def fetch(name: str, url: str, sha256: str | None, terms: str) -> Path:
 
     Raises
     ------
-    MocapError : if it cannot be downloaded, has another checksum, or cannot be written; then no part of it is
+    MocapError : if it cannot be downloaded, has another checksum, or cannot be written. Then no part of it is
         stored. If the environment variable `MOCAP_OFFLINE` is set, for each file that is not cached.
     """
     import pooch

@@ -19,6 +19,7 @@ from mocap.errors import MocapError, shortened, warn
 if TYPE_CHECKING:
     from mocap.body.motion import Motion
 
+CENTIMETRE = 0.01  # metres: the unit of all sets, which have y up
 WHOLE = "TERMS.txt"  # written once all clips of a dataset are unpacked
 _TABLES = tomllib.loads(Path(__file__).with_name("sets.toml").read_text("utf-8"))
 
@@ -84,7 +85,7 @@ def clips_of(name: str) -> dict[str, Path]:
 
 
 def fetch_set(name: str, progress: Progress = iter) -> list[str]:
-    """Download all clips of a dataset, unless they are in its folder; its terms are printed first.
+    """Download all clips of a dataset, unless they are in its folder. Its terms are printed first.
 
     The next call resumes an interrupted download. The archive is removed once all clips are unpacked. If no
     checksum is listed, that of each archive is stored in `<set>.zip.sha256`.
@@ -100,9 +101,9 @@ def fetch_set(name: str, progress: Progress = iter) -> list[str]:
 
     Raises
     ------
-    MocapError : for an unknown dataset; without a network, or if the environment variable `MOCAP_OFFLINE` is
-        set; for an archive that differs from the one listed, or is implausible; without permission to write
-        or space on the disk.
+    MocapError : for an unknown dataset, without a network or if the environment variable `MOCAP_OFFLINE` is
+        set, for an archive that differs from the one listed or is implausible, and without permission to
+        write or space on the disk.
 
     Warns
     -----
@@ -155,7 +156,7 @@ def _fetch_and_unpack(name: str, packed: Path, progress: Progress) -> None:
 
 
 def _require_listed(packed: Path, named_set: NamedSet) -> str:
-    """Return the checksum of an archive; raise if it differs from that listed."""
+    """Return the checksum of an archive. Raise if it differs from that listed."""
     with keeping(packed):
         digest = sha256_of(packed)
     if named_set.sha256 not in (None, digest):
@@ -183,7 +184,7 @@ def _note_checksum(packed: Path, digest: str) -> None:
 
 
 def from_set(name: str, clip: str) -> Motion:
-    """Read a clip of a dataset, from a local or downloaded copy; its terms are printed once.
+    """Read a clip of a dataset, from a local or downloaded copy. Its terms are printed once.
 
     Parameters
     ----------
@@ -212,4 +213,4 @@ def from_set(name: str, clip: str) -> Motion:
         raise MocapError(f"No clip '{shortened(clip, 40)}' in {folder}: {gets}, or unpack it there.")
     if clip in HASHES and hashlib.sha256(path.read_bytes()).hexdigest() != HASHES[clip]:
         raise MocapError(f"{path} is not the file listed: its checksum differs. Get it anew.")
-    return load(path)
+    return load(path, scale=CENTIMETRE, up="y")

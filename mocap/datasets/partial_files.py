@@ -27,8 +27,8 @@ class Record(NamedTuple):
     """The file on the server to which received bytes belong."""
 
     url: str
-    validator: str | None  # an ETag or a date; without it a download cannot resume
-    length: int | None  # bytes; None if the server did not report it, and then a download cannot resume
+    validator: str | None  # an ETag or a date, without which a download cannot resume
+    length: int | None  # bytes, None if the server did not report it, and then a download cannot resume
 
 
 class Part:

@@ -76,8 +76,8 @@ def download(listing: Listing, target: Path, progress: Progress = iter) -> str:
 
     Raises
     ------
-    MocapError : if the server does not send it, with the way to resume; if its checksum differs from that
-        listed, and then nothing is stored; if it cannot be stored, for lack of permission or of space.
+    MocapError : if the server does not send it, with the way to resume, and if it cannot be stored, for lack
+        of permission or of space. Also if its checksum differs from that listed. Then nothing is stored.
 
     Examples
     --------
@@ -88,7 +88,7 @@ def download(listing: Listing, target: Path, progress: Progress = iter) -> str:
     part = Part(target, listing.url)
     try:
         with keeping(target):
-            part.path.touch()  # raises before the server is asked
+            part.path.touch()  # raises before any request
             _receive(listing, part, progress)
             digest = sha256_of(part.path)
             if listing.sha256 not in (None, digest):
@@ -127,7 +127,7 @@ def _receive(listing: Listing, part: Part, progress: Progress) -> None:
 
 
 def _try_request(listing: Listing, part: Part, progress: Progress) -> RequestException | None:
-    """Request the missing bytes once; return an error after which a retry may succeed, or None."""
+    """Request the missing bytes once. Return an error after which a retry may succeed, or None."""
     from requests import RequestException
     from requests.exceptions import InvalidSchema, InvalidURL, TooManyRedirects
 

@@ -48,13 +48,13 @@ SKELETON = Skeleton(_names.tolist(), _parents, _offsets)
 
 @cache
 def sample(name: str = "walk_circle") -> Motion:
-    """Return a bundled clip, at 120 Hz, with its footplants as contacts; each call returns the same object.
+    """Return a bundled clip, at 120 Hz, with its footplants as contacts. Each call returns the same object.
 
     Parameters
     ----------
-    name : one of `SAMPLES`; "jump"; "bend_sneak" or "bend_walk", around one bend; or a walk of 5 or 6 metres,
-        by its speed (m/s) and its change of heading (degrees to the left), such as "walk_5m_0.8_0" or
-        "walk_6m_1.4_-180".
+    name : one of `SAMPLES`, "jump", or "bend_sneak" and "bend_walk", which go around one bend. Or a walk of 5
+        or 6 metres by its speed (m/s) and its change of heading (degrees to the left), such as
+        "walk_5m_0.8_0" or "walk_6m_1.4_-180".
 
     Raises
     ------

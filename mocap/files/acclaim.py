@@ -10,7 +10,7 @@ to the world, therefore the rotation of a joint in its parent's frame is L = C M
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from itertools import chain
 from pathlib import Path
 
@@ -19,7 +19,7 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.body import euler, rotations
 from mocap.body.motion import Motion
-from mocap.errors import FormatError
+from mocap.errors import FormatError, Remedy, shortened, warn
 from mocap.files.asf import MOVES, TURNS, AcclaimSkeleton, Bone
 from mocap.files.recordings import Recording
 from mocap.files.text import check_room, lines, quick_numbers, read_text, to_numbers
@@ -27,6 +27,7 @@ from mocap.files.text import check_room, lines, quick_numbers, read_text, to_num
 CMU_RATE = 120.0  # frames per second in most of the CMU database
 FRAME_NUMBER = re.compile(r"^[ \t]*\d+[ \t]*$", re.MULTILINE)
 MOST_DIGITS = 9  # of the number of a frame
+MOST_MISSING = 0.5  # fraction of a skeleton's bones that a motion may leave out
 NAMED = 3  # the largest number of bones that an error names
 
 
@@ -39,11 +40,15 @@ def read(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None) ->
     ----------
     path : the file.
     asf : its skeleton.
-    fps : frames per second; by default from a first line such as "# fps 30", else 120 as in the CMU database.
+    fps : frames per second, by default from a first line such as "# fps 30", else 120 as in the CMU database.
 
     Raises
     ------
     FormatError : with the line that breaks the format or does not fit the skeleton.
+
+    Warns
+    -----
+    MocapWarning : if no frame has numbers for some bones, such as fingers: they keep their rest pose.
     """
     numbers, unit, rate = _read_frames(path, asf)
     angles = {name: unit * block[:, asf.bones[name].rotation_dofs] for name, block in numbers.items()}
@@ -61,7 +66,10 @@ def read(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None) ->
                 _require_zeros(path, name, dof, column)
     positions = asf.bones["root"].vector + translations * asf.unit
     motion = Motion(asf.skeleton, positions, local, fps or rate or CMU_RATE, Path(path).stem)
-    return Recording(motion, angles, {})
+    assumed = None
+    if fps is None and rate is None:
+        assumed = Remedy(f"{CMU_RATE:g} Hz, as an .amc says no rate; {{}} sets another", "fps")
+    return Recording(motion, angles, {}, assumed)
 
 
 def _local_rotations(bone: Bone, angles: Array, *, is_root: bool) -> Array:
@@ -96,10 +104,32 @@ def first_frame(text: str) -> dict[str, int]:
     return counts or {}
 
 
-def fits(counts: Mapping[str, int], asf: AcclaimSkeleton) -> bool:
-    """Return whether a frame with these counts of numbers matches a skeleton."""
-    dofs = {name: len(bone.dofs) for name, bone in asf.bones.items()}
-    return counts.items() <= dofs.items() and set(asf.needed()) <= set(counts)
+def missing_bones(counts: Mapping[str, int], asf: AcclaimSkeleton) -> list[str]:
+    """List the bones that turn in this skeleton and have no numbers in a frame with these counts."""
+    return [name for name in asf.needed() if name not in counts]
+
+
+def difference(counts: Mapping[str, int], asf: AcclaimSkeleton) -> str:
+    """Describe the first difference that keeps a frame from being one of this skeleton; "" if there is none.
+
+    A frame may leave out up to half of the bones: they keep their rest pose [ours].
+    """
+    for name, count in counts.items():
+        if name not in asf.bones:
+            return f"no bone '{shortened(name, 30)}'"
+        dofs = len(asf.bones[name].dofs)
+        if count != dofs:
+            return f"{dofs} numbers for '{shortened(name, 30)}', not {count}"
+    missing = missing_bones(counts, asf)
+    if "root" in missing or len(missing) > MOST_MISSING * len(asf.needed()):
+        return f"also {_listed(missing)}"
+    return ""
+
+
+def _listed(names: list[str]) -> str:
+    """List the first names, and count the others."""
+    remainder = f" and {len(names) - NAMED} more bones" if len(names) > NAMED else ""
+    return f"{', '.join(names[:NAMED])}{remainder}"
 
 
 def _read_frames(path: str | Path, asf: AcclaimSkeleton) -> tuple[dict[str, Array], float, float | None]:
@@ -109,11 +139,16 @@ def _read_frames(path: str | Path, asf: AcclaimSkeleton) -> tuple[dict[str, Arra
     head, frames = (text[: start.start()], text[start.start() :]) if start else (text, "")
     keywords = {words[0].upper() for _, words in lines(head)}
     counts = first_frame(frames)
-    usual = fits(counts, asf) and "#" not in frames and all(word[0] == ":" for word in keywords)
-    numbers = (_by_columns(frames, counts) if usual else None) or _by_lines(path, text, asf)
+    fits = not difference(counts, asf)
+    missing = missing_bones(counts, asf) if fits else []
+    usual = fits and "#" not in frames and all(word[0] == ":" for word in keywords)
+    numbers = (_by_columns(frames, counts) if usual else None) or _by_lines(path, text, asf, missing)
+    if missing:
+        warn(f"{path} has no numbers for {_listed(missing)}: they keep their rest pose.")
     in_degrees = ":RADIANS" not in keywords and (asf.degrees or ":DEGREES" in keywords)
     unit = 1.0 if in_degrees else np.degrees(1.0)
-    return {name: numbers[name] for name in asf.needed()}, unit, _frame_rate(path, text)
+    names = [name for name in asf.needed() if name not in missing]
+    return {name: numbers[name] for name in names}, unit, _frame_rate(path, text)
 
 
 def _frame_rate(path: str | Path, text: str) -> float | None:
@@ -145,36 +180,43 @@ def _by_columns(frames: str, counts: Mapping[str, int]) -> dict[str, Array] | No
     return dict(zip(counts, np.split(table, np.cumsum([*counts.values()])[:-1], axis=1), strict=True))
 
 
-def _by_lines(path: str | Path, text: str, asf: AcclaimSkeleton) -> dict[str, Array]:
-    """Read a file line by line, and raise at the first invalid line."""
+def _by_lines(
+    path: str | Path, text: str, asf: AcclaimSkeleton, missing: Collection[str]
+) -> dict[str, Array]:
+    """Read a file line by line, and raise at the first invalid line.
+
+    Bones in `missing` are in no frame.
+    """
+    names = [name for name in asf.needed() if name not in missing]
+    bones = {name: bone for name, bone in asf.bones.items() if name not in missing}
     frames: list[dict[str, Array]] = []
     line = number = 0
     for line, (name, *words) in lines(text):
         if not words and name.isdecimal() and len(name) <= MOST_DIGITS:
             if frames:
-                _require_whole(path, line, frames, asf)
+                _require_whole(path, line, frames, names)
                 _require_next(path, line, number, name)
             number = int(name)
             frames.append({})
         elif frames:
-            frames[-1][name] = _bone_numbers(path, line, [name, *words], frames, asf)
+            frames[-1][name] = _bone_numbers(path, line, [name, *words], frames, bones)
         elif not name.startswith(":"):
             raise FormatError(path, line, "the number of the first frame", f"'{' '.join([name, *words])}'")
     if not frames:
         raise FormatError(path, None, "frames", "none")
-    _require_whole(path, line, frames, asf)
-    return {name: np.array([frame[name] for frame in frames]) for name in asf.needed()}
+    _require_whole(path, line, frames, names)
+    return {name: np.array([frame[name] for frame in frames]) for name in names}
 
 
 def _bone_numbers(
-    path: str | Path, line: int, words: list[str], frames: list[dict[str, Array]], asf: AcclaimSkeleton
+    path: str | Path, line: int, words: list[str], frames: list[dict[str, Array]], bones: Mapping[str, Bone]
 ) -> Array:
     """Read the words of a bone's line: its name, and a number for each degree of freedom."""
     name, *numbers = words
     complete = f" after {len(frames) - 1} complete frames"
-    if name not in asf.bones or name in frames[-1]:
+    if name not in bones or name in frames[-1]:
         raise FormatError(path, line, "another bone of the skeleton", f"'{name}'{complete}")
-    dofs = asf.bones[name].dofs
+    dofs = bones[name].dofs
     expected = f"{len(dofs)} numbers for '{name}' ({' '.join(dofs)}){complete}"
     return to_numbers(path, line, numbers, expected, len(dofs))
 
@@ -185,9 +227,8 @@ def _require_next(path: str | Path, line: int, previous: int, number: str) -> No
         raise FormatError(path, line, f"frame {previous + 1}", f"frame {number}")
 
 
-def _require_whole(path: str | Path, line: int, frames: list[dict[str, Array]], asf: AcclaimSkeleton) -> None:
-    """Raise if a bone of the skeleton is missing in the last frame."""
-    if missing := [name for name in asf.needed() if name not in frames[-1]]:
-        remainder = f" and {len(missing) - NAMED} more bones" if len(missing) > NAMED else ""
+def _require_whole(path: str | Path, line: int, frames: list[dict[str, Array]], names: list[str]) -> None:
+    """Raise if the last frame lacks a bone of these names."""
+    if missing := [name for name in names if name not in frames[-1]]:
         got = f"the end of the frame after {len(frames) - 1} complete frames"
-        raise FormatError(path, line, f"numbers for {', '.join(missing[:NAMED])}{remainder}", got)
+        raise FormatError(path, line, f"numbers for {_listed(missing)}", got)

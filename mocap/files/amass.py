@@ -19,15 +19,19 @@ from numpy.typing import NDArray
 
 from mocap._shared.archives import LOADERS, Member, kind_of, open_archive, other_kind
 from mocap.body import rotations
+from mocap.body.joint_trees import place_joints
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError, Remedy, warn
+from mocap.files import frame_rates, spaces
 from mocap.files.recordings import Recording
+from mocap.files.space_evidence import frames_to_look_at, gather
 
 _JOINTS: dict[str, Any] = tomllib.loads(Path(__file__).with_name("smpl.toml").read_text("utf-8"))
 SKELETON = replace(Skeleton.from_table(_JOINTS), dofs=["xyz"] * len(_JOINTS))
 PELVIS = np.array([0.0, -0.223, 0.028])  # metres: the pelvis for `trans` 0, in the axes of the archive
 
+AXES = (1.0, "z")  # metres in a unit, and the axis that points up
 WANTED = "an AMASS archive with poses and trans"
 RATES = ("mocap_framerate", "mocap_frame_rate")
 WIDTH = 3 * len(SKELETON)  # numbers of a pose that are read
@@ -52,22 +56,23 @@ def is_amass(path: str | Path) -> bool:
         return False
 
 
-def read(path: str | Path, *, fps: float | None = None) -> Recording:
+def read(path: str | Path, *, fps: float | None = None, up: str | None = None) -> Recording:
     """Read an archive.
 
     Parameters
     ----------
     path : the file. Arrays of objects, which could contain code, are rejected.
-    fps : frames per second, which replace those of the file; required if it has none.
+    fps : frames per second, which replace those of the file, and are required if it has none.
+    up : the axis that points up; by default z, as in AMASS, unless the frames show another, such as y.
 
     Returns
     -------
-    A motion of `SKELETON`, y up; no angles.
+    A motion of `SKELETON`, y up, without angles.
 
     Raises
     ------
     MocapError, FormatError : for a file that cannot be read, and for arrays that are missing, not finite or
-        have another shape; for another kind of file from mocap, with the function that reads it.
+        have another shape. Also for another kind of file from mocap, with the function that reads it.
 
     Warns
     -----
@@ -93,13 +98,21 @@ def read(path: str | Path, *, fps: float | None = None) -> Recording:
         warn(f"{path}: betas, the shape of the body, are ignored: {effect}.")
     vectors = poses.astype(float).reshape(frames, -1, 3)
     local = rotations.from_rotvec(vectors)
-    local[:, 0] = rotations.multiply(rotations.Z_UP, local[:, 0])
-    positions = rotations.rotate(rotations.Z_UP, PELVIS + trans.astype(float))
-    return Recording(Motion(SKELETON, positions, local, rate, Path(path).stem), {}, {})
+    positions = PELVIS + trans.astype(float)
+    evidence = None
+    if up is None:
+        looked_at, looked_rate = frames_to_look_at(positions, rate)
+        world = place_joints(SKELETON, positions[looked_at], local[looked_at]).positions
+        evidence = gather(SKELETON.parents, world, looked_rate)
+    space = spaces.decide([evidence] if evidence else [], AXES, scale=1.0, up=up)
+    turn = spaces.UPRIGHT[space.up]
+    local[:, 0] = rotations.multiply(turn, local[:, 0])
+    motion = Motion(SKELETON, rotations.rotate(turn, positions), local, rate, Path(path).stem)
+    return Recording(motion, {}, {}, space=space, evidence=evidence)
 
 
 def _count_frames(path: str | Path, members: Mapping[str, Member], key: str) -> int:
-    """Return the number of rows of an array; raise if they are too short."""
+    """Return the number of rows of an array. Raise if they are too short."""
     if key not in members:
         raise FormatError(path, None, "arrays 'poses' and 'trans', as AMASS archives have", f"no '{key}'")
     array = members[key]
@@ -136,4 +149,4 @@ def _rate(path: str | Path, members: Mapping[str, Member]) -> float:
     rate = array.read().item()
     if not 0 < rate < LARGEST:
         raise FormatError(path, None, f"one number above 0 in '{key}'", str(rate))
-    return float(rate)
+    return frame_rates.without_noise(float(rate))

@@ -69,7 +69,7 @@ def read_skeleton(path: str | Path, *, scale: float | None = None) -> AcclaimSke
     Parameters
     ----------
     path : the file.
-    scale : metres in one unit of the file; by default 0.0254 / length, from `:units` in the file.
+    scale : metres in one unit of the file, by default 0.0254 / length, from `:units` in the file.
 
     Returns
     -------
@@ -103,7 +103,7 @@ def read_skeleton(path: str | Path, *, scale: float | None = None) -> AcclaimSke
 
 
 def _sections(path: str | Path, text: str) -> dict[str, list[Line]]:
-    """Group the lines by section; commas and parentheses are white space in an ASF file."""
+    """Group the lines by section. Commas and parentheses are white space in an ASF file."""
     sections: dict[str, list[Line]] = {}
     for number, words in lines(text.translate(str.maketrans(",()", "   "))):
         if words[0].startswith(":"):
@@ -119,7 +119,7 @@ def _sections(path: str | Path, text: str) -> dict[str, list[Line]]:
 
 
 class _Fields:
-    """The lines of a section or a bone, by their first words; a default replaces a missing line."""
+    """The lines of a section or a bone, by their first words. A default replaces a missing line."""
 
     def __init__(self, path: str | Path, lines: list[Line]) -> None:
         self.path = path
@@ -148,7 +148,7 @@ class _Fields:
         return euler.from_euler(axes, angles[["xyz".index(letter) for letter in axes]])
 
     def dofs(self, key: str, allowed: tuple[str, ...]) -> tuple[str, ...]:
-        """Return the degrees of freedom of the line with a key; raise unless each is allowed and unique."""
+        """Return the degrees of freedom of the line with a key. Raise unless each is allowed and unique."""
         line, words = self.line(key)
         dofs = tuple(word.lower() for word in words)
         if not dofs or set(dofs) - set(allowed) or len(set(dofs)) < len(dofs):
@@ -221,7 +221,7 @@ def _hierarchy(path: str | Path, lines: list[Line], bones: Mapping[str, Bone]) -
 
 
 def _skeleton(children: Mapping[str, list[str]], bones: Mapping[str, Bone]) -> Skeleton:
-    """Build the skeleton from the root, depth first; bones outside the hierarchy are ignored.
+    """Build the skeleton from the root, depth first. Bones outside the hierarchy are ignored.
 
     A bone without children gets a joint at its end, unless its length is 0.
     """

@@ -10,7 +10,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from dataclasses import replace
-from decimal import Decimal
 from itertools import chain
 from pathlib import Path
 
@@ -20,31 +19,33 @@ from numpy.typing import NDArray
 from mocap._shared.arrays import Array
 from mocap._shared.atomic import replacing
 from mocap.body import euler, rotations
-from mocap.body.kinematics import joint_positions
-from mocap.body.limbs import find_pair
 from mocap.body.motion import Motion
-from mocap.body.rotations import Z_UP
 from mocap.body.skeleton import Skeleton
-from mocap.errors import FormatError, MocapError, shortened, warn
+from mocap.errors import FormatError, MocapError, Remedy, shortened, warn
+from mocap.files import frame_rates, spaces
 from mocap.files.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
 from mocap.files.loose_joints import without_loose_joints
 from mocap.files.recordings import Recording
 from mocap.files.rigid_bones import APART, STRETCH, fit
+from mocap.files.space_evidence import Evidence, frames_to_look_at, gather
 from mocap.files.text import LARGEST, check_room, quick_numbers, read_text, to_numbers
 
-SCALE = 0.01  # metres in one unit of files that are written, and by default of those that are read
+SCALE = 0.01  # metres in a unit of files that are written, and of those whose frames do not show it
 STILL = 1e-5  # metres: the largest movement of a fixed joint in its parent's frame, by rounding in the file
 SHORTEST = 1e-5  # seconds: the smallest frame time
 LONGEST = 10.0  # seconds: the largest frame time
-ALONG = 0.8  # fraction of a leg's length that is along z if the file has z up
-UPRIGHT = 0.5  # fraction of the frames in which both legs are along z if the file has z up
 TIMES = re.compile(
     r"\s*Frames[ \t]*:[ \t]*(\S+)[ \t]*\n\s*Frame[ \t]+Time[ \t]*:[ \t]*(\S+)[ \t]*(?:\n|\Z)", re.IGNORECASE
 )
 
 
 def read(
-    path: str | Path, *, scale: float = SCALE, fps: float | None = None, stretch: float = STRETCH
+    path: str | Path,
+    *,
+    scale: float | None = None,
+    fps: float | None = None,
+    stretch: float = STRETCH,
+    up: str | None = None,
 ) -> Recording:
     """Read a BVH file.
 
@@ -57,9 +58,11 @@ def read(
     Parameters
     ----------
     path : the file.
-    scale : metres in one unit of the file.
-    fps : frames per second; by default from the frame time, as an integer if the digits of the file allow it.
+    scale : metres in one unit of the file; by default as the frames show, see `spaces`.
+    fps : frames per second, by default from the frame time, as an integer if the digits of the file allow it.
     stretch : the largest change of the length of a bone, metres.
+    up : the axis that points up, such as "z"; by default as the frames show. The motion is rotated so that y
+        is up.
 
     Raises
     ------
@@ -67,15 +70,18 @@ def read(
 
     Warns
     -----
-    MocapWarning : if rigid bones were fitted, with the changes of their lengths and the distances of the
-        joints from the file; and if the motion was rotated such that y is up, because its legs, identified by
-        their names, are along z at rest and in most frames.
+    MocapWarning : if the header counts other frames than those that follow; if the frame time has too few
+        digits for one frame rate; and if bones were fitted, with the changes of their lengths and the
+        distances of the joints from the file.
     """
     joints, blocks, rate = _channels(path, fps=fps)
     angles = {}
     for joint, block in zip(joints, blocks, strict=True):
         angles[joint.name] = block[:, _rotation_columns(joint)]
-    joints, positions, local = _poses(joints, blocks, scale)
+    positions, local = _poses(joints, blocks)
+    evidence = _evidence(joints, positions, local, rate) if scale is None or up is None else None
+    space = spaces.decide([evidence] if evidence else [], (SCALE, "y"), scale=scale, up=up)
+    joints, positions, local = _without_reference(joints, space.scale * positions, local)
     joints, positions, local = without_loose_joints(path, joints, positions, local)
     lengths = np.linalg.norm(positions, axis=-1)
     changes = np.ptp(lengths, axis=0).tolist()
@@ -84,32 +90,26 @@ def read(
     parents = np.array([joint.parent for joint in joints])
     dofs = [_axes(joint)[::-1] for joint in joints]
     skeleton = Skeleton(names, parents, offsets, dofs=dofs)
-    motion = Motion(skeleton, positions[:, 0], local, rate, Path(path).stem)
-    return Recording(_upright(path, motion), angles, dict(zip(names[1:], changes[1:], strict=True)))
+    motion = spaces.upright(Motion(skeleton, positions[:, 0], local, rate, Path(path).stem), space.up)
+    stretches = dict(zip(names[1:], changes[1:], strict=True))
+    return Recording(motion, angles, stretches, space=space, evidence=evidence)
 
 
-def _upright(path: str | Path, motion: Motion) -> Motion:
-    """Rotate a motion such that y is up, if both legs are along z at rest and in most frames."""
-    skeleton = motion.skeleton
-    legs = find_pair(skeleton, "legs")
-    if not legs:
-        return motion
-    hips, _, ankles = np.transpose(legs)
-    poses = np.vstack([skeleton.rest[None], joint_positions(motion)])
-    up = poses[:, hips] - poses[:, ankles]
-    along_z = (up[..., 2] > ALONG * np.linalg.norm(up, axis=-1)).all(axis=1)
-    if not along_z[0] or along_z[1:].mean() < UPRIGHT:
-        return motion
-    warn(f"{path}: the body stands along z: turned so that y is up.")
-    roots = rotations.rotate(Z_UP, motion.root_positions)
-    offsets = rotations.rotate(Z_UP, skeleton.offsets)
-    local = rotations.multiply(rotations.multiply(Z_UP, motion.rotations), rotations.inverse(Z_UP))
-    upright = replace(skeleton, offsets=offsets, axes=np.tile(Z_UP, (len(skeleton), 1)))
-    return replace(motion, skeleton=upright, root_positions=roots, rotations=local)
+def _evidence(joints: list[Joint], positions: Array, local: Array, rate: float) -> Evidence | None:
+    """Gather the evidence of the space from poses in the unit of the file."""
+    frames, rate = frames_to_look_at(positions[:, 0], rate)
+    world = positions[frames].copy()
+    turned = local[frames].copy()
+    for index, joint in enumerate(joints[1:], 1):
+        parent_rotations = turned[:, joint.parent]
+        world[:, index] = world[:, joint.parent] + rotations.rotate(parent_rotations, world[:, index])
+        turned[:, index] = rotations.multiply(parent_rotations, turned[:, index])
+    parents = np.array([joint.parent for joint in joints])
+    return gather(parents, world, rate)
 
 
-def _poses(joints: list[Joint], blocks: list[Array], scale: float) -> tuple[list[Joint], Array, Array]:
-    """Convert channels to joints, positions in their parents' frames (F, J, 3), metres, and rotations."""
+def _poses(joints: list[Joint], blocks: list[Array]) -> tuple[Array, Array]:
+    """Convert channels to positions in the parents' frames (F, J, 3), in the file's unit, and rotations."""
     frames = len(blocks[0])
     positions = np.tile(np.array([joint.offset for joint in joints]), (frames, 1, 1))
     local = np.tile(rotations.IDENTITY, (frames, len(joints), 1))
@@ -120,15 +120,20 @@ def _poses(joints: list[Joint], blocks: list[Array], scale: float) -> tuple[list
         order = _axes(joint).upper()
         if order:
             local[:, index] = euler.from_euler(order, np.radians(block[:, _rotation_columns(joint)]))
+    return positions, local
+
+
+def _without_reference(
+    joints: list[Joint], positions: Array, local: Array
+) -> tuple[list[Joint], Array, Array]:
+    """Merge the root with its only child if that moves: p = p_root + R_root p_child, R = R_root R_child."""
     parents = [joint.parent for joint in joints]
-    if parents.count(0) == 1 and np.ptp(positions[:, 1], axis=0).max() * scale > STILL:
-        # The only child replaces the root: p = p_root + R_root p_child, R = R_root R_child.
-        positions[:, 1] = positions[:, 0] + rotations.rotate(local[:, 0], positions[:, 1])
-        local[:, 1] = rotations.multiply(local[:, 0], local[:, 1])
-        joints = [replace(joint, parent=joint.parent - 1) for joint in joints[1:]]
-        positions = positions[:, 1:]
-        local = local[:, 1:]
-    return joints, scale * positions, local
+    if parents.count(0) != 1 or np.ptp(positions[:, 1], axis=0).max() <= STILL:
+        return joints, positions, local
+    positions[:, 1] = positions[:, 0] + rotations.rotate(local[:, 0], positions[:, 1])
+    local[:, 1] = rotations.multiply(local[:, 0], local[:, 1])
+    joints = [replace(joint, parent=joint.parent - 1) for joint in joints[1:]]
+    return joints, positions[:, 1:], local[:, 1:]
 
 
 def _channels(path: str | Path, *, fps: float | None = None) -> tuple[list[Joint], list[Array], float]:
@@ -153,33 +158,43 @@ def _values(path: str | Path, text: str, times: re.Match[str], width: int) -> Ar
     """Read the frames (F, channels); `times` is the match with their count."""
     line = text.count("\n", 0, times.start(1)) + 1
     count = to_numbers(path, line, [times[1]], "a number of frames", 1)[0]
-    if count < 1 or width == 0:
-        raise FormatError(path, line, "one frame or more", f"{times[1]}, of {width} channels")
+    if width == 0:
+        raise FormatError(path, line, "channels, which have numbers in every frame", "none")
     words = text[times.end() :].split()
     values = quick_numbers(words) if len(words) == count * width else None
-    if values is not None:
-        return values.reshape(-1, width)
-    frames = 0  # complete frames before the invalid line
+    if values is None:
+        values = _rows(path, text, times, width)
+    frames = values.size // width
+    if frames == 0:
+        raise FormatError(path, line, "one frame or more", "none")
+    if frames != count:
+        warn(f"{path}: the header says {count:.15g} frames, and {frames} whole ones follow: all are read.")
+    return values.reshape(frames, width)
+
+
+def _rows(path: str | Path, text: str, times: re.Match[str], width: int) -> Array:
+    """Read the frames one line at a time, and raise at the first line that is not a whole frame."""
+    rows: list[Array] = []
     first_line = text.count("\n", 0, times.end()) + 1
     for number, row in enumerate(text[times.end() :].split("\n"), first_line):
         words = row.split()
         if words:
-            to_numbers(path, number, words, f"{width} numbers after {frames} complete frames", width)
-            frames += 1
-    raise FormatError(path, line, f"'Frames: {frames}', as many as follow", f"'Frames: {times[1]}'")
+            expected = f"{width} numbers after {len(rows)} complete frames"
+            rows.append(to_numbers(path, number, words, expected, width))
+    return np.concatenate([np.empty(0), *rows])
 
 
 def _rate(path: str | Path, text: str, times: re.Match[str]) -> float:
-    """Read the frame rate; an integer if the frame time is its reciprocal, rounded or truncated."""
+    """Read the frame rate, an integer if the frame time is its reciprocal, rounded or truncated."""
     line = text.count("\n", 0, times.start(2)) + 1
     seconds = float(to_numbers(path, line, [times[2]], "seconds", 1)[0])
     if not SHORTEST <= seconds <= LONGEST:
-        raise FormatError(path, line, f"a frame time from {SHORTEST:g} to {LONGEST:g} s", times[2])
-    last_digit = 10.0 ** int(Decimal(times[2]).as_tuple().exponent)
-    whole = max(1, round(1 / seconds))
-    if abs(1 / whole - seconds) < max(0.999 * last_digit, 1e-12):  # truncating loses less than a last digit
-        return float(whole)
-    return 1 / seconds
+        expected = f"a frame time from {SHORTEST:g} to {LONGEST:g} s"
+        raise FormatError(path, line, expected, times[2], remedy=Remedy("give {}", "fps"))
+    rate, is_certain = frame_rates.rate_of(times[2])
+    if not is_certain:
+        warn(f"{path}: a frame time of {times[2]} s has few digits: it is read as {rate:g} Hz.")
+    return rate
 
 
 def _rotation_columns(joint: Joint) -> list[int]:
@@ -195,7 +210,7 @@ def _axes(joint: Joint) -> str:
 def _rigid(
     path: str | Path, joints: list[Joint], poses: tuple[Array, Array], limit: float
 ) -> tuple[Array, Array]:
-    """Fit rigid bones if joints move in their parents' frames; raise if they stretch by more than `limit`.
+    """Fit rigid bones if joints move in their parents' frames. Raise if they stretch by more than `limit`.
 
     Returns
     -------
@@ -230,10 +245,10 @@ def write(
     Parameters
     ----------
     pieces : motions of one skeleton and rate, with a total of `frames` frames.
-    path : the file; an existing file is replaced once the new one is complete.
+    path : the file. An existing file is replaced once the new one is complete.
     frames : the number of frames in the header of the file.
     rotates : shape (J,), whether a joint rotates in any frame, from `body.motion.rotating_joints`.
-    precision : the number of decimals; with 6, the error of joint positions is at most 1e-7 m.
+    precision : the number of decimals. With 6, the error of joint positions is at most 1e-7 m.
 
     Raises
     ------

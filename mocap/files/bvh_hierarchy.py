@@ -35,7 +35,7 @@ EMPTY_END_SITE = ("End Site", "{", "\tOFFSET 0 0 0", "}")  # below a joint witho
 
 @dataclass
 class Joint:
-    """A joint of the file; an End Site is named after the whole hierarchy has been read."""
+    """A joint of the file. An End Site is named after the whole hierarchy has been read."""
 
     line: int
     name: str
@@ -85,7 +85,7 @@ class _Tree:
 
     joints : parents first. An End Site has an empty name.
     open : the joints whose braces are open, innermost last.
-    allowed : the keywords that may follow; none after the brace that closes the root.
+    allowed : the keywords that may follow, none after the brace that closes the root.
     """
 
     def __init__(self, path: str | Path) -> None:
@@ -119,7 +119,7 @@ class _Tree:
         self.joints.append(Joint(line, name, parent))
 
     def _close_joint(self, line: int) -> None:
-        """Close the innermost brace; an End Site of zero length is dropped."""
+        """Close the innermost brace. An End Site of zero length is dropped."""
         joint = self.joints[self.open.pop()]
         if joint.offset is None:
             raise FormatError(self.path, line, "an OFFSET before '}'", "none")
@@ -193,7 +193,7 @@ def write_hierarchy(
     Parameters
     ----------
     skeleton : J joints.
-    offsets : shape (J, 3), in the unit of the file; the offset of the root is written as 0.
+    offsets : shape (J, 3), in the unit of the file. The offset of the root is written as 0.
     rotates : shape (J,), whether a joint rotates in any frame.
     precision : the number of decimals.
 
@@ -238,7 +238,7 @@ def _joint_rows(skeleton: Skeleton, joint: int, offset: str, *, is_end_site: boo
 
 
 def _checked_name(skeleton: Skeleton, joint: int) -> str:
-    """Return the name of a joint; raise if it could not be read again."""
+    """Return the name of a joint. Raise if it could not be read again."""
     name = skeleton.names[joint]
     if not name.isprintable() or name != name.strip() or not name or set(name) & set("{}"):
         raise MocapError(f"A BVH file cannot hold a joint called {shortened(repr(name))}.")

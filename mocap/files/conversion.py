@@ -1,7 +1,8 @@
 """Search for motion files in folders, and their conversion in parallel."""
 
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -32,13 +33,12 @@ def is_clip(path: Path) -> bool:
     return suffix in formats.READ and (suffix != ".npz" or is_amass(path))
 
 
-def find_files(paths: Iterable[Path], *, deep: bool = False) -> list[Path]:
-    """List files, and all motion files in folders.
+def find_files(paths: Iterable[Path]) -> list[Path]:
+    """List files, and all motion files in folders and the folders inside them, except hidden ones.
 
     Parameters
     ----------
     paths : files and folders.
-    deep : whether to search folders recursively.
 
     Raises
     ------
@@ -46,15 +46,13 @@ def find_files(paths: Iterable[Path], *, deep: bool = False) -> list[Path]:
 
     Examples
     --------
-    >>> find_files([Path("walk.amc"), Path("run.bvh")]) == [Path("walk.amc"), Path("run.bvh")]
-    True
+    >>> [path.name for path in find_files([Path("walk.amc"), Path("run.bvh")])]
+    ['walk.amc', 'run.bvh']
     """
     clips: list[Path] = []
     for path in paths:
         try:
-            within = path.rglob("*") if deep else path.iterdir()
-            motions = (p for p in within if UNFINISHED not in str(p) and p.is_file() and is_clip(p))
-            inside = sorted(motions) if path.is_dir() else [path]
+            inside = sorted(_motions_in(path)) if path.is_dir() else [path]
         except OSError as error:
             raise MocapError(f"Cannot read {path}: {error.strerror}.") from error
         if not inside:
@@ -63,13 +61,39 @@ def find_files(paths: Iterable[Path], *, deep: bool = False) -> list[Path]:
     return clips
 
 
+def _motions_in(folder: Path) -> Iterator[Path]:
+    """Yield the motion files in a folder and the folders inside it."""
+    next(folder.iterdir(), None)  # raises for a folder that cannot be read, which `rglob` leaves out
+    for path in folder.rglob("*"):
+        is_hidden = any(part.startswith(".") for part in path.relative_to(folder).parts)
+        if not is_hidden and UNFINISHED not in str(path) and path.is_file() and is_clip(path):
+            yield path
+
+
+def names_apart(paths: Sequence[Path]) -> list[str]:
+    """Name each motion file by its stem; files of one stem also by the folders in which they differ.
+
+    Examples
+    --------
+    >>> names_apart([Path("01/walk.bvh"), Path("02/walk.bvh"), Path("02/run.bvh")])
+    ['01-walk', '02-walk', 'run']
+    """
+    names = [path.stem for path in paths]
+    for depth in range(2, max((len(path.parts) for path in paths), default=0) + 1):
+        repeated = {name for name, count in Counter(names).items() if count > 1}
+        for index, path in enumerate(paths):
+            if names[index] in repeated:
+                names[index] = "-".join(path.with_suffix("").parts[-depth:])
+    return names
+
+
 def plan(source: str | Path, target: str | Path, suffix: str = ".bvh") -> list[tuple[Path, Path]]:
     """Pair each motion file with the file to be written.
 
     Parameters
     ----------
     source : a file, or a folder, which is searched recursively.
-    target : for a file, another file; for a folder, a folder that gets the same subfolders.
+    target : another file, or for a folder another folder, which gets the same subfolders.
     suffix : the format that is written for a folder.
 
     Raises
@@ -79,14 +103,14 @@ def plan(source: str | Path, target: str | Path, suffix: str = ".bvh") -> list[t
 
     Examples
     --------
-    >>> plan("walk.amc", "walk.bvh") == [(Path("walk.amc"), Path("walk.bvh"))]
-    True
+    >>> [(source.name, target.name) for source, target in plan("walk.amc", "walk.bvh")]
+    [('walk.amc', 'walk.bvh')]
     """
     source = Path(source)
     target = Path(target)
     pairs = [(source, target)]
     if source.is_dir():
-        clips = find_files([source], deep=True)
+        clips = find_files([source])
         pairs = [(path, (target / path.relative_to(source)).with_suffix(suffix)) for path in clips]
     require_apart(pairs)
     return pairs
@@ -114,7 +138,7 @@ def require_apart(pairs: Sequence[tuple[Path, Path]], read: Iterable[Path] = ())
 def convert(
     pairs: Sequence[tuple[Path, Path]], load: Callable[[Path], "Motion"], *, progress: Progress = iter
 ) -> list[str]:
-    """Convert files in parallel processes; an error in one file does not stop the others.
+    """Convert files in parallel processes. An error in one file does not stop the others.
 
     Parameters
     ----------
@@ -149,7 +173,7 @@ def convert(
 
 
 def _convert(load: Callable[[Path], "Motion"], source: Path, target: Path) -> str:
-    """Convert a file; return the error message, or "" if there is none."""
+    """Convert a file. Return the error message, or "" if there is none."""
     try:
         motion = load(source)
         make_folder(target.parent)

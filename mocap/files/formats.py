@@ -11,7 +11,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from mocap.errors import FormatError, MocapError, Remedy
+from mocap.errors import FormatError, MocapError, Remedy, shortened
 
 if TYPE_CHECKING:
     from mocap.files.recordings import Recording
@@ -24,12 +24,14 @@ class ReadOptions(NamedTuple):
     fps : frames per second, which replace those of the file.
     scale : metres in one unit of the file.
     stretch : the largest change of the length of a bone, metres.
+    up : the axis that points up, such as "z".
     """
 
     skeleton: Path | None
     fps: float | None
     scale: float | None
     stretch: float
+    up: str | None = None
 
 
 class Format(NamedTuple):
@@ -50,41 +52,60 @@ def read_amc(path: Path, options: ReadOptions) -> Recording:
 def skeleton_beside(path: Path) -> Path:
     """Find the `.asf` file in the folder of an AMC file whose bones match its first frame.
 
-    The file of the same name is preferred, then that of the name up to the first `_`, then the only match.
+    Of several that fit, that with the longest name with which the motion's name begins is taken: `HDM_bd.asf`
+    for `HDM_bd_walk_001.amc`, `16.asf` for `16_15.amc`.
 
     Raises
     ------
-    FormatError : if there is no match, or several matches of which none has such a name.
+    FormatError : if there is no match, with the first difference, or several matches of which none has such a
+        name.
     """
     from mocap.files import acclaim, asf
     from mocap.files.text import read_text
 
     counts = acclaim.first_frame(read_text(path, most=100_000))
     skeletons = sorted(file for file in path.parent.iterdir() if file.suffix.lower() == ".asf")
-    fitting = []
+    skeletons.sort(key=lambda file: -len(file.stem) if begins(path.stem, file.stem) else 0)
+    differences = {}
     for file in skeletons:
         with suppress(MocapError):
-            if acclaim.fits(counts, asf.read_skeleton(file)):
-                fitting.append(file)
-    stems = (path.stem.lower(), path.stem.lower().split("_")[0])
-    named = [file for stem in stems for file in fitting if file.stem.lower() == stem]
-    if named or len(fitting) == 1:
-        return (named or fitting)[0]
+            skeleton = asf.read_skeleton(file)
+            missing = acclaim.missing_bones(counts, skeleton)
+            differences[file] = (acclaim.difference(counts, skeleton), len(missing))
+    fewest = min((missing for difference, missing in differences.values() if not difference), default=0)
+    fitting = [file for file, result in differences.items() if result == ("", fewest)]
+    if len(fitting) == 1 or (fitting and begins(path.stem, fitting[0].stem)):
+        return fitting[0]
     names = ", ".join(file.name for file in fitting or skeletons)
     problem = "none"
-    if skeletons:
-        problem = f"{'several that fit' if fitting else 'none that fits'} ({names})"
+    if fitting:
+        problem = f"several that fit ({names})"
+    elif skeletons:
+        reasons = [f"{file.name} has {difference}" for file, (difference, _) in differences.items()]
+        problem = f"none that fits ({shortened((reasons or [names])[0], 70)})"
     raise FormatError(
         path, None, "its .asf file beside it", problem, remedy=Remedy("name it by {}", "skeleton")
     )
 
 
+def begins(name: str, beginning: str) -> bool:
+    """Check whether a name begins with whole words of another, whatever the case.
+
+    Examples
+    --------
+    >>> begins("HDM_bd_walk_001", "hdm_bd"), begins("16_15", "16"), begins("161_5", "16")
+    (True, True, False)
+    """
+    rest = name.lower().removeprefix(beginning.lower())
+    return name.lower().startswith(beginning.lower()) and not rest[:1].isalnum()
+
+
 def read_bvh(path: Path, options: ReadOptions) -> Recording:
-    """Read a BVH file, by default in centimetres."""
+    """Read a BVH file."""
     from mocap.files import bvh
 
-    scale = options.scale or bvh.SCALE
-    return bvh.read(path, scale=scale, fps=options.fps, stretch=options.stretch)
+    scale, up = options.scale, options.up
+    return bvh.read(path, scale=scale, fps=options.fps, stretch=options.stretch, up=up)
 
 
 def read_npz(path: Path, options: ReadOptions) -> Recording:
@@ -94,7 +115,7 @@ def read_npz(path: Path, options: ReadOptions) -> Recording:
     if options.scale not in (None, 1.0):
         problem = f"All .npz files are in metres, got a scale of {options.scale:g} for {path}."
         raise MocapError(problem, remedy=Remedy("leave out {}", "scale"))
-    return amass.read(path, fps=options.fps)
+    return amass.read(path, fps=options.fps, up=options.up)
 
 
 READ: dict[str, Format] = {
@@ -103,6 +124,25 @@ READ: dict[str, Format] = {
     ".npz": Format("AMASS .npz", read_npz),
 }
 """The formats that can be read, by the lower-case suffix of their files."""
+
+
+_BY_BLENDER = "in Blender, import it and export Motion Capture (.bvh) first"
+_MARKERS = "markers have no bones: solve a skeleton first, and export it as .bvh"
+_PICKLE = "a pickle may run code: save poses, trans and mocap_framerate by numpy.savez as an .npz first"
+_POSITIONS = "positions alone have no bones: fit a body to them first, such as SMPL (an AMASS .npz)"
+_TABLE = "a table of numbers has no bones: export .bvh from the program that recorded it first"
+
+OTHERS: dict[str, str] = dict.fromkeys(
+    (".fbx", ".gltf", ".dae", ".usd", ".usda", ".usdc", ".usdz", ".vrma"), _BY_BLENDER
+)
+OTHERS |= dict.fromkeys((".zip", ".7z", ".rar", ".gz", ".tar", ".tgz", ".bz2"), "unpack it (unzip) first")
+OTHERS |= dict.fromkeys((".c3d", ".trc"), _MARKERS)
+OTHERS |= dict.fromkeys((".pkl", ".pickle", ".pt", ".pth"), _PICKLE)
+OTHERS |= {".npy": _POSITIONS, ".csv": _TABLE, ".glb": f"mocap only writes it; {_BY_BLENDER}"}
+OTHERS |= {".blend": "open it in Blender and export Motion Capture (.bvh) first"}
+OTHERS |= {".vmd": "in Blender, import it with MMD Tools and export Motion Capture (.bvh) first"}
+OTHERS |= {".bip": "in 3ds Max, save the Biped's motion as .bvh first"}
+"""What to do with files of other formats that hold motions, by suffix in small letters."""
 
 
 def listed(last: str = "and") -> str:

@@ -48,7 +48,7 @@ def glb(motion: Motion) -> bytes:
 
     Parameters
     ----------
-    motion : F frames. Joints keep their names; labels and contacts are omitted.
+    motion : F frames. Joints keep their names. Labels and contacts are omitted.
 
     Raises
     ------
@@ -57,8 +57,8 @@ def glb(motion: Motion) -> bytes:
     Examples
     --------
     >>> from mocap.datasets import sample
-    >>> len(glb(sample("walk_straight"))) < 500_000
-    True
+    >>> glb(sample("walk_straight"))[:4]
+    b'glTF'
     """
     block = Block()
     text = json.dumps(_document(motion, block), separators=(",", ":")).encode()
@@ -136,7 +136,7 @@ def _document(motion: Motion, block: Block) -> Record:
 
 
 def _nodes(skeleton: Skeleton) -> list[Record]:
-    """Build a node for each joint, with its offset; the root is raised until the lowest joint is at y = 0."""
+    """Build a node for each joint, with its offset. The root is raised until the lowest joint is at y = 0."""
     offsets = skeleton.offsets.copy()
     offsets[0] = [0.0, -skeleton.rest[:, 1].min(), 0.0]
     nodes: list[Record] = []
@@ -159,7 +159,7 @@ def _skin(skeleton: Skeleton, block: Block) -> Record:
 
 
 def _mesh(skeleton: Skeleton, block: Block) -> Record:
-    """Build the surface of the body; each vertex is influenced by one joint."""
+    """Build the surface of the body. Each vertex is influenced by one joint."""
     positions, normals, joints, corners = body(skeleton)
     index_type = np.uint16 if len(positions) < 2**16 - 1 else np.uint32  # the largest index is reserved
     carriers = np.zeros((len(positions), INFLUENCES), np.uint16)

@@ -60,9 +60,9 @@ def body(skeleton: Skeleton) -> tuple[Array, Array, Indices, Indices]:
 
     Returns
     -------
-    A skinned surface: positions and normals (V, 3), metres; the joints (V,) that influence the vertices,
-    those at which their bones start; and the vertex indices (T, 3) of its triangles. A skeleton without bones
-    gets a small ball.
+    A skinned surface: positions (V, 3), metres, normals (V, 3), the joints (V,) that influence the vertices,
+    and the vertex indices (T, 3) of its triangles. A vertex is influenced by the joint at which its bone
+    starts. A skeleton without bones gets a small ball.
 
     Examples
     --------
@@ -84,7 +84,7 @@ def body(skeleton: Skeleton) -> tuple[Array, Array, Indices, Indices]:
 
 
 def _capsules(skeleton: Skeleton, longest: float) -> Iterator[Capsule]:
-    """Yield a capsule for each bone; that of a bone that starts at a head is nearly a ball.
+    """Yield a capsule for each bone. That of a bone that starts at a head is nearly a ball.
 
     A head from which no bone starts gets a ball, on the extension of the bone that leads to it.
     """

@@ -1,4 +1,4 @@
-"""Reading and writing of motions; the suffix of a file determines its format."""
+"""Reading and writing of motions. The suffix of a file determines its format."""
 
 import math
 from collections.abc import Mapping
@@ -10,8 +10,8 @@ from mocap._shared.atomic import write_file
 from mocap._shared.quantities import check_number, described
 from mocap.body.limbs import with_roles
 from mocap.body.motion import Motion, require_motion, rotating_joints
-from mocap.errors import MocapError
-from mocap.files import bvh, formats, gltf
+from mocap.errors import MocapError, warn
+from mocap.files import bvh, formats, gltf, spaces
 from mocap.files.recordings import Recording
 from mocap.files.rigid_bones import STRETCH
 from mocap.files.role_maps import read_roles
@@ -27,22 +27,26 @@ def load(  # noqa: PLR0913 (each by its name)
     fps: float | None = None,
     scale: float | None = None,
     stretch: float = STRETCH,
+    up: str | None = None,
     roles: Mapping[str, str] | str | Path | None = None,
 ) -> Motion:
     """Read a motion from a file, in one of the formats of `files.formats.READ`.
 
     Parameters
     ----------
-    path : the file; upper and lower case in its suffix are equivalent.
+    path : the file. Upper and lower case in its suffix are equivalent.
     skeleton : for `.amc`, the `.asf` file of its skeleton. By default a matching one in the same folder: that
         of the same name, else of the name up to the first `_` (`16.asf` for `16_15.amc`), else the only one.
     fps : frames per second, which replace those of the file. An `.amc` file has none, and the default is
         120, as in most of the CMU database.
-    scale : metres in one unit of the file; by default 0.01 for `.bvh`, and that of the skeleton for `.amc`.
-        An `.npz` file is in metres.
+    scale : metres in one unit of the file. By default that of the skeleton for `.amc`, 1 for `.npz`, and for
+        `.bvh` the one that the frames show, from the size and the pace of the body: 0.01 if they do not.
     stretch : the largest change of the lengths of bones in a `.bvh` file, by default 0.02 metres. Up to this,
         rigid bones are fitted, with a warning that reports the error of joint positions. `math.inf` accepts
         any change.
+    up : the axis of the file that points up: "y", "z", "-y", "-z", "x" or "-x". By default the one that the
+        frames show, from the standing feet: y for `.bvh` and z for `.npz` if they do not. The motion is
+        rotated so that y is up.
     roles : names of joints by role, such as {"left hip": "thigh_l"}, or a TOML file of them, as printed by
         `mocap info FILE --joints`. By default limbs are identified by their names, or by their motion.
 
@@ -57,13 +61,14 @@ def load(  # noqa: PLR0913 (each by its name)
 
     Warns
     -----
-    MocapWarning : if names say nothing of the legs, and the motion leaves it in doubt which joints they are.
+    MocapWarning : if the file is read in another unit or with another axis up than most of its format are, or
+        if these are in doubt. Also if the legs have unknown names, and the motion leaves them in doubt.
 
     Examples
     --------
     >>> load("walk.fbx")
     Traceback (most recent call last):
-    mocap.errors.MocapError: Cannot read walk.fbx: mocap reads .amc (with .asf), ...
+    mocap.errors.MocapError: Cannot read walk.fbx: in Blender, import it and export Motion Capture ...
 
     Notebook: 01b-motion-files
     """
@@ -74,26 +79,36 @@ def load(  # noqa: PLR0913 (each by its name)
     for name, number in {"fps": fps, "scale": scale, "stretch": stretch}.items():
         if number is not None:
             check_number(number, name)
+    recording = read(path, skeleton, fps, scale, stretch, up)
+    stated = recording.space.sentence({"scale": "scale=", "up": "up="}) if recording.space else ""
+    if stated:
+        warn(f"{path}: {stated}")
     by_role = read_roles(roles) if isinstance(roles, str | Path) else roles
-    return with_roles(read(path, skeleton, fps, scale, stretch).motion, by_role)
+    return with_roles(recording.motion, by_role)
 
 
-def read(
-    path: str | Path, skeleton: str | Path | None, fps: float | None, scale: float | None, stretch: float
+def read(  # noqa: PLR0913 (the options of `load`)
+    path: str | Path,
+    skeleton: str | Path | None,
+    fps: float | None,
+    scale: float | None,
+    stretch: float,
+    up: str | None = None,
 ) -> Recording:
     """Read a motion as `load` does, with the angles and the bone stretch of its file."""
     path = Path(path)
     check_above_0(fps=fps, scale=scale)
     if not stretch >= 0:
         raise MocapError(f"stretch must be 0 or more metres, got {stretch}.")
+    spaces.require_axis(up)
     suffix = path.suffix.lower()
     if suffix in formats.READ:
-        options = formats.ReadOptions(None if skeleton is None else Path(skeleton), fps, scale, stretch)
+        options = formats.ReadOptions(None if skeleton is None else Path(skeleton), fps, scale, stretch, up)
         return formats.READ[suffix].read(path, options)
     if suffix == ".asf":
         raise MocapError(f"{path} is a skeleton without a motion: files.asf.read_skeleton reads it.")
-    if suffix == ".glb":
-        raise MocapError(f"Cannot read {path}: mocap writes .glb, and reads {formats.listed()}.")
+    if suffix in formats.OTHERS:
+        raise MocapError(f"Cannot read {path}: {formats.OTHERS[suffix]}.")
     if suffix == "":
         read_text(path, most=1)  # raises for a missing file and for a folder
     raise MocapError(f"Cannot read {path}: mocap reads {formats.listed()}.")
@@ -142,7 +157,7 @@ def read_angles(path: str | Path, *, skeleton: str | Path | None = None) -> dict
 
 
 def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
-    """Write a motion to a file; an existing file is replaced once the new one is complete.
+    """Write a motion to a file. An existing file is replaced once the new one is complete.
 
     Labels and contacts are not written, because the formats cannot represent them.
 

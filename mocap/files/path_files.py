@@ -32,7 +32,7 @@ def load_path(path: str | Path, *, scale: float | None = None) -> GroundPath:
     Parameters
     ----------
     path : the file.
-    scale : metres in a unit of the file; by default 1 for `.csv`, and 0.01 for `.svg`.
+    scale : metres in a unit of the file, by default 1 for `.csv`, and 0.01 for `.svg`.
 
     Returns
     -------

@@ -34,8 +34,8 @@ def fit(parents: NDArray[np.intp], positions: Array, local: Array) -> tuple[Arra
 
     Returns
     -------
-    The offsets of the bones (J, 3), metres; rotations (F, J, 4); the change of the length of each bone in the
-    file, (J,), metres; and the largest distance of each joint from its position in the file, (J,), metres.
+    Offsets of the bones (J, 3), rotations (F, J, 4), the change of the length of each bone in the file (J,),
+    and the largest distance of each joint from its position in the file (J,). Lengths are in metres.
 
     Examples
     --------
@@ -78,7 +78,7 @@ def _mean_offsets(positions: Array) -> Array:
 
 
 def _world_poses(parents: NDArray[np.intp], positions: Array, local: Array) -> tuple[Array, Array]:
-    """Compute positions (F, J, 3) and rotation matrices (F, J, 3, 3) in the world; bones may stretch."""
+    """Compute positions (F, J, 3) and rotation matrices (F, J, 3, 3) in the world. Bones may stretch."""
     joints = positions.copy()
     matrices = rotations.to_matrix(local)
     for joint in range(1, len(parents)):

@@ -19,7 +19,7 @@ from mocap.errors import FormatError, shortened
 from mocap.files.text import to_numbers
 
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
-SEPARATORS = " ,\t\n"  # of numbers; a sign also begins a new number
+SEPARATORS = " ,\t\n"  # of numbers (a sign also begins a new number)
 WORD = re.compile(rf"{NUMBER.pattern}|[^{SEPARATORS}]")
 
 COUNTS = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}  # numbers
@@ -96,7 +96,7 @@ class _Pen:
         """Return the points of a Bézier curve after its start, and store its last control point.
 
         `S` and `T` omit the first control point. After a curve of the same degree, it is the reflection of
-        the last control point; after any other command, the position of the pen.
+        the last control point, and after any other command the position of the pen.
         """
         pairs = zip(numbers[::2], numbers[1::2], strict=True)
         corners = [origin + complex(*pair) for pair in pairs]
@@ -137,7 +137,7 @@ def first_stroke(path: Path, text: str, element: str) -> Array:
 
 
 def _commands(path: Path, text: str, element: str) -> Iterator[tuple[str, list[float]]]:
-    """Yield the commands of the `d` of a path, each with its numbers; a repeated command needs no letter."""
+    """Yield the commands of the `d` of a path, each with its numbers. A repeated command needs no letter."""
     words = WORD.findall(text)
     if words[:1] not in (["M"], ["m"]):
         raise FormatError(path, None, "a path that starts with 'M'", f"'{text[:99]}'")

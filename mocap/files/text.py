@@ -141,7 +141,7 @@ def to_numbers(path: str | Path, line: int | None, words: list[str], expected: s
 
 
 def quick_numbers(words: list[str]) -> Array | None:
-    """Convert words to numbers; return None if one of them is not a finite number below 10⁹.
+    """Convert words to numbers. Return None if one of them is not a finite number below 10⁹.
 
     Examples
     --------
@@ -198,6 +198,6 @@ def load_rows(path: str | Path, names: tuple[str, ...] = ("x", "z")) -> Array:
 
 
 def _cells(line: str) -> list[str]:
-    """Split a row of a table into cells; blanks between two commas are an empty cell."""
+    """Split a row of a table into cells. Blanks between two commas are an empty cell."""
     parts = [part.split() or [""] for part in line.replace(";", ",").split(",")]
     return [*chain.from_iterable(parts)]

@@ -5,11 +5,11 @@ in which every walk can be continued. The graph is a `networkx.MultiDiGraph` of 
 
 Reading order (notebooks 05, 06)
 --------------------------------
- 1. `motion_graph`: clips, choice points and transitions as one graph; merging of close choice points
+ 1. `motion_graph`: clips, choice points and transitions as one graph, and merging of close choice points
  2. `components`: strongly connected components, and reachable nodes
  3. `pruning`: removal of dead ends and sinks, with a reason for each edge
  4. `thresholds`: the size of the graph as a function of the threshold
- 5. `graph_summary`: statistics of a graph; export to GraphML
+ 5. `graph_summary`: statistics of a graph, and export to GraphML
  6. `storage`: graphs in .npz files
  7. `edge_tables`: the frames of each edge and of each macro-edge, as arrays
  8. `compiled_graph`: a whole graph as arrays, for searches

@@ -45,7 +45,7 @@ class CompiledGraph(EdgeTable):
     at : shape (N,), the position of the root at each node, in the coordinates of its clip.
     ahead : shape (N, 3), the positions of the root after `AHEAD` seconds, extrapolated at constant velocity
         beyond the end of the clip.
-    going : shape (N,), the direction of movement of the root, radians; the heading if it stands still.
+    going : shape (N,), the direction of movement of the root, or the heading if it stands still, radians.
     ground : shape (T,), the position of the root in each frame, in the coordinates of the clip that the edge
         leaves.
     step : shape (T,), the distance of the root to its position in the previous frame, metres.
@@ -93,7 +93,7 @@ class CompiledGraph(EdgeTable):
 
 
 def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
-    """Compile a motion graph into arrays; a compiled graph is returned as it is.
+    """Compile a motion graph into arrays. A compiled graph is returned as it is.
 
     Raises
     ------
@@ -101,11 +101,15 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
 
     Examples
     --------
-    >>> from mocap import body, datasets, graphs
-    >>> clips = [body.resample(datasets.sample(), 30)]
-    >>> compiled = compile_graph(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
-    >>> len(compiled.edges) == len(compiled.target), compile_graph(compiled) is compiled
-    (True, True)
+    A clip of 90 frames has a transition from frame 60 to frame 20. The last edge is the transition, which
+    enters the second node:
+
+    >>> from mocap import body, datasets, graphs, matching
+    >>> clip = body.resample(datasets.sample("walk_circle"), 30)[:90]
+    >>> back = matching.Transition(0, 60, 0, 10, 0.02, body.PlanarTransform(0, 0, 0))
+    >>> compiled = compile_graph(graphs.from_transitions([clip], [back], window=10))
+    >>> compiled.nodes, compiled.target.tolist()
+    ([(0, 0), (0, 20), (0, 60), (0, 90)], [1, 2, 3, 1])
 
     Notebook: 08-path-synthesis
     """

@@ -59,7 +59,7 @@ def largest_components(graph: nx.MultiDiGraph, by_labels: bool) -> dict[Labels, 
 
 
 def largest_component(edges: Indices, frames: Indices, count: int) -> tuple[Mask, int]:
-    """Find the strongly connected component with the most frames; ties are broken by the number of edges.
+    """Find the strongly connected component with the most frames. Ties are broken by the number of edges.
 
     Parameters
     ----------

@@ -18,9 +18,9 @@ class Summary(NamedTuple):
     """The size of a motion graph, its waiting times, and the reachability of its kinds of motion.
 
     `frames` and `seconds` : the part of the clips that is in the graph.
-    `nodes`, `edges`, `transitions` : their numbers; transitions are also counted as edges.
+    `nodes`, `edges`, `transitions` : their numbers. Transitions are also counted as edges.
     `out_degree` : the mean number of edges that leave a node.
-    `mean_wait`, `worst_wait` : seconds from a frame of a clip until the next transition; infinite if the clip
+    `mean_wait`, `worst_wait` : seconds from a frame of a clip until the next transition, infinite if the clip
     ends first.
     `reachable` : for each label set the others that are reachable from it.
     """
@@ -56,8 +56,8 @@ def summary(graph: MotionGraph | nx.MultiDiGraph, *, fps: float | None = None) -
 
     Parameters
     ----------
-    graph : pruned or not; also a networkx graph such as `MotionGraph.graph`.
-    fps : frames per second of the clips of a networkx graph; a `MotionGraph` stores its own.
+    graph : a motion graph, pruned or not, or a networkx graph such as `MotionGraph.graph`.
+    fps : frames per second of the clips of a networkx graph. A `MotionGraph` stores its own.
 
     Raises
     ------
@@ -131,7 +131,7 @@ def _reachable(graph: nx.MultiDiGraph) -> dict[Labels, frozenset[Labels]]:
 
 
 def write_graphml(motion_graph: MotionGraph, path: str | Path) -> None:
-    """Export a motion graph as GraphML, for tools such as Gephi, yEd or Cytoscape; mocap cannot read it.
+    """Export a motion graph as GraphML, for tools such as Gephi, yEd or Cytoscape (mocap cannot read it).
 
     Nodes have `clip`, `frame` and `seconds`; edges have `kind`, `frames` and `labels`; transitions also have
     `cost` (m), `angle` (rad), `x` and `z` (m).

@@ -37,7 +37,7 @@ class Segment(NamedTuple):
 
 
 def segments(clips: Sequence[Motion], length: int) -> list[Segment]:
-    """Cut clips into segments of one length; the last segment of a clip also takes the remaining frames.
+    """Cut clips into segments of one length. The last segment of a clip also takes the remaining frames.
 
     Raises
     ------
@@ -67,7 +67,7 @@ def segment_distances(
     Parameters
     ----------
     clips : motions of one skeleton and one frame rate, which `segments` cuts into S segments.
-    segment : frames in a segment; the last one of a clip can be longer.
+    segment : frames in a segment. The last one of a clip can be longer.
     window : frames that are compared, at the end of one segment and at the start of the other.
     metric : `euler_grid`, `root_grid` or `distance_grid` of `matching`.
 
@@ -206,8 +206,8 @@ def segment_walk(graph: nx.DiGraph, count: int, *, seed: int = 0, start: int | N
     ----------
     graph : from `segment_graph`.
     count : the number of segments.
-    seed : seed of the random numbers; the same seed gives the same walk.
-    start : the first segment; by default a random one.
+    seed : seed of the random numbers. The same seed gives the same walk.
+    start : the first segment, by default a random one.
 
     Raises
     ------

@@ -46,7 +46,7 @@ class MotionGraph:
 
     Parameters
     ----------
-    clips : the motions; the first number of a node is an index into this tuple.
+    clips : the motions. The first number of a node is an index into this tuple.
     window : frames in a transition.
     graph : the `networkx.MultiDiGraph`. Nodes are pairs (clip, frame). Edges have `kind` ("clip" or
         "transition"), `frames`, their number, and `labels`, a frozenset of all labels of the frames that they
@@ -91,7 +91,7 @@ class MotionGraph:
 
 
 def require_graph(graph: object) -> MotionGraph:
-    """Return a motion graph as it is; raise for anything else, with the call that makes one.
+    """Return a motion graph as it is. Raise for anything else, with the call that makes one.
 
     Examples
     --------
@@ -131,7 +131,7 @@ def build(  # noqa: PLR0913 (the parameters of `find_transitions`)
     ----------
     clips : motions of one skeleton and one frame rate, with different names.
     window : frames in a transition, about a third of a second.
-    threshold : the largest RMS distance of the points in a transition, metres; or one for each pair of
+    threshold : the largest RMS distance of the points in a transition, metres, or one for each pair of
         labels, as for `matching.find_transitions`.
     joint_weights, taper, progress, executor, jobs : as for `matching.find_transitions`.
 
@@ -284,7 +284,7 @@ def merge_choice_points(motion_graph: MotionGraph, *, within: int, threshold: fl
     ----------
     motion_graph : the graph before pruning, because the result has the ends of the clips again.
     within : the largest number of frames between the first and the last point of a group.
-    threshold : the largest RMS distance of a moved transition, metres; as for `graphs.build`.
+    threshold : the largest RMS distance of a moved transition, metres, as for `graphs.build`.
 
     Returns
     -------
@@ -329,7 +329,7 @@ def merge_choice_points(motion_graph: MotionGraph, *, within: int, threshold: fl
 
 
 def _transition(a: Node, b: Node, window: int, cost: float, transform: PlanarTransform) -> Transition:
-    """Return the transition between two nodes; its second window ends at the second node."""
+    """Return the transition between two nodes. Its second window ends at the second node."""
     source, leave = a
     target, end = b
     return Transition(source, leave, target, end - window, cost, transform)
@@ -341,10 +341,12 @@ def _merge_targets(transitions: Sequence[Ends], within: int) -> dict[Node, Node]
     entries = {enter for _, enter in transitions}
     groups: list[list[Node]] = []
     for node in sorted(exits | entries):
-        last = groups[-1] if groups else [(-1, 0)]
-        is_near = last[0][0] == node[0] and node[1] - last[0][1] <= within
-        if is_near and not (node in exits and any(member in entries for member in last)):
-            last.append(node)
+        group = groups[-1] if groups else []
+        is_near = bool(group) and _frames_between(group[0], node) <= within
+        # With an exit after it, an entry would move to a later frame, and frames of the clip would be lost.
+        moves_entry = node in exits and any(member in entries for member in group)
+        if is_near and not moves_entry:
+            group.append(node)
         else:
             groups.append([node])
     targets: dict[Node, Node] = {}
@@ -352,6 +354,13 @@ def _merge_targets(transitions: Sequence[Ends], within: int) -> dict[Node, Node]
         target = max((node for node in group if node in exits), default=group[0])
         targets.update(dict.fromkeys(group, target))
     return targets
+
+
+def _frames_between(first: Node, second: Node) -> float:
+    """Return the number of frames from a node to a later one, infinite in another clip."""
+    first_clip, first_frame = first
+    second_clip, second_frame = second
+    return second_frame - first_frame if first_clip == second_clip else np.inf
 
 
 def _measure(clips: Sequence[Motion], window: int, ends: Sequence[Ends]) -> Iterator[tuple[Ends, Transition]]:

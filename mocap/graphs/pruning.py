@@ -35,7 +35,7 @@ def prune(motion_graph: MotionGraph, *, by_labels: bool = False) -> MotionGraph:
 
     Parameters
     ----------
-    motion_graph : the graph; it is not changed.
+    motion_graph : the graph, which is not changed.
     by_labels : keep a component for each set of labels, from the edges with exactly these labels, and the
         edges between the components.
 
@@ -89,8 +89,8 @@ class Pruning:
     Parameters
     ----------
     graph : the kept nodes and edges.
-    components : for each label set with a cycle, the nodes of its kept component; without labels, a single
-        entry for the empty set.
+    components : for each label set with a cycle, the nodes of its kept component, or without labels a
+        single entry for the empty set.
     removed : the removed edges, each with a reason.
     orphans : the removed nodes.
     """
@@ -148,11 +148,11 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
     In the paper: [KGP02, 3.4; warnings].
 
     The largest component is the one whose stretches of clip have the most frames. The time is linear in the
-    number of edges; by labels, in the number of edges times that of the kept label sets.
+    number of edges, and by labels in the number of edges times that of the kept label sets.
 
     Parameters
     ----------
-    graph : the graph; it is not changed.
+    graph : the graph, which is not changed.
     by_labels : keep a component for each label set, and the edges between them.
     least_frames : the number of frames of clips in a component below which a label set gives a warning. Sets
         that are the union of smaller sets give none, because they mark changes between kinds of motion.

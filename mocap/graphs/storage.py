@@ -29,7 +29,7 @@ ARRAYS: Layout = {
     **clip_references.LAYOUT,
     "window": (int, ()),
     "nodes": (int, ("N", 2)),  # clip, frame
-    "edges": (int, ("E", 4)),  # start and end, as rows of nodes; key; frames
+    "edges": (int, ("E", 4)),  # start and end (rows of nodes), key, frames
     "is_transition": (bool, ("E",)),
     "costs": (float, ("T",)),
     "transforms": (float, ("T", 3)),
@@ -51,14 +51,14 @@ class GraphFile(NamedTuple):
 
 
 def save(motion_graph: MotionGraph, path: str | Path, origins: Sequence[Origin] = ()) -> None:
-    """Write a motion graph to an `.npz` file; an existing file is replaced once the new one is complete.
+    """Write a motion graph to an `.npz` file. An existing file is replaced once the new one is complete.
 
     Parameters
     ----------
     motion_graph : from `graphs.build` or `prune`.
     path : the file.
-    origins : the files from which the clips were read, one for each clip, by which `load` finds them again;
-        or none. Each path is stored relative to the folder of the graph, and absolute.
+    origins : the file of each clip, by which `load` finds it again, by default none. Each path is stored
+        relative to the folder of the graph, and absolute.
 
     Raises
     ------
@@ -121,9 +121,9 @@ def load(
     Parameters
     ----------
     path : a file from `save`.
-    clips : the motions from which it was built, in any order; other motions are ignored. By default they are
+    clips : the motions from which it was built, in any order. Other motions are ignored. By default they are
         bundled samples, or the files that the graph stores, or files of their names in its folder.
-    skeleton : the `.asf` file of `.amc` clips; by default the one that the graph stores, or one that fits.
+    skeleton : the `.asf` file of `.amc` clips, by default the one that the graph stores, or one that fits.
     progress : wraps the iterable of files of clips, to show a progress bar.
 
     Returns
@@ -186,12 +186,12 @@ def _graph(arrays: Arrays) -> nx.MultiDiGraph:
 
 
 def find_origins(path: str | Path) -> list[Origin]:
-    """Find the files of the clips of a saved graph, as `load` does; none for bundled samples."""
+    """Find the files of the clips of a saved graph, as `load` does, none for bundled samples."""
     return clip_references.find_files_of(_references(read(path)), path)
 
 
 def _rules(arrays: Arrays) -> Rules:
-    """Yield the validity rules of a file; each rule assumes those before it."""
+    """Yield the validity rules of a file. Each rule assumes those before it."""
     window = arrays["window"]
     lengths = arrays["frames"]
     nodes = arrays["nodes"]

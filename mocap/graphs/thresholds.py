@@ -29,8 +29,8 @@ def smallest_threshold(clips: Sequence[Motion], *, window: int) -> float:
     Examples
     --------
     >>> from mocap import body, datasets
-    >>> bool(smallest_threshold([body.resample(datasets.sample("walk_curve_1"), 30)], window=10) < 0.04)
-    True
+    >>> round(smallest_threshold([body.resample(datasets.sample("walk_curve_1"), 30)], window=10), 3)
+    0.009
     """
     transitions = find_transitions(clips, window=window, below=float("inf"))
     transitions = transitions[np.argsort(transitions.cost, kind="stable")]
@@ -102,7 +102,7 @@ def threshold_curve(
 
     Returns
     -------
-    The curve; its method `suggest` chooses a threshold.
+    The curve, whose method `suggest` chooses a threshold.
 
     Raises
     ------

@@ -45,10 +45,10 @@ from mocap.matching.distance_grids import Cloud, window_vectors
 Singles = NDArray[np.float32]
 Number = TypeVar("Number", np.float64, np.complex128)
 
-SAMPLE = 256  # windows that determine the directions; the bound holds for any orthonormal ones
+SAMPLE = 256  # windows that determine the directions (the bound holds for any orthonormal ones)
 GROUND_DIRECTIONS = 10  # of the vectors g, for 100 numbers of G
 HEIGHT_DIRECTIONS = 40  # of the vectors y
-DIRECTIONS = 48  # of f; with more, hardly fewer pairs remain
+DIRECTIONS = 48  # of f (with more, hardly fewer pairs remain)
 TOGETHER = 256  # windows whose vectors are in memory at a time
 TINY = 1e-300  # metres: avoids a division by 0 for a window of one point, whose r is 0
 
@@ -80,7 +80,7 @@ def principal_directions(vectors: NDArray[Number], count: int) -> NDArray[Number
     Parameters
     ----------
     vectors : shape (N, n), real or complex.
-    count : the largest number of directions; there are at most N and at most n.
+    count : the largest number of directions. There are at most N and at most n.
 
     Returns
     -------
@@ -190,8 +190,8 @@ def squared_reach(cloud: Cloud, below: float, longest: float) -> float:
     >>> from mocap.matching.distance_grids import cloud
     >>> stick = np.array([[[0.0, 0, 0], [0, 1, 2]], [[0, 1, 0], [2, 2, 0]]])
     >>> ready = cloud(stick, np.zeros(2), np.full(2, 1 / 2), 1, np.float64)
-    >>> 0.04**2 < squared_reach(ready, 0.04, 1.0) < 0.041**2
-    True
+    >>> round(squared_reach(ready, 0.04, 1.0) ** 0.5, 4)
+    0.0402
     """
     rounding = float(np.finfo(cloud.heights.dtype).eps) / 2
     single_rounding = float(np.finfo(np.float32).eps) / 2

@@ -221,8 +221,8 @@ def find_minima(
 
     Returns
     -------
-    Shape (6, N): the first window; the second window, at least a window's length later; the RMS distance in
-    metres; and the angle, x and z of the transform that aligns the second with the first.
+    Shape (6, N). The rows are the first window, the second window (at least a window's length later), the RMS
+    distance in metres, and angle, x and z of the transform that aligns the second with the first.
 
     Examples
     --------

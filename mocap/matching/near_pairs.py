@@ -96,7 +96,7 @@ def near_pairs(a: Leaves, b: Leaves, reach: float, *, shift: int, at_most: float
     a, b : the first and the second windows of the pairs.
     reach : the largest squared distance, from `squared_reach`, m².
     shift : the smallest number of frames from the first window of a pair to the second.
-    at_most : the largest number of pairs; if there are more, the search ends.
+    at_most : the largest number of pairs. If there are more, the search ends.
 
     Returns
     -------
@@ -187,7 +187,7 @@ def pair_distances(a: Cloud, b: Cloud, pairs: Indices) -> Floats:
 
 
 def _distances_of_runs(a: Cloud, b: Cloud, i: Indices, j: Indices) -> Floats:
-    """Compute D of pairs; each pair of frames in a run along a diagonal is multiplied once."""
+    """Compute D of pairs. Each pair of frames in a run along a diagonal is multiplied once."""
     window = a.window
     step = np.diff(i, prepend=i[0] - window)
     is_same_diagonal = np.diff(j - i, prepend=j[0] - i[0]) == 0

@@ -25,7 +25,7 @@ _BOTH_SIDES = {side + bone: weight for bone, weight in _SIDED.items() for side i
 HOMEWORK_WEIGHTS: Mapping[str, float] = {
     bone: weight / _DIVISOR for bone, weight in (_MIDDLE | _BOTH_SIDES).items()
 }
-"""The weight of each bone in the homework's metric; that of other bones is 0."""
+"""The weight of each bone in the homework's metric. That of other bones is 0."""
 
 
 Metric = Callable[..., NDArray[np.floating]]
@@ -62,7 +62,7 @@ def root_grid(a: Motion, b: Motion, *, window: int) -> Array:
     a, b = require_windows([a, b], window)
     cosines = np.abs(
         a.rotations[:, 0] @ b.rotations[:, 0].T
-    )  # of half the angle; q and -q are the same rotation
+    )  # of half the angle, because q and -q are the same rotation
     angles = 2 * np.arccos(np.minimum(cosines, 1.0))
     return diagonal_sum(cdist(a.root_positions, b.root_positions) + angles, window) / window
 

@@ -63,11 +63,11 @@ def align(points: ArrayLike, others: ArrayLike, weights: ArrayLike | None = None
     Parameters
     ----------
     points, others : shape (..., P, 3), metres, with points in corresponding order.
-    weights : shape (P,), not negative; equal by default. They are divided by their sum.
+    weights : shape (P,), not negative, by default equal. They are divided by their sum.
 
     Returns
     -------
-    The transform; its fields have the leading shape (...).
+    The transform, whose fields have the leading shape (...).
 
     Raises
     ------
@@ -130,7 +130,7 @@ def rms_distance(first: Motion, second: Motion) -> float:
 
 
 def unit_weights(weights: ArrayLike | None, count: int) -> Array:
-    """Normalise weights to a sum of one; equal ones by default.
+    """Normalise weights to a sum of one, by default equal ones.
 
     Raises
     ------

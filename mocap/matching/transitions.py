@@ -121,16 +121,16 @@ def find_transitions(  # noqa: PLR0913 (clips, a window, thresholds, weights, an
     Parameters
     ----------
     clips : motions of one skeleton and one frame rate.
-    window : frames in a window; about a third of a second.
+    window : frames in a window, about a third of a second.
     below : the largest RMS distance of the points, metres. Or one for each pair of labels, as {("walk",
         "run"): 0.05, ...}, for transitions from windows with the first label to windows with the second, and
         for the opposite direction unless that pair is named itself. If several pairs apply, the lowest
-        threshold is used; if none applies, there is no transition.
+        threshold is used. If none applies, there is no transition.
     joint_weights, taper : weights of the points and of the frames in a window, as for `distance_grid`.
     progress : wraps the iterable of pairs of blocks, to show a progress bar.
     executor : a pool of processes, or a cluster by `dask.distributed`'s `Client.get_executor()`; by default,
         threads of this process are used.
-    jobs : the number of threads without an executor; by default one for each core that the process may use.
+    jobs : the number of threads without an executor, by default one for each core that the process may use.
         On machines of one kind, the result is bit-identical for any number of threads and any executor.
 
     Returns
@@ -150,7 +150,7 @@ def find_transitions(  # noqa: PLR0913 (clips, a window, thresholds, weights, an
 
     Examples
     --------
-    One point rises and another one sinks; their middle frames are 1 cm apart:
+    One point rises and another one sinks. Their middle frames are 1 cm apart:
 
     >>> from mocap.body.skeleton import Skeleton
     >>> dot, rotations = Skeleton(["root"], [-1], [[0, 0, 0]]), np.tile([1.0, 0, 0, 0], (3, 1, 1))
@@ -179,7 +179,7 @@ LabelPair = tuple[str, str]
 
 
 def _thresholds(below: Thresholds, clips: Sequence[Motion]) -> dict[LabelPair | None, float]:
-    """Return the threshold for each pair of labels, or one for None; raise for invalid ones."""
+    """Return the threshold for each pair of labels, or one for None. Raise for invalid ones."""
     by_labels = below if isinstance(below, Mapping) else {None: below}
     thresholds: dict[LabelPair | None, float] = dict(by_labels.items())
     if not thresholds:
@@ -202,7 +202,7 @@ def join_clouds(  # noqa: PLR0913 (clips, a window, and weights)
     *,
     taper: ArrayLike | None = None,
 ) -> Cloud:
-    """Prepare and concatenate the clouds of all clips; windows across two clips have infinite size.
+    """Prepare and concatenate the clouds of all clips. Windows across two clips have infinite size.
 
     After each clip, `padding` more frames are infinite, so that windows of two clips are never neighbours.
     """
@@ -225,7 +225,7 @@ def _checked_cloud(clip: Motion) -> Array:
 
 
 def _both_ways(minima: Array, clips: Sequence[Motion], gap: int) -> Transitions:
-    """Convert minima to transitions in both directions; the opposite one has the inverse transform."""
+    """Convert minima to transitions in both directions. The opposite one has the inverse transform."""
     first, second = minima[:2].astype(np.int64)
     cost, *alignment = minima[2:]
     transform = PlanarTransform(*alignment)

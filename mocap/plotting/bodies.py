@@ -216,7 +216,7 @@ def bodies_along(
     seams : frames at which a transition starts, marked on the path.
     path : the requested path, shape (N, 2), points (x, z) in metres.
     discs : obstacles on the ground, shape (N, 3), x, z and radius in metres.
-    positions : those of the joints of each motion, shape (F, J, 3), by default those of `joint_positions`.
+    positions : the joint positions of each motion, shape (F, J, 3), by default those of `joint_positions`.
 
     Returns
     -------

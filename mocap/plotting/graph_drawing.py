@@ -160,7 +160,7 @@ def node_link(
     Parameters
     ----------
     graph : a graph of 1 to 100 nodes.
-    positions : those of the nodes, {node: (x, y)}, by default on a circle.
+    positions : the positions of the nodes, {node: (x, y)}, by default on a circle.
     kept : the graph after pruning. Other nodes are drawn pale, and other edges dashed.
     ax : axes, by default new ones.
 

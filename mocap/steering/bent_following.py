@@ -49,7 +49,7 @@ def plan_bending(
     Raises
     ------
     MocapError : for a limit that is not above 0, and invalid requests.
-    NoWalk : for a label that no clip of the graph has, and clips that only stand.
+    NoWalk : for a label that no clip of the graph has, and clips in which the body only stands.
     """
     if not limit > 0:
         raise MocapError(f"A walk is bent by more than 0 radians per second, got bend={limit}.")

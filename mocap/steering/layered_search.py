@@ -32,7 +32,7 @@ ON_BORDER = 1e-6
 
 
 class States(NamedTuple):
-    """N partial walks, described by their ends and costs; each field has shape (N,).
+    """N partial walks, described by their ends and costs. Each field has shape (N,).
 
     Examples
     --------
@@ -116,7 +116,7 @@ def select(scores: Array, cells: Indices, width: int) -> Indices:
     Parameters
     ----------
     scores : shape (N,); lower is better.
-    cells : shape (C, N), integers; walks with equal columns are in the same cell.
+    cells : shape (C, N), integers. Walks with equal columns are in the same cell.
     width : the largest number of walks selected.
 
     Examples
@@ -147,9 +147,9 @@ class LayeredSearch:
     width : the largest number of walks that are kept in a round.
     """
 
-    expand: Callable[[States], States]  # extended walks; the `trail` of each is the row of its predecessor
+    expand: Callable[[States], States]  # extended walks, whose `trail` is the row of the predecessor
     score: Callable[[States], Array]  # (N,), lower is better: the cost plus the expected cost
-    cells: Callable[[States], Indices]  # (C, N), integers; walks with equal columns are in the same cell
+    cells: Callable[[States], Indices]  # (C, N), integers, equal for walks in the same cell
     layers: Callable[[States], Indices]  # (N,)
     # reads: name: all kinds of search define it
     done: Callable[[States], Mask]  # (N,), whether a walk has arrived

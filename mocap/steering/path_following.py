@@ -293,8 +293,8 @@ def follow_as_2002(  # noqa: PLR0913 (a path, a request, and three limits)
     >>> from mocap import body, datasets, graphs
     >>> clips = [body.resample(datasets.sample(name), 30) for name in ("walk_circle", "walk_curve_1")]
     >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
-    >>> path, wishes = body.GroundPath([[0, 0], [0, 1]]), PathRequest(start=(0, 10))
-    >>> followed = follow_as_2002(graph, path, wishes, budget=100)
+    >>> path, request = body.GroundPath([[0, 0], [0, 1]]), PathRequest(start=(0, 10))
+    >>> followed = follow_as_2002(graph, path, request, budget=100)
     >>> followed.progress, followed.found.stopped
     (1.0, 'out of nodes')
 

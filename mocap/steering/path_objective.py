@@ -32,7 +32,7 @@ class PathRequest:
         [(0, "walk"), (6, "sneak"), (9, "")]; "" is any kind.
     times : pairs (metres, seconds): the time at which an arc length of the path is reached, interpolated
         linearly between them.
-    start : the node at which the walk starts; by default the best one.
+    start : the node at which the walk starts, by default the best one.
     correction : the fraction by which the arc length s moves, after each macro-edge, to the projection of the
         body on the path. With 0, s is the arc length of the walk, as in [KGP02, Eq. 9].
     others : tracks of other bodies on the ground, shape (T, 2) each, with a row for each frame. A body stays
@@ -75,7 +75,7 @@ class Settings:
     crowding : factor of the squared shortfall of the distance to another body in metres, in each frame.
     bend : for walks that are bent onto the path, factor of the squared angular velocity in radians per second
         that bending adds, in each frame.
-    width : the beam width; by default 100, or 50 if there are no requests beside the path.
+    width : the beam width, by default 100, or 50 if there are no requests beside the path.
     cell : the size of cells in metres and in radians. Of the walks at one node in one cell, only the best is
         kept.
     rescue : the largest expected cost of a walk that is about to leave the path, m².
@@ -123,7 +123,7 @@ class Route:
     points : shape (n,), the path on the ground as complex z + ix.
     spacing : the arc length between two points, metres.
     label : shape (n,), the number of the requested label, -1 for any.
-    clock : shape (n,), the requested time at a point, seconds; nan for any time.
+    clock : shape (n,), the requested time at a point, seconds, nan for any time.
     request : the requests.
     others : shape (K, T), the positions of K other bodies in each frame.
     smooth, rotations : for walks that are bent onto the path, the graph with smoothed paths of its clips, and
@@ -215,7 +215,7 @@ def make_route(graph: CompiledGraph, path: GroundPath, request: PathRequest) -> 
 
 
 def _clock(along: Array, request: PathRequest) -> Array:
-    """Interpolate the requested times; nan (any time) before the first and after the last."""
+    """Interpolate the requested times, nan (any time) before the first and after the last."""
     if not request.times:
         return np.full(len(along), np.nan)
     places, times = np.array(sorted(request.times), float).T

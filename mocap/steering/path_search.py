@@ -71,7 +71,7 @@ def find_walk(
     Parameters
     ----------
     graph, route, starts, settings : as for `PathSearch`.
-    deadline : a deadline shared by several searches; by default that of the settings, from the call.
+    deadline : a deadline shared by several searches, by default that of the settings, from the call.
 
     Raises
     ------
@@ -194,7 +194,7 @@ class PathSearch(LayeredSearch):
             is_missed = (label >= 0) & ~graph.bears[label, row]
             costs += np.where(is_missed, prices.label, 0.0)
         frame = states.frames[walk] + np.arange(len(walk)) - first[number]
-        delay = frame / graph.fps - route.clock[point]  # seconds; nan if no time is requested
+        delay = frame / graph.fps - route.clock[point]  # seconds, nan if no time is requested
         costs += prices.late * np.where(np.isnan(delay), 0.0, delay) ** 2
         costs += self.crowding(body, frame)
         return np.asarray(np.add.reduceat(costs, first))
@@ -217,7 +217,7 @@ class PathSearch(LayeredSearch):
         return cost
 
     def score(self, states: States) -> Array:
-        """Compute the cost of walks plus the expected cost of continuing their clips; lower is better.
+        """Compute the cost of walks plus the expected cost of continuing their clips (lower is better).
 
         Without the expected cost, a walk that has just paid for a change of direction would be ranked behind
         one that is about to leave the path. It is at most `Settings.rescue` (m²), because a transition may
@@ -280,7 +280,7 @@ class PathSearch(LayeredSearch):
 def too_slow(graph: CompiledGraph, nearest: str = "") -> NoWalk:
     """Return the error that no walk follows a line, with a probable reason.
 
-    `nearest` describes the nearest walk found without bending; it replaces the first sentence.
+    `nearest` describes the nearest walk found without bending. It replaces the first sentence.
     """
     fault = nearest or f"No walk goes along the line at {SLOWEST:g} m/s"
     clips = [on_ground(clip.root_positions) for clip in graph.source.clips]

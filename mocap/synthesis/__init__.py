@@ -6,8 +6,8 @@ of a user belong in `steering`.
 
 Reading order (notebook 07)
 ---------------------------
-1. `walk_to_motion`: conversion of a walk to a motion; its seams and its clips
-2. `random_walks`: random walks; hours of motion in constant memory
+1. `walk_to_motion`: conversion of a walk to a motion, its seams and its clips
+2. `random_walks`: random walks, and hours of motion in constant memory
 3. `bounded_search`: the walk of least cost by branch and bound, as in the paper
 4. `ground_walks`: trajectories of walks on the ground, for searches
 

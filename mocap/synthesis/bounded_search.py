@@ -20,7 +20,7 @@ from mocap._shared.records import NamedTuple, dataclass
 from mocap._shared.ties import in_order
 from mocap.errors import MocapError, NoWalk
 
-# The tolerance for equal costs, in their unit; of walks with equal costs, the first one found is kept.
+# The tolerance for equal costs, in their unit. Of walks with equal costs, the first one found is kept.
 EQUAL = 1e-9
 
 State = Any
@@ -127,7 +127,7 @@ def branch_and_bound(  # noqa: PLR0913 (a problem, a start, and three limits)
     Raises
     ------
     NoWalk : for a node that is not in the graph, and if every walk ends before it is complete.
-    MocapError : for a negative cost, for which the bound is not valid; for a deadline that is not above 0.
+    MocapError : for a negative cost, for which the bound is not valid, and a deadline that is not above 0.
 
     Examples
     --------
@@ -229,13 +229,13 @@ def search_ahead(  # noqa: PLR0913 (a problem, a start, and three limits)
     Parameters
     ----------
     problem, node, state : as for `branch_and_bound`.
-    look : n and m, frames; the paper uses 80-120 and 25-30.
-    budget : the budget of each search; if one is exhausted, its best walk so far is used.
+    look : n and m, frames. The paper uses 80-120 and 25-30.
+    budget : the budget of each search. If one is exhausted, its best walk so far is used.
     deadline : seconds of wall time for all searches together.
 
     Returns
     -------
-    The whole walk; after Ctrl-C, or at the deadline, the walk so far.
+    The whole walk, or after Ctrl-C or at the deadline the walk so far.
 
     Raises
     ------

@@ -45,9 +45,9 @@ def random_walk(
     ----------
     motion_graph : a pruned graph, in which every walk can be continued.
     seconds : the least duration of the motion.
-    seed : seed of the random numbers; the same seed gives the same walk.
+    seed : seed of the random numbers. The same seed gives the same walk.
     settle : seconds of clip between two transitions, if the graph allows this.
-    start : the first node; by default a random one.
+    start : the first node, by default a random one.
 
     Returns
     -------
@@ -101,7 +101,7 @@ def cut_walk(
 def wander(
     motion_graph: MotionGraph, *, seed: int = 0, settle: float = 1.0, start: Node | None = None
 ) -> Iterator[Edge]:
-    """Yield the edges of an infinite random walk; the parameters are those of `random_walk`.
+    """Yield the edges of an infinite random walk. The parameters are those of `random_walk`.
 
     Examples
     --------
@@ -183,7 +183,7 @@ def cleaned(pieces: Iterator[Motion]) -> Iterator[Motion]:
     yield clean_up(waiting)[cleaned_frames:]
 
 
-def dump(  # noqa: PLR0913 (which walk, where to, how long, and how)
+def dump(  # noqa: PLR0913 (a walk, a file, a duration, and options)
     motion_graph: MotionGraph,
     path: str | Path,
     *,

@@ -51,7 +51,7 @@ def seams(motion_graph: MotionGraph, walk: Sequence[Edge]) -> list[Seam]:
 
 
 def sources(motion_graph: MotionGraph, walk: Sequence[Edge]) -> list[tuple[int, str]]:
-    """List the clips of a walk, each with its first frame; the clip changes in the middle of a transition.
+    """List the clips of a walk, each with its first frame. The clip changes in the middle of a transition.
 
     Examples
     --------
@@ -132,13 +132,13 @@ def to_motion(
     motion_graph : the graph.
     walk : consecutive edges.
     name : the name of the new motion.
-    start : the transform of the first clip; by default the identity.
+    start : the transform of the first clip, by default the identity.
     clean : whether to remove footskate by `feet.clean_up`. Footplants are marked first if no clip has
         contacts.
 
     Returns
     -------
-    The frames of all edges. Labels and contacts are those of the clips; in a transition, those of the clip
+    The frames of all edges. Labels and contacts are those of the clips, and in a transition those of the clip
     with the larger weight.
 
     Raises

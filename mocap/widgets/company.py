@@ -39,7 +39,7 @@ class Walked(NamedTuple):
     """The last F steps of a character.
 
     poses : a pose for each step.
-    positions : those of its drawn joints, (F, K, 3), metres.
+    positions : the positions of its drawn joints, (F, K, 3), metres.
     report : a message to the browser. It has, for each step, the seconds `waited` and whether the command is
         `obeyed` and the pose `blending`. It also has the number of the `first` step, the last `delays`, and
         the `fault`, which is the message of the error that stopped the character, or "".

@@ -170,7 +170,7 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     off : distance from that path in each frame of the first motion, shape (F,), metres, as in
         `steering.Followed.off`. Beyond 15 cm, the path of the motion is red.
     discs : obstacles on the ground, shape (N, 3), x, z and radius in metres.
-    positions : those of the joints of each motion, shape (F, J, 3), metres, by default those of
+    positions : the joint positions of each motion, shape (F, J, 3), metres, by default those of
         `body.joint_positions`.
     follow : whether the camera follows the first character.
     alt : a sentence for readers who do not see the player. By default it contains names and durations.

@@ -1,4 +1,4 @@
-// What the reader's hand does on the canvas: turn, zoom, draw a path with the mouse, a finger or the keys.
+// Input on the canvas: rotating and zooming the view, and drawing a path, by mouse, touch or keys.
 
 import { PEN_KEYS } from "./player_page.js";
 
@@ -33,7 +33,7 @@ const PEN_STEP = 0.25; // metres per press of an arrow key
 const ARROWS = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] }; // radians
 const PAN = 300; // pixels per radian of these
 
-// What keys do on the canvas, beside the arrows.
+// The actions of keys on the canvas, beside the arrows.
 /** @type {Record<string, (hand: Hand) => void>} */
 const ON_CANVAS = {
   " ": ({ player }) => player.toggle(),
@@ -41,12 +41,29 @@ const ON_CANVAS = {
   "-": (hand) => hand.zoomBy(1 / 1.15),
   Home: ({ player }) => player.seek(0),
   End: ({ player }) => player.seek(player.seconds),
+  p: (hand) => hand.takePen(),
+  l: ({ player }) => player.mark?.(),
+};
+
+// Conditions of keys that not all players have.
+/** @type {Record<string, (hand: Hand) => boolean>} */
+const OFFERED = {
+  p: ({ player }) => Boolean(player.drawing),
+  l: ({ player }) => Boolean(player.mark),
+};
+
+// The actions of keys while the pen is down, beside the arrows.
+/** @type {Record<string, (hand: Hand) => void>} */
+const WITH_PEN = {
+  Backspace: (hand) => hand.takeBack(),
+  Enter: (hand) => hand.putPenAway(() => hand.walk()),
+  Escape: (hand) => hand.putPenAway(() => hand.forget()),
 };
 
 export class Hand {
   /** @type {Map<number, PointerEvent>} */
   pointers = new Map();
-  /** @type {number[][]} places [x, z] of a path */
+  /** @type {number[][]} positions [x, z] of a path */
   drawn = [];
   /** @type {number | null} the pointer that draws */
   stroke = null;
@@ -223,24 +240,24 @@ export class Hand {
   }
 
   /**
-   * What a key does on the canvas, if it does anything there.
+   * The action of a key on the canvas, if it has one.
    * @param {KeyboardEvent} event
    * @returns {(() => void) | undefined}
    */
   onCanvas(event) {
-    const { player } = this;
-    const direction = ARROWS[event.key];
-    const drawn = this.pen ? this.penKey(event.key, event.shiftKey ? undefined : direction) : undefined;
-    if (drawn) return drawn;
+    const { key } = event;
+    const direction = ARROWS[key];
+    if (direction && this.pen && !event.shiftKey) {
+      return () => this.penStep(Math.sign(direction[0]), Math.sign(direction[1]));
+    }
     if (direction) return this.arrowKey(direction, event);
-    if (event.key === "p" && player.drawing) return () => this.takePen();
-    if (event.key === "l" && player.mark) return () => player.mark?.();
-    const act = ON_CANVAS[event.key];
+    if (OFFERED[key] && !OFFERED[key](this)) return undefined;
+    const act = (this.pen && WITH_PEN[key]) || ON_CANVAS[key];
     return act && (() => act(this));
   }
 
   /**
-   * What an arrow does: it turns or moves the view, or goes to the next frame.
+   * The action of an arrow: it rotates or pans the view, or shows the next frame.
    * @param {number[]} direction
    * @param {KeyboardEvent} event
    * @returns {(() => void) | undefined}
@@ -265,20 +282,6 @@ export class Hand {
   }
 
   /**
-   * What a key does with the pen down, if it does anything: arrows draw.
-   * @param {string} key
-   * @param {number[] | undefined} direction
-   * @returns {(() => void) | undefined}
-   */
-  penKey(key, direction) {
-    if (direction) return () => this.penStep(Math.sign(direction[0]), Math.sign(direction[1]));
-    if (key === "Backspace" && this.drawn.length > 1) return () => this.takeBack();
-    if (key === "Enter") return () => this.putPenAway(() => this.walk());
-    if (key === "Escape") return () => this.putPenAway(() => this.forget());
-    return undefined;
-  }
-
-  /**
    * Draw a step to the right or the left, up or down: up is away from the camera.
    * @param {number} across
    * @param {number} up
@@ -294,7 +297,7 @@ export class Hand {
   }
 
   takeBack() {
-    this.drawn.pop();
+    if (this.drawn.length > 1) this.drawn.pop();
     this.player.update();
   }
 

@@ -2,7 +2,7 @@
 
 import { rgb } from "./bodies.js";
 import { Shading } from "./player_body.js";
-import { penOf } from "./player_page.js";
+import { clearedPen, paintDisc, paintLine, paintStroke } from "./player_page.js";
 
 /**
  * @import { Look } from "./bodies.js"
@@ -123,18 +123,10 @@ export class Picture {
 
   // Clear the canvas, give it as many pixels as the screen has there, and return its size on the page.
   clear() {
-    const { canvas } = this;
-    const sharp = devicePixelRatio || 1;
-    const size = [canvas.clientWidth, canvas.clientHeight];
-    const pixels = size.map((length) => Math.round(length * sharp));
-    if (canvas.width !== pixels[0] || canvas.height !== pixels[1]) [canvas.width, canvas.height] = pixels;
-    this.pen = penOf(canvas);
-    this.pen.setTransform(sharp, 0, 0, sharp, 0, 0);
-    this.pen.clearRect(0, 0, size[0], size[1]);
-    if (this.light) this.paper(this.light, size);
-    this.pen.lineCap = "round";
-    this.pen.lineJoin = "round";
-    return size;
+    const { pen, wide, high } = clearedPen(this.canvas);
+    this.pen = pen;
+    if (this.light) this.paper(this.light, [wide, high]);
+    return [wide, high];
   }
 
   /**
@@ -216,13 +208,8 @@ export class Picture {
      * @returns {[number, number]}
      */
     const put = ([px, py]) => [canvas.clientWidth - 16 - (right - px) * scale, 16 + (py - top) * scale];
-    pen.beginPath();
-    for (const position of seen.slice(0, -1)) pen.lineTo(...put(position));
-    this.paintStroke(asked, 4, 0.5);
-    pen.fillStyle = ink;
-    pen.beginPath();
-    pen.arc(...put(walking), 5, 0, 2 * Math.PI);
-    pen.fill();
+    paintLine(pen, seen.slice(0, -1).map(put), asked, 4, 0.5);
+    paintDisc(pen, put(walking), 5, ink);
   }
 
   /**
@@ -396,7 +383,7 @@ export class Picture {
       far += near;
       count++;
     }
-    if (count) this.paintStroke(colour, Math.max(1, (width * camera.focus * count) / far), alpha);
+    if (count) paintStroke(this.pen, colour, Math.max(1, (width * camera.focus * count) / far), alpha);
   }
 
   /**
@@ -413,7 +400,7 @@ export class Picture {
     let far = 0;
     pen.beginPath();
     for (const line of lines) far = this.trace(line) || far;
-    if (far) this.paintStroke(colour, metres ? Math.max(1, (width * camera.focus) / far) : width, alpha);
+    if (far) paintStroke(this.pen, colour, metres ? Math.max(1, (width * camera.focus) / far) : width, alpha);
   }
 
   /**
@@ -462,20 +449,6 @@ export class Picture {
     if (leaves) pen.lineTo(camera.across, camera.down);
     else pen.moveTo(camera.across, camera.down);
     camera.project(b[0], b[1], b[2]);
-  }
-
-  /**
-   * @param {string} colour
-   * @param {number} width
-   * @param {number} alpha
-   */
-  paintStroke(colour, width, alpha) {
-    const { pen } = this;
-    pen.globalAlpha = alpha;
-    pen.strokeStyle = colour;
-    pen.lineWidth = width;
-    pen.stroke();
-    pen.globalAlpha = 1;
   }
 
   /**

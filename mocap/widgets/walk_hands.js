@@ -19,6 +19,12 @@ const PEN_ANGLES = new Map([
   ["ArrowRight", -0.26],
   ["ArrowUp", 0],
 ]); // radians by which the pen changes its heading
+/** @type {Map<string, (page: Page) => void>} the actions of keys */
+const KEYS = new Map([
+  ["Enter", (page) => page.walkStroke()],
+  ["Escape", (page) => page.discardStroke()],
+  [" ", (page) => page.play(!page.playing)],
+]);
 
 /** @param {number} zoom */
 const clampedZoom = (zoom) => Math.max(0.35, Math.min(4, zoom));
@@ -191,22 +197,37 @@ export class Hands {
   }
 
   /**
+   * Move the pen by arrows, or do what `KEYS` lists.
    * @this {Page}
    * @param {KeyboardEvent} event
    */
   key(event) {
     const angle = PEN_ANGLES.get(event.key);
+    const act = KEYS.get(event.key);
+    if (angle === undefined && !act) return;
     if (angle !== undefined) this.penStep(angle);
-    else if (event.key === "Enter" && this.stroke && this.stroke.length > 4) {
-      const points = walkable(this.stroke);
-      this.stroke = null;
-      this.set(points);
-    } else if (event.key === "Escape") {
-      this.stroke = null;
-      this.shown = null;
-    } else if (event.key === " ") this.play(!this.playing);
-    else return;
+    act?.(this);
     event.preventDefault();
+  }
+
+  /**
+   * Walk along the line that the pen has drawn, if it is long enough.
+   * @this {Page}
+   */
+  walkStroke() {
+    if (!this.stroke || this.stroke.length < 5) return;
+    const points = walkable(this.stroke);
+    this.stroke = null;
+    this.set(points);
+  }
+
+  /**
+   * Discard the line that the pen has drawn, and continue the walk.
+   * @this {Page}
+   */
+  discardStroke() {
+    this.stroke = null;
+    this.shown = null;
   }
 
   /**

@@ -113,6 +113,14 @@ def test_the_longest_fields_are_abbreviated_first_and_short_ones_never():
     assert len(one_line(many(*range(40)))) == LONGEST
 
 
+def test_a_long_value_without_a_length_is_abbreviated_to_its_type():
+    @dataclass
+    class Found:
+        error: Exception
+
+    assert repr(Found(ValueError("a" * 99))) == "Found(error=<ValueError>)"
+
+
 def test_a_named_tuple_is_one_of_the_standard_library_but_for_its_line():
     class Pair(NamedTuple):
         """Two numbers."""

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from mocap.blending import blend, mix, register
 from mocap.body import Motion, Skeleton, concatenate, resample, rotations
+from mocap.body.fingerprints import fingerprint
 from mocap.body.kinematics import forward_kinematics
 from mocap.body.motion import require_compatible
 from mocap.datasets import sample
@@ -19,7 +20,7 @@ from mocap.graphs import build
 from mocap.matching import find_transitions
 from mocap.matching.point_clouds import rms_distance
 from mocap.methods.match_webs import build_web
-from tests.refusals import refusals
+from tests.refusals import refusals, refused
 from tests.strategies import random_motion, seeds, wave
 
 
@@ -210,3 +211,21 @@ def test_velocities_are_central_differences_and_one_sided_at_both_ends():
     assert dot.velocities.shape == dot.positions.shape
     with pytest.raises(MocapError, match="at least two frames"):
         _ = dot[:1].velocities
+
+
+def test_rates_that_differ_by_a_thousandth_are_one():
+    walk = wave(9)
+    ntsc, noisy = replace(walk, fps=29.97 * walk.fps / 30), replace(walk, fps=walk.fps * (1 + 4e-7))
+    alike = require_compatible([walk, ntsc, noisy])
+    assert [motion.fps for motion in alike] == [walk.fps] * 3
+    refused("resample one first", require_compatible, [walk, replace(walk, fps=1.002 * walk.fps)])
+
+
+def test_a_fingerprint_ignores_rounding_and_no_hundredth_of_a_millimetre():
+    clip = wave(9)
+
+    def shifted(metres):
+        return replace(clip, root_positions=np.round(clip.root_positions, 5) + metres)
+
+    assert fingerprint(shifted(1e-12)) == fingerprint(shifted(0))
+    assert fingerprint(shifted(1e-5)) != fingerprint(shifted(0))

@@ -168,9 +168,8 @@ def test_seams_are_chosen_on_a_walk_and_lit_where_they_stand(resting):
     page.locator(".graph").focus()
     for key in ("ArrowRight", "ArrowLeft", "ArrowUp"):
         page.keyboard.press(key)
-    x, z = page.evaluate(
-        f"{IT}.maps.walk.positionOf({IT}.walk?.path?.[0] ?? {IT}.scene.walk.path[{IT}.scene.walk.seams[0].frame])"
-    )
+    point = f"{IT}.walk?.path?.[0] ?? {IT}.scene.walk.path[{IT}.scene.walk.seams[0].frame]"
+    x, z = page.evaluate(f"{IT}.maps.walk.positionOf({point})")
     page.locator(".walk").click(position={"x": x, "y": z})
     assert page.evaluate(f"{IT}.pick.seam") == 0
 

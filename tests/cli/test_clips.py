@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import re
 import tomllib
 from dataclasses import replace
 from pathlib import Path
@@ -118,6 +119,45 @@ def test_a_remedy_that_a_command_lacks_is_another_command(folder, run):
     write_poses("a.npz")
     for line in ("graph a.npz -o g.npz", "find a.npz a.npz"):
         assert run(line, 2).err.endswith("'mocap_framerate', got none: give --fps to mocap convert\n")
+
+
+def test_info_says_that_the_rate_of_an_amc_is_assumed(folder, run):
+    write_acclaim(wave(3), folder / "clips" / "c.amc")
+    assert "assumed  120 Hz, as an .amc says no rate; --fps sets another" in run("info clips/c.amc").out
+    assert "assumed" not in run("info clips/c.amc --fps 60").out
+    assert "assumed" not in run("info clips/a.bvh").out
+
+
+def test_a_folder_with_one_bad_file_is_read_without_it_and_that_is_said(folder, run):
+    bad = folder / "clips" / "more" / "bad.bvh"
+    bad.write_text("HIERARCHY\n")
+    graph = "graph clips --threshold 50 --whole -o graph.npz"
+    said = run(graph)
+    assert "Left out: " in said.err and "bad.bvh" in said.err
+    assert run("graph info graph.npz").out.count("clip ") == 2
+    run(f"{graph} {bad}", 2)
+    for name in ("a.bvh", "more/b.BVH"):
+        (folder / "clips" / name).unlink()
+    assert "Left out" not in run(graph, 2).err
+    for number in range(5):
+        bad.with_name(f"{number}.bvh").write_text("ROOT\n")
+    load_save.save(wave(40, name="a"), folder / "clips" / "a.bvh")
+    assert "Left out: 3 more files" in run(graph).err
+
+
+def test_clips_of_one_name_in_several_folders_are_told_apart(folder, run):
+    for name in ("01", "02"):
+        (folder / "set" / name).mkdir(parents=True)
+    for name, seed in (("01", 1), ("02", 2)):
+        load_save.save(wave(40 + seed), folder / "set" / name / "walk.bvh")
+    run("graph set --threshold 50 --whole -o graph.npz")
+    assert re.findall(r"clip +(\S+): (\d+) frames", run("graph info graph.npz").out) == [
+        ("01-walk", "41"),
+        ("02-walk", "42"),
+    ]
+    run("walk graph.npz --random 0.2s -o walk.bvh")
+    run("walk graph.npz --clips set --random 0.2s -o again.bvh")
+    assert (folder / "walk.bvh").read_bytes() == (folder / "again.bvh").read_bytes()
 
 
 def test_plans_that_make_no_sense_are_refused(folder, run):

@@ -9,8 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from mocap.cli import typed_commands
 from mocap.cli.main import COMMANDS, SHARED_FLAGS
-from mocap.cli.typed_commands import Group
+from mocap.cli.typed_commands import Group, read_docstring
 from tests.cli.listing import LEAVES, command
 
 POSIX = pytest.mark.skipif(os.name == "nt", reason="a POSIX shell")
@@ -51,6 +52,22 @@ def test_each_page_says_what_everything_is_in_80_columns(run, name):
     assert all(len(line) < 80 and line == line.rstrip() for line in page.splitlines())
     for argument in command(name).assemble_argument_collection():
         assert not argument.show or argument.parameter.help, argument.names
+
+
+def functions(commands):
+    """Yield the functions of commands, and of those in their groups."""
+    for run in commands.values():
+        yield from functions(run.commands) if isinstance(run, Group) else [run]
+
+
+RUNS = [run for runs in COMMANDS.values() for run in functions(runs)]
+
+
+@pytest.mark.parametrize("run", RUNS, ids=lambda run: run.__name__)
+def test_no_line_about_a_parameter_is_left_out_of_its_help(run):
+    _, _, rest = read_docstring(run).partition("\n\nParameters\n----------\n")
+    parameters, _, _ = rest.partition("\n\nNotes\n-----\n")
+    assert typed_commands._PARAMETER.sub("", parameters).strip() == ""
 
 
 @pytest.mark.parametrize("flag", ["-q", "--quiet"])

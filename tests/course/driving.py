@@ -50,7 +50,7 @@ def drive(shown):
         for heading, speed in ((2.0, shown.scene["speeds"][0]), (-1.0, shown.scene["speeds"][1])):
             shown.command = [heading, speed, ""]
             walked = shown.company.walk(tuple(shown.command), 2.0)
-            assert not any(member.told["fault"] for member in walked)
+            assert not any(member.report["fault"] for member in walked)
     elif hasattr(shown, "picture"):  # an inspector, which runs in the page
         assert shown.picture
     else:  # a canvas to draw on

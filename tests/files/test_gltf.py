@@ -121,6 +121,10 @@ def test_frames_too_short_for_its_clock_and_files_too_large_are_refused(tmp_path
     assert list(tmp_path.iterdir()) == []
 
 
+def test_ten_seconds_at_120_hz_take_less_than_half_a_megabyte():
+    assert len(gltf.glb(samples.sample("walk_straight"))) < 500_000
+
+
 def test_odd_names_are_kept():
     motion = wave(3, name='w"\n\u2028\ud800')
     skeleton = replace(motion.skeleton, names=['"root"', "ellenbogen-ä", "\0", "{}"])

@@ -1,7 +1,7 @@
 // The maps to point at: a distance grid, a graph along time, a walk from above. Each draws itself on a canvas, finds
 // what is under a finger, moves on by the keys, and shows by an orange dot where the seam stands while it plays.
 
-import { penOf } from "../../widgets/player_page.js";
+import { clearedPen, paintDisc, paintLine, paintStroke, penOf } from "../../widgets/player_page.js";
 import { whenPointed } from "../../widgets/touch.js";
 
 /**
@@ -64,21 +64,13 @@ const CIVIDIS = [
 const STEPS = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] };
 
 /**
- * A canvas that is as sharp as the screen; its unit is a pixel of the page.
+ * The pen of a cleared canvas for a map or a chart.
  * @param {HTMLCanvasElement} canvas
  */
 export function sheet(canvas) {
-  const sharp = devicePixelRatio || 1;
-  const size = [canvas.clientWidth, canvas.clientHeight];
-  const pixels = size.map((length) => Math.round(length * sharp));
-  if (canvas.width !== pixels[0] || canvas.height !== pixels[1]) [canvas.width, canvas.height] = pixels;
-  const pen = penOf(canvas);
-  pen.setTransform(sharp, 0, 0, sharp, 0, 0);
-  pen.clearRect(0, 0, size[0], size[1]);
-  pen.font = "11px system-ui, sans-serif";
-  pen.lineCap = "round";
-  pen.lineJoin = "round";
-  return { pen, wide: size[0], high: size[1] };
+  const cleared = clearedPen(canvas);
+  cleared.pen.font = "11px system-ui, sans-serif";
+  return cleared;
 }
 
 /**
@@ -92,47 +84,8 @@ export function sheet(canvas) {
 function ring(pen, x, y, radius, inner, outer) {
   pen.beginPath();
   pen.arc(x, y, radius, 0, 2 * Math.PI);
-  pen.strokeStyle = outer;
-  pen.lineWidth = 4;
-  pen.stroke();
-  pen.strokeStyle = inner;
-  pen.lineWidth = 2;
-  pen.stroke();
-}
-
-/**
- * @param {CanvasRenderingContext2D} pen
- * @param {number} x
- * @param {number} y
- * @param {number} radius
- * @param {string} colour
- * @param {string} edge
- */
-export function dot(pen, x, y, radius, colour, edge) {
-  pen.fillStyle = colour;
-  pen.strokeStyle = edge;
-  pen.lineWidth = 1.5;
-  pen.beginPath();
-  pen.arc(x, y, radius, 0, 2 * Math.PI);
-  pen.fill();
-  pen.stroke();
-}
-
-/**
- * @param {CanvasRenderingContext2D} pen
- * @param {number[][]} points
- * @param {string} colour
- * @param {number} width
- * @param {number} alpha
- */
-export function line(pen, points, colour, width = 1, alpha = 1) {
-  pen.strokeStyle = colour;
-  pen.lineWidth = width;
-  pen.globalAlpha = alpha;
-  pen.beginPath();
-  points.forEach(([x, y], k) => (k ? pen.lineTo(x, y) : pen.moveTo(x, y)));
-  pen.stroke();
-  pen.globalAlpha = 1;
+  paintStroke(pen, outer, 4);
+  paintStroke(pen, inner, 2);
 }
 
 class Map2D {
@@ -339,7 +292,7 @@ export class GridMap extends Map2D {
     const size = [columns * every * scale, rows * every * scale];
     pen.imageSmoothingEnabled = false;
     pen.drawImage(this.picture, left, top, size[0], size[1]);
-    for (const [i, j] of this.minima) dot(pen, ...this.at(i, j), 2, "#fff", "#0008");
+    for (const [i, j] of this.minima) paintDisc(pen, this.at(i, j), 2, "#fff", "#0008");
     pen.fillStyle = palette.ink;
     this.ticks(pen, { fps, from, size, left, top, scale });
     pen.save();
@@ -347,13 +300,13 @@ export class GridMap extends Map2D {
     pen.rect(left, top, size[0], size[1]);
     pen.clip();
     const frames = path.map(([i, j]) => this.at(i, j)); // of the window, one after the other
-    line(pen, frames, "#fff", 2, 0.8);
+    paintLine(pen, frames, "#fff", 2, 0.8);
     const [x, y] = this.at(...lit.cell);
     const row = [left, left + size[0]].map((end) => [end, y]); // the first clip's frame
     const column = [top, top + size[1]].map((end) => [x, end]);
-    if (lit.part !== "after") line(pen, row, PLAYED, 1.5);
-    if (lit.part !== "before") line(pen, column, PLAYED, 1.5);
-    if (lit.part === "window") dot(pen, x, y, 5, PLAYED, "#222");
+    if (lit.part !== "after") paintLine(pen, row, PLAYED, 1.5);
+    if (lit.part !== "before") paintLine(pen, column, PLAYED, 1.5);
+    if (lit.part === "window") paintDisc(pen, [x, y], 5, PLAYED, "#222");
     ring(pen, ...this.at(pick.i, pick.j), 7, "#fff", "#222");
     pen.restore();
   }
@@ -497,26 +450,28 @@ export class GraphMap extends Map2D {
     pen.textAlign = "right";
     pen.fillStyle = palette.ink;
     this.clips.forEach((clip, k) => {
-      line(pen, [this.positionOf(k, 0), this.positionOf(k, clip.frames)], colours.quiet, 1);
+      paintLine(pen, [this.positionOf(k, 0), this.positionOf(k, clip.frames)], colours.quiet, 1);
       pen.fillText(clip.name.slice(0, 16), NAME_WIDE - 6, this.positionOf(k, 0)[1], NAME_WIDE - 8);
     });
     for (const [clip, start, end] of this.graph.spans) {
       const colour = colours.sources[clip % colours.sources.length];
-      line(pen, [this.positionOf(clip, start), this.positionOf(clip, end)], colour, 5);
+      paintLine(pen, [this.positionOf(clip, start), this.positionOf(clip, end)], colour, 5);
     }
     const fade = Math.min(1, 0.15 + 30 / (this.graph.transitions.length + 1));
-    for (const transition of this.graph.transitions) line(pen, this.arc(transition), colours.seam, 1, fade);
+    for (const transition of this.graph.transitions) {
+      paintLine(pen, this.arc(transition), colours.seam, 1, fade);
+    }
     const arc = this.arc([pick.first, pick.i, pick.second, pick.j]);
-    line(pen, arc, palette.ink, 4);
-    line(pen, arc, colours.seam, 2.5);
-    dot(pen, ...arc[0], 4, palette.paper, colours.seam);
-    dot(pen, ...arc[arc.length - 1], 4, colours.seam, palette.ink);
+    paintLine(pen, arc, palette.ink, 4);
+    paintLine(pen, arc, colours.seam, 2.5);
+    paintDisc(pen, arc[0], 4, palette.paper, colours.seam);
+    paintDisc(pen, arc[arc.length - 1], 4, colours.seam, palette.ink);
     const on = {
       before: this.positionOf(pick.first, lit.cell[0]),
       window: arc[Math.round(12 * lit.fraction)],
       after: this.positionOf(pick.second, lit.cell[1]),
     };
-    dot(pen, ...on[lit.part], 5, PLAYED, "#222");
+    paintDisc(pen, on[lit.part], 5, PLAYED, "#222");
   }
 }
 
@@ -599,8 +554,8 @@ export class PathMap extends Map2D {
     this.high = high;
     this.drawn = true;
     const [asked, path] = [walk.asked, walk.path].map((points) => points.map((p) => this.positionOf(p)));
-    if (asked.length) line(pen, asked, palette.asked, 6, 0.75);
-    line(pen, path, colours.path, 2.5);
+    if (asked.length) paintLine(pen, asked, palette.asked, 6, 0.75);
+    paintLine(pen, path, colours.path, 2.5);
     walk.seams.forEach(({ frame }, n) => {
       const [x, y] = this.positionOf(walk.path[frame]);
       const size = n === pick.seam ? 8 : 5;
@@ -617,6 +572,6 @@ export class PathMap extends Map2D {
       pen.stroke();
     });
     const at = walk.path[Math.round(lit.frame)];
-    if (at) dot(pen, ...this.positionOf(at), 5, PLAYED, "#222");
+    if (at) paintDisc(pen, this.positionOf(at), 5, PLAYED, "#222");
   }
 }

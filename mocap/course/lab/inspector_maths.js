@@ -4,9 +4,9 @@
 import { summed } from "../../widgets/player_scene.js";
 
 /**
- * A clip, as `packed_clip` in `showing.py` packs it: `contacts` has a digit for each frame.
+ * A clip, as `packed_clip` in `showing.py` packs it: `plants` has a digit for each frame.
  * @typedef {{
- *   name: string, frames: number, channels: number, offset: number, origin: number[], contacts: string,
+ *   name: string, frames: number, channels: number, offset: number, origin: number[], plants: string,
  * }} PackedClip
  *
  * What draws and measures a body, as `packed_skeleton` packs it: `bones` are [from, to, side], `feet` [ball, side].
@@ -108,7 +108,7 @@ export class Clip {
     this.frames = packed.frames;
     this.channels = packed.channels;
     this.origin = packed.origin;
-    this.contacts = packed.contacts;
+    this.contacts = packed.plants;
     this.skeleton = skeleton;
     this.numbers = unpacked(bytes, packed);
   }

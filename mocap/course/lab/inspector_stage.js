@@ -1,7 +1,8 @@
 // The stage, where the bodies of two windows and of their blend stand, and the chart below it, on the same clock.
 // `Picture` and its colours for light and dark pages are the player's.
 
-import { dot, line, sheet } from "./inspector_maps.js";
+import { sheet } from "./inspector_maps.js";
+import { paintDisc, paintLine } from "../../widgets/player_page.js";
 import { Picture, sideOf } from "../../widgets/player_picture.js";
 import { whenPointed } from "../../widgets/touch.js";
 
@@ -144,10 +145,10 @@ export class Chart {
       [left, bottom],
       [wide - 14, bottom],
     ];
-    line(pen, axes, palette.ink, 1, 0.6);
+    paintLine(pen, axes, palette.ink, 1, 0.6);
     for (const { points, colour, width, alpha } of curves) {
       const seen = points.flatMap(([u, v]) => (v === null ? [] : [[x(u), y(v)]]));
-      line(pen, seen, colour, width, alpha);
+      paintLine(pen, seen, colour, width, alpha);
     }
     pen.fillStyle = palette.ink;
     pen.textBaseline = "top";
@@ -164,14 +165,14 @@ export class Chart {
     pen.fillText(up, 0, 0);
     pen.restore();
     const here = x(at[0]);
-    line(
+    paintLine(
       pen,
       [top, bottom].map((end) => [here, end]),
       palette.ink,
       1,
       0.5,
     );
-    if (at[1] !== null) dot(pen, here, y(at[1]), 4, palette.ink, palette.paper);
+    if (at[1] !== null) paintDisc(pen, [here, y(at[1])], 4, palette.ink, palette.paper);
   }
 }
 

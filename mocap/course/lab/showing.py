@@ -223,14 +223,14 @@ def packed_clip(motion: Motion, offset: int, needed: Mask) -> tuple[dict[str, An
 
     Returns
     -------
-    What the numbers mean, and the numbers: 3 + 4 J of each frame, 4 bytes each. Of `contacts`, a digit per
+    What the numbers mean, and the numbers: 3 + 4 J of each frame, 4 bytes each. Of `plants`, a digit per
     frame says which feet stand: 2 the left, 4 the right, 6 both, 0 none.
 
     Examples
     --------
     >>> from mocap.datasets.samples import sample
     >>> about, block = packed_clip(sample("walk_straight")[:60], 0, np.ones(60, bool))
-    >>> about["frames"], about["channels"], len(block) == 4 * 60 * about["channels"], about["contacts"][:3]
+    >>> about["frames"], about["channels"], len(block) == 4 * 60 * about["channels"], about["plants"][:3]
     (60, 155, True, '444')
     """
     origin = motion.root_positions[0] * [1, 0, 1]
@@ -243,7 +243,10 @@ def packed_clip(motion: Motion, offset: int, needed: Mask) -> tuple[dict[str, An
         standing[SIDES.index(motion.skeleton.side(motion.skeleton.index(name)))] |= marks
     about = {
         **{"name": motion.name, "frames": len(motion), "channels": numbers.shape[1], "offset": offset},
-        **{"origin": origin[[0, 2]].tolist(), "contacts": "".join(map(str, 2 * standing[1] + 4 * standing[2]))},
+        **{
+            "origin": origin[[0, 2]].tolist(),
+            "plants": "".join(map(str, 2 * standing[1] + 4 * standing[2])),
+        },
     }
     return about, planes.tobytes()
 

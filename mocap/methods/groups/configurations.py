@@ -23,7 +23,7 @@ COVERED = 0.8  # fraction of the simulation near a node, below which `cluster` w
 SLOWEST = 0.2  # m/s, the speed below which the mean velocity of a group has no direction
 
 # m² and metres: orders of the members whose costs differ by less are equal, as are RMS distances. Rounding is
-# about 1e-12; similar configurations differ by decimetres.
+# about 1e-12. Similar configurations differ by decimetres.
 EQUAL_COSTS = 1e-6
 EQUAL = 1e-9
 

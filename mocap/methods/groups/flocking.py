@@ -74,7 +74,7 @@ class Flock(NamedTuple):
 class Configuration(NamedTuple):
     """The `positions` and `velocities` of N members, (..., N) complex each.
 
-    Leading axes hold other configurations: frames, ten per second, or runs side by side.
+    Leading axes are further configurations: frames, ten per second, or runs side by side.
 
     Examples
     --------
@@ -93,7 +93,7 @@ def whims(shape: tuple[int, ...], rules: Flock, random: np.random.Generator) -> 
 
     Parameters
     ----------
-    shape : of the members, with any leading axes for runs side by side.
+    shape : the shape of the group, (..., N), with any leading axes for runs side by side.
     rules : `whim` scales the drift.
     random : draws the whims.
 

@@ -18,8 +18,9 @@ FARTHEST = 1e6  # metres, and metres per second
 ROUNDING = 1e-6  # metres, tolerance of the distance between the end of a clip and its node
 UNIT = 1e-9  # tolerance of the length of a rotation, 1
 # The arrays of the file, with K nodes, C clips, F + 1 frames of each (here F), and N members.
-# Positions and velocities are complex, as in `Configuration`; ends, orders and transforms as in `GroupClip`.
-# The keys keep their first names: "places" are positions, "turns" rotations, "moves" translations.
+# Positions and velocities are complex, as in `Configuration`. Ends, orders and transforms are as in
+# `GroupClip`. The keys keep their first names: "places" are positions, "turns" rotations, "moves"
+# translations.
 # reads: statement: a table
 ARRAYS: Layout = {
     "node_places": (complex, ("K", "N")),

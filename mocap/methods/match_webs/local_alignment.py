@@ -153,7 +153,7 @@ SLOPE = 2  # largest number of frames of one clip that are aligned with one fram
 LEAST = 9  # frames by which a path advances at least in each clip, 0.3 s
 NEAR = 3  # frames: a path is dropped if more than half of it is this near to a better one
 OFF_MINIMUM = 0.5  # additional cost of a cell that is not a one-dimensional minimum, in units of `below`
-DISTANCE = 2  # column of a path with the RMS distances; 0 and 1 are its windows
+DISTANCE = 2  # column of a path with the RMS distances, after the columns of its windows
 
 
 def find_paths(cloud: Cloud, starts: Indices, below: float, progress: Progress) -> list[Array]:

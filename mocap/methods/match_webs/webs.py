@@ -18,7 +18,7 @@ from mocap.matching.transitions import join_clouds
 from mocap.methods.match_webs.local_alignment import DISTANCE, LEAST, find_paths
 
 WINDOW = 5  # frames in a window, at the web's rate
-SHORTEST = WINDOW + LEAST  # frames of a clip that can hold a path, at the web's rate
+SHORTEST = WINDOW + LEAST  # frames of the shortest clip that can contain a path, at the web's rate
 NAMED = 4  # clips that a warning names. It counts the others
 
 
@@ -100,7 +100,7 @@ def build_web(clips: Sequence[Motion], *, below: float = 0.12, progress: Progres
 
     Warns
     -----
-    MocapWarning : for clips that are too short to hold a path, which are left out.
+    MocapWarning : for clips that are too short to contain a path, which are left out.
 
     Examples
     --------

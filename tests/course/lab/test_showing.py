@@ -90,7 +90,7 @@ WALK = WALKS[0][:90]
 
 
 def plants(motion):
-    return packed_clip(motion, 0, np.ones(len(motion), bool))[0]["contacts"]
+    return packed_clip(motion, 0, np.ones(len(motion), bool))[0]["plants"]
 
 
 def unpacked(motion, about, block):

@@ -1,0 +1,339 @@
+"""Evidence of a clip's unit and vertical axis, from its bones and frames alone [ours].
+
+A file of joints says neither in which unit it is written nor which axis is up. The frames do: a body that
+stands is long along the vertical, its lowest joint stands still while the others move, and gravity gives the
+size of whoever falls or walks. All lengths here are in the unit of the file.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mocap._shared.arrays import Array, Indices, Mask
+from mocap._shared.records import NamedTuple
+
+AXES = ("y", "z", "-y", "-z", "x", "-x")
+GRAVITY = 9.81  # m/s²
+
+
+@dataclass(frozen=True)
+class Tuning:
+    """Limits of the evidence, chosen on public clips whose space is known (see `figures/tune/spaces.py`).
+
+    least_joints : joints; fewer make no body.
+    rate : Hz at which frames are looked at: steps and falls last for a third of a second or more.
+    frames : how many frames are looked at: ten seconds.
+    rigid : of the body's size; the length of a bone of the body varies by less.
+    longest_bone : of the body's size; a joint further from its parent is another object.
+    moving : of the body's size per second; slower than that nothing moves, and a joint at rest says nothing.
+    travel : of the body's size; who travels further along an axis does not travel along the vertical.
+    mirror : relative; the bones of two limbs that mirror each other differ by less.
+    airborne : of the body's size, above the floor; a body whose lowest joint is higher falls freely.
+    air_frames : frames of a jump; fewer show no parabola.
+    air_time : seconds, shortest and longest; jumps of people last as long.
+    rough : of the body's size; the centre of a falling body leaves its parabola by less.
+    fall : of the body's size per s²; bodies of 0.2 to 5 m fall as fast.
+    least_seconds : seconds; a shorter clip shows no cycle of a gait.
+    shortest_cycle, longest_cycle : seconds of a cycle.
+    repeats : of the largest change of the pose before; the change after a cycle is smaller.
+    """
+
+    least_joints: int = 8
+    rate: float = 30.0
+    frames: int = 300
+    rigid: float = 0.04
+    longest_bone: float = 0.6
+    moving: float = 0.02
+    travel: float = 0.5
+    mirror: float = 0.1
+    airborne: float = 0.03
+    air_frames: int = 6
+    air_time: tuple[float, float] = (0.12, 1.2)
+    rough: float = 0.004
+    fall: tuple[float, float] = (2.0, 40.0)
+    least_seconds: float = 1.2
+    shortest_cycle: float = 0.35
+    longest_cycle: float = 2.5
+    repeats: float = 0.3
+
+
+TUNING = Tuning()
+
+
+class Stride(NamedTuple):
+    """A cycle of a walk or run: its `period` in seconds, and its `length` in legs."""
+
+    period: float
+    length: float
+
+
+class Evidence(NamedTuple):
+    """The evidence of one clip; lengths are in the unit of its file.
+
+    size : how tall the body is if it stands; else the longest chain of its bones, over that of a person of
+        height 1.
+    stands : whether the body is as tall as the chains of its bones allow.
+    scores : for each axis, how much speaks for its pointing up.
+    stillness : for each axis, how much slower the lowest joint moves than the others, as a logarithm.
+    on_floor : whether the lowest joints are at 0 along the best axis.
+    fall : acceleration in free fall, units/s²; None if the body never falls.
+    stride : the cycle of the gait; None if there is none.
+    """
+
+    size: float
+    stands: bool
+    scores: dict[str, float]
+    stillness: dict[str, float]
+    on_floor: bool
+    fall: float | None
+    stride: Stride | None
+
+    def best_axis(self) -> str:
+        """Return the axis that most speaks for."""
+        return max(self.scores, key=lambda axis: self.scores[axis])
+
+
+CHAIN = 1.5  # longest chain of bones of a person / height from the lowest to the topmost joint: 1.38 to 1.66
+CHAIN_SPREAD = 0.22  # of the logarithm of that ratio; dogs are at 2.5
+LEG = 0.53  # of the height from the lowest to the topmost joint
+
+
+def gather(parents: Indices, positions: Array, rate: float) -> Evidence | None:
+    """Gather the evidence of a clip, or return None if its joints make no body.
+
+    Parameters
+    ----------
+    parents : shape (J,), -1 for the root.
+    positions : shape (F, J, 3), in the world, in the unit of the file, of `frames_to_look_at`.
+    rate : of these frames, Hz.
+    """
+    joints = main_body(parents, positions)
+    points = positions[:, joints]
+    if len(joints) < TUNING.least_joints or not np.ptp(points, axis=1).max() > 0:
+        return None
+    parents = _renumbered(parents, joints)
+    scores, stillness = _axis_scores(parents, points, rate)
+    axis = max(scores, key=lambda name: scores[name])
+    heights = points @ direction(axis)
+    tall = float(np.quantile(np.ptp(heights, axis=1), 0.9))
+    chain = longest_chain(parents, points)
+    stands = bool(abs(np.log(chain / max(tall, 1e-12) / CHAIN)) < CHAIN_SPREAD)
+    size = tall if stands else chain / CHAIN
+    on_floor = bool(abs(np.median(heights.min(axis=1))) < 0.1 * tall)
+    fall = free_fall(heights, rate, size)
+    return Evidence(size, stands, scores, stillness, on_floor, fall, stride(points, axis, rate, size))
+
+
+def frames_to_look_at(root_positions: Array, fps: float) -> tuple[Indices, float]:
+    """Choose the ten seconds in which the root travels furthest: frames, and their rate, about 30 Hz.
+
+    Examples
+    --------
+    >>> frames, rate = frames_to_look_at(np.zeros((100, 3)), 120.0)
+    >>> frames[:4], rate
+    (array([ 0,  4,  8, 12]), 30.0)
+    """
+    step = max(1, round(fps / TUNING.rate))
+    frames = np.arange(0, len(root_positions), step)
+    surplus = len(frames) - TUNING.frames
+    if surplus > 0:
+        steps = np.linalg.norm(np.diff(root_positions[frames], axis=0), axis=1)
+        travelled = np.append(0.0, np.cumsum(steps))
+        start = int(np.argmax(travelled[TUNING.frames - 1 :] - travelled[: surplus + 1]))
+        frames = frames[start : start + TUNING.frames]
+    return frames, fps / step
+
+
+def direction(axis: str) -> Array:
+    """Return the unit vector of a signed axis, shape (3,).
+
+    Examples
+    --------
+    >>> direction("-z")
+    array([ 0.,  0., -1.])
+    """
+    sign = -1.0 if axis.startswith("-") else 1.0
+    vector = np.zeros(3)
+    vector["xyz".index(axis[-1])] = sign
+    return vector
+
+
+def main_body(parents: Indices, positions: Array) -> Indices:
+    """Return the joints of the largest part of a tree whose bones keep their lengths, parents first.
+
+    A root that stands still, targets of inverse kinematics and props move against their parents, and make
+    parts of their own. Joints above the body with one child, such as a point on the floor, are left out.
+    """
+    size = np.median(np.linalg.norm(np.ptp(positions, axis=1), axis=1))
+    part = np.arange(len(parents))
+    for joint in range(1, len(parents)):
+        lengths = np.linalg.norm(positions[:, joint] - positions[:, parents[joint]], axis=1)
+        variation = np.ptp(np.quantile(lengths, (0.05, 0.95)))
+        if variation < TUNING.rigid * size and np.median(lengths) < TUNING.longest_bone * size:
+            part[joint] = part[parents[joint]]
+    joints = list(np.flatnonzero(part == np.bincount(part).argmax()))
+    while len(joints) > 1 and np.count_nonzero(parents[joints[1:]] == joints[0]) == 1:
+        joints = joints[1:]
+    return np.array(joints)
+
+
+def longest_chain(parents: Indices, points: Array) -> float:
+    """Measure the longest chain of bones from one end of a tree to another, from positions (F, J, 3)."""
+    bones = _bone_lengths(parents, points)
+    below = np.zeros(len(parents))  # longest chain from each joint to an end
+    longest = 0.0
+    for joint in range(len(parents) - 1, -1, -1):
+        branches = sorted(below[child] + bones[child] for child in np.flatnonzero(parents == joint))
+        below[joint] = branches[-1] if branches else 0.0
+        longest = max(longest, sum(branches[-2:]))
+    return float(longest)
+
+
+def paired_joints(parents: Indices, points: Array) -> Mask:
+    """Mark the joints of limbs with a mirror image: another chain of the same bones at the same joint."""
+    bones = _bone_lengths(parents, points)
+    chains: list[list[float]] = [[] for _ in parents]  # lengths of bones down the longest chain
+    paired = np.zeros(len(parents), bool)
+    for joint in range(len(parents) - 1, -1, -1):
+        children = np.flatnonzero(parents == joint)
+        longest = max((chains[child] for child in children), key=sum, default=[])
+        chains[joint] = [bones[joint], *longest]
+        for child in children:
+            mirrored = any(_are_same(chains[child], chains[c]) for c in children if c != child)
+            paired[child] |= mirrored
+    for joint in range(1, len(parents)):
+        paired[joint] |= paired[parents[joint]]
+    return paired
+
+
+def free_fall(heights: Array, fps: float, size: float) -> float | None:
+    """Measure the acceleration downwards in the longest jump, units/s²; None if there is no jump.
+
+    The mean of all joints falls about as fast as the centre of mass.
+
+    Parameters
+    ----------
+    heights : of all joints, shape (F, J).
+    fps : frames per second.
+    size : of the body.
+    """
+    lowest = heights.min(axis=1)
+    is_airborne = lowest > np.quantile(lowest, 0.05) + TUNING.airborne * size
+    edges = np.flatnonzero(np.diff(np.pad(is_airborne.astype(int), 1)))
+    shortest, longest = TUNING.air_time
+    falls: list[tuple[int, float]] = []  # frames in the air, and acceleration in bodies per s²
+    for start, stop in edges.reshape(-1, 2):
+        frames = stop - start
+        if frames >= TUNING.air_frames and shortest <= frames / fps <= longest:
+            margin = frames // 6
+            falls += _parabola(heights[start + margin : stop - margin].mean(axis=1) / size, fps)
+    return max(falls)[1] * size if falls else None
+
+
+def _parabola(centre: Array, fps: float) -> list[tuple[int, float]]:
+    """Return the number of frames and the acceleration downwards of a fall, or nothing if it is none."""
+    times = np.arange(len(centre)) / fps
+    curve = np.polyfit(times, centre, 2)
+    roughness = np.std(centre - np.polyval(curve, times))
+    acceleration = float(-2 * curve[0])
+    slowest, fastest = TUNING.fall
+    is_fall = roughness < TUNING.rough and slowest < acceleration < fastest
+    return [(len(centre), acceleration)] if is_fall else []
+
+
+def stride(points: Array, axis: str, fps: float, size: float) -> Stride | None:
+    """Find the cycle of a gait: the shortest time after which the body has nearly the same heights again.
+
+    Parameters
+    ----------
+    points : of all joints, shape (F, J, 3).
+    axis : that points up.
+    fps : frames per second.
+    size : of the body.
+    """
+    lag = _cycle(points @ direction(axis), fps)
+    if lag is None:
+        return None
+    centre = np.delete(points.mean(axis=1), "xyz".index(axis[-1]), axis=1)
+    lengths = np.linalg.norm(centre[lag:] - centre[:-lag], axis=1)
+    return Stride(lag / fps, float(np.median(lengths) / (LEG * size)))
+
+
+def _cycle(heights: Array, fps: float) -> int | None:
+    """Return the first lag in frames after which all joints have nearly the same heights again."""
+    frames = len(heights)
+    pose = heights - heights.mean(axis=1, keepdims=True)
+    pose = pose - pose.mean(axis=0)
+    power = 2 * (pose**2).mean()
+    if frames < TUNING.least_seconds * fps or power == 0:
+        return None
+    lags = range(1, min(int(TUNING.longest_cycle * fps), int(0.6 * frames)))
+    changes = [((pose[lag:] - pose[:-lag]) ** 2).mean() / power for lag in lags]
+    change = np.array([0.0, *changes])
+    for lag in lags[int(TUNING.shortest_cycle * fps) : -1]:
+        is_dip = change[lag] <= min(change[lag - 1], change[lag + 1])
+        if is_dip and change[lag] < TUNING.repeats * change[:lag].max():
+            return lag
+    return None
+
+
+def _renumbered(parents: Indices, joints: Indices) -> Indices:
+    """Return the parents of some joints, counted among these; -1 for those without a parent among them."""
+    numbers = {int(joint): number for number, joint in enumerate(joints)}
+    return np.array([numbers.get(int(parents[joint]), -1) for joint in joints])
+
+
+def _bone_lengths(parents: Indices, points: Array) -> Array:
+    """Return the median length of the bone above each joint, (J,); 0 for the root."""
+    above = np.where(parents < 0, np.arange(len(parents)), parents)
+    lengths = np.linalg.norm(points - points[:, above], axis=-1)
+    return np.asarray(np.median(lengths, axis=0))
+
+
+def _are_same(first: list[float], second: list[float]) -> bool:
+    """Check whether two chains have as many bones, of nearly the same lengths."""
+    if len(first) != len(second):
+        return False
+    return float(np.abs(np.subtract(first, second)).max()) < TUNING.mirror * max(first)
+
+
+def _axis_scores(parents: Indices, points: Array, fps: float) -> tuple[dict[str, float], dict[str, float]]:
+    """Score each signed axis, and return how still the lowest joint stands if the axis points up.
+
+    An axis gains if the body is longest along it, if the lowest joint stands still, and if the lowest joints
+    have a mirror image and the topmost one has none. It loses by travel along it.
+    """
+    size = np.median(np.linalg.norm(np.ptp(points, axis=1), axis=1))
+    paired = paired_joints(parents, points).astype(float)
+    extents = np.median(np.ptp(points, axis=1), axis=0) / size
+    travel = np.ptp(points.mean(axis=1), axis=0) / size
+    scores = {}
+    stillness = {}
+    for axis in AXES:
+        index = "xyz".index(axis[-1])
+        heights = points @ direction(axis)
+        lowest = heights.argmin(axis=1)
+        topmost = heights.argmax(axis=1)
+        excess = extents[index] - np.delete(extents, index).max()
+        feet_below = np.mean(paired[lowest] - paired[topmost])
+        stillness[axis] = _stillness(points, index, lowest, fps, size)
+        rising = np.clip(travel[index] - TUNING.travel, 0, 1.5)
+        evidence = [2.0 * np.clip(2 * excess, -1, 1), 1.5 * stillness[axis], 1.5 * feet_below, -2.0 * rising]
+        scores[axis] = float(sum(evidence))
+    return scores, stillness
+
+
+def _stillness(points: Array, axis: int, lowest: Indices, fps: float, size: float) -> float:
+    """Return -log10 of the horizontal speed of the lowest joints, over that of all; 0 if nothing moves."""
+    if len(points) < max(0.3 * fps, 6):
+        return 0.0
+    velocities = np.gradient(points, 1 / fps, axis=0)
+    velocities[..., axis] = 0
+    speeds = np.linalg.norm(velocities, axis=-1)
+    usual = np.median(speeds)
+    if usual <= TUNING.moving * size:
+        return 0.0
+    at_lowest = np.take_along_axis(speeds, lowest[:, None], axis=1)
+    return float(-np.log10(np.median(at_lowest) / usual + 0.03))

@@ -1,0 +1,305 @@
+"""The unit and the vertical axis of clips, decided from their evidence [ours].
+
+The unit is one that files are written in, and gives a person of a likely height. Two clocks check it: a free
+fall accelerates by 9.81 m/s², and the period of a stride grows with the length of the leg. Clips of one set
+have one unit and one vertical axis, so their evidence is added up. What is not certain stays as the format
+has it by default, unless no body has that size, and the doubt is stated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple
+from mocap.body import rotations
+from mocap.body.motion import Motion
+from mocap.errors import MocapError
+from mocap.files.space_evidence import GRAVITY, LEG, Evidence
+
+UNITS = {
+    1.0: "m",
+    0.1: "dm",
+    0.01: "cm",
+    0.001: "mm",
+    0.0254: "inch",
+    0.3048: "foot",
+    0.056444: "5.64 cm",
+}
+"""The names of units, by their lengths in metres. 5.64 cm is the unit of CMU's data."""
+
+PRIOR = dict(zip(UNITS, (0.30, 0.03, 0.50, 0.04, 0.06, 0.02, 0.05), strict=True))
+"""The fraction of files in each unit."""
+
+_AROUND_Z = rotations.from_rotvec([0, 0, np.pi / 2])
+
+UPRIGHT: dict[str, Array] = {"y": rotations.IDENTITY, "z": rotations.Z_UP, "x": _AROUND_Z}
+UPRIGHT |= {"-z": rotations.inverse(rotations.Z_UP), "-x": rotations.inverse(_AROUND_Z)}
+UPRIGHT["-y"] = rotations.multiply(_AROUND_Z, _AROUND_Z)
+"""The rotation that turns each axis into y."""
+
+
+@dataclass(frozen=True)
+class Tuning:
+    """Limits of the decision, chosen on public clips whose space is known (see `figures/tune/spaces.py`).
+
+    height : metres from the lowest to the topmost joint of adults, and the spread of its logarithm.
+    adult : metres, the smallest and the largest height that is believed without a doubt.
+    likely : metres, the smallest and the largest height for which another unit is mentioned.
+    person : metres, the smallest child and the largest person.
+    plausible : metres, the smallest and the largest body that a default unit may give: toys and giants.
+    sure_unit : probability of the best unit from which on it is certain.
+    probable_unit : probability from which on the best unit is taken, with the doubt stated.
+    common : metres in units that need no clock to be certain.
+    clock : largest error of a clock, as a logarithm, that confirms an uncommon unit.
+    wrong_clock : smallest error of a clock, as a logarithm, that refutes a unit.
+    sure_axis : lead of the best axis over the next from which on it is certain.
+    probable_axis : lead from which on the best axis is taken if the body stands on the
+        floor, with the doubt stated.
+    planted : stillness of the lowest joint from which on it stands.
+    worst_clock : most that one clock may speak against a unit, as a logarithm: some falls are none.
+    """
+
+    height: tuple[float, float] = (1.55, 0.12)
+    adult: tuple[float, float] = (1.2, 1.9)
+    likely: tuple[float, float] = (1.2, 2.1)
+    person: tuple[float, float] = (0.6, 2.3)
+    plausible: tuple[float, float] = (0.1, 10.0)
+    sure_unit: float = 0.96
+    probable_unit: float = 0.84
+    common: tuple[float, ...] = (1.0, 0.01, 0.001)
+    clock: float = 0.45
+    sure_axis: float = 1.0
+    probable_axis: float = 2.0
+    planted: float = 0.4
+    wrong_clock: float = 0.9
+    worst_clock: float = 3.0
+
+
+TUNING = Tuning()
+
+
+class Space(NamedTuple):
+    """The space that clips are read in.
+
+    scale : metres in a unit of the file.
+    up : the axis that points up: "y", "z", "x", "-y", "-z" or "-x".
+    height : of the body, metres.
+    doubt : what else may be meant, as a clause; "" if the space is certain, or nothing is known.
+    usual : the unit and the axis that nobody needs to be told: those of the format, or of the caller.
+    decided : the parameters, of `scale` and `up`, that neither the user nor the format says.
+    """
+
+    scale: float
+    up: str
+    height: float
+    doubt: str
+    usual: tuple[float, str]
+    decided: tuple[str, ...] = ()
+
+    def sentence(self, names: Mapping[str, str]) -> str:
+        """State the space, the doubt, and the parameters that overrule it; "" if there is nothing to state.
+
+        Parameters
+        ----------
+        names : of the parameters `scale` and `up` on the surface that is used.
+        """
+        if (self.scale, self.up) == self.usual and not self.doubt:
+            return ""
+        stated = f"read as {unit_name(self.scale)} a unit, {self.up} up: {self.height:.2f} m tall"
+        doubt = f"; {self.doubt}" if self.doubt else ""
+        remedies = " and ".join(names[parameter] for parameter in self.decided if parameter in names)
+        return f"{stated}{doubt}. {remedies} overrule{'' if ' and ' in remedies else 's'} it."
+
+
+def unit_name(scale: float) -> str:
+    """Name a unit.
+
+    Examples
+    --------
+    >>> unit_name(0.01), unit_name(0.0254), unit_name(0.5)
+    ('1 cm', '1 inch', '0.5 m')
+    """
+    name = UNITS.get(scale, f"{scale:g} m")
+    return name if name[0].isdigit() else f"1 {name}"
+
+
+def upright(motion: Motion, up: str) -> Motion:
+    """Rotate a motion whose given axis points up so that y does."""
+    if up == "y":
+        return motion
+    turn = UPRIGHT[up]
+    skeleton = motion.skeleton
+    roots = rotations.rotate(turn, motion.root_positions)
+    offsets = rotations.rotate(turn, skeleton.offsets)
+    local = rotations.multiply(rotations.multiply(turn, motion.rotations), rotations.inverse(turn))
+    turned = replace(skeleton, offsets=offsets, axes=np.tile(turn, (len(skeleton), 1)))
+    return replace(motion, skeleton=turned, root_positions=roots, rotations=local)
+
+
+def require_axis(up: str | None) -> None:
+    """Raise unless an axis is one that may point up, or None.
+
+    Examples
+    --------
+    >>> require_axis("w")
+    Traceback (most recent call last):
+    mocap.errors.MocapError: up must be 'y', 'z', '-y', '-z', 'x' or '-x', got 'w'.
+    """
+    if up is not None and up not in UPRIGHT:
+        raise MocapError(f"up must be 'y', 'z', '-y', '-z', 'x' or '-x', got {str(up)[:20]!r}.")
+
+
+def decide(
+    evidence: Sequence[Evidence], default: tuple[float, str], *, scale: float | None, up: str | None
+) -> Space:
+    """Decide the space of a set of clips.
+
+    Parameters
+    ----------
+    evidence : of each clip that shows a body; may be empty.
+    default : the unit in metres, and the axis, that the format has by default.
+    scale, up : what the user or the file says; None to decide it.
+    """
+    usual_scale, usual_up = default
+    spoken = (scale or usual_scale, up or usual_up)
+    decided = tuple(name for name, value in (("scale", scale), ("up", up)) if value is None)
+    if not evidence:
+        return Space(*spoken, 0.0, "", spoken, decided)
+    doubts = []
+    axis, other_axis = _axis(evidence, usual_up)
+    if up is None and other_axis:
+        doubts.append(f"perhaps {other_axis} is up")
+    unit, other_unit = _unit(evidence, usual_scale)
+    size = float(np.median([clip.size for clip in evidence]))
+    if scale is None and other_unit and _is_stated(size * unit, size * other_unit):
+        doubts.append(f"{size * other_unit:.2f} m if it is {unit_name(other_unit)} a unit")
+    chosen = (scale or unit, up or axis)
+    return Space(*chosen, size * chosen[0], ", or ".join(doubts), spoken, decided)
+
+
+def _axis(evidence: Sequence[Evidence], usual: str) -> tuple[str, str]:
+    """Return the vertical axis, and the one that it may be instead, "" for none."""
+    scores = {axis: float(np.mean([clip.scores[axis] for clip in evidence])) for axis in UPRIGHT}
+    ranked = sorted(scores, key=lambda axis: scores[axis] + (0.15 if axis == usual else 0.0), reverse=True)
+    best, second = ranked[:2]
+    stands = _stands(evidence)
+    if best == usual:
+        return best, "" if stands else second
+    lead = scores[best] - scores[second]
+    if lead >= TUNING.sure_axis and _feet_stand(evidence, best):
+        return best, ""
+    on_floor = all(clip.on_floor for clip in evidence)
+    if lead >= TUNING.probable_axis and on_floor and stands:
+        return best, usual
+    is_stated = lead >= TUNING.sure_axis or not stands
+    return usual, best if is_stated else ""
+
+
+def _feet_stand(evidence: Sequence[Evidence], axis: str) -> bool:
+    """Check whether the lowest joint stands still if an axis points up, or all clips stand on the floor."""
+    stillness = max(clip.stillness[axis] for clip in evidence)
+    nothing_moves = all(max(clip.stillness.values()) == 0 for clip in evidence)
+    return stillness > TUNING.planted or (nothing_moves and all(clip.on_floor for clip in evidence))
+
+
+def _unit(evidence: Sequence[Evidence], usual: float) -> tuple[float, float | None]:
+    """Return the unit in metres, and the one that it may be instead, None if it is certain."""
+    probability = _unit_probabilities(evidence)
+    best, second = sorted(UNITS, key=lambda unit: probability[unit], reverse=True)[:2]
+    size = float(np.median([clip.size for clip in evidence]))
+    is_adult = _stands(evidence) and _is_adult(size * best)
+    error = _median_clock_error(evidence, best)
+    is_confirmed = best in TUNING.common or error < TUNING.clock
+    if is_adult and is_confirmed and probability[best] >= TUNING.sure_unit:
+        return best, None
+    is_refuted = np.isfinite(error) and error > TUNING.wrong_clock
+    is_probable = is_adult and not is_refuted and probability[best] >= TUNING.probable_unit
+    smallest, largest = TUNING.plausible
+    if best == usual:
+        return best, None if is_probable else second
+    is_taken = is_probable or not smallest <= size * usual <= largest
+    return (best, second) if is_taken else (usual, best)
+
+
+def _is_adult(metres: float) -> bool:
+    """Check whether a height is that of an adult beyond doubt."""
+    smallest, largest = TUNING.adult
+    return smallest <= metres <= largest
+
+
+def _is_stated(height: float, other_height: float) -> bool:
+    """Check whether a doubt helps: the other unit gives a likely height, or this one an unlikely height."""
+    smallest, largest = TUNING.likely
+    shortest, tallest = TUNING.person
+    return smallest <= other_height <= largest or not shortest <= height <= tallest
+
+
+def _median_clock_error(evidence: Sequence[Evidence], unit: float) -> float:
+    """Return the median error of the clocks as a logarithm, without its sign; infinite if there is none."""
+    errors = [_clock_error(clip, unit) for clip in evidence]
+    sizes = [abs(error) for error in errors if error is not None]
+    return float(np.median(sizes)) if sizes else np.inf
+
+
+def _stands(evidence: Sequence[Evidence]) -> bool:
+    """Check whether the body stands in most clips."""
+    return bool(np.mean([clip.stands for clip in evidence]) > 0.5)
+
+
+def _unit_probabilities(evidence: Sequence[Evidence]) -> dict[float, float]:
+    """Return the probability of each unit, from the usual ones, the size of the body, and the clocks."""
+    size = float(np.median([clip.size for clip in evidence]))
+    logs = []
+    for unit, prior in PRIOR.items():
+        log = np.log(prior * _height_density(size * unit))
+        for clip in evidence:
+            log -= _clock_penalty(clip, unit)
+        logs.append(log)
+    weights = np.exp(np.array(logs) - max(logs))
+    return dict(zip(UNITS, (weights / weights.sum()).tolist(), strict=True))
+
+
+def _height_density(metres: float) -> float:
+    """Return the probability density of a body's height: adults, few children, anything else now and then."""
+    mean, spread = TUNING.height
+    deviation = (np.log(metres) - np.log(mean)) / spread
+    adult = np.exp(-(deviation**2) / 2) / (spread * np.sqrt(2 * np.pi))
+    child = 1 / np.log(1.3 / 0.6) if 0.6 < metres < 1.3 else 0.0
+    toy_or_giant = 1 / np.log(100) if 0.05 < metres < 5 else 1e-4
+    return float(0.95 * adult + 0.03 * child + 0.02 * toy_or_giant)
+
+
+def _fall_error(clip: Evidence, unit: float) -> float | None:
+    """Return the logarithm of the acceleration in free fall over that of gravity."""
+    return None if clip.fall is None else float(np.log(clip.fall * unit / GRAVITY))
+
+
+def _stride_error(clip: Evidence, unit: float) -> float | None:
+    """Return the logarithm of the leg's length over the one that the stride tells; None for no stride.
+
+    A leg of 0.051 g T² s^0.7 metres has strides of period T and length s legs: fitted to forty clips, from
+    slow walks to runs, with a spread of 0.2 of the logarithm.
+    """
+    if clip.stride is None or not 0.7 < clip.stride.length < 4.5:
+        return None
+    leg = 0.051 * GRAVITY * clip.stride.period**2 * clip.stride.length**0.7
+    return float(np.log(LEG * clip.size * unit / leg))
+
+
+def _clock_error(clip: Evidence, unit: float) -> float | None:
+    """Return the error of the better clock of a clip; None if it has none."""
+    fall = _fall_error(clip, unit)
+    return _stride_error(clip, unit) if fall is None else fall
+
+
+def _clock_penalty(clip: Evidence, unit: float) -> float:
+    """Return how much the clocks of a clip speak against a unit, as a logarithm."""
+    penalty = 0.0
+    for error, spread in ((_fall_error(clip, unit), 0.2), (_stride_error(clip, unit), 0.3)):
+        if error is not None:
+            penalty += min(TUNING.worst_clock, (error / spread) ** 2 / 2)
+    return penalty
