@@ -36,7 +36,7 @@ class SearchLimits:
     frames: int = 120  # that are looked at, spread evenly over the clip
     shortest: float = 0.07  # a bone of a limb; bones of fingers have 0.03
     evenness: float = 0.52  # shorter / longer segment of a limb; people have 0.75
-    alike: float = 0.15  # difference of the logarithms of lengths of mirror images
+    length_difference: float = 0.15  # difference of the logarithms of lengths of mirror images
     bends: float = np.radians(8)  # radians: a joint whose bend changes by more is used in these frames
     knee_at_rest: float = 0.035  # radians: a bend that a knee keeps and a split bone has not
     roots: int = 4  # joints of a chain, from its top, that may be a hip or a shoulder
@@ -76,8 +76,8 @@ class Limb(NamedTuple):
     end: int
 
 
-class Place(NamedTuple):
-    """A limb as places on a chain."""
+class ChainIndices(NamedTuple):
+    """A limb as indices into the joints of a chain."""
 
     root: int
     hinge: int
@@ -159,38 +159,40 @@ def limb_pairs(tree: BodyTree) -> list[Pair]:
         tops = [joint for joint in siblings if tree.reach[joint] > shortest] if len(siblings) > 1 else []
         chains = [(chain, limb_candidates(chain)) for chain in map(tree.chain, tops)]
         for (first, in_first), (second, in_second) in combinations(chains, 2):
-            place = _best_place(in_first, in_second)
-            if place is not None:
-                pairs.append((_limb(first, place), _limb(second, place)))
+            indices = _best_indices(in_first, in_second)
+            if indices is not None:
+                pairs.append((_limb(first, indices), _limb(second, indices)))
     return pairs
 
 
-def _limb(chain: Chain, place: Place) -> Limb:
-    return Limb(*(chain.joints[number] for number in place))
+def _limb(chain: Chain, indices: ChainIndices) -> Limb:
+    return Limb(*(chain.joints[number] for number in indices))
 
 
-def _best_place(in_first: Mapping[Place, Candidate], in_second: Mapping[Place, Candidate]) -> Place | None:
-    """Choose where on two chains the limbs of a pair are; None if nothing is alike or scores above 0.
+def _best_indices(
+    in_first: Mapping[ChainIndices, Candidate], in_second: Mapping[ChainIndices, Candidate]
+) -> ChainIndices | None:
+    """Choose the indices of a pair of limbs in two chains; None if no similar ones score above 0.
 
-    Both sides are scored together, at the same places. A single side may carry a sword: what is left below
+    Both sides are scored together, at the same indices. A single side may carry a sword: what is left below
     the limb counts by the smaller one.
     """
     best = None
     highest = 0.0
-    for place in in_first.keys() & in_second.keys():
-        candidate = in_first[place]
-        image = in_second[place]
-        if np.abs(np.log(candidate.lengths / image.lengths)).max() > LIMITS.alike:
+    for indices in in_first.keys() & in_second.keys():
+        candidate = in_first[indices]
+        image = in_second[indices]
+        if np.abs(np.log(candidate.lengths / image.lengths)).max() > LIMITS.length_difference:
             continue
         score = candidate.score + image.score
         score -= WEIGHTS.left_below * min(candidate.left_below, image.left_below)
-        if score > highest or (score == highest and best is not None and place < best):
-            best = place
+        if score > highest or (score == highest and best is not None and indices < best):
+            best = indices
             highest = score
     return best
 
 
-def limb_candidates(chain: Chain) -> dict[Place, Candidate]:
+def limb_candidates(chain: Chain) -> dict[ChainIndices, Candidate]:
     """Find all pairs of segments of a chain that may be a limb."""
     count = len(chain)
     height = chain.tree.height
@@ -201,16 +203,16 @@ def limb_candidates(chain: Chain) -> dict[Place, Candidate]:
                 lengths = chain.segments[[root, hinge], [hinge, end]]
                 longest = lengths.max()
                 if lengths.min() >= max(LIMITS.shortest * height, LIMITS.evenness * longest):
-                    place = Place(root, hinge, end)
-                    candidates[place] = _candidate(chain, place, lengths)
+                    indices = ChainIndices(root, hinge, end)
+                    candidates[indices] = _candidate(chain, indices, lengths)
     return candidates
 
 
-def _candidate(chain: Chain, place: Place, lengths: Array) -> Candidate:
+def _candidate(chain: Chain, indices: ChainIndices, lengths: Array) -> Candidate:
     """Score two segments as a limb, with the weights of `Weights`."""
-    bend = chain.bend(*place)
+    bend = chain.bend(*indices)
     is_used = np.ptp(bend) > LIMITS.bends
-    passed = [*range(place.root + 1, place.hinge), *range(place.hinge + 1, place.end)]
+    passed = [*range(indices.root + 1, indices.hinge), *range(indices.hinge + 1, indices.end)]
     keeps_a_bend = bend.min() > LIMITS.knee_at_rest and not any(chain.is_kinked[joint] for joint in passed)
     penalty = WEIGHTS.passed if is_used or keeps_a_bend else WEIGHTS.passed_unclear
     uneven = WEIGHTS.uneven if is_used else WEIGHTS.uneven_unused
@@ -219,11 +221,11 @@ def _candidate(chain: Chain, place: Place, lengths: Array) -> Candidate:
     score -= uneven * abs(float(np.log(lengths[0] / lengths[1])))
     if is_used:
         score += WEIGHTS.hinge_bends
-    if chain.bend_ranges[place.end] > LIMITS.bends / 2:
+    if chain.bend_ranges[indices.end] > LIMITS.bends / 2:
         score += WEIGHTS.end_bends
-    if place.end > place.hinge + 1 and chain.left_below(place.end) == 0:
+    if indices.end > indices.hinge + 1 and chain.left_below(indices.end) == 0:
         score -= WEIGHTS.leaf
-    return Candidate(lengths, score, max(0.0, chain.left_below(place.end) / total - LIMITS.hand))
+    return Candidate(lengths, score, max(0.0, chain.left_below(indices.end) / total - LIMITS.hand))
 
 
 # Legs and arms ----------------------------------------------------------------------------------------------

@@ -120,7 +120,7 @@ class BodyTree:
         return max(shared)  # parents have lower numbers than their children
 
     def chain(self, top: int) -> "Chain":
-        """Follow the longest path down from a joint, without joints that are at the place of their parent."""
+        """Follow the longest path down from a joint, without joints at the position of their parent."""
         joints = [top]
         shortest = LIMITS.no_bone * self.height
         below = self.children[top]
@@ -198,7 +198,7 @@ class Chain:
         return np.array(lengths)
 
     def bend(self, first: int, middle: int, last: int) -> Array:
-        """Compute the angle of the bend at `middle` between two other places of the chain, (F,), radians.
+        """Compute the angle of the bend at `middle` between two others of the chain, (F,), radians.
 
         By the law of cosines: 0 where the three are in line.
         """
@@ -210,7 +210,7 @@ class Chain:
 
     @cached_property
     def segments(self) -> Array:
-        """Lengths of the straight segments between any two places, (n, n); 0 if a joint between them bends.
+        """Lengths of the straight segments between any two joints, (n, n); 0 if a joint between them bends.
 
         A single bone always is one, even if its length changes a little, as in bodies estimated from video.
         """
@@ -231,18 +231,18 @@ class Chain:
 
     @cached_property
     def is_kinked(self) -> list[bool]:
-        """Tell of each place whether the chain ever bends there; the ends count as bent."""
+        """Whether the chain ever bends at each joint; the ends count as bent."""
         inner = range(1, len(self) - 1)
-        bent = [bool(self.bend(place - 1, place, place + 1).max() > LIMITS.kink) for place in inner]
+        bent = [bool(self.bend(index - 1, index, index + 1).max() > LIMITS.kink) for index in inner]
         return [True, *bent, True][: len(self)]
 
     @cached_property
     def bend_ranges(self) -> list[float]:
-        """Range over the frames of the bend at each place, radians; 0 at the ends."""
+        """Range over the frames of the bend at each joint, radians; 0 at the ends."""
         inner = range(1, len(self) - 1)
-        ranges = [float(np.ptp(self.bend(place - 1, place, place + 1))) for place in inner]
+        ranges = [float(np.ptp(self.bend(index - 1, index, index + 1))) for index in inner]
         return [0.0, *ranges, 0.0][: len(self)]
 
-    def left_below(self, place: int) -> float:
-        """Return the length along the bones from a place to the farthest end below it."""
-        return self.tree.reach[self.joints[place]]
+    def left_below(self, index: int) -> float:
+        """Return the length along the bones from a joint to the farthest end below it."""
+        return self.tree.reach[self.joints[index]]
