@@ -7,10 +7,11 @@ from pathlib import Path
 
 from mocap.body.limbs import LEG, ROLES, SIDES, TIPS, roles
 from mocap.body.motion import Motion
-from mocap.errors import FormatError, MocapError, printable, shortened
+from mocap.errors import FormatError, MocapError, printable, shortened, warn
 from mocap.files.text import read_text
 
 LONGEST = 100_000  # bytes of a file of roles
+MISSPELT = 2  # names of a body's roles that may be wrong; with more, they are another body's roles
 HEAD = '# The roles of joints. Correct the names; an empty name, "", says that the body has no such joint.'
 
 
@@ -102,11 +103,15 @@ def _quoted(name: str) -> str:
 def choose_roles(names: tuple[str, ...], maps: Mapping[Path, Mapping[str, str]]) -> Mapping[str, str]:
     """Choose among the roles of several bodies those for a body with joints of these names; {} for none.
 
-    Roles are those of another body if it has none of their joints.
+    Roles with more than `MISSPELT` unknown joints are those of another body.
 
     Raises
     ------
-    MocapError : for roles of which the body has some joints, but not all.
+    MocapError : for roles of which the body has all joints but one or two.
+
+    Warns
+    -----
+    MocapWarning : for roles of another body that shares some joints.
 
     Examples
     --------
@@ -119,6 +124,9 @@ def choose_roles(names: tuple[str, ...], maps: Mapping[Path, Mapping[str, str]])
         missing = sorted(joints.difference(names))
         if not missing:
             return roles_of_map
+        problem = f"{path}: the clip has no joint '{shortened(missing[0], 40)}'"
+        if len(missing) <= MISSPELT and len(missing) < len(joints):
+            raise MocapError(f"{problem}.")
         if len(missing) < len(joints):
-            raise MocapError(f"{path}: the clip has no joint '{shortened(missing[0], 40)}'.")
+            warn(f"{problem} and {len(missing) - 1} others, so the roles are not used for it.")
     return {}

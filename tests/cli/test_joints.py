@@ -71,6 +71,17 @@ def test_a_map_is_for_the_bodies_that_have_its_joints(folder, run):
     assert worn.skeleton.names == tuple(NUMBERS.values())
 
 
+def test_a_map_of_a_body_that_shares_joints_is_left_out_with_a_warning(folder, run):
+    half = {
+        name: number for name, number in NUMBERS.items() if name[1:] in ("femur", "tibia", "foot", "toes")
+    }
+    load_save.save(renamed(WALK, half), "half.bvh")
+    (folder / "half.toml").write_text(run("info half.bvh --joints").out)
+    told = run("retarget half.bvh --to usual.bvh --joints half.toml -o worn").err
+    assert "half.toml: the clip has no joint" in told
+    assert "are not used for it" in told
+
+
 def test_a_map_works_where_a_graph_reads_the_clips(folder, run):
     (folder / "map.toml").write_text(run("info numbers.bvh --joints").out)
     run("graph numbers.bvh --joints map.toml --threshold 12 -o g.npz")
