@@ -12,13 +12,15 @@ from mocap.steering.followed import Followed
 def random_line(seed: int) -> GroundPath:
     """Make a random line: arcs of 1.2 to 5 m radius, or a spline of 4 to 8 pieces."""
     random = np.random.default_rng(seed)
-    count, arcs_only = random.integers(4, 9), seed % 2
-    if arcs_only:
-        radii, turns = random.uniform(1.2, 5, count), random.uniform(0.3, np.pi, count)
+    count = random.integers(4, 9)
+    if seed % 2:
+        radii = random.uniform(1.2, 5, count)
+        turns = random.uniform(0.3, np.pi, count)
         sides = random.choice([-1, 1], count)
         return arcs((0, 0), 0.0, list(zip(radii * turns, sides * turns, strict=True)))
-    ways = np.cumsum(random.uniform(-1.1, 1.1, count))
-    steps = random.uniform(2, 4.5, count)[:, None] * np.stack([np.sin(ways), np.cos(ways)], axis=1)
+    headings = np.cumsum(random.uniform(-1.1, 1.1, count))
+    directions = np.stack([np.sin(headings), np.cos(headings)], axis=1)
+    steps = random.uniform(2, 4.5, count)[:, None] * directions
     return spline(np.vstack([[0, 0], np.cumsum(steps, axis=0)]))
 
 
@@ -31,7 +33,8 @@ def sine() -> GroundPath:
 def spiral() -> GroundPath:
     """Draw one and a half turns outwards, from 1.5 to 6.2 m."""
     t = np.linspace(0, 3 * np.pi, 240)
-    return GroundPath((1.5 + 0.5 * t)[:, None] * np.stack([np.cos(t), np.sin(t)], axis=1))
+    radii = (1.5 + 0.5 * t)[:, None]
+    return GroundPath(radii * np.stack([np.cos(t), np.sin(t)], axis=1))
 
 
 def zigzag() -> GroundPath:
@@ -42,7 +45,8 @@ def zigzag() -> GroundPath:
 def heart() -> GroundPath:
     """Draw a heart 9 m wide, with a cusp at its bottom."""
     t = np.linspace(0.15, 2 * np.pi - 0.15, 240)
-    z = 13 * np.cos(t) - 5 * np.cos(2 * t) - 2 * np.cos(3 * t) - np.cos(4 * t)
+    z = 13 * np.cos(t) - 5 * np.cos(2 * t)
+    z = z - 2 * np.cos(3 * t) - np.cos(4 * t)
     return GroundPath(0.28 * np.stack([16 * np.sin(t) ** 3, z], axis=1))
 
 

@@ -98,7 +98,7 @@ def main() -> None:
     parser.add_argument("--workers", type=int)
     options = parser.parse_args()
     if options.all_pairs:
-        minima.FEW = options.frames  # windows up to which all pairs are measured
+        minima.TUNED = replace(minima.TUNED, few_windows=options.frames)
     clips = clips_of(options.folder, options.frames)
     Path("/proc/self/clear_refs").write_text("5")  # forget the peak of reading the takes
     start = time.perf_counter()

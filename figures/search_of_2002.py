@@ -32,12 +32,12 @@ def dense_and_sparse() -> dict[str, CompiledGraph]:
     """Build the graph of notebook 08, one with merged choice points, and one with fewer transitions."""
     clips = [mocap.resample(datasets.sample(name), 30) for name in datasets.SAMPLES]
     whole = graphs.build(clips, window=10, threshold=0.04)
-    found = {
+    built = {
         "threshold 4 cm": whole,
         "threshold 4 cm, choice points merged": merge_choice_points(whole, within=5, threshold=0.04),
         "threshold 2.5 cm": graphs.build(clips, window=10, threshold=0.025),
     }
-    return {name: graphs.compile_graph(graphs.prune(graph)) for name, graph in found.items()}
+    return {name: graphs.compile_graph(graphs.prune(graph)) for name, graph in built.items()}
 
 
 def ten_metres(seed: int) -> GroundPath:
@@ -54,36 +54,36 @@ def quartiles(values: list[float]) -> str:
 def row(name: str, walks: list[Followed]) -> str:
     """Write a row of the table: medians and quartiles over the lines."""
     complete = sum(not walk.found.stopped for walk in walks)
-    return (
-        f"| {name} | {quartiles([100 * walk.off.mean() for walk in walks])} "
-        f"| {quartiles([100 * walk.off_at_length.mean() for walk in walks])} "
-        f"| {np.median([walk.seams_per_second for walk in walks]):.2f} "
-        f"| {np.median([walk.found.expanded for walk in walks]):.0f} | {complete} of {len(walks)} |"
-    )
+    nearest = quartiles([100 * walk.off.mean() for walk in walks])
+    at_length = quartiles([100 * walk.off_at_length.mean() for walk in walks])
+    seams = np.median([walk.seams_per_second for walk in walks])
+    expanded = np.median([walk.found.expanded for walk in walks])
+    counts = f"{expanded:.0f} | {complete} of {len(walks)}"
+    return f"| {name} | {nearest} | {at_length} | {seams:.2f} | {counts} |"
 
 
-def table(graph: CompiledGraph, paths: list[GroundPath], *, most: bool) -> list[str]:
+def table(graph: CompiledGraph, paths: list[GroundPath], *, with_largest_budget: bool) -> list[str]:
     """Follow all lines by each search."""
     layered = [follow_path(graph, path) for path in paths]
     starts = [walk.walk[0][0] for walk in layered]
 
-    def each(search: Callable[[GroundPath, PathRequest], Followed]) -> list[Followed]:
+    def along_all(search: Callable[[GroundPath, PathRequest], Followed]) -> list[Followed]:
         requests = [PathRequest(start=start, correction=0) for start in starts]
         return [search(path, request) for path, request in zip(paths, requests, strict=True)]
 
     lines = [*HEAD, row("layers, all terms", layered)]
     for width in (50, 300):
         eq9 = {"settings": Settings(seam=0, match=0, stray=0, width=width, rescue=0, tries=1)}
-        found = each(lambda path, start, eq9=eq9: follow_path(graph, path, start, **eq9))
-        lines.append(row(f"layers, Eq. 9 alone, width {width}", found))
-    for nodes in (300, 3000, 30000)[: 2 + most]:
+        walks = along_all(lambda path, start, eq9=eq9: follow_path(graph, path, start, **eq9))
+        lines.append(row(f"layers, Eq. 9 alone, width {width}", walks))
+    for nodes in (300, 3000, 30000)[: 3 if with_largest_budget else 2]:
         for look in [MOST] if nodes == 30000 else LOOKS:
-            found = each(
+            walks = along_all(
                 lambda path, start, look=look, nodes=nodes: follow_as_2002(
                     graph, path, start, look=look, budget=nodes
                 )
             )
-            lines.append(row(f"n, m = {look[0]}, {look[1]}; budget {nodes}", found))
+            lines.append(row(f"n, m = {look[0]}, {look[1]}; budget {nodes}", walks))
             print(lines[-1], flush=True)
     return [*lines, ""]
 
@@ -104,7 +104,7 @@ def main() -> None:
     for name, graph in dense_and_sparse().items():
         transitions = int(graph.blended.sum())
         lines += [f"## {name}: {len(graph.nodes)} nodes, {transitions} transitions", ""]
-        lines += table(graph, paths, most=name == "threshold 4 cm")
+        lines += table(graph, paths, with_largest_budget=name == "threshold 4 cm")
     Path(Path(__file__).parent / "search_of_2002.md").write_text("\n".join(lines), encoding="utf-8")
 
 

@@ -44,7 +44,7 @@ class Case(NamedTuple):
 
     collection: str
     name: str
-    given: Mapping[str, Any]
+    given: Mapping[str, Any]  # reads: name: the tasks and the files of other programs have it
     truth: Any = None
 
 

@@ -46,17 +46,23 @@ def through(motion: Motion, base: Motion) -> float:
     Bones of 5 % of the longest limb or more count; each is a capsule as thick as the glTF writer draws it.
     Pairs that touch at rest, as those at a joint do, are left out.
     """
-    skeleton, lengths = motion.skeleton, np.linalg.norm(motion.skeleton.offsets, axis=-1)
-    behind, beads, worst = reaches(skeleton), np.linspace(0, 1, 9)[:, None], 0.0
-    thick = THICK * np.sqrt(behind[0] * (lengths + behind))
-    bones = 1 + np.flatnonzero(lengths[1:] > 0.05 * behind[0])
+    skeleton = motion.skeleton
+    lengths = np.linalg.norm(skeleton.offsets, axis=-1)
+    limbs = reaches(skeleton)
+    beads = np.linspace(0, 1, 9)[:, None]  # along a bone
+    radii = THICK * np.sqrt(limbs[0] * (lengths + limbs))
+    bones = 1 + np.flatnonzero(lengths[1:] > 0.05 * limbs[0])
     posed = np.concatenate([skeleton.rest[None], joint_positions(base), joint_positions(motion)])
-    for one, other in combinations(bones, 2):
-        start, other_start = (posed[:, [skeleton.parents[bone]]] for bone in (one, other))
-        bone = posed[:, [other]] - other_start
-        away = start + beads * (posed[:, [one]] - start) - other_start  # of points along the one
-        share = np.clip((away * bone).sum(-1) / lengths[other] ** 2, 0, 1)
-        deep = thick[one] + thick[other] - np.linalg.norm(away - share[..., None] * bone, axis=-1).min(1)
-        before, after = np.split(np.maximum(deep[1:], 0), 2)
-        worst = max(worst, (after - before).max()) if deep[0] < 0 else worst
+    worst = 0.0
+    for first, second in combinations(bones, 2):
+        start = posed[:, [skeleton.parents[first]]]
+        second_start = posed[:, [skeleton.parents[second]]]
+        bone = posed[:, [second]] - second_start
+        offsets = start + beads * (posed[:, [first]] - start) - second_start  # of points along the first
+        fractions = np.clip((offsets * bone).sum(-1) / lengths[second] ** 2, 0, 1)
+        distances = np.linalg.norm(offsets - fractions[..., None] * bone, axis=-1).min(1)
+        depths = radii[first] + radii[second] - distances
+        of_base, of_motion = np.split(np.maximum(depths[1:], 0), 2)
+        if depths[0] < 0:
+            worst = max(worst, (of_motion - of_base).max())
     return 1000 * float(worst)

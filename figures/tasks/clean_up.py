@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mocap._shared.arrays import runs
+from mocap._shared.arrays import Array, runs
 from mocap.body import Motion, find_legs, joint_positions
 from mocap.editing import body_of, plant_pins, solve
 from mocap.editing.solver import REACH
@@ -25,7 +25,10 @@ CLIPS = {
     "CMU 49 and 02, quiet": ("49/49_15", "49/49_18", "49/49_19", "49/49_20", "02/02_06", "02/02_10"),
     "Bandai-Namco": BANDAI,
 }
-SEEDS, SECONDS, LONGEST, STANDS = range(10), 8.0, 400, 0.001  # the last in metres
+SEEDS = range(10)  # of walks
+SECONDS = 8.0  # of a walk
+LONGEST = 400  # frames of a clip
+STANDS = 0.001  # metres from its position in a plant: so near, a joint is held
 MEASURES = {"held, %": False, "slide, mm": True, "knees, mm": True, "shake": True}
 BASELINES = ("as it is", "inverse kinematics")
 
@@ -59,20 +62,24 @@ METHODS = {
 
 def score(case: Case, answer: Motion) -> tuple[float, float, float, float]:
     """Measure feet in the plants that were given."""
-    before = case.given["motion"]
-    if len(answer) != len(before) or answer.skeleton.names != before.skeleton.names:
-        raise MocapError(f"{case.name} asks for {len(before)} frames of the same body.")
-    places, slides, held, count = joint_positions(answer), [], 0, 0
-    for name, mark in before.contacts.items():
+    motion = case.given["motion"]
+    if len(answer) != len(motion) or answer.skeleton.names != motion.skeleton.names:
+        raise MocapError(f"{case.name} asks for {len(motion)} frames of the same body.")
+    positions = joint_positions(answer)
+    slides = []
+    held = 0
+    count = 0
+    for name, mark in motion.contacts.items():
         for start, stop in runs(mark):
-            planted = places[start:stop, answer.skeleton.index(name)][:, [0, 2]]
+            planted = positions[start:stop, answer.skeleton.index(name)][:, [0, 2]]
             slides.append(np.linalg.norm(planted - planted.mean(axis=0), axis=-1).max())
             held += (np.linalg.norm(planted - np.median(planted, axis=0), axis=-1) < STANDS).sum()
             count += stop - start
-    knees = [leg.knee for leg in find_legs(before.skeleton)]
-    jumps = [
-        np.linalg.norm(np.diff(joint_positions(motion)[:, knees], 2, axis=0), axis=-1)
-        for motion in (answer, before)
-    ]
-    pops = 1000 * float((jumps[0] - jumps[1]).max())
-    return 100 * held / count, 1000 * float(np.mean(slides)), max(pops, 0.0), shaking(answer, before)
+    pops = 1000 * float((knee_jumps(answer) - knee_jumps(motion)).max())
+    return 100 * held / count, 1000 * float(np.mean(slides)), max(pops, 0.0), shaking(answer, motion)
+
+
+def knee_jumps(motion: Motion) -> Array:
+    """Measure how far the knees jump from frame to frame, (F - 2, 2), metres."""
+    knees = [leg.knee for leg in find_legs(motion.skeleton)]
+    return np.asarray(np.linalg.norm(np.diff(joint_positions(motion)[:, knees], 2, axis=0), axis=-1))

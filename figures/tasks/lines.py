@@ -21,13 +21,15 @@ from tasks import WALKS, Case, graph
 from tasks._measures import foot_sliding_speed, jolting
 from tasks.following import ALONG
 
+STRAIGHT_WALKS = tuple(f"16/16_{n}" for n in (15, 16, 21, 22, 31, 32, 47))
 CLIPS = {
     "bundled clips": (*WALKS, "stop_and_go"),
-    "CMU 16, seven straight walks": tuple(f"16/16_{n}" for n in (15, 16, 21, 22, 31, 32, 47)),
+    "CMU 16, seven straight walks": STRAIGHT_WALKS,
     "CMU 02, two walks": ("02/02_01", "02/02_02"),
-    "CMU 49, a walk and dance": tuple(f"49/49_{n:02}" for n in (1, 9, 12)),
+    "CMU 49, a walk and dance": ("49/49_01", "49/49_09", "49/49_12"),
 }
-SEEDS, SPACING = range(500, 510), 0.02
+SEEDS = range(500, 510)
+SPACING = 0.02  # metres between the points of a line
 MEASURES = {
     "off, cm": True,
     "worst, cm": True,
@@ -59,10 +61,13 @@ def of(case: Case) -> Followed:
     return bent(case.given["clips"], np.ascontiguousarray(case.given["line"]).tobytes())
 
 
+def unbent(case: Case) -> Motion:
+    """Follow the line of a case with clips as they are."""
+    return follow_unbent(graph(case.given["clips"]), GroundPath(case.given["line"])).motion()
+
+
 METHODS = {
-    "layered search": lambda case: follow_unbent(
-        graph(case.given["clips"]), GroundPath(case.given["line"])
-    ).motion(),
+    "layered search": unbent,
     "laid on the line": lambda case: of(case).motion(clean=False),
     "bent": lambda case: of(case).motion(),
 }
@@ -70,8 +75,8 @@ METHODS = {
 
 def score(case: Case, answer: Motion) -> Array:
     """Measure how near a walk is to its line, and what its feet do."""
-    apart = np.abs(on_ground(answer.root_positions)[:, None] - on_ground(case.given["line"]))
-    metres = [apart.min(axis=1).mean(), apart.min(axis=1).max(), apart.min(axis=0).max()]
-    return np.array(
-        [*(100 * far for far in metres), foot_sliding_speed(answer), jolting(answer, case.given["clips"])]
-    )
+    distances = np.abs(on_ground(answer.root_positions)[:, None] - on_ground(case.given["line"]))
+    nearest = distances.min(axis=1)
+    metres = [nearest.mean(), nearest.max(), distances.min(axis=0).max()]
+    centimetres = [100 * distance for distance in metres]
+    return np.array([*centimetres, foot_sliding_speed(answer), jolting(answer, case.given["clips"])])

@@ -18,41 +18,51 @@ from mocap.body.limbs import find_legs
 from mocap.matching import distance_grid, point_cloud, time_path
 from tasks import Case
 
+SPEEDS = (0.8, 1.1, 1.4)  # m/s
+TURNS = (-120, 0, 120)  # degrees
+CMU_WALKS = (11, 13, 15, 17, 19, 21, 22, 31, 47, 58)
+CMU_RUNS = (35, 36, 37, 38, 39, 40, 45, 46)
+BUNDLED = tuple(f"walk_5m_{speed}_{turn}" for speed in SPEEDS for turn in TURNS)
 CLIPS = {
-    "bundled walks": tuple(f"walk_5m_{speed}_{turn}" for speed in (0.8, 1.1, 1.4) for turn in (-120, 0, 120)),
-    "CMU 16, walks": tuple(f"16/16_{trial}" for trial in (11, 13, 15, 17, 19, 21, 22, 31, 47, 58)),
-    "CMU 16, runs": tuple(f"16/16_{trial}" for trial in (35, 36, 37, 38, 39, 40, 45, 46)),
+    "bundled walks": BUNDLED,
+    "CMU 16, walks": tuple(f"16/16_{trial}" for trial in CMU_WALKS),
+    "CMU 16, runs": tuple(f"16/16_{trial}" for trial in CMU_RUNS),
 }
 MEASURES = {"strikes (ms)": True, "late (%)": True, "wobble (%)": True}
 BASELINES = ("fitted line", "even stretch")
-LATE, SLACK, WINDOW = 100, 36, 5  # milliseconds; frames
+LATE = 100  # milliseconds
+SLACK = 36  # frames
+WINDOW = 5  # frames
 
 
 def cases(collection: str, clips: list[Motion]) -> Iterator[Case]:
     """Yield all pairs, the second clip as it is and played at 0.7 to 1.3 times its pace."""
-    for one, other in combinations(clips, 2):
-        wave = other.duration / (4 * np.pi)
-        t = np.arange(len(other)) / other.fps
-        uneven = other.at(other.fps * np.clip(t + 0.3 * wave * np.sin(t / wave), 0, other.duration))
-        for pace, second in (("even", other), ("uneven", uneven)):
-            given, truth = {"one": one, "other": second}, (strikes(one), strikes(second), pace)
-            yield Case(f"{collection}, {pace} pace", f"{one.name}-{other.name}-{pace}", given, truth)
+    for first, even in combinations(clips, 2):
+        wave = even.duration / (4 * np.pi)
+        t = np.arange(len(even)) / even.fps
+        seconds = np.clip(t + 0.3 * wave * np.sin(t / wave), 0, even.duration)
+        uneven = even.at(even.fps * seconds)
+        for pace, second in (("even", even), ("uneven", uneven)):
+            data = {"one": first, "other": second}
+            truth = (strikes(first), strikes(second), pace)
+            yield Case(f"{collection}, {pace} pace", f"{first.name}-{even.name}-{pace}", data, truth)
 
 
 def strikes(motion: Motion) -> list[Array]:
     """Give the seconds at which the left and the right foot come down."""
-    names, found = motion.skeleton.names, []
+    names = motion.skeleton.names
+    seconds = []
     for leg in find_legs(motion.skeleton):
         stands = motion.contacts[names[leg.ankle]] | motion.contacts[names[leg.ball]]
-        found.append(np.array([start for start, _ in runs(stands) if start > 0]) / motion.fps)
-    return found
+        seconds.append(np.array([start for start, _ in runs(stands) if start > 0]) / motion.fps)
+    return seconds
 
 
 def registered(case: Case) -> Array:
     """Register the clips."""
-    found = register([case.given["one"], case.given["other"]])
-    u = np.linspace(*found.span, 200)
-    return np.stack([u, found.times[1](u)], axis=1)
+    registration = register([case.given["one"], case.given["other"]])
+    u = np.linspace(*registration.span, 200)
+    return np.stack([u, registration.times[1](u)], axis=1)
 
 
 def line(case: Case) -> Array:
@@ -60,8 +70,8 @@ def line(case: Case) -> Array:
     clouds = [point_cloud(case.given[name]) for name in ("one", "other")]
     grid = np.sqrt(distance_grid(*clouds, window=WINDOW))
     cells = time_path(grid, slack=min(SLACK, min(grid.shape) // 2)) + (WINDOW - 1) / 2
-    u, own = cells.T / case.given["one"].fps
-    curve = fit_curve(u, own, spacing=np.inf, least=1 / 3, most=3.0)
+    u, second_times = cells.T / case.given["one"].fps
+    curve = fit_curve(u, second_times, spacing=np.inf, least=1 / 3, most=3.0)
     return np.stack([u, curve(u)], axis=1)
 
 
@@ -76,12 +86,13 @@ METHODS = {"register": registered, "fitted line": line, "even stretch": stretch}
 
 def score(case: Case, answer: Array) -> tuple[float, float, float]:
     """Measure strikes, those that are late, and how the pace wobbles."""
-    (u, own), errors = np.unique(answer, axis=0).T, []
-    *both, pace = case.truth
-    for ours, theirs in zip(*both, strict=True):
-        moments = np.interp(ours[(ours >= u[0]) & (ours <= u[-1])], u, own)
+    u, second_times = np.unique(answer, axis=0).T
+    first_strikes, second_strikes, pace = case.truth
+    errors = []
+    for ours, theirs in zip(first_strikes, second_strikes, strict=True):
+        moments = np.interp(ours[(ours >= u[0]) & (ours <= u[-1])], u, second_times)
         errors += [1000 * np.abs(theirs - moment).min() for moment in moments if len(theirs)]
     late = 100 * float(np.mean(np.array(errors) > LATE)) if errors else np.nan
-    steps = np.diff(np.interp(np.linspace(u[0], u[-1], 100), u, own))
+    steps = np.diff(np.interp(np.linspace(u[0], u[-1], 100), u, second_times))
     wobble = 100 * float(steps.std() / steps.mean()) if pace == "even" else np.nan
     return float(np.median(errors)) if errors else np.nan, late, wobble

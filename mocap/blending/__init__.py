@@ -12,6 +12,7 @@ Reading order (notebooks 04, 15)
 4. `clocks`: clips on a common clock, their matching footplants, and the clock of a blend
 5. `mixing`: blends of registered clips, with constant or time-varying weights, and long crossfades
 6. `registering`: corresponding frames of clips, and the transforms that align them
+7. `tuned`: the constants that trials chose
 
 References
 ----------

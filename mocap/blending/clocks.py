@@ -13,12 +13,10 @@ from mocap._shared.arrays import Array, Points, frozen, runs
 from mocap._shared.quantities import described
 from mocap._shared.records import dataclass
 from mocap.blending.timewarps import Curve
+from mocap.blending.tuned import TUNED
 from mocap.body.motion import Motion
 from mocap.body.planar import on_ground
 from mocap.errors import MocapError
-
-SHORTEST = 0.02  # seconds of the common clock: shorter footplants, and parts of footplants, are dropped
-
 
 SharedFootplant = tuple[str, Array]
 """A footplant that all C clips have: the joint, and the start and the stop of the footplant in each, (2, C).
@@ -79,7 +77,7 @@ def _footplants(clip: Motion, curve: Curve, joint: str, span: tuple[float, float
 def _cut(plants: Iterable[Sequence[float]], low: float, high: float) -> list[Footplant]:
     """Clip footplants to an interval, and drop those that are then too short."""
     parts = [(max(start, low), min(stop, high)) for start, stop in plants]
-    return [(start, stop) for start, stop in parts if stop - start >= SHORTEST]
+    return [(start, stop) for start, stop in parts if stop - start >= TUNED.shortest_plant]
 
 
 def _overlapping(plants: Sequence[list[Footplant]]) -> list[list[list[Footplant]]]:
@@ -111,7 +109,6 @@ def _split(group: list[list[Footplant]]) -> Iterator[tuple[list[float], list[flo
 Weights = ArrayLike | Callable[[float, float], ArrayLike]
 """Weights of C clips, whose sum is one, or a function of u and t that returns them."""
 
-FINE = 0.002  # seconds of the common clock between the points at which its speed is computed
 PACES = ("durations", "rates")
 
 
@@ -229,11 +226,11 @@ def _clock_points(registration: Registration) -> Array:
     The slopes of the curves are linear between knots, therefore the trapezoidal rule is exact for Σ w S'(u).
     """
     first, last = registration.span
-    points = np.linspace(first, last, max(int((last - first) / FINE), 8) + 1)
+    points = np.linspace(first, last, max(int((last - first) / TUNED.clock_step), 8) + 1)
     knots = np.concatenate([curve.knots for curve in registration.times])
-    inner = (first + FINE / 9 < knots) & (knots < last - FINE / 9)
+    inner = (first + TUNED.clock_step / 9 < knots) & (knots < last - TUNED.clock_step / 9)
     points = np.union1d(points, knots[inner])
-    return points[np.diff(points, prepend=-np.inf) > FINE / 1e3]
+    return points[np.diff(points, prepend=-np.inf) > TUNED.clock_step / 1e3]
 
 
 def _clock_speeds(points: Array, slopes: Array, weights: Weights, pace: str) -> Array:

@@ -12,6 +12,7 @@ from mocap._shared.arrays import Array, Indices, frozen
 from mocap.blending.clocks import Registration, match_contacts
 from mocap.blending.mixing import mix
 from mocap.blending.timewarps import Curve, fit_curve
+from mocap.blending.tuned import TUNED
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, require_compatible
 from mocap.body.planar import from_ground, on_ground
@@ -20,25 +21,6 @@ from mocap.matching.distance_grids import Floats, check_window, distance_grid
 from mocap.matching.point_clouds import align, point_cloud
 from mocap.matching.time_paths import path_mean, time_path
 
-# A mean RMS distance along the path above both of these is reported. Walks have 3 to 8 cm; runs of one kind
-# 4 to 18 cm, which the roots go in 0.01 to 0.06 s; a walk and a run 24 cm, in 0.1 s.
-UNLIKE = 0.12  # metres
-QUICK = 0.06  # seconds, times the speed of the roots
-
-# A foot sliding speed of the even blend above both of these is reported. For walks of one person it is 0.7 to
-# 1.2 times that of the clips.
-SKATES = 1.4  # times that of the clips
-FASTER = 0.01  # metres per second above that of the clips
-
-RATE = 30.0  # frames per second that are compared, or the nearest rate that takes each n-th frame
-WINDOW = 5  # frames, at this rate
-SPACING = 0.3  # seconds between the knots of the curves; those of time may be farther apart
-
-# Wider spacings are tried first, and the first is taken whose mean distance is as good as that of `SPACING`,
-# with which the pace of two even walks wobbles by a fifth. Clips that are cut alike take `SPACING`: a
-# straight line through nine punches makes blends miss their targets by 8 mm, where these knots miss by 5.
-SPACINGS = (np.inf, 8.0, 4.0, 2.0)  # times `SPACING`; the first is a straight line
-AS_GOOD = 1.06  # times the mean distance with `SPACING`
 AS_NEAR = 1e-9  # metres beyond that, so that rounding does not decide for clips that are the same
 
 _Pair = tuple[Curve, Curve, tuple[float, float], float]
@@ -116,7 +98,7 @@ def register(
         if not frames or end - start >= shortest / 2:
             break
         frames //= 2
-    centres = tuple(_window_centres(clip, WINDOW / rate) for clip in clips)
+    centres = tuple(_window_centres(clip, TUNED.window / rate) for clip in clips)
     plants = match_contacts(clips, times, (start, end))
     means = frozen(costs, np.float64)
     registration = Registration(clips, reference, times, angles, centres, (start, end), means, plants)
@@ -125,7 +107,7 @@ def register(
 
 
 def _checked(clips: Sequence[Motion], reference: int, slack: float) -> int:
-    """Check the arguments of `register`; return the number of frames in a step at `RATE`."""
+    """Check the arguments of `register`; return the number of frames in a step at `TUNED.rate`."""
     if len(clips) < 2:
         raise MocapError(f"A registration needs two clips or more, got {len(clips)}.")
     if reference not in range(len(clips)):
@@ -133,8 +115,8 @@ def _checked(clips: Sequence[Motion], reference: int, slack: float) -> int:
     if not 0 <= slack < np.inf:
         raise MocapError(f"Slack is 0 s or more, got {slack} s.")
     shortest = min(clips, key=len)
-    step = max(round(clips[0].fps / RATE), 1)
-    check_window(WINDOW, -(-len(shortest) // step), f"'{shortest.name}', at {RATE:g} Hz,")
+    step = max(round(clips[0].fps / TUNED.rate), 1)
+    check_window(TUNED.window, -(-len(shortest) // step), f"'{shortest.name}', at {TUNED.rate:g} Hz,")
     return step
 
 
@@ -156,29 +138,29 @@ def _common_span(
 
 def _register_pair(reference: Array, clip: Array, rate: float, slope: int, slack: int) -> _Pair:
     """Register the points of a clip with those of the reference, both at the same rate."""
-    grid = np.sqrt(distance_grid(reference, clip, window=WINDOW))
+    grid = np.sqrt(distance_grid(reference, clip, window=TUNED.window))
     path = time_path(grid, slope=slope, slack=min(slack, min(grid.shape) - 1))
-    half = (WINDOW - 1) / 2
+    half = (TUNED.window - 1) / 2
     u, clip_times = (path.T + half) / rate
     bounds = {"least": 1 / (slope + 1), "most": slope + 1.0}
-    times = fit_curve(u, clip_times, spacing=SPACING, **bounds)
-    largest_mean = AS_GOOD * _mean_along(grid, times, rate, half) + AS_NEAR
-    for multiple in SPACINGS if slack else ():
-        smoother = fit_curve(u, clip_times, spacing=multiple * SPACING, **bounds)
+    times = fit_curve(u, clip_times, spacing=TUNED.spacing, **bounds)
+    largest_mean = TUNED.as_good * _mean_along(grid, times, rate, half) + AS_NEAR
+    for multiple in TUNED.wider_spacings if slack else ():
+        smoother = fit_curve(u, clip_times, spacing=multiple * TUNED.spacing, **bounds)
         if _mean_along(grid, smoother, rate, half) <= largest_mean:
             times = smoother
             break
     # The angle that aligns each pair of windows, without jumps of 2 π.
     alignment = align(_windows(reference, path[:, 0]), _windows(clip, path[:, 1]))
-    angles = fit_curve(u, np.unwrap(np.asarray(alignment.angle)), spacing=SPACING)
+    angles = fit_curve(u, np.unwrap(np.asarray(alignment.angle)), spacing=TUNED.spacing)
     # Without slack, the clips match up to their ends: include the half window and the frames of a last step.
     margin = 0.0 if slack else (half + 1) / rate
     return times, angles, (u[0] - margin, u[-1] + margin), path_mean(grid, path)
 
 
 def _windows(points: Array, starts: Indices) -> Array:
-    """Return the points of the windows that start at N frames, shape (N, WINDOW · P, 3)."""
-    frames = starts[:, None] + np.arange(WINDOW)
+    """Return the points of the windows that start at N frames, shape (N, `TUNED.window` · P, 3)."""
+    frames = starts[:, None] + np.arange(TUNED.window)
     return np.asarray(points[frames].reshape(len(starts), -1, 3))
 
 
@@ -204,14 +186,14 @@ def _warn(registration: Registration, rate: float, *, alike: bool) -> None:
     distance = registration.costs[worst]
     names = f"'{shortened(clips[registration.reference].name, 40)}' and '{shortened(clips[worst].name, 40)}'"
     speed = np.mean([np.abs(np.diff(on_ground(clip.root_positions))).mean() * clip.fps for clip in clips])
-    if distance > max(UNLIKE, QUICK * speed):
+    if distance > max(TUNED.unlike, TUNED.unlike_time * speed):
         warn(f"{names} may not be the same kind of motion: {100 * distance:.0f} cm along the path.")
     elif not alike:
         blend = mix(registration, np.full(len(clips), 1 / len(clips)), fps=rate, rounds=0)
         of_blend = _sliding_speed(blend)
         parts = [part[:: round(part.fps / rate)] for part in registration.parts]
         of_clips = float(np.mean([_sliding_speed(part) for part in parts]))
-        if of_blend > max(SKATES * of_clips, of_clips + FASTER):
+        if of_blend > max(TUNED.skates * of_clips, of_clips + TUNED.skates_faster):
             speeds = f"{100 * of_blend:.1f} cm/s, in the clips at {100 * of_clips:.1f}"
             warn(f"{names} may not belong together: in an even blend the slowest joint goes at {speeds}.")
 

@@ -17,6 +17,7 @@ Reading order (notebooks 01, 03)
 10. `limb_search`: legs and arms by bones and motion, whatever the names of joints
 11. `limbs`: legs and arms, the heading of the hips, and the role of each joint in a body
 12. `fingerprints`: hashes that identify a clip under any name
+13. `tuned`: the constants that trials chose
 
 References
 ----------

@@ -13,9 +13,9 @@ from scipy.interpolate import CubicSpline
 from mocap._shared.arrays import Array, VectorsLike, frozen
 from mocap._shared.quantities import check_radians, described, numbers_of
 from mocap._shared.records import dataclass, rebuilding, same_fields
+from mocap.body.tuned import TUNED
 from mocap.errors import MocapError, shortened
 
-FINE = 0.02  # metres between the points of a curve
 CLOSEST = 1e-9  # metres: points nearer than this are one point
 ROUNDING = 1e-12  # relative: a length of 12.000000000000002 m is divided into as many pieces as 12 m
 
@@ -149,7 +149,7 @@ def spline(points: VectorsLike) -> GroundPath:
     knots = np.concatenate([[0.0], np.cumsum(np.sqrt(chords))])
     curve = CubicSpline(knots, corners, bc_type="natural")
     parameters = np.linspace(0, knots[-1], 50 * len(knots))
-    return GroundPath(curve(parameters)).resampled(FINE)
+    return GroundPath(curve(parameters)).resampled(TUNED.path_spacing)
 
 
 def arcs(start: tuple[float, float], heading: float, pieces: Sequence[tuple[float, float]]) -> GroundPath:
@@ -173,7 +173,7 @@ def arcs(start: tuple[float, float], heading: float, pieces: Sequence[tuple[floa
     steps: list[Array] = []
     rotations: list[Array] = []
     for length, turn in pieces:
-        count = max(2, int(np.ceil(length / FINE)))
+        count = max(2, int(np.ceil(length / TUNED.path_spacing)))
         steps.append(np.full(count, length / count))
         rotations.append(np.full(count, turn / count))
     angles = np.concatenate(rotations)

@@ -8,13 +8,7 @@ from mocap.body.joint_trees import GlobalPoses as GlobalPoses
 from mocap.body.joint_trees import place_joints
 from mocap.body.joint_trees import velocities as velocities
 from mocap.body.motion import Motion, require_motion
-
-# The largest ratio of the second singular value of a hinge's rotation vectors to the first. Knees of six
-# sources have at most 0.008. Those of puppy, which are not hinges, have 0.45.
-HINGE = 0.05
-
-# Radians (RMS): the axis of a joint that rotates less cannot be estimated, and that of the file is used.
-STILL = 0.01
+from mocap.body.tuned import TUNED
 
 
 def forward_kinematics(motion: Motion) -> GlobalPoses:
@@ -81,8 +75,8 @@ def hinge_of(motion: Motion, joint: int) -> Array | None:
     quaternions = motion.rotations[:, joint]
     vectors = rotations.difference(rotations.mean(quaternions), quaternions)
     _, spread, axes = np.linalg.svd(vectors - vectors.mean(axis=0), full_matrices=False)
-    if len(vectors) > 3 and spread[0] > STILL * np.sqrt(len(vectors)):
-        return np.asarray(axes[0]) if spread[1] < HINGE * spread[0] else None
+    if len(vectors) > 3 and spread[0] > TUNED.still * np.sqrt(len(vectors)):
+        return np.asarray(axes[0]) if spread[1] < TUNED.hinge * spread[0] else None
     dofs = motion.skeleton.dofs[joint]
     if len(dofs) != 1:
         return None

@@ -25,13 +25,11 @@ from mocap.cli.options import (
     require_output,
     timed_stage,
 )
+from mocap.cli.tuned import TUNED
 from mocap.errors import MocapError, printable
 from mocap.files import conversion
 from mocap.files.conversion import find_files
 from mocap.methods import match_webs
-
-# A path of the web ends at frames above the limit, although the mean of a longer path may be below it.
-ROOM = 4 / 3  # factor of the limit. It finds two more punches of CMU 02_05 below 6 cm, and 2 finds no others
 
 
 def info(file: Path, *, joints: bool = False, reading: FileReading) -> None:
@@ -202,7 +200,7 @@ def find(
     motions, origins = sources.load(paths if is_among_clips else [*paths, example], [*clips, example])
     query_clip = [origin.path.resolve() for origin in origins].index(example.resolve())
     searched = len(motions) if is_among_clips else len(motions) - 1
-    web = match_webs.build_web(motions, below=ROOM * below / 100, progress=bar("comparing"))
+    web = match_webs.build_web(motions, below=TUNED.web_threshold * below / 100, progress=bar("comparing"))
     matches = match_webs.search(web, query_clip, frames, below=below / 100)
     shown = [match for match in matches[1:] if match.clip < searched]
     print(f"{'clip':<20} {'frames':>13} {'seconds':>8} {'cm':>5} {'step':>5}")

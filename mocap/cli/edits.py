@@ -10,6 +10,7 @@ from mocap import blending, body, editing, feet, quality
 from mocap._shared.atomic import require_folder
 from mocap.cli import options
 from mocap.cli.options import TURN, Clean, Reading, Unit, bar, check_out, number, print_rows, write_out
+from mocap.cli.tuned import TUNED
 from mocap.errors import MocapError, Remedy, warn
 from mocap.files.conversion import convert, plan, require_apart
 
@@ -17,8 +18,6 @@ if TYPE_CHECKING:
     from mocap.editing.stances import Stance
 
 LASTS = number(0.2, 600)  # seconds, not shorter than the seam
-POOR = 0.06  # metres RMS. The cycles of eight walks had seams of 0.5 to 3 cm
-LITTLE = 0.15  # metres. Cycles of walks miss 1 to 9 cm, and a static pose before a run misses 30 cm
 
 
 def warp(
@@ -155,9 +154,9 @@ def loop(
     motion = reading.load(clip)
     best = find_loop(motion, seconds=(shortest, longest))
     seam, missed = (f"{100 * metres:.0f} cm" for metres in (best.seam, best.missed))
-    if best.seam > POOR:
+    if best.seam > TUNED.poor_seam:
         warn(f"{clip}: the ends of the best cycle are {seam} apart: it may leap there.")
-    if best.missed > LITTLE:
+    if best.missed > TUNED.missed_cycle:
         warn(f"{clip}: the clip's other poses are {missed} away: it may hold no whole cycle.")
     cycle = editing.loop(motion, best, straight=straight, clean=clean)
     turn = quality.inspect(cycle).heading_change

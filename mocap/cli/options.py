@@ -197,12 +197,12 @@ class FileReading:
         """
         with timed_stage("loading packages"):
             from mocap.files.load_save import read  # the help needs no NumPy
-            from mocap.files.rigid_bones import STRETCH
+            from mocap.files.tuned import TUNED
 
         require_file(path, "give one of its files")
         if path.suffix.lower() == ".asf":
             raise MocapError(f"{path} is a skeleton without a motion: give an .amc file, or a .bvh.")
-        limit = STRETCH if stretch is None else stretch
+        limit = TUNED.stretch if stretch is None else stretch
         with named_options(READING), timed_reading(path):
             recording = read(path, self.skeleton, self.fps, self.scale, limit, self.up)
         warn_of_space(path, recording, READING)
@@ -283,10 +283,10 @@ class Sources:
 
     def _read(self, path: Path, scale: float | None = None, up: str | None = None) -> "Recording":
         from mocap.files.load_save import read  # the help needs no NumPy
-        from mocap.files.rigid_bones import STRETCH
+        from mocap.files.tuned import TUNED
 
         with timed_reading(path):
-            return read(path, self.skeleton, None, scale or self.scale, STRETCH, up or self.up)
+            return read(path, self.skeleton, None, scale or self.scale, TUNED.stretch, up or self.up)
 
 
 @dataclass(frozen=True)

@@ -8,12 +8,12 @@ from typing import Literal, get_args, get_origin
 
 import cyclopts
 
+from mocap.cli.tuned import TUNED
 from mocap.cli.typed_commands import command_names
 from mocap.errors import MocapError, shortened
 
 LONGEST = 60  # characters of a word that is quoted
 SYNONYMS = {"--path": "--along", "--along": "--path"}  # the path of `mocap walk` and that of `mocap bend`
-ALIKE = 0.6  # smallest similarity of two words by `difflib`. "conver" and "convert" have 0.92
 
 
 def explain(error: cyclopts.CycloptsError, root: cyclopts.App, words: Sequence[str] = ()) -> str:
@@ -50,7 +50,7 @@ def require_meant(words: Sequence[str], group: str, commands: Iterable[str]) -> 
     """
     if not words or words[0] in commands or os.path.lexists(words[0]):
         return
-    if meant := get_close_matches(words[0], commands, 1, ALIKE):
+    if meant := get_close_matches(words[0], commands, 1, TUNED.similar_word):
         problem = f"{_quoted(words[0])} is no file and no command.{_meant(meant)}"
         raise MocapError(f"{problem} (see mocap {group} --help)")
 
@@ -79,9 +79,9 @@ def _unknown_command(error: cyclopts.CycloptsError, program: str, root: cyclopts
         return f"{program} has no option {_quoted(word)}{advice}{meant}"
     app = error.app or root
     names = command_names(app)
-    close = get_close_matches(word, names, 1, ALIKE) or [
-        name for name in command_names(root, deep=True) if name.split()[-1] == word
-    ]
+    close = get_close_matches(word, names, 1, TUNED.similar_word)
+    if not close:
+        close = [name for name in command_names(root, deep=True) if name.split()[-1] == word]
     return f"{program} has no command {_quoted(word)}.{_meant(close)}"
 
 
@@ -158,7 +158,7 @@ def suggestion(word: str, names: Iterable[str]) -> str:
     """
     names = list(names)
     beginnings = [name for name in names if len(word) > len("--") and name.startswith(word)]
-    return _meant(beginnings or get_close_matches(word, names, 1, ALIKE))
+    return _meant(beginnings or get_close_matches(word, names, 1, TUNED.similar_word))
 
 
 def _meant(names: list[str]) -> str:

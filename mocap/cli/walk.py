@@ -27,6 +27,7 @@ from mocap.cli.options import (
     print_rows,
     timed_stage,
 )
+from mocap.cli.tuned import TUNED
 from mocap.cli.typed_commands import ONE_EACH, OptionalValue
 from mocap.errors import MocapError, MocapWarning, NoWalk
 from mocap.files.conversion import find_files
@@ -35,8 +36,6 @@ from mocap.methods import groups
 BUILD_FIRST = "build a graph of it first, by mocap graph {}"
 UNITS = {"s": 1.0, "min": 60.0, "h": 3600.0}
 WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
-HEADINGS = (0.0, 0.5, -0.5, 1.0, -1.0)  # radians from the direction of the first point, tried in this order
-SOON = 400  # states to expand for headings to the side, which find a path soon or not at all
 LONGEST = 24 * 3600.0  # longest random walk, seconds
 
 
@@ -271,10 +270,11 @@ def _plan(
 ) -> "tuple[groups.Configuration, groups.planning.GroupWalk | None]":
     """Plan a path that starts towards the first point or, if that fails, to one side of it."""
     refused: list[NoWalk] = []
-    for heading in HEADINGS:
+    for heading in TUNED.side_turns:
         start = body.PlanarTransform(cmath.phase(scene.points[0]) + heading, 0.0, 0.0)
+        limits = {"most": TUNED.side_states} if heading else {}
         try:
-            return groups.lead_group(group, scene, start=start, **({"most": SOON} if heading else {}))
+            return groups.lead_group(group, scene, start=start, **limits)
         except NoWalk as error:
             refused.append(error)
     raise refused[0]

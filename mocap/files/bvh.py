@@ -26,9 +26,10 @@ from mocap.files import frame_rates, spaces
 from mocap.files.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
 from mocap.files.loose_joints import without_loose_joints
 from mocap.files.recordings import Recording
-from mocap.files.rigid_bones import APART, STRETCH, fit
+from mocap.files.rigid_bones import fit
 from mocap.files.space_evidence import Evidence, frames_to_look_at, gather
 from mocap.files.text import LARGEST, check_room, quick_numbers, read_text, to_numbers
+from mocap.files.tuned import TUNED
 
 SCALE = 0.01  # metres in a unit of files that are written, and of those whose frames do not show it
 STILL = 1e-5  # metres: the largest movement of a fixed joint in its parent's frame, by rounding in the file
@@ -44,7 +45,7 @@ def read(
     *,
     scale: float | None = None,
     fps: float | None = None,
-    stretch: float = STRETCH,
+    stretch: float = TUNED.stretch,
     up: str | None = None,
 ) -> Recording:
     """Read a BVH file.
@@ -222,7 +223,7 @@ def _rigid(
         return np.vstack([np.zeros((1, 3)), positions[0, 1:]]), local
     parents = np.array([joint.parent for joint in joints])
     offsets, fitted, stretch, distances = fit(parents, positions, local)
-    if stretch.max() > limit or distances.max() > APART * limit:
+    if stretch.max() > limit or distances.max() > TUNED.strayed * limit:
         mover = joints[1 + int(movements.argmax())]
         expected = f"'{mover.name}' in one place below its parent, but for {limit:g} m"
         raise FormatError(path, mover.line, expected, f"one that moves by {movements.max():.2g} m")

@@ -20,10 +20,10 @@ from mocap.body.motion import Motion, rotating_joints
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened
 from mocap.files.gltf_capsules import body, reaches
+from mocap.files.tuned import TUNED
 
 Record = dict[str, Any]
 
-CARRIED = 0.25  # metres: rotations of a joint with a shorter limb below are rounded to 16 bits
 LARGEST_INT16 = 32767  # represents 1
 MOST = 2**32 - 1  # bytes: the size in the header has 32 bits
 VERSION = 2  # of glTF
@@ -187,7 +187,7 @@ def _animation(motion: Motion, block: Block) -> Record:
     limbs = reaches(motion.skeleton)
     for joint in np.flatnonzero(rotating_joints(motion)).tolist():
         values: NDArray[Any] = quaternions[:, joint].astype(np.float32)
-        if limbs[joint] <= CARRIED:
+        if limbs[joint] <= TUNED.carried:
             values = np.round(LARGEST_INT16 * values).astype(np.int16)
         channels.append({"sampler": len(samplers), "target": {"node": joint, "path": "rotation"}})
         samplers.append({"input": clock, "output": block.add(values)})

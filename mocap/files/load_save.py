@@ -13,9 +13,9 @@ from mocap.body.motion import Motion, require_motion, rotating_joints
 from mocap.errors import MocapError, warn
 from mocap.files import bvh, formats, gltf, spaces
 from mocap.files.recordings import Recording
-from mocap.files.rigid_bones import STRETCH
 from mocap.files.role_maps import read_roles
 from mocap.files.text import check_above_0, read_text
+from mocap.files.tuned import TUNED
 
 WRITTEN = ".bvh and .glb"
 
@@ -26,7 +26,7 @@ def load(  # noqa: PLR0913 (each by its name)
     skeleton: str | Path | None = None,
     fps: float | None = None,
     scale: float | None = None,
-    stretch: float = STRETCH,
+    stretch: float = TUNED.stretch,
     up: str | None = None,
     roles: Mapping[str, str] | str | Path | None = None,
 ) -> Motion:

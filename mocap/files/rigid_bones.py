@@ -11,10 +11,8 @@ from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array
 from mocap.body import rotations
+from mocap.files.tuned import TUNED
 
-STRETCH = 0.02  # metres: the largest change of the length of a bone
-APART = 2.5  # multiple of `STRETCH`: the largest distance of a joint from its position in the file
-ROTATION_WEIGHT = 1e-3  # λ, fraction of the bones' squared lengths: determines the twist of a joint
 SHORTEST = 1e-9  # metres: a shorter mean offset has no direction
 
 
@@ -57,7 +55,7 @@ def fit(parents: NDArray[np.intp], positions: Array, local: Array) -> tuple[Arra
         if squares > 0:
             directions = targets[:, children] - joints[:, joint, None]
             outer_products = np.einsum("fci,cj->fij", directions, bones)
-            rotation_term = ROTATION_WEIGHT * squares * file_rotations[:, joint]
+            rotation_term = TUNED.rotation_weight * squares * file_rotations[:, joint]
             matrices[:, joint] = rotations.nearest(outer_products + rotation_term)
         joints[:, children] = joints[:, joint, None] + np.einsum("fij,cj->fci", matrices[:, joint], bones)
     stretch = np.ptp(np.linalg.norm(positions, axis=-1), axis=0)

@@ -7,59 +7,14 @@ size of whoever falls or walks. All lengths here are in the unit of the file.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Mask
 from mocap._shared.records import NamedTuple
+from mocap.files.tuned import TUNED
 
 AXES = ("y", "z", "-y", "-z", "x", "-x")
 GRAVITY = 9.81  # m/s²
-
-
-@dataclass(frozen=True)
-class Tuning:
-    """Limits of the evidence, chosen on public clips whose space is known (see `figures/tune/spaces.py`).
-
-    least_joints : joints; fewer make no body.
-    rate : Hz at which frames are looked at: steps and falls last for a third of a second or more.
-    frames : how many frames are looked at: ten seconds.
-    rigid : of the body's size; the length of a bone of the body varies by less.
-    longest_bone : of the body's size; a joint further from its parent is another object.
-    moving : of the body's size per second; slower than that nothing moves, and a joint at rest says nothing.
-    travel : of the body's size; who travels further along an axis does not travel along the vertical.
-    mirror : relative; the bones of two limbs that mirror each other differ by less.
-    airborne : of the body's size, above the floor; a body whose lowest joint is higher falls freely.
-    air_frames : frames of a jump; fewer show no parabola.
-    air_time : seconds, shortest and longest; jumps of people last as long.
-    rough : of the body's size; the centre of a falling body leaves its parabola by less.
-    fall : of the body's size per s²; bodies of 0.2 to 5 m fall as fast.
-    least_seconds : seconds; a shorter clip shows no cycle of a gait.
-    shortest_cycle, longest_cycle : seconds of a cycle.
-    repeats : of the largest change of the pose before; the change after a cycle is smaller.
-    """
-
-    least_joints: int = 8
-    rate: float = 30.0
-    frames: int = 300
-    rigid: float = 0.04
-    longest_bone: float = 0.6
-    moving: float = 0.02
-    travel: float = 0.5
-    mirror: float = 0.1
-    airborne: float = 0.03
-    air_frames: int = 6
-    air_time: tuple[float, float] = (0.12, 1.2)
-    rough: float = 0.004
-    fall: tuple[float, float] = (2.0, 40.0)
-    least_seconds: float = 1.2
-    shortest_cycle: float = 0.35
-    longest_cycle: float = 2.5
-    repeats: float = 0.3
-
-
-TUNING = Tuning()
 
 
 class Stride(NamedTuple):
@@ -111,7 +66,7 @@ def gather(parents: Indices, positions: Array, rate: float) -> Evidence | None:
     """
     joints = main_body(parents, positions)
     points = positions[:, joints]
-    if len(joints) < TUNING.least_joints or not np.ptp(points, axis=1).max() > 0:
+    if len(joints) < TUNED.least_joints or not np.ptp(points, axis=1).max() > 0:
         return None
     parents = _renumbered(parents, joints)
     scores, stillness = _axis_scores(parents, points, rate)
@@ -135,14 +90,14 @@ def frames_to_look_at(root_positions: Array, fps: float) -> tuple[Indices, float
     >>> frames[:4], rate
     (array([ 0,  4,  8, 12]), 30.0)
     """
-    step = max(1, round(fps / TUNING.rate))
+    step = max(1, round(fps / TUNED.looked_at_rate))
     frames = np.arange(0, len(root_positions), step)
-    surplus = len(frames) - TUNING.frames
+    surplus = len(frames) - TUNED.looked_at_frames
     if surplus > 0:
         steps = np.linalg.norm(np.diff(root_positions[frames], axis=0), axis=1)
         travelled = np.append(0.0, np.cumsum(steps))
-        start = int(np.argmax(travelled[TUNING.frames - 1 :] - travelled[: surplus + 1]))
-        frames = frames[start : start + TUNING.frames]
+        start = int(np.argmax(travelled[TUNED.looked_at_frames - 1 :] - travelled[: surplus + 1]))
+        frames = frames[start : start + TUNED.looked_at_frames]
     return frames, fps / step
 
 
@@ -171,7 +126,7 @@ def main_body(parents: Indices, positions: Array) -> Indices:
     for joint in range(1, len(parents)):
         lengths = np.linalg.norm(positions[:, joint] - positions[:, parents[joint]], axis=1)
         variation = np.ptp(np.quantile(lengths, (0.05, 0.95)))
-        if variation < TUNING.rigid * size and np.median(lengths) < TUNING.longest_bone * size:
+        if variation < TUNED.rigid_bone * size and np.median(lengths) < TUNED.longest_bone * size:
             part[joint] = part[parents[joint]]
     joints = list(np.flatnonzero(part == np.bincount(part).argmax()))
     while len(joints) > 1 and np.count_nonzero(parents[joints[1:]] == joints[0]) == 1:
@@ -220,13 +175,13 @@ def free_fall(heights: Array, fps: float, size: float) -> float | None:
     size : of the body.
     """
     lowest = heights.min(axis=1)
-    is_airborne = lowest > np.quantile(lowest, 0.05) + TUNING.airborne * size
+    is_airborne = lowest > np.quantile(lowest, 0.05) + TUNED.airborne * size
     edges = np.flatnonzero(np.diff(np.pad(is_airborne.astype(int), 1)))
-    shortest, longest = TUNING.air_time
+    shortest, longest = TUNED.air_time
     falls: list[tuple[int, float]] = []  # frames in the air, and acceleration in bodies per s²
     for start, stop in edges.reshape(-1, 2):
         frames = stop - start
-        if frames >= TUNING.air_frames and shortest <= frames / fps <= longest:
+        if frames >= TUNED.air_frames and shortest <= frames / fps <= longest:
             margin = frames // 6
             falls += _parabola(heights[start + margin : stop - margin].mean(axis=1) / size, fps)
     return max(falls)[1] * size if falls else None
@@ -238,8 +193,8 @@ def _parabola(centre: Array, fps: float) -> list[tuple[int, float]]:
     curve = np.polyfit(times, centre, 2)
     roughness = np.std(centre - np.polyval(curve, times))
     acceleration = float(-2 * curve[0])
-    slowest, fastest = TUNING.fall
-    is_fall = roughness < TUNING.rough and slowest < acceleration < fastest
+    slowest, fastest = TUNED.fall_acceleration
+    is_fall = roughness < TUNED.parabola_error and slowest < acceleration < fastest
     return [(len(centre), acceleration)] if is_fall else []
 
 
@@ -267,14 +222,14 @@ def _cycle(heights: Array, fps: float) -> int | None:
     pose = heights - heights.mean(axis=1, keepdims=True)
     pose = pose - pose.mean(axis=0)
     power = 2 * (pose**2).mean()
-    if frames < TUNING.least_seconds * fps or power == 0:
+    if frames < TUNED.least_seconds * fps or power == 0:
         return None
-    lags = range(1, min(int(TUNING.longest_cycle * fps), int(0.6 * frames)))
+    lags = range(1, min(int(TUNED.longest_cycle * fps), int(0.6 * frames)))
     changes = [((pose[lag:] - pose[:-lag]) ** 2).mean() / power for lag in lags]
     change = np.array([0.0, *changes])
-    for lag in lags[int(TUNING.shortest_cycle * fps) : -1]:
+    for lag in lags[int(TUNED.shortest_cycle * fps) : -1]:
         is_dip = change[lag] <= min(change[lag - 1], change[lag + 1])
-        if is_dip and change[lag] < TUNING.repeats * change[:lag].max():
+        if is_dip and change[lag] < TUNED.repeated_pose * change[:lag].max():
             return lag
     return None
 
@@ -296,7 +251,7 @@ def _are_same(first: list[float], second: list[float]) -> bool:
     """Check whether two chains have as many bones, of nearly the same lengths."""
     if len(first) != len(second):
         return False
-    return float(np.abs(np.subtract(first, second)).max()) < TUNING.mirror * max(first)
+    return float(np.abs(np.subtract(first, second)).max()) < TUNED.mirrored_bones * max(first)
 
 
 def _axis_scores(parents: Indices, points: Array, fps: float) -> tuple[dict[str, float], dict[str, float]]:
@@ -319,7 +274,7 @@ def _axis_scores(parents: Indices, points: Array, fps: float) -> tuple[dict[str,
         excess = extents[index] - np.delete(extents, index).max()
         feet_below = np.mean(paired[lowest] - paired[topmost])
         stillness[axis] = _stillness(points, index, lowest, fps, size)
-        rising = np.clip(travel[index] - TUNING.travel, 0, 1.5)
+        rising = np.clip(travel[index] - TUNED.sideways_travel, 0, 1.5)
         evidence = [2.0 * np.clip(2 * excess, -1, 1), 1.5 * stillness[axis], 1.5 * feet_below, -2.0 * rising]
         scores[axis] = float(sum(evidence))
     return scores, stillness
@@ -333,7 +288,7 @@ def _stillness(points: Array, axis: int, lowest: Indices, fps: float, size: floa
     velocities[..., axis] = 0
     speeds = np.linalg.norm(velocities, axis=-1)
     usual = np.median(speeds)
-    if usual <= TUNING.moving * size:
+    if usual <= TUNED.moving_speed * size:
         return 0.0
     at_lowest = np.take_along_axis(speeds, lowest[:, None], axis=1)
     return float(-np.log10(np.median(at_lowest) / usual + 0.03))

@@ -9,7 +9,7 @@ has it by default, unless no body has that size, and the doubt is stated.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
 from mocap.files.space_evidence import GRAVITY, LEG, Evidence
+from mocap.files.tuned import TUNED
 
 UNITS = {
     1.0: "m",
@@ -40,46 +41,6 @@ UPRIGHT: dict[str, Array] = {"y": rotations.IDENTITY, "z": rotations.Z_UP, "x": 
 UPRIGHT |= {"-z": rotations.inverse(rotations.Z_UP), "-x": rotations.inverse(_AROUND_Z)}
 UPRIGHT["-y"] = rotations.multiply(_AROUND_Z, _AROUND_Z)
 """The rotation that turns each axis into y."""
-
-
-@dataclass(frozen=True)
-class Tuning:
-    """Limits of the decision, chosen on public clips whose space is known (see `figures/tune/spaces.py`).
-
-    height : metres from the lowest to the topmost joint of adults, and the spread of its logarithm.
-    adult : metres, the smallest and the largest height that is believed without a doubt.
-    likely : metres, the smallest and the largest height for which another unit is mentioned.
-    person : metres, the smallest child and the largest person.
-    plausible : metres, the smallest and the largest body that a default unit may give: toys and giants.
-    sure_unit : probability of the best unit from which on it is certain.
-    probable_unit : probability from which on the best unit is taken, with the doubt stated.
-    common : metres in units that need no clock to be certain.
-    clock : largest error of a clock, as a logarithm, that confirms an uncommon unit.
-    wrong_clock : smallest error of a clock, as a logarithm, that refutes a unit.
-    sure_axis : lead of the best axis over the next from which on it is certain.
-    probable_axis : lead from which on the best axis is taken if the body stands on the
-        floor, with the doubt stated.
-    planted : stillness of the lowest joint from which on it stands.
-    worst_clock : most that one clock may speak against a unit, as a logarithm: some falls are none.
-    """
-
-    height: tuple[float, float] = (1.55, 0.12)
-    adult: tuple[float, float] = (1.2, 1.9)
-    likely: tuple[float, float] = (1.2, 2.1)
-    person: tuple[float, float] = (0.6, 2.3)
-    plausible: tuple[float, float] = (0.1, 10.0)
-    sure_unit: float = 0.96
-    probable_unit: float = 0.84
-    common: tuple[float, ...] = (1.0, 0.01, 0.001)
-    clock: float = 0.45
-    sure_axis: float = 1.0
-    probable_axis: float = 2.0
-    planted: float = 0.4
-    wrong_clock: float = 0.9
-    worst_clock: float = 3.0
-
-
-TUNING = Tuning()
 
 
 class Space(NamedTuple):
@@ -190,12 +151,12 @@ def _axis(evidence: Sequence[Evidence], usual: str) -> tuple[str, str]:
     if best == usual:
         return best, "" if stands else second
     lead = scores[best] - scores[second]
-    if lead >= TUNING.sure_axis and _feet_stand(evidence, best):
+    if lead >= TUNED.sure_axis and _feet_stand(evidence, best):
         return best, ""
     on_floor = all(clip.on_floor for clip in evidence)
-    if lead >= TUNING.probable_axis and on_floor and stands:
+    if lead >= TUNED.probable_axis and on_floor and stands:
         return best, usual
-    is_stated = lead >= TUNING.sure_axis or not stands
+    is_stated = lead >= TUNED.sure_axis or not stands
     return usual, best if is_stated else ""
 
 
@@ -203,7 +164,7 @@ def _feet_stand(evidence: Sequence[Evidence], axis: str) -> bool:
     """Check whether the lowest joint stands still if an axis points up, or all clips stand on the floor."""
     stillness = max(clip.stillness[axis] for clip in evidence)
     nothing_moves = all(max(clip.stillness.values()) == 0 for clip in evidence)
-    return stillness > TUNING.planted or (nothing_moves and all(clip.on_floor for clip in evidence))
+    return stillness > TUNED.still_foot or (nothing_moves and all(clip.on_floor for clip in evidence))
 
 
 def _unit(evidence: Sequence[Evidence], usual: float) -> tuple[float, float | None]:
@@ -213,12 +174,12 @@ def _unit(evidence: Sequence[Evidence], usual: float) -> tuple[float, float | No
     size = float(np.median([clip.size for clip in evidence]))
     is_adult = _stands(evidence) and _is_adult(size * best)
     error = _median_clock_error(evidence, best)
-    is_confirmed = best in TUNING.common or error < TUNING.clock
-    if is_adult and is_confirmed and probability[best] >= TUNING.sure_unit:
+    is_confirmed = best in TUNED.common_units or error < TUNED.confirming_clock
+    if is_adult and is_confirmed and probability[best] >= TUNED.sure_unit:
         return best, None
-    is_refuted = np.isfinite(error) and error > TUNING.wrong_clock
-    is_probable = is_adult and not is_refuted and probability[best] >= TUNING.probable_unit
-    smallest, largest = TUNING.plausible
+    is_refuted = np.isfinite(error) and error > TUNED.refuting_clock
+    is_probable = is_adult and not is_refuted and probability[best] >= TUNED.probable_unit
+    smallest, largest = TUNED.default_height
     if best == usual:
         return best, None if is_probable else second
     is_taken = is_probable or not smallest <= size * usual <= largest
@@ -227,14 +188,14 @@ def _unit(evidence: Sequence[Evidence], usual: float) -> tuple[float, float | No
 
 def _is_adult(metres: float) -> bool:
     """Check whether a height is that of an adult beyond doubt."""
-    smallest, largest = TUNING.adult
+    smallest, largest = TUNED.sure_height
     return smallest <= metres <= largest
 
 
 def _is_stated(height: float, other_height: float) -> bool:
     """Check whether a doubt helps: the other unit gives a likely height, or this one an unlikely height."""
-    smallest, largest = TUNING.likely
-    shortest, tallest = TUNING.person
+    smallest, largest = TUNED.likely_height
+    shortest, tallest = TUNED.person_height
     return smallest <= other_height <= largest or not shortest <= height <= tallest
 
 
@@ -265,7 +226,7 @@ def _unit_probabilities(evidence: Sequence[Evidence]) -> dict[float, float]:
 
 def _height_density(metres: float) -> float:
     """Return the probability density of a body's height: adults, few children, anything else now and then."""
-    mean, spread = TUNING.height
+    mean, spread = TUNED.adult_height
     deviation = (np.log(metres) - np.log(mean)) / spread
     adult = np.exp(-(deviation**2) / 2) / (spread * np.sqrt(2 * np.pi))
     child = 1 / np.log(1.3 / 0.6) if 0.6 < metres < 1.3 else 0.0
@@ -301,5 +262,5 @@ def _clock_penalty(clip: Evidence, unit: float) -> float:
     penalty = 0.0
     for error, spread in ((_fall_error(clip, unit), 0.2), (_stride_error(clip, unit), 0.3)):
         if error is not None:
-            penalty += min(TUNING.worst_clock, (error / spread) ** 2 / 2)
+            penalty += min(TUNED.clock_weight, (error / spread) ** 2 / 2)
     return penalty

@@ -14,6 +14,7 @@ Reading order (notebooks 05, 06)
  7. `edge_tables`: the frames of each edge and of each macro-edge, as arrays
  8. `compiled_graph`: a whole graph as arrays, for searches
  9. `homework_graph`: the homework's simpler graph of segments
+10. `tuned`: the constants that trials chose
 
 References
 ----------

@@ -25,11 +25,7 @@ from mocap.graphs.edge_tables import (
     require_node,
 )
 from mocap.graphs.motion_graph import MotionGraph, Node, require_graph
-
-AHEAD = (1 / 4, 1 / 2, 3 / 4)  # seconds
-LEAST = 0.3  # metres per second: the least progress γ of [KGP02, 5.1], so that no walk stands for ever
-VELOCITY_TIME = 1 / 6  # seconds at the end of a clip from which its last velocity is computed
-STANDING = 0.1  # metres in the last time of `AHEAD`: a root that moves less has no direction of movement
+from mocap.graphs.tuned import TUNED
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,8 +39,8 @@ class CompiledGraph(EdgeTable):
     edges : the stretches of clip, in the order of the nodes they leave, then the transitions.
     target : shape (E,), the number of the node that each edge enters.
     at : shape (N,), the position of the root at each node, in the coordinates of its clip.
-    ahead : shape (N, 3), the positions of the root after `AHEAD` seconds, extrapolated at constant velocity
-        beyond the end of the clip.
+    ahead : shape (N, 3), the positions of the root after `TUNED.ahead` seconds, extrapolated at constant
+        velocity beyond the end of the clip.
     going : shape (N,), the direction of movement of the root, or the heading if it stands still, radians.
     ground : shape (T,), the position of the root in each frame, in the coordinates of the clip that the edge
         leaves.
@@ -75,7 +71,7 @@ class CompiledGraph(EdgeTable):
     @cached_property
     def progress(self) -> Array:
         """The progress of each frame, its step but at least γ, metres, (T,) [KGP02, least progress]."""
-        return np.maximum(self.step, LEAST / self.fps)
+        return np.maximum(self.step, TUNED.least_speed / self.fps)
 
     def index(self, node: Node) -> int:
         """Return the number of a node, or raise `NoWalk` if the graph does not have it."""
@@ -154,7 +150,7 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
 
 
 def _roots_at_nodes(graph: MotionGraph, nodes: Indices, roots: Points) -> tuple[Points, Points, Array]:
-    """Compute the root's position at each node, its positions `AHEAD`, and its direction of movement."""
+    """Compute the root's position at each node, its positions ahead, and its direction of movement."""
     clip, frame = nodes.T
     last = np.array([len(motion) - 1 for motion in graph.clips])[clip]
 
@@ -162,14 +158,14 @@ def _roots_at_nodes(graph: MotionGraph, nodes: Indices, roots: Points) -> tuple[
         return np.asarray(roots[clip_rows(graph.clips, np.stack([clip, frames], axis=1))])
 
     position = root(frame)
-    interval = max(1, round(graph.fps * VELOCITY_TIME))  # frames
+    interval = max(1, round(graph.fps * TUNED.velocity_time))  # frames
     velocity = (root(last) - root(last - interval)) / interval  # at the end of the clip, metres per frame
-    later = [frame + max(1, round(graph.fps * seconds)) for seconds in AHEAD]
+    later = [frame + max(1, round(graph.fps * seconds)) for seconds in TUNED.ahead]
     ahead = np.stack([root(time) + velocity * np.maximum(time - last, 0) for time in later], axis=1)
     displacement = ahead[:, -1] - position
     orientations = np.concatenate([motion.rotations[:, 0] for motion in graph.clips])
     headings = heading(orientations[clip_rows(graph.clips, nodes)])
-    directions = np.where(np.abs(displacement) > STANDING, np.angle(displacement), headings)
+    directions = np.where(np.abs(displacement) > TUNED.standing, np.angle(displacement), headings)
     return position, ahead, directions
 
 

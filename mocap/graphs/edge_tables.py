@@ -16,10 +16,10 @@ from mocap.body.motion import Motion
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import NoWalk
 from mocap.graphs.motion_graph import MotionGraph, Node
+from mocap.graphs.tuned import TUNED
 
 Edge = tuple[Node, Node, int]
 
-LONGEST_MACRO_EDGE = 1 / 6  # seconds of clip after which a macro-edge ends
 FRAME = 1  # column of (clip, frame)
 
 
@@ -147,8 +147,8 @@ class MacroEdges:
     """All H macro-edges of a compiled graph with N nodes, sorted by the node that they leave.
 
     A macro-edge is a sequence of edges that a search takes in one step. It follows the clip until it takes a
-    transition, or has lasted `LONGEST_MACRO_EDGE` seconds, or reaches a dead end. Edges are often only a
-    frame or two long: with single edges, a search would find the same walks in many more steps.
+    transition, or has lasted `TUNED.longest_macro_edge` seconds, or reaches a dead end. Edges are often only
+    a frame or two long: with single edges, a search would find the same walks in many more steps.
 
     Parameters
     ----------
@@ -216,7 +216,7 @@ def find_macro_edges(edges: EdgeTable, starts: Indices, nodes: int, fps: float) 
         else:
             stretch_from[node] = edge
     lengths = edges.frames.tolist()
-    longest = LONGEST_MACRO_EDGE * fps
+    longest = TUNED.longest_macro_edge * fps
     macro_edges: list[MacroEdge] = []
     for node in range(nodes):
         macro_edges += _macro_edges_from(node, stretch_from, transitions_from, lengths, longest=longest)

@@ -15,6 +15,7 @@ from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError, NoWalk
 from mocap.graphs.components import largest_component
 from mocap.graphs.motion_graph import from_transitions
+from mocap.graphs.tuned import TUNED
 from mocap.matching.point_clouds import point_cloud
 from mocap.matching.transitions import Transitions, find_transitions
 
@@ -49,7 +50,6 @@ def smallest_threshold(clips: Sequence[Motion], *, window: int) -> float:
 
 
 AT_ONCE = 4096  # transitions whose velocities are compared at a time, to limit the memory
-ENOUGH = 0.9  # fraction of the largest number of frames that the largest component has at any threshold
 
 
 class ThresholdCurve(NamedTuple):
@@ -82,7 +82,7 @@ class ThresholdCurve(NamedTuple):
             raise NoWalk(
                 "The graph has no cycle at any of these thresholds: allow transitions of higher cost."
             )
-        return float(self.threshold[self.frames >= ENOUGH * self.frames.max()].min())
+        return float(self.threshold[self.frames >= TUNED.largest_component * self.frames.max()].min())
 
 
 def threshold_curve(

@@ -14,6 +14,7 @@ Reading order (notebooks 02, 05, 15)
 6. `minima`: local minima of distance grids of any size
 7. `transitions`: the transitions between clips
 8. `time_paths`: dynamic time warping of one clip to another
+9. `tuned`: the constants that trials chose
 
 References
 ----------

@@ -32,11 +32,10 @@ from mocap.body.motion import Motion, require_compatible
 from mocap.body.planar import on_ground
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import point_cloud, require_near, unit_weights
+from mocap.matching.tuned import TUNED
 
 Floats = NDArray[np.floating[Any]]
 
-SMALL = 500_000  # entries: smaller grids take about 10 ms, and are computed without threads
-TILE = 256, 640  # rows and columns computed at a time, to stay in the cache of a core
 
 # m²: the tolerance for equal distances D. Rounding is about 1e-14 m² for a walking body, and similar windows
 # have a D of 1e-4 to 1e-2 m². A smaller D is set to 0, because the root would amplify its rounding error.
@@ -377,7 +376,7 @@ def tiled_distances(  # noqa: PLR0913 (two clouds, the parts to compute, and thr
     """
     rows = len(a.sizes)
     columns = len(b.sizes)
-    tile_rows, tile_columns = TILE
+    tile_rows, tile_columns = TUNED.tile
     grid = np.empty((rows, columns), a.heights.dtype)
 
     def measure_row_of_tiles(row: int) -> None:
@@ -392,7 +391,7 @@ def tiled_distances(  # noqa: PLR0913 (two clouds, the parts to compute, and thr
             _mirror(grid, part_of_a)
 
     tasks = [(row,) for row in range(0, rows, tile_rows)]
-    threads = thread_count(jobs) if rows * columns > SMALL else 1
+    threads = thread_count(jobs) if rows * columns > TUNED.small_grid else 1
     with one_blas_thread():
         for _ in run_in_order(measure_row_of_tiles, tasks, None, threads):
             pass

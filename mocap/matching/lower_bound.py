@@ -41,14 +41,11 @@ from numpy.typing import NDArray
 from mocap._shared.arrays import Array, Indices
 from mocap._shared.records import NamedTuple
 from mocap.matching.distance_grids import Cloud, window_vectors
+from mocap.matching.tuned import TUNED
 
 Singles = NDArray[np.float32]
 Number = TypeVar("Number", np.float64, np.complex128)
 
-SAMPLE = 256  # windows that determine the directions (the bound holds for any orthonormal ones)
-GROUND_DIRECTIONS = 10  # of the vectors g, for 100 numbers of G
-HEIGHT_DIRECTIONS = 40  # of the vectors y
-DIRECTIONS = 48  # of f (with more, hardly fewer pairs remain)
 TOGETHER = 256  # windows whose vectors are in memory at a time
 TINY = 1e-300  # metres: avoids a division by 0 for a window of one point, whose r is 0
 
@@ -99,13 +96,13 @@ def principal_directions(vectors: NDArray[Number], count: int) -> NDArray[Number
 
 def sample_directions(cloud: Cloud) -> Directions:
     """Compute principal directions from a sample of the windows of a cloud."""
-    ground, heights = _vectors(cloud, sample_windows(cloud, SAMPLE))
+    ground, heights = _vectors(cloud, sample_windows(cloud, TUNED.bound_sample))
     height_mean = heights.mean(axis=0)
-    ground_directions = principal_directions(ground, GROUND_DIRECTIONS)
-    height_directions = principal_directions(heights - height_mean, HEIGHT_DIRECTIONS)
+    ground_directions = principal_directions(ground, TUNED.ground_directions)
+    height_directions = principal_directions(heights - height_mean, TUNED.height_directions)
     points = _points(ground, heights - height_mean, ground_directions, height_directions)
     point_mean = points.mean(axis=0)
-    point_directions = principal_directions(points - point_mean, DIRECTIONS)
+    point_directions = principal_directions(points - point_mean, TUNED.directions)
     return Directions(ground_directions, height_directions, height_mean, point_directions, point_mean)
 
 
@@ -199,4 +196,4 @@ def squared_reach(cloud: Cloud, below: float, longest: float) -> float:
     steps = cloud.heights.shape[1] + cloud.window + 16
     measured = below**2 + steps * rounding * 2 * size
     projected = np.sqrt(measured) + 8 * single_rounding * np.sqrt(size)
-    return float(projected**2 + (DIRECTIONS + 4) * single_rounding * 4 * longest)
+    return float(projected**2 + (TUNED.directions + 4) * single_rounding * 4 * longest)

@@ -32,7 +32,6 @@ from mocap.matching.lower_bound import (
     squared_reach,
 )
 from mocap.matching.near_pairs import (
-    SPARSE,
     Leaves,
     cut_into_leaves,
     is_sparse,
@@ -40,11 +39,9 @@ from mocap.matching.near_pairs import (
     pair_distances,
     sort_by_diagonal,
 )
+from mocap.matching.tuned import TUNED
 
 AT_ONCE = 1024  # pairs aligned at a time, to limit the memory
-BLOCK = 1280  # windows on a side of a block that is searched by products
-WIDE_BLOCK = 8192  # windows on a side of a block that is searched by the bound
-FEW = 5000  # windows up to which the search by products is faster
 
 # Offsets (rows, columns) from an entry to its neighbours, in row-major order: the first four precede it.
 NEIGHBOURS = ((-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1))
@@ -238,7 +235,7 @@ def find_minima(
     """
     with one_blas_thread():
         bound = _choose_bound(cloud, below)
-        size = WIDE_BLOCK if bound else BLOCK
+        size = TUNED.wide_block if bound else TUNED.block
         count = len(cloud.sizes) - cloud.window + 1
         starts = range(0, count, size)
         cuts = ((cloud, range(start, min(start + size, count)), bound) for start in starts)
@@ -253,7 +250,7 @@ def find_minima(
 
 def _choose_bound(cloud: Cloud, below: float) -> Directions | None:
     """Return directions for the search by the bound, or None if the search by products is faster."""
-    if np.count_nonzero(np.isfinite(cloud.sizes)) <= FEW:
+    if np.count_nonzero(np.isfinite(cloud.sizes)) <= TUNED.few_windows:
         return None
     directions = sample_directions(cloud)
     return directions if is_sparse(cloud, directions, below) else None
@@ -294,7 +291,7 @@ def _near_pairs(a: Side, b: Side, reach: float) -> Indices | None:
         return None
     # The neighbours of two windows that do not overlap may overlap by two frames.
     shift = a.cloud.window - 2 - (b.first - a.first)
-    at_most = SPARSE * len(a.windows) * len(b.windows)
+    at_most = TUNED.sparse * len(a.windows) * len(b.windows)
     pairs = near_pairs(a.leaves, b.leaves, reach, shift=shift, at_most=at_most)
     return None if pairs is None else sort_by_diagonal(pairs)
 
@@ -302,8 +299,8 @@ def _near_pairs(a: Side, b: Side, reach: float) -> Indices | None:
 def _cut(side: Side) -> Iterator[Side]:
     """Divide a side into the smaller sides of blocks that are searched by products."""
     end = side.first + len(side.cloud.sizes)
-    for start in range(side.windows.start, side.windows.stop, BLOCK):
-        windows = range(start, min(start + BLOCK, side.windows.stop))
+    for start in range(side.windows.start, side.windows.stop, TUNED.block):
+        windows = range(start, min(start + TUNED.block, side.windows.stop))
         first = max(start - 1, side.first)
         stop = min(windows.stop + 1, end)
         yield Side(windows, side.cloud.part(slice(first - side.first, stop - side.first)), first)

@@ -24,11 +24,7 @@ from mocap.matching.lower_bound import (
     squared_length,
     squared_reach,
 )
-
-LEAF = 128  # the largest number of windows in a leaf
-TOGETHER = 1024  # pairs whose distances are computed at a time, to stay in the cache of a core
-SAMPLE = 600  # windows by which the fraction of near pairs is estimated
-SPARSE = 0.05  # the largest fraction of near pairs for which the search by the bound is faster
+from mocap.matching.tuned import TUNED
 
 
 class Leaves(NamedTuple):
@@ -77,7 +73,7 @@ def cut_into_leaves(windows: Indices, projected: Singles) -> Leaves:
 
 def _halves(projected: Singles, members: Indices) -> list[Indices]:
     """Divide members at the median of the coordinate of largest variance, recursively, down to leaves."""
-    if len(members) <= LEAF:
+    if len(members) <= TUNED.leaf:
         return [members] if len(members) else []
     coordinates = projected[members]
     values = coordinates[:, coordinates.var(axis=0).argmax()]
@@ -180,8 +176,8 @@ def pair_distances(a: Cloud, b: Cloud, pairs: Indices) -> Floats:
     array([0.5])
     """
     distances = np.empty(pairs.shape[1], a.heights.dtype)
-    for first in range(0, len(distances), TOGETHER):
-        part = slice(first, first + TOGETHER)
+    for first in range(0, len(distances), TUNED.pairs_together):
+        part = slice(first, first + TUNED.pairs_together)
         distances[part] = _distances_of_runs(a, b, *pairs[:, part])
     return distances
 
@@ -224,7 +220,7 @@ def is_sparse(cloud: Cloud, directions: Directions, below: float) -> bool:
     >>> is_sparse(still, sample_directions(still), 0.04)
     False
     """
-    starts = sample_windows(cloud, SAMPLE)
+    starts = sample_windows(cloud, TUNED.pair_sample)
     projected = projections(cloud, starts, directions)
     reach = squared_reach(cloud, below, squared_length(projected))
     if not np.isfinite(reach):
@@ -232,4 +228,4 @@ def is_sparse(cloud: Cloud, directions: Directions, below: float) -> bool:
     squares = np.vecdot(projected, projected)
     is_near = squares[:, None] + squares - 2 * (projected @ projected.T) <= reach
     is_apart = np.abs(starts[:, None] - starts) >= cloud.window
-    return bool(np.count_nonzero(is_near & is_apart) <= SPARSE * np.count_nonzero(is_apart))
+    return bool(np.count_nonzero(is_near & is_apart) <= TUNED.sparse * np.count_nonzero(is_apart))

@@ -19,13 +19,11 @@ from mocap.errors import MocapError
 from mocap.matching.distance_grids import Cloud, cloud, join, require_windows
 from mocap.matching.minima import find_minima
 from mocap.matching.point_clouds import distinct_joints, point_cloud, require_near, unit_weights
+from mocap.matching.tuned import TUNED
 
 Integers = NDArray[np.integer[Any]]
 Thresholds = float | Mapping[tuple[str, str], float]
 """One threshold in metres, or one for each pair of labels."""
-
-
-FEW = 20_000  # frames up to which the distances are computed in 64 bits
 
 
 class Transition(NamedTuple):
@@ -166,7 +164,7 @@ def find_transitions(  # noqa: PLR0913 (clips, a window, thresholds, weights, an
     check_threshold(below)
     thresholds = _thresholds(below, clips)
     gap = int(window == 1)  # longer windows need no gap: those that extend beyond a clip separate the clips
-    is_small = sum(map(len, clips)) <= FEW
+    is_small = sum(map(len, clips)) <= TUNED.few_frames
     dtype = np.float64 if is_small else np.float32
     ready = join_clouds(clips, joint_weights, window, gap, dtype, taper=taper)
     loosest = max(thresholds.values())

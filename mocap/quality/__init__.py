@@ -11,6 +11,7 @@ Reading order (notebooks 01, 04, 09 to 11)
 3. `falling`: the centre of mass, and its acceleration in a flight
 4. `joint_limits`: joint angles and the human range of motion
 5. `judging`: a few measures of any motion, each divided by its limit
+6. `limits`: the limits, which captured people keep
 
 References
 ----------

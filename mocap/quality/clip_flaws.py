@@ -1,7 +1,6 @@
 """Inspection of a clip: its duration, its path, the body's height, and flaws of the data.
 
-The thresholds are beyond what people do. They were checked on 132 trials of the CMU database at 120 Hz, of
-subjects 02, 03, 16, 49 and 127.
+The thresholds are beyond what people do; `limits` has them, and the clips on which they were checked.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
@@ -15,37 +14,7 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.planar import heading
 from mocap.errors import printable, shortened, warn
-
-# Consecutive frames that repeat the frame before. Two trials have such frames, 6 and 13 in a row. In the
-# others no frame repeats the one before.
-FROZEN = 3
-
-# Metres per second. The fastest runs reach 5.5.
-TELEPORT = 5.0
-
-# Times the median speed of the neighbouring frames. Above 5 m/s, no root reaches more than 1.4 times the
-# median, except in one trial: 17 times. Below 5 m/s, a body that stands and starts to move reaches 26 times.
-SUDDEN = 5.0
-AROUND = 5  # neighbouring frames on either side
-
-# Radians per frame: 45°. At 120 Hz, 99.99 % of all rotations stay below 31°. Of the 28 trials with a rotation
-# above 45°, 16 have one above 150°, which no joint can do in a frame.
-SNAP = np.pi / 4
-
-# Radians per second. At 30 Hz, 45° per frame is only 24 radians per second, and joints of trials without a
-# snap reach 36.
-FAST = 50.0
-
-# Change of an Euler angle in a flip, times the rotation of its joint. In a snap the two are about equal.
-FLIP = 2.0
-
-# Metres. The sole of a shoe is about as thick, and markers are less exact: the lowest joint of subject 16 is
-# 2 cm under the floor, those of the others up to 9 cm.
-UNDER = 0.03
-
-# Metres. Beyond these limits, a wrong unit of length is likelier than a body so small or so tall.
-SMALLEST = 0.15
-TALLEST = 3.5
+from mocap.quality.limits import LIMITS
 
 STILL = 1e-9  # metres, or entries of a quaternion: less than the precision of the numbers in a file
 
@@ -91,7 +60,7 @@ class Report(NamedTuple):
         motion = self.motion
         frames = f"{len(motion)} at {motion.fps:g} Hz, {motion.duration:.2f} s"
         height = f"{self.height:.2f} m"
-        if not SMALLEST < self.height < TALLEST:
+        if not LIMITS.smallest < self.height < LIMITS.tallest:
             height += ": is its scale right?"
         degrees = round(np.degrees(self.heading_change))
         side = " left" if degrees > 0 else " right" if degrees < 0 else ""
@@ -125,7 +94,7 @@ def warn_of_size(motions: Iterable[Motion]) -> None:
     """
     for motion in motions:
         height = height_of(joint_positions(motion))
-        if not SMALLEST < height < TALLEST:
+        if not LIMITS.smallest < height < LIMITS.tallest:
             warn(f"'{shortened(motion.name)}' is {height:.2g} m tall: is its scale right?")
             return
 
@@ -183,7 +152,7 @@ def _marked_frames(
 ) -> Iterator[tuple[str, Mask, str]]:
     """Yield each kind of flaw, the frames (F,) that have it, and a detail in a few words."""
     rotation_angles = rotations.angle_between(motion.rotations[1:], motion.rotations[:-1])  # (F - 1, J)
-    too_fast = max(SNAP, FAST / motion.fps)  # radians: large for a frame, and fast for a joint
+    too_fast = max(LIMITS.snap, LIMITS.fast / motion.fps)  # radians: large for a frame, and fast for a joint
     yield "frozen", _frozen(motion), ""
     yield "nothing but zeros", _zeros(motion), ""
     yield "teleport", *_teleports(motion)
@@ -197,7 +166,7 @@ def _frozen(motion: Motion) -> Mask:
     numbers = np.hstack([motion.root_positions, motion.rotations.reshape(len(motion), -1)])
     repeats = np.append(False, (numbers[1:] == numbers[:-1]).all(axis=1))
     for start, stop in runs(repeats):
-        repeats[start:stop] = stop - start >= FROZEN
+        repeats[start:stop] = stop - start >= LIMITS.frozen
     return repeats
 
 
@@ -211,9 +180,10 @@ def _zeros(motion: Motion) -> Mask:
 def _teleports(motion: Motion) -> tuple[Mask, str]:
     """Mark steps of the root that are much longer than those of the neighbouring frames."""
     speeds = np.linalg.norm(np.diff(motion.root_positions, axis=0), axis=1) * motion.fps
-    neighbourhoods = [speeds[max(0, i - AROUND) : i + AROUND + 1] for i in range(len(speeds))]
+    reach = LIMITS.sudden_frames
+    neighbourhoods = [speeds[max(0, i - reach) : i + reach + 1] for i in range(len(speeds))]
     usual = np.array([np.median(neighbours) for neighbours in neighbourhoods])
-    sudden = (speeds > TELEPORT) & (speeds > SUDDEN * usual)
+    sudden = (speeds > LIMITS.teleport) & (speeds > LIMITS.sudden * usual)
     return np.append(False, sudden), f"{speeds.max(initial=0) / motion.fps:.2f} m at most"
 
 
@@ -233,7 +203,7 @@ def _flips(
     for name in set(angles) & set(motion.skeleton.names):
         joint = motion.skeleton.index(name)
         jumps = np.abs(np.diff(angles[name], axis=0)).max(axis=1, initial=0.0)
-        exceeds_rotation = jumps > FLIP * np.degrees(rotation_angles[:, joint])
+        exceeds_rotation = jumps > LIMITS.flip * np.degrees(rotation_angles[:, joint])
         flips[:, joint] = (np.radians(jumps) > too_fast) & exceeds_rotation
     names = [motion.skeleton.names[joint] for joint in np.flatnonzero(flips.any(axis=0))[:NAMED]]
     return np.append(False, flips.any(axis=1)), f"angles of {', '.join(names)}; as rotations they are smooth"
@@ -244,4 +214,4 @@ def _under_the_floor(motion: Motion, positions: Array) -> tuple[Mask, str]:
     heights = positions[..., 1]
     lowest = heights.min(axis=0)
     detail = f"'{motion.skeleton.names[lowest.argmin()]}' by {-100 * lowest.min():.0f} cm at most"
-    return heights.min(axis=1) < -UNDER, detail
+    return heights.min(axis=1) < -LIMITS.under, detail

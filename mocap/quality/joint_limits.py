@@ -22,15 +22,13 @@ from mocap.body.kinematics import GlobalPoses, forward_kinematics
 from mocap.body.limbs import ARM, SIDES, Leg
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
+from mocap.quality.limits import LIMITS
 
-BACKWARDS = 10.0  # degrees that a knee or an elbow may bend backwards
-FOLDED = 160.0  # degrees that a knee or an elbow may bend forwards
 BEHIND = 60.0  # degrees that a thigh may bend behind the trunk's line
 OUT = 80.0  # degrees that a thigh may bend out to its side
 ACROSS = 65.0  # degrees that a thigh may bend past the other leg
 NOD = 80.0  # degrees between trunk and head
 WRIST = 80.0  # degrees between forearm and hand
-SURE = 0.5  # the fraction of a knee's bending that has to be about one axis to decide that it bends backwards
 
 # In the names of joints.
 ELBOW = "elbow|radius|forearm|lowerarm"
@@ -167,11 +165,11 @@ def _hinge_bend(poses: GlobalPoses, name: str, joints: Sequence[int], hip_axis: 
     local_normals = np.einsum("fji,fj->fi", to_world, normals)
     total = local_normals.sum(axis=0)
     axis = total / max(float(np.linalg.norm(total)), 1e-12)
-    if (normals * hip_axis).sum() < -SURE * np.linalg.norm(normals, axis=-1).sum():
+    if (normals * hip_axis).sum() < -LIMITS.about_one_axis * np.linalg.norm(normals, axis=-1).sum():
         axis = -axis
     sine = np.linalg.norm(local_normals, axis=-1) * np.sign(local_normals @ axis)
     angles = np.degrees(np.arctan2(sine, (upper * lower).sum(-1)))
-    return Bend(name, "bent", np.asarray(angles), -BACKWARDS, FOLDED)
+    return Bend(name, "bent", np.asarray(angles), -LIMITS.backwards, LIMITS.folded)
 
 
 def _angles(first: Array, second: Array) -> Array:

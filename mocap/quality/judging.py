@@ -20,7 +20,7 @@ from scipy.signal import savgol_filter
 from scipy.spatial import cKDTree
 
 from mocap._shared.arrays import Array, VectorsLike
-from mocap._shared.records import NamedTuple, dataclass
+from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.ground_path import GroundPath, as_path
 from mocap.body.kinematics import joint_positions
@@ -30,10 +30,10 @@ from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened
 from mocap.feet.footplants import mark_plants
 from mocap.matching.point_clouds import point_cloud
-from mocap.quality.clip_flaws import FAST, UNDER, height_of
+from mocap.quality.clip_flaws import height_of
 from mocap.quality.joint_limits import joint_bends
+from mocap.quality.limits import LIMITS
 from mocap.quality.seam_measures import (
-    LEAP,
     MOSTLY,
     USUAL,
     Spread,
@@ -48,28 +48,6 @@ FLAT = 0.1  # seconds: the window of the smoothing filter from which a trembling
 STILL = 0.02  # m/s: jumps of velocity of a body that stands
 SLOWEST = 25  # percentile of the frames, by the speed of the slowest joint of the feet
 SLOW = 0.5  # m/s: the foot sliding of a slower body is divided by this speed
-SHORTEST = 0.75  # metres, of a body that walks. An adult in inches, read as cm, is at most 0.7 m tall
-TALLEST = 2.5  # metres
-
-
-@dataclass(frozen=True)
-class Limits:
-    """The limits of the measures, which captured motion keeps. `judge` explains the measures."""
-
-    jolt: float = LEAP  # times the percentile `MOSTLY` of the motion's frames
-    seam_jolt: float = 1.5  # times the percentile `USUAL` of the windows of the clips
-    tremble: float = 3.0  # mm, median over the frames
-    foot_sliding: float = 2.5  # cm, mean over the footplants
-    sliding_speed: float = 8.0  # percent of the body's speed
-    sunk: float = 100 * UNDER  # cm
-    aloft: float = 25.0  # cm. In 153 clips the lowest joint comes down to 12.5 cm or lower, even on stairs
-    lopsided: float = 20.0  # mm
-    bones: float = 5.0  # mm
-    rotation: float = float(np.degrees(FAST))  # degrees per second
-    path: float = 15.0  # cm, mean over the frames. `steering.follow_path` warns above it
-
-
-LIMITS = Limits()
 
 
 class Measure(NamedTuple):
@@ -222,13 +200,13 @@ def measure_body(
 def _size(positions: Array) -> Measure:
     """Compare a body's height with that of people. For a body that lies, the height is its length."""
     height = height_of(positions)
-    if not SHORTEST <= height <= TALLEST:
+    if not LIMITS.shortest <= height <= LIMITS.longest:
         height = float(np.median(np.ptp(positions, axis=1).max(axis=-1)))
-    ratio = max(SHORTEST / max(height, 1e-9), height / TALLEST)
+    ratio = max(LIMITS.shortest / max(height, 1e-9), height / LIMITS.longest)
     if ratio <= 1:
         return Measure("size", 0.0, 1.0, "of its limit")
     detail = f"{height:.3g} m tall"
-    if SHORTEST / 2 < height < SHORTEST:
+    if LIMITS.shortest / 2 < height < LIMITS.shortest:
         detail += f"; {2.54 * height:.3g} m if it is in inches"
     return Measure("size", ratio, 1.0, "of its limit", detail)
 

@@ -19,6 +19,7 @@ from mocap.body.limbs import Leg, find_legs
 from mocap.body.motion import Motion, require_compatible
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import point_cloud
+from mocap.quality.limits import LIMITS
 
 
 class FootSliding(NamedTuple):
@@ -127,10 +128,6 @@ def feet_of(legs: Sequence[Leg]) -> list[int]:
 
 USUAL = 99.9  # percentile of the clips' windows: all but one window in a thousand are below
 
-# A jump of velocity above LEAP times the percentile MOSTLY of all frames is a leap in the data. At 30 Hz, in
-# the walks, runs and jumps of CMU's subject 16, leaps reach 20 times the percentile. All other frames except
-# one reach at most 3.3 times.
-LEAP = 5.0  # times
 MOSTLY = 90  # percentile of the frames
 
 
@@ -210,7 +207,7 @@ def spread(clips: Sequence[Motion]) -> Spread:
     """
     clips = require_compatible(clips)
     velocity_jumps = [jumps(clip) for clip in clips]
-    leap = LEAP * float(np.percentile(np.concatenate(velocity_jumps), MOSTLY))
+    leap = LIMITS.jolt * float(np.percentile(np.concatenate(velocity_jumps), MOSTLY))
     return Spread(tuple(np.where(of_clip > leap, np.nan, of_clip) for of_clip in velocity_jumps))
 
 

@@ -23,6 +23,7 @@ Reading order (notebooks 08, 12, 17, 18)
 10. `graph_control`: a character on a motion graph, and its look-ahead
 11. `foot_turning`: additional rotation about the planted foot, beyond that of the clips
 12. `judged_control`: one evaluation protocol for all characters
+13. `tuned`: the constants that trials chose
 
 References
 ----------

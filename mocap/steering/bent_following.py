@@ -22,12 +22,10 @@ from mocap.errors import MocapError
 from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.steering.followed import Followed
 from mocap.steering.path_objective import PathRequest, Route, make_route
-from mocap.steering.path_search import SLOWEST, Found, too_slow
+from mocap.steering.path_search import Found, too_slow
 from mocap.steering.smooth_paths import path_of_walk, smooth_graph
+from mocap.steering.tuned import TUNED
 from mocap.synthesis.walk_to_motion import to_motion
-
-EXTRA = 0.5  # metres by which the search continues beyond the end of the path, before the excess is cut
-EXTRA_FRACTION = 0.02  # of the path's length, in addition
 
 
 def plan_bending(
@@ -55,7 +53,7 @@ def plan_bending(
         raise MocapError(f"A walk is bent by more than 0 radians per second, got bend={limit}.")
     make_route(graph, path, request)  # refuses a path that is too long, and requests that are not on it
     smooth, rotations = smooth_graph(graph)
-    walking_steps = smooth.step[smooth.step * graph.fps > SLOWEST]
+    walking_steps = smooth.step[smooth.step * graph.fps > TUNED.slowest]
     if not len(walking_steps):
         raise too_slow(graph)
     # A straight walk at the clips' usual pace, long enough for shorter steps.
@@ -65,7 +63,7 @@ def plan_bending(
     rounded_request = _rounded_request(request, line)
     # A slower walk, or one whose clips turn, needs less rounding, so that its line is longer.
     longest = max(path.length, line.path.length)
-    extra = EXTRA + (1 + EXTRA_FRACTION) * longest - line.path.length
+    extra = TUNED.overrun + (1 + TUNED.overrun_fraction) * longest - line.path.length
     route_path = _extended(line.path, extra)
     along, ratio = places_on(route_path, pace, graph.fps, limit)
     route = make_route(graph, route_path, rounded_request)

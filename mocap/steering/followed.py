@@ -18,13 +18,8 @@ from mocap.graphs.edge_tables import Edge
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.steering.path_objective import Route
 from mocap.steering.path_search import Found
+from mocap.steering.tuned import TUNED
 from mocap.synthesis.walk_to_motion import to_motion
-
-ASTRAY = 0.15  # metres, the distance from the path beyond which a walk has left it
-NEAR = 0.04  # metres, the largest mean distance from the path of a walk that follows it well
-SEAMS = 1.0  # transitions per second, at most, for a walk of good quality
-BENT_SEAMS = 0.7  # transitions per second, at most, for a bent walk of good quality
-REACH = 0.5  # metres before and after a point of the path, in which its nearest point is searched
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,12 +80,14 @@ class Followed:
     @property
     def restless(self) -> float:
         """Seams per second, divided by the limit of a good walk, which is 1, or 0.7 if it is bent."""
-        return self.seams_per_second / (BENT_SEAMS if self.bent else SEAMS)
+        return self.seams_per_second / (TUNED.bent_seam_rate if self.bent else TUNED.seam_rate)
 
     @property
     def far(self) -> float:  # reads: name: public, and users read it
         """The larger of mean distance / 4 cm and worst distance / 15 cm, or 0 for a bent walk."""
-        return 0.0 if self.bent else float(max(self.off.mean() / NEAR, self.off.max() / ASTRAY))
+        if self.bent:
+            return 0.0
+        return float(max(self.off.mean() / TUNED.mean_distance, self.off.max() / TUNED.leaves_path))
 
     @property
     def excess(self) -> float:
@@ -106,7 +103,7 @@ class Followed:
     def departures(self) -> list[tuple[float, float, float]]:
         """The start, end and worst distance of each stretch more than 15 cm off the path, metres."""
         stretches = []
-        for start, stop in runs(self.off > ASTRAY).tolist():
+        for start, stop in runs(self.off > TUNED.leaves_path).tolist():
             worst = self.off[start:stop].max()
             stretches.append((self.along[start], self.along[stop - 1], worst))
         return stretches
@@ -160,7 +157,7 @@ def measure_walk(graph: CompiledGraph, path: GroundPath, route: Route, walk: Fou
 
 def _distances_from(route: Route, points: Points, along: Array) -> Array:
     """Compute the distances (F,) of points from a route, of which only segments near `along` are compared."""
-    reach = int(REACH / route.spacing) + 1
+    reach = int(TUNED.reach / route.spacing) + 1
     nearby = (along / route.spacing).astype(np.intp)[:, None] + np.arange(-reach, reach)
     nearby = np.clip(nearby, 0, len(route.points) - 2)  # (F, number of segments)
     offset = points[:, None] - route.points[nearby]

@@ -19,17 +19,13 @@ from mocap.graphs.compiled_graph import CompiledGraph, compile_graph, walk_track
 from mocap.graphs.components import reached
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.steering.bent_following import plan_bending
-from mocap.steering.followed import ASTRAY, Followed, measure_walk
+from mocap.steering.followed import Followed, measure_walk
 from mocap.steering.layered_search import States, start_states
 from mocap.steering.path_objective import PathRequest, Route, Settings, make_route
-from mocap.steering.path_search import SLOWEST, Found, find_walk, too_slow
+from mocap.steering.path_search import Found, find_walk, too_slow
+from mocap.steering.tuned import TUNED
 from mocap.synthesis.bounded_search import Problem, SearchEdge, search_ahead
 from mocap.synthesis.ground_walks import GroundWalks, Stand
-
-WIDE = 400  # beam width of the last searches, if all others leave the path
-FAR = 1.0  # metres, the mean distance from the path above which a walk does not follow it
-LOWER_SEAM_PRICES = (1 / 3, 0.0)  # factors of the price of a seam in the last searches
-AGAIN = 1.25  # factor or divisor of the price of a seam in a repeated search
 
 
 def follow_path(
@@ -149,10 +145,10 @@ def _warn_of_deadline(followed: Followed, seconds: float) -> None:
 
 def _require_near(graph: CompiledGraph, followed: Followed) -> None:
     """Raise `NoWalk` for a walk that is more than a metre off the path on average."""
-    if followed.off.mean() > FAR and not followed.found.stopped:
+    if followed.off.mean() > TUNED.not_followed and not followed.found.stopped:
         distance = f"The nearest walk is {followed.off.mean():.1f} m off the line on average"
         speed = np.abs(np.diff(on_ground(followed.track))).sum() / followed.seconds
-        if speed < SLOWEST:
+        if speed < TUNED.slowest:
             raise too_slow(graph, f"{distance}, and goes at {speed:.2f} m/s")
         raise NoWalk(f"{distance}: no clips turn as it does; try `bend`, or add clips that turn.")
 
@@ -213,14 +209,16 @@ def _next_settings(best: Followed, settings: Settings, count: int) -> Settings |
     if count < settings.tries:
         if best.excess <= 1:
             return None
-        factor = AGAIN if best.restless > 1 else 1 / AGAIN
-        width = settings.width or WIDE
+        factor = TUNED.seam_price_step if best.restless > 1 else 1 / TUNED.seam_price_step
+        width = settings.width or TUNED.wide_beam
         return replace(settings, seam=factor * settings.seam, width=round((1 + count / 2) * width))
     extra = count - settings.tries
-    if settings.tries == 1 or extra >= len(LOWER_SEAM_PRICES) or not (best.far and best.off.max() > ASTRAY):
+    leaves = best.far and best.off.max() > TUNED.leaves_path
+    if settings.tries == 1 or extra >= len(TUNED.lower_seam_prices) or not leaves:
         return None
-    factor = LOWER_SEAM_PRICES[extra]
-    return replace(settings, seam=factor * settings.seam, match=factor * settings.match, width=WIDE)
+    factor = TUNED.lower_seam_prices[extra]
+    cheaper = replace(settings, seam=factor * settings.seam, match=factor * settings.match)
+    return replace(cheaper, width=TUNED.wide_beam)
 
 
 def start_of(graph: CompiledGraph, route: Route, request: PathRequest) -> States:

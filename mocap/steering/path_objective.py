@@ -14,10 +14,10 @@ from mocap._shared.records import dataclass
 from mocap.body.ground_path import GroundPath
 from mocap.body.planar import on_ground
 from mocap.errors import MocapError
-from mocap.graphs.compiled_graph import AHEAD, CompiledGraph
+from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.graphs.motion_graph import Node
-
-SPACING = 0.02  # metres between the points of a route, at most
+from mocap.graphs.tuned import TUNED as GRAPH_TUNED
+from mocap.steering.tuned import TUNED
 
 
 @dataclass(frozen=True)
@@ -195,14 +195,14 @@ def make_route(graph: CompiledGraph, path: GroundPath, request: PathRequest) -> 
     >>> route.label[route.point(np.array([3.9, 4.1]))].tolist()
     [-1, 0]
     """
-    fastest = float(np.abs(graph.ahead[:, -1] - graph.at).max()) / AHEAD[-1]
+    fastest = float(np.abs(graph.ahead[:, -1] - graph.at).max()) / GRAPH_TUNED.ahead[-1]
     if path.length > 3600 * fastest:
         hour = f"takes these clips more than an hour, at {fastest:.2f} m/s at most"
         raise MocapError(f"A path of {path.length:.0f} m {hour}: is it in metres, and do they walk?")
     for place, wish in (*request.labels, *request.times):
         if not 0 <= place <= path.length:
             raise MocapError(f"'{wish}' is asked for {place} m along a path of {path.length:.1f} m.")
-    points = path.resampled(SPACING).points
+    points = path.resampled(TUNED.route_spacing).points
     along = np.linspace(0, path.length, len(points))
     label = np.full(len(points), -1)
     for start, name in sorted(request.labels):

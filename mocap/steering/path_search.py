@@ -19,19 +19,11 @@ from mocap._shared.records import NamedTuple
 from mocap._shared.ties import first_least
 from mocap.body.planar import on_ground
 from mocap.errors import NoWalk
-from mocap.graphs.compiled_graph import AHEAD, LEAST, CompiledGraph
+from mocap.graphs.compiled_graph import CompiledGraph
+from mocap.graphs.tuned import TUNED as GRAPH_TUNED
 from mocap.steering.layered_search import EQUAL, LayeredSearch, States, macro_edge_states, standing
 from mocap.steering.path_objective import Route, Settings
-
-LAYER = 0.15  # metres of path in a layer
-IDLE = 0.1  # m²: the price of a frame of a bent walk in which it advances by less than the least progress
-SLOWEST = 0.3  # metres per second: a bent walk is dropped if it is later than at this mean speed
-GRACE = 4.0  # seconds: the delay that is allowed before it is dropped
-QUICK = 0.5  # metres per second: clips that reach this speed walk
-CREEP = 0.05  # metres per second: the least progress of a bent walk, so that searches end
-CLOCK = 4  # cells per second, if walks avoid others
-GIVING_WAY = np.array([0, 1, 2])  # extensions of the look-ahead, as multiples of it, if walks avoid others
-
+from mocap.steering.tuned import TUNED
 
 Watch = Callable[["PathSearch", States], None]
 watching: ContextVar[Watch] = ContextVar("watching", default=lambda search, states: None)
@@ -80,7 +72,7 @@ def find_walk(
     deadline = deadline or Deadline(settings.deadline)
     search = PathSearch(graph, route, starts, settings)
     try:
-        for layer in settings.progress(range(int(route.length / LAYER) + 1)):
+        for layer in settings.progress(range(int(route.length / TUNED.layer) + 1)):
             for walks in search.rounds(layer):
                 watching.get()(search, walks)
                 if deadline.is_over:
@@ -110,7 +102,7 @@ class PathSearch(LayeredSearch):
             self.first = len(starts.node)  # keep all starts: their costs do not differ before the first step
         # The progress along the path in each frame of all edges, metres (T,).
         if route.smooth:
-            self.progress = np.maximum(route.smooth.step, CREEP / graph.fps)
+            self.progress = np.maximum(route.smooth.step, TUNED.creep / graph.fps)
         else:
             self.progress = graph.progress
         macro_edges = graph.macro_edges
@@ -119,7 +111,7 @@ class PathSearch(LayeredSearch):
         length = (cumulated[stops] - cumulated[macro_edges.starts]).sum(axis=1)  # (H,)
         price = np.where(graph.blended, settings.seam + settings.match * graph.cost**2, 0.0)
         self.macro_edges = macro_edge_states(graph, length, price)
-        # The arc length of the root's track from each node in the next `AHEAD` seconds, metres (N, 3).
+        # The arc length of the root's track from each node after `GRAPH_TUNED.ahead` seconds, metres (N, 3).
         self.ahead = np.cumsum(np.abs(np.diff(graph.ahead, axis=1, prepend=graph.at[:, None])), axis=1)
 
     def line(self, states: States) -> Points:
@@ -148,11 +140,12 @@ class PathSearch(LayeredSearch):
         if route.smooth:
             rotation = np.exp(-1j * route.smooth.going[longer.node]) * direction
             longer = longer._replace(rotation=rotation, translation=route.at(longer.along) - rotation * root)
-            in_time = longer.frames <= (longer.along / SLOWEST + GRACE) * self.graph.fps
+            in_time = longer.frames <= (longer.along / TUNED.slowest + TUNED.grace) * self.graph.fps
             return longer.take(in_time | is_timed)
         error = longer.translation + longer.rotation * root - route.points[point]
         abreast = np.clip((error * direction.conj()).real, -macro_edges.along, macro_edges.along)
-        least_progress = np.where(is_timed, 0.0, LEAST / self.graph.fps * macro_edges.frames)
+        least_step = GRAPH_TUNED.least_speed / self.graph.fps  # metres in a frame
+        least_progress = np.where(is_timed, 0.0, least_step * macro_edges.frames)
         progress = np.maximum(macro_edges.along + route.request.correction * abreast, least_progress)
         return longer._replace(along=states.along[row] + progress)
 
@@ -204,7 +197,7 @@ class PathSearch(LayeredSearch):
         step = unbent.step[row]
         bend = self.route.curvature[self.route.point(along)] * step - self.route.rotations[row]  # radians
         costs = self.settings.bend * (bend * self.graph.fps) ** 2
-        costs += np.where(step < LEAST / self.graph.fps, IDLE, 0.0)
+        costs += np.where(step < GRAPH_TUNED.least_speed / self.graph.fps, TUNED.idle_price, 0.0)
         return costs
 
     def crowding(self, body: Points, frame: Indices) -> Array:
@@ -233,10 +226,12 @@ class PathSearch(LayeredSearch):
         if len(route.others):  # avoiding others takes longer: look ahead up to three times as far
             body = states.translation + states.rotation * graph.at[node]
             last = ahead[:, -1:]
-            farther = last + (last - body[:, None]) * GIVING_WAY
-            frames = (GIVING_WAY + 1) * round(graph.fps * AHEAD[-1])
+            multiples = np.array(TUNED.give_way)
+            farther = last + (last - body[:, None]) * multiples
+            frames = (multiples + 1) * round(graph.fps * GRAPH_TUNED.ahead[-1])
             costs += self.crowding(farther, states.frames[:, None] + frames)
-        expected = costs.sum(axis=1) * graph.fps * AHEAD[0]  # a point ahead represents the frames before it
+        first = GRAPH_TUNED.ahead[0]  # seconds. A point ahead represents the frames before it
+        expected = costs.sum(axis=1) * graph.fps * first
         return np.asarray(states.cost + np.minimum(expected, self.settings.rescue))
 
     def cells(self, states: States) -> Indices:
@@ -244,12 +239,12 @@ class PathSearch(LayeredSearch):
         cells = standing(states, self.graph.at, self.settings.cell, self.settings.cell)
         time = np.zeros(len(states.node), np.intp)
         if len(self.route.others):
-            time = (states.frames * (CLOCK / self.graph.fps)).astype(np.intp)
+            time = (states.frames * (TUNED.clock / self.graph.fps)).astype(np.intp)
         return np.concatenate([cells, time[None]])
 
     def layers(self, states: States) -> Indices:
-        """Return the layers of walks, each of `LAYER` metres along the path."""
-        return (states.along / LAYER).astype(np.intp)
+        """Return the layers of walks, each of `TUNED.layer` metres along the path."""
+        return (states.along / TUNED.layer).astype(np.intp)
 
     # reads: name: all kinds of search define it
     def done(self, states: States) -> Mask:
@@ -282,12 +277,13 @@ def too_slow(graph: CompiledGraph, nearest: str = "") -> NoWalk:
 
     `nearest` describes the nearest walk found without bending. It replaces the first sentence.
     """
-    fault = nearest or f"No walk goes along the line at {SLOWEST:g} m/s"
+    fault = nearest or f"No walk goes along the line at {TUNED.slowest:g} m/s"
     clips = [on_ground(clip.root_positions) for clip in graph.source.clips]
-    quick = [clip for clip in clips if np.percentile(np.abs(np.diff(clip)), 90) * graph.fps > QUICK]
-    if not quick:
-        return NoWalk(f"{fault}; no clip goes faster than {QUICK:g} m/s: add some that walk.")
-    reason = f"{len(quick)} of {len(clips)} clips go faster than {QUICK:g} m/s"
+    speeds = [np.percentile(np.abs(np.diff(clip)), 90) * graph.fps for clip in clips]
+    walking = [speed for speed in speeds if speed > TUNED.walking_speed]
+    if not walking:
+        return NoWalk(f"{fault}; no clip goes faster than {TUNED.walking_speed:g} m/s: add some that walk.")
+    reason = f"{len(walking)} of {len(clips)} clips go faster than {TUNED.walking_speed:g} m/s"
     remedy = (
         "try a larger threshold, more walks, or `bend`"
         if nearest

@@ -19,10 +19,8 @@ from mocap.graphs.motion_graph import MotionGraph
 from mocap.steering.followed import Followed
 from mocap.steering.path_following import follow_path
 from mocap.steering.path_objective import PathRequest, Settings
+from mocap.steering.tuned import TUNED
 
-WAITS = (0.0, 1.0, 2.0, 4.0)  # seconds, tried in this order
-WIDTH = 100  # beam width, tripled for characters that give way
-PASSING = 0.02  # metres: a waypoint is passed at the first point within this of the minimal distance
 EQUAL = 1e-6  # metres: distances that differ by less are equal, and the shortest wait is preferred
 
 
@@ -96,7 +94,7 @@ def through_waypoints(
     passed = [0]  # indices of the points at which the path first passes each waypoint, in their order
     for point in points[1:-1]:
         distances = np.hypot(*(path.points[passed[-1] :] - point).T)
-        passed.append(passed[-1] + int(first_least(distances, PASSING)))
+        passed.append(passed[-1] + int(first_least(distances, TUNED.passing)))
     places = [*path.along[passed].tolist(), path.length]
     placed = list(zip(places, waypoints, strict=True))
     labels = [(along, point.label) for along, point in placed]
@@ -176,7 +174,7 @@ def walk_crowd(
     Notebook: 08b-steering
     """
     compiled = compile_graph(graph)
-    walks = [follow_path(compiled, path, settings=Settings(width=WIDTH)) for path in paths]
+    walks = [follow_path(compiled, path, settings=Settings(width=TUNED.crowd_beam)) for path in paths]
     waits = [0.0] * len(walks)
     tracks = [walk.track for walk in walks]
     for number, path in enumerate(paths):
@@ -200,10 +198,10 @@ def _give_way(
     returned. Ties are broken in favour of the shortest wait. Returns the walk, its wait in seconds, and its
     track with the wait.
     """
-    free = Settings(rescue=30.0, crowding=60.0, stray=0.0, tries=1, width=3 * WIDTH)
+    free = Settings(rescue=30.0, crowding=60.0, stray=0.0, tries=1, width=3 * TUNED.crowd_beam)
     candidates: list[tuple[Followed, float, Array]] = []
     distances: list[float] = []
-    for wait in WAITS:
+    for wait in TUNED.waits:
         frames = round(wait * graph.fps)
         tracks = [track[min(frames, len(track) - 1) :] for track in earlier]
         request = PathRequest(others=tracks, apart=1.1 * least_distance)

@@ -19,11 +19,10 @@ from mocap.files import bvh
 from mocap.files.load_save import save
 from mocap.graphs.edge_tables import Edge, edge_table, require_node
 from mocap.graphs.motion_graph import MotionGraph, Node, require_graph
+from mocap.synthesis.tuned import TUNED
 from mocap.synthesis.walk_to_motion import to_motion, transforms_along, with_footplants
 
-MARGIN = 5.0  # seconds: longer than any footplant of a walk, and than the reach of any correction
 LONGEST = 3600.0  # seconds of a walk that is made in memory
-PIECE = 30.0  # seconds: the least duration of a piece of a long one
 
 
 @called_as("synthesis.random_walk(graph, seconds=5)")
@@ -158,7 +157,7 @@ def stream(motion_graph: MotionGraph, *, seconds: float, seed: int = 0) -> Itera
     True
     """
     place = IDENTITY
-    for walk in cut_walk(motion_graph, wander(motion_graph, seed=seed), seconds, PIECE):
+    for walk in cut_walk(motion_graph, wander(motion_graph, seed=seed), seconds, TUNED.piece):
         yield to_motion(motion_graph, walk, start=place)
         ends = transforms_along(edge_table(motion_graph, walk), place)
         place = PlanarTransform(*(float(np.asarray(numbers)[-1]) for numbers in ends))
@@ -167,13 +166,13 @@ def stream(motion_graph: MotionGraph, *, seconds: float, seed: int = 0) -> Itera
 def cleaned(pieces: Iterator[Motion]) -> Iterator[Motion]:
     """Remove footskate from consecutive pieces of a motion, as `synthesis.to_motion` does from the whole.
 
-    Each piece is cleaned together with the last 2 · `MARGIN` of the motion before it, and its own last
-    `MARGIN` is yielded with the next piece. Every frame is therefore cleaned with all frames on which it
-    depends, and the boundaries are not visible.
+    Each piece is cleaned together with the last 2 · `TUNED.margin` of the motion before it, and its own last
+    `TUNED.margin` is yielded with the next piece. Every frame is therefore cleaned with all frames on which
+    it depends, and the boundaries are not visible.
     """
     waiting = next(pieces)
     cleaned_frames = 0  # of `waiting`, that have been yielded
-    margin = round(MARGIN * waiting.fps)
+    margin = round(TUNED.margin * waiting.fps)
     for piece in pieces:
         if len(waiting) - cleaned_frames > margin:
             yield clean_up(waiting)[cleaned_frames:-margin]
@@ -229,7 +228,7 @@ def dump(  # noqa: PLR0913 (a walk, a file, a duration, and options)
     if suffix == ".glb" and seconds > LONGEST:
         raise MocapError(f"A .glb of a walk may last {LONGEST:g} s, not {seconds:g}: write .bvh.")
     # The header of a .bvh file contains the number of frames, which is known from the same walk.
-    walks = cut_walk(motion_graph, wander(motion_graph, seed=seed), seconds, PIECE)
+    walks = cut_walk(motion_graph, wander(motion_graph, seed=seed), seconds, TUNED.piece)
     counts = [sum(motion_graph.graph.edges[edge]["frames"] for edge in walk) for walk in walks]
     pieces = stream(with_footplants(motion_graph) if clean else motion_graph, seconds=seconds, seed=seed)
     pieces = cleaned(pieces) if clean else pieces

@@ -67,7 +67,7 @@ class Player {
     this.visible = true;
     this.pictures = 0;
     this.near = 1; // how far the view has come to the figure
-    this.chase = false; // whether it turns with the figure
+    this.chase = false; // whether it rotates with the figure
     this.calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     root.classList.add("mocap-player");
     root.dataset.started = "true"; // so that `start` does not start it a second time
@@ -124,7 +124,7 @@ class Player {
     this.showRange();
     this.hand.drawn = [];
     this.hand.pen = false;
-    this.say(this.model?.get("message") ?? "");
+    this.showMessage(this.model?.get("message") ?? "");
     this.showSources();
     if (!again) this.frameAll();
     this.seek(this.firstFrame() / scene.fps);
@@ -165,7 +165,7 @@ class Player {
   }
 
   /** @param {string} text */
-  say(text) {
+  showMessage(text) {
     this.message.textContent = text;
     this.message.classList.toggle("error", /^\w+Error:/.test(text));
   }
@@ -283,11 +283,11 @@ class Player {
     model.on("change:message", () => {
       if (!model.get("message")) return;
       this.looking = null;
-      this.say(model.get("message"));
+      this.showMessage(model.get("message"));
     });
   }
 
-  // Send Python the frame, at most twenty times per second, where somebody there wants to know.
+  // Send Python the frame, at most twenty times per second, if Python listens.
   report() {
     const { model } = this;
     if (!model || !this.scene.reports || this.reporting) return;
@@ -302,7 +302,7 @@ class Player {
 
   /** @param {number[][]} path */
   ask(path) {
-    this.say("Looking for a walk …");
+    this.showMessage("Looking for a walk …");
     this.looking = performance.now();
     this.best = [];
     this.update();
@@ -329,7 +329,7 @@ class Player {
     this.range = this.range.length === 2 ? [] : [...this.range, this.time].sort((a, b) => a - b);
     if (this.range.length === 2 && this.range[1] - this.range[0] < 0.1) this.range = [];
     this.showRange();
-    this.say(STATUS[this.range.length]);
+    this.showMessage(STATUS[this.range.length]);
   }
 
   showRange() {

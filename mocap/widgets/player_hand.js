@@ -5,7 +5,7 @@ import { PEN_KEYS } from "./player_page.js";
 /**
  * @import { Camera } from "./player_scene.js"
  *
- * What a hand turns and plays: a player, or an inspector, which has no path to draw and no part to mark.
+ * The object that a hand controls: a player, or an inspector, which has no path to draw and no part to mark.
  * @typedef {object} Handled
  * @property {HTMLElement} root
  * @property {HTMLCanvasElement} canvas
@@ -15,13 +15,13 @@ import { PEN_KEYS } from "./player_page.js";
  * @property {number} reach metres from the camera to what is looked at
  * @property {{ fps: number, asked?: number[][] }} scene
  * @property {number} seconds
- * @property {boolean} [chase] whether the view turns with the walk
+ * @property {boolean} [chase] whether the view rotates with the walk
  * @property {boolean} [drawing] whether the hand draws a path
  * @property {() => number} frame
  * @property {(time: number) => void} seek
  * @property {(playing?: boolean) => void} toggle
  * @property {() => void} update
- * @property {(text: string) => void} say
+ * @property {(text: string) => void} showMessage
  * @property {() => void} [mark]
  * @property {(path: number[][]) => void} [ask]
  */
@@ -182,7 +182,7 @@ export class Hand {
   }
 
   /**
-   * The finger scrolls the page: what it turned until that was known is turned back.
+   * The finger scrolls the page: the rotation of the view until that was clear is undone.
    * @param {PointerEvent} event
    */
   pointercancel(event) {
@@ -214,9 +214,11 @@ export class Hand {
   walk() {
     const { metres } = this;
     if (metres < SHORTEST) {
-      this.player.say(`That is ${metres.toFixed(1)} m. Drag over the ground for at least ${SHORTEST} m.`);
+      this.player.showMessage(
+        `That is ${metres.toFixed(1)} m. Drag over the ground for at least ${SHORTEST} m.`,
+      );
     } else if (metres > LONGEST) {
-      this.player.say(`That is ${metres.toFixed(0)} m. Draw at most ${LONGEST} m, or zoom in.`);
+      this.player.showMessage(`That is ${metres.toFixed(0)} m. Draw at most ${LONGEST} m, or zoom in.`);
     } else {
       this.yaw = this.camera.yaw;
       this.player.ask?.(this.drawn);
@@ -277,7 +279,7 @@ export class Hand {
     const start = this.player.scene.asked?.[0] ?? [0, 0];
     this.pen = true;
     this.drawn = [[...start]];
-    this.player.say(`The pen is down. ${PEN_KEYS}`);
+    this.player.showMessage(`The pen is down. ${PEN_KEYS}`);
     this.player.update();
   }
 
@@ -292,7 +294,7 @@ export class Hand {
     const a = across * PEN_STEP;
     const b = (up * PEN_STEP) / (Math.hypot(ahead[0], ahead[2]) || 1);
     this.drawn.push([x + a * right[0] + b * ahead[0], z + a * right[2] + b * ahead[2]]);
-    this.player.say(`${this.metres.toFixed(2)} m drawn. ${PEN_KEYS}`);
+    this.player.showMessage(`${this.metres.toFixed(2)} m drawn. ${PEN_KEYS}`);
     this.player.update();
   }
 
@@ -303,7 +305,7 @@ export class Hand {
 
   forget() {
     this.drawn = [];
-    this.player.say("");
+    this.player.showMessage("");
   }
 
   /** @param {() => void} then */

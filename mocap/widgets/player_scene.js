@@ -36,7 +36,7 @@
  * @typedef {object} Scene
  * @property {string} alt
  * @property {number} number which scene of its player it is
- * @property {boolean} reports whether Python wants to know the frame
+ * @property {boolean} reports whether Python listens to the frame
  * @property {boolean} follow
  * @property {boolean} [drawable] whether the reader may draw a path
  * @property {boolean} [autoplay]

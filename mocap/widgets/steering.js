@@ -147,7 +147,7 @@ class Steering {
    * @param {string} text
    * @param {boolean} wrong
    */
-  say(text, wrong = false) {
+  showMessage(text, wrong = false) {
     if (this.messagePart.textContent !== text) this.messagePart.textContent = text;
     this.messagePart.classList.toggle("error", wrong);
   }
@@ -198,7 +198,7 @@ class Steering {
   ended = () => {
     this.gone = true;
     this.toggle(false);
-    this.say("Python has ended: run the cell again to steer.", true);
+    this.showMessage("Python has ended: run the cell again to steer.", true);
   };
 
   end() {
@@ -387,14 +387,14 @@ class Steering {
   answered(content, buffers) {
     if (this.gone) return; // an answer that was under way would take back what was said of the end
     if (content.kind === "refused") {
-      this.say(content.why, true);
+      this.showMessage(content.why, true);
       this.asked.clear();
       return;
     }
     if (content.view === this.view) this.timeTrip(content);
     content.members.forEach((member, k) => this.panels[k].walker.add(member, numbersOf(buffers[k])));
-    if (content.notes.length) this.say(content.notes.join("\n"));
-    else if (this.late || this.warned) this.say("");
+    if (content.notes.length) this.showMessage(content.notes.join("\n"));
+    else if (this.late || this.warned) this.showMessage("");
     this.late = false;
     this.warned = false;
     this.cost = content.cost;
@@ -405,7 +405,7 @@ class Steering {
   }
 
   /**
-   * Remember how long the answer took, and where the frames begin that know a new command.
+   * Remember how long the answer took, and the first frame that a new command affects.
    * @param {Walked} walked
    */
   timeTrip({ number, members }) {
@@ -443,7 +443,7 @@ class Steering {
   }
 
   /**
-   * Note how long the new command was under way, when the frames that know it are seen.
+   * Note how long the new command was under way, when the first frames that it affects are shown.
    * @param {number} time
    */
   arrived(time) {
@@ -454,8 +454,9 @@ class Steering {
     }
     const [oldest] = this.asked.values();
     const silent = oldest ? performance.now() - oldest.at : 0;
-    if (silent > LOST) this.say("Python does not answer. Has it ended? Then run the cell again.", true);
-    else if (silent > SILENT) this.say("Python is busy: the figures wait until it answers.");
+    if (silent > LOST) {
+      this.showMessage("Python does not answer. Has it ended? Then run the cell again.", true);
+    } else if (silent > SILENT) this.showMessage("Python is busy: the figures wait until it answers.");
     this.late = silent > SILENT;
   }
 

@@ -128,7 +128,7 @@ export class Hands {
       return;
     }
     if (length < 1) {
-      this.say("Draw a longer line: a metre or more.");
+      this.showMessage("Draw a longer line: a metre or more.");
       return;
     }
     this.set(walkable(stroke));

@@ -116,7 +116,7 @@ export class Page extends Hands {
    */
   set(points, announced = true) {
     if (points.length < 80) {
-      this.say("Draw a longer line: a metre or more.");
+      this.showMessage("Draw a longer line: a metre or more.");
       return;
     }
     if (this.walk?.frames && this.isNear(points[0])) this.points = this.redirect(points);
@@ -199,7 +199,7 @@ export class Page extends Hands {
     this.growing = null;
     this.ghost = null;
     if (!this.walk.frames) {
-      this.say(`No ${this.about.labels[this.kind]} in these clips goes along this line.`);
+      this.showMessage(`No ${this.about.labels[this.kind]} in these clips goes along this line.`);
       return;
     }
     this.prints.push(
@@ -223,7 +223,7 @@ export class Page extends Hands {
     const names = [...new Set(walk.edges.map((edge) => about.clips[edge.start.clip].name))];
     const metres = this.line.z.length / 100;
     const seconds = (walk.frames - walk.since) / about.fps;
-    this.say(`${metres.toFixed(1)} m · ${seams} seams · ${mean.toFixed(0)} cm off the line`);
+    this.showMessage(`${metres.toFixed(1)} m · ${seams} seams · ${mean.toFixed(0)} cm off the line`);
     this.canvas.setAttribute(
       "aria-label",
       `A figure walks ${metres.toFixed(0)} metres along a line in ${seconds.toFixed(0)} seconds, ` +
@@ -232,7 +232,7 @@ export class Page extends Hands {
   }
 
   /** @param {string} text */
-  say(text) {
+  showMessage(text) {
     $("message").textContent = text;
   }
 

@@ -88,7 +88,7 @@ export class Scene {
   bands = [];
   /** @type {number[]} where the camera is */
   eye = [0, 0, 0];
-  /** @type {number} metres from the camera within which bands are as wide as they say */
+  /** @type {number} metres from the camera within which bands have their stated width */
   reach = 1;
 
   /**

@@ -46,6 +46,7 @@ from tests.methods.match_webs.spaces_of_walks import gait, space
 from tests.refusals import quietly
 from tests.steering.test_bent_following import straight_walker
 from tests.strategies import wave
+from tests.tuning import tune
 
 pytestmark = pytest.mark.benchmark
 
@@ -432,7 +433,7 @@ def test_the_bound_takes_a_sixth_of_all_pairs_of_many_kinds_of_motion(real_data,
     clips = many_clips.clips_of(real_data / "cmu", 20_000)
     search = partial(find_transitions, clips, window=10, below=0.04, jobs=1)
     by_bound = fastest(search, repeats=2)[0]
-    monkeypatch.setattr(minima_of_grids, "FEW", 10**9)
+    tune(monkeypatch, minima_of_grids, few_windows=10**9)
     by_products = fastest(search, repeats=1)[0]
     hold("transitions by the bound, in those of all pairs", by_bound / by_products, 1 / 6)
 

@@ -7,7 +7,7 @@ import re
 import struct
 import tracemalloc
 import zipfile
-from functools import cache
+from functools import cache, partial
 
 import networkx as nx
 import numpy as np
@@ -105,7 +105,7 @@ KINDS = {
     "parametric": (save_spaces, use_spaces),
     "group": (save_three, use_three),
     "graph": (save_graph, lambda path: summary(storage.load(path, CLIPS).graph, fps=30).table()),
-    "amass": (save_amass, load_save.load),
+    "amass": (save_amass, partial(load_save.load, up="z")),
 }
 
 

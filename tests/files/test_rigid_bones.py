@@ -10,6 +10,7 @@ from mocap.body import Motion, Skeleton, joint_positions, resample, rotations
 from mocap.datasets import samples
 from mocap.errors import FormatError
 from mocap.files import load_save, rigid_bones
+from mocap.files.tuned import TUNED
 from tests.refusals import refused, told
 
 WALK = resample(samples.sample("walk_straight"), 30)[:90]
@@ -47,7 +48,7 @@ def test_rigid_bones_stay_as_they_are():
 def test_the_fit_is_closer_than_dropping_what_moves(seed):
     places = stretched(0.006, seed)
     offsets, local, stretch, off = rigid_bones.fit(WALK.skeleton.parents, places, WALK.rotations)
-    assert stretch.max() <= rigid_bones.STRETCH and off.max() <= rigid_bones.APART * rigid_bones.STRETCH
+    assert stretch.max() <= TUNED.stretch and off.max() <= TUNED.strayed * TUNED.stretch
     fitted = apart(offsets, local, places)
     for offsets in (places[0], places.mean(axis=0)):  # of the first frame, as some readers do; or the mean
         dropped = apart(np.vstack([np.zeros((1, 3)), offsets[1:]]), WALK.rotations, places)
@@ -109,4 +110,4 @@ def test_children_that_part_are_refused_even_if_their_bones_keep_their_lengths()
     places[:, 2] = [0, -1, 0]
     *_, stretch, off = rigid_bones.fit(np.array([-1, 0, 0]), places, np.tile(rotations.IDENTITY, (30, 3, 1)))
     assert stretch.max() < 1e-12
-    assert off.max() > rigid_bones.APART * rigid_bones.STRETCH
+    assert off.max() > TUNED.strayed * TUNED.stretch

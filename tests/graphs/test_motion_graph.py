@@ -11,12 +11,13 @@ from hypothesis import strategies as st
 from mocap.body.motion import resample
 from mocap.body.planar import IDENTITY, PlanarTransform, on_ground
 from mocap.errors import NoWalk
-from mocap.graphs.compiled_graph import AHEAD, compile_graph, walk_track
+from mocap.graphs.compiled_graph import compile_graph, walk_track
 from mocap.graphs.components import reached
 from mocap.graphs.graph_summary import summary
 from mocap.graphs.motion_graph import build, from_transitions, merge_choice_points
 from mocap.graphs.pruning import prune
 from mocap.graphs.thresholds import ThresholdCurve, smallest_threshold, threshold_curve, velocity_differences
+from mocap.graphs.tuned import TUNED
 from mocap.matching import Transition, align, find_transitions, point_cloud
 from mocap.matching.transitions import Transitions
 from mocap.synthesis import random_walk, to_motion
@@ -338,6 +339,6 @@ def test_ahead_of_a_node_the_root_goes_on_as_it_went_past_the_end_too():
     speed = np.array([0.3, 0.0, 1.2])  # x, y, z in metres per second
     glide = replace(wave(50), root_positions=np.arange(50)[:, None] / 40 * speed, fps=40.0)
     graph = compile_graph(from_transitions([glide], [], window=5))
-    seconds = np.array([[0.0], [50 / 40]]) + AHEAD  # the clip's start and its end
+    seconds = np.array([[0.0], [50 / 40]]) + TUNED.ahead  # the clip's start and its end
     assert graph.ahead == pytest.approx(seconds * (1.2 + 0.3j))
     assert graph.going == pytest.approx(np.arctan2(0.3, 1.2))

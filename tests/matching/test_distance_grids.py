@@ -19,6 +19,7 @@ from mocap.matching.time_paths import origins, path_mean, path_sums, time_path, 
 from tests.oracles import distance_oracle, least_sum, longest_run, path_sum, squared_distance
 from tests.refusals import refusals, refused
 from tests.strategies import planar, random_motion, random_quaternions, seeds, wave
+from tests.tuning import tune
 
 
 def sizes(points, window):
@@ -53,8 +54,8 @@ def test_a_taper_of_one_frame_compares_that_frame():
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_any_number_of_threads_gives_the_same_grid_bit_for_bit(dtype, monkeypatch):
-    monkeypatch.setattr(distance_grids, "SMALL", 0)
-    monkeypatch.setattr(distance_grids, "TILE", (16, 24))
+    tune(monkeypatch, distance_grids, small_grid=0)
+    tune(monkeypatch, distance_grids, tile=(16, 24))
     a, b = random_points(0, 90).astype(dtype), random_points(1, 70).astype(dtype)
     for others in (a, b):
         alone, default, several = (distance_grid(a, others, window=3, jobs=jobs) for jobs in (1, None, 5))
@@ -117,7 +118,7 @@ def test_tiles_cover_a_grid_once(rows, columns, upper):
         return worked[-1]
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(distance_grids, "TILE", (7, 11))
+        tune(patch, distance_grids, tile=(7, 11))
         patch.setattr(distance_grids, "cloud_distances", kept)
         grid = tiled_distances(a, b, upper=upper)
     seen = np.isfinite(grid)

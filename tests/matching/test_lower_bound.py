@@ -11,6 +11,7 @@ from mocap.matching.lower_bound import projections, sample_directions, squared_l
 from mocap.matching.near_pairs import cut_into_leaves, is_sparse, pair_distances, sort_by_diagonal
 from mocap.matching.point_clouds import unit_weights
 from tests.strategies import planar, seeds
+from tests.tuning import tune
 
 precisions = pytest.mark.parametrize("dtype", [np.float32, np.float64])
 
@@ -75,7 +76,7 @@ def test_with_all_directions_the_bound_lacks_what_its_derivation_says(seed, wind
     points = 2  # so few numbers that all directions are there
     ready = prepared(random.normal(size=(20, points, 3)), window, random=random if weighted else None)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(lower_bound, "DIRECTIONS", 100)
+        tune(patch, lower_bound, directions=100)
         places = projections(ready, whole(ready), sample_directions(ready))
     vectors, _ = lower_bound._vectors(ready, whole(ready))
     radius = np.linalg.norm(vectors, axis=1)
@@ -133,7 +134,7 @@ def test_each_window_is_in_one_leaf_and_in_its_box(seed, count, size):
     windows = random.permutation(1000)[:count]
     places = random.integers(0, 3, (count, 4)).astype(np.float32)  # many are the same
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(near_pairs, "LEAF", size)
+        tune(patch, near_pairs, leaf=size)
         leaves = cut_into_leaves(windows, places)
     assert sorted(leaves.windows) == sorted(windows)
     assert np.all(np.diff(leaves.starts) <= size)
@@ -154,7 +155,7 @@ def test_near_pairs_are_those_of_all_pairs(seed, rows, columns, size, reach, shi
     random = np.random.default_rng(seed)
     a, b = (random.normal(size=(count, 3)).astype(np.float32) for count in (rows, columns))
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(near_pairs, "LEAF", size)
+        tune(patch, near_pairs, leaf=size)
         leaves = [cut_into_leaves(np.arange(len(places)), places) for places in (a, b)]
     found = near_pairs.near_pairs(*leaves, reach, shift=shift, at_most=np.inf)
     exact = ((a[:, None].astype(float) - b) ** 2).sum(-1)
@@ -182,7 +183,7 @@ def test_distances_of_pairs_are_those_of_the_grid(dtype, seed, window, weighted,
     pairs = sort_by_diagonal(starts[np.argwhere(chosen).T])
     assert np.all(np.diff(pairs[1] - pairs[0]) >= 0)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(near_pairs, "TOGETHER", together)
+        tune(patch, near_pairs, pairs_together=together)
         distances = pair_distances(ready, ready, pairs)
     count = len(ready.sizes) - window + 1
     grid = cloud_distances(*[ready.part(slice(0, count))] * 2)

@@ -24,6 +24,7 @@ from mocap.matching.transitions import find_transitions, join_clouds
 from tests.bundled import walks_of_16
 from tests.refusals import refusals
 from tests.strategies import random_motion, seeds, wave
+from tests.tuning import tune
 
 CLIPS = [wave(70, name="a"), wave(50, phase=1.0, name="b", seed=1)]
 
@@ -103,7 +104,7 @@ def test_few_frames_are_compared_in_64_bits_and_many_in_32(monkeypatch):
     joined = lambda *given, **options: used.append(given[-1]) or join_clouds(*given, **options)  # noqa: E731
     monkeypatch.setattr(transitions, "join_clouds", joined)
     for few in (120, 119):  # the clips have 120
-        monkeypatch.setattr(transitions, "FEW", few)
+        tune(monkeypatch, transitions, few_frames=few)
         find_transitions(CLIPS, window=8, below=0.1)
     assert used == [np.float64, np.float32]
 
@@ -159,7 +160,7 @@ def test_a_cost_is_below_its_threshold():
 @pytest.mark.sweep
 def test_a_cluster_gives_the_same_and_survives_the_loss_of_a_worker(monkeypatch):
     distributed = pytest.importorskip("distributed")
-    monkeypatch.setattr(minima, "BLOCK", 40)
+    tune(monkeypatch, minima, block=40)
     monkeypatch.setattr(tasks, "AHEAD", 2)
     expected = find_transitions(CLIPS, window=8, below=0.1)
     cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)
@@ -201,11 +202,11 @@ def clouds(lengths, window, seed):
 
 def by_bound(patch, block, sparse=np.inf, leaf=5):
     """Search by the bound, in blocks of this size of which all are sparse enough, or only some."""
-    patch.setattr(minima, "FEW", 0)
-    patch.setattr(minima, "WIDE_BLOCK", block)
-    patch.setattr(minima, "SPARSE", sparse)
+    tune(patch, minima, few_windows=0)
+    tune(patch, minima, wide_block=block)
+    tune(patch, minima, sparse=sparse)
     patch.setattr(minima, "is_sparse", lambda *_: True)
-    patch.setattr(near_pairs, "LEAF", leaf)
+    tune(patch, near_pairs, leaf=leaf)
 
 
 @given(
@@ -223,8 +224,8 @@ def test_blocks_and_tiles_do_not_show(below, seed, lengths, window, block, way):
     grid = cloud_distances(*[whole.part(slice(0, count))] * 2)
     expected = [[i, j] for i, j in local_minima(grid, below**2).tolist() if j - i >= window]
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(minima, "BLOCK", block if way == "by products" else 4)
-        patch.setattr(distance_grids, "TILE", (5, 7))
+        tune(patch, minima, block=block if way == "by products" else 4)
+        tune(patch, distance_grids, tile=(5, 7))
         if way != "by products":
             by_bound(patch, block, 0.2 if way == "some blocks by the bound" else np.inf)
         found = find_minima(whole, below)
@@ -261,7 +262,7 @@ class Late:
 
 
 def test_only_a_few_blocks_are_out_at_once_and_they_are_shown(monkeypatch):
-    monkeypatch.setattr(minima, "BLOCK", 10)
+    tune(monkeypatch, minima, block=10)
     monkeypatch.setattr(tasks, "AHEAD", 4)
     whole, executor, seen = clouds([30], 2, 0), Late(), []
     expected = find_minima(whole, 2.0)
@@ -344,7 +345,7 @@ def test_the_bound_finds_the_transitions_of_the_bundled_clips(below, monkeypatch
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_the_bound_finds_the_transitions_of_captured_clips(real_data, dtype, monkeypatch):
     clips = walks_of_16(real_data)[:8]
-    monkeypatch.setattr(transitions, "FEW", 0 if dtype == np.float32 else 10**9)
+    tune(monkeypatch, transitions, few_frames=0 if dtype == np.float32 else 10**9)
     expected = costs(find_transitions(clips, window=10, below=0.06))
     by_bound(monkeypatch, 1000, leaf=100)
     found = costs(find_transitions(clips, window=10, below=0.06))
@@ -366,13 +367,13 @@ def test_the_bound_is_taken_for_many_windows_of_which_few_pairs_are_near(monkeyp
     monkeypatch.setattr(minima, "_choose_bound", choose)
     clips = [wave(300, name="a", period=90)]
     for few, below in ((5000, 0.01), (200, 0.01), (200, 1.0), (200, np.inf)):
-        monkeypatch.setattr(minima, "FEW", few)
+        tune(monkeypatch, minima, few_windows=few)
         find_transitions(clips, window=8, below=below)
     assert bounds == [False, True, False, False]
 
 
 def test_stopped_by_ctrl_c_no_thread_works_on(monkeypatch):
-    monkeypatch.setattr(minima, "BLOCK", 10)
+    tune(monkeypatch, minima, block=10)
     before = threading.active_count()
     seen = []
 
@@ -394,7 +395,7 @@ def test_stopped_by_ctrl_c_no_thread_works_on(monkeypatch):
 )
 @pytest.mark.parametrize("is_bound", [False, True])
 def test_any_number_of_workers_gives_the_same_bit_for_bit(executor, workers, is_bound, monkeypatch):
-    monkeypatch.setattr(minima, "BLOCK", 40)
+    tune(monkeypatch, minima, block=40)
     if is_bound:
         by_bound(monkeypatch, 40)
     here = find_transitions(CLIPS, window=8, below=0.1, jobs=1)

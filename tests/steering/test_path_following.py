@@ -13,21 +13,24 @@ from mocap.datasets.samples import sample
 from mocap.editing.bending import LIMIT
 from mocap.errors import MocapWarning, NoWalk, warn
 from mocap.graphs import build, prune
-from mocap.graphs.compiled_graph import LEAST, compile_graph
+from mocap.graphs.compiled_graph import compile_graph
+from mocap.graphs.tuned import TUNED as GRAPH_TUNED
 from mocap.steering import followed as following
 from mocap.steering import path_following, waypoints_and_crowds
 from mocap.steering.followed import measure_walk
 from mocap.steering.path_following import follow_as_2002, follow_path, path_problem
 from mocap.steering.path_objective import PathRequest, Settings, make_route
 from mocap.steering.path_search import find_walk
+from mocap.steering.tuned import TUNED
 from mocap.steering.waypoints_and_crowds import Waypoint, through_waypoints, walk_crowd
 from mocap.synthesis.ground_walks import GroundWalks, Stand
 from tests.bundled import bundled, captured, sneaking, walking
 from tests.refusals import quietly, refusals, refused, told
 from tests.steering.test_bent_following import straight_walker
+from tests.tuning import tune
 
 GRAPH = walking()
-BOUNDS = {"NEAR": following, "ASTRAY": following, "SEAMS": following}
+BOUNDS = ("mean_distance", "leaves_path", "seam_rate")  # of `Tuned`, as `followed` reads them
 
 
 def walked(path, *request, **how):
@@ -71,7 +74,7 @@ def test_distance_at_equal_arc_length_is_that_of_eq_9():
     path = s_curve()
     followed = walked(path)
     steps = np.hypot(*np.diff(followed.track, axis=0).T)
-    s = np.cumsum(np.maximum(steps, LEAST / GRAPH.fps))
+    s = np.cumsum(np.maximum(steps, GRAPH_TUNED.least_speed / GRAPH.fps))
     expected = np.hypot(*(followed.track[1:] - path.at(s)).T)
     # Where a blend begins, the root's step is measured in the clip, which is off by millimetres.
     assert followed.off_at_length[1:] == pytest.approx(expected, abs=0.06)
@@ -113,8 +116,8 @@ def test_what_is_out_of_bounds_is_searched_for_again(monkeypatch):
     assert better.excess == min(walk.excess for walk in walks)
     assert (tried[2].seam > Settings.seam) == (once.seams_per_second > 1)
     for factor, widths in ((1 / 9, [50, 75, 100]), (9, [50])):
-        for bound, of in BOUNDS.items():
-            monkeypatch.setattr(of, bound, factor * getattr(of, bound) * (9 if factor > 1 else 1))
+        bounds = {bound: factor * getattr(TUNED, bound) for bound in BOUNDS}
+        tune(monkeypatch, following, **bounds)
         tried.clear()
         walk = walked(TIGHT)
         assert [settings.width for settings in tried] == widths
@@ -342,7 +345,7 @@ def test_who_is_as_far_apart_as_asked_but_for_rounding_gives_no_way(monkeypatch)
 def test_what_falls_short_is_told(monkeypatch):
     """Two who start in one place cannot keep apart, whoever waits; it says which, and how near they come."""
     paths = [*CROSSING, GroundPath([[0, 0.1], [0, 6]])]
-    monkeypatch.setattr(waypoints_and_crowds, "WIDTH", 30)
+    tune(monkeypatch, waypoints_and_crowds, crowd_beam=30)
     crowd = told(r"Characters 0 and 2 come as near as 0\.\d\d m, though 0\.80 m", walk_crowd, GRAPH, paths)
     tracks = [
         np.concatenate([np.repeat(walk.track[:1], round(30 * wait), axis=0), walk.track])

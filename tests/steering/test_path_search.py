@@ -11,8 +11,9 @@ from mocap.datasets.samples import sample
 from mocap.editing import LIMIT
 from mocap.errors import NoWalk
 from mocap.graphs import build
-from mocap.graphs.compiled_graph import AHEAD, compile_graph
+from mocap.graphs.compiled_graph import compile_graph
 from mocap.graphs.motion_graph import from_transitions
+from mocap.graphs.tuned import TUNED
 from mocap.steering import path_search
 from mocap.steering.bent_following import plan_bending
 from mocap.steering.layered_search import LayeredSearch, States, select, standing, start_states
@@ -270,7 +271,7 @@ def test_others_are_seen_up_to_three_times_as_far_ahead_as_the_clip(times, seen)
     """Someone is there only at the moment at which the walk would be, if it went straight on."""
     walk = at_nodes(GRAPH, [5])
     body, end = (walk.translation + walk.rotation * points[5] for points in (GRAPH.at, GRAPH.ahead[:, -1]))
-    frame = times * round(GRAPH.fps * AHEAD[-1])
+    frame = times * round(GRAPH.fps * TUNED.ahead[-1])
     other = np.full((frame + 2, 2), 1000.0)
     place = (body + times * (end - body))[0]
     other[frame] = place.imag, place.real
@@ -279,4 +280,4 @@ def test_others_are_seen_up_to_three_times_as_far_ahead_as_the_clip(times, seen)
         for others in ((), [other])
     )
     # The last point ahead stands for the frames since the one before.
-    assert found - alone == pytest.approx(seen * 50 * 0.3**2 * GRAPH.fps * AHEAD[0])
+    assert found - alone == pytest.approx(seen * 50 * 0.3**2 * GRAPH.fps * TUNED.ahead[0])

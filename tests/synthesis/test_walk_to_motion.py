@@ -25,6 +25,7 @@ from mocap.synthesis.walk_to_motion import seams, sources, to_motion, transforms
 from tests.bundled import bundled
 from tests.refusals import refusals
 from tests.strategies import seeds, wave
+from tests.tuning import tune
 
 CLIPS = [wave(120, name="a"), wave(90, phase=1.0, name="b", seed=1)]
 WINDOW = 8
@@ -150,7 +151,7 @@ def test_cleaned_feet_stand_still():
 def test_the_pieces_are_the_whole_in_a_file_too(tmp_path, monkeypatch):
     """As in [KGP02, 5.3]."""
     whole = to_motion(GRAPH, random_walk(GRAPH, seconds=60, seed=5))
-    monkeypatch.setattr(random_walks, "PIECE", 7.0)
+    tune(monkeypatch, random_walks, piece=7.0)
     pieces = list(stream(GRAPH, seconds=60, seed=5))
     assert len(pieces) > 6
     joined = concatenate(pieces)
@@ -171,7 +172,7 @@ def test_pieces_are_cleaned_as_the_whole_would_be(monkeypatch, piece):
     """
     graph = bundled("walk_circle", "walk_curve_1")
     whole = to_motion(graph, random_walk(graph, seconds=30, seed=2), clean=True)
-    monkeypatch.setattr(random_walks, "PIECE", piece)
+    tune(monkeypatch, random_walks, piece=piece)
     joined = concatenate(list(cleaned(stream(graph, seconds=30, seed=2))))
     assert len(joined) == len(whole)
     off = np.abs(joint_positions(joined) - joint_positions(whole)).max(axis=(1, 2))

@@ -480,7 +480,7 @@ export class Inspector {
    * Say what is shown, beside what is looked at.
    * @param {string} text
    */
-  say(text) {
+  showMessage(text) {
     this.now.textContent = text;
     this.scrub.setAttribute("aria-valuetext", text);
   }

@@ -96,7 +96,7 @@ function slerp(from, to, fraction, k, out) {
 
 export class Clip {
   /** @type {Map<number, number[][]>} the joints of frames */
-  known = new Map();
+  cache = new Map();
 
   /**
    * @param {PackedClip} packed
@@ -132,10 +132,10 @@ export class Clip {
    * @param {number} frame
    */
   joints(frame) {
-    const known = this.known.get(frame);
-    if (known) return known;
+    const cached = this.cache.get(frame);
+    if (cached) return cached;
     const positions = joints(this.skeleton, this.pose(frame));
-    this.known.set(frame, positions);
+    this.cache.set(frame, positions);
     return positions;
   }
 

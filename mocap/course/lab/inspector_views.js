@@ -277,7 +277,7 @@ function describe(it, text) {
   it.key.textContent = it.tab === "seam" ? SEAM_KEY : scene.key;
   const value = it.tab === "turn" ? degrees(it.angle) : it.frame();
   if (Number(it.scrub.value) !== value) it.scrub.value = String(value);
-  it.say(text);
+  it.showMessage(text);
   Object.assign(it.root.dataset, { shows: it.tab, playing: it.playing });
   it.pictures++;
 }

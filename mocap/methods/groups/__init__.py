@@ -22,6 +22,7 @@ Reading order (notebook 19)
 6. `planning`: points, obstacles, and a search for a path
 7. `group_steering`: steering without a plan, and the faster of steering and planning
 8. `group_walkers`: a character of a motion graph for each member
+9. `tuned`: the constants that trials chose
 
 References
 ----------

@@ -14,13 +14,7 @@ from mocap._shared.records import NamedTuple
 from mocap._shared.ties import first_least, whole_steps
 from mocap.errors import MocapError, warn
 from mocap.methods.groups.flocking import RATE, Configuration
-
-SECONDS = 0.7  # a difference of 1 m/s counts as much as 0.7 m
-STARTS = (0.0, 0.5, -0.5)  # radians from the rotation that aligns the mean velocities
-ROUNDS = 5
-EVERY = 1.0  # seconds between the frames from which nodes are chosen
-COVERED = 0.8  # fraction of the simulation near a node, below which `cluster` warns
-SLOWEST = 0.2  # m/s, the speed below which the mean velocity of a group has no direction
+from mocap.methods.groups.tuned import TUNED
 
 # m² and metres: orders of the members whose costs differ by less are equal, as are RMS distances. Rounding is
 # about 1e-12. Similar configurations differ by decimetres.
@@ -70,9 +64,9 @@ def seen_from_itself(group: Configuration) -> tuple[Configuration, Points, Point
     middle = group.positions.mean(axis=-1)
     velocity = group.velocities.mean(axis=-1)
     speed = np.abs(velocity)
-    if not (speed >= SLOWEST).all():
+    if not (speed >= TUNED.slowest).all():
         slow = f"A group that moves by {speed.min():.2f} m/s on average has no direction"
-        raise MocapError(f"{slow}; {SLOWEST:g} m/s is the least.")
+        raise MocapError(f"{slow}; {TUNED.slowest:g} m/s is the least.")
     rotation = velocity / speed
     inverse = rotation[..., None].conj()
     positions = (group.positions - middle[..., None]) * inverse
@@ -80,7 +74,11 @@ def seen_from_itself(group: Configuration) -> tuple[Configuration, Points, Point
 
 
 def compare(
-    first: Configuration, second: Configuration, *, starts: tuple[float, ...] = STARTS, rounds: int = ROUNDS
+    first: Configuration,
+    second: Configuration,
+    *,
+    starts: tuple[float, ...] = TUNED.starts,
+    rounds: int = TUNED.rounds,
 ) -> Match:
     """Match the members of two groups, and align the second with the first [ours].
 
@@ -155,12 +153,12 @@ def _align(first: Configuration, second: Configuration, order: Indices) -> Match
     offsets = first.positions - middle[:, None]
     second_offsets = positions - second_middle[:, None]
     correlation = (offsets * second_offsets.conj()).sum(axis=1)
-    correlation = correlation + SECONDS**2 * (first.velocities * velocities.conj()).sum(axis=1)
+    correlation = correlation + TUNED.velocity_seconds**2 * (first.velocities * velocities.conj()).sum(axis=1)
     rotation = correlation / np.maximum(np.abs(correlation), TINY)
     translation = middle - rotation * second_middle
     residual = np.abs(first.positions - rotation[:, None] * positions - translation[:, None])
     change = np.abs(first.velocities - rotation[:, None] * velocities)
-    squares = residual**2 + SECONDS**2 * change**2
+    squares = residual**2 + TUNED.velocity_seconds**2 * change**2
     return Match(np.sqrt(squares.mean(axis=1)), order, rotation, translation)
 
 
@@ -184,7 +182,7 @@ def assignment_costs(
     residual = first.positions[:, :, None] - aligned_positions[:, None]
     change = first.velocities[:, :, None] - aligned_velocities[:, None]
     squared_change = change.real**2 + change.imag**2
-    return np.asarray(residual.real**2 + residual.imag**2 + SECONDS**2 * squared_change)
+    return np.asarray(residual.real**2 + residual.imag**2 + TUNED.velocity_seconds**2 * squared_change)
 
 
 class Clusters(NamedTuple):
@@ -234,7 +232,7 @@ def cluster(flock: Configuration, *, nodes: int = 8, reach: float = 0.5) -> Clus
 
     Notebook: 19-group-graphs
     """
-    step = round(EVERY * RATE)
+    step = round(TUNED.node_interval * RATE)
     seen, _, _ = seen_from_itself(Configuration(*(field[::step] for field in flock)))
     rows = list(map(Configuration, *seen))
     distances = np.zeros((len(rows),) * 2)
@@ -249,7 +247,7 @@ def cluster(flock: Configuration, *, nodes: int = 8, reach: float = 0.5) -> Clus
         chosen.append(best)
         free &= distances[best] >= reach
     covered = 1 - float(free.mean())
-    if covered < COVERED:
+    if covered < TUNED.covered:
         coverage = f"{len(chosen)} nodes are within {reach:g} m of {covered:.0%} of the simulation"
         warn(f"{coverage}: take more nodes, or a larger reach.")
     return Clusters(tuple(rows[row] for row in chosen), np.array(chosen) * step, covered, distances)

@@ -15,26 +15,12 @@ import numpy as np
 from mocap._shared.arrays import Array, Points
 from mocap._shared.records import NamedTuple
 from mocap.errors import MocapError
+from mocap.methods.groups.tuned import TUNED
 
 RATE = 10.0  # frames per second
-SETTLE = 20.0  # seconds of a simulation before its first frame
 APART = 0.6  # metres, the distance below which members collide
-MARGIN = 0.03  # metres that simulated members keep beyond APART
-WALL_FORCE = 3.0  # m/s² per metre too near to a wall
 BODY = 0.35  # metres that a member keeps from a wall
-HELD = 0.02  # metres by which a wall moves a member back, in each pass
-FREELY = 0.7  # fraction of a corridor's half-width in which the walls exert no force
-SEPARATIONS = 3  # passes per frame that separate members who are too near
-LINE_PULL = 0.3  # radians of heading per metre from a corridor's line
 
-DIRECTION_TIME = 2.0  # seconds in which the direction of a whim decays
-PACE_TIME = 4.0  # seconds in which the pace of a whim decays
-PACE_WHIM = 0.35  # drift of the pace, as a fraction of that of the direction
-PACES = (0.6, 1.4)  # lowest and highest pace of a whim, as fractions of the group's
-
-RATE_TIME = 3.0  # seconds in which the group's rate of turning decays
-RATE_DRIFT = 0.25  # rad/s per √s
-FASTEST_TURN = 0.5  # rad/s of the group's heading
 
 SELF = 1e9  # metres, a distance of each member from itself at which no rule applies
 STILL = 1e-9  # m/s or m/s², a divisor for members that do not move
@@ -106,9 +92,9 @@ def whims(shape: tuple[int, ...], rules: Flock, random: np.random.Generator) -> 
     direction = np.zeros(shape)
     pace = np.zeros(shape)
     while True:
-        direction += -step * direction / DIRECTION_TIME + drift * random.normal(size=shape)
-        pace += -step * pace / PACE_TIME + drift * PACE_WHIM * random.normal(size=shape)
-        yield np.asarray(np.exp(1j * direction) * np.clip(1 + pace, *PACES))
+        direction += -step * direction / TUNED.direction_time + drift * random.normal(size=shape)
+        pace += -step * pace / TUNED.pace_time + drift * TUNED.pace_whim * random.normal(size=shape)
+        yield np.asarray(np.exp(1j * direction) * np.clip(1 + pace, *TUNED.paces))
 
 
 def steering_force(
@@ -185,10 +171,10 @@ def advance(
     speeds = np.abs(velocities)
     velocities = velocities * np.clip(speeds, rules.slowest, rules.fastest) / np.maximum(speeds, STILL)
     positions = group.positions + velocities / RATE
-    for _ in range(SEPARATIONS):
-        positions = positions + push_apart(positions, APART + MARGIN)
+    for _ in range(TUNED.separations):
+        positions = positions + push_apart(positions, APART + TUNED.spare)
         excess = positions.imag - np.clip(positions.imag, -room, room)
-        positions = positions - 1j * np.clip(excess, -HELD, HELD)
+        positions = positions - 1j * np.clip(excess, -TUNED.wall_push, TUNED.wall_push)
     return Configuration(positions, (positions - group.positions) * RATE)
 
 
@@ -251,17 +237,18 @@ def simulate(
     room = corridor / 2 - BODY
     wall_force = np.zeros(members, complex)
     frames = []
-    for _ in range(round((seconds + SETTLE) * RATE)):
-        drift = np.sqrt(1 / RATE) * RATE_DRIFT * random.normal()
-        turning_rate += -turning_rate / RATE_TIME / RATE + drift
-        heading += np.clip(turning_rate, -FASTEST_TURN, FASTEST_TURN) / RATE
+    for _ in range(round((seconds + TUNED.settle) * RATE)):
+        drift = np.sqrt(1 / RATE) * TUNED.rate_drift * random.normal()
+        turning_rate += -turning_rate / TUNED.rate_time / RATE + drift
+        heading += np.clip(turning_rate, -TUNED.fastest_turn, TUNED.fastest_turn) / RATE
         if room < np.inf:
             lateral = group.positions.imag
-            heading = -LINE_PULL * np.clip(lateral.mean(), -1, 1)
-            wall_force = -1j * WALL_FORCE * (lateral - np.clip(lateral, -FREELY * room, FREELY * room))
+            heading = -TUNED.line_pull * np.clip(lateral.mean(), -1, 1)
+            free = TUNED.free_width * room
+            wall_force = -1j * TUNED.wall_force * (lateral - np.clip(lateral, -free, free))
         group = advance(group, np.exp(1j * heading) * next(member_whims), rules, wall_force, room)
         frames.append(group)
-    return Configuration(*np.swapaxes(frames[round(SETTLE * RATE) :], 0, 1))
+    return Configuration(*np.swapaxes(frames[round(TUNED.settle * RATE) :], 0, 1))
 
 
 def nearest_two(positions: Points) -> Array:

@@ -16,20 +16,7 @@ from mocap._shared.records import dataclass
 from mocap.methods.groups import flocking
 from mocap.methods.groups.configurations import compare
 from mocap.methods.groups.flocking import APART, RATE, Configuration, Flock
-
-BENDS = (-1.2, -0.6, 0.0, 0.6, 1.2)  # radians
-SHIFTS = (-0.3, 0.0, 0.3)  # metres to the left, so that paths reach the middle of a narrow passage
-SECONDS = 4.0  # duration of a clip. Shorter clips need higher accelerations
-PULL = 2.0  # m/s² per metre from a member's target position, critically damped
-HARDEST = 2.2  # m/s², the acceleration above which a clip is rejected
-ROUNDS = 60  # largest number of rounds of separation
-STILL = 2  # frames at the start and at the end that separation leaves unchanged
-EASE = 4.0  # frames over which the weight of a push grows to 1
-MARGIN = 0.02  # metres beyond APART to which members are separated
-OVERSHOOT = 1.5  # factor of a push, because smoothing lowers it
-SMOOTHINGS = 4  # of each push over time
-BEND_PACE = 1.6  # the bend of a run is complete after 1 / 1.6 of it
-PULL_PACE = 2.0  # the attraction to a goal is complete after 1 / 2 of a run
+from mocap.methods.groups.tuned import TUNED
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,22 +72,24 @@ def run_from(
     rules = Flock() if goals is None else Flock(separate=0.0, gather=0.0, align=0.0)
     whims = flocking.whims(starts.positions.shape, rules, random)
     frames = [starts]
-    total = round(SECONDS * RATE)
+    total = round(TUNED.seconds * RATE)
     for frame in range(total):
         group = frames[-1]
         fraction = frame / total
-        rotation = np.exp(1j * bends * min(1.0, BEND_PACE * fraction))
-        attraction = 0.0 if goals is None else _attraction(group, goals, (1 - fraction) * SECONDS)
+        rotation = np.exp(1j * bends * min(1.0, TUNED.bend_pace * fraction))
+        attraction = 0.0 if goals is None else _attraction(group, goals, (1 - fraction) * TUNED.seconds)
         desired = rotation[:, None] * next(whims)
-        frames.append(flocking.advance(group, desired, rules, min(1.0, PULL_PACE * fraction) * attraction))
+        frames.append(
+            flocking.advance(group, desired, rules, min(1.0, TUNED.pull_pace * fraction) * attraction)
+        )
     return Configuration(*np.swapaxes(frames, 0, 1))
 
 
 def _attraction(group: Configuration, goals: Configuration, seconds: float) -> Points:
     """Compute the accelerations (R, N) towards the straight paths that reach the goals in `seconds`."""
     targets = goals.positions - seconds * goals.velocities
-    spring = PULL * (targets - group.positions)
-    damping = 2 * np.sqrt(PULL) * (goals.velocities - group.velocities)
+    spring = TUNED.pull * (targets - group.positions)
+    damping = 2 * np.sqrt(TUNED.pull) * (goals.velocities - group.velocities)
     return np.asarray(spring + damping)
 
 
@@ -152,15 +141,15 @@ def separate(paths: Points) -> tuple[Points, bool]:
     """
     frames = np.arange(len(paths))
     from_end = np.minimum(frames, frames[::-1])
-    weights = np.clip((from_end - STILL + 1) / EASE, 0, 1)[:, None]
+    weights = np.clip((from_end - TUNED.held_frames + 1) / TUNED.ease, 0, 1)[:, None]
     displacements = np.zeros_like(paths)
-    for _ in range(ROUNDS):
+    for _ in range(TUNED.parting_rounds):
         if flocking.nearest_two(paths + displacements).min() >= APART:
             return paths + displacements, True
-        push = flocking.push_apart(paths + displacements, APART + MARGIN)
-        for _ in range(SMOOTHINGS):
+        push = flocking.push_apart(paths + displacements, APART + TUNED.parting_spare)
+        for _ in range(TUNED.smoothings):
             push[1:-1] = (push[:-2] + 2 * push[1:-1] + push[2:]) / 4
-        displacements += OVERSHOOT * push * weights
+        displacements += TUNED.overshoot * push * weights
     return paths + displacements, bool(flocking.nearest_two(paths + displacements).min() >= APART)
 
 
@@ -175,8 +164,8 @@ def clips_from(
     that were tried.
     """
     all_nodes = Configuration(*np.swapaxes(nodes, 0, 1))  # (K, N)
-    angles = np.array(BENDS)
-    grid = np.meshgrid(range(len(angles)), range(len(nodes)), SHIFTS)
+    angles = np.array(TUNED.bends)
+    grid = np.meshgrid(range(len(angles)), range(len(nodes)), TUNED.shifts)
     bends, ends, shifts = map(np.ravel, grid)
     starts = Configuration(*(np.tile(field, (len(bends), 1)) for field in nodes[start]))
     free_starts = Configuration(*(field[: len(angles)] for field in starts))
@@ -194,7 +183,7 @@ def clips_from(
         goal = Configuration(*(field[row] for field in goals))
         run = Configuration(*(field[:, row] for field in runs))
         paths, is_clear = separate(bend_to(run, goal))
-        if is_clear and _peak_acceleration(paths) <= HARDEST:
+        if is_clear and _peak_acceleration(paths) <= TUNED.hardest:
             velocities = np.gradient(paths, 1 / RATE, axis=0)
             velocities[0] = nodes[start].velocities
             velocities[-1] = goal.velocities

@@ -10,10 +10,8 @@ from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import MocapError, warn
 from mocap.methods.groups.configurations import cluster, seen_from_itself
 from mocap.methods.groups.flocking import APART, Configuration, simulate
-from mocap.methods.groups.group_clips import HARDEST, GroupClip, clips_from
-
-CORRIDORS = (2.5, 2.0, 1.7)  # metres from wall to wall
-COLUMN = 60.0  # seconds of simulation in each corridor
+from mocap.methods.groups.group_clips import GroupClip, clips_from
+from mocap.methods.groups.tuned import TUNED
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +77,7 @@ def make_clips(nodes: Sequence[Configuration], *, seed: int = 0) -> GroupGraph:
         clips += kept_clips
         tried += count
     if not clips:
-        reason = f"members come nearer than {APART:g} m, or need more than {HARDEST:g} m/s²"
+        reason = f"members come nearer than {APART:g} m, or need more than {TUNED.hardest:g} m/s²"
         raise MocapError(f"None of {tried} clips can be kept: {reason}.")
     pairs = len(nodes) ** 2
     joined = len({(clip.start, clip.end) for clip in clips})
@@ -92,7 +90,7 @@ def build_group(  # noqa: PLR0913 (sizes, durations and distances)
     members: int,
     *,
     nodes: int = 8,
-    corridors: Sequence[float] = CORRIDORS,
+    corridors: Sequence[float] = TUNED.corridors,
     simulated: float = 300.0,
     reach: float = 0.5,
     seed: int = 0,
@@ -131,7 +129,7 @@ def build_group(  # noqa: PLR0913 (sizes, durations and distances)
     """
     configurations = cluster(simulate(members, simulated, seed=seed), nodes=nodes, reach=reach).nodes
     for width in corridors:
-        columns = simulate(members, COLUMN, corridor=width, seed=seed)
+        columns = simulate(members, TUNED.column, corridor=width, seed=seed)
         configurations += cluster(columns, nodes=2, reach=reach).nodes
     return make_clips(configurations, seed=seed)
 

@@ -13,16 +13,10 @@ from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import NoWalk
 from mocap.methods.groups.flocking import APART, RATE, Configuration, Disc, Flock, advance, nearest_two, whims
 from mocap.methods.groups.group_graphs import GroupGraph, play_group
-from mocap.methods.groups.planning import MOST, GroupWalk, Scene, plan_group
+from mocap.methods.groups.planning import GroupWalk, Scene, plan_group
+from mocap.methods.groups.tuned import TUNED
 
-DISC_FORCE = 3.0  # m/s² per metre nearer than `Flock.avoid` to a disc
 LIMIT = 120.0  # seconds, the longest simulation
-AVOIDANCES = (0.8, 1.2, 1.6, 2.0)  # metres from a disc, as `Flock.avoid`
-COHESIONS = (0.0, 0.35, 1.0, 2.0)  # weights, as `Flock.gather`
-FLOCKS = len(AVOIDANCES) * len(COHESIONS)  # simulated side by side
-AVOID = np.tile(AVOIDANCES, len(COHESIONS))[:, None]
-GATHER = np.repeat(COHESIONS, len(AVOIDANCES))[:, None]
-TRIED = Flock(whim=0.0, avoid=AVOID, gather=GATHER)
 
 
 def steer_group(
@@ -84,7 +78,7 @@ def lead_group(
     scene: Scene,
     *,
     start: PlanarTransform = IDENTITY,
-    most: int = MOST,  # reads: name: users give it as a keyword
+    most: int = TUNED.states,  # reads: name: users give it as a keyword
 ) -> tuple[Configuration, GroupWalk | None]:
     """Return the faster of two collision-free solutions: a plan, or a flock that steers [ours].
 
@@ -128,12 +122,16 @@ def lead_group(
 
 
 def _steered(graph: GroupGraph, scene: Scene, start: PlanarTransform, limit: float) -> Configuration | None:
-    """Steer all flocks of `TRIED` side by side, and return the first that arrives without a collision."""
-    positions, velocities = (np.tile(start.rotation * field, (FLOCKS, 1)) for field in graph.nodes[0])
+    """Steer several flocks side by side, and return the first that arrives without a collision."""
+    avoid = np.tile(TUNED.avoidances, len(TUNED.cohesions))[:, None]
+    gather = np.repeat(TUNED.cohesions, len(TUNED.avoidances))[:, None]
+    count = len(avoid)
+    positions, velocities = (np.tile(start.rotation * field, (count, 1)) for field in graph.nodes[0])
     starts = Configuration(positions + start.translation, velocities)
     frames: list[Configuration] = []
-    has_arrived: Mask = np.zeros(FLOCKS, bool)
-    for flocks, passed in _steering(starts, scene, TRIED, seed=0):
+    has_arrived: Mask = np.zeros(count, bool)
+    rules = Flock(whim=0.0, avoid=avoid, gather=gather)
+    for flocks, passed in _steering(starts, scene, rules, seed=0):
         if has_arrived.all() or len(frames) > limit * RATE:
             break
         frames.append(flocks)
@@ -175,7 +173,7 @@ def away_from(discs: Sequence[Disc], positions: Points, avoid: float | Array = 2
     offsets = positions[..., None] - np.array([centre for centre, _ in discs], complex)
     radii = np.array([radius for _, radius in discs])
     depths = np.expand_dims(avoid, -1) - np.abs(offsets) + radii
-    return np.asarray((DISC_FORCE * np.maximum(depths, 0) * np.sign(offsets)).sum(axis=-1))
+    return np.asarray((TUNED.disc_force * np.maximum(depths, 0) * np.sign(offsets)).sum(axis=-1))
 
 
 def clearances(flock: Configuration, scene: Scene) -> Array:

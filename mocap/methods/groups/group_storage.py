@@ -9,10 +9,10 @@ import numpy as np
 
 from mocap._shared.archives import Arrays, Kind, Layout, Rules, read_archive, write_archive
 from mocap._shared.arrays import Mask, Points
-from mocap.methods.groups.configurations import SLOWEST
 from mocap.methods.groups.flocking import Configuration
 from mocap.methods.groups.group_clips import GroupClip
 from mocap.methods.groups.group_graphs import GroupGraph
+from mocap.methods.groups.tuned import TUNED
 
 FARTHEST = 1e6  # metres, and metres per second
 ROUNDING = 1e-6  # metres, tolerance of the distance between the end of a clip and its node
@@ -107,7 +107,7 @@ def _rules(arrays: Arrays) -> Rules:
     yield "numbers are finite and not above a million", [_is_near(array) for array in numbers]
     yield "there are nodes and clips, of two members or more", len(positions) and clips and members >= 2
     yield "clips have frames", frames > 1
-    yield "nodes go somewhere", np.abs(velocities.mean(axis=1)) >= SLOWEST
+    yield "nodes go somewhere", np.abs(velocities.mean(axis=1)) >= TUNED.slowest
     yield "as many clips were tried or more", arrays["tried"] >= clips
     ends = np.stack([arrays["starts"], arrays["ends"]])
     yield "clips lead from node to node", (ends >= 0) & (ends < len(positions))

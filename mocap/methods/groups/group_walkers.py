@@ -16,16 +16,10 @@ from mocap.feet.footskate import clean_up
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.methods.groups.flocking import RATE, Configuration, nearest_two
+from mocap.methods.groups.tuned import TUNED
 from mocap.steering.path_following import follow_path
 from mocap.steering.path_objective import PathRequest, Settings
 from mocap.synthesis.walk_to_motion import with_footplants
-
-LATE = 1.0  # price of a delay, m² per s²
-EVERY = 1.0  # seconds between the positions that have a time
-KEPT = 0.9  # fraction of planted frames below which a warning is issued
-NARROW = 40  # beam width
-BEYOND = 3.0  # seconds by which each path is extended
-MOVES = 0.05  # metres in a second, below which a member has no direction
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,7 +121,7 @@ def walk_group(
         walks = [_walk_one(compiled, trajectory, bend=bend) for trajectory in progress(trajectories)]
     motions = tuple(motion for motion, _ in walks)
     kept = float(np.mean([fraction for _, fraction in walks]))
-    if kept < KEPT:
+    if kept < TUNED.kept:
         released = f"{1 - kept:.0%} of the planted frames were released"
         warn(f"{released}: the steps of these clips differ from those of the plan.")
     seconds = np.arange(len(motions[0])) / compiled.fps
@@ -142,10 +136,10 @@ def _walk_one(graph: CompiledGraph, trajectory: Points, *, bend: bool) -> tuple[
     path = GroundPath(from_ground(extended))
     along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(extended)))])
     along = np.minimum(along, path.length)  # because of rounding
-    timed = range(0, len(extended), round(EVERY * RATE))
+    timed = range(0, len(extended), round(TUNED.time_every * RATE))
     times = [(float(along[frame]), float(frame / RATE)) for frame in timed]
     # A walk that is bent onto its path afterwards needs no thorough search.
-    settings = Settings(late=LATE, width=NARROW if bend else None, tries=1 if bend else 3)
+    settings = Settings(late=TUNED.late, width=TUNED.narrow if bend else None, tries=1 if bend else 3)
     walk = follow_path(graph, path, PathRequest(times=times), settings=settings).motion()
     walk = walk[: round((len(trajectory) - 1) / RATE * graph.fps) + 1]
     if bend:
@@ -159,8 +153,8 @@ def _walk_one(graph: CompiledGraph, trajectory: Points, *, bend: bool) -> tuple[
 def _extended(trajectory: Points) -> Points:
     """Extend a trajectory straight ahead by three seconds, so that a walk does not wait at its end."""
     last_second = trajectory[-1] - trajectory[-11]
-    step = last_second / 10 if abs(last_second) > MOVES else MOVES
-    steps = np.arange(1, round(BEYOND * RATE) + 1)
+    step = last_second / 10 if abs(last_second) > TUNED.least_step else TUNED.least_step
+    steps = np.arange(1, round(TUNED.extension * RATE) + 1)
     return np.concatenate([trajectory, trajectory[-1] + step * steps])
 
 

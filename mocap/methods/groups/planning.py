@@ -16,14 +16,8 @@ from mocap._shared.ties import whole_steps
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import MocapError, NoWalk
 from mocap.methods.groups.flocking import APART, RATE, Disc
-from mocap.methods.groups.group_clips import SHIFTS
 from mocap.methods.groups.group_graphs import GroupGraph
-
-PACE = 1.05  # m/s, expected speed of a group
-TURNING = 1.3  # seconds per radian, expected for the first rotation
-CELL = 0.7  # metres, side of a cell: only one state in each cell and sector is expanded
-SECTOR = 0.3  # radians
-MOST = 4000  # largest number of states to expand
+from mocap.methods.groups.tuned import TUNED
 
 EQUAL = 1e-6  # seconds: estimates that differ by less are equal, and the first state found is expanded first
 
@@ -191,7 +185,7 @@ class Search:
         goal = np.minimum(goals, len(points) - 1)
         offset = points[goal] - ends
         metres = np.maximum(np.abs(offset) - self.scene.radius, 0.0) + after_point[goal]
-        return np.asarray(metres / PACE + TURNING * np.abs(np.angle(offset / rotations)))
+        return np.asarray(metres / TUNED.pace + TUNED.turning * np.abs(np.angle(offset / rotations)))
 
 
 class GroupWalk(NamedTuple):
@@ -235,7 +229,7 @@ def plan_group(
     *,
     start: PlanarTransform = IDENTITY,
     weight: float = 1.5,
-    most: int = MOST,  # reads: name: users give it as a keyword
+    most: int = TUNED.states,  # reads: name: users give it as a keyword
 ) -> GroupWalk:
     """Find a sequence of clips that leads a group past all points and around all obstacles [LCF05, search].
 
@@ -299,9 +293,9 @@ def _cell(state: State, *, with_others: bool) -> tuple[float, ...]:
 
     If there are other groups, only states at the same time share a cell.
     """
-    row = round(state.translation.real / CELL)
-    column = round(state.translation.imag / CELL)
-    sector = round(phase(state.rotation) / SECTOR)
+    row = round(state.translation.real / TUNED.cell)
+    column = round(state.translation.imag / TUNED.cell)
+    sector = round(phase(state.rotation) / TUNED.sector)
     return state.node, state.goal, row, column, sector, state.frames if with_others else 0
 
 
@@ -314,6 +308,6 @@ def _no_path(graph: GroupGraph, scene: Scene, farthest: int, limit: int | None) 
         reason = "obstacles closed every path"
         advice = "Start farther off or turned"
     narrowest = min(np.ptp(node.positions.imag) for node in graph.nodes)
-    gap = narrowest + 2 * scene.body + SHIFTS[-1]
+    gap = narrowest + 2 * scene.body + TUNED.shifts[-1]
     failure = f"No path past point {farthest + 1} of {len(scene.points)} was found: {reason}"
     return NoWalk(f"{failure}. {advice}, take fewer members, or leave gaps of {gap:.1f} m.")

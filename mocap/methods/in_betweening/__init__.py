@@ -17,6 +17,7 @@ Reading order
 4. `planted_feet`: removal of the last millimetre of foot sliding
 5. `in_betweens`: the complete method: search, bend, blend
 6. `interpolation`: cubic curves for short gaps
+7. `tuned`: the constants that trials chose
 
 References
 ----------

@@ -4,7 +4,7 @@ As in path editing [Gle01], the body is held relative to a frame that moves alon
 changed. Here the frame is the root itself, and only the end of the new path is known. The path is rotated by
 φ(t), and its steps are scaled by σ(t). Both are smooth and as small as possible:
 
-    min ∫ TURN φ̇² + STRETCH (ln σ)² dt   subject to   g(0) + ∫ σ exp(iφ) dg = the target,   φ(T) = Δ
+    min ∫ turn φ̇² + stretch (ln σ)² dt   subject to   g(0) + ∫ σ exp(iφ) dg = the target,   φ(T) = Δ
 
 At both ends φ̇ = 0 and σ = 1, so that the walk starts and ends with its own velocity. All of this is ours.
 """
@@ -23,24 +23,9 @@ from mocap.body.motion import Motion
 from mocap.body.planar import on_ground
 from mocap.editing.displacements import spline_basis
 from mocap.editing.retiming import at_frames
+from mocap.methods.in_betweening.tuned import TUNED
 
-# Limits of the changes to a walk.
-MOST_TURN = float(np.radians(60))  # radians per second, the largest additional angular speed
-MOST_STEPS = 1.25  # largest factor by which steps become longer or shorter
-MOST_PACE = 1.25  # largest factor by which the walk is played faster or slower
-
-# Costs of the changes.
-TURN = 0.5  # weight of the squared additional angular speed, per second
-STRETCH = 8.0  # weight of the squared logarithms of the step factor and of the pace, per second
-
-WITHIN = 0.98  # fraction of the angular speed limit, because only some frames are constrained
-SOLVER_ROUNDS = 30  # iterations. If there is a solution, 5 to 15 are enough
-KNOTS = 0.3  # seconds between the knots of φ and ln σ
-FEWEST_SPANS = 10  # spans between knots
-MOST_SPANS = 40  # spans between knots
 LEVEL = 3  # splines at each end whose coefficients stay 0, so that φ and ln σ are level there
-PER_SPAN = 4  # frames between two knots at which the angular speed is constrained
-RISE = 0.15  # fraction of a walk, at each end, in which it accelerates to the new pace
 
 
 class Arrived(NamedTuple):
@@ -73,7 +58,7 @@ def level_rise(count: int) -> Array:
     array([0.  , 0.24, 0.5 , 0.76, 1.  ])
     """
     u = (np.arange(count - 1) + 0.5) / (count - 1)
-    edge = np.minimum(np.minimum(u, 1 - u) / RISE, 1.0)
+    edge = np.minimum(np.minimum(u, 1 - u) / TUNED.rise, 1.0)
     rate = edge**2 * (3 - 2 * edge)
     return np.concatenate([[0.0], np.cumsum(rate) / rate.sum()])
 
@@ -81,8 +66,8 @@ def level_rise(count: int) -> Array:
 def bend_to(motion: Motion, frames: int, end: complex, rotation: float) -> Arrived:
     """Retime a walk to a number of frames, and bend it so that it ends at a ground point and heading.
 
-    If `MOST_TURN` and `MOST_STEPS` admit no solution, the end is missed or the angular speed exceeds its
-    limit.
+    If the limits of turning and of the steps admit no solution, the end is missed or the angular speed
+    exceeds its limit.
 
     Parameters
     ----------
@@ -106,7 +91,7 @@ def bend_to(motion: Motion, frames: int, end: complex, rotation: float) -> Arriv
     motion = motion if len(motion) == frames else at_frames(motion, moments)
     path = _BentPath(on_ground(motion.root_positions), rotation, motion.fps)
     best = path.solve(end, limited=False)
-    if np.abs(path.turned(best)).max() > MOST_TURN:
+    if np.abs(path.turned(best)).max() > TUNED.most_turn:
         best = path.solve(end, limited=True)
     phi = path.angles(best)
     points = path.points(best)
@@ -118,7 +103,7 @@ def bend_to(motion: Motion, frames: int, end: complex, rotation: float) -> Arriv
     turned = np.diff(phi) * motion.fps
     sigma = path.step_factors(best)
     logs = np.concatenate([np.log(sigma), np.log(pace)])
-    price = (TURN * (turned @ turned) + STRETCH * (logs @ logs)) / motion.fps
+    price = (TUNED.turn * (turned @ turned) + TUNED.stretch * (logs @ logs)) / motion.fps
     bent = replace(motion, root_positions=roots, rotations=turns)
     return Arrived(bent, turned, sigma, pace, float(abs(points[-1] - end)), float(price))
 
@@ -130,23 +115,23 @@ class _BentPath:
         self.ground = ground
         self.fps = fps
         frames = len(ground)
-        spans = int(np.clip(round((frames - 1) / fps / KNOTS), FEWEST_SPANS, MOST_SPANS))
+        spans = int(np.clip(round((frames - 1) / fps / TUNED.knots), TUNED.fewest_spans, TUNED.most_spans))
         self.basis = spline_basis(frames, (frames - 1) / spans).toarray()[:, LEVEL:-LEVEL]  # (F, K)
         self.middle = (self.basis[1:] + self.basis[:-1]) / 2
         self.rate = np.diff(self.basis, axis=0)
         self.even = turn * level_rise(frames)
         self.count = self.basis.shape[1]
-        self.constrained = slice(None, None, max(1, (frames - 1) // (PER_SPAN * spans)))
+        self.constrained = slice(None, None, max(1, (frames - 1) // (TUNED.per_span * spans)))
 
     def solve(self, end: complex, *, limited: bool) -> Array:
         """Find x by sequential quadratic programming, with or without the limit of the angular speed."""
-        log_limit = np.log(MOST_STEPS)
+        log_limit = np.log(TUNED.most_steps)
         free = [(None, None)] * self.count
         bounds = free + [(-log_limit, log_limit)] * self.count
         constraints = [{"type": "eq", "fun": lambda x: self.residual(x, end), "jac": self.residual_jacobian}]
         if limited:
             constraints.append(self._turn_limit())
-        settings = {"method": "SLSQP", "options": {"maxiter": SOLVER_ROUNDS, "ftol": 1e-6}}
+        settings = {"method": "SLSQP", "options": {"maxiter": TUNED.solver_rounds, "ftol": 1e-6}}
         start = np.zeros(2 * self.count)
         solution = minimize(self.cost, start, jac=True, bounds=bounds, constraints=constraints, **settings)
         return np.asarray(solution.x)
@@ -156,7 +141,7 @@ class _BentPath:
         rate = self.rate[self.constrained] * self.fps
         jacobian = np.block([[-rate, 0 * rate], [rate, 0 * rate]])
         even = self.turned(np.zeros(2 * self.count))[self.constrained]
-        room = WITHIN * MOST_TURN - np.concatenate([even, -even])
+        room = TUNED.within * TUNED.most_turn - np.concatenate([even, -even])
         return {"type": "ineq", "fun": lambda x: room + jacobian @ x, "jac": lambda _: jacobian}
 
     def turned(self, x: Array) -> Array:
@@ -182,9 +167,9 @@ class _BentPath:
         """Return the cost and its gradient."""
         turned = self.turned(x)
         log = self.middle @ x[self.count :]
-        cost = (TURN * (turned @ turned) + STRETCH * (log @ log)) / self.fps
-        by_angles = TURN * (self.rate.T @ turned)
-        by_steps = STRETCH / self.fps * (self.middle.T @ log)
+        cost = (TUNED.turn * (turned @ turned) + TUNED.stretch * (log @ log)) / self.fps
+        by_angles = TUNED.turn * (self.rate.T @ turned)
+        by_steps = TUNED.stretch / self.fps * (self.middle.T @ log)
         return float(cost), 2 * np.concatenate([by_angles, by_steps])
 
     def residual(self, x: Array, end: complex) -> Array:

@@ -21,10 +21,8 @@ from mocap.editing.retiming import at_frames
 from mocap.errors import MocapWarning
 from mocap.feet.footplants import least_frames
 from mocap.feet.footskate import clean_up, marks_by_joint, settled_marks
+from mocap.methods.in_betweening.tuned import TUNED
 from mocap.methods.in_betweening.two_sided_search import pose_at
-
-FADE = 0.5  # seconds in which a residual decays, or half of the walk if that is shorter
-NEAR = 0.3  # seconds: a footplant this near to an end keeps its position in the frame next to the end
 
 ANKLE = 0  # the rows of a foot's joints
 BALL = 1
@@ -55,7 +53,7 @@ def _fading(motion: Motion, pose: Motion, direction: int, *, speed: bool) -> Dis
     """
     last = len(motion) - 1
     frame = 0 if direction > 0 else last
-    window = max(1.0, min(FADE * motion.fps, last / 2))
+    window = max(1.0, min(TUNED.fade * motion.fps, last / 2))
     time = np.minimum(np.abs(np.arange(last + 1) - frame) / window, 1)
     residual = difference(pose_at(pose, direction), motion[frame : frame + 1])
     drift = Displacement(0 * residual.root, 0 * residual.turns)
@@ -126,7 +124,7 @@ def _hold_end(held: Array, places: Array, marks: Mask, fps: float) -> None:
     span = least_frames(fps)
     stands = runs(marks[ANKLE] | marks[BALL])
     begin = frames - span - 1
-    if len(stands) and stands[-1][1] > frames - max(span, round(NEAR * fps)):
+    if len(stands) and stands[-1][1] > frames - max(span, round(TUNED.near_end * fps)):
         first, begin = stands[-1].tolist()
         _hold_last_plant(held[:begin], places[:begin], marks[:, :begin], first)
     held[begin:] = places[begin:]

@@ -18,23 +18,12 @@ from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.edge_tables import Edge
 from mocap.graphs.motion_graph import MotionGraph
-from mocap.methods.in_betweening.end_bending import MOST_TURN, Arrived, bend_to
+from mocap.methods.in_betweening.end_bending import Arrived, bend_to
 from mocap.methods.in_betweening.end_poses import meet_poses, stand
 from mocap.methods.in_betweening.planted_feet import put_back
+from mocap.methods.in_betweening.tuned import TUNED
 from mocap.methods.in_betweening.two_sided_search import Candidates, Joined, TwoSided, find_candidates
 from mocap.synthesis.walk_to_motion import to_motion, with_footplants
-
-TRIED = 24  # walks that are bent at a time. The best that arrives is selected
-# Largest number of walks that are bent, TRIED at a time until one arrives. Of 24 requests at random
-# positions, 2 have none among the first 24, and one of these has two among the first 72. With more, a refusal
-# would take tens of seconds.
-MOST_TRIED = 72
-POSE = 0.1  # metres: the largest RMS displacement of joints when the ends are blended into the poses
-
-# Rounds of foot clean-up and blending into the poses. The clean-up may release constraints at the ends, which
-# changes a joint by up to 1° and makes feet slide by up to 0.3 mm. After the second round most do not slide.
-# If a straight leg makes the clean-up lower the root near an end, 1 mm is left, which `put_back` removes.
-ROUNDS = 2
 
 
 class InBetween(NamedTuple):
@@ -71,8 +60,8 @@ def in_between(graph: MotionGraph | CompiledGraph, start: Motion, end: Motion, s
     compiled = compile_graph(graph)
     require_motion(start)
     require_motion(end)
-    starts = find_candidates(compiled, start, direction=1, limit=POSE)
-    ends = find_candidates(compiled, end, direction=-1, limit=POSE)
+    starts = find_candidates(compiled, start, direction=1, limit=TUNED.pose)
+    ends = find_candidates(compiled, end, direction=-1, limit=TUNED.pose)
     return _connect(compiled, (starts, ends), (start, end), seconds)
 
 
@@ -112,8 +101,8 @@ def fill_gap(graph: MotionGraph | CompiledGraph, first: Motion, second: Motion, 
     compiled = compile_graph(graph)
     require_motion(first)
     require_motion(second)
-    starts = find_candidates(compiled, first, direction=-1, limit=POSE)
-    ends = find_candidates(compiled, second, direction=1, limit=POSE)
+    starts = find_candidates(compiled, first, direction=-1, limit=TUNED.pose)
+    ends = find_candidates(compiled, second, direction=1, limit=TUNED.pose)
     start = first[-1:]
     if len(first) > 1:
         start = concatenate([start, _next_frame(first[-2:-1], start)])
@@ -137,11 +126,11 @@ def _connect(
     """Search, bend and blend a motion from the first frame of the start to the last frame of the end."""
     start, end = poses
     frames = round(seconds * graph.fps)
-    joined = TwoSided(graph, candidates, frames).best(MOST_TRIED)
+    joined = TwoSided(graph, candidates, frames).best(TUNED.most_tried)
     source = with_footplants(graph.source)
     walks: list[tuple[float, list[Edge], Arrived]] = []
-    for group in range(0, len(joined), TRIED):
-        walks = list(_arriving(source, graph, joined[group : group + TRIED], frames))
+    for group in range(0, len(joined), TUNED.tried):
+        walks = list(_arriving(source, graph, joined[group : group + TUNED.tried], frames))
         if walks:
             break
     else:
@@ -152,7 +141,7 @@ def _connect(
         )
     _, walk, arrived = min(walks, key=lambda item: item[0])
     motion = meet_poses(replace(arrived.motion, name="in between"), start, end)
-    for _ in range(ROUNDS):
+    for _ in range(TUNED.rounds):
         motion = meet_poses(stand(motion), start, end, speed=False)
     return InBetween(put_back(motion), walk, arrived)
 
@@ -166,5 +155,5 @@ def _arriving(
         played = to_motion(source, walk, start=candidate.transform)
         played = played[candidate.first : candidate.first + candidate.frames + 1]
         arrived = bend_to(played, frames + 1, candidate.end, candidate.angle)
-        if arrived.lack <= POSE / 2 and np.abs(arrived.turned).max() <= MOST_TURN:
+        if arrived.lack <= TUNED.pose / 2 and np.abs(arrived.turned).max() <= TUNED.most_turn:
             yield candidate.cost + arrived.price, walk, arrived

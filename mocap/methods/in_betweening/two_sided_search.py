@@ -27,27 +27,10 @@ from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.graphs.edge_tables import clip_rows
 from mocap.matching.point_clouds import align, point_cloud
-from mocap.methods.in_betweening.end_bending import MOST_PACE, MOST_STEPS, MOST_TURN, RISE, STRETCH, TURN
+from mocap.methods.in_betweening.tuned import TUNED
 from mocap.steering.layered_search import LayeredSearch, States, standing, start_states
 
-AHEAD = 0.1  # seconds from a pose to the one before or after it, and the least time between two candidates
-CANDIDATES = 6  # frames of the clips that are tried for each pose
-
-# Costs of a walk, in addition to `TURN` and `STRETCH`. A seam costs as much as one second with an additional
-# angular speed of 57° per second.
-SEAM = 0.5  # cost of a seam
-MATCH = 300.0  # weight of the squared distance at a seam, m²
-POSE = 100.0  # weight of the squared distance from the poses at the ends, m²
-
 PEAK = 1.4  # ratio of the maximum to the mean of a smooth change that is level at both ends
-BEYOND = 100.0  # cost of each radian per second, or unit of a step's logarithm, expected beyond its limit
-
-LAYER = 0.1  # seconds: walks in one layer compete
-WIDTH = 400  # beam width
-CELL = 0.1  # metres: walks at one node in one cell are similar
-ANGLE = 0.15  # radians: the sector of headings of similar walks
-MEET = 3000  # walks from the start that are joined with those from the end
-PAIRS = 3_000_000  # largest number of joins that are compared
 
 
 class Candidates(NamedTuple):
@@ -94,8 +77,8 @@ def find_candidates(graph: CompiledGraph, motion: Motion, *, direction: int, lim
     """
     clips = graph.source.clips
     clips[0].skeleton.require_same(motion.skeleton)
-    step = max(1, round(AHEAD * graph.fps))
-    pose_step = max(1, round(AHEAD * motion.fps))
+    step = max(1, round(TUNED.ahead * graph.fps))
+    pose_step = max(1, round(TUNED.ahead * motion.fps))
     poses = [pose_at(motion, direction, frames) for frames in (0, pose_step) if frames < len(motion)]
     rows = np.flatnonzero(~graph.blended[graph.of])
     frames = graph.here[rows]  # (N, 2), clips and frames
@@ -121,7 +104,7 @@ def find_candidates(graph: CompiledGraph, motion: Motion, *, direction: int, lim
 
 
 def _separate_minima(distance: Array, lane: Indices, step: int) -> Indices:
-    """Return the `CANDIDATES` smallest distances, each the minimum of the frames within `step`.
+    """Return the `TUNED.candidates` smallest distances, each the least of the frames within `step`.
 
     `lane` numbers the frames, with gaps longer than `step` between clips.
     """
@@ -129,7 +112,7 @@ def _separate_minima(distance: Array, lane: Indices, step: int) -> Indices:
     lanes[lane] = distance
     minima = minimum_filter1d(lanes, 2 * step + 1, mode="constant", cval=np.inf)
     chosen = np.flatnonzero(distance == minima[lane])
-    return chosen[np.argsort(distance[chosen], kind="stable")[:CANDIDATES]]
+    return chosen[np.argsort(distance[chosen], kind="stable")[: TUNED.candidates]]
 
 
 class Joined(NamedTuple):
@@ -188,12 +171,12 @@ class TwoSided:
         forward = _Front(self, self.steps, self.starts, nodes)
         forward.aim(self.finish, self.frames / 2)
         backward = _Front(self, self._reversed_steps(), self.ends, nodes + len(self.starts.distance))
-        backward.aim(self.begin, (MOST_PACE - 0.5) * self.frames)
+        backward.aim(self.begin, (TUNED.most_pace - 0.5) * self.frames)
         for front in (forward, backward):
             for _ in front:
                 pass
         middle = States.join(forward.arrived)
-        middle = middle.take(np.argsort(middle.cost, kind="stable")[:MEET])
+        middle = middle.take(np.argsort(middle.cost, kind="stable")[: TUNED.meeting])
         ending = States.join(backward.history)
         first, second = pairs_at_nodes(middle.node, ending.node)
         price = self.prices(middle.take(first), ending.take(second))
@@ -232,13 +215,13 @@ class TwoSided:
         along = np.abs(abs(target) - np.abs(line)) / metres
         longer = np.log(np.maximum(abs(target) / metres, 1.0))
         pace = np.log(np.maximum((first.frames + second.frames) / self.frames, 1e-3))
-        price = first.cost + second.cost + STRETCH * seconds * (pace**2 + longer**2)
-        price += TURN / seconds * (angle**2 + 12 * across**2)
-        price += np.minimum(STRETCH * seconds * along**2, TURN / seconds * 24 * along)
+        price = first.cost + second.cost + TUNED.stretch * seconds * (pace**2 + longer**2)
+        price += TUNED.turn / seconds * (angle**2 + 12 * across**2)
+        price += np.minimum(TUNED.stretch * seconds * along**2, TUNED.turn / seconds * 24 * along)
         turning = PEAK * (np.abs(angle) + 6 * across) / seconds
-        price += BEYOND * np.maximum(turning - MOST_TURN, 0.0)
-        price += BEYOND * np.maximum(PEAK * longer - np.log(MOST_STEPS), 0.0)
-        return np.where(np.abs(pace) <= (1 - RISE) * np.log(MOST_PACE), price, np.inf)
+        price += TUNED.beyond_limit * np.maximum(turning - TUNED.most_turn, 0.0)
+        price += TUNED.beyond_limit * np.maximum(PEAK * longer - np.log(TUNED.most_steps), 0.0)
+        return np.where(np.abs(pace) <= (1 - TUNED.rise) * np.log(TUNED.most_pace), price, np.inf)
 
     def join(self, forward: States, backward: States) -> Joined:
         """Concatenate two walks that meet."""
@@ -258,7 +241,7 @@ class TwoSided:
 
 
 def pairs_at_nodes(first: Indices, second: Indices) -> tuple[Indices, Indices]:
-    """Pair each walk of one side with those of the other that end at the same node, up to `PAIRS` pairs.
+    """Pair each walk of one side with those of the other that end at the same node, at most `TUNED.pairs`.
 
     Parameters
     ----------
@@ -276,7 +259,7 @@ def pairs_at_nodes(first: Indices, second: Indices) -> tuple[Indices, Indices]:
     order = np.argsort(second, kind="stable")
     begin = np.searchsorted(second[order], first, "left")
     stop = np.searchsorted(second[order], first, "right")
-    count = np.where(np.cumsum(stop - begin) > PAIRS, 0, stop - begin)
+    count = np.where(np.cumsum(stop - begin) > TUNED.pairs, 0, stop - begin)
     return np.repeat(np.arange(len(count)), count), order[ranges(begin, count)]
 
 
@@ -285,7 +268,7 @@ class _Front(LayeredSearch):
 
     def __init__(self, search: TwoSided, steps: States, seeds: Candidates, first: int) -> None:
         nodes = first + np.arange(len(seeds.distance))
-        super().__init__(start_states(nodes, seeds.rotation, seeds.translation), WIDTH)
+        super().__init__(start_states(nodes, seeds.rotation, seeds.translation), TUNED.beam)
         self.search = search
         self.aim(0j, 0.0)
         self.steps = steps.take(np.argsort(steps.trail, kind="stable"))
@@ -309,15 +292,15 @@ class _Front(LayeredSearch):
         remaining = np.maximum(self.search.frames - states.frames, 1) / self.search.graph.fps
         reach = self.search.speed * remaining
         shortfall = np.log(np.maximum(np.abs(self.goal - position) / reach, 1.0))
-        return np.asarray(states.cost + STRETCH * remaining * shortfall**2)
+        return np.asarray(states.cost + TUNED.stretch * remaining * shortfall**2)
 
     def cells(self, states: States) -> Indices:
         """Return the point and the cells of position and heading of each walk."""
-        return standing(states, self.search.roots, CELL, ANGLE)
+        return standing(states, self.search.roots, TUNED.cell, TUNED.angle)
 
     def layers(self, states: States) -> Indices:
-        """Return the number of the layer, of `LAYER` seconds, of each walk."""
-        return states.frames // max(1, round(LAYER * self.search.graph.fps))
+        """Return the number of the layer, of `TUNED.layer` seconds, of each walk."""
+        return states.frames // max(1, round(TUNED.layer * self.search.graph.fps))
 
     def still_going(self, states: States) -> States:
         """Store each walk that is long enough, because any of them may be joined, and return the others."""
@@ -350,15 +333,15 @@ def steps_between(graph: CompiledGraph, starts: Candidates, ends: Candidates) ->
     number = {node: n for n, node in enumerate(graph.nodes)}
     origin = np.array([number[edge[0]] for edge in graph.edges])
     edges = np.arange(len(graph.edges))
-    seam = np.where(graph.blended, SEAM + MATCH * graph.cost**2, 0.0)
+    seam = np.where(graph.blended, TUNED.seam + TUNED.match * graph.cost**2, 0.0)
     whole = _Parts(origin, graph.target, edges, 0 * edges, graph.frames, seam)
     begin = starts.stretch
     start = len(graph.nodes) + np.arange(len(begin))
-    start_cost = POSE * starts.distance**2
+    start_cost = TUNED.end_pose * starts.distance**2
     leaving = _Parts(start, graph.target[begin], begin, starts.since, graph.frames[begin], start_cost)
     finish = ends.stretch
     end = len(graph.nodes) + len(begin) + np.arange(len(finish))
-    end_cost = POSE * ends.distance**2
+    end_cost = TUNED.end_pose * ends.distance**2
     arriving = _Parts(origin[finish], end, finish, 0 * finish, ends.since, end_cost)
     # An end on the same edge as a start, and after it.
     is_later = starts.since[:, None] <= ends.since

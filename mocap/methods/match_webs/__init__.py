@@ -15,6 +15,7 @@ Reading order (notebook 16)
 4. `match_search`: motions similar to a query, step by step
 5. `motion_spaces`: measures of a motion, and random blends of examples with their measures
 6. `target_weights`: blend weights for a target
+7. `tuned`: the constants that trials chose
 
 References
 ----------

@@ -21,6 +21,7 @@ from mocap._shared.ties import in_order
 from mocap.matching import distance_grids
 from mocap.matching.distance_grids import Cloud, Floats, tiled_distances
 from mocap.matching.time_paths import origins, path_sums, trace
+from mocap.methods.match_webs.tuned import TUNED
 
 # Metres: distances of windows that differ by no more are equal. Rounding errors are about 1e-13 m.
 EQUAL = 1e-9
@@ -146,13 +147,7 @@ def apart(paths: Iterable[NDArray[Any]], *, near: int) -> list[NDArray[Any]]:
     return kept
 
 
-ROWS = 600  # windows, the height of a tile of the grid that is processed at a time
-COLUMNS = 4000  # windows, the width of a tile
 OVERLAP = 300  # windows that two parts of a long clip share, 10 s: no query is longer
-SLOPE = 2  # largest number of frames of one clip that are aligned with one frame of the other
-LEAST = 9  # frames by which a path advances at least in each clip, 0.3 s
-NEAR = 3  # frames: a path is dropped if more than half of it is this near to a better one
-OFF_MINIMUM = 0.5  # additional cost of a cell that is not a one-dimensional minimum, in units of `below`
 DISTANCE = 2  # column of a path with the RMS distances, after the columns of its windows
 
 
@@ -166,17 +161,17 @@ def find_paths(cloud: Cloud, starts: Indices, below: float, progress: Progress) 
     below : the mean distance that a path may have, metres.
     progress : as for `build_web`.
     """
-    rows = pieces(starts.tolist(), ROWS, OVERLAP)
-    columns = pieces(starts.tolist(), COLUMNS, OVERLAP)
+    rows = pieces(starts.tolist(), TUNED.part_rows, OVERLAP)
+    columns = pieces(starts.tolist(), TUNED.part_columns, OVERLAP)
     # No path is below the diagonal.
     pairs = [(row, column) for row in rows for column in columns if column.stop > row.start]
     tiles = [(row, slice(max(row.start, column.start), column.stop)) for row, column in pairs]
     paths: list[Array] = []
     for tile in progress(tiles):
         paths += _paths_in_tile(cloud, tile, below)
-    if np.diff(starts).max() > ROWS:  # two parts of one clip may have found the same path
+    if np.diff(starts).max() > TUNED.part_rows:  # two parts of one clip may have found the same path
         sums = [float((path[:, DISTANCE] - below).sum()) for path in paths]
-        paths = apart((paths[number] for number in in_order(sums, RANKS)), near=NEAR)
+        paths = apart((paths[number] for number in in_order(sums, RANKS)), near=TUNED.near_path)
     return paths
 
 
@@ -187,13 +182,13 @@ def _paths_in_tile(cloud: Cloud, tile: tuple[slice, slice], below: float) -> lis
     squares = tiled_distances(*sides)
     grid: Floats = np.sqrt(np.where(squares < distance_grids.EQUAL, 0.0, squares))
     corner = [side.start for side in tile]
-    diagonal = corner[0] - corner[1] + LEAST  # the second window is at least `LEAST` frames later
+    diagonal = corner[0] - corner[1] + TUNED.least_advance  # the second window is later
     if diagonal + len(grid) > 0:
         is_early = np.tri(len(grid), grid.shape[1], diagonal - 1, dtype=bool)
         grid[is_early] = np.inf
-    penalties = np.where(minima_1d(grid), 0.0, OFF_MINIMUM * below)
+    penalties = np.where(minima_1d(grid), 0.0, TUNED.off_minimum * below)
     costs = grid - below + penalties
-    paths = apart(local_paths(costs, slope=SLOPE, least=LEAST), near=NEAR)
+    paths = apart(local_paths(costs, slope=TUNED.slope, least=TUNED.least_advance), near=TUNED.near_path)
     return [np.column_stack([path + corner, grid[tuple(path.T)]]) for path in paths]
 
 

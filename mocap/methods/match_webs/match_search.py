@@ -15,13 +15,9 @@ from mocap._shared.ties import in_order
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, warn
 from mocap.matching.point_clouds import point_cloud
-from mocap.methods.match_webs.local_alignment import LEAST, RANKS
+from mocap.methods.match_webs.local_alignment import RANKS
+from mocap.methods.match_webs.tuned import TUNED
 from mocap.methods.match_webs.webs import MatchWeb
-
-SAME = 0.5  # overlap of two stretches, as a fraction of their union, above which they are one match
-COVER = 0.9  # fraction of a stretch that a path must cover. Over the rest it is extended straight
-LEAK = 5  # a step leaks if it finds more than 5 times the matches of the previous step
-FEW = 20  # matches: a step that finds no more than these does not leak
 
 
 class Match(NamedTuple):
@@ -142,7 +138,7 @@ def _is_new(match: Match, spans: NDArray[Any]) -> bool:
     starts, stops = spans.T
     common = np.minimum(stops, match.stop) - np.maximum(starts, match.start)
     union = np.maximum(stops, match.stop) - np.minimum(starts, match.start)
-    return bool((common <= SAME * union).all())
+    return bool((common <= TUNED.same_match * union).all())
 
 
 def _query(web: MatchWeb, clip: int, frames: slice) -> Match:
@@ -156,9 +152,11 @@ def _query(web: MatchWeb, clip: int, frames: slice) -> Match:
         raise MocapError(f"'{motion.name}' has frames 0 to {len(motion) - 1}, got {first}:{last}.")
     start, stop = np.round(web.number(clip, [first, last])).astype(int).tolist()
     stop = min(stop, int(web.starts[clip + 1]))
-    if stop - start < LEAST:
+    if stop - start < TUNED.least_advance:
         length = f"{first}:{last} of '{motion.name}' is {(last - first) / motion.fps:.2g} s"
-        raise MocapError(f"A query must last {LEAST / web.rate:g} s or more, as paths do; {length}.")
+        raise MocapError(
+            f"A query must last {TUNED.least_advance / web.rate:g} s or more, as paths do; {length}."
+        )
     rows = np.arange(start, stop, dtype=float)
     return Match(clip, start, stop, 0.0, -1, 0, rows, rows)
 
@@ -192,9 +190,9 @@ def _warn(matches: Sequence[Match], still_count: int) -> None:
     counts = np.bincount([match.generation for match in matches])
     previous = counts[1:-1]
     following = counts[2:]
-    leaks = following[following > np.maximum(LEAK * previous, FEW)]
+    leaks = following[following > np.maximum(TUNED.leak * previous, TUNED.few_matches)]
     if leaks.size:
-        leak = f"One step found {leaks[0]} matches, more than {LEAK} times the step before"
+        leak = f"One step found {leaks[0]} matches, more than {TUNED.leak} times the step before"
         messages.append(f"{leak}: one wrong match may have led to others; lower the limit.")
     for message in messages:
         warn(message)
@@ -230,7 +228,7 @@ def crossings(web: MatchWeb, match: Match, number: int, below: float) -> Iterato
     """
     first = web.cells[web.offsets[:-1]]  # first cell of each path
     last = web.cells[web.offsets[1:] - 1]
-    needed = COVER * (match.stop - match.start)
+    needed = TUNED.cover * (match.stop - match.start)
     generation = match.generation + 1
     for side in (0, 1):
         begin = np.maximum(first[:, side], match.start)

@@ -9,9 +9,8 @@ from scipy.optimize import nnls
 from mocap._shared.arrays import Array, Indices
 from mocap.errors import MocapError, shortened
 from mocap.methods.match_webs.motion_spaces import MotionSpace
+from mocap.methods.match_webs.tuned import TUNED
 
-CONVEX = 12  # nearest samples that are mixed
-RIDGE = 5e-4  # weight of the regularisation, which prefers near samples
 HIT = 1e-12  # a sample is hit if its distance is below this fraction of the farthest one
 
 
@@ -82,7 +81,7 @@ def sample_weights(
         raise MocapError(f"A target in this space has {numbers} finite numbers, got {got}.")
     if method not in ("convex", "neighbours"):
         raise MocapError(f'A method is "convex" or "neighbours", got {method!r}.')
-    count = min(k or (CONVEX if method == "convex" else numbers + 2), samples)
+    count = min(k or (TUNED.convex if method == "convex" else numbers + 2), samples)
     nearest, distances = nearest_samples(targets, space.values, space.scale, count)
     if method == "neighbours":
         return nearest, neighbour_weights(distances)
@@ -109,7 +108,7 @@ def convex_weights(offsets: Array, distances: Array) -> Array:
     [0.7147, 0.2846, 0.0007]
     """
     count, numbers = offsets.shape
-    ridge = RIDGE * np.diag(distances / max(distances[-1], np.finfo(float).tiny))
+    ridge = TUNED.ridge * np.diag(distances / max(distances[-1], np.finfo(float).tiny))
     rows = np.concatenate([offsets.T, np.ones((1, count)), ridge])
     right_side = np.concatenate([np.zeros(numbers), [1], np.zeros(count)])
     weights, _ = nnls(rows, right_side)

@@ -15,10 +15,11 @@ from mocap._shared.records import dataclass
 from mocap.body.motion import Motion, require_compatible, resample
 from mocap.errors import MocapError, warn
 from mocap.matching.transitions import join_clouds
-from mocap.methods.match_webs.local_alignment import DISTANCE, LEAST, find_paths
+from mocap.methods.match_webs.local_alignment import DISTANCE, find_paths
+from mocap.methods.match_webs.tuned import TUNED
 
 WINDOW = 5  # frames in a window, at the web's rate
-SHORTEST = WINDOW + LEAST  # frames of the shortest clip that can contain a path, at the web's rate
+SHORTEST = WINDOW + TUNED.least_advance  # frames of the shortest clip that can contain a path
 NAMED = 4  # clips that a warning names. It counts the others
 
 

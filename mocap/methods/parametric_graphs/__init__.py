@@ -15,6 +15,7 @@ Reading order (notebook 17)
 6. `parametric_edges`: boxes of targets that may follow, and the graph of spaces and edges
 7. `parametric_storage`: save a graph to .npz and load it
 8. `parametric_control`: a character that decides once per stride
+9. `tuned`: the constants that trials chose
 
 References
 ----------

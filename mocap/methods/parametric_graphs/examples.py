@@ -22,8 +22,8 @@ from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
 from mocap.feet.footplants import mark_plants
 from mocap.matching.point_clouds import distinct_joints
+from mocap.methods.parametric_graphs.tuned import TUNED
 
-MARGIN = 0.38  # fraction of an action, before and after it
 FINE = 60  # phases per stride
 Cut = tuple[Motion, Array]
 """A clip, and its frames (G,) at the phases of a grid."""
@@ -262,7 +262,7 @@ def cut_actions(clips: Sequence[Motion], spans: Sequence[tuple[int, int]]) -> Ex
     if len(spans) != len(clips):
         raise MocapError(f"Actions are cut by one span for each clip, got {len(clips)} and {len(spans)}.")
     clips = require_compatible(clips)
-    margin = round(MARGIN * FINE)
+    margin = round(TUNED.margin * FINE)
     grid = np.arange(-margin, FINE + margin + 1) / FINE
     cuts = []
     for clip, (first, last) in zip(clips, spans, strict=True):

@@ -14,10 +14,10 @@ from mocap.errors import MocapError
 from mocap.matching.distance_grids import Cloud, cloud, cloud_distances
 from mocap.methods.match_webs.target_weights import sample_weights, weights_for
 from mocap.methods.parametric_graphs.stride_spaces import Space
+from mocap.methods.parametric_graphs.tuned import TUNED
 
 HALF = 5  # frames of a window on either side of its centre
 WINDOW = 2 * HALF + 1  # frames, a third of a second at 30 Hz
-SPAN = 3  # frames, the largest distance of the centre of a transition from the end of an action
 ROWS = 8  # number of sources compared in one product
 
 
@@ -107,7 +107,7 @@ def near_end(space: Space, parameters: Array, phase: float) -> tuple[Array, Arra
     """
     examples = space.examples
     fps = examples.fps
-    reach = HALF + SPAN
+    reach = HALF + TUNED.span
     weights = weights_for(space, parameters)
     seconds = weights @ examples.seconds
     centres = np.array([round(np.interp(phase, examples.grid, clock) * fps) for clock in seconds])
@@ -172,7 +172,7 @@ def optimal_transitions(
     """
     points, leaving = near_end(source, sources, 1.0)
     target_points, entering = near_end(target, targets, 0.0)
-    count = 2 * SPAN + 1  # windows of a clip
+    count = 2 * TUNED.span + 1  # windows of a clip
     level = np.tile(points[..., 1].mean(axis=(0, 1)), WINDOW)
     source_windows = _windows(points, level)
     target_windows = _windows(target_points, level)
@@ -194,6 +194,6 @@ def optimal_transitions(
 def _windows(points: Array, level: Array) -> Cloud:
     """Combine the frames of each window of clips (M, F, P, 3) into one point cloud."""
     size = WINDOW * points.shape[2]
-    frames = np.arange(2 * SPAN + 1)[:, None] + np.arange(WINDOW)
+    frames = np.arange(2 * TUNED.span + 1)[:, None] + np.arange(WINDOW)
     windows = points[:, frames].reshape(-1, size, 3)
     return cloud(windows, level, np.full(size, 1 / size), 1, np.float32)

@@ -16,12 +16,11 @@ from mocap.matching.point_clouds import align
 from mocap.methods.parametric_graphs.made_motions import HALF, WINDOW, MadeMotion, make_motion
 from mocap.methods.parametric_graphs.parametric_edges import TargetBox
 from mocap.methods.parametric_graphs.stride_spaces import Space
+from mocap.methods.parametric_graphs.tuned import TUNED
 from mocap.steering.characters import Pose, require_command
 
 TARGET = ("left", "up", "ahead")  # the parameters of a position in the world, relative to the body at phase 0
 COMMANDED = ("turn", "speed")  # the parameters that a command sets
-ROUNDS = 8  # largest number of iterations, as the start of a motion depends on its parameters
-CLOSE = 0.002  # metres: a smaller change of the parameters ends the iterations
 
 
 class Chosen(NamedTuple):
@@ -179,11 +178,11 @@ class ParametricController:
         box = self.boxes[node]
         transform = self.end
         parameters = np.full(len(box.low), np.inf)
-        for number in range(1 if set(space.parameters) <= set(COMMANDED) else ROUNDS):
+        for number in range(1 if set(space.parameters) <= set(COMMANDED) else TUNED.position_rounds):
             requested = self._requested(space, transform, heading, speed)
             complete = np.where(np.isnan(requested), (box.low + box.high) / 2, requested)
             goal = np.clip(complete, box.low, box.high)
-            if np.abs(goal - parameters).max() < CLOSE:
+            if np.abs(goal - parameters).max() < TUNED.settled:
                 break
             # After the first step, half steps are used, because full steps oscillate about the goal.
             parameters = (parameters + goal) / 2 if number else goal

@@ -16,11 +16,7 @@ from mocap.methods.parametric_graphs.stride_spaces import (
     parameter_text,
     spread_parameters,
 )
-
-NEIGHBOURS = 4  # interpolated sources in addition to the number of parameters. With 1 [HG07, 4], boxes jump
-BAD = 1.35  # T_BAD / T_GOOD. With 2, no bad target would cut a box
-SAMPLING = (50, 1000)  # number of sources and of targets of an edge
-EPSILON = 0.005  # distance of a box from bad targets, as a fraction of half a range
+from mocap.methods.parametric_graphs.tuned import TUNED
 
 
 class TargetBox(NamedTuple):
@@ -79,13 +75,15 @@ class ParametricEdge:
         >>> edge.look_up(np.array([0.25]), 2).high, edge.look_up(np.array([3.0])).high
         (array([1.]), array([4.]))
         """
-        count = count or len(parameters) + NEIGHBOURS
+        count = count or len(parameters) + TUNED.neighbours
         (rows,), distances = nearest_samples(parameters[None], self.sources, self.scale, count)
         (weights,) = neighbour_weights(distances)
         return TargetBox(*(weights @ part[rows] for part in (self.low, self.high, self.leave, self.enter)))
 
 
-def shrink_box(good: Array, bad: Array, scale: Array, eps: float = EPSILON) -> tuple[Array, Array]:
+def shrink_box(
+    good: Array, bad: Array, scale: Array, eps: float = TUNED.distance_from_bad
+) -> tuple[Array, Array]:
     """Compute the bounding box of good targets, shrunk until no bad target is inside [HG07, 3.2].
 
     For each bad target inside, the side with the smallest loss is shifted inwards.
@@ -134,7 +132,7 @@ def build_edge(
     *,
     good: float,
     bad: float | None = None,
-    sampling: tuple[int, int] = SAMPLING,
+    sampling: tuple[int, int] = TUNED.sampling,
 ) -> ParametricEdge:
     """Compute the boxes of targets and the phases of transitions of sampled sources [HG07, 3.2; no edge; 4].
 
@@ -169,7 +167,7 @@ def build_edge(
 
     Notebook: 17-parametric-graphs
     """
-    bad = BAD * good if bad is None else bad
+    bad = TUNED.bad * good if bad is None else bad
     if not good <= bad:
         raise MocapError(f"Thresholds are T_GOOD <= T_BAD, got {good} and {bad} m.")
     source.examples.require_joinable(target.examples)
@@ -208,7 +206,7 @@ def build_parametric(
     edges: Sequence[tuple[str, str]] | None = None,
     *,
     good: float,
-    sampling: tuple[int, int] = SAMPLING,
+    sampling: tuple[int, int] = TUNED.sampling,
 ) -> nx.DiGraph:
     """Build a parametric motion graph from named spaces and pairs of consecutive spaces [HG07, graph].
 

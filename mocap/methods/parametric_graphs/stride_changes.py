@@ -18,13 +18,7 @@ from mocap.errors import MocapError, MocapWarning
 from mocap.feet.footskate import clean_up
 from mocap.methods.parametric_graphs.examples import FINE, Examples
 from mocap.methods.parametric_graphs.stride_spaces import measure_mixes
-
-FROM = 0.2  # phase at which a change begins
-TO = 0.8  # phase at which a change ends
-STEP = (0.05, 0.95)  # phases between which feet step to their new positions. Seams blend the other phases
-STRIKE = 2  # phases of the grid by which a swing may end after a strike
-NEAR = np.radians(5)  # largest difference of a turn from the range of the other kind
-EXAMPLES = 60  # largest number of examples of a change
+from mocap.methods.parametric_graphs.tuned import TUNED
 
 
 def changing_strides(first: Examples, second: Examples, *, stands: str = "") -> Examples:
@@ -67,9 +61,9 @@ def changing_strides(first: Examples, second: Examples, *, stands: str = "") -> 
     first = first.take(first_rows)
     second = second.take(second_rows)
     if stands == "first":
-        first = _still_outside(first, -1, FROM)
+        first = _still_outside(first, -1, TUNED.change_from)
     elif stands == "second":
-        second = _still_outside(second, TO, 2)
+        second = _still_outside(second, TUNED.change_to, 2)
     fractions = _fractions(first, second)
     complete = np.flatnonzero(np.isfinite(fractions).all(axis=(1, 2)))
     if not complete.size:
@@ -92,7 +86,7 @@ def _fractions(first: Examples, second: Examples) -> Array:
     first_contacts = np.where(grid[:, None] < 1, first.contacts, 1)
     second_contacts = np.where(grid[:, None] > 0, second.contacts, 1)
     contacts = first_contacts * second_contacts
-    fade = quintic_step((grid - FROM) / (TO - FROM))
+    fade = quintic_step((grid - TUNED.change_from) / (TUNED.change_to - TUNED.change_from))
     fractions = np.tile(fade[:, None], (len(first), 1, len(skeleton)))
     for leg in find_legs(skeleton):
         ankle = first.contact_names.index(skeleton.names[leg.ankle])
@@ -112,12 +106,13 @@ def _swing(examples: Examples, ankle: Array, ball: Array) -> tuple[float, float]
     ankle, ball : shape (G,), contacts.
     """
     first, last = examples.ends
-    swings = [swing for swing in runs(ankle < 0.5) if first + STRIKE < swing[1] <= last + STRIKE]
+    later = TUNED.strike_phases
+    swings = [swing for swing in runs(ankle < 0.5) if first + later < swing[1] <= last + later]
     if not swings:
         return np.nan, np.nan
     ankle_lift, strike = max(swings, key=np.ptp)
     lift = ankle_lift + ball[ankle_lift:strike].argmin() - 1  # the ball leaves the ground last
-    start, stop = np.clip(examples.grid[[max(lift, 0), strike]], *STEP)
+    start, stop = np.clip(examples.grid[[max(lift, 0), strike]], *TUNED.step_phases)
     return float(start), float(stop)
 
 
@@ -223,20 +218,22 @@ def _pairs(first: Examples, second: Examples, any_turn: bool) -> tuple[Indices, 
     """
     turns = first.values[:, 0]
     second_turns = second.values[:, 0]
-    is_within = (turns >= second_turns.min() - NEAR) & (turns <= second_turns.max() + NEAR)
+    lowest = second_turns.min() - TUNED.turn_beyond
+    highest = second_turns.max() + TUNED.turn_beyond
+    is_within = (turns >= lowest) & (turns <= highest)
     usable = np.flatnonzero(any_turn | is_within)
     if not usable.size:
         raise MocapError("The two kinds have no turn in common, so that none can change into the other.")
     first_rows = usable[_spread(turns[usable])]
     if any_turn:
-        count = min(max(len(turns), len(second_turns)), EXAMPLES)
+        count = min(max(len(turns), len(second_turns)), TUNED.change_examples)
         return np.resize(first_rows, count), np.resize(_spread(second_turns), count)
     differences = np.abs(turns[first_rows][:, None] - second_turns)
     return first_rows, differences.argmin(axis=1)
 
 
 def _spread(turns: Array) -> Indices:
-    """Return the rows of at most `EXAMPLES` turns, evenly spread over their ascending order."""
+    """Return the rows of at most `TUNED.change_examples` turns, evenly spread over their ascending order."""
     ascending = np.argsort(turns)
-    evenly = np.linspace(0, len(turns) - 1, EXAMPLES).round().astype(int)
+    evenly = np.linspace(0, len(turns) - 1, TUNED.change_examples).round().astype(int)
     return np.asarray(ascending[np.unique(evenly)])

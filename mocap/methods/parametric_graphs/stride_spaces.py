@@ -12,11 +12,11 @@ from mocap.errors import MocapError
 from mocap.methods.match_webs.motion_spaces import MotionSpace
 from mocap.methods.match_webs.target_weights import nearest_samples
 from mocap.methods.parametric_graphs.examples import Examples, mixed_trajectory
+from mocap.methods.parametric_graphs.tuned import TUNED
 
 Space = MotionSpace[Examples]
 
 SMALLEST = 1e-3  # weights below this fraction of the largest count as 0
-SAMPLES = 120  # number of samples of a space
 
 
 def bell_weights(values: Array, targets: Array, width: Array | float) -> Array:
@@ -109,7 +109,7 @@ def make_space(strides: Examples, width: float, low: float, high: float) -> Spac
     if len(values) < 3 or np.ptp(values) < width / 2:
         got = f"{len(values)} with a turn of {_range_text(values)}"
         raise MocapError(f"A space takes 3 strides or more that vary, got {got}: add clips.")
-    targets = np.linspace(low - width, high + width, SAMPLES)[:, None]
+    targets = np.linspace(low - width, high + width, TUNED.samples)[:, None]
     weights = bell_weights(values, targets, width)
     turns = measure_mixes(strides, weights)[:, :1]
     lowest = np.array([max(low, turns.min())])
@@ -117,7 +117,7 @@ def make_space(strides: Examples, width: float, low: float, high: float) -> Spac
     scale = np.maximum((highest - lowest) / 2, 1e-9)
     space = MotionSpace(strides, weights, turns, scale, ("turn",), lowest, highest)
     if len(space.reached) < 3:
-        inside = f"{len(space.reached)} of {SAMPLES} samples"
+        inside = f"{len(space.reached)} of {TUNED.samples} samples"
         raise MocapError(f"Only {inside} lie in the range: they come to a turn of {_range_text(turns)}.")
     return space
 

@@ -19,18 +19,14 @@ from mocap.errors import MocapError
 from mocap.feet.footplants import mark_plants
 from mocap.methods.parametric_graphs.examples import (
     FINE,
-    MARGIN,
     Examples,
     mixed_trajectory,
     register_cuts,
     sample_cuts,
 )
+from mocap.methods.parametric_graphs.tuned import TUNED
 
 STRIDE = "lrl"  # the strikes of a stride
-STEP_LASTS = (0.23, 1.0)  # seconds, the shortest and the longest step of a walk or run
-CALM = np.radians(15)  # largest difference from the median turn of a step that counts as straight
-STRAIGHT = np.radians(20)  # largest turn of a straight stride
-GOES = 0.3  # m/s, smallest speed of a straight stride
 
 
 def cut_strides(
@@ -39,7 +35,7 @@ def cut_strides(
     feet: str = STRIDE,
     by: str = "strikes",
     label: str = "",
-    margin: float = MARGIN,
+    margin: float = TUNED.margin,
 ) -> Examples:
     """Cut clips at foot strikes, and sample all examples on one grid of phases [HG07, examples].
 
@@ -133,7 +129,7 @@ def _frames_at(grid: Array, strikes: Sequence[_Strike], first: int, feet: str, f
     example = strikes[first:stop]
     frames = np.array([strike.frame for strike in example], float)
     steps = np.diff(frames)
-    shortest, longest = (seconds * fps for seconds in STEP_LASTS)
+    shortest, longest = (seconds * fps for seconds in TUNED.step_seconds)
     order = "".join(strike.foot for strike in example)
     if order != feet or steps.min() < shortest or steps.max() > longest:
         return None
@@ -151,10 +147,10 @@ def _calibrated(strides: Examples, *, steps: bool) -> Examples:
     values = strides.values.copy()
     sway = 0.0
     if steps:
-        calm = np.abs(values[:, 0] - np.median(values[:, 0])) < CALM
+        calm = np.abs(values[:, 0] - np.median(values[:, 0])) < TUNED.calm
         sway = float(np.median(values[calm, 0]))
         values[:, 0] -= sway
-    straight = (np.abs(values[:, 0]) < STRAIGHT) & (values[:, 1] > GOES)
+    straight = (np.abs(values[:, 0]) < TUNED.straight) & (values[:, 1] > TUNED.straight_speed)
     ground, _ = mixed_trajectory(strides, np.eye(len(values))[straight])
     directions = np.angle(np.diff(ground[:, strides.ends], axis=1))
     offset = float(np.median(directions)) if straight.any() else 0.0

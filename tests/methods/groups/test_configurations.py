@@ -8,8 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.methods.groups import RATE, Configuration, nearest_two
-from mocap.methods.groups.configurations import SECONDS, assignment_costs, cluster, compare, seen_from_itself
+from mocap.methods.groups.configurations import assignment_costs, cluster, compare, seen_from_itself
 from mocap.methods.groups.flocking import APART, BODY, Flock, advance, push_apart, simulate, steering_force
+from mocap.methods.groups.tuned import TUNED
 from tests.methods.groups.built import flock
 from tests.refusals import refusals, told, unwarned
 
@@ -52,7 +53,7 @@ def test_the_match_says_how_to_lay_the_second_on_the_first():
     for row in range(5):
         there = match.rotation[row] * second.positions[row][match.order[row]] + match.translation[row]
         going = match.rotation[row] * second.velocities[row][match.order[row]]
-        change = SECONDS * np.abs(first.velocities[row] - going)
+        change = TUNED.velocity_seconds * np.abs(first.velocities[row] - going)
         square = np.abs(first.positions[row] - there) ** 2 + change**2
         assert np.sqrt(square.mean()) == pytest.approx(match.rms[row])
 

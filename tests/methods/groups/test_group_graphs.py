@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 from mocap.body.planar import PlanarTransform
 from mocap.methods.groups import GroupGraph, build_group, compare, make_clips, play_group, random_group_walk
 from mocap.methods.groups.flocking import APART, RATE, Configuration, nearest_two
-from mocap.methods.groups.group_clips import HARDEST, bend_to, run_from, separate
+from mocap.methods.groups.group_clips import bend_to, run_from, separate
+from mocap.methods.groups.tuned import TUNED
 from tests.methods.groups.built import accelerations, flock, graph
 from tests.refusals import refusals, told
 
@@ -84,7 +85,7 @@ def test_clips_end_on_their_nodes_nobody_is_jerked_or_nearer_than_60_cm_and_boun
     """As in [LCF05, clips] and [LCF05, bounds]."""
     group = graph(count, nodes)
     assert min(nearest_two(clip.positions).min() for clip in group.clips) >= APART
-    assert max(accelerations(clip.positions).max() for clip in group.clips) <= HARDEST
+    assert max(accelerations(clip.positions).max() for clip in group.clips) <= TUNED.hardest
     for clip in group.clips[::9]:
         start, end = group.nodes[clip.start], group.nodes[clip.end]
         np.testing.assert_allclose(clip.positions[0], start.positions, atol=1e-12)

@@ -8,6 +8,7 @@ from mocap.body.planar import on_ground
 from mocap.datasets import samples
 from mocap.methods.in_betweening import end_bending
 from mocap.methods.in_betweening.end_bending import bend_to
+from tests.tuning import tune
 
 
 @settings(max_examples=15)
@@ -27,9 +28,9 @@ def test_a_walk_is_bent_to_any_end_near_its_own(x, z, turn):
 def test_turning_is_held_to_its_limit_where_there_is_a_way(monkeypatch):
     walk = samples.sample("walk_straight")[:481:4]
     end = on_ground(walk.root_positions[-1]) + 1.2j
-    monkeypatch.setattr(end_bending, "MOST_TURN", 10.0)
+    tune(monkeypatch, end_bending, most_turn=10.0)
     free = bend_to(walk, len(walk), end, 0.0)
     limit = 0.9 * np.abs(free.turned).max()
-    monkeypatch.setattr(end_bending, "MOST_TURN", limit)
+    tune(monkeypatch, end_bending, most_turn=limit)
     held = bend_to(walk, len(walk), end, 0.0)
     assert held.lack < 1e-3 and np.abs(held.turned).max() <= limit

@@ -14,6 +14,7 @@ from tests.bundled import walking
 from tests.conftest import SWEEP
 from tests.editing.test_path_editing import slide
 from tests.refusals import quietly
+from tests.tuning import tune
 
 
 def met(start, end, seconds):
@@ -72,7 +73,7 @@ def test_what_cannot_be_met_is_refused(monkeypatch):
     graph, clip = compile_graph(walking()), walking().source.clips[0]
     with pytest.raises(NoWalk, match=r"from one pose to the other, 30\.0 m in 2\.0 s"):
         in_between(graph, place(clip[40:], 0.0, (0, 0)), ending(clip, 200, (0, 30), 0.0), 2.0)
-    monkeypatch.setattr(in_betweens, "POSE", 1e-6)
+    tune(monkeypatch, in_betweens, pose=1e-6)
     with pytest.raises(NoWalk, match=r"The first pose of .* m is the limit"):
         in_between(graph, resample(samples.sample("walk_straight"), 30)[30:], clip, 2.0)
 

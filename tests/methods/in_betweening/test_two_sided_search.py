@@ -11,6 +11,7 @@ from mocap.datasets import samples
 from mocap.graphs import compile_graph, from_transitions
 from mocap.matching.transitions import Transition
 from mocap.methods.in_betweening import two_sided_search
+from tests.tuning import tune
 
 
 def tiny():
@@ -51,7 +52,7 @@ def first_half(graph, edges, frames):
 def test_the_search_finds_an_end_for_every_first_half_that_a_full_search_finds(monkeypatch, frames):
     graph = tiny()
     clip = graph.source.clips[0]
-    monkeypatch.setattr(two_sided_search, "CANDIDATES", 1)
+    tune(monkeypatch, two_sided_search, candidates=1)
     near = tuple(
         two_sided_search.find_candidates(graph, some, direction=way, limit=np.inf)
         for some, way in ((clip[20:], 1), (clip[:161], -1))

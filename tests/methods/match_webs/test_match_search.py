@@ -11,6 +11,7 @@ from mocap.methods.match_webs.webs import MatchWeb
 from tests.methods.match_webs.conftest import common, cycles, judge
 from tests.methods.match_webs.spaces_of_walks import PUNCHES
 from tests.refusals import refused, told
+from tests.tuning import tune
 
 
 def stretch(start, stop):
@@ -161,9 +162,9 @@ def test_a_search_that_explodes_says_so(bundled, monkeypatch, recwarn):
         found = search(bundled.web, 0, slice(240, 300), below=0.02, lengths=(1 / 2, 2))
         return np.bincount([match.generation for match in found])[:3].tolist()
 
-    monkeypatch.setattr(match_search, "FEW", 21)
+    tune(monkeypatch, match_search, few_matches=21)
     assert ask() == [1, 8, 23] and not recwarn
-    monkeypatch.setattr(match_search, "LEAK", 2)
+    tune(monkeypatch, match_search, leak=2)
     told("One step found 23 matches, more than 2 times the step before", ask)
 
 

@@ -18,6 +18,7 @@ from mocap.methods.match_webs.local_alignment import apart, pieces
 from mocap.methods.match_webs.webs import WINDOW
 from tests.oracles import least_sum, longest_run, path_sum
 from tests.refusals import refusals, told
+from tests.tuning import tune
 
 SLOPE, NEAR = 2, 3
 
@@ -238,8 +239,8 @@ def test_pieces_cover_all_windows_and_cut_only_clips_that_are_too_long(lengths, 
 def test_a_web_made_of_small_pieces_finds_what_one_piece_finds(bundled, monkeypatch):
     clips = bundled.clips[:2]
     whole = build_web(clips, below=0.05)
-    monkeypatch.setattr(local_alignment, "ROWS", 400)
-    monkeypatch.setattr(local_alignment, "COLUMNS", 500)
+    tune(monkeypatch, local_alignment, part_rows=400)
+    tune(monkeypatch, local_alignment, part_columns=500)
     cut = build_web(clips, below=0.05)
     assert len(whole) != len(cut)  # long paths are cut
     queries = [bundled.truth[3], bundled.truth[-1] if bundled.truth[-1][0] < 2 else bundled.truth[12]]

@@ -14,8 +14,9 @@ from mocap.feet import clean_up
 from mocap.methods.match_webs import weights_for
 from mocap.methods.match_webs.motion_spaces import random_weights
 from mocap.methods.parametric_graphs import ParametricController, build_edge, cut_actions, optimal_transitions
-from mocap.methods.parametric_graphs.parametric_edges import BAD, build_parametric
+from mocap.methods.parametric_graphs.parametric_edges import build_parametric
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters
+from mocap.methods.parametric_graphs.tuned import TUNED
 from mocap.quality import foot_sliding, jumps, spread
 from mocap.steering import Controller, command_headings, measure_delay, steer
 from tests.bundled import WALKS, bundled, clips
@@ -128,11 +129,11 @@ GOOD = 0.03  # T_GOOD, metres
 def test_boxes_hold_next_to_no_bad_target_among_fresh_ones_and_among_those_drawn_inside():
     """As in [HG07, 4]. A box of no width holds none of the fresh targets: so draw inside each one, too."""
     source, edge = built.space(), built.walking().edges["walk", "walk"]["edge"]
-    boxes, share = built.bad_ones(source, source, edge, BAD * GOOD, seed=0)
+    boxes, share = built.bad_ones(source, source, edge, TUNED.bad * GOOD, seed=0)
     assert boxes <= 0.1 and share <= 0.01
     at = draw_parameters(source, 100, np.random.default_rng(0))
     within = [optimal_transitions(source, source, a[None], _inside(edge.look_up(a)))[0] for a in at]
-    assert (np.array(within) > BAD * GOOD).mean() <= 0.02
+    assert (np.array(within) > TUNED.bad * GOOD).mean() <= 0.02
 
 
 def _inside(way, count=20):
@@ -144,7 +145,7 @@ def test_seams_of_300_random_targets_cost_what_the_edges_promise():
     character = ParametricController(built.walking())
     pairs = built.walk_anywhere(character, 300)
     cost = np.array([chosen.cost for chosen in character.chosen])
-    bad = BAD * GOOD
+    bad = TUNED.bad * GOOD
     assert cost.max() <= bad + 0.01 and (cost > bad).mean() <= 0.02
     spaces = dict(built.walking().nodes(data="space"))
     seams = zip(pairs[:60], character.chosen, strict=False)

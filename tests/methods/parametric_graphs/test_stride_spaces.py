@@ -24,7 +24,7 @@ from mocap.methods.parametric_graphs import (
 )
 from mocap.methods.parametric_graphs.examples import register_cuts
 from mocap.methods.parametric_graphs.made_motions import make_motion, near_end, optimal_transitions
-from mocap.methods.parametric_graphs.parametric_edges import BAD, build_edge, shrink_box
+from mocap.methods.parametric_graphs.parametric_edges import build_edge, shrink_box
 from mocap.methods.parametric_graphs.stride_spaces import (
     bell_weights,
     draw_parameters,
@@ -32,12 +32,13 @@ from mocap.methods.parametric_graphs.stride_spaces import (
     parameter_text,
     spread_parameters,
 )
+from mocap.methods.parametric_graphs.tuned import TUNED
 from tests.bundled import clips
 from tests.editing.wishes import bones
 from tests.methods.parametric_graphs import built
 from tests.refusals import refusals, refused
 
-HALF, SPAN, WINDOW = made_motions.HALF, made_motions.SPAN, made_motions.WINDOW
+HALF, SPAN, WINDOW = made_motions.HALF, TUNED.span, made_motions.WINDOW
 
 
 @pytest.mark.parametrize("feet", ["lrl", "lr", "rl"])
@@ -168,8 +169,8 @@ def test_few_sources_leave_bad_targets_in_the_boxes_between_them_and_few_targets
     source, samples = built.space(degrees=6), ((5, 300), (50, 300), (5, 20))
     few, many, small = (build_edge(source, source, good=0.02, sampling=sampling) for sampling in samples)
     assert len(many.sources) == 50 and (small.high - small.low).mean() < 0.95 * (few.high - few.low).mean()
-    assert built.bad_ones(source, source, few, BAD * 0.02)[0] > 0.12
-    assert built.bad_ones(source, source, many, BAD * 0.02)[0] < 0.03
+    assert built.bad_ones(source, source, few, TUNED.bad * 0.02)[0] > 0.12
+    assert built.bad_ones(source, source, many, TUNED.bad * 0.02)[0] < 0.03
 
 
 def test_with_d_plus_1_neighbours_boxes_jump():

@@ -14,10 +14,10 @@ from mocap.errors import SkeletonMismatch
 from mocap.feet import clean_up, mark_plants
 from mocap.files import load
 from mocap.methods.parametric_graphs import cut_actions, cut_strides, make_space
-from mocap.methods.parametric_graphs.examples import MARGIN
 from mocap.methods.parametric_graphs.stride_changes import _pairs, changing_strides
 from mocap.methods.parametric_graphs.stride_spaces import measure_mixes
 from mocap.methods.parametric_graphs.strides import _example_frames
+from mocap.methods.parametric_graphs.tuned import TUNED
 from tests.bundled import clips, walks_of_16
 from tests.methods.parametric_graphs.built import jogs, punches, slides, strides
 from tests.refusals import refusals
@@ -29,7 +29,7 @@ def test_phases_0_and_1_are_strikes_of_one_foot():
     zero, one = cut.ends
     assert cut.grid[zero] == pytest.approx(0) and cut.grid[one] == pytest.approx(1)
     assert np.abs(cut.seconds[:, zero]).max() == 0
-    ends = [-MARGIN, 1 + MARGIN]
+    ends = [-TUNED.margin, 1 + TUNED.margin]
     assert cut.grid[[0, -1]] == pytest.approx(ends, abs=0.02)
     left = cut.contact_names.index("lfoot")
     assert not cut.contacts[:, zero - 3, left].any()  # in the air before it strikes

@@ -1,0 +1,139 @@
+"""Trials of the constants of path following: `python figures/tune/steering.py [--quick]`.
+
+Walks through the clips' graph follow lines on the ground. Off and worst: the mean and the largest distance of
+the walks from the lines; good walks have less than 4 and 15 cm. Seams: transitions per second. Takes: the
+duration of a walk.
+
+- The search: an s-curve and a circle.
+- Its repetitions: a narrow s-curve and a small circle, which the first try does not follow.
+- Judging: what part of the walks along four lines is good, and the CPU time, as searches are repeated until a
+  walk is. `not_followed`: the number of lines that are refused, of six, of which clips hardly turn four.
+- Bent walks: the same two lines, with the walk laid on the line. Short: the distance of the walk's last frame
+  from the end of the line. `idle_price`: two clips of which one stands for long. `slowest`, `grace` and
+  `creep`: the same two, played at 0.6 to 0.2 times their pace. Refused: how many of these have no walk.
+- Crowds: two who cross. Nearest: the least distance between them, which should be 80 cm; waits: the sum of
+  both. `passing`: the distance of a walk from waypoints at the moments that count as passed.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+from _trials import CAPTURED_WALKS, RATE, STOP_AND_GO, Clips, Collection, Row, Study, Trial
+from _walks import PATHS, compiled, followed, graph_of, measures
+
+from mocap.body import SHAPES, GroundPath, circle, resample, s_curve
+from mocap.editing import LIMIT
+from mocap.errors import NoWalk
+from mocap.steering import Waypoint, follow_path, through_waypoints, tuned, walk_crowd
+
+NARROW = (s_curve(2.5), circle(0.8))
+SEVERAL = (*PATHS, s_curve(4.0), SHAPES["square"]())
+HARD = (circle(0.3), circle(0.5), circle(0.7), s_curve(2.0), *PATHS)
+PACES = (0.6, 0.4, 0.3, 0.2)  # times the pace of clips that stand, and walk at 1.3 m/s
+STANDING = Collection("clips that stand and walk", ("stop_and_go", "walk_straight"))
+CROSSING = (GroundPath([[0, 0], [0, 6]]), GroundPath([[3, 3], [-3, 3]]))
+WAYPOINTS = (Waypoint(0, 0), Waypoint(0.5, 4), Waypoint(-1.5, 7), Waypoint(-1.5, 11))
+
+
+def search(clips: Clips) -> Row:
+    """Follow two lines that clips can turn."""
+    return measures(followed(compiled(clips)))
+
+
+def repeated(clips: Clips) -> Row:
+    """Follow two lines that one search does not follow."""
+    return measures(followed(compiled(clips), paths=NARROW))
+
+
+def judged(clips: Clips) -> Row:
+    """Count the good ones among four walks."""
+    walks = followed(compiled(clips), paths=SEVERAL)
+    return {"good, %": 100 * float(np.mean([walk.excess <= 1 for walk in walks]))} | measures(walks)
+
+
+def judged_bent(clips: Clips) -> Row:
+    """Count the good ones among three bent walks."""
+    walks = followed(compiled(clips), bend=LIMIT, paths=SEVERAL[:3])
+    return {"good, %": 100 * float(np.mean([walk.excess <= 1 for walk in walks]))} | measures(walks)
+
+
+def refused(clips: Clips) -> Row:
+    """Count lines that are refused, and measure the walks along the others."""
+    walks = []
+    for path in HARD:
+        try:
+            walks.append(follow_path(compiled(clips), path))
+        except NoWalk:
+            continue
+    return {"refused": len(HARD) - len(walks)} | measures(walks)
+
+
+def bent(clips: Clips) -> Row:
+    """Lay walks on two lines."""
+    walks = followed(compiled(clips), bend=LIMIT)
+    ends = [np.hypot(*(walk.motion().root_positions[-1, [0, 2]] - walk.path.points[-1])) for walk in walks]
+    return {"short, cm": 100 * float(max(ends))} | measures(walks)
+
+
+def pausing(clips: Clips) -> Row:
+    """Lay walks with pauses on two lines."""
+    return measures(
+        followed(compiled(STANDING.load() or ()), bend=LIMIT, paths=(SHAPES["letter S"](), circle(0.8)))
+    )
+
+
+def slowed(clips: Clips) -> Row:
+    """Lay walks that are played more and more slowly on a line."""
+    walks = []
+    for pace in PACES:
+        played = tuple(replace(clip, fps=pace * clip.fps) for clip in STANDING.load() or ())
+        graph = compiled(tuple(resample(clip, RATE) for clip in played))
+        try:
+            walks.append(follow_path(graph, PATHS[0], bend=LIMIT))
+        except NoWalk:
+            continue
+    return {"refused": len(PACES) - len(walks)} | (measures(walks) if walks else {})
+
+
+def crossing(clips: Clips) -> Row:
+    """Let two characters cross."""
+    crowd = walk_crowd(graph_of(clips), CROSSING)
+    return {"nearest, cm": 100 * float(crowd.nearest.min()), "waits, s": sum(crowd.waits)}
+
+
+def passed(clips: Clips) -> Row:
+    """Walk through waypoints, and measure how far they are missed."""
+    walk, arrivals = through_waypoints(graph_of(clips), WAYPOINTS)
+    return {"missed, cm": 100 * max(arrival.off for arrival in arrivals)} | measures([walk])
+
+
+# reads: statement: a table
+TRIALS = {
+    "route_spacing": Trial(search, (0.2, 0.005, 0.01, 0.05)),
+    "layer": Trial(search, (0.6, 0.05, 0.1, 0.3)),
+    "reach": Trial(search, (0.1, 0.25, 1.0, 3.0)),
+    "wide_beam": Trial(repeated, (100, 200, 800)),
+    "lower_seam_prices": Trial(repeated, ((), (1 / 3,), (0.0,), (1 / 2, 1 / 4, 0.0))),
+    "seam_price_step": Trial(repeated, (2.0, 1.0, 1.1, 1.5)),
+    "leaves_path": Trial(judged, (0.1, 0.05, 0.2, 0.3)),
+    "mean_distance": Trial(judged, (0.03, 0.02, 0.06, 0.1)),
+    "seam_rate": Trial(judged, (0.7, 0.5, 1.5, 2.0)),
+    "bent_seam_rate": Trial(judged_bent, (0.4, 0.5, 1.0)),
+    "not_followed": Trial(refused, (0.1, 0.3, 3.0)),
+    "idle_price": Trial(pausing, (0.0, 0.001, 0.01, 1.0), needs_clips=False),
+    "slowest": Trial(slowed, (0.6, 0.0, 0.15), needs_clips=False),
+    "grace": Trial(slowed, (0.0, 1.0, 2.0, 8.0), needs_clips=False),
+    "creep": Trial(slowed, (0.3, 0.01, 0.1), needs_clips=False),
+    "overrun": Trial(bent, (0.0, 0.2, 1.0)),
+    "overrun_fraction": Trial(bent, (0.0, 0.01, 0.05)),
+    "clock": Trial(crossing, (1, 2, 8)),
+    "give_way": Trial(crossing, ((0, 0, 0), (0, 1, 1), (0, 2, 4))),
+    "waits": Trial(crossing, ((0.0,), (0.0, 2.0), (0.0, 0.5, 1.0, 1.5, 2.0, 4.0))),
+    "crowd_beam": Trial(crossing, (30, 50, 200)),
+    "passing": Trial(passed, (0.2, 0.0, 0.05)),
+}
+FIXED = {"walking_speed": "an error tells which clips walk; no search reads it"}
+STUDY = Study(tuned, TRIALS, FIXED, (STOP_AND_GO, CAPTURED_WALKS))
+
+if __name__ == "__main__":
+    STUDY.main(__doc__)

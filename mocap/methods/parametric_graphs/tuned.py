@@ -1,0 +1,44 @@
+"""Constants that trials chose; `figures/tune/parametric_graphs.py` runs the trials again."""
+
+from __future__ import annotations
+
+import math
+
+from mocap._shared.records import dataclass
+
+
+@dataclass(frozen=True)
+class Tuned:
+    """Each constant with its unit, and the reason for its value."""
+
+    # Strides in clips
+    step_seconds: tuple[float, float] = (0.23, 1.0)  # from strike to strike; others are no walk or run
+    calm: float = math.radians(15)  # from the median turn; steps that turn by less count as straight ahead
+    straight: float = math.radians(20)  # a straight stride turns by less
+    straight_speed: float = 0.3  # m/s; a straight stride is faster
+    margin: float = 0.38  # fraction of an action, before and after it; transitions are centred near its ends
+
+    # Spaces of strides
+    samples: int = 120  # number of samples of a space
+
+    # Changes between strides
+    change_from: float = 0.2  # phase at which a change begins
+    change_to: float = 0.8  # phase at which a change ends
+    step_phases: tuple[float, float] = (0.05, 0.95)  # phases between which feet step; seams blend the others
+    strike_phases: int = 2  # phases of the grid by which a swing may end after a strike
+    turn_beyond: float = math.radians(5)  # a turn may be this far outside those of the other kind
+    change_examples: int = 60  # number of examples of a change, at most
+
+    # Transitions between made motions
+    span: int = 3  # frames before and after an end at which a transition may be centred
+    neighbours: int = 4  # sources beyond the number of parameters: with one, as in [HG07, 4], boxes jump
+    bad: float = 1.35  # T_BAD over T_GOOD: with 2 no bad target cuts a box
+    sampling: tuple[int, int] = (50, 1000)  # number of sources and of targets of an edge
+    distance_from_bad: float = 0.005  # fraction of half a range: the distance of a box from bad targets
+
+    # A position that is asked for
+    position_rounds: int = 8  # iterations at most: where a motion starts depends on its parameters
+    settled: float = 0.002  # metres: a smaller change of the parameters ends the iterations
+
+
+TUNED = Tuned()
