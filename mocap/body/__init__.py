@@ -13,9 +13,11 @@ Reading order (notebooks 01, 03)
  6. `planar`: planar rigid transforms, and the heading of a body
  7. `euler`: Euler angles, gimbal lock, and continuity over frames
  8. `ground_path`: paths on the ground, parametrised by arc length
- 9. `limbs`: legs and arms, the heading of the hips, and the role of each joint in a body
-10. `fingerprints`: hashes that identify a clip under any name
-11. `tuned`: the constants that trials chose
+ 9. `limb_tree`: bones of constant length, and chains of them
+10. `limb_search`: legs and arms by bones and motion, whatever the names of joints
+11. `limbs`: legs and arms, the heading of the hips, and the role of each joint in a body
+12. `fingerprints`: hashes that identify a clip under any name
+13. `tuned`: the constants that trials chose
 
 References
 ----------

@@ -13,6 +13,7 @@ from .kinematics import joint_positions as joint_positions
 from .limbs import Leg as Leg
 from .limbs import find_legs as find_legs
 from .limbs import name_leg as name_leg
+from .limbs import with_roles as with_roles
 from .motion import Motion as Motion
 from .motion import concatenate as concatenate
 from .motion import resample as resample

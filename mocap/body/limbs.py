@@ -1,12 +1,15 @@
 """Legs and arms of a skeleton, and the role of each joint in a body.
 
-Skeletons from different sources share few joint names, but have the same parts. Legs, arms and head are
-identified by the names that common files use, or legs are named by hand. The trunk is identified by the tree:
-the pelvis is the last common ancestor of the legs, the chest that of the arms. The waist and the neck are the
-first joints above them.
+Skeletons from different sources share few joint names, but have the same parts. A skeleton stores the roles
+of its joints if they are given, or found by their motion when a file is read (`with_roles`). Otherwise legs,
+arms and head are identified by the names that common files use, or else by the rest pose (`limb_search`). The
+trunk is identified by the tree: the pelvis is the last common ancestor of the legs, the chest that of the
+arms. The waist and the neck are the first joints above them.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from functools import lru_cache
 from itertools import pairwise
 from textwrap import shorten
 from typing import Literal, NamedTuple
@@ -14,10 +17,16 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from mocap._shared.arrays import Array
+from mocap.body.joint_trees import place_joints
+from mocap.body.limb_search import LIMITS, find_limbs
+from mocap.body.motion import Motion, require_motion
 from mocap.body.skeleton import Skeleton
-from mocap.errors import MocapError, Remedy
+from mocap.errors import MocapError, Remedy, shortened, warn
 
-LEGS_BY_HAND = Remedy("name each by hand, {}[name_leg(skeleton, hip, knee, ankle, ball), ...]", "legs")
+# Each surface names its own parameter: `roles=` of `mocap.load`, `--joints` of a command.
+ROLES_BY_HAND = Remedy("name them by {} when the clip is read", "roles")
+
+SHORT = 1e-6  # metres: a bone of this length or less has no direction
 
 # Names of hip, knee, ankle and of shoulder, elbow, wrist on the left side, by source. Legs and arms are
 # looked up separately. A prefix up to a colon is ignored.
@@ -42,10 +51,14 @@ SIDES = ("left", "right")
 FEET = tuple(f"{side} {part}" for side in SIDES for part in ("ankle", "ball"))
 ROLES = (*TRUNK, *(f"{side} {part}" for side in SIDES for part in ("clavicle", *ARM, *LEG)))
 """The roles that a joint can have in a body, from "pelvis" to "right ball"."""
+TIPS = tuple(f"{side} tip" for side in SIDES)
+"""The ends of the toes: roles that a skeleton may carry, but that no bone of another body follows."""
 
 
 class Leg(NamedTuple):
-    """The joints of a leg, as indices into a skeleton, each the parent of the next.
+    """The joints of a leg, as indices into a skeleton, each below the one before.
+
+    A foot without toes has no joint at its ball. Its `ball` is then the ankle, and its length is 0.
 
     Examples
     --------
@@ -62,15 +75,32 @@ class Leg(NamedTuple):
 
     def lengths(self, skeleton: Skeleton) -> Array:
         """Return the lengths of thigh, shank and foot (ankle to ball), shape (3,), metres."""
-        return np.asarray(np.linalg.norm(skeleton.offsets[list(self[1:])], axis=-1))
+        bones = np.linalg.norm(skeleton.offsets, axis=-1)
+        lengths = []
+        for above, joint in pairwise(self):
+            path = skeleton.path_to_root(joint)
+            between = path[: path.index(above)]  # more than one bone in a thigh that is split
+            lengths.append(sum(bones[between]))
+        return np.array(lengths, float)
+
+    @property
+    def has_ball(self) -> bool:
+        """Whether the foot has a joint ahead of its ankle."""
+        return self.ball != self.ankle
 
 
 def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
-    """Find the left and the right leg by the names of their joints. The ball is the ankle's first child.
+    """Find the left and the right leg by the skeleton's roles, by names, or by the rest pose.
+
+    By names, the ball is the ankle's first child.
 
     Raises
     ------
-    MocapError : for skeletons with unknown names, whose legs are named by hand with `name_leg`.
+    MocapError : for skeletons in which no legs are found, and for roles that are no legs.
+
+    Warns
+    -----
+    MocapWarning : if neither roles nor names identify the legs. A rest pose is less certain than a motion.
 
     Examples
     --------
@@ -80,29 +110,142 @@ def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
 
     Notebook: 04b-feet
     """
-    return _find_legs(skeleton, remedy=LEGS_BY_HAND)
-
-
-def _find_legs(skeleton: Skeleton, advice: str = "", remedy: Remedy | None = None) -> tuple[Leg, ...]:
-    """Find the left and the right leg. The error for unknown names carries the advice or the remedy."""
-    pair = find_pair(skeleton, "legs")
-    if not pair:
-        joints = shorten(", ".join(skeleton.names), 38)
-        names = shorten(", ".join(dict(LIMBS)), 40)
-        raise MocapError(f"No legs found among {joints}: tried {names}.{advice}", remedy=remedy)
-    legs = [Leg(hip, knee, ankle, _ball(skeleton, ankle)) for hip, knee, ankle in pair]
-    for leg in legs:
-        _require_leg(skeleton, leg)
+    joints = _limbs(skeleton)
+    legs = []
+    for side in SIDES:
+        hip, knee, ankle = (joints[f"{side} {part}"] for part in LEG[:3])
+        legs.append(Leg(hip, knee, ankle, joints.get(f"{side} ball", ankle)))
+        _require_leg(skeleton, legs[-1])
     return tuple(legs)
 
 
-def _ball(skeleton: Skeleton, ankle: int) -> int:
-    """Return the ball of a foot: the first child of its ankle."""
-    children = skeleton.children(ankle)
-    if not children:
-        name = skeleton.names[ankle]
-        raise MocapError(f"The foot '{name}' has no joint or end site that could be its ball.")
-    return children[0]
+def _limbs(skeleton: Skeleton) -> dict[str, int]:
+    """Find the joints of legs, arms and head by role; raise if there are no legs."""
+    by_hand = {role: skeleton.index(name) for role, name in skeleton.roles.items()}
+    if _has_legs(by_hand):
+        return by_hand
+    joints = _named_limbs(skeleton) | by_hand
+    if _has_legs(joints):
+        return joints
+    at_rest, doubts = _limbs_at_rest(skeleton)
+    if not at_rest:
+        names = shorten(", ".join(skeleton.names), 60)
+        problem = f"No legs found among {names} by name, nor at rest: {doubts[0]}."
+        raise MocapError(problem, remedy=ROLES_BY_HAND)
+    return at_rest | joints
+
+
+def _has_legs(joints: Iterable[str]) -> bool:
+    return {f"{side} {part}" for side in SIDES for part in LEG[:3]} <= set(joints)
+
+
+def _named_limbs(skeleton: Skeleton) -> dict[str, int]:
+    """Find limbs and head by their names."""
+    joints: dict[str, int] = {}
+    for side, leg in zip(SIDES, find_pair(skeleton, "legs"), strict=False):  # there may be none
+        joints |= {f"{side} {part}": joint for part, joint in zip(LEG[:3], leg, strict=True)}
+        toes = [toe for toe in skeleton.children(leg[-1]) if np.linalg.norm(skeleton.offsets[toe]) > SHORT]
+        if toes:
+            joints[f"{side} ball"] = toes[0]
+    for side, arm in zip(SIDES, find_pair(skeleton, "arms"), strict=False):
+        joints |= {f"{side} {part}": joint for part, joint in zip(ARM, arm, strict=True)}
+    names = [name.lower() for name in _without_prefixes(skeleton)]
+    if "head" in names:
+        joints["head"] = names.index("head")
+    return joints
+
+
+@lru_cache(maxsize=64)
+def _limbs_at_rest(skeleton: Skeleton) -> tuple[dict[str, int], tuple[str, ...]]:
+    """Find limbs by the rest pose, and warn of it once for each skeleton."""
+    limbs = find_limbs(skeleton, skeleton.rest[None])
+    joints = _without_trunk(limbs.roles)
+    if joints:
+        legs = ", ".join(f"'{skeleton.names[joints[f'left {part}']]}'" for part in LEG[:3])
+        doubts = "; ".join([*limbs.doubts, "a motion shows more"])
+        warn(f"{skeleton!r}: by its rest pose alone the left leg is {legs}; {doubts}.")
+    return joints, limbs.doubts
+
+
+def _without_trunk(joints: Mapping[str, int]) -> dict[str, int]:
+    """Return the roles of limbs, neck and head: `_trunk` finds the others by the tree."""
+    return {role: joint for role, joint in joints.items() if role not in ("pelvis", "chest")}
+
+
+def with_roles(motion: Motion, roles: Mapping[str, str] | None = None) -> Motion:
+    """Find the roles of a motion's joints, and give them to its skeleton.
+
+    Limbs that have unknown names are found by their motion, with `limb_search.find_limbs`.
+
+    Parameters
+    ----------
+    motion : F frames.
+    roles : names of joints by role, such as {"left hip": "thigh_l"}; they replace those that are found. The
+        roles are those of `ROLES`, and "left tip" and "right tip" for the ends of the toes. An empty name
+        says that a limb has no such joint: a foot without toes has no ball.
+
+    Returns
+    -------
+    The motion. If all limbs have known names, or roles, and no roles are given, it is the same.
+
+    Raises
+    ------
+    MocapError : for unknown roles and joints.
+
+    Warns
+    -----
+    MocapWarning : if the legs have unknown names and the motion leaves some roles in doubt.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = with_roles(sample("walk_straight"), {"left ball": "ltoes_end"})
+    >>> walk.skeleton.roles["left ball"], walk.skeleton.roles["right ball"]
+    ('ltoes_end', 'rtoes')
+    """
+    skeleton = require_motion(motion).skeleton
+    by_hand = dict(roles or {})
+    _check_roles(skeleton, by_hand)
+    named = _named_limbs(skeleton)
+    is_known = _has_legs(named) and f"{SIDES[0]} {ARM[0]}" in named
+    if not by_hand and (is_known or _has_legs(skeleton.roles)):
+        return motion
+    joints = named if is_known or skeleton.roles else _limbs_in_motion(motion, named, by_hand)
+    names = {role: skeleton.names[joint] for role, joint in joints.items()}
+    names |= {**skeleton.roles, **by_hand}
+    names = {role: name for role, name in names.items() if name}
+    return replace(motion, skeleton=replace(skeleton, roles=names)) if names else motion
+
+
+def _check_roles(skeleton: Skeleton, roles: Mapping[str, str]) -> None:
+    """Raise for unknown roles and joints; an empty name is fine."""
+    for role, name in roles.items():
+        if role not in (*ROLES, *TIPS):
+            parts = ", ".join([*TRUNK, *(f"left {part}" for part in ("clavicle", *ARM, *LEG, "tip"))])
+            raise MocapError(f"No role '{shortened(role, 30)}'; there are {parts}, and those of the right.")
+        if name:
+            skeleton.index(name)
+
+
+def _limbs_in_motion(motion: Motion, named: Mapping[str, int], by_hand: Mapping[str, str]) -> dict[str, int]:
+    """Find limbs by their motion; those with known names keep them."""
+    skeleton = motion.skeleton
+    frames = np.linspace(0, len(motion) - 1, min(len(motion), LIMITS.frames)).astype(int)
+    roots = motion.root_positions[frames]
+    positions = place_joints(skeleton, roots, motion.rotations[frames]).positions
+    limbs = find_limbs(skeleton, positions)
+    joints = _without_trunk(limbs.roles)
+    if joints.get("left hip") == named.get("right hip", -1):  # names count more than the motion
+        joints = {_other_side(role): joint for role, joint in joints.items()}
+    if joints and limbs.doubts and not _has_legs(named) and not _has_legs(by_hand):
+        correct = "`mocap info FILE --joints` prints the roles of the joints, to be corrected"
+        warn(f"'{shortened(motion.name, 60)}': limbs are unsure: {'; '.join(limbs.doubts)}; {correct}.")
+    return joints | dict(named)
+
+
+def _other_side(role: str) -> str:
+    side, _, part = role.partition(" ")
+    return f"{SIDES[1 - SIDES.index(side)]} {part}" if side in SIDES else role
 
 
 def find_pair(skeleton: Skeleton, limbs: Literal["legs", "arms"]) -> list[list[int]]:
@@ -148,13 +291,15 @@ def name_leg(skeleton: Skeleton, hip: str, knee: str, ankle: str, ball: str) -> 
 
 
 def _require_leg(skeleton: Skeleton, leg: Leg) -> None:
-    """Raise unless each joint of a leg is the parent of the next one, by a bone of nonzero length."""
+    """Raise unless each joint of a leg hangs on the one before, at a distance; a ball may be the ankle."""
     names = skeleton.names
-    for above, below in pairwise(leg):
-        if skeleton.parents[below] != above:
+    for above, below in pairwise(leg if leg.has_ball else leg[:3]):
+        if above not in skeleton.path_to_root(below)[1:]:
             hangs = f"'{names[below]}' hangs on '{names[skeleton.parents[below]]}', not on '{names[above]}'"
             raise MocapError(f"In a leg each joint hangs on the one before, but {hangs}.")
-        if not np.linalg.norm(skeleton.offsets[below]) > 1e-6:
+    for below, length in zip(leg[1:], leg.lengths(skeleton), strict=True):
+        if not length > SHORT and (below != leg.ball or leg.has_ball):
+            above = leg[leg.index(below) - 1]
             raise MocapError(f"'{names[below]}' sits on '{names[above]}': a bone needs a length.")
 
 
@@ -196,16 +341,53 @@ def roles(skeleton: Skeleton) -> dict[str, int]:
 
     Notebook: 13-retargeting
     """
-    joints: dict[str, int] = {}
-    for side, leg in zip(SIDES, _find_legs(skeleton, advice=" Rename the joints."), strict=True):
+    joints = _limbs(skeleton)
+    for side, leg in zip(SIDES, find_legs(skeleton), strict=True):
         joints |= {f"{side} {part}": joint for part, joint in zip(LEG, leg, strict=True)}
-    for side, arm in zip(SIDES, find_pair(skeleton, "arms"), strict=False):  # there may be none
-        joints |= {f"{side} {part}": joint for part, joint in zip(ARM, arm, strict=True)}
-    names = [name.lower() for name in _without_prefixes(skeleton)]
-    if "head" in names:
-        joints["head"] = names.index("head")
-    joints |= _trunk(skeleton, joints)
+    joints = _trunk(skeleton, joints) | joints
     return {role: joints[role] for role in ROLES if role in joints}
+
+
+def limb_partners(skeleton: Skeleton) -> dict[int, int]:
+    """Pair the joints of left and right limbs by their roles, {left joint: right joint}.
+
+    Joints between those with roles, such as clavicles, are paired too, and the joints below, such as fingers,
+    in the order of the tree. Others are not paired; without limbs there are no pairs.
+
+    Examples
+    --------
+    >>> from mocap.datasets.samples import SKELETON
+    >>> pairs = limb_partners(SKELETON)
+    >>> {SKELETON.names[left]: SKELETON.names[right] for left, right in [*pairs.items()][:3]}
+    {'lfemur': 'rfemur', 'lhipjoint': 'rhipjoint', 'ltibia': 'rtibia'}
+    """
+    try:
+        joints = _limbs(skeleton)
+    except MocapError:
+        return {}
+    pairs: dict[int, int] = {}
+    for role, joint in joints.items():
+        image = joints.get(_other_side(role), joint)
+        if role.startswith(SIDES[0]):
+            pairs |= _paired_paths(skeleton, joint, image)
+    open_pairs = [*pairs.items()]
+    for joint, image in open_pairs:
+        below = [child for child in skeleton.children(joint) if child not in pairs]
+        images = [child for child in skeleton.children(image) if child not in pairs.values()]
+        if len(below) == len(images):
+            new_pairs = dict(zip(below, images, strict=True))
+            pairs |= new_pairs
+            open_pairs += new_pairs.items()
+    return pairs
+
+
+def _paired_paths(skeleton: Skeleton, joint: int, image: int) -> dict[int, int]:
+    """Pair two joints, and those above them up to the last joint that both hang on."""
+    path = skeleton.path_to_root(joint)
+    path_of_image = skeleton.path_to_root(image)
+    above = [ancestor for ancestor in path if ancestor not in path_of_image]
+    above_image = [ancestor for ancestor in path_of_image if ancestor not in path]
+    return dict(zip(above, above_image, strict=True)) if len(above) == len(above_image) else {}
 
 
 def _trunk(skeleton: Skeleton, limbs: Mapping[str, int]) -> dict[str, int]:

@@ -35,6 +35,8 @@ class Skeleton:
     dofs : the axes of a joint's rotations, in the order of rotations about fixed axes, such as "xyz" or "x";
         by default "xyz", and "" for a joint without children. `axes` and `dofs` describe the angles of a file
         only. In a motion, a joint may have any rotation.
+    roles : names of joints by their role in a body, such as {"left knee": "calf_l"}; by default none, because
+        `body.find_legs` knows the names of many files. `body.with_roles` and `files.load` set them.
 
     Raises
     ------
@@ -59,16 +61,18 @@ class Skeleton:
     offsets: Array
     axes: Array = field(default_factory=lambda: np.empty((0, 4)))
     dofs: Sequence[str] = ()
+    roles: Mapping[str, str] = field(default_factory=dict)
 
     if TYPE_CHECKING:  # the types that callers may pass: `__post_init__` converts them to arrays
 
-        def __init__(
+        def __init__(  # noqa: PLR0913 (the fields)
             self,
             names: Sequence[str],
             parents: ArrayLike,
             offsets: VectorsLike,
             axes: VectorsLike = ...,
             dofs: Sequence[str] = ...,
+            roles: Mapping[str, str] = ...,
         ) -> None: ...
 
     def __post_init__(self) -> None:
@@ -88,6 +92,9 @@ class Skeleton:
         for name, axes in zip(self.names, self.dofs, strict=True):
             if not set(axes) <= set("xyz") or len(set(axes)) < len(axes):
                 raise MocapError(f"Joint '{name}' needs dofs such as 'xyz', 'x' or '', got '{axes}'.")
+        object.__setattr__(self, "roles", dict(self.roles))
+        for name in self.roles.values():
+            self.index(name)
 
     @classmethod
     def from_table(cls, rows: Mapping[str, tuple[str, ArrayLike]], scale: float = 1.0) -> Skeleton:

@@ -15,6 +15,7 @@ from mocap.cli.clip_sets import read_found
 from mocap.cli.options import (
     CM,
     READING,
+    FileReading,
     Reading,
     Sources,
     Unit,
@@ -31,7 +32,7 @@ from mocap.files.conversion import find_files
 from mocap.methods import match_webs
 
 
-def info(file: Path, *, joints: bool = False, reading: Reading) -> None:
+def info(file: Path, *, joints: bool = False, reading: FileReading) -> None:
     """Report the duration, the path and the flaws of a clip.
 
     Report the duration of a clip, the height of the body, the length of its path, its change of heading, and
@@ -40,17 +41,23 @@ def info(file: Path, *, joints: bool = False, reading: Reading) -> None:
     Parameters
     ----------
     file : a motion file.
-    joints : also list the names of the joints.
+    joints : print the roles of the joints and their names instead, as .toml, which other commands accept by
+        --joints.
 
     Notes
     -----
-    Example: mocap info walk.bvh --joints
+    Example: mocap info walk.bvh --joints > map.toml
     """
     from mocap.files.spaces import unit_name  # the help needs no NumPy
 
     reading.require_skeleton_of_use(file)
     recording = reading.read(file)
     motion = recording.motion
+    if joints:
+        from mocap.files.role_maps import format_roles  # the help needs no NumPy
+
+        print(format_roles(motion))
+        return
     with timed_stage("measuring"):
         table = quality.inspect(motion, recording.angles).table()
     print(table)
@@ -58,9 +65,6 @@ def info(file: Path, *, joints: bool = False, reading: Reading) -> None:
         print(f"space    {unit_name(recording.space.scale)} a unit, {recording.space.up} up")
     if recording.assumed:
         print(f"assumed  {recording.assumed.worded(READING[recording.assumed.parameter])}")
-    if joints:
-        for joint, name in enumerate(motion.skeleton.names):
-            print(f"{'  ' * len(motion.skeleton.path_to_root(joint)[1:])}{printable(name)}")
 
 
 def view(clip: Path, *, out: Path | None = None, reading: Reading) -> None:

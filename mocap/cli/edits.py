@@ -71,7 +71,9 @@ def warp(
         try:
             body.find_legs(motion.skeleton)
         except MocapError as error:
-            raise MocapError(error.problem(), remedy=Remedy("give {}", "loose_feet")) from None
+            raise MocapError(
+                error.problem(), remedy=Remedy("give {}, or name them by --joints", "loose_feet")
+            ) from None
         motion = feet.mark_plants(motion)
     warped = warp_plans.warp(motion, plan, window=window, feet=not loose_feet)
     poses = sum(map(len, plan.wishes.values()))
@@ -238,7 +240,8 @@ def retarget(
     """Retarget clips to another body.
 
     Transfer clips to another body, with its feet planted at the positions of the original footplants. Then
-    clips of different people can be used in one motion graph. Joints are identified by common names.
+    clips of different people can be used in one motion graph. Joints are identified by common names, or by
+    their motion.
 
     Parameters
     ----------
@@ -261,7 +264,7 @@ def retarget(
         target = out if source.is_dir() else out / f"{source.stem}.{format}"
         pairs += plan(source, target, f".{format}")
     require_apart(pairs, [to])
-    wear = partial(_worn, reading, _body(to, to_scale))
+    wear = partial(_worn, reading, _body(to, to_scale, reading.joints))
     failed = convert(pairs, wear, progress=bar("retargeting"))
     return options.report_failures("retargeted", len(pairs), failed, f", in {out}")
 
@@ -273,7 +276,7 @@ def _worn(reading: Reading, wearer: "Stance | body.Skeleton", source: Path) -> "
     return wear(reading.load(source), wearer)
 
 
-def _body(path: Path, scale: float | None) -> "Stance | body.Skeleton":
+def _body(path: Path, scale: float | None, joints: Sequence[Path]) -> "Stance | body.Skeleton":
     """Read the body to which clips are retargeted, and its stance from a clip in which it stands."""
     from mocap.editing.stances import stance_of_zero
     from mocap.files.asf import read_skeleton
@@ -282,7 +285,7 @@ def _body(path: Path, scale: float | None) -> "Stance | body.Skeleton":
         if scale:
             raise MocapError(f"--to-scale is for clips; {path} says its unit of length itself.")
         return read_skeleton(path).skeleton
-    clip = Reading(scale=scale).load(path)
+    clip = Reading(scale=scale, joints=joints).load(path)
     try:
         return editing.stance_of(clip)
     except MocapError as error:

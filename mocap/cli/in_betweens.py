@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from mocap import body, graphs
-from mocap.cli.options import Building, bar, check_out, number, print_rows, require_other, write_out
+from mocap.cli.options import Building, check_out, load_graph, number, print_rows, require_other, write_out
 from mocap.errors import MocapError
 from mocap.files.conversion import find_files
 from mocap.methods import in_betweening
@@ -144,7 +144,7 @@ def _graph(
     from mocap.graphs.storage import find_origins  # the help needs no NumPy
 
     require_other(out, [origin.path for origin in find_origins(path)])
-    return graphs.load(path, skeleton=building.skeleton, progress=bar("reading"))
+    return load_graph(path, building.skeleton, building.joints)
 
 
 def _at_rate(motion: "Motion", fps: float, frames: int) -> "Motion":

@@ -196,7 +196,10 @@ def _run(words: Sequence[str]) -> int:
         else:
             warnings.simplefilter("always", MocapWarning)
         warnings.showwarning = _show_warning
-        with named_options(option_names(command)), retargeting_advised():
+        options = option_names(command)
+        if "joints" in options:
+            options["roles"] = options["joints"]  # as the parameter is called in Python
+        with named_options(options), retargeting_advised():
             status = command(*bound.args, **bound.kwargs)
         seconds = time.perf_counter() - start
         note(f"done in {seconds:.1f} s, {time.process_time():.1f} s of processor time")

@@ -5,16 +5,17 @@ import os
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from mocap import body, files, graphs
 from mocap._shared.atomic import require_writable
 from mocap._shared.progress import Progress
 from mocap.cli.clip_sets import named_apart, read_found, warn_of_space, warn_of_spaces
 from mocap.cli.messages import VERBOSITY, note
+from mocap.cli.typed_commands import ONE_EACH
 from mocap.datasets.clip_origins import Origin
 from mocap.errors import MocapError, SkeletonMismatch, printable
 
@@ -57,6 +58,11 @@ CM = number(0.001, 1000)  # centimetres
 RATE = number(1, 1000)  # frames per second
 TURN = number(1, 2800)  # degrees per second. `editing.bend` accepts 50 radians per second, 2865 degrees
 Skeleton = Annotated[Path | None, "the .asf file of .amc clips (default: a matching one in their folder)"]
+Joints = Annotated[
+    Sequence[Path],
+    ONE_EACH,
+    "a .toml of the roles of joints, from mocap info CLIP --joints; may be repeated for several bodies",
+]
 Unit = Annotated[float | None, LENGTH, "metres per unit of length in the path (default: 1; for .svg 0.01)"]
 Up = Annotated[
     Literal["y", "z", "-y", "-z", "x", "-x"] | None,
@@ -67,7 +73,13 @@ Seed = Annotated[int, number(0, 2**32 - 1, int), "seed of the random numbers"]
 
 
 # The options for the parameters of `files.load`, which are named in its errors.
-READING = {"skeleton": "--skeleton", "fps": "--fps", "scale": "--scale", "up": "--up"}
+READING = {
+    "skeleton": "--skeleton",
+    "fps": "--fps",
+    "scale": "--scale",
+    "up": "--up",
+    "roles": "--joints",
+}
 SOURCES = READING | {"fps": "--fps to mocap convert"}  # here --fps is the rate of a graph, or is missing
 
 
@@ -150,9 +162,19 @@ def require_file(path: Path, advice: str) -> None:
         raise MocapError(f"{path} is a folder: {advice}.")
 
 
+def with_chosen_roles(motion: "Motion", joints: Sequence[Path]) -> "Motion":
+    """Give a motion's joints the roles that one of some files says, or that are found."""
+    from mocap.files.role_maps import choose_roles, read_roles  # the help needs no NumPy
+
+    maps = {path: read_roles(path) for path in joints}
+    return body.with_roles(motion, choose_roles(tuple(motion.skeleton.names), maps))
+
+
 @dataclass(frozen=True)
-class Reading:
+class FileReading:
     """Options of a command that reads single clips."""
+
+    joints: ClassVar[Sequence[Path]] = ()  # files of roles, an option of `Reading`
 
     skeleton: Skeleton = None
     fps: Annotated[
@@ -184,7 +206,8 @@ class Reading:
         with named_options(READING), timed_reading(path):
             recording = read(path, self.skeleton, self.fps, self.scale, limit, self.up)
         warn_of_space(path, recording, READING)
-        return recording
+        with named_options(READING):
+            return recording._replace(motion=with_chosen_roles(recording.motion, self.joints))
 
     def require_skeleton_of_use(self, path: Path) -> None:
         """Raise if a skeleton is given for a clip that needs none."""
@@ -206,12 +229,20 @@ class Reading:
 
 
 @dataclass(frozen=True)
+class Reading(FileReading):
+    """Options for reading one clip, and for the roles of its joints."""
+
+    joints: Joints = ()  # type: ignore[misc] # an option in place of the constant
+
+
+@dataclass(frozen=True)
 class Sources:
     """Options of a command that reads several clips."""
 
     skeleton: Skeleton = None
     scale: Annotated[float | None, LENGTH, "metres per unit of a .bvh (default: as the frames show)"] = None
     up: Up = None
+    joints: Joints = ()
 
     def load(self, paths: Sequence[Path], named: Sequence[Path]) -> "tuple[list[Motion], list[Origin]]":
         """Read clips as one set; warn of an unusual space, and of bodies of other sizes than people's.
@@ -233,11 +264,16 @@ class Sources:
             recordings, read = read_found(self._read, bar("reading")(paths), named, SOURCES)
         recordings = agree(recordings, lambda number, scale, up: self._read(read[number], scale, up))
         warn_of_spaces(read, recordings, SOURCES)
+        with named_options(SOURCES):
+            recordings = [self._with_roles(recording) for recording in recordings]
         clips = named_apart(recordings, read)
         warn_of_size(clips)
         return clips, [
             self._origin(path, recording) for path, recording in zip(read, recordings, strict=True)
         ]
+
+    def _with_roles(self, recording: "Recording") -> "Recording":
+        return recording._replace(motion=with_chosen_roles(recording.motion, self.joints))
 
     def _origin(self, path: Path, recording: "Recording") -> Origin:
         """Return a file with the options by which its clip can be read again."""
@@ -278,6 +314,13 @@ class Building(Sources):
         return graphs.build(
             clips, window=frames, threshold=threshold, progress=progress, executor=executor, jobs=jobs
         )
+
+
+def load_graph(path: Path, skeleton: Path | None = None, joints: Sequence[Path] = ()) -> "MotionGraph":
+    """Read a graph and its clips, with a bar; `joints` are files of the roles of their joints."""
+    motion_graph = graphs.load(path, skeleton=skeleton, progress=bar("reading"))
+    clips = tuple(with_chosen_roles(clip, joints) for clip in motion_graph.clips)
+    return replace(motion_graph, clips=clips)
 
 
 def bar(label: str) -> Progress:

@@ -17,6 +17,7 @@ from mocap.cli.options import (
     TURN,
     Building,
     Clean,
+    Joints,
     Seed,
     Skeleton,
     Sources,
@@ -117,7 +118,9 @@ def _require_one(path: Path | None, random: str | None, seed: int | None) -> Non
         raise MocapError("--seed belongs to --random: a walk along a path leaves nothing to chance.")
 
 
-def page(graph: Path, *, out: Path = Path("walk.html"), skeleton: Skeleton = None) -> None:
+def page(
+    graph: Path, *, out: Path = Path("walk.html"), skeleton: Skeleton = None, joints: Joints = ()
+) -> None:
     """Create a web page on which a figure walks along drawn paths.
 
     The page is one file that contains the motion graph and needs no network. It can be sent, or published on
@@ -137,7 +140,7 @@ def page(graph: Path, *, out: Path = Path("walk.html"), skeleton: Skeleton = Non
     with timed_stage("loading packages"):
         from mocap.widgets.walking_page import walk_page  # the help needs no NumPy
 
-    motions = graphs.load(graph, skeleton=skeleton, progress=bar("reading"))
+    motions = options.load_graph(graph, skeleton, joints)
     with timed_stage("making the page"):
         text = walk_page(motions)
     write_file(out, text)
@@ -182,7 +185,7 @@ def _graph(path: Path, clips: Sequence[Path], sources: Sources, out: Path) -> "g
         lopsided = ".* so its mirror image does not"  # `mocap graph` has already warned
         warnings.filterwarnings("ignore", lopsided, MocapWarning)
         if not clips:
-            return graphs.load(path, skeleton=sources.skeleton, progress=bar("reading"))
+            return options.load_graph(path, sources.skeleton, sources.joints)
         motions, _ = sources.load(files_read, clips)
         motions += [editing.mirror(clip) for clip in motions if mirrored_name(clip.name) in content.names]
     return graphs.load(path, motions)
@@ -196,6 +199,7 @@ def crowd(
     out: Path,
     graph: Path | None = None,
     skeleton: Skeleton = None,
+    joints: Joints = (),
     to: Literal["bvh", "glb"] = "bvh",
     no_film: bool = False,
     seed: Seed = 0,
@@ -229,7 +233,7 @@ def crowd(
     obstacles = tuple((complex(z, x), float(radius)) for x, z, radius in discs)
     scene = groups.Scene(points, obstacles)
     scene.check(0j)
-    walks = _walks(graph, skeleton)
+    walks = _walks(graph, skeleton, joints)
     group = groups.build_group(members, seed=seed)
     plan, search = _plan(group, scene)
     effort = f"{search.expanded} states" if search else "steered, which is quicker"
@@ -248,13 +252,14 @@ def crowd(
     print_rows(wrote=out)
 
 
-def _walks(path: Path | None, skeleton: Path | None) -> "graphs.MotionGraph":
+def _walks(path: Path | None, skeleton: Path | None, joints: Sequence[Path]) -> "graphs.MotionGraph":
     """Load the requested graph, or build one of generated walks."""
-    if path is None and skeleton:
-        raise MocapError("--skeleton belongs to --graph: the generated walks have a skeleton of their own.")
+    if path is None and (skeleton or joints):
+        option = "--skeleton" if skeleton else "--joints"
+        raise MocapError(f"{option} belongs to --graph: the generated walks have a skeleton of their own.")
     if path is None:
         return graphs.prune(Building().build([datasets.sample(name) for name in WALKS]))
-    graph = graphs.load(path, skeleton=skeleton, progress=bar("reading"))
+    graph = options.load_graph(path, skeleton, joints)
     if not graph.count("transition"):
         raise NoWalk(f"{path} has no transition: no character can walk where it should.")
     return graph

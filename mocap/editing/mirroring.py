@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array
 from mocap.body import rotations
-from mocap.body.motion import Motion, require_motion
+from mocap.body.limbs import limb_partners, with_roles
+from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened, warn
 
@@ -29,7 +30,9 @@ OPPOSITE = {"left": "right", "right": "left", "Left": "Right", "Right": "Left"}
 
 
 def symmetry(skeleton: Skeleton) -> tuple[NDArray[np.intp], Array, Array]:
-    """Find the partners of all joints by their names, and the plane between them by where they sit.
+    """Find the partners of all joints, and the plane between them by where they sit.
+
+    Partners are found by the sides in names, or without these by the roles of limbs.
 
     Returns
     -------
@@ -39,7 +42,7 @@ def symmetry(skeleton: Skeleton) -> tuple[NDArray[np.intp], Array, Array]:
 
     Raises
     ------
-    MocapError : for a skeleton without left and right names, or whose sides have different joints.
+    MocapError : for a skeleton without left and right limbs, or whose sides have different joints.
 
     Examples
     --------
@@ -50,6 +53,9 @@ def symmetry(skeleton: Skeleton) -> tuple[NDArray[np.intp], Array, Array]:
     joints = range(len(skeleton))
     parents = skeleton.parents
     partners = np.array([skeleton.partner(joint) for joint in joints])
+    by_role = limb_partners(skeleton) if (partners == joints).all() else {}
+    for left, right in by_role.items():
+        partners[[left, right]] = right, left
     alike = partners[partners] == joints
     alike[1:] &= partners[parents[1:]] == parents[partners[1:]]
     if not alike.all():
@@ -60,7 +66,9 @@ def symmetry(skeleton: Skeleton) -> tuple[NDArray[np.intp], Array, Array]:
     if not len(pairs):
         raise MocapError(f"No left and right joints here: {shortened(', '.join(skeleton.names), 100)}.")
     across = distances[pairs[0]] / np.linalg.norm(distances[pairs[0]])
-    across *= 1 if skeleton.side(int(pairs[0])) == "left" else -1
+    first = int(pairs[0])
+    is_left = first in by_role if by_role else skeleton.side(first) == "left"
+    across *= 1 if is_left else -1
     axis = int(np.abs(across).argmax())
     if abs(across[axis]) > NEAR:
         across = np.sign(across[axis]) * np.eye(3)[axis] + 0.0
@@ -137,7 +145,7 @@ def mirror(motion: Motion) -> Motion:
     >>> bool(abs(there + here) < 1e-9), mirror(walk).name
     (True, 'walk_curve_1_mirrored')
     """
-    skeleton = require_motion(motion).skeleton
+    skeleton = with_roles(motion).skeleton
     partners, across, turns = symmetry(skeleton)
     lengths = np.linalg.norm(skeleton.offsets, axis=1)
     gaps = np.abs(lengths - lengths[partners])

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from mocap._shared.arrays import Array, Mask, frozen
 from mocap._shared.records import dataclass
 from mocap.body.kinematics import GlobalPoses, forward_kinematics, joint_positions
-from mocap.body.limbs import Leg, find_legs
+from mocap.body.limbs import Leg, find_legs, with_roles
 from mocap.body.motion import Motion, require_motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.turns import Turn
@@ -255,7 +255,7 @@ def plant_pins(motion: Motion, legs: Sequence[Leg] | None = None, heights: Array
     Parameters
     ----------
     motion : its `contacts` say when ankles and balls stand.
-    legs : found by name by default.
+    legs : by default those of `body.find_legs`.
     heights : shape (legs, 2), metres: how high ankle and ball stand, if not where they are. An ankle and a
         ball that stand together are then as far apart as the flat foot is long.
 
@@ -285,7 +285,9 @@ def plant_pins(motion: Motion, legs: Sequence[Leg] | None = None, heights: Array
         planted = marks[..., None]
         low = np.where(planted, places, -np.inf)
         high = np.where(planted, places, np.inf)
-        parts.append(Pins((leg.ankle, leg.ball), np.swapaxes(low, 0, 1), np.swapaxes(high, 0, 1)))
+        joints = leg[2:] if leg.has_ball else leg[2:3]
+        boxes = slice(len(joints))
+        parts.append(Pins(joints, np.swapaxes(low[boxes], 0, 1), np.swapaxes(high[boxes], 0, 1)))
     return join_pins(*parts)
 
 
@@ -335,6 +337,8 @@ def require_pins_of(motion: Motion, pins: Pins) -> None:
 def with_plants(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
     """Mark when ankles and balls stand, unless the motion says it of all of them."""
     require_motion(motion)
-    legs = find_legs(motion.skeleton) if legs is None else legs
+    if legs is None:
+        motion = with_roles(motion)
+        legs = find_legs(motion.skeleton)
     names = {motion.skeleton.names[joint] for leg in legs for joint in (leg.ankle, leg.ball)}
     return motion if names <= set(motion.contacts) else mark_plants(motion, legs)

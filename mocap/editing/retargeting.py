@@ -6,6 +6,7 @@ of global turns, not of those against the parent: a joint that one body lacks co
 not matter. The last knots are the frames.
 """
 
+from collections.abc import Iterator
 from dataclasses import replace
 from itertools import pairwise
 
@@ -103,10 +104,22 @@ def copied(motion: Motion, source: Stance, target: Stance, *, scale: float | Non
     centre = hips[0] * [1, 0, 1]
     wanted = centre + (hips - centre) * [scale, 0, scale]
     wanted[:, 1] = target.height("ankle") + ratio * (hips[:, 1] - source.height("ankle"))
-    names = {motion.skeleton.names[j]: target.skeleton.names[target.roles[r]]
-             for r, j in source.roles.items() if r in target.roles}  # fmt: skip
-    contacts = {names[old]: mark for old, mark in motion.contacts.items() if old in names}
+    contacts = {name: motion.contacts[old] for old, name in _contact_names(motion, source, target)}
     return replace(start, root_positions=wanted - own, contacts=contacts)
+
+
+def _contact_names(motion: Motion, source: Stance, target: Stance) -> Iterator[tuple[str, str]]:
+    """Yield the joints that have contacts, and the target's joints of the same roles, by name.
+
+    The ball of a foot without toes is its ankle, and has that one's contacts.
+    """
+    feet = [leg.ankle for leg in target.legs if not leg.has_ball]
+    for name in motion.contacts:
+        for role, joint in source.roles.items():
+            image = target.roles.get(role)
+            is_extra = role.endswith("ball") and image in feet
+            if motion.skeleton.names[joint] == name and image is not None and not is_extra:
+                yield name, target.skeleton.names[image]
 
 
 def _bone_turns(source: Stance, target: Stance) -> list[tuple[int | None, Array]]:
@@ -115,7 +128,9 @@ def _bone_turns(source: Stance, target: Stance) -> list[tuple[int | None, Array]
     Joints belong together by role, or by name where they have none. A joint that has no other turns with the
     one above it, as it stands, and a root above the pelvis with the heading.
     """
-    role_of = {joint: role for role, joint in target.roles.items()}
+    role_of = {
+        joint: role for role, joint in reversed([*target.roles.items()])
+    }  # the ankle if it is the ball
     looks: list[tuple[int | None, Array]] = []
     for joint, name in enumerate(target.skeleton.names):
         role = role_of.get(joint)
@@ -311,8 +326,10 @@ def floor_under(positions: Array, source: Stance, body: Stance) -> Pins:
     `positions` (F, J, 3), metres, are those of the source's joints.
     """
     lowest = positions[..., 1].min(axis=0)
-    dips = {role: max(0.0, source.heights[role] - lowest[source.roles[role]]) for role in FEET}
-    high = np.full((len(positions), len(FEET), 3), np.inf)
+    sides = [side for side, leg in zip(SIDES, body.legs, strict=True) if not leg.has_ball]
+    feet = [role for role in FEET if role not in [f"{side} ball" for side in sides]]
+    dips = {role: max(0.0, source.heights[role] - lowest[source.roles[role]]) for role in feet}
+    high = np.full((len(positions), len(feet), 3), np.inf)
     low = -high
     low[..., 1] = [body.heights[role] - dip * body.leg / source.leg for role, dip in dips.items()]
-    return Pins(tuple(body.roles[role] for role in FEET), low, high)
+    return Pins(tuple(body.roles[role] for role in feet), low, high)

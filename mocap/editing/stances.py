@@ -16,7 +16,7 @@ from mocap._shared.quantities import described
 from mocap._shared.records import dataclass
 from mocap.body import rotations
 from mocap.body.kinematics import forward_kinematics, joint_positions
-from mocap.body.limbs import FEET, SIDES, Leg, find_legs, heading_by_hips, roles
+from mocap.body.limbs import FEET, SIDES, Leg, find_legs, heading_by_hips, roles, with_roles
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.pins import with_plants
@@ -59,7 +59,7 @@ class Stance:
     def __post_init__(self) -> None:
         for side, leg in zip(SIDES, self.legs, strict=True):
             length = leg.lengths(self.skeleton)[2]
-            if not abs(self.drop(side)) < length:
+            if leg.has_ball and not abs(self.drop(side)) < length:
                 height = f"The {side} ankle would stand {100 * self.drop(side):.3g} cm over its ball"
                 raise MocapError(f"{height}; the foot is {100 * length:.3g} cm long.")
 
@@ -122,6 +122,7 @@ def stance_of(motion: Motion, *, mean: bool = False) -> Stance:
 
     Notebook: 13-retargeting
     """
+    motion = with_roles(motion)
     joints = roles(motion.skeleton)
     legs = find_legs(motion.skeleton)
     motion = with_plants(motion, legs)
@@ -136,7 +137,7 @@ def stance_of(motion: Motion, *, mean: bool = False) -> Stance:
     for leg in legs:
         foot = [leg.ankle, leg.ball]
         flat = np.logical_and(*(motion.contacts[motion.skeleton.names[joint]] for joint in foot))
-        if flat.any():
+        if flat.any() and leg.has_ball:
             along = (pose.positions[:, leg.ball] - pose.positions[:, leg.ankle])[flat]
             back = rotations.about_y(-np.arctan2(along[:, 0], along[:, 2]))
             turns[foot] = rotations.mean(rotations.multiply(back, world[foot][:, flat]))
@@ -181,6 +182,8 @@ def stance_of_zero(skeleton: Skeleton, heights: Mapping[str, float] | float) -> 
         heights = {role: of_ankles.get(role, heights) for role in FEET}
     stance = replace(rest, heights=heights)
     for (side, bone), leg in zip(bones.items(), stance.legs, strict=True):
+        if not leg.has_ball:
+            continue
         drop = stance.drop(side)
         ahead = bone[[0, 2]]
         ahead = ahead if np.hypot(*ahead) > abs(bone[1]) else np.array([0.0, 1.0])
@@ -262,5 +265,5 @@ def proportioned(
     shares = np.full(len(old), float(trunk))
     for joint, above in enumerate(old.parents[1:], start=1):  # a parent stands before its children
         shares[joint] = tops.get(above) or shares[above]
-    body = Skeleton(old.names, old.parents, old.offsets * shares[:, None], old.axes, old.dofs)
+    body = replace(old, offsets=old.offsets * shares[:, None])
     return Stance(body, stance.roles, stance.turns, {role: legs * stance.heights[role] for role in FEET})

@@ -86,7 +86,9 @@ class FootTarget(NamedTuple):
     def led(self, ankle: Array) -> "FootTarget":
         """Lead ankle and foot from plant to plant, in each of which the ankle is where given [step 5]."""
         own, fps = self.track.ankle, self.track.motion.fps
-        turn = rotations.to_rotvec(rotations.between(self.track.ball - own, self.places[1] - ankle))
+        turn = 0 * ankle
+        if self.track.leg.has_ball:
+            turn = rotations.to_rotvec(rotations.between(self.track.ball - own, self.places[1] - ankle))
         ankle = own + smooth_fill(ankle - own, self.planted, fps)
         return self._replace(ankle=ankle, turn=smooth_fill(turn, self.marks[1], fps))
 
@@ -116,7 +118,9 @@ def foot_target(
     # Where only the ball stands, the foot's length holds the ankle. At first it stays as near as that allows
     # to its own way from plant to plant.
     away = ankle + smooth_fill(places[0] - ankle, flat, fps) - places[1]
-    behind = places[1] + length * away / np.linalg.norm(away, axis=1, keepdims=True)
+    behind = places[1]
+    if track.leg.has_ball:
+        behind = places[1] + length * away / np.linalg.norm(away, axis=1, keepdims=True)
     goal = np.where(flat[:, None], places[0], behind)
     side = np.where(track.own < -BACK, -1.0, 1.0)
     # A leg that must become shorter stays bent while its foot stands: the knee of a straight one jolts as

@@ -15,7 +15,7 @@ from mocap._shared.arrays import Array, Mask
 from mocap._shared.arrays import runs as runs  # which the room exports
 from mocap._shared.records import NamedTuple
 from mocap.body.kinematics import joint_positions
-from mocap.body.limbs import Leg, find_legs
+from mocap.body.limbs import Leg, find_legs, with_roles
 from mocap.body.motion import Motion, require_motion
 from mocap.errors import MocapError
 
@@ -60,6 +60,10 @@ TOP = 99
 # less or more of a walk.
 LEAST_LIFT = 0.1
 
+# Of the leg's length: a foot counts as no shorter, as one without toes has no joint at its ball. The bundled
+# body's foot is 0.16 legs long from ankle to ball.
+FOOT_PER_LEG = 0.1
+
 
 def mark_plants(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
     """Mark as contacts when each ankle and each ball stands on the ground.
@@ -75,7 +79,7 @@ def mark_plants(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
     Parameters
     ----------
     motion : F frames, more than 0.1 s.
-    legs : found by name by default.
+    legs : by default those of `body.find_legs`; if their names are unknown, found by the motion.
 
     Returns
     -------
@@ -96,7 +100,9 @@ def mark_plants(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
     Notebook: 04b-feet
     """
     require_motion(motion)
-    legs = find_legs(motion.skeleton) if legs is None else legs
+    if legs is None:
+        motion = with_roles(motion)
+        legs = find_legs(motion.skeleton)
     span = max(1, int(SPAN * motion.fps))
     if len(motion) <= 2 * span:
         needs = f"To tell standing from swinging takes more than {2 * span} frames"
@@ -105,7 +111,7 @@ def mark_plants(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
     positions = joint_positions(motion)[:, joints]  # (F, 2 · legs, 3)
     lengths = np.max([leg.lengths(motion.skeleton) for leg in legs], axis=0)
     length = lengths[:2].sum()
-    from_place = FROM_PLACE * lengths[2]
+    from_place = FROM_PLACE * max(lengths[2], FOOT_PER_LEG * length)
     speeds = _slower_speeds(positions, span, motion.fps)
     heights = positions[..., 1]
     swinging = np.sqrt(GRAVITY * length)
@@ -113,13 +119,13 @@ def mark_plants(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
     ratio = np.percentile(speeds[:, 1::2], SLOWEST) / swinging
     standing = swinging * np.clip(ratio, np.finfo(float).eps, STANDING_AT_MOST)
     low = heights < _low_enough(heights, speeds, length)
-    marks = {}
+    marks: dict[str, Mask] = {}
     for column, joint in enumerate(joints):
         shares = (ANKLE, BALL)[column % 2]
         enter, leave = (standing ** (1 - share) * swinging**share for share in shares)
         slow = hysteresis(speeds[:, column], low[:, column], enter, leave)
         slow &= _near_place(positions[:, column], slow, from_place)
-        marks[motion.skeleton.names[joint]] = settle(slow, least_frames(motion.fps))
+        marks.setdefault(motion.skeleton.names[joint], settle(slow, least_frames(motion.fps)))
     return replace(motion, contacts={**motion.contacts, **marks})
 
 

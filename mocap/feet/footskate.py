@@ -42,7 +42,7 @@ def clean_up(
     Parameters
     ----------
     motion : its `contacts` say when the legs' ankles and balls stand; `feet.mark_plants` finds them.
-    legs : found by name by default.
+    legs : by default those of `body.find_legs`.
     held : for some ankles and balls where they shall stand, shape (F, 3), metres, nan where that is left
         open. All other plants are where they stand on average, or so much nearer that the leg reaches,
         or nearer to where the joint was when a knee would jolt.
@@ -99,21 +99,35 @@ def clean_up(
     pose, up = motion.rotations.copy(), rise[:, None] * UP
     for target, (bend, wanted) in zip(targets, poses, strict=True):
         pose[:, target.track.leg[:3]] = pose_leg(target.track, bend, wanted, target.turn)
-    names = [motion.skeleton.names[joint] for leg in legs for joint in leg[2:]]
-    found, gone = (dict(zip(names, s.reshape(len(names), -1), strict=True)) for s in (marks, asked & ~marks))
+    found, gone = (marks_by_joint(motion, legs, chosen) for chosen in (marks, asked & ~marks))
     _warn_of_plants_let_go(motion, gone, MOST * tracks[0].length)
     roots, contacts = motion.root_positions + up, {**motion.contacts, **found}
     return replace(motion, root_positions=roots, rotations=pose, contacts=contacts)
 
 
 def settled_marks(motion: Motion, legs: Sequence[Leg]) -> Mask:
-    """Read when each leg's ankle and ball stand, (L, 2, F), short plants and gaps settled."""
+    """Read when each leg's ankle and ball stand, (L, 2, F), short plants and gaps settled.
+
+    The ball of a foot without toes never stands.
+    """
     names = [[motion.skeleton.names[joint] for joint in (leg.ankle, leg.ball)] for leg in legs]
     if missing := [name for pair in names for name in pair if name not in motion.contacts]:
         unknown = f"when these joints stand: {', '.join(missing)}"
         raise MocapError(f"'{motion.name}' does not say {unknown}; mark_plants finds out.")
     span = least_frames(motion.fps)
-    return np.array([[settle(motion.contacts[name], span) for name in pair] for pair in names])
+    marks = np.array([[settle(motion.contacts[name], span) for name in pair] for pair in names])
+    marks[[not leg.has_ball for leg in legs], 1] = False
+    return marks
+
+
+def marks_by_joint(motion: Motion, legs: Sequence[Leg], marks: Mask) -> dict[str, Mask]:
+    """Return when joints stand, by their names, of marks (L, 2, F) as from `settled_marks`."""
+    rows = [
+        (joint, mark)
+        for leg, leg_marks in zip(legs, marks, strict=True)
+        for joint, mark in zip(leg[2:] if leg.has_ball else leg[2:3], leg_marks, strict=False)
+    ]
+    return {motion.skeleton.names[joint]: mark for joint, mark in rows}
 
 
 def _way_back(target: FootTarget, frame: int) -> Array:

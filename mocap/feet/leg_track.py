@@ -164,7 +164,7 @@ def pose_leg(track: LegTrack, bend: Array, wanted: Array, turn: ArrayLike) -> Ar
     carried = rotations.multiply(swing, fold)
     sole = rotations.multiply(rotations.inverse(carried), rotations.from_rotvec(turn))
     posed = []
-    above = (motion.skeleton.parents[leg.hip], leg.hip, leg.knee)
+    above = motion.skeleton.parents[list(leg[:3])]  # of a split thigh, a joint between
     for parent, joint, more in zip(above, leg[:3], (swing, fold, sole), strict=True):
         # The same turn, seen from the parent's frame, comes on top of the joint's own rotation.
         above_it = rotations.from_matrix(track.matrices[:, parent])

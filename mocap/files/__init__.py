@@ -19,12 +19,14 @@ Reading order (notebooks 01, 10)
 12. `asf`: the skeleton of Acclaim files
 13. `acclaim`: the numbers of Acclaim files, and the motion that they describe
 14. `bvh_hierarchy`: the skeleton of BVH files
-15. `rigid_bones`: rigid bones for files whose bones change length
-16. `bvh`: reader and writer of BVH files
-17. `amass`: the archives of AMASS, for the 22 joints of the SMPL body
-18. `gltf_capsules`: a body surface of rigid capsules around the bones
-19. `gltf`: writer of glTF files, with joints, skin and animation
-16. `tuned`: the constants that trials chose
+15. `loose_joints`: joints of a file that are no part of the body
+16. `rigid_bones`: rigid bones for files whose bones change length
+17. `bvh`: reader and writer of BVH files
+18. `amass`: the archives of AMASS, for the 22 joints of the SMPL body
+19. `role_maps`: the roles of joints, as TOML
+20. `gltf_capsules`: a body surface of rigid capsules around the bones
+21. `gltf`: writer of glTF files, with joints, skin and animation
+22. `tuned`: the constants that trials chose
 
 References
 ----------

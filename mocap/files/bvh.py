@@ -24,6 +24,7 @@ from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError, Remedy, shortened, warn
 from mocap.files import frame_rates, spaces
 from mocap.files.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
+from mocap.files.loose_joints import without_loose_joints
 from mocap.files.recordings import Recording
 from mocap.files.rigid_bones import fit
 from mocap.files.space_evidence import Evidence, frames_to_look_at, gather
@@ -53,6 +54,7 @@ def read(
     long as no length changes by more than `stretch`. If the root has a single child and that child moves
     (some files have a reference point above the hips), both are merged into one joint, with the name of the
     child.
+    Joints that move apart from the body are left out by `loose_joints`.
 
     Parameters
     ----------
@@ -81,6 +83,7 @@ def read(
     evidence = _evidence(joints, positions, local, rate) if scale is None or up is None else None
     space = spaces.decide([evidence] if evidence else [], (SCALE, "y"), scale=scale, up=up)
     joints, positions, local = _without_reference(joints, space.scale * positions, local)
+    joints, positions, local = without_loose_joints(path, joints, positions, local)
     lengths = np.linalg.norm(positions, axis=-1)
     changes = np.ptp(lengths, axis=0).tolist()
     offsets, local = _rigid(path, joints, (positions, local), stretch)

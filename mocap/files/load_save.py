@@ -1,16 +1,19 @@
 """Reading and writing of motions. The suffix of a file determines its format."""
 
 import math
+from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
 
 from mocap._shared.arrays import Array
 from mocap._shared.atomic import write_file
 from mocap._shared.quantities import check_number, described
+from mocap.body.limbs import with_roles
 from mocap.body.motion import Motion, require_motion, rotating_joints
 from mocap.errors import MocapError, warn
 from mocap.files import bvh, formats, gltf, spaces
 from mocap.files.recordings import Recording
+from mocap.files.role_maps import read_roles
 from mocap.files.text import check_above_0, read_text
 from mocap.files.tuned import TUNED
 
@@ -25,6 +28,7 @@ def load(  # noqa: PLR0913 (each by its name)
     scale: float | None = None,
     stretch: float = TUNED.stretch,
     up: str | None = None,
+    roles: Mapping[str, str] | str | Path | None = None,
 ) -> Motion:
     """Read a motion from a file, in one of the formats of `files.formats.READ`.
 
@@ -43,6 +47,8 @@ def load(  # noqa: PLR0913 (each by its name)
     up : the axis of the file that points up: "y", "z", "-y", "-z", "x" or "-x". By default the one that the
         frames show, from the standing feet: y for `.bvh` and z for `.npz` if they do not. The motion is
         rotated so that y is up.
+    roles : names of joints by role, such as {"left hip": "thigh_l"}, or a TOML file of them, as printed by
+        `mocap info FILE --joints`. By default limbs are identified by their names, or by their motion.
 
     Returns
     -------
@@ -56,7 +62,7 @@ def load(  # noqa: PLR0913 (each by its name)
     Warns
     -----
     MocapWarning : if the file is read in another unit or with another axis up than most of its format are, or
-        if these are in doubt.
+        if these are in doubt. Also if the legs have unknown names, and the motion leaves them in doubt.
 
     Examples
     --------
@@ -77,7 +83,8 @@ def load(  # noqa: PLR0913 (each by its name)
     stated = recording.space.sentence({"scale": "scale=", "up": "up="}) if recording.space else ""
     if stated:
         warn(f"{path}: {stated}")
-    return recording.motion
+    by_role = read_roles(roles) if isinstance(roles, str | Path) else roles
+    return with_roles(recording.motion, by_role)
 
 
 def read(  # noqa: PLR0913 (the options of `load`)

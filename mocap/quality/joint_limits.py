@@ -19,7 +19,7 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap._shared.records import NamedTuple
 from mocap.body.kinematics import GlobalPoses, forward_kinematics
-from mocap.body.limbs import Leg
+from mocap.body.limbs import ARM, SIDES, Leg
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.quality.limits import LIMITS
@@ -68,7 +68,7 @@ def joint_bends(motion: Motion, legs: Sequence[Leg] = ()) -> list[Bend]:
     ----------
     motion : F frames.
     legs : the left and the right leg, as returned by `body.find_legs`. Without them knees, hips and the neck
-        are left out. Elbows, wrists and the neck are found by their names.
+        are left out. Elbows, wrists and the neck are found by their roles or names.
 
     Examples
     --------
@@ -82,8 +82,8 @@ def joint_bends(motion: Motion, legs: Sequence[Leg] = ()) -> list[Bend]:
     poses = forward_kinematics(motion)
     hip_axis = _hip_axis(poses.positions, legs)
     bends = [_hinge_bend(poses, skeleton.names[leg.knee], leg[:3], hip_axis) for leg in legs]
-    for elbow in _elbows(skeleton):
-        bends += _arm_bends(poses, skeleton, elbow)
+    for arm in _arms(skeleton):
+        bends += _arm_bends(poses, skeleton, arm)
     return [*bends, *_trunk_bends(poses.positions, skeleton, legs, hip_axis)]
 
 
@@ -95,6 +95,14 @@ def _hip_axis(positions: Array, legs: Sequence[Leg]) -> Array:
     return np.asarray(axis / np.maximum(np.linalg.norm(axis, axis=-1, keepdims=True), 1e-12))
 
 
+def _arms(skeleton: Skeleton) -> list[list[int]]:
+    """List shoulder, elbow and wrist by their roles, or around joints that have the name of an elbow."""
+    by_role = [[skeleton.roles.get(f"{side} {part}", "") for part in ARM] for side in SIDES]
+    if all(map(all, by_role)):
+        return [[skeleton.index(name) for name in arm] for arm in by_role]
+    return [[int(skeleton.parents[j]), j, skeleton.children(j)[0]] for j in _elbows(skeleton)]
+
+
 def _elbows(skeleton: Skeleton) -> list[int]:
     """List the joints that have the name of an elbow and at least one child."""
     joints = range(1, len(skeleton))
@@ -102,10 +110,9 @@ def _elbows(skeleton: Skeleton) -> list[int]:
     return [joint for joint in named if skeleton.children(joint)]
 
 
-def _arm_bends(poses: GlobalPoses, skeleton: Skeleton, elbow: int) -> Iterator[Bend]:
+def _arm_bends(poses: GlobalPoses, skeleton: Skeleton, arm: Sequence[int]) -> Iterator[Bend]:
     """Measure an elbow, and its wrist if there are joints in the hand."""
-    shoulder = int(skeleton.parents[elbow])
-    wrist = skeleton.children(elbow)[0]
+    shoulder, elbow, wrist = arm
     yield _hinge_bend(poses, skeleton.names[elbow], (shoulder, elbow, wrist), np.zeros(3))
     fingers = [joint for joint in skeleton.children(wrist) if np.linalg.norm(skeleton.offsets[joint]) > 1e-3]
     if fingers:
@@ -139,7 +146,9 @@ def _trunk_bends(
 
 
 def _named(skeleton: Skeleton, part: str) -> int | None:
-    """Return the first joint below the root with `part` in its name."""
+    """Return the joint with the role `part`, or else the first one below the root with it in its name."""
+    if part in skeleton.roles:
+        return skeleton.index(skeleton.roles[part])
     names = enumerate(skeleton.names[1:], start=1)
     return next((joint for joint, name in names if part in name.lower()), None)
 

@@ -24,7 +24,7 @@ from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.ground_path import GroundPath, as_path
 from mocap.body.kinematics import joint_positions
-from mocap.body.limbs import Leg, find_legs
+from mocap.body.limbs import Leg, find_legs, with_roles
 from mocap.body.motion import Motion, require_motion, require_motions, resample
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened
@@ -309,6 +309,7 @@ def judge(
         raise MocapError(f"To judge '{name}' takes 12 frames or more, it has {len(motion)}.")
     legs: tuple[Leg, ...] = ()
     left_out: tuple[str, ...] = ()
+    motion = with_roles(motion)
     try:
         legs = find_legs(motion.skeleton)
     except MocapError as error:

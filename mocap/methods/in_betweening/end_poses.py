@@ -20,7 +20,7 @@ from mocap.editing.displacements import Displacement, difference, displaced
 from mocap.editing.retiming import at_frames
 from mocap.errors import MocapWarning
 from mocap.feet.footplants import least_frames
-from mocap.feet.footskate import clean_up, settled_marks
+from mocap.feet.footskate import clean_up, marks_by_joint, settled_marks
 from mocap.methods.in_betweening.tuned import TUNED
 from mocap.methods.in_betweening.two_sided_search import pose_at
 
@@ -98,10 +98,11 @@ def stand(motion: Motion) -> Motion:
         # The start is the end of the reversed motion.
         _hold_end(held[::-1, foot], foot_places[::-1], leg_marks[:, ::-1], motion.fps)
     names = [motion.skeleton.names[joint] for joint in columns]
-    settled = dict(zip(names, marks.reshape(-1, len(motion)), strict=True))
+    settled = marks_by_joint(motion, legs, marks)
     is_held = np.isfinite(held[..., 0])
-    constrained = {name: settled[name] | is_held[:, n] for n, name in enumerate(names)}
-    by_joint = {joint: held[:, n] for n, joint in enumerate(columns)}
+    ankle_last = range(len(columns))[::-1]  # its column counts where a foot without toes has its ball there
+    constrained = {names[n]: settled[names[n]] | is_held[:, n] for n in ankle_last}
+    by_joint = {columns[n]: held[:, n] for n in ankle_last}
     # The warnings of `clean_up` would also list the frames that are held here.
     with warnings.catch_warnings(action="ignore", category=MocapWarning):
         cleaned = clean_up(replace(motion, contacts={**motion.contacts, **constrained}), legs, held=by_joint)
