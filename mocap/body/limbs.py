@@ -144,7 +144,7 @@ def _named_limbs(skeleton: Skeleton) -> dict[str, int]:
     joints: dict[str, int] = {}
     for side, leg in zip(SIDES, find_pair(skeleton, "legs"), strict=False):  # there may be none
         joints |= {f"{side} {part}": joint for part, joint in zip(LEG[:3], leg, strict=True)}
-        toes = [toe for toe in skeleton.children(leg[-1]) if np.linalg.norm(skeleton.offsets[toe]) > SHORT]
+        toes = _toes(skeleton, leg[-1])
         if toes:
             joints[f"{side} ball"] = toes[0]
     for side, arm in zip(SIDES, find_pair(skeleton, "arms"), strict=False):
@@ -153,6 +153,17 @@ def _named_limbs(skeleton: Skeleton) -> dict[str, int]:
     if "head" in names:
         joints["head"] = names.index("head")
     return joints
+
+
+def _toes(skeleton: Skeleton, ankle: int) -> list[int]:
+    """List the joints below an ankle, at a distance from it: one is the ball, another may be a heel."""
+    return [toe for toe in skeleton.children(ankle) if np.linalg.norm(skeleton.offsets[toe]) > SHORT]
+
+
+def _unclear_balls(skeleton: Skeleton, named: Mapping[str, int]) -> list[str]:
+    """List the balls, by role, of feet in which they could be one of several joints."""
+    sides = [side for side in SIDES if f"{side} ball" in named]
+    return [f"{side} ball" for side in sides if len(_toes(skeleton, named[f"{side} ankle"])) > 1]
 
 
 @lru_cache(maxsize=64)
@@ -207,7 +218,8 @@ def with_roles(motion: Motion, roles: Mapping[str, str] | None = None) -> Motion
     by_hand = dict(roles or {})
     _check_roles(skeleton, by_hand)
     named = _named_limbs(skeleton)
-    is_known = _has_legs(named) and f"{SIDES[0]} {ARM[0]}" in named
+    has_limbs = _has_legs(named) and f"{SIDES[0]} {ARM[0]}" in named
+    is_known = has_limbs and not _unclear_balls(skeleton, named)
     if not by_hand and (is_known or _has_legs(skeleton.roles)):
         return motion
     joints = named if is_known or skeleton.roles else _limbs_in_motion(motion, named, by_hand)
@@ -227,7 +239,7 @@ def _check_roles(skeleton: Skeleton, roles: Mapping[str, str]) -> None:
             skeleton.index(name)
 
 
-def _limbs_in_motion(motion: Motion, named: Mapping[str, int], by_hand: Mapping[str, str]) -> dict[str, int]:
+def _limbs_in_motion(motion: Motion, named: dict[str, int], by_hand: Mapping[str, str]) -> dict[str, int]:
     """Find limbs by their motion; those with known names keep them."""
     skeleton = motion.skeleton
     frames = np.linspace(0, len(motion) - 1, min(len(motion), LIMITS.frames)).astype(int)
@@ -240,7 +252,11 @@ def _limbs_in_motion(motion: Motion, named: Mapping[str, int], by_hand: Mapping[
     if joints and limbs.doubts and not _has_legs(named) and not _has_legs(by_hand):
         correct = "`mocap info FILE --joints` prints the roles of the joints, to be corrected"
         warn(f"'{shortened(motion.name, 60)}': limbs are unsure: {'; '.join(limbs.doubts)}; {correct}.")
-    return joints | dict(named)
+    clear = dict(named)
+    if joints.get("left ankle") == named.get("left ankle"):
+        for role in _unclear_balls(skeleton, named):
+            clear.pop(role)
+    return named | joints | clear
 
 
 def _other_side(role: str) -> str:

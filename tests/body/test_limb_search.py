@@ -204,6 +204,23 @@ def test_known_legs_keep_their_sides_where_only_the_arms_are_unknown():
     }
 
 
+def test_a_heel_that_is_listed_before_the_toes_is_no_ball_in_a_motion():
+    rig = limb_schemes.odd_rig((limb_schemes.heels,))
+    names = {"left heel": "lheel", "right heel": "rheel"}
+    names |= {role: name for name, role in limb_schemes.ROLES.items()}
+    skeleton, _ = rig.skeleton(names)
+    heel, ball = (skeleton.index(name) for name in ("lheel", "ltoes"))
+    assert heel < ball
+    turns = np.tile(rotations.IDENTITY, (len(WALK), len(skeleton), 1))
+    for joint, name in enumerate(skeleton.names):
+        if name in SKELETON.names:
+            turns[:, joint] = WALK.rotations[:, SKELETON.index(name)]
+    rest = np.array([SKELETON.offsets[SKELETON.index(name)] if name in SKELETON.names else [0, -0.05, -0.05]
+                     for name in skeleton.names])  # fmt: skip
+    motion = with_roles(Motion(replace(skeleton, offsets=rest), WALK.root_positions, turns, WALK.fps))
+    assert find_legs(motion.skeleton)[0].ball == ball
+
+
 def test_doubts_about_unknown_legs_are_told():
     with pytest.warns(MocapWarning, match=r"limbs are unsure: .*hardly bend.*mocap info FILE --joints"):
         with_roles(anonymous(WALK[:1]))
