@@ -10,14 +10,13 @@ Names count only if all of this is open, and it is reported.
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array, Mask
-from mocap._shared.records import NamedTuple
+from mocap._shared.records import NamedTuple, dataclass
 from mocap.body.limb_tree import BodyTree, Chain
 from mocap.body.skeleton import Skeleton
 

@@ -4,13 +4,13 @@ Nothing here reads a name. All lengths are in the unit of the positions.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
+from mocap._shared.records import dataclass
 
 
 @dataclass(frozen=True)

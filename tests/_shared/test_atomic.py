@@ -106,7 +106,7 @@ def test_what_a_kill_leaves_is_no_clip_and_who_writes_a_day_later_removes_it(tmp
     subprocess.run([sys.executable, "-c", KILLED, tmp_path / "walk.bvh"], check=False)
     (left,) = tmp_path.iterdir()
     assert left.name.startswith(UNFINISHED) and (left / "walk.bvh").exists()
-    refused("holds no", find_files, [tmp_path], deep=True)
+    refused("holds no", find_files, [tmp_path])
     with replacing(tmp_path / "run.bvh") as beside:
         for seconds, stays in ((atomic.DAY - 60, True), (atomic.DAY + 60, False)):
             os.utime(left, times=(time.time() - seconds,) * 2)
