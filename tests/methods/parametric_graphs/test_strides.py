@@ -220,7 +220,9 @@ def real(data):
     return cut_strides(walks), cut_actions([boxer] * 8, [(middle - 21, middle + 21) for middle in middles])
 
 
-@pytest.mark.parametrize(("clips", "most"), [("bundled", 0.4), ("real", 1.5)])
+@pytest.mark.parametrize(
+    ("clips", "most"), [("bundled", 0.4), pytest.param("real", 1.5, marks=pytest.mark.sweep)]
+)
 def test_planted_feet_hardly_slide_where_walks_are_mixed_and_less_in_changes(clips, most, request):
     walk, punch = real(request.getfixturevalue("real_data")) if clips == "real" else (strides(), punches())
     to, back = changing_strides(walk, punch, stands="second"), changing_strides(punch, walk, stands="first")
