@@ -1,9 +1,12 @@
-"""The unit and the vertical axis of clips of many sources, found from their frames: `python figures/clip_spaces.py`.
+"""The unit and the vertical axis of clips of many sources, found from their frames.
 
-Each source is a set of clips in metres with y up: captured ones of a folder that `MOCAP_DATA` names (skipped if
-it is not there), and bundled ones at other sizes. Each set is written in seven units, with y and with z up, and
-decided as a set. The table counts the spaces that are right, without or with a doubt, and those that are wrong, stated
-or in silence. A small body at an adult's pace has the same numbers as an adult in another unit.
+    python figures/clip_spaces.py
+
+Each source is a set of clips in metres with y up: captured ones of a folder that `MOCAP_DATA` names, which are
+skipped if it is not there, and bundled ones at other sizes. Each set is written in seven units, with y and with
+z up, and decided as a set. The table counts the spaces that are right, without or with a doubt, and those that
+are wrong, stated or in silence. A small body at an adult's pace has the same numbers as an adult in another
+unit.
 """
 
 import os
@@ -48,7 +51,7 @@ def captured() -> Iterator[tuple[str, list[Motion]]]:
             print(f"{name}: not in {folder}.")
 
 
-def made() -> Iterator[tuple[str, list[Motion]]]:
+def generated() -> Iterator[tuple[str, list[Motion]]]:
     """Yield sets that are made of bundled clips."""
     clips = [sample(name) for name in mocap.datasets.SAMPLES]
     for clip in clips:
@@ -93,28 +96,26 @@ def evidence_in(clips: Sequence[Motion], unit: float, up: str) -> list[Evidence]
 
 def outcomes(clips: Sequence[Motion]) -> Counter[str]:
     """Count the outcomes of a set over units and axes."""
-    counts: Counter[str] = Counter()
-    for unit in UNITS:
-        for up in ("y", "z"):
-            space = decide(evidence_in(clips, unit, up), (0.01, "y"), scale=None, up=None)
-            is_right = (space.scale, space.up) == (unit, up)
-            is_stated = bool(space.sentence(NAMES))
-            if is_right:
-                outcome = "right, in doubt" if space.doubt else "right"
-            else:
-                outcome = "wrong, stated" if is_stated else "WRONG IN SILENCE"
-            counts[outcome] += 1
-    return counts
+    spaces = [(unit, up) for unit in UNITS for up in ("y", "z")]
+    return Counter(outcome(clips, unit, up) for unit, up in spaces)
+
+
+def outcome(clips: Sequence[Motion], unit: float, up: str) -> str:
+    """Decide the space of a set, and name the outcome."""
+    space = decide(evidence_in(clips, unit, up), (0.01, "y"), scale=None, up=None)
+    if (space.scale, space.up) == (unit, up):
+        return "right, in doubt" if space.doubt else "right"
+    return "wrong, stated" if space.sentence(NAMES) else "WRONG IN SILENCE"
 
 
 def main() -> None:
     """Print the table."""
     warnings.simplefilter("ignore", mocap.MocapWarning)
-    print(f"{'':<32}", *(f"{outcome:>18}" for outcome in OUTCOMES))
-    for source in (captured, made):
+    print(f"{'':<32}", *(f"{title:>18}" for title in OUTCOMES))
+    for source in (captured, generated):
         for name, clips in source():
             counts = outcomes(clips)
-            print(f"{name + f' ({len(clips)})':<32}", *(f"{counts[outcome]:>18}" for outcome in OUTCOMES))
+            print(f"{name + f' ({len(clips)})':<32}", *(f"{counts[title]:>18}" for title in OUTCOMES))
 
 
 if __name__ == "__main__":
