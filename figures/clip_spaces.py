@@ -2,11 +2,11 @@
 
     python figures/clip_spaces.py
 
-Each source is a set of clips in metres with y up: captured ones of a folder that `MOCAP_DATA` names, which are
-skipped if it is not there, and bundled ones at other sizes. Each set is written in seven units, with y and with
-z up, and decided as a set. The table counts the spaces that are right, without or with a doubt, and those that
-are wrong, stated or in silence. A small body at an adult's pace has the same numbers as an adult in another
-unit.
+Each source is a set of clips in metres with y up: captured ones of a folder that `MOCAP_DATA` names, which
+are skipped if it is not there, and bundled ones at other sizes. Each set is written in seven units, with y
+and with z up, and decided as a set. The table counts the spaces that are right, without or with a doubt, and
+those that are wrong, stated or in silence. A small body at an adult's pace has the same numbers as an adult
+in another unit.
 """
 
 import os
