@@ -80,6 +80,7 @@ def test_as_a_module_a_closed_pipe_is_quiet():
 def test_ctrl_c_while_the_package_is_loaded_is_one_sentence():
     code = (
         "import signal, sys\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"  # a shell's background ignores it
         "class Interrupted:\n"
         "    def find_spec(self, name, *_):\n"
         "        if name == 'cyclopts': signal.raise_signal(signal.SIGINT)\n"

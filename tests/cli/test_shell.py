@@ -5,6 +5,7 @@ import re
 import signal
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -168,7 +169,8 @@ def test_a_signal_ends_a_long_command_and_leaves_no_half_of_a_file(clips, run, n
     run("graph a.bvh b.bvh --threshold 5 -o g.npz")
     before = sorted(path.name for path in clips.iterdir())
     words = [*MOCAP, "-v", "walk", "g.npz", "--random", "20h"]
-    with subprocess.Popen(words, stderr=subprocess.PIPE, text=True) as process:
+    obeyed = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)  # a shell's background ignores it
+    with subprocess.Popen(words, stderr=subprocess.PIPE, text=True, preexec_fn=obeyed) as process:
         told = iter(process.stderr.readline, "")
         assert any(line.startswith("mocap: reading: 2 in ") for line in told)  # hours of work follow
         process.send_signal(getattr(signal, name))
