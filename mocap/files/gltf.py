@@ -1,4 +1,4 @@
-"""A motion as a `.glb` file: a node for each joint, a skin, and an animation of rotations [GLTF21].
+"""Motions as a `.glb` file: a node for each joint, a skin, and animations of rotations [GLTF21].
 
 The nodes are in the rest pose, with the lowest joint on the ground. Rotations of joints with a short limb
 below are stored as normalised 16-bit integers, which changes joint positions by at most 0.1 mm. The file
@@ -9,14 +9,16 @@ from __future__ import annotations
 
 import json
 import struct
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mocap._shared.arrays import Mask
 from mocap.body import rotations
-from mocap.body.motion import Motion, rotating_joints
+from mocap.body.motion import Motion, require_compatible, rotating_joints
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened
 from mocap.files.gltf_capsules import body, reaches
@@ -43,16 +45,19 @@ BODY = {"name": "body", "mesh": 0, "skin": 0}
 CLAY = {"baseColorFactor": [0.45, 0.55, 0.65, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.8}
 
 
-def glb(motion: Motion) -> bytes:
-    """Convert a motion to the bytes of a `.glb` file.
+def glb(motions: Motion | Sequence[Motion]) -> bytes:
+    """Convert a motion, or several motions of one body, to the bytes of a `.glb` file.
 
     Parameters
     ----------
-    motion : F frames. Joints keep their names. Labels and contacts are omitted.
+    motions : a motion, or motions with different names, each of which becomes an animation. Their frame rates
+        may differ. Joints keep their names. Labels and contacts are omitted.
 
     Raises
     ------
-    MocapError : for files larger than the format allows, and frame times below the precision of its clock.
+    SkeletonMismatch : for different skeletons.
+    MocapError : for equal names, an empty list, files larger than the format allows, and frame times below
+        the precision of its clock.
 
     Examples
     --------
@@ -61,7 +66,8 @@ def glb(motion: Motion) -> bytes:
     b'glTF'
     """
     block = Block()
-    text = json.dumps(_document(motion, block), separators=(",", ":")).encode()
+    clips = [motions] if isinstance(motions, Motion) else _of_one_body(motions)
+    text = json.dumps(_document(clips, block), separators=(",", ":")).encode()
     text += b" " * (-len(text) % 4)
     size = HEADER.size + CHUNK_HEADER.size + len(text) + CHUNK_HEADER.size + len(block.data)
     if size > MOST:
@@ -118,17 +124,28 @@ class Block:
         return len(self.accessors) - 1
 
 
-def _document(motion: Motion, block: Block) -> Record:
+def _of_one_body(motions: Sequence[Motion]) -> list[Motion]:
+    """Return motions on one skeleton at their own frame rates; raise for equal names."""
+    names = [motion.name for motion in motions]
+    for name in names:
+        if names.count(name) > 1:
+            raise MocapError(f"Two motions have the name '{shortened(name)}': an animation needs its own.")
+    at_one_rate = require_compatible([replace(motion, fps=motions[0].fps) for motion in motions])
+    return [replace(clip, fps=motion.fps) for clip, motion in zip(at_one_rate, motions, strict=True)]
+
+
+def _document(motions: Sequence[Motion], block: Block) -> Record:
     """Build the JSON part of the file, and add its arrays to the block."""
-    skeleton = motion.skeleton
+    skeleton = motions[0].skeleton
     roots = [0, len(skeleton)]  # the root joint, and the node of the body after all joints
     document: Record = {"asset": ASSET, "scene": 0}
-    document["scenes"] = [{"name": motion.name, "nodes": roots}]
+    document["scenes"] = [{"name": motions[0].name, "nodes": roots}]
     document["nodes"] = [*_nodes(skeleton), BODY]
     document["skins"] = [_skin(skeleton, block)]
     document["materials"] = [{"name": "clay", "pbrMetallicRoughness": CLAY}]
     document["meshes"] = [_mesh(skeleton, block)]
-    document["animations"] = [_animation(motion, block)]
+    rotates = np.any([rotating_joints(motion) for motion in motions], axis=0)
+    document["animations"] = [_animation(motion, rotates, block) for motion in motions]
     document["accessors"] = block.accessors
     document["bufferViews"] = block.views
     document["buffers"] = [{"byteLength": len(block.data)}]
@@ -174,8 +191,11 @@ def _mesh(skeleton: Skeleton, block: Block) -> Record:
     return {"name": "body", "primitives": [{"attributes": attributes, "indices": indices, "material": 0}]}
 
 
-def _animation(motion: Motion, block: Block) -> Record:
-    """Build the animation: the translation of the root, and the rotations of joints that rotate at all."""
+def _animation(motion: Motion, rotates: Mask, block: Block) -> Record:
+    """Build an animation: the translation of the root, and the rotations of joints that rotate in any.
+
+    A joint without a rotation in one animation would keep that of the animation played before.
+    """
     times = (np.arange(len(motion)) / motion.fps).astype(np.float32)
     if np.any(np.diff(times) <= 0):
         name = shortened(motion.name)
@@ -185,7 +205,7 @@ def _animation(motion: Motion, block: Block) -> Record:
     channels: list[Record] = [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]
     quaternions = rotations.continuous(motion.rotations)[..., XYZW]
     limbs = reaches(motion.skeleton)
-    for joint in np.flatnonzero(rotating_joints(motion)).tolist():
+    for joint in np.flatnonzero(rotates).tolist():
         values: NDArray[Any] = quaternions[:, joint].astype(np.float32)
         if limbs[joint] <= TUNED.carried:
             values = np.round(LARGEST_INT16 * values).astype(np.int16)

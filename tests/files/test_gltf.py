@@ -9,6 +9,7 @@ from hypothesis import given
 
 from mocap.body import Motion, Skeleton, joint_positions, resample
 from mocap.datasets import samples
+from mocap.errors import SkeletonMismatch
 from mocap.files import gltf, gltf_capsules, load_save
 from tests.files.glb_reader import Glb
 from tests.refusals import refused
@@ -143,3 +144,35 @@ def test_trimesh_reads_the_body_and_the_joints():
     for joint, name in enumerate(motion.skeleton.names):
         place = scene.graph.get(name)[0][:3, 3]
         assert np.abs(place - rest[joint] + [0, rest[:, 1].min(), 0]).max() < 1e-4
+
+
+def test_several_motions_of_one_body_are_animations_with_their_own_rates():
+    still = replace(walk()[:1].at([0, 0, 0, 0]), name="still")
+    motions = [walk(), replace(resample(walk(), 20), name="slow"), still]
+    read = Glb(gltf.glb(motions))
+    alone = Glb(gltf.glb(walk()))
+    animations = read.document["animations"]
+    assert [animation["name"] for animation in animations] == ["walk_circle", "slow", "still"]
+    for motion, animation in zip(motions, animations, strict=True):
+        targets = [channel["target"] for channel in animation["channels"]]
+        assert targets == [channel["target"] for channel in alone.document["animations"][0]["channels"]]
+        clock = read.arrays[animation["samplers"][0]["input"]].ravel()
+        assert len(clock) == len(motion) and clock[-1] == pytest.approx(motion.duration)
+    assert gltf.glb([walk()]) == gltf.glb(walk())
+
+
+def test_animations_need_one_body_and_their_own_names():
+    refused("Two motions have the name 'walk_circle'", gltf.glb, [walk(), walk()])
+    refused("skeletons differ", gltf.glb, [walk(), wave(20)], kind=SkeletonMismatch, most=300)
+
+
+def test_several_clips_are_written_as_glb(tmp_path):
+    clips = [wave(20, name="a"), wave(30, name="b")]
+    load_save.save_clips(clips, tmp_path / "clips.glb")
+    assert len(Glb((tmp_path / "clips.glb").read_bytes()).document["animations"]) == 2
+    load_save.save_clips(clips[:1], tmp_path / "a.bvh")
+    assert len(load_save.load(tmp_path / "a.bvh")) == 20
+    path = tmp_path / "clips.bvh"
+    refused(
+        "Several clips in one file are written as .glb, got ", load_save.save_clips, clips, path, most=300
+    )
