@@ -13,7 +13,7 @@ from urllib.request import url2pathname
 import numpy as np
 import pytest
 
-from mocap.body import concatenate, joint_positions, resample
+from mocap.body import Motion, concatenate, joint_positions, resample, rotations
 from mocap.datasets import samples
 from mocap.files import conversion, load_save
 from tests.files.acclaim_clips import write_acclaim
@@ -66,6 +66,28 @@ def test_view_keeps_a_file_and_opens_nothing(folder, run, monkeypatch):
     monkeypatch.setattr("webbrowser.open", lambda address: pytest.fail("opened"))
     run("view clips/a.bvh -o a.png")
     assert (folder / "a.png").read_bytes().startswith(b"\x89PNG")
+
+
+def with_rest_poses(motion, before, after=0):
+    """Put the rest pose before the first frame, or after the last one, as many converters of files do."""
+    still = rotations.IDENTITY * np.ones((before + after, len(motion.skeleton), 1))
+    turns = np.concatenate([still[:before], motion.rotations, still[before:]])
+    roots = motion.root_positions[np.clip(np.arange(-before, len(motion) + after), 0, len(motion) - 1)]
+    return Motion(motion.skeleton, roots, turns, motion.fps)
+
+
+def test_info_tells_how_to_cut_a_rest_pose_off(folder, run):
+    walk = resample(samples.sample("walk_straight"), 30)[:60]
+    load_save.save(with_rest_poses(walk, 1), "first.bvh")
+    load_save.save(with_rest_poses(walk, 2, 3), "both.bvh")
+    load_save.save(walk, "walk.bvh")
+    assert "rest pose in frame 0 (cut it by mocap cut --from 1)" in run("info first.bvh").out
+    told = run("info both.bvh").out
+    assert "rest pose in frame 0-1, 62-64 (cut it by mocap cut --from 2 --to 62)" in told
+    for line in ("cut first.bvh --from 1 -o cut.bvh", "cut both.bvh --from 2 --to 62 -o cut.bvh"):
+        run(line)
+        assert "rest pose" not in run("info cut.bvh").out
+        assert np.allclose(load_save.load("cut.bvh").positions, load_save.load("walk.bvh").positions)
 
 
 def test_convert_acclaim(folder, run):
