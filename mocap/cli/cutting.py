@@ -81,7 +81,9 @@ class Cutting:
         return clip[start:stop]
 
 
-def cut(clips: Sequence[Path], *, out: Path, cutting: Cutting, reading: ReadingAtRate) -> None:
+def cut(
+    clips: Sequence[Path], *, out: Path, cutting: Cutting, root: bool = False, reading: ReadingAtRate
+) -> None:
     """Cut clips, resample, mirror or repeat them, and place them at the origin.
 
     Keep a part of a clip, and change it in the order of the options below. Several clips of one body are
@@ -90,7 +92,8 @@ def cut(clips: Sequence[Path], *, out: Path, cutting: Cutting, reading: ReadingA
     Parameters
     ----------
     clips (CLIP) : motion files, or folders of them.
-    out (OUT) : file to write, .bvh or .glb. For several clips .glb.
+    out (OUT) : file to write, .bvh or .glb. For several clips, and with --root, .glb.
+    root : add a joint on the floor below the hips, with their heading, which engines use for root motion.
 
     Notes
     -----
@@ -103,16 +106,18 @@ def cut(clips: Sequence[Path], *, out: Path, cutting: Cutting, reading: ReadingA
     Example: mocap cut loops/ --in-place --home -o hero.glb
     """
     paths = find_files(clips)
-    if len(paths) == 1:
-        check_out("clip", out, paths)
-    else:
+    if len(paths) > 1:
         check_out("file of several clips", out, paths, [".glb"])
+    elif root:
+        check_out("clip with a joint on the floor", out, paths, [".glb"])
+    else:
+        check_out("clip", out, paths)
     from mocap.files.load_save import save_clips  # the help needs no NumPy
 
     recordings, paths_read = read_found(reading.read, paths, clips, READING)
     motions = [cutting.apply(clip) for clip in named_apart(recordings, paths_read)]
     with timed_stage("writing"):
-        save_clips(motions, out)
+        save_clips(motions, out, root=root)
     for motion in motions:
         rows = f"{len(motion)} frames at {motion.fps:g} Hz, {motion.duration:.2f} s"
         print_rows(cut=f"{printable(motion.name)}: {rows}")

@@ -204,18 +204,20 @@ def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
             raise MocapError(f"Cannot write {path}: mocap writes {WRITTEN}.")
 
 
-def save_clips(motions: Sequence[Motion], path: str | Path) -> None:
+def save_clips(motions: Sequence[Motion], path: str | Path, *, root: bool = False) -> None:
     """Write motions of one body to one `.glb` file, each as an animation with its name.
 
     Parameters
     ----------
     motions : one or more, with different names. Their frame rates may differ.
-    path : the file. A single motion may also be written as `.bvh`.
+    path : the file. A single motion may also be written as `.bvh`, without `root`.
+    root : whether to add a joint on the floor below the hips, with their heading, which moves a character in
+        engines. It is called "root", or "floor_root" if the skeleton has that name.
 
     Raises
     ------
     MocapError, SkeletonMismatch : as for `save`, and for equal names, different skeletons, or several motions
-        in another format.
+        or `root` in another format.
 
     Examples
     --------
@@ -228,10 +230,10 @@ def save_clips(motions: Sequence[Motion], path: str | Path) -> None:
     """
     clips = require_motions(motions)
     require_path(path)
-    if len(clips) == 1:
+    if len(clips) == 1 and not root:
         save(clips[0], path)
         return
     path = Path(path)
     if path.suffix.lower() != ".glb":
-        raise MocapError(f"Several clips in one file are written as .glb, got '{path}'.")
-    write_file(path, gltf.glb(clips))
+        raise MocapError(f"Several clips in one file, and a joint on the floor, need .glb, got '{path}'.")
+    write_file(path, gltf.glb(clips, root=root))

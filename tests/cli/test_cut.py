@@ -107,3 +107,10 @@ def test_clips_are_animations_of_one_glb(folder, run):
 def test_one_clip_of_a_folder_may_be_a_bvh(folder, run):
     run("cut folder -o one.bvh")
     same(load_save.load("one.bvh"), load_save.load("folder/straight.bvh"))
+
+
+def test_a_joint_on_the_floor_is_added_for_engines(folder, run):
+    run("cut straight.bvh --root -o rooted.glb")
+    read = Glb((folder / "rooted.glb").read_bytes())
+    parents = read.parents()
+    assert parents[0] == read.joints[-1] and parents[read.joints[-1]] == -1

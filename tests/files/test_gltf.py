@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-from mocap.body import Motion, Skeleton, joint_positions, resample
+from mocap.body import Motion, Skeleton, heading, joint_positions, resample
 from mocap.datasets import samples
 from mocap.errors import SkeletonMismatch
 from mocap.files import gltf, gltf_capsules, load_save
@@ -174,5 +174,32 @@ def test_several_clips_are_written_as_glb(tmp_path):
     assert len(load_save.load(tmp_path / "a.bvh")) == 20
     path = tmp_path / "clips.bvh"
     refused(
-        "Several clips in one file are written as .glb, got ", load_save.save_clips, clips, path, most=300
+        "Several clips in one file, and a joint on the floor, need .glb, got ",
+        load_save.save_clips,
+        clips,
+        path,
+        most=300,
+    )
+
+
+def test_a_joint_on_the_floor_carries_the_travel_and_nothing_else_changes():
+    motion = walk()
+    read = Glb(gltf.glb(motion, root=True))
+    joints = len(motion.skeleton)
+    floor = read.joints[-1]
+    assert len(read.joints) == joints + 1 and read.parents()[0] == floor
+    assert read.nodes[floor]["name"] == "floor_root" and read.document["skins"][0]["skeleton"] == floor
+    exact = joint_positions(motion)
+    for frame in range(0, len(motion), 29):
+        *poses, root = read.poses(frame / motion.fps)
+        np.testing.assert_allclose(np.array(poses)[:, :3, 3], exact[frame], atol=1e-4)
+        np.testing.assert_allclose(root[:3, 3], motion.root_positions[frame] * [1, 0, 1], atol=1e-6)
+        ahead = root[:3, 2]
+        assert np.arctan2(ahead[0], ahead[2]) == pytest.approx(heading(motion.rotations[frame, 0]), abs=1e-6)
+        assert root[1, 1] == pytest.approx(1.0)
+    hips = read.curves()[0, "translation"][1]
+    assert np.abs(hips[:, [0, 2]]).max() < 1e-6
+    np.testing.assert_allclose(read.skinned(1.0), Glb(gltf.glb(motion)).skinned(1.0), atol=1e-4)
+    np.testing.assert_allclose(
+        read.skinned(0, rest=True), Glb(gltf.glb(motion)).skinned(0, rest=True), atol=1e-6
     )
