@@ -82,6 +82,7 @@ EXCEPTIONS = {
     "turn()": "a stable name, `PlanarTransform.turn`, which warns until version 0.3",
     "move()": "a stable name, `PlanarTransform.move`, which warns until version 0.3",
     "move": "a trait of the live player, which its script reads by this name",
+    "in_place": "the term of game engines for a cycle on the spot",
     "place()": "the verb: it places a motion on the ground",
     "place_joints()": "the verb: it places the joints in the world",
     "gap": "a stable option, `mocap inbetween --gap`: the gap between two clips, as animators call it",

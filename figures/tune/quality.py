@@ -4,10 +4,10 @@ Each limit is tried on the clips as they are, and on copies with a flaw that it 
 percentage of clips that are reported, at best those with true flaws alone. Flawed: the percentage of copies
 that are reported; the flaws are small, medium and large, and a limit need not find the small ones: 2, 4 or 8
 frames that repeat the one before; a root that leaps by 10, 30 or 100 cm for a frame; a knee that turns by
-30°, 60° or 120° for a frame; a body 2, 5 or 10 cm lower, or 10, 20 or 30 cm higher; read as centimetres in
-place of inches, metres and millimetres; shaken by 2, 5 or 10 mm; sliding at 95, 90 or 80 % of its pace; knees
-that bend backwards; the bones of one side 1, 3 or 5 % longer; 5, 15 or 45 frames left out. Clips keep their
-own frame rate, as some limits are for a frame.
+30°, 60° or 120° for a frame; the rest pose in 1, 2 or 5 frames before the clip; a body 2, 5 or 10 cm lower,
+or 10, 20 or 30 cm higher; read as centimetres in place of inches, metres and millimetres; shaken by 2, 5 or
+10 mm; sliding at 95, 90 or 80 % of its pace; knees that bend backwards; the bones of one side 1, 3 or 5 %
+longer; 5, 15 or 45 frames left out. Clips keep their own frame rate, as some limits are for a frame.
 """
 
 from collections.abc import Callable, Iterator
@@ -55,6 +55,16 @@ def snapping(clip: Motion) -> Iterator[Motion]:
         middle = len(clip) // 2
         turned[middle, knee] = rotations.multiply(turned[middle, knee], about_x(degrees))
         yield replace(clip, rotations=turned)
+
+
+def after_rest_poses(clip: Motion) -> Iterator[Motion]:
+    """Put the rest pose before a clip."""
+    for count in (1, 2, 5):
+        frames = np.maximum(0, np.arange(len(clip) + count) - count)
+        extended = frames_of(clip, frames)
+        turned = extended.rotations.copy()
+        turned[:count] = rotations.IDENTITY
+        yield replace(extended, rotations=turned)
 
 
 def about_x(degrees: float) -> np.ndarray:
@@ -194,6 +204,7 @@ LARGER = partial(scaled, factors=(2.54, 25.4, 100.0))
 FROZEN = flaws("frozen", repeating)
 TELEPORT = flaws("teleport", leaping)
 SNAP = flaws("snap", snapping)
+REST_POSE = flaws("rest pose", after_rest_poses)
 HEIGHT_SMALL = partial(tried, is_reported=has_impossible_height, copies=SMALLER)
 HEIGHT_LARGE = partial(tried, is_reported=has_impossible_height, copies=LARGER)
 BENT = measure_of("bent", backwards)
@@ -206,6 +217,7 @@ TRIALS = {
     "sudden_frames": Trial(TELEPORT, (1, 2, 10)),
     "snap": Trial(SNAP, (np.radians(20), np.radians(30), np.radians(60), np.radians(90))),
     "fast": Trial(SNAP, (150.0, 25.0, 35.0, 100.0)),
+    "rest_leap": Trial(REST_POSE, (1.0, 2.0, 5.0, 10.0)),
     "under": Trial(flaws("under the floor", LOWERED), (0.01, 0.02, 0.05, 0.09)),
     "smallest": Trial(HEIGHT_SMALL, (1.0, 0.05, 0.5)),
     "tallest": Trial(HEIGHT_LARGE, (2.5, 5.0, 50.0)),

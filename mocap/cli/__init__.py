@@ -12,11 +12,12 @@ Reading order
 8. `clips`: `mocap info`, `view`, `judge`, `convert` and `find`
 9. `data`: `mocap data`, which lists and downloads clips of other labs
 10. `edits`: `mocap warp`, `bend`, `loop`, `blend` and `retarget`
-11. `in_betweens`: `mocap inbetween`, which fills the time between two clips
-12. `course`: `mocap course`, which hands out, marks, publishes and runs the notebooks, and `mocap lab`
-13. `help_pages`: help in plain text
-14. `refusals`: errors for invalid commands, options and values, with suggestions
-15. `streams`: output streams that are closed, full, or abandoned by their reader
-16. `main`: all commands under one name, with `mocap completion` and the exit status
-16. `tuned`: the constants that trials chose
+11. `cutting`: `mocap cut`, which cuts, resamples, mirrors and repeats clips
+12. `in_betweens`: `mocap inbetween`, which fills the time between two clips
+13. `course`: `mocap course`, which hands out, marks, publishes and runs the notebooks, and `mocap lab`
+14. `help_pages`: help in plain text
+15. `refusals`: errors for invalid commands, options and values, with suggestions
+16. `streams`: output streams that are closed, full, or abandoned by their reader
+17. `main`: all commands under one name, with `mocap completion` and the exit status
+18. `tuned`: the constants that trials chose
 """

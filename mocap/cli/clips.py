@@ -7,7 +7,7 @@ import tempfile
 from collections.abc import Sequence
 from json import dumps
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from mocap import files, quality, widgets
 from mocap._shared.atomic import make_folder, require_folder
@@ -30,6 +30,9 @@ from mocap.errors import MocapError, printable
 from mocap.files import conversion
 from mocap.files.conversion import find_files
 from mocap.methods import match_webs
+
+if TYPE_CHECKING:
+    from mocap.quality.clip_flaws import Flaw
 
 
 def info(file: Path, *, joints: bool = False, reading: FileReading) -> None:
@@ -59,12 +62,25 @@ def info(file: Path, *, joints: bool = False, reading: FileReading) -> None:
         print(format_roles(motion))
         return
     with timed_stage("measuring"):
-        table = quality.inspect(motion, recording.angles).table()
-    print(table)
+        report = quality.inspect(motion, recording.angles)
+    flaws = [_with_remedy(flaw, len(motion)) for flaw in report.flaws]
+    print(report._replace(flaws=flaws).table())
     if recording.space:
         print(f"space    {unit_name(recording.space.scale)} a unit, {recording.space.up} up")
     if recording.assumed:
         print(f"assumed  {recording.assumed.worded(READING[recording.assumed.parameter])}")
+
+
+def _with_remedy(flaw: "Flaw", frames: int) -> "Flaw":
+    """Add the options of `mocap cut` that remove a flaw to its detail, if it is at an end of the clip."""
+    from mocap.quality.clip_flaws import REST_POSE, ZEROS  # the help needs no NumPy
+
+    if flaw.kind not in (REST_POSE, ZEROS) or len(flaw.frames) == frames:
+        return flaw
+    kept = sorted({*range(frames)} - {*flaw.frames})
+    options = [f"--from {kept[0]}"] if kept[0] > 0 else []
+    options += [f"--to {kept[-1] + 1}"] if kept[-1] < frames - 1 else []
+    return flaw._replace(detail=f"cut it by mocap cut {' '.join(options)}") if options else flaw
 
 
 def view(clip: Path, *, out: Path | None = None, reading: Reading) -> None:

@@ -8,7 +8,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from mocap import body, graphs
-from mocap.cli.options import Building, check_out, load_graph, number, print_rows, require_other, write_out
+from mocap.cli.options import (
+    MOMENT,
+    Building,
+    check_out,
+    frame_at,
+    load_graph,
+    number,
+    print_rows,
+    require_other,
+    write_out,
+)
 from mocap.errors import MocapError
 from mocap.files.conversion import find_files
 from mocap.methods import in_betweening
@@ -17,9 +27,6 @@ if TYPE_CHECKING:
     from mocap.body.motion import Motion
     from mocap.graphs.motion_graph import MotionGraph
     from mocap.methods.in_betweening.end_bending import Arrived
-
-# A time in a clip: "1.5s" is in seconds, and "45" is a frame, as in the keys of `mocap warp`.
-MOMENT = r"(\d{1,9}|\d{1,9}(?:\.\d{1,9})?s)"
 
 
 def inbetween(
@@ -115,17 +122,12 @@ def _frames(gap: str, clip: "Motion") -> tuple[int, int]:
     parts = re.fullmatch(f"{MOMENT}-{MOMENT}", gap.strip())
     if not parts:
         raise MocapError(f"Where is the gap '{gap[:40]}'? Write FROM-TO, as in 1.5s-2.5s or frames 45-75.")
-    begin, stop = (_frame(moment, clip.fps) for moment in parts.groups())
+    begin, stop = (frame_at(moment, clip.fps) for moment in parts.groups())
     last = len(clip) - 1
     if not 0 <= begin < stop - 1 < last:
         held = f"'{clip.name[:60]}' has frames 0 to {last}, {clip.duration:.2f} s"
         raise MocapError(f"{held}: a gap lies within, with a frame or more to make, got {begin}-{stop}.")
     return begin, stop
-
-
-def _frame(moment: str, fps: float) -> int:
-    """Convert a time to a frame."""
-    return round(float(moment.removesuffix("s")) * (fps if moment.endswith("s") else 1.0))
 
 
 def _graph(

@@ -19,6 +19,7 @@ import mocap
 from mocap.cli import help_pages, refusals
 from mocap.cli.clips import convert, find, info, judge, view
 from mocap.cli.course import COURSE, lab
+from mocap.cli.cutting import cut
 from mocap.cli.data import DATA
 from mocap.cli.edits import bend, blend, loop, retarget, warp
 from mocap.cli.graph import GRAPH, demo
@@ -81,7 +82,7 @@ def completion(shell: Literal["bash", "zsh", "fish"]) -> None:
 
 GRAPHS: Commands = {"demo": demo, "graph": GRAPH, "walk": walk, "page": page, "crowd": crowd}
 CLIPS: Commands = {"info": info, "view": view, "judge": judge, "convert": convert, "find": find}
-EDITS: Commands = {run.__name__: run for run in (warp, bend, loop, blend, inbetween, retarget)}
+EDITS: Commands = {run.__name__: run for run in (cut, warp, bend, loop, blend, inbetween, retarget)}
 COURSES: Commands = {"data": DATA, "course": COURSE, "lab": lab}
 COMMANDS: dict[str, Commands] = {
     "Motion graphs": GRAPHS,

@@ -2,6 +2,7 @@
 
 import math
 import os
+import re
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -12,12 +13,13 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from mocap import body, files, graphs
 from mocap._shared.atomic import require_writable
+from mocap._shared.deprecation import DEPRECATED, Deprecation
 from mocap._shared.progress import Progress
 from mocap.cli.clip_sets import named_apart, read_found, warn_of_space, warn_of_spaces
 from mocap.cli.messages import VERBOSITY, note
 from mocap.cli.typed_commands import ONE_EACH
 from mocap.datasets.clip_origins import Origin
-from mocap.errors import MocapError, SkeletonMismatch, printable
+from mocap.errors import MocapError, SkeletonMismatch, printable, warn
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -52,6 +54,34 @@ def number(low: float, high: float, kind: Callable[[str], float] = float) -> Cal
     return read
 
 
+# A time in a clip: "1.5s" is in seconds, and "45" is a frame, as in the keys of `mocap warp`.
+MOMENT = r"(\d{1,9}|\d{1,9}(?:\.\d{1,9})?s)"
+
+
+def moment(text: str) -> str:
+    """Check the form of a time in a clip, a frame or seconds, for an option.
+
+    Examples
+    --------
+    >>> moment("90"), moment("1.5s")
+    ('90', '1.5s')
+    """
+    if not re.fullmatch(MOMENT, text):
+        raise MocapError(f"{text[:40]!r} is no time in a clip: write a frame as in 90, or seconds as in 1.5s")
+    return text
+
+
+def frame_at(time_in_clip: str, fps: float) -> int:
+    """Convert a time in a clip to the nearest frame.
+
+    Examples
+    --------
+    >>> frame_at("90", fps=120.0), frame_at("1.5s", fps=120.0)
+    (90, 180)
+    """
+    return round(float(time_in_clip.removesuffix("s")) * (fps if time_in_clip.endswith("s") else 1.0))
+
+
 SHORTEST_STAGE = 0.05  # seconds: a shorter stage would be shown as 0.0 s
 LENGTH = number(1e-6, 1e6)  # metres per unit
 CM = number(0.001, 1000)  # centimetres
@@ -75,12 +105,13 @@ Seed = Annotated[int, number(0, 2**32 - 1, int), "seed of the random numbers"]
 # The options for the parameters of `files.load`, which are named in its errors.
 READING = {
     "skeleton": "--skeleton",
-    "fps": "--fps",
+    "fps": "--read-fps",
     "scale": "--scale",
     "up": "--up",
     "roles": "--joints",
 }
-SOURCES = READING | {"fps": "--fps to mocap convert"}  # here --fps is the rate of a graph, or is missing
+SOURCES = READING | {"fps": "--read-fps to mocap convert"}  # commands that read several clips lack the option
+DEPRECATED.append(Deprecation("--fps", since="0.2", removed_in="0.3", instead="--read-fps"))
 
 
 @contextmanager
@@ -177,15 +208,27 @@ class FileReading:
     joints: ClassVar[Sequence[Path]] = ()  # files of roles, an option of `Reading`
 
     skeleton: Skeleton = None
-    fps: Annotated[
-        float | None, RATE, "frames per second of the clip (default: as in the file; 120 for .amc)"
+    read_fps: Annotated[
+        float | None,
+        RATE,
+        "frames per second of the clip as it is read, without resampling (default: as in the file; 120 for "
+        ".amc)",
     ] = None
+    fps: Annotated[float | None, RATE, "the former name of --read-fps, which warns"] = None
     scale: Annotated[
         float | None,
         LENGTH,
         "metres per unit of length in the clip (default: as the frames show)",
     ] = None
     up: Up = None
+
+    def __post_init__(self) -> None:
+        """Warn about the former name of an option."""
+        if self.fps is None:
+            return
+        if self.read_fps is not None:
+            raise MocapError("--fps is the former name of --read-fps: give --read-fps alone.")
+        warn("--fps is read as --read-fps, which does not resample; mocap cut --rate resamples.")
 
     def read(self, path: Path, stretch: float | None = None) -> "Recording":
         """Read a clip, and raise the errors of `files.load` with the names of options.
@@ -203,8 +246,9 @@ class FileReading:
         if path.suffix.lower() == ".asf":
             raise MocapError(f"{path} is a skeleton without a motion: give an .amc file, or a .bvh.")
         limit = TUNED.stretch if stretch is None else stretch
+        rate = self.read_fps or self.fps
         with named_options(READING), timed_reading(path):
-            recording = read(path, self.skeleton, self.fps, self.scale, limit, self.up)
+            recording = read(path, self.skeleton, rate, self.scale, limit, self.up)
         warn_of_space(path, recording, READING)
         with named_options(READING):
             return recording._replace(motion=with_chosen_roles(recording.motion, self.joints))
@@ -233,6 +277,13 @@ class Reading(FileReading):
     """Options for reading one clip, and for the roles of its joints."""
 
     joints: Joints = ()  # type: ignore[misc] # an option in place of the constant
+
+
+@dataclass(frozen=True)
+class ReadingAtRate(Reading):
+    """The same options for a command that never had the former name of `--read-fps`."""
+
+    fps: ClassVar[None] = None  # type: ignore[misc] # a constant in place of the option
 
 
 @dataclass(frozen=True)

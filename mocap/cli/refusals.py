@@ -13,7 +13,11 @@ from mocap.cli.typed_commands import command_names
 from mocap.errors import MocapError, shortened
 
 LONGEST = 60  # characters of a word that is quoted
-SYNONYMS = {"--path": "--along", "--along": "--path"}  # the path of `mocap walk` and that of `mocap bend`
+SYNONYMS = {
+    "--path": "--along",  # the path of `mocap walk` and that of `mocap bend`
+    "--along": "--path",
+    "--fps": "--rate",  # the frame rate of what is written
+}
 
 
 def explain(error: cyclopts.CycloptsError, root: cyclopts.App, words: Sequence[str] = ()) -> str:

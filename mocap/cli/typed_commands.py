@@ -230,7 +230,7 @@ def _describe(parameter: inspect.Parameter, text: Help) -> inspect.Parameter:
     settings += [Parameter(help=words)] if words else []
     if parameter.kind is parameter.KEYWORD_ONLY:
         flags = [*(["-o"] if parameter.name == "out" else []), option_of(parameter.name)]
-        settings.append(Parameter(name=flags, metavar=shown or parameter.name.upper()))
+        settings.append(Parameter(name=flags, metavar=shown or parameter.name.removesuffix("_").upper()))
     elif shown:
         settings.append(Parameter(name=shown))
     if any(isinstance(extra, OptionalValue) for extra in extras):
@@ -294,5 +294,7 @@ def option_of(name: str) -> str:
     --------
     >>> option_of("by_labels")
     '--by-labels'
+    >>> option_of("from_")  # `from` is a word of Python
+    '--from'
     """
-    return f"--{name.replace('_', '-')}"
+    return f"--{name.removesuffix('_').replace('_', '-')}"

@@ -23,6 +23,7 @@ Reading order (notebooks 10 to 14)
 15. `retargeting`: every joint looks where that of the other body looks; where the new feet may be
 16. `mirroring`: left and right swapped, by names and geometry
 17. `cycles`: the stretch of a clip that makes the best cycle, closed by a blend or by a warp
+18. `travel`: the travel over the ground, removed
 
 References
 ----------

@@ -44,3 +44,4 @@ from .solver import Basis as Basis
 from .solver import solve as solve
 from .stances import proportioned as proportioned
 from .stances import stance_of as stance_of
+from .travel import in_place as in_place

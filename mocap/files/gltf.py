@@ -1,4 +1,4 @@
-"""A motion as a `.glb` file: a node for each joint, a skin, and an animation of rotations [GLTF21].
+"""Motions as a `.glb` file: a node for each joint, a skin, and animations of rotations [GLTF21].
 
 The nodes are in the rest pose, with the lowest joint on the ground. Rotations of joints with a short limb
 below are stored as normalised 16-bit integers, which changes joint positions by at most 0.1 mm. The file
@@ -9,14 +9,17 @@ from __future__ import annotations
 
 import json
 import struct
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mocap._shared.arrays import Mask
 from mocap.body import rotations
-from mocap.body.motion import Motion, rotating_joints
+from mocap.body.motion import Motion, require_compatible, rotating_joints
+from mocap.body.planar import PlanarTransform, heading
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened
 from mocap.files.gltf_capsules import body, reaches
@@ -43,16 +46,21 @@ BODY = {"name": "body", "mesh": 0, "skin": 0}
 CLAY = {"baseColorFactor": [0.45, 0.55, 0.65, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.8}
 
 
-def glb(motion: Motion) -> bytes:
-    """Convert a motion to the bytes of a `.glb` file.
+def glb(motions: Motion | Sequence[Motion], *, root: bool = False) -> bytes:
+    """Convert a motion, or several motions of one body, to the bytes of a `.glb` file.
 
     Parameters
     ----------
-    motion : F frames. Joints keep their names. Labels and contacts are omitted.
+    motions : a motion, or motions with different names, each of which becomes an animation. Their frame rates
+        may differ. Joints keep their names. Labels and contacts are omitted.
+    root : whether to add a joint on the floor below the hips, with their heading, as the parent of the
+        skeleton's root. Engines move a character by such a joint (root motion).
 
     Raises
     ------
-    MocapError : for files larger than the format allows, and frame times below the precision of its clock.
+    SkeletonMismatch : for different skeletons.
+    MocapError : for equal names, an empty list, files larger than the format allows, and frame times below
+        the precision of its clock.
 
     Examples
     --------
@@ -61,7 +69,8 @@ def glb(motion: Motion) -> bytes:
     b'glTF'
     """
     block = Block()
-    text = json.dumps(_document(motion, block), separators=(",", ":")).encode()
+    clips = [motions] if isinstance(motions, Motion) else _of_one_body(motions)
+    text = json.dumps(_document(clips, root, block), separators=(",", ":")).encode()
     text += b" " * (-len(text) % 4)
     size = HEADER.size + CHUNK_HEADER.size + len(text) + CHUNK_HEADER.size + len(block.data)
     if size > MOST:
@@ -118,17 +127,36 @@ class Block:
         return len(self.accessors) - 1
 
 
-def _document(motion: Motion, block: Block) -> Record:
+def _of_one_body(motions: Sequence[Motion]) -> list[Motion]:
+    """Return motions on one skeleton at their own frame rates; raise for equal names."""
+    names = [motion.name for motion in motions]
+    for name in names:
+        if names.count(name) > 1:
+            raise MocapError(f"Two motions have the name '{shortened(name)}': an animation needs its own.")
+    at_one_rate = require_compatible([replace(motion, fps=motions[0].fps) for motion in motions])
+    return [replace(clip, fps=motion.fps) for clip, motion in zip(at_one_rate, motions, strict=True)]
+
+
+def _document(motions: Sequence[Motion], root: bool, block: Block) -> Record:
     """Build the JSON part of the file, and add its arrays to the block."""
-    skeleton = motion.skeleton
-    roots = [0, len(skeleton)]  # the root joint, and the node of the body after all joints
+    skeleton = motions[0].skeleton
+    body_node = len(skeleton)  # after all joints
+    nodes = [*_nodes(skeleton), BODY]
+    skin = _skin(skeleton, root, block)
+    if root:
+        nodes.append({"name": _floor_name(skeleton), "children": [0]})
     document: Record = {"asset": ASSET, "scene": 0}
-    document["scenes"] = [{"name": motion.name, "nodes": roots}]
-    document["nodes"] = [*_nodes(skeleton), BODY]
-    document["skins"] = [_skin(skeleton, block)]
+    document["scenes"] = [{"name": motions[0].name, "nodes": [skin["skeleton"], body_node]}]
+    document["nodes"] = nodes
+    document["skins"] = [skin]
     document["materials"] = [{"name": "clay", "pbrMetallicRoughness": CLAY}]
     document["meshes"] = [_mesh(skeleton, block)]
-    document["animations"] = [_animation(motion, block)]
+    travels = [_travel(motion) if root else None for motion in motions]
+    motions = [_without(travel, motion) for travel, motion in zip(travels, motions, strict=True)]
+    rotates = np.any([rotating_joints(motion) for motion in motions], axis=0)
+    document["animations"] = [
+        _animation(motion, rotates, travel, block) for travel, motion in zip(travels, motions, strict=True)
+    ]
     document["accessors"] = block.accessors
     document["bufferViews"] = block.views
     document["buffers"] = [{"byteLength": len(block.data)}]
@@ -149,13 +177,44 @@ def _nodes(skeleton: Skeleton) -> list[Record]:
     return nodes
 
 
-def _skin(skeleton: Skeleton, block: Block) -> Record:
+def _floor_node(skeleton: Skeleton) -> int:
+    """Return the node of a joint on the floor: the last one, after the joints and the body."""
+    return len(skeleton) + 1
+
+
+def _floor_name(skeleton: Skeleton) -> str:
+    """Return the name of a joint on the floor, which no joint of the skeleton has."""
+    name = "root"
+    while name in skeleton.names:
+        name = f"floor_{name}"
+    return name
+
+
+def _travel(motion: Motion) -> PlanarTransform:
+    """Return the heading of the root and its position over the ground, each of shape (F,)."""
+    x, _, z = motion.root_positions.T
+    return PlanarTransform(heading(motion.rotations[:, 0]), x, z)
+
+
+def _without(travel: PlanarTransform | None, motion: Motion) -> Motion:
+    """Return a motion relative to its travel, or as it is without one."""
+    if travel is None:
+        return motion
+    root_positions, local = travel.inverse().apply_frames(motion.root_positions, motion.rotations)
+    return replace(motion, root_positions=root_positions, rotations=local)
+
+
+def _skin(skeleton: Skeleton, root: bool, block: Block) -> Record:
     """Build the skin: for each joint the inverse bind matrix, which moves its rest position to the origin."""
-    joints = len(skeleton)
-    matrices = np.tile(np.eye(4, dtype=np.float32), (joints, 1, 1))  # stored by columns
-    matrices[:, TRANSLATION, :3] = -skeleton.rest
-    accessor = block.add(matrices.reshape(joints, -1))
-    return {"inverseBindMatrices": accessor, "joints": list(range(joints)), "skeleton": 0}
+    nodes = list(range(len(skeleton)))
+    rest = skeleton.rest
+    if root:
+        nodes.append(_floor_node(skeleton))
+        rest = np.vstack([rest, [0.0, rest[:, 1].min(), 0.0]])
+    matrices = np.tile(np.eye(4, dtype=np.float32), (len(nodes), 1, 1))  # stored by columns
+    matrices[:, TRANSLATION, :3] = -rest
+    accessor = block.add(matrices.reshape(len(nodes), -1))
+    return {"inverseBindMatrices": accessor, "joints": nodes, "skeleton": nodes[-1] if root else 0}
 
 
 def _mesh(skeleton: Skeleton, block: Block) -> Record:
@@ -174,8 +233,13 @@ def _mesh(skeleton: Skeleton, block: Block) -> Record:
     return {"name": "body", "primitives": [{"attributes": attributes, "indices": indices, "material": 0}]}
 
 
-def _animation(motion: Motion, block: Block) -> Record:
-    """Build the animation: the translation of the root, and the rotations of joints that rotate at all."""
+def _animation(motion: Motion, rotates: Mask, travel: PlanarTransform | None, block: Block) -> Record:
+    """Build an animation: the translation of the root, and the rotations of joints that rotate in any.
+
+    The travel, if there is one, is that of the joint on the floor.
+
+    A joint without a rotation in one animation would keep that of the animation played before.
+    """
     times = (np.arange(len(motion)) / motion.fps).astype(np.float32)
     if np.any(np.diff(times) <= 0):
         name = shortened(motion.name)
@@ -185,10 +249,17 @@ def _animation(motion: Motion, block: Block) -> Record:
     channels: list[Record] = [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]
     quaternions = rotations.continuous(motion.rotations)[..., XYZW]
     limbs = reaches(motion.skeleton)
-    for joint in np.flatnonzero(rotating_joints(motion)).tolist():
+    for joint in np.flatnonzero(rotates).tolist():
         values: NDArray[Any] = quaternions[:, joint].astype(np.float32)
         if limbs[joint] <= TUNED.carried:
             values = np.round(LARGEST_INT16 * values).astype(np.int16)
         channels.append({"sampler": len(samplers), "target": {"node": joint, "path": "rotation"}})
         samplers.append({"input": clock, "output": block.add(values)})
+    if travel is not None:
+        positions = travel.apply_points(np.zeros(3)).astype(np.float32)
+        headings = rotations.continuous(rotations.about_y(travel.angle))[..., XYZW].astype(np.float32)
+        for path, values in {"translation": positions, "rotation": headings}.items():
+            target = {"node": _floor_node(motion.skeleton), "path": path}
+            channels.append({"sampler": len(samplers), "target": target})
+            samplers.append({"input": clock, "output": block.add(values)})
     return {"name": motion.name, "samplers": samplers, "channels": channels}

@@ -1,7 +1,7 @@
 """Reading and writing of motions. The suffix of a file determines its format."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 
@@ -9,7 +9,7 @@ from mocap._shared.arrays import Array
 from mocap._shared.atomic import write_file
 from mocap._shared.quantities import check_number, described
 from mocap.body.limbs import with_roles
-from mocap.body.motion import Motion, require_motion, rotating_joints
+from mocap.body.motion import Motion, require_motion, require_motions, rotating_joints
 from mocap.errors import MocapError, warn
 from mocap.files import bvh, formats, gltf, spaces
 from mocap.files.recordings import Recording
@@ -202,3 +202,38 @@ def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
             write_file(path, gltf.glb(motion))
         case _:
             raise MocapError(f"Cannot write {path}: mocap writes {WRITTEN}.")
+
+
+def save_clips(motions: Sequence[Motion], path: str | Path, *, root: bool = False) -> None:
+    """Write motions of one body to one `.glb` file, each as an animation with its name.
+
+    Parameters
+    ----------
+    motions : one or more, with different names. Their frame rates may differ.
+    path : the file. A single motion may also be written as `.bvh`, without `root`.
+    root : whether to add a joint on the floor below the hips, with their heading, which moves a character in
+        engines. It is called "root", or "floor_root" if the skeleton has that name.
+
+    Raises
+    ------
+    MocapError, SkeletonMismatch : as for `save`, and for equal names, different skeletons, or several motions
+        or `root` in another format.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from mocap.datasets import sample
+    >>> with TemporaryDirectory() as folder:
+    ...     save_clips([sample("walk_straight"), sample("walk_circle")], f"{folder}/walks.glb")
+    ...     Path(f"{folder}/walks.glb").read_bytes()[:4]
+    b'glTF'
+    """
+    clips = require_motions(motions)
+    require_path(path)
+    if len(clips) == 1 and not root:
+        save(clips[0], path)
+        return
+    path = Path(path)
+    if path.suffix.lower() != ".glb":
+        raise MocapError(f"Several clips in one file, and a joint on the floor, need .glb, got '{path}'.")
+    write_file(path, gltf.glb(clips, root=root))

@@ -16,6 +16,10 @@ from mocap.body.planar import heading
 from mocap.errors import printable, shortened, warn
 from mocap.quality.limits import LIMITS
 
+REST_POSE = "rest pose"  # kinds of flaws
+ZEROS = "nothing but zeros"
+
+AT_REST = 1e-3  # radians: captured joints are never all as close to their rest pose
 STILL = 1e-9  # metres, or entries of a quaternion: less than the precision of the numbers in a file
 
 SHOWN = 4  # stretches of frames that the text of a flaw lists
@@ -112,7 +116,8 @@ def inspect(motion: Motion, angles: Mapping[str, Array] | None = None) -> Report
     -------
     A report. Height: the median over time of the body's vertical extent. Heading: its total change,
     positive to the left. Path: the length of the root's path over the ground. Flaws: frozen stretches,
-    teleports of the root, joints that snap, Euler flips, frames of zeros, and joints below the floor.
+    teleports of the root, joints that snap, Euler flips, frames of zeros, rest poses from which the body
+    leaps, and joints below the floor.
 
     Examples
     --------
@@ -154,7 +159,9 @@ def _marked_frames(
     rotation_angles = rotations.angle_between(motion.rotations[1:], motion.rotations[:-1])  # (F - 1, J)
     too_fast = max(LIMITS.snap, LIMITS.fast / motion.fps)  # radians: large for a frame, and fast for a joint
     yield "frozen", _frozen(motion), ""
-    yield "nothing but zeros", _zeros(motion), ""
+    zeros = _zeros(motion)
+    yield ZEROS, zeros, ""
+    yield REST_POSE, _rest_poses(motion, rotation_angles) & ~zeros, ""
     yield "teleport", *_teleports(motion)
     yield "snap", *_snaps(motion, rotation_angles, too_fast)
     yield "Euler flip", *_flips(motion, rotation_angles, too_fast, angles)
@@ -175,6 +182,33 @@ def _zeros(motion: Motion) -> Mask:
     rotation_errors = np.abs(np.abs(motion.rotations) - rotations.IDENTITY).max(axis=(1, 2))
     root_errors = np.abs(motion.root_positions).max(axis=1)
     return np.asarray((rotation_errors < STILL) & (root_errors < STILL))
+
+
+def _rest_poses(motion: Motion, rotation_angles: Array) -> Mask:
+    """Mark frames in the rest pose, such as a T-pose before the motion, if the body leaps into or out of it.
+
+    Parameters
+    ----------
+    motion : F frames.
+    rotation_angles : the rotations from frame to frame, shape (F - 1, J), radians.
+    """
+    from_rest = rotations.angle_between(motion.rotations[:, 1:], rotations.IDENTITY)
+    poses = np.asarray((from_rest < AT_REST).all(axis=1))
+    steps = rotation_angles[:, 1:].sum(axis=1)  # radians, from each frame to the next
+    reach = LIMITS.sudden_frames
+    for start, stop in runs(poses):
+        earlier_steps = steps[max(0, start - 1 - reach) : start][::-1]  # that into the rest pose comes first
+        later_steps = steps[stop - 1 : stop + reach]
+        poses[start:stop] = _leaps(earlier_steps) or _leaps(later_steps)
+    return poses
+
+
+def _leaps(steps: Array) -> bool:
+    """Return whether the first of two steps or more is much larger than the others."""
+    if len(steps) < 2:
+        return False
+    usual = np.median(steps[1:])
+    return bool(steps[0] > AT_REST + LIMITS.rest_leap * usual)
 
 
 def _teleports(motion: Motion) -> tuple[Mask, str]:

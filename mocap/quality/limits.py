@@ -27,6 +27,9 @@ class Limits:
     snap: float = math.pi / 4  # radians per frame
     # At 30 Hz, 45° per frame is only 24 radians per second, and joints of trials without a snap reach 36.
     fast: float = 50.0  # radians per second
+    # A motion that starts from its rest pose has a first step like the next ones. With a rest pose before 28
+    # clips of people, at 30 and 120 Hz, the step out of it is at least 6.4 times their median.
+    rest_leap: float = 3.0  # times the median sum of joint rotations in the neighbouring frames
     flip: float = 2.0  # change of an Euler angle, times the joint's rotation; in a snap they are equal
     # The sole of a shoe is about as thick, and markers are less exact: the lowest joint of subject 16 is 2 cm
     # under the floor, those of the others up to 9 cm.

@@ -13,7 +13,7 @@ from urllib.request import url2pathname
 import numpy as np
 import pytest
 
-from mocap.body import concatenate, joint_positions, resample
+from mocap.body import Motion, concatenate, joint_positions, resample, rotations
 from mocap.datasets import samples
 from mocap.files import conversion, load_save
 from tests.files.acclaim_clips import write_acclaim
@@ -41,7 +41,7 @@ def same(one, other):
 
 
 def test_info_tells_length_and_flaws_or_the_joints(folder, run):
-    told = run("info clips/a.bvh --fps 60").out
+    told = run("info clips/a.bvh --read-fps 60").out
     assert "40 at 60 Hz, 0.65 s" in told and "flaws " in told and "scale" not in told
     names = wave(40).skeleton.names
     told = run("info clips/a.bvh --joints").out
@@ -68,9 +68,31 @@ def test_view_keeps_a_file_and_opens_nothing(folder, run, monkeypatch):
     assert (folder / "a.png").read_bytes().startswith(b"\x89PNG")
 
 
+def with_rest_poses(motion, before, after=0):
+    """Put the rest pose before the first frame, or after the last one, as many converters of files do."""
+    still = rotations.IDENTITY * np.ones((before + after, len(motion.skeleton), 1))
+    turns = np.concatenate([still[:before], motion.rotations, still[before:]])
+    roots = motion.root_positions[np.clip(np.arange(-before, len(motion) + after), 0, len(motion) - 1)]
+    return Motion(motion.skeleton, roots, turns, motion.fps)
+
+
+def test_info_tells_how_to_cut_a_rest_pose_off(folder, run):
+    walk = resample(samples.sample("walk_straight"), 30)[:60]
+    load_save.save(with_rest_poses(walk, 1), "first.bvh")
+    load_save.save(with_rest_poses(walk, 2, 3), "both.bvh")
+    load_save.save(walk, "walk.bvh")
+    assert "rest pose in frame 0 (cut it by mocap cut --from 1)" in run("info first.bvh").out
+    told = run("info both.bvh").out
+    assert "rest pose in frame 0-1, 62-64 (cut it by mocap cut --from 2 --to 62)" in told
+    for line in ("cut first.bvh --from 1 -o cut.bvh", "cut both.bvh --from 2 --to 62 -o cut.bvh"):
+        run(line)
+        assert "rest pose" not in run("info cut.bvh").out
+        assert np.allclose(load_save.load("cut.bvh").positions, load_save.load("walk.bvh").positions)
+
+
 def test_convert_acclaim(folder, run):
     write_acclaim(load_save.load("clips/a.bvh"), folder / "one.amc")
-    assert run("convert one.amc other.BVH --fps 30").out == "converted    1 of 1 to other.BVH\n"
+    assert run("convert one.amc other.BVH --read-fps 30").out == "converted    1 of 1 to other.BVH\n"
     assert same("clips/a.bvh", "other.BVH")
     assert load_save.load("other.BVH").fps == 30.0
 
@@ -111,20 +133,28 @@ def test_what_fails_names_options_not_arguments(folder, run):
         write_poses(name)
     for line in ("convert rest/a.npz arm.glb", "convert rest out", "judge rest", "info rest/a.npz"):
         said = run(line, 2)
-        assert "a.npz: expected 'mocap_framerate', got none: give --fps" in said.out + said.err
+        assert "a.npz: expected 'mocap_framerate', got none: give --read-fps" in said.out + said.err
 
 
 def test_a_remedy_that_a_command_lacks_is_another_command(folder, run):
     """`mocap graph --fps` is the rate of the graph, not of its clips."""
     write_poses("a.npz")
     for line in ("graph a.npz -o g.npz", "find a.npz a.npz"):
-        assert run(line, 2).err.endswith("'mocap_framerate', got none: give --fps to mocap convert\n")
+        assert run(line, 2).err.endswith("'mocap_framerate', got none: give --read-fps to mocap convert\n")
+
+
+def test_the_former_name_of_the_rate_that_is_read_warns(folder, run):
+    said = run("convert clips/a.bvh slow.bvh --fps 15")
+    assert "--fps is read as --read-fps, which does not resample; mocap cut --rate resamples." in said.err
+    assert load_save.load("slow.bvh").fps == 15.0 and len(load_save.load("slow.bvh")) == 40
+    assert run("convert clips/a.bvh slow.bvh --read-fps 15").err == ""
+    assert "give --read-fps alone" in run("info clips/a.bvh --fps 15 --read-fps 15", 2).err
 
 
 def test_info_says_that_the_rate_of_an_amc_is_assumed(folder, run):
     write_acclaim(wave(3), folder / "clips" / "c.amc")
-    assert "assumed  120 Hz, as an .amc says no rate; --fps sets another" in run("info clips/c.amc").out
-    assert "assumed" not in run("info clips/c.amc --fps 60").out
+    assert "assumed  120 Hz, as an .amc says no rate; --read-fps sets another" in run("info clips/c.amc").out
+    assert "assumed" not in run("info clips/c.amc --read-fps 60").out
     assert "assumed" not in run("info clips/a.bvh").out
 
 

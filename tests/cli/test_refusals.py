@@ -117,6 +117,7 @@ FILES = {
     "graph info": "g.npz",
     "walk": "g.npz --random 1s",
     "convert": "a.bvh c.glb",
+    "cut": "a.bvh -o w.bvh",
     "bend": "a.bvh --along l.csv -o w.bvh",
     "blend": "a.bvh a.bvh",
     "retarget": "a.bvh --to a.bvh -o r",

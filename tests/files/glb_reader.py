@@ -63,8 +63,8 @@ class Glb:
 
     def poses(self, seconds, rest=False):
         """Give every joint's matrix (4, 4) in the world, at a time of the animation or at rest."""
-        curves, matrices = {} if rest else self.curves(), []
-        for node, parent in enumerate(self.parents()):
+        curves, local = {} if rest else self.curves(), []
+        for node in range(len(self.nodes)):
             matrix = np.eye(4)
             matrix[:3, 3] = self.nodes[node].get("translation", np.zeros(3))
             if (node, "translation") in curves:
@@ -73,8 +73,15 @@ class Glb:
             if (node, "rotation") in curves:
                 times, turns = curves[node, "rotation"]
                 matrix[:3, :3] = Slerp(times, Rotation.from_quat(turns))(seconds).as_matrix()
-            matrices.append(matrix if parent < 0 else matrices[parent] @ matrix)
-        return np.array(matrices)[self.joints]
+            local.append(matrix)
+        return np.array([self._in_world(node, local) for node in self.joints])
+
+    def _in_world(self, node, local):
+        """Multiply the matrices of a node and of all above it."""
+        parents, matrix = self.parents(), local[node]
+        while (node := parents[node]) >= 0:
+            matrix = local[node] @ matrix
+        return matrix
 
     def skinned(self, seconds, rest=False):
         """Give where the body's corners are, (V, 3): the sum of weight · joint · inverse bind · corner."""

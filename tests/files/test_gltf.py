@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-from mocap.body import Motion, Skeleton, joint_positions, resample
+from mocap.body import Motion, Skeleton, heading, joint_positions, resample
 from mocap.datasets import samples
+from mocap.errors import SkeletonMismatch
 from mocap.files import gltf, gltf_capsules, load_save
 from tests.files.glb_reader import Glb
 from tests.refusals import refused
@@ -143,3 +144,62 @@ def test_trimesh_reads_the_body_and_the_joints():
     for joint, name in enumerate(motion.skeleton.names):
         place = scene.graph.get(name)[0][:3, 3]
         assert np.abs(place - rest[joint] + [0, rest[:, 1].min(), 0]).max() < 1e-4
+
+
+def test_several_motions_of_one_body_are_animations_with_their_own_rates():
+    still = replace(walk()[:1].at([0, 0, 0, 0]), name="still")
+    motions = [walk(), replace(resample(walk(), 20), name="slow"), still]
+    read = Glb(gltf.glb(motions))
+    alone = Glb(gltf.glb(walk()))
+    animations = read.document["animations"]
+    assert [animation["name"] for animation in animations] == ["walk_circle", "slow", "still"]
+    for motion, animation in zip(motions, animations, strict=True):
+        targets = [channel["target"] for channel in animation["channels"]]
+        assert targets == [channel["target"] for channel in alone.document["animations"][0]["channels"]]
+        clock = read.arrays[animation["samplers"][0]["input"]].ravel()
+        assert len(clock) == len(motion) and clock[-1] == pytest.approx(motion.duration)
+    assert gltf.glb([walk()]) == gltf.glb(walk())
+
+
+def test_animations_need_one_body_and_their_own_names():
+    refused("Two motions have the name 'walk_circle'", gltf.glb, [walk(), walk()])
+    refused("skeletons differ", gltf.glb, [walk(), wave(20)], kind=SkeletonMismatch, most=300)
+
+
+def test_several_clips_are_written_as_glb(tmp_path):
+    clips = [wave(20, name="a"), wave(30, name="b")]
+    load_save.save_clips(clips, tmp_path / "clips.glb")
+    assert len(Glb((tmp_path / "clips.glb").read_bytes()).document["animations"]) == 2
+    load_save.save_clips(clips[:1], tmp_path / "a.bvh")
+    assert len(load_save.load(tmp_path / "a.bvh")) == 20
+    path = tmp_path / "clips.bvh"
+    refused(
+        "Several clips in one file, and a joint on the floor, need .glb, got ",
+        load_save.save_clips,
+        clips,
+        path,
+        most=300,
+    )
+
+
+def test_a_joint_on_the_floor_carries_the_travel_and_nothing_else_changes():
+    motion = walk()
+    read = Glb(gltf.glb(motion, root=True))
+    joints = len(motion.skeleton)
+    floor = read.joints[-1]
+    assert len(read.joints) == joints + 1 and read.parents()[0] == floor
+    assert read.nodes[floor]["name"] == "floor_root" and read.document["skins"][0]["skeleton"] == floor
+    exact = joint_positions(motion)
+    for frame in range(0, len(motion), 29):
+        *poses, root = read.poses(frame / motion.fps)
+        np.testing.assert_allclose(np.array(poses)[:, :3, 3], exact[frame], atol=1e-4)
+        np.testing.assert_allclose(root[:3, 3], motion.root_positions[frame] * [1, 0, 1], atol=1e-6)
+        ahead = root[:3, 2]
+        assert np.arctan2(ahead[0], ahead[2]) == pytest.approx(heading(motion.rotations[frame, 0]), abs=1e-6)
+        assert root[1, 1] == pytest.approx(1.0)
+    hips = read.curves()[0, "translation"][1]
+    assert np.abs(hips[:, [0, 2]]).max() < 1e-6
+    np.testing.assert_allclose(read.skinned(1.0), Glb(gltf.glb(motion)).skinned(1.0), atol=1e-4)
+    np.testing.assert_allclose(
+        read.skinned(0, rest=True), Glb(gltf.glb(motion)).skinned(0, rest=True), atol=1e-6
+    )
