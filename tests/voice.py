@@ -245,10 +245,12 @@ def main() -> int:
     rooms = Counter("/".join(finding.path.split("/")[:2]) for finding in found)
     for room, count in rooms.most_common():
         print(f"{count:5} {room}")
-    prose = "\n".join(prose_of(path.read_text("utf-8")) for path in files())
-    print(f"{len(prose.split())} words of docstrings and comments:")
-    for name, pattern in PATTERNS.items():
-        print(f"{len(pattern.findall(prose)):5} {name}")
+    for title, waiting in (("worded", False), ("waiting", True)):
+        texts = [path.read_text("utf-8") for path in files() if is_waiting(path) == waiting]
+        prose = "\n".join(map(prose_of, texts))
+        print(f"Rooms that are {title}: {len(prose.split())} words of docstrings and comments")
+        for name, pattern in PATTERNS.items():
+            print(f"{len(pattern.findall(prose)):5} {name}")
     return 0
 
 
