@@ -33,8 +33,8 @@ class SearchLimits:
     """
 
     frames: int = 120  # that are looked at, spread evenly over the clip
-    shortest: float = 0.07  # a bone of a limb; bones of fingers have 0.03
-    evenness: float = 0.52  # shorter / longer segment of a limb; people have 0.75
+    shortest: float = 0.07  # a bone of a limb. Bones of fingers have 0.03
+    evenness: float = 0.52  # shorter / longer segment of a limb. People have 0.75
     length_difference: float = 0.15  # difference of the logarithms of lengths of mirror images
     bends: float = np.radians(8)  # radians: a joint whose bend changes by more is used in these frames
     knee_at_rest: float = 0.035  # radians: a bend that a knee keeps and a split bone has not
@@ -44,9 +44,9 @@ class SearchLimits:
     toe_ahead: float = 0.02  # that a toe is ahead of its ankle while it stands
     standing: float = 0.3  # of the frames: those in which an ankle is lowest
     rival: float = 0.8  # of the best score: another pair that is nearly as good is reported
-    hanging: float = 0.6  # of a leg's length: the mean drop from hip to ankle; walks have 0.9
+    hanging: float = 0.6  # of a leg's length: the mean drop from hip to ankle. Walks have 0.9
     forelegs: float = 0.25  # of the frames in which a second pair of legs is on the floor
-    sure_side: float = 0.6  # sum of the votes for left and right; walks have 1.2 to 3.6
+    sure_side: float = 0.6  # sum of the votes for left and right. Walks have 1.2 to 3.6
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ class TreeLimits:
 
     stretch: float = 0.04  # of the body's extent: what changes its distance by more is no bone (a still root)
     longest_bone: float = 0.6  # of the body's extent: what is farther from its parent is no part of the body
-    reach_per_height: float = 1.5  # longest path along bones / height of people; 1.38 to 1.66 measured
+    reach_per_height: float = 1.5  # longest path along bones / height of people. 1.38 to 1.66 measured
     least_reach: float = 0.2  # of the body's height: a branch that reaches less is no limb, neck or trunk
     no_bone: float = 0.004  # of the body's height: a shorter bone only adds an axis of rotation to its joint
     most_joints: int = 12  # of a chain that are looked at, from the body outwards

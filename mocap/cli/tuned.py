@@ -9,10 +9,10 @@ from dataclasses import dataclass
 class Tuned:
     """Each constant with its unit, and the reason for its value."""
 
-    poor_seam: float = 0.06  # metres RMS; the cycles of eight walks had seams of 0.5 to 3 cm
-    missed_cycle: float = 0.15  # metres; cycles of walks miss 1 to 9 cm, a pose held before a run misses 30
+    poor_seam: float = 0.06  # metres RMS. The cycles of eight walks had seams of 0.5 to 3 cm
+    missed_cycle: float = 0.15  # metres. Cycles of walks miss 1 to 9 cm, a pose held before a run misses 30
     # A path of the web ends where frames are no longer as near as asked, although on average they still are.
-    # With 4 / 3 CMU 02_05's punch finds two more below 6 cm; with 2 no others.
+    # With 4 / 3 CMU 02_05's punch finds two more below 6 cm. With 2 no others.
     web_threshold: float = 4 / 3  # times the threshold of `mocap find`
     side_headings: tuple[float, ...] = (0.0, 0.5, -0.5, 1.0, -1.0)  # radians, tried in this order
     side_states: int = 400  # where the way ahead is closed, a side finds one soon or not at all

@@ -16,12 +16,12 @@ class Limits:
     """Each limit with its unit, and the reason for its value."""
 
     # Flaws of a clip, as `inspect` reports them
-    frozen: int = 3  # frames in a row that repeat the one before; two trials have 6 and 13, the others none
-    teleport: float = 5.0  # m/s of the root; the fastest runs reach 5.5
+    frozen: int = 3  # frames in a row that repeat the one before. Two trials have 6 and 13, the others none
+    teleport: float = 5.0  # m/s of the root. The fastest runs reach 5.5
     # Above `teleport` no root reaches more than 1.4 times the median, except in one trial: 17 times. Below, a
     # body that stands and starts to move reaches 26 times.
     sudden: float = 5.0  # times the median speed of the neighbouring frames
-    sudden_frames: int = 5  # neighbouring frames on either side; with 1 no leap is found
+    sudden_frames: int = 5  # neighbouring frames on either side. With 1 no leap is found
     # 99.99 % of all rotations stay below 31° per frame. Of the 28 trials with a rotation above 45°, 16 have
     # one above 150°, which no joint can do in a frame.
     snap: float = math.pi / 4  # radians per frame
@@ -30,16 +30,16 @@ class Limits:
     # A motion that starts from its rest pose has a first step like the next ones. With a rest pose before 28
     # clips of people, at 30 and 120 Hz, the step out of it is at least 6.4 times their median.
     rest_leap: float = 3.0  # times the median sum of joint rotations in the neighbouring frames
-    flip: float = 2.0  # change of an Euler angle, times the joint's rotation; in a snap they are equal
+    flip: float = 2.0  # change of an Euler angle, times the joint's rotation. In a snap they are equal
     # The sole of a shoe is about as thick, and markers are less exact: the lowest joint of subject 16 is 2 cm
     # under the floor, those of the others up to 9 cm.
     under: float = 0.03  # metres
-    smallest: float = 0.15  # metres of height; a wrong unit of length is likelier than a body so small
-    tallest: float = 3.5  # metres of height; the same for a body so tall
+    smallest: float = 0.15  # metres of height. A wrong unit of length is likelier than a body so small
+    tallest: float = 3.5  # metres of height. The same for a body so tall
 
     # Jumps of velocity. At 30 Hz, in the walks, runs and jumps of CMU's subject 16, leaps have 20 times the
     # percentile `MOSTLY` of all frames, and all other frames but one at most 3.3 times.
-    jolt: float = 5.0  # times that percentile; above it a jump is a leap in the data
+    jolt: float = 5.0  # times that percentile. Above it a jump is a leap in the data
     seam_jolt: float = 1.5  # times the percentile `USUAL` of the windows of the clips
 
     # Measures of a motion, as `judge` explains them
@@ -47,12 +47,12 @@ class Limits:
     foot_sliding: float = 2.5  # cm, mean over the footplants
     sliding_speed: float = 8.0  # percent of the body's speed
     sunk: float = 3.0  # cm, as `under`
-    aloft: float = 25.0  # cm; in 153 clips the lowest joint comes down to 12.5 cm or lower, also on stairs
+    aloft: float = 25.0  # cm. In 153 clips the lowest joint comes down to 12.5 cm or lower, also on stairs
     lopsided: float = 20.0  # mm
     bones: float = 5.0  # mm
     rotation: float = math.degrees(50.0)  # degrees per second, as `fast`
     path: float = 15.0  # cm, mean over the frames; `steering.follow_path` warns above it
-    shortest: float = 0.75  # metres, of a body that walks; a grown one in inches, read as cm, is 0.7 at most
+    shortest: float = 0.75  # metres, of a body that walks. A grown one in inches, read as cm, is 0.7 at most
     longest: float = 2.5  # metres
 
     # Knees and elbows

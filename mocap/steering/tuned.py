@@ -10,37 +10,37 @@ class Tuned:
     """Each constant with its unit, and the reason for its value."""
 
     # The search along a path
-    route_spacing: float = 0.02  # metres between the points of a route; at 0.2 walks change clips often
-    layer: float = 0.15  # metres of path whose walks compete; 0.05 takes longer, 0.1 to 0.6 are as good
-    idle_price: float = 0.1  # m² for a frame of a bent walk that hardly moves on; at 0 walks pause for long
-    slowest: float = 0.3  # m/s; a bent walk behind this speed is dropped; at 0.6 slow clips are refused
-    grace: float = 4.0  # seconds that a bent walk may be late at that speed; 0 to 8 find the same walks
-    walking_speed: float = 0.5  # m/s; a clip whose root is faster walks, as an error tells
-    creep: float = 0.05  # m/s, the least progress of a bent walk, so that searches end; at 0.3 it may stand
-    clock: int = 4  # cells of time per second for walks that give way; 1 to 8 keep as far apart
-    wider_views: tuple[int, int, int] = (0, 1, 2)  # times the distance ahead; with 0 some must wait
+    route_spacing: float = 0.02  # metres between the points of a route. At 0.2 walks change clips often
+    layer: float = 0.15  # metres of path whose walks compete. 0.05 takes longer, 0.1 to 0.6 are as good
+    idle_price: float = 0.1  # m² for a frame of a bent walk that hardly moves on. At 0 walks pause for long
+    slowest: float = 0.3  # m/s. A bent walk behind this speed is dropped. At 0.6 slow clips are refused
+    grace: float = 4.0  # seconds that a bent walk may be late at that speed. 0 to 8 find the same walks
+    walking_speed: float = 0.5  # m/s. A clip whose root is faster walks, as an error tells
+    creep: float = 0.05  # m/s, the least progress of a bent walk, so that searches end. At 0.3 it may stand
+    clock: int = 4  # cells of time per second for walks that give way. 1 to 8 keep as far apart
+    wider_views: tuple[int, int, int] = (0, 1, 2)  # times the distance ahead. With 0 some must wait
 
     # Repeated searches
-    wide_beam: int = 400  # walks in a layer of repeated searches; 800 take longer, and are no nearer
+    wide_beam: int = 400  # walks in a layer of repeated searches. 800 take longer, and are no nearer
     lower_seam_prices: tuple[float, ...] = (1 / 3, 0.0)  # factors, after walks that left the path
-    seam_price_step: float = 1.25  # factor of the price of a seam from try to try; 1 to 2 find as good walks
-    not_followed: float = 1.0  # metres, mean distance; beyond it a walk is refused; at 0.1 tight bends are
+    seam_price_step: float = 1.25  # factor of the price of a seam from try to try. 1 to 2 find as good walks
+    not_followed: float = 1.0  # metres, mean distance. Beyond it a walk is refused. At 0.1 tight bends are
 
     # Judging a walk
-    leaves_path: float = 0.15  # metres from the path; at 0.05 the sway of the root leaves it
-    mean_distance: float = 0.04  # metres from the path on average; at 0.03 a quarter of good lines fails
-    seam_rate: float = 1.0  # transitions per second; at 0.7 a quarter of good walks fails
-    bent_seam_rate: float = 0.7  # the same for a bent walk, which needs fewer; 0.5 to 1 accept the same walks
-    reach: float = 0.5  # metres of path on either side in which the nearest point is sought; 0.25 to 3 agree
+    leaves_path: float = 0.15  # metres from the path. At 0.05 the sway of the root leaves it
+    mean_distance: float = 0.04  # metres from the path on average. At 0.03 a quarter of good lines fails
+    seam_rate: float = 1.0  # transitions per second. At 0.7 a quarter of good walks fails
+    bent_seam_rate: float = 0.7  # the same for a bent walk, which needs fewer. 0.5 to 1 accept the same walks
+    reach: float = 0.5  # metres of path on either side in which the nearest point is sought. 0.25 to 3 agree
 
     # Walks that are bent onto a path
-    overrun: float = 0.5  # metres that a search goes on beyond the end; 0 to 1 end within 3 to 5 cm of it
+    overrun: float = 0.5  # metres that a search goes on beyond the end. 0 to 1 end within 3 to 5 cm of it
     overrun_fraction: float = 0.02  # of the path's length, in addition
 
     # Waypoints and crowds
-    waits: tuple[float, ...] = (0.0, 1.0, 2.0, 4.0)  # seconds before a start, in this order; most need none
-    crowd_beam: int = 100  # walks in a layer, and thrice as many to give way; 30 to 200 keep as far apart
-    passing: float = 0.02  # metres beyond the least distance that count as passed; at 0.2 points are missed
+    waits: tuple[float, ...] = (0.0, 1.0, 2.0, 4.0)  # seconds before a start, in this order. Most need none
+    crowd_beam: int = 100  # walks in a layer, and thrice as many to give way. 30 to 200 keep as far apart
+    passing: float = 0.02  # metres beyond the least distance that count as passed. At 0.2 points are missed
 
 
 TUNED = Tuned()

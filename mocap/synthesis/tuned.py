@@ -9,8 +9,8 @@ from mocap._shared.records import dataclass
 class Tuned:
     """Each constant with its unit, and the reason for its value."""
 
-    margin: float = 5.0  # seconds cleaned twice; longer than footplants, and than corrections reach
-    piece: float = 30.0  # seconds of a piece at least; shorter ones take longer, longer ones more memory
+    margin: float = 5.0  # seconds cleaned twice. Longer than footplants, and than corrections reach
+    piece: float = 30.0  # seconds of a piece at least. Shorter ones take longer, longer ones more memory
 
 
 TUNED = Tuned()

@@ -14,15 +14,15 @@ class Tuned:
     # Walks that are tried, and their ends
     # Of 24 requests anywhere, 2 have no walk that arrives among the first 24, and one of these has two among
     # the first 72. More take tens of seconds to refuse.
-    tried: int = 24  # walks that are bent at a time, while none arrives; the best that arrives is taken
+    tried: int = 24  # walks that are bent at a time, while none arrives. The best that arrives is taken
     most_tried: int = 72  # walks that are bent at most
     pose: float = 0.1  # metres, RMS, by which joints may be moved where the ends fade into the poses
-    # The clean-up may release what it should hold at the ends, by up to 1° of a joint; feet then slide by up
+    # The clean-up may release what it should hold at the ends, by up to 1° of a joint. Feet then slide by up
     # to 0.3 mm. After the second round most do not. Where a straight leg makes the clean-up lower the root
     # near an end, 1 mm is left, which `put_back` removes.
     rounds: int = 2  # times that feet are cleaned up and ends brought to the poses
-    fade: float = 0.5  # seconds in which a residual fades, at most; in a shorter walk, half of it
-    near_end: float = 0.3  # seconds; a footplant so near to an end keeps its position at the frame next to it
+    fade: float = 0.5  # seconds in which a residual fades, at most. In a shorter walk, half of it
+    near_end: float = 0.3  # seconds. A footplant so near to an end keeps its position at the frame next to it
 
     # The search from both ends
     ahead: float = 0.1  # seconds from a pose to the one before or after it, and between two candidates
@@ -32,7 +32,7 @@ class Tuned:
     match: float = 300.0  # times the squared distance of a seam, m²
     end_pose: float = 100.0  # times the squared distance of the end poses, m²
     beyond_limit: float = 100.0  # for each radian per second, or unit of a step's logarithm, beyond its limit
-    layer: float = 0.1  # seconds; walks in one layer compete
+    layer: float = 0.1  # seconds. Walks in one layer compete
     beam: int = 400  # walks that stay in a layer
     cell: float = 0.1  # metres: walks at one node in one cell are similar
     angle: float = 0.15  # radians: the same for their directions
@@ -46,11 +46,11 @@ class Tuned:
     rotation: float = 0.5  # times the squared radians per second of added turning, times seconds
     stretch: float = 8.0  # times the squared logarithms of the step factor and of the pace, times seconds
     within: float = 0.98  # of the limit of turning, because only some frames are constrained
-    solver_rounds: int = 30  # iterations; 5 to 15 are enough if there is a solution
+    solver_rounds: int = 30  # iterations. 5 to 15 are enough if there is a solution
     knots: float = 0.3  # seconds between the knots of φ and ln σ
     fewest_spans: int = 10  # spans between knots
     most_spans: int = 40  # spans between knots
-    per_span: int = 4  # frames between two knots at which the turning is constrained; fewer let it exceed
+    per_span: int = 4  # frames between two knots at which the turning is constrained. Fewer let it exceed
     rise: float = 0.15  # the part of a walk, at each end, over which its time reaches the new pace
 
 

@@ -12,11 +12,11 @@ class Tuned:
     """Each constant with its unit, and the reason for its value."""
 
     # Strides in clips
-    step_seconds: tuple[float, float] = (0.23, 1.0)  # from strike to strike; others are no walk or run
-    calm: float = math.radians(15)  # from the median turn; steps that turn by less count as straight ahead
+    step_seconds: tuple[float, float] = (0.23, 1.0)  # from strike to strike. Others are no walk or run
+    calm: float = math.radians(15)  # from the median turn. Steps that turn by less count as straight ahead
     straight: float = math.radians(20)  # a straight stride turns by less
-    straight_speed: float = 0.3  # m/s; a straight stride is faster
-    margin: float = 0.38  # fraction of an action, before and after it; transitions are centred near its ends
+    straight_speed: float = 0.3  # m/s. A straight stride is faster
+    margin: float = 0.38  # fraction of an action, before and after it. Transitions are centred near its ends
 
     # Spaces of strides
     samples: int = 120  # number of samples of a space
@@ -24,7 +24,7 @@ class Tuned:
     # Changes between strides
     change_from: float = 0.2  # phase at which a change begins
     change_to: float = 0.8  # phase at which a change ends
-    step_phases: tuple[float, float] = (0.05, 0.95)  # phases between which feet step; seams blend the others
+    step_phases: tuple[float, float] = (0.05, 0.95)  # phases between which feet step. Seams blend the others
     strike_phases: int = 2  # phases of the grid by which a swing may end after a strike
     rotation_beyond: float = math.radians(5)  # a turn may be this far outside those of the other kind
     change_examples: int = 60  # number of examples of a change, at most
