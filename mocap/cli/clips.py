@@ -16,9 +16,9 @@ from mocap.cli.options import (
     CM,
     READING,
     FileReading,
+    PathReading,
     Reading,
     Sources,
-    Unit,
     bar,
     print_rows,
     report_failures,
@@ -115,7 +115,7 @@ def judge(
     reading: Reading,
     against: Sequence[Path] = (),
     path: Path | None = None,
-    unit: Unit = None,
+    drawn: PathReading,
     json: bool = False,
 ) -> int:
     """Measure the quality of motions from any source, and rank them.
@@ -136,12 +136,11 @@ def judge(
     -----
     Example: mocap judge made.bvh --against clips/ --path line.csv
     """
-    from mocap.files.path_files import load_path
     from mocap.quality.judging import judgement_table
 
     recordings, _ = read_found(reading.read, find_files(against), against, READING)
     clips = [recording.motion for recording in recordings]
-    line = load_path(path, scale=unit) if path else None
+    line = drawn.load(path) if path else None
     judgements = []
     problems = []
     for file in bar("judging")(find_files(motions)):

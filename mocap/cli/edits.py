@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from mocap import blending, body, editing, feet, quality
 from mocap._shared.atomic import require_folder
 from mocap.cli import options
-from mocap.cli.options import TURN, Clean, Reading, Unit, bar, check_out, number, print_rows, write_out
+from mocap.cli.options import TURN, Clean, PathReading, Reading, bar, check_out, number, print_rows, write_out
 from mocap.cli.tuned import TUNED
 from mocap.errors import MocapError, Remedy, warn
 from mocap.files.conversion import convert, plan, require_apart
@@ -87,7 +87,7 @@ def bend(
     along: Path,
     out: Path,
     limit: Annotated[float, TURN] = 100.0,
-    unit: Unit = None,
+    drawn: PathReading,
     reading: Reading,
 ) -> None:
     """Bend a walk onto a path.
@@ -108,9 +108,7 @@ def bend(
     Example: mocap bend walk.bvh --along line.csv -o bent.bvh
     """
     check_out("bent walk", out, [source])
-    from mocap.files.path_files import load_path  # the help needs no NumPy
-
-    line = load_path(along, scale=unit)
+    line = drawn.load(along)
     bent = editing.bend(reading.load(source), line, limit=math.radians(limit))
     print_rows(bent=bent.report())
     write_out(bent.motion, out)

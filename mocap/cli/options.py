@@ -24,6 +24,7 @@ from mocap.errors import MocapError, SkeletonMismatch, printable, warn
 if TYPE_CHECKING:
     from concurrent.futures import Executor
 
+    from mocap.body.ground_path import GroundPath
     from mocap.body.motion import Motion
     from mocap.files.recordings import Recording
     from mocap.graphs.motion_graph import MotionGraph
@@ -93,7 +94,6 @@ Joints = Annotated[
     ONE_EACH,
     "a .toml of the roles of joints, from mocap info CLIP --joints; may be repeated for several bodies",
 ]
-Unit = Annotated[float | None, LENGTH, "metres per unit of length in the path (default: 1; for .svg 0.01)"]
 Up = Annotated[
     Literal["y", "z", "-y", "-z", "x", "-x"] | None,
     "axis of the file that points up (default: as the frames show; y, for .npz z)",
@@ -101,6 +101,9 @@ Up = Annotated[
 Clean = Annotated[bool, "remove foot sliding"]
 Seed = Annotated[int, number(0, 2**32 - 1, int), "seed of the random numbers"]
 
+
+# The options for the parameters of `files.load_path`.
+PATH_READING = {"id": "--id", "length": "--length"}
 
 # The options for the parameters of `files.load`, which are named in its errors.
 READING = {
@@ -199,6 +202,32 @@ def with_chosen_roles(motion: "Motion", joints: Sequence[Path]) -> "Motion":
 
     maps = {path: read_roles(path) for path in joints}
     return body.with_roles(motion, choose_roles(tuple(motion.skeleton.names), maps))
+
+
+@dataclass(frozen=True)
+class PathReading:
+    """Options of a command that reads a path."""
+
+    unit: Annotated[
+        float | None, LENGTH, "metres per unit of length in the path (default: 1; for .svg 0.01)"
+    ] = None
+    length: Annotated[float | None, LENGTH, "length of the path in metres, in place of --unit"] = None
+    id: Annotated[
+        str | None, "id of the line or group in an .svg (default: the longest line that is not filled)"
+    ] = None
+
+    def is_given(self) -> bool:
+        """Return whether one of the options is given."""
+        return self != PathReading()
+
+    def load(self, path: Path) -> "GroundPath":
+        """Read a path, with the names of options in errors and warnings."""
+        from mocap.files.path_files import read_path  # the help needs no NumPy
+
+        if self.unit is not None and self.length is not None:
+            raise MocapError("Give one of --unit and --length: each sets the size of the path.")
+        with named_options(PATH_READING):
+            return read_path(path, self.unit, self.length, self.id, PATH_READING)
 
 
 @dataclass(frozen=True)

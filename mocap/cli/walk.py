@@ -18,10 +18,10 @@ from mocap.cli.options import (
     Building,
     Clean,
     Joints,
+    PathReading,
     Seed,
     Skeleton,
     Sources,
-    Unit,
     bar,
     number,
     print_rows,
@@ -47,7 +47,7 @@ def walk(
     out: Path = Path("walk.bvh"),
     clips: Sequence[Path] = (),
     sources: Sources,
-    unit: Unit = None,
+    drawn: PathReading,
     label: Annotated[Sequence[str], ONE_EACH] = (),
     bend: Annotated[float | None, TURN, OptionalValue(100.0)] = None,
     width: Annotated[int | None, number(1, 10_000, int)] = None,
@@ -81,17 +81,17 @@ def walk(
     Example: mocap walk graph.npz --path line.csv --bend -o walk.bvh
     """
     _require_one(path, random, seed)
-    if random is not None and any((label, width, unit, bend, deadline)):
-        raise MocapError("--label, --bend, --width, --unit and --deadline belong to --path, not to --random.")
+    if random is not None and any((label, width, drawn.is_given(), bend, deadline)):
+        options_of_paths = "--label, --bend, --width, --unit, --length, --id and --deadline"
+        raise MocapError(f"{options_of_paths} belong to --path, not to --random.")
     options.check_out("walk", out)
     with timed_stage("loading packages"):
-        from mocap.files.path_files import load_path  # the help needs no NumPy
-        from mocap.synthesis.random_walks import dump
+        from mocap.synthesis.random_walks import dump  # the help needs no NumPy
 
     seconds = _seconds(random or "1s")
     longest_search = math.inf if deadline is None else _seconds(deadline)
     options.require_file(graph, BUILD_FIRST.format(graph))
-    line = load_path(path, scale=unit) if path else None
+    line = drawn.load(path) if path else None
     request = steering.PathRequest(labels=[_label(text) for text in label])
     with timed_stage("reading the graph"):
         motions = _graph(graph, clips, sources, out)

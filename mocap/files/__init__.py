@@ -9,24 +9,25 @@ Reading order (notebooks 01, 10)
  2. `formats`: the table of formats that can be read
  3. `conversion`: search for motion files in folders, and their conversion
  4. `path_files`: paths from .csv and .svg files
- 5. `svg_strokes`: the commands of an SVG path, and the points that they draw
- 6. `text`: checked reading of text files, lines, numbers and tables
- 7. `space_evidence`: evidence of a clip's unit and vertical axis, from its frames
- 8. `spaces`: the decision on the unit and the vertical axis
- 9. `recordings`: a motion with the angles and the bone stretch of its file
-10. `clip_sets`: several files with one unit and one vertical axis
-11. `frame_rates`: frame rates from frame times of few digits
-12. `asf`: the skeleton of Acclaim files
-13. `acclaim`: the numbers of Acclaim files, and the motion that they describe
-14. `bvh_hierarchy`: the skeleton of BVH files
-15. `loose_joints`: joints of a file that are no part of the body
-16. `rigid_bones`: rigid bones for files whose bones change length
-17. `bvh`: reader and writer of BVH files
-18. `amass`: the archives of AMASS, for the 22 joints of the SMPL body
-19. `role_maps`: the roles of joints, as TOML
-20. `gltf_capsules`: a body surface of rigid capsules around the bones
-21. `gltf`: writer of glTF files, with joints, skin and animation
-22. `tuned`: the constants that trials chose
+ 5. `svg_drawings`: the lines of an SVG picture, and which of them is meant
+ 6. `svg_shapes`: the lines of one element of a picture, as points
+ 7. `text`: checked reading of text files, lines, numbers and tables
+ 8. `space_evidence`: evidence of a clip's unit and vertical axis, from its frames
+ 9. `spaces`: the decision on the unit and the vertical axis
+10. `recordings`: a motion with the angles and the bone stretch of its file
+11. `clip_sets`: several files with one unit and one vertical axis
+12. `frame_rates`: frame rates from frame times of few digits
+13. `asf`: the skeleton of Acclaim files
+14. `acclaim`: the numbers of Acclaim files, and the motion that they describe
+15. `bvh_hierarchy`: the skeleton of BVH files
+16. `loose_joints`: joints of a file that are no part of the body
+17. `rigid_bones`: rigid bones for files whose bones change length
+18. `bvh`: reader and writer of BVH files
+19. `amass`: the archives of AMASS, for the 22 joints of the SMPL body
+20. `role_maps`: the roles of joints, as TOML
+21. `gltf_capsules`: a body surface of rigid capsules around the bones
+22. `gltf`: writer of glTF files, with joints, skin and animation
+23. `tuned`: the constants that trials chose
 
 References
 ----------

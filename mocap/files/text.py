@@ -15,6 +15,7 @@ from mocap.errors import FormatError, MocapError, shortened
 
 LARGEST = 1e9  # units of a file: upper bound of numbers, far above those of any motion
 MOST_POSES = 10_000_000  # poses of single joints: above this, `POSES_PER_NUMBER` is checked
+MOST_ROWS = 500_000  # of a table
 POSES_PER_NUMBER = 10  # the largest number of poses for each number in such a file
 
 
@@ -174,7 +175,7 @@ def load_rows(path: str | Path, names: tuple[str, ...] = ("x", "z")) -> Array:
     Raises
     ------
     FormatError, MocapError : for a file that cannot be read, a line with another number of columns, numbers
-        that are not finite, and a file without rows.
+        that are not finite, a file without rows, and one of more than 500 000 lines.
 
     Examples
     --------
@@ -185,16 +186,25 @@ def load_rows(path: str | Path, names: tuple[str, ...] = ("x", "z")) -> Array:
     ...     load_rows(file, ("x", "z", "radius"))
     array([[1. , 2. , 0.5]])
     """
-    rows: list[Array] = []
+    text = read_text(path)
+    count = text.count("\n")
+    if count > MOST_ROWS:
+        raise FormatError(path, None, f"a table of {MOST_ROWS:,} lines at most", f"{count:,}")
     example = ", ".join(("1.5", "2", "0.5")[: len(names)])
     expected = f"{', '.join(names[:-1])} and {names[-1]} in each line, such as '{example}'"
-    for number, words in lines(read_text(path)):
+    rows: list[tuple[int, list[str]]] = []
+    for number, words in lines(text):
         line = " ".join(words)
         if rows or re.search(r"\d", line):
-            rows.append(to_numbers(path, number, _cells(line), expected, len(names)))
+            rows.append((number, _cells(line)))
     if not rows:
         raise FormatError(path, None, expected, "no numbers")
-    return np.array(rows)
+    if {len(cells) for _, cells in rows} == {len(names)}:
+        numbers = quick_numbers([*chain.from_iterable(cells for _, cells in rows)])
+        if numbers is not None:
+            return numbers.reshape(-1, len(names))
+    # A row is broken: the first one is reported.
+    return np.array([to_numbers(path, number, cells, expected, len(names)) for number, cells in rows])
 
 
 def _cells(line: str) -> list[str]:

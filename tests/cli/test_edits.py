@@ -61,6 +61,15 @@ def test_the_limit_and_the_unit_count(folder, run):
     said = run("bend walk.bvh --along line.csv -o x.bvh --limit 40").out
     assert re.search("turned by up to (3[89]|4[01])° per second", said)
     assert "of 24.0 m" in run("bend walk.bvh --along line.csv -o x.bvh --unit 2").out
+    assert "of 17.0 m" in run("bend walk.bvh --along line.csv -o x.bvh --length 17").out
+
+
+def test_the_line_of_a_picture_is_named_and_chosen(folder, run):
+    (folder / "two.svg").write_text('<svg><line id="a" x2="800"/><path id="b" d="M0 0V-700"/></svg>')
+    done = run("bend walk.bvh --along two.svg -o x.bvh")
+    assert "of 8.0 m" in done.out and "choose another by --id." in done.err
+    done = run("bend walk.bvh --along two.svg -o x.bvh --id b")
+    assert "of 7.0 m" in done.out and "--id" not in done.err
 
 
 @pytest.mark.parametrize("more", ["", "--straight --clean --times 3"])
