@@ -7,13 +7,13 @@ are read and hostile ones refused. `svg_shapes` draws each element.
 from collections.abc import Mapping
 from enum import IntEnum
 from pathlib import Path
-from typing import NamedTuple
 from xml.etree import ElementTree
 
 import numpy as np
 import svgelements
 
 from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple
 from mocap.errors import FormatError
 from mocap.files.svg_shapes import (
     DRAWN,
