@@ -22,7 +22,7 @@ from mocap.body.motion import Motion
 from mocap.errors import FormatError, Remedy, shortened, warn
 from mocap.files.asf import MOVES, TURNS, AcclaimSkeleton, Bone
 from mocap.files.recordings import Recording
-from mocap.files.text import check_room, lines, quick_numbers, read_text, to_numbers
+from mocap.files.text import check_room, lines, quick_numbers, read_text, to_numbers, with_decimal_points
 
 CMU_RATE = 120.0  # frames per second in most of the CMU database
 FRAME_NUMBER = re.compile(r"^[ \t]*\d+[ \t]*$", re.MULTILINE)
@@ -134,7 +134,7 @@ def _listed(names: list[str]) -> str:
 
 def _read_frames(path: str | Path, asf: AcclaimSkeleton) -> tuple[dict[str, Array], float, float | None]:
     """Read the numbers (F, dofs) of each bone, the unit of angles in degrees, and the frame rate, if any."""
-    text = read_text(path)
+    text = with_decimal_points(path, read_text(path))
     start = FRAME_NUMBER.search(text)
     head, frames = (text[: start.start()], text[start.start() :]) if start else (text, "")
     keywords = {words[0].upper() for _, words in lines(head)}

@@ -1,8 +1,9 @@
 """AMASS archives (`.npz`): poses of the SMPL body as rotation vectors, in metres, with z up [AMASS19].
 
-An archive contains `poses` (F, 66 or more), `trans` (F, 3), a frame rate, and the shape parameters of the
-body, `betas`. The shape model has a separate licence and is not included: all archives are read with the mean
-body of 22 joints. Fingers, face and soft tissue, the numbers after the first 66 of a pose, are ignored.
+An archive contains `poses` (F, 66 or more) or (F, 22 or more, 3), or their parts `root_orient` (F, 3) and
+`pose_body` (F, 63). It also contains `trans` (F, 3), a frame rate, and the shape parameters of the body,
+`betas`. The shape model has a separate licence and is not included: all archives are read with the mean body
+of 22 joints. Fingers, face and soft tissue, the numbers after the first 66 of a pose, are ignored.
 """
 
 from __future__ import annotations
@@ -33,9 +34,15 @@ PELVIS = np.array([0.0, -0.223, 0.028])  # metres: the pelvis for `trans` 0, in 
 
 AXES = (1.0, "z")  # metres in a unit, and the axis that points up
 WANTED = "an AMASS archive with poses and trans"
-RATES = ("mocap_framerate", "mocap_frame_rate")
+RATES = ("mocap_framerate", "mocap_frame_rate", "fps", "framerate", "frame_rate")
 WIDTH = 3 * len(SKELETON)  # numbers of a pose that are read
-WIDTHS = {"poses": WIDTH, "trans": 3}  # numbers of a frame that are read
+PARTS = ("root_orient", "pose_body")  # of a pose, in archives without `poses`
+WIDTHS = {
+    "poses": WIDTH,
+    "root_orient": 3,
+    "pose_body": WIDTH - 3,
+    "trans": 3,
+}  # numbers of a frame that are read
 LARGEST = 1e6  # radians, metres, frames per second: upper bound of all numbers
 REAL_NUMBERS = "fiu"  # kinds of NumPy types: floating point, signed and unsigned integers
 ROOM = 2**27  # bytes of arrays in the smallest file, enough for a quarter of an hour of standing still
@@ -51,7 +58,7 @@ def is_amass(path: str | Path) -> bool:
     """
     try:
         with open_archive(path, "an AMASS archive", ROOM) as members:
-            return {"poses", "trans"} <= set(members)
+            return "trans" in members and ("poses" in members or set(PARTS) <= set(members))
     except MocapError:
         return False
 
@@ -81,14 +88,17 @@ def read(path: str | Path, *, fps: float | None = None, up: str | None = None) -
     with open_archive(path, WANTED, ROOM) as members:
         if "poses" not in members and kind_of(members) in LOADERS:
             raise other_kind(path, WANTED, members)
-        frames = _count_frames(path, members, "poses")
-        translations = _count_frames(path, members, "trans")
-        if frames != translations:
-            raise FormatError(path, None, f"as many rows of trans as of poses, {frames}", str(translations))
+        has_parts = "poses" not in members and set(PARTS) <= set(members)
+        keys = PARTS if has_parts else ("poses",)
+        frames = _count_frames(path, members, keys[0])
+        for key in (*keys[1:], "trans"):
+            rows = _count_frames(path, members, key)
+            if rows != frames:
+                raise FormatError(path, None, f"as many rows of {key} as of {keys[0]}, {frames}", str(rows))
         if frames == 0:
-            raise FormatError(path, None, "one frame or more in 'poses'", "none")
+            raise FormatError(path, None, f"one frame or more in '{keys[0]}'", "none")
         rate = fps or _rate(path, members)
-        poses = members["poses"].read()[:, :WIDTH]
+        poses = np.hstack([_rows(members[key], frames) for key in keys])[:, :WIDTH]
         trans = members["trans"].read()[:, : WIDTHS["trans"]]
         _require_small(path, "poses", poses)
         _require_small(path, "trans", trans)
@@ -111,13 +121,18 @@ def read(path: str | Path, *, fps: float | None = None, up: str | None = None) -
     return Recording(motion, {}, {}, space=space, evidence=evidence)
 
 
+def _rows(member: Member, frames: int) -> NDArray[Any]:
+    """Read an array with a row of numbers for each frame; (F, J, 3) are rows of J rotation vectors."""
+    return member.read().reshape(frames, -1)
+
+
 def _count_frames(path: str | Path, members: Mapping[str, Member], key: str) -> int:
     """Return the number of rows of an array. Raise if they are too short."""
     if key not in members:
         raise FormatError(path, None, "arrays 'poses' and 'trans', as AMASS archives have", f"no '{key}'")
     array = members[key]
-    is_table = len(array.shape) == 2 and array.dtype.kind in REAL_NUMBERS
-    if not is_table or array.shape[1] < WIDTHS[key]:
+    is_table = len(array.shape) in (2, 3) and array.dtype.kind in REAL_NUMBERS
+    if not is_table or math.prod(array.shape[1:]) < WIDTHS[key]:
         raise FormatError(path, None, f"{WIDTHS[key]} numbers for each frame in '{key}'", str(array))
     return array.shape[0]
 

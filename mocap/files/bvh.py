@@ -28,7 +28,7 @@ from mocap.files.loose_joints import without_loose_joints
 from mocap.files.recordings import Recording
 from mocap.files.rigid_bones import fit
 from mocap.files.space_evidence import Evidence, frames_to_look_at, gather
-from mocap.files.text import LARGEST, check_room, quick_numbers, read_text, to_numbers
+from mocap.files.text import LARGEST, check_room, quick_numbers, read_text, to_numbers, with_decimal_points
 from mocap.files.tuned import TUNED
 
 SCALE = 0.01  # metres in a unit of files that are written, and of those whose frames do not show it
@@ -139,7 +139,7 @@ def _without_reference(
 
 def _channels(path: str | Path, *, fps: float | None = None) -> tuple[list[Joint], list[Array], float]:
     """Read the joints, the numbers of each joint (F, channels), and the frame rate, unless it is `fps`."""
-    text = read_text(path)
+    text = with_decimal_points(path, read_text(path))
     start = re.search(r"^[ \t]*MOTION[ \t]*$", text, re.MULTILINE | re.IGNORECASE)
     if start is None:
         raise FormatError(path, None, "a line 'MOTION'", "none")

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array
 from mocap.body.skeleton import Skeleton
-from mocap.errors import FormatError, MocapError, shortened
+from mocap.errors import FormatError, MocapError, shortened, warn
 from mocap.files.text import to_numbers
 
 FIRST = ("HIERARCHY", "ROOT")  # keywords that begin a file
@@ -153,17 +153,33 @@ def _channels(path: str | Path, line: int, words: list[str]) -> list[str]:
 
 
 def _named(path: str | Path, joints: list[Joint]) -> list[Joint]:
-    """Name the End Sites, and check that no two joints have the same name."""
+    """Name the End Sites, and give joints of equal names a number, with a warning."""
     ends: Counter[int] = Counter()
-    names = set()
+    names: set[str] = set()
+    repeated: list[str] = []
     for joint in joints:
-        if not joint.name:
+        is_end_site = not joint.name
+        if is_end_site:
             joint.name = _end_name(joints[joint.parent].name, ends[joint.parent])
             ends[joint.parent] += 1
+        if joint.name in names and not is_end_site:
+            repeated.append(joint.name)
+            joint.name = _numbered(joint.name, names)
         if joint.name in names:
             raise FormatError(path, joint.line, "a new joint's name", f"'{joint.name}' again")
         names.add(joint.name)
+    if repeated:
+        shown = shortened(f"'{repeated[0]}'", 40)
+        warn(f"{path}: {len(repeated)} joints have the name of another, such as {shown}: they get a number.")
     return joints
+
+
+def _numbered(name: str, names: Container[str]) -> str:
+    """Return a name with the first number, from 2, that is not taken."""
+    number = 2
+    while f"{name}_{number}" in names:
+        number += 1
+    return f"{name}_{number}"
 
 
 def _end_name(parent: str, index: int) -> str:

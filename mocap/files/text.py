@@ -1,5 +1,6 @@
 """Text files: checked reading of their content, lines and numbers, and of tables of numbers."""
 
+import codecs
 import math
 import re
 from collections.abc import Iterator
@@ -11,9 +12,12 @@ from pathlib import Path
 import numpy as np
 
 from mocap._shared.arrays import Array
-from mocap.errors import FormatError, MocapError, shortened
+from mocap.errors import FormatError, MocapError, shortened, warn
 
 LARGEST = 1e9  # units of a file: upper bound of numbers, far above those of any motion
+JAPANESE = re.compile("[\u3041-\u30ff\u4e00-\u9fff]{2}")
+DECIMAL_COMMA = re.compile(r"(?<=\d),(?=\d)")
+DECIMAL_POINT = re.compile(r"\d\.\d")
 MOST_POSES = 10_000_000  # poses of single joints: above this, `POSES_PER_NUMBER` is checked
 MOST_ROWS = 500_000  # of a table
 POSES_PER_NUMBER = 10  # the largest number of poses for each number in such a file
@@ -22,7 +26,8 @@ POSES_PER_NUMBER = 10  # the largest number of poses for each number in such a f
 def read_text(path: str | Path, *, most: int = -1) -> str:  # reads: name: a keyword that callers write
     r"""Read a text file, with line ends converted to "\n".
 
-    Text that is not valid UTF-8 is decoded as Latin-1, as written by older exporters.
+    UTF-8 and UTF-16 are recognised. Other text is decoded as Shift-JIS if that gives Japanese names, and else
+    as Latin-1, as written by older exporters.
 
     Parameters
     ----------
@@ -49,14 +54,11 @@ def read_text(path: str | Path, *, most: int = -1) -> str:  # reads: name: a key
             data = file.read(most)
     except OSError as error:
         raise MocapError(f"Cannot read {path}: {error.strerror}.") from error
-    zero = data.find(b"\0")
+    text = decode(data)
+    zero = text.find("\0")
     if zero >= 0:
-        line = data.count(b"\n", 0, zero) + 1
+        line = text.count("\n", 0, zero) + 1
         raise FormatError(path, line, "text", "a zero byte, as in a binary file")
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        text = data.decode("latin-1")
     if not text.strip():
         raise FormatError(path, None, "some text", "an empty file")
     text = text.replace("\r\n", "\n").replace("\r", "\n")
@@ -66,6 +68,43 @@ def read_text(path: str | Path, *, most: int = -1) -> str:  # reads: name: a key
         got = "'<<<<<<<', an unresolved merge: take one of its two versions"
         raise FormatError(path, line, "one version of the file", got)
     return text
+
+
+def decode(data: bytes) -> str:
+    """Decode a text file by its byte order mark, its zero bytes, or the first encoding that fits.
+
+    Examples
+    --------
+    >>> [decode("Hüfte".encode(name)) for name in ("utf-8", "utf-16", "latin-1")]
+    ['Hüfte', 'Hüfte', 'Hüfte']
+    >>> decode("右足".encode("shift-jis"))
+    '右足'
+    """
+    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return data.decode("utf-16", errors="replace")
+    if data[1:2] == b"\0" and data[3:4] == b"\0":  # letters of UTF-16 without a mark
+        return data.decode("utf-16-le", errors="replace")
+    with suppress(UnicodeDecodeError):
+        return data.decode("utf-8-sig")
+    with suppress(UnicodeDecodeError):
+        text = data.decode("shift-jis")
+        if JAPANESE.search(text):
+            return text
+    return data.decode("latin-1")
+
+
+def with_decimal_points(path: str | Path, text: str) -> str:
+    """Return a text of numbers with decimal points if it has decimal commas, and warn of it.
+
+    Examples
+    --------
+    >>> with_decimal_points("a.bvh", "OFFSET 0.5 1 2")
+    'OFFSET 0.5 1 2'
+    """
+    if "," not in text or DECIMAL_POINT.search(text) or not DECIMAL_COMMA.search(text):
+        return text
+    warn(f"{path}: its numbers have decimal commas, which are read as points.")
+    return DECIMAL_COMMA.sub(".", text)
 
 
 def check_room(path: str | Path, poses: int, numbers: int) -> None:

@@ -77,6 +77,19 @@ def test_older_and_newer_names_of_the_rate(archive):
     assert load_save.load(archive(mocap_framerate=None), fps=25.0).fps == 25.0
 
 
+def test_poses_in_three_dimensions_or_in_parts_are_the_same(archive):
+    poses, trans = numbers()["poses"], numbers()["trans"]
+    expected = load_save.load(archive(poses=poses[:, :66]), up="z")
+    tall = load_save.load(archive(poses=poses[:, :72].reshape(4, 24, 3)), up="z")
+    parts = {"poses": None, "root_orient": poses[:, :3], "pose_body": poses[:, 3:66]}
+    path = archive(**parts, trans=trans, mocap_framerate=None, fps=120.0)
+    assert amass.is_amass(path)
+    assert tall == expected == load_save.load(path, up="z")
+    short = archive(**(parts | {"pose_body": poses[:3, 3:66]}))
+    refused("as many rows of pose_body as of root_orient, 4, got 3", load_save.load, short)
+    refused("no 'poses'", load_save.load, archive(poses=None, root_orient=poses[:, :3]))
+
+
 def test_betas_are_ignored_with_a_sentence(archive):
     path = archive(betas=np.ones(16))
     betas = "betas, the shape of the body, are ignored"
