@@ -124,8 +124,6 @@ SPACES = {
     "least_joints": (3, 20, 50),
     "looked_at_rate": (10.0, 60.0),
     "looked_at_frames": (100, 1000),
-    "rigid_bone": (0.01, 0.2),
-    "longest_bone": (0.2, 2.0),
     "moving_speed": (0.0, 0.1, 0.5),
     "sideways_travel": (0.1, 2.0),
     "mirrored_bones": (0.01, 0.3),

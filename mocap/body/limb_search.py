@@ -84,7 +84,7 @@ class ChainIndices(NamedTuple):
 
 
 class Candidate(NamedTuple):
-    """Two segments that may be a limb: their lengths, a score, and how much too long what is below is."""
+    """Two segments that may be a limb: lengths, score, and the excess length of the chain below them."""
 
     lengths: Array
     score: float
@@ -255,7 +255,7 @@ def _share_on_floor(tree: BodyTree, pair: Pair) -> float:
 
 def _leg_score(tree: BodyTree, pair: Pair) -> float:
     """Legs are on the floor, long, and hang."""
-    length = min(_length(tree, pair), 0.6)  # a longer pair is a train or a wing, and no more of a leg for it
+    length = min(_length(tree, pair), 0.6)  # a longer pair is more likely a train or a wing than a leg
     return _share_on_floor(tree, pair) + 2 * length + _drop(tree, pair)
 
 

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Indices
 from mocap._shared.records import dataclass
 
 
@@ -132,12 +132,12 @@ class BodyTree:
         return Chain(self, joints[: LIMITS.most_joints])
 
 
-def _bone_lengths(parents: Array, positions: Array) -> Array:
+def _bone_lengths(parents: Indices, positions: Array) -> Array:
     """Measure each joint's bone to its parent, (F, J); that of the root means nothing."""
     return np.asarray(np.linalg.norm(positions - positions[:, parents], axis=-1))
 
 
-def largest_part(parents: Array, positions: Array) -> list[int]:
+def largest_part(parents: Indices, positions: Array) -> list[int]:
     """List the joints of the largest part of a tree whose bones keep their lengths.
 
     Parameters

@@ -4,8 +4,7 @@ A motion is invariant to them: it remains the same motion at any position on the
 Therefore clips are aligned by these three numbers alone [KGP02, 3.1].
 
 A point (x, z) on the ground is also the complex number z + ix. A rotation about +y by θ is then a
-multiplication by exp(iθ), and a planar transform is p ↦ rotation · p + translation. The convention of real
-and imaginary parts is used in this module only.
+multiplication by exp(iθ), and a planar transform is p ↦ rotation · p + translation.
 """
 
 from __future__ import annotations

@@ -11,6 +11,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Mask
 from mocap._shared.records import NamedTuple
+from mocap.body.limb_tree import largest_part
 from mocap.files.tuned import TUNED
 
 AXES = ("y", "z", "-y", "-z", "x", "-x")
@@ -46,7 +47,7 @@ class Evidence(NamedTuple):
     stride: Stride | None
 
     def best_axis(self) -> str:
-        """Return the axis that most speaks for."""
+        """Return the axis with the highest score."""
         return max(self.scores, key=lambda axis: self.scores[axis])
 
 
@@ -116,19 +117,12 @@ def direction(axis: str) -> Array:
 
 
 def main_body(parents: Indices, positions: Array) -> Indices:
-    """Return the joints of the largest part of a tree whose bones keep their lengths, parents first.
+    """Return the joints of the body, parents first, without a chain above it such as a point on the floor.
 
-    A root that stands still, targets of inverse kinematics and props move against their parents, and make
-    parts of their own. Joints above the body with one child, such as a point on the floor, are left out.
+    A root that stands still, targets of inverse kinematics and props move against their parents, and are no
+    part of the body: see `body.limb_tree.largest_part`.
     """
-    size = np.median(np.linalg.norm(np.ptp(positions, axis=1), axis=1))
-    part = np.arange(len(parents))
-    for joint in range(1, len(parents)):
-        lengths = np.linalg.norm(positions[:, joint] - positions[:, parents[joint]], axis=1)
-        variation = np.ptp(np.quantile(lengths, (0.05, 0.95)))
-        if variation < TUNED.rigid_bone * size and np.median(lengths) < TUNED.longest_bone * size:
-            part[joint] = part[parents[joint]]
-    joints = list(np.flatnonzero(part == np.bincount(part).argmax()))
+    joints = largest_part(parents, positions)
     while len(joints) > 1 and np.count_nonzero(parents[joints[1:]] == joints[0]) == 1:
         joints = joints[1:]
     return np.array(joints)

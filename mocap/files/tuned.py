@@ -18,8 +18,6 @@ class Tuned:
     least_joints: int = 8  # fewer joints make no body
     looked_at_rate: float = 30.0  # Hz. At 10 steps are too few frames to repeat
     looked_at_frames: int = 300  # ten seconds, in which a person takes some steps
-    rigid_bone: float = 0.04  # variation of a bone's length. Props and targets of hands vary by more
-    longest_bone: float = 0.6  # a joint further from its parent is another object
     moving_speed: float = 0.02  # per second. If all joints are slower, a joint at rest shows nothing
     sideways_travel: float = 0.5  # a body that travels further along an axis does not stand along it
     mirrored_bones: float = 0.1  # relative difference of the bones of two limbs

@@ -77,8 +77,8 @@ class Reason(StrEnum):
     """
 
     DEAD_END = "dead end: on no cycle"
-    SINK = "sink: on a cycle, but reaches nothing that stays"
-    UNREACHED = "unreached: on a cycle, but nothing that stays leads there"
+    SINK = "sink: on a cycle, but reaches nothing that is kept"
+    UNREACHED = "unreached: on a cycle, but nothing that is kept leads there"
     ASIDE = "aside: its labels form no loop here, or only a loop in a smaller component"
 
 

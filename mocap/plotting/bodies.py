@@ -332,6 +332,8 @@ def _draw_floor(ax: Axes, view: Array, ground: Array) -> None:
     lines += [((x_low, z), (x_high, z)) for z in np.arange(z_low, z_high + 1)]
     flat = cell * np.array(lines) @ floor @ view[FLAT].T
     ax.add_collection(LineCollection(list(flat), colors=FLOOR, linewidths=0.8, zorder=0))
+    note = f"lines {cell:g} m apart"
+    ax.text(1, 0, note, transform=ax.transAxes, ha="right", va="top", fontsize=8, color="#666666")
 
 
 def _frame(ax: Axes, figure: Figure) -> Figure:
@@ -348,9 +350,6 @@ def _frame(ax: Axes, figure: Figure) -> Figure:
     if entries:
         look: dict[str, Any] = {"loc": "outside upper left", "fontsize": 9, "frameon": False}
         figure.legend(list(entries.values()), list(entries), ncols=min(COLUMNS, len(entries)), **look)
-    ax.text(
-        1, 0, "lines 1 m apart", transform=ax.transAxes, ha="right", va="top", fontsize=8, color="#666666"
-    )
     return figure
 
 

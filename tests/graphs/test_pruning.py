@@ -121,7 +121,7 @@ def test_the_graph_of_the_notes():
         "kept 6 nodes and 7 edges",
         "removed 2 nodes and 4 edges",
         "  2 edges: dead end: on no cycle",
-        "  2 edges: sink: on a cycle, but reaches nothing that stays",
+        "  2 edges: sink: on a cycle, but reaches nothing that is kept",
     ]
     assert set(graph) == set(range(1, 9))
 

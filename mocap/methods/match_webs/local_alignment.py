@@ -147,7 +147,7 @@ def apart(paths: Iterable[NDArray[Any]], *, near: int) -> list[NDArray[Any]]:
     return kept
 
 
-OVERLAP = 300  # windows that two parts of a long clip share, 10 s: no query is longer
+OVERLAP = 300  # windows that two parts of a long clip share, 10 s: longer queries are not found across them
 DISTANCE = 2  # column of a path with the RMS distances, after the columns of its windows
 
 
