@@ -20,7 +20,7 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from asked_lines import random_line
-from bend_paths import beside
+from bend_paths import bending_section
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -312,7 +312,7 @@ def main() -> None:
     lines += [*BESIDE_THE_PAPER, *table_beside_the_paper(compiled)]
     lines += [*UNSEEN, *table_of_unseen_lines(compiled)]
     lines += [*TRADE_OFF, *trade_off(compiled)]
-    lines += beside(FOLDER, Path(sys.argv[1]) if len(sys.argv) > 1 else None)
+    lines += bending_section(FOLDER, Path(sys.argv[1]) if len(sys.argv) > 1 else None)
     lines += [*CONTROL, *(control_row(name, graph) for name, graph in compiled.items()), ""]
     Path(FOLDER / "following.md").write_text("\n".join(lines), encoding="utf-8")
     print("\n".join(lines))
