@@ -19,12 +19,14 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from asked_lines import LINES, follow_unbent, random_line
+from matplotlib.axes import Axes
 
 import mocap
 from mocap import datasets, graphs
 from mocap._shared.arrays import Array, runs
 from mocap.body import GroundPath, joint_positions
 from mocap.editing import LIMIT
+from mocap.editing.bending import Bent
 from mocap.editing.path_editing import plants_kept
 from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.plotting import ASKED, CURVES, PATH
@@ -33,7 +35,7 @@ from mocap.steering import follow_path
 from mocap.steering.followed import Followed
 from mocap.synthesis import to_motion
 
-OWN = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight", "stop_and_go")
+BUNDLED = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight", "stop_and_go")
 CMU = (*range(11, 35), 47, 58)
 STRAIGHT = (15, 16, 21, 22, 31, 32, 47)
 TITLE = "## With and without bending"
@@ -44,42 +46,60 @@ HEAD = [
 ]
 
 
-class Row(NamedTuple):
-    """What is measured of one line: centimetres, seams per second, millimetres, ratios and shares."""
+class Distances(NamedTuple):
+    """The mean and the largest distance of a walk from its line, cm, and its seams per second."""
 
-    plain: float
-    plain_worst: float
-    plain_seams: float
-    off: float
+    mean: float
     worst: float
-    rounded: float
-    moved: float
     seams: float
+
+
+class Rounding(NamedTuple):
+    """The fraction of frames where a line is rounded, and its largest distance there from the request, cm."""
+
+    fraction: float
+    largest: float
+
+
+class Quality(NamedTuple):
+    """Foot sliding, mm; the ratio of accelerations; the fraction of plants kept; seconds per CPU second."""
+
     slide: float
     acceleration: float
     kept: float
     speed: float
 
+
+class Row(NamedTuple):
+    """What is measured of one line."""
+
+    unbent: Distances
+    bent: Distances
+    rounding: Rounding
+    quality: Quality
+
     def line(self, name: str) -> str:
         """Write a row of the table."""
-        return (
-            f"| {name} | {self.plain:.1f}, {self.plain_worst:.0f} | {self.plain_seams:.2f} "
-            f"| {self.off:.1f}, {self.worst:.1f} | {self.rounded:.0%}, {self.moved:.0f} cm "
-            f"| {self.seams:.2f} | {self.slide:.3f} | × {self.acceleration:.2f} | {self.kept:.0%} "
-            f"| 1/{self.speed:.0f} |"
-        )
+        mean, worst, seams = self.unbent
+        unbent = f"{mean:.1f}, {worst:.0f} | {seams:.2f}"
+        mean, worst, seams = self.bent
+        rounding = f"{self.rounding.fraction:.0%}, {self.rounding.largest:.0f} cm"
+        bent = f"{mean:.1f}, {worst:.1f} | {rounding} | {seams:.2f}"
+        slide, acceleration, kept, speed = self.quality
+        quality = f"{slide:.3f} | × {acceleration:.2f} | {kept:.0%} | 1/{speed:.0f}"
+        return f"| {name} | {unbent} | {bent} | {quality} |"
 
 
-def compiled(folder: Path | None) -> dict[str, CompiledGraph]:
-    """Build the graphs of the bundled clips and, where their folder is given, of CMU's."""
-    clips = {"bundled clips": [datasets.sample(name) for name in OWN]}
+def compile_graphs(folder: Path | None) -> dict[str, CompiledGraph]:
+    """Build the graphs of the bundled clips and, if their folder is given, of CMU's."""
+    clip_sets = {"bundled clips": [datasets.sample(name) for name in BUNDLED]}
     if folder:
         walks = {trial: mocap.load(folder / f"16_{trial:02}.amc") for trial in CMU}
-        clips["seven straight walks of CMU 16"] = [walks[trial] for trial in STRAIGHT]
-        clips["all walks of CMU 16"] = list(walks.values())
+        clip_sets["seven straight walks of CMU 16"] = [walks[trial] for trial in STRAIGHT]
+        clip_sets["all walks of CMU 16"] = list(walks.values())
         second = folder.parent / "02"
-        clips["walks of CMU 02"] = [mocap.load(second / f"02_{trial:02}.amc") for trial in (1, 2, 3)]
-    return {name: _graph(found, 0.06 if "02" in name else 0.04) for name, found in clips.items()}
+        clip_sets["walks of CMU 02"] = [mocap.load(second / f"02_{trial:02}.amc") for trial in (1, 2, 3)]
+    return {name: _graph(clips, 0.06 if "02" in name else 0.04) for name, clips in clip_sets.items()}
 
 
 def _graph(clips: Sequence[mocap.Motion], threshold: float) -> CompiledGraph:
@@ -88,91 +108,134 @@ def _graph(clips: Sequence[mocap.Motion], threshold: float) -> CompiledGraph:
 
 
 def measure(graph: CompiledGraph, path: GroundPath) -> tuple[Row, Followed, Followed]:
-    """Follow a line in both ways, and measure both walks."""
-    plain = follow_unbent(graph, path)
-    took = []
-    for _ in range(3):
-        begun = time.process_time()
-        bent = follow_path(graph, path, bend=LIMIT)
-        took.append(time.process_time() - begun)
+    """Follow a line without and with bending, and measure both walks."""
+    unbent = follow_unbent(graph, path)
+    bent, cpu_seconds = follow_bent(graph, path)
     assert bent.bent
-    as_asked = ~bent.bent.rounded if not bent.bent.rounded.all() else bent.bent.rounded
-    before = to_motion(bent.graph, bent.walk)
+    is_rounded = bent.bent.rounded
+    metres = bent.off if is_rounded.all() else bent.off[~is_rounded]
     row = Row(
-        100 * float(plain.off.mean()),
-        100 * float(plain.off.max()),
-        plain.seams_per_second,
-        100 * float(bent.off[as_asked].mean()),
-        100 * float(bent.off[as_asked].max()),
-        float(bent.bent.rounded.mean()),
-        100 * max((worst for _, _, worst in bent.bent.line.roundings), default=0.0),
-        bent.seams_per_second,
-        1000 * slide(bent.motion()),
-        accelerations(bent.motion()) / accelerations(before),
-        plants_kept(bent.bent.motion, bent.bent.laid),
-        bent.seconds / min(took),
+        distances(unbent, unbent.off),
+        distances(bent, metres),
+        rounding_of(bent.bent),
+        quality_of(bent, bent.bent, cpu_seconds),
     )
-    return row, plain, bent
+    return row, unbent, bent
+
+
+def distances(walk: Followed, metres: Array) -> Distances:
+    """Average the distances of a walk's frames from its line, and count its seams."""
+    return Distances(100 * float(metres.mean()), 100 * float(metres.max()), walk.seams_per_second)
+
+
+def rounding_of(bent: Bent) -> Rounding:
+    """Measure how much of a line is rounded, and how far it is moved there."""
+    metres = [largest for _, _, largest in bent.line.roundings]
+    return Rounding(float(bent.rounded.mean()), 100 * max(metres, default=0.0))
+
+
+def quality_of(walk: Followed, bent: Bent, cpu_seconds: float) -> Quality:
+    """Measure a bent walk, and compare its accelerations with those before it was bent."""
+    motion = walk.motion()
+    before_bending = to_motion(walk.graph, walk.walk)
+    acceleration = accelerations(motion) / accelerations(before_bending)
+    kept = plants_kept(bent.motion, bent.laid)
+    return Quality(1000 * slide(motion), acceleration, kept, walk.seconds / cpu_seconds)
+
+
+def follow_bent(graph: CompiledGraph, path: GroundPath) -> tuple[Followed, float]:
+    """Follow a line with bending; return the walk, and the least CPU time of three runs."""
+    times = []
+    for _ in range(3):
+        start = time.process_time()
+        walk = follow_path(graph, path, bend=LIMIT)
+        times.append(time.process_time() - start)
+    return walk, min(times)
 
 
 def slide(motion: mocap.Motion) -> float:
     """Measure how far a planted joint strays from its mean place at most, metres."""
     positions = joint_positions(motion)
-    plants = [
-        positions[start:stop, motion.skeleton.index(name)]
-        for name, mark in motion.contacts.items()
-        for start, stop in runs(mark)
-    ]
-    return float(max(np.linalg.norm(plant - plant.mean(axis=0), axis=-1).max() for plant in plants))
+    distances = []
+    for name, is_planted in motion.contacts.items():
+        joint = positions[:, motion.skeleton.index(name)]
+        for start, stop in runs(is_planted):
+            plant = joint[start:stop]
+            distances.append(np.linalg.norm(plant - plant.mean(axis=0), axis=-1).max())
+    return float(max(distances))
 
 
 def accelerations(motion: mocap.Motion) -> float:
-    """Give the 99th percentile of the joints' accelerations, without hands and end sites."""
+    """Return the 99th percentile of the joints' accelerations, without hands and end sites."""
     names = motion.skeleton.names
-    own = [j for j, name in enumerate(names) if not re.search("hand|finger|thumb|_end", name.lower())]
-    second: Array = np.diff(joint_positions(motion)[:, own], 2, axis=0)
-    return float(np.percentile(np.linalg.norm(second, axis=-1), 99))
+    joints = [j for j, name in enumerate(names) if not re.search("hand|finger|thumb|_end", name.lower())]
+    differences: Array = np.diff(joint_positions(motion)[:, joints], 2, axis=0)
+    return float(np.percentile(np.linalg.norm(differences, axis=-1), 99))
 
 
-def beside(target: Path, folder: Path | None) -> list[str]:
-    """Write the section about bending, and draw both walks along each line."""
-    found, lines = compiled(folder), [TITLE, ""]
-    lines += [
-        "Bent: by up to 100° per second. Off and worst: of the root, where the line is not rounded. Rounded:",
-        "the part of the frames there, and by how much the line is moved at most. Acc: the 99th percentile",
-        "of accelerations, over that of the walk before it was bent. The last row of each table has the",
-        "worst of 40 random lines, and the median time.",
-        "",
-    ]
+INTRODUCTION = [
+    TITLE,
+    "",
+    "Bent: by up to 100° per second. Off and worst: of the root, where the line is not rounded. Rounded:",
+    "the part of the frames there, and by how much the line is moved at most. Acc: the 99th percentile",
+    "of accelerations, over that of the walk before it was bent. The last row of each table has the",
+    "worst of 40 random lines, and the median time.",
+    "",
+]
+
+
+def bending_section(target: Path, folder: Path | None) -> list[str]:
+    """Write the section about bending, and draw both walks along each line into the folder `target`."""
+    compiled = compile_graphs(folder)
     figure, axes = plt.subplots(
-        len(found), len(LINES), figsize=(12, 3.2 * len(found)), squeeze=False, layout="constrained"
+        len(compiled), len(LINES), figsize=(12, 3.2 * len(compiled)), squeeze=False, layout="constrained"
     )
-    for (name, graph), row_of_axes in zip(found.items(), axes, strict=True):
+    lines = [*INTRODUCTION]
+    for (name, graph), row_of_axes in zip(compiled.items(), axes, strict=True):
         lines += [f"### {name[0].upper()}{name[1:]}", "", *HEAD]
         for (line, draw), ax in zip(LINES.items(), row_of_axes, strict=True):
-            row, plain, bent = measure(graph, draw())
+            row, unbent, bent = measure(graph, draw())
             lines.append(row.line(line))
-            for walk, colour in ((plain.path.points, ASKED), (plain.track, CURVES[1]), (bent.track, PATH)):
-                ax.plot(*walk.T, color=colour, linewidth=3 if colour == ASKED else 1.5)
-            low, high = plain.path.points.min(axis=0) - 1, plain.path.points.max(axis=0) + 1
-            ax.set(aspect="equal", title=f"{line}\n{name}", xlim=(high[0], low[0]), ylim=(low[1], high[1]))
-            ax.set_axis_off()
-        rows = np.array([measure(graph, random_line(seed))[0] for seed in range(500, 540)])
-        worst = rows.max(axis=0)
-        worst[-2:] = rows[:, -2].min(), np.median(rows[:, -1])
-        lines += [Row(*worst).line("40 random lines"), ""]
+            draw_walks(ax, unbent, bent)
+            ax.set_title(f"{line}\n{name}")
+        lines += [worst_of_random_lines(graph).line("40 random lines"), ""]
     (target / "bending.png").write_bytes(small_png(figure))
     return lines
+
+
+def draw_walks(ax: Axes, unbent: Followed, bent: Followed) -> None:
+    """Draw a line and both walks along it, from above: +x points to the left."""
+    points = unbent.path.points
+    ax.plot(*points.T, color=ASKED, linewidth=3)
+    ax.plot(*unbent.track.T, color=CURVES[1], linewidth=1.5)
+    ax.plot(*bent.track.T, color=PATH, linewidth=1.5)
+    low = points.min(axis=0) - 1
+    high = points.max(axis=0) + 1
+    ax.set(aspect="equal", xlim=(high[0], low[0]), ylim=(low[1], high[1]))
+    ax.set_axis_off()
+
+
+def worst_of_random_lines(graph: CompiledGraph) -> Row:
+    """Measure 40 random lines; return the worst of each column, and the median speed."""
+    rows = [measure(graph, random_line(seed))[0] for seed in range(500, 540)]
+    unbent = Distances(*np.max([row.unbent for row in rows], axis=0))
+    bent = Distances(*np.max([row.bent for row in rows], axis=0))
+    rounding = Rounding(*np.max([row.rounding for row in rows], axis=0))
+    quality = Quality(*np.max([row.quality for row in rows], axis=0))
+    least_kept = min(row.quality.kept for row in rows)
+    usual_speed = float(np.median([row.quality.speed for row in rows]))
+    return Row(unbent, bent, rounding, quality._replace(kept=least_kept, speed=usual_speed))
 
 
 def main() -> None:
     """Measure, draw, and put the section into `following.md`."""
     warnings.simplefilter("ignore", mocap.MocapWarning)
-    here = Path(__file__).parent
-    section = "\n".join(beside(here, Path(sys.argv[1]) if len(sys.argv) > 1 else None))
-    table = here / "following.md"
-    before, control, after = table.read_text("utf-8").partition("## Control and crowds")
-    table.write_text(before.partition(TITLE)[0] + section + "\n" + control + after, encoding="utf-8")
+    folder = Path(__file__).parent
+    section = "\n".join(bending_section(folder, Path(sys.argv[1]) if len(sys.argv) > 1 else None))
+    page = folder / "following.md"
+    first_sections, control_title, control = page.read_text("utf-8").partition("## Control and crowds")
+    first_sections = first_sections.partition(TITLE)[0]
+    page.write_text(first_sections + section + "\n" + control_title + control, encoding="utf-8")
     print(section)
 
 

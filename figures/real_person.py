@@ -29,12 +29,9 @@ def draw_person() -> Figure:
     graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
     with warnings.catch_warnings(action="ignore"):
         walk = follow_path(graph, s_curve(16.0))
-    return bodies_along(
-        walk.motion(),
-        sources=synthesis.sources(graph, walk.walk),
-        seams=[seam.frame for seam in synthesis.seams(graph, walk.walk)],
-        path=walk.path.points,
-    )
+    sources = synthesis.sources(graph, walk.walk)
+    seams = [seam.frame for seam in synthesis.seams(graph, walk.walk)]
+    return bodies_along(walk.motion(), sources=sources, seams=seams, path=walk.path.points)
 
 
 if __name__ == "__main__":

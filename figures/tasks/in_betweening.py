@@ -6,6 +6,7 @@ other clips; NPSS, of the quaternions' power spectra. `in between` walks through
 
 from collections.abc import Iterator
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -30,29 +31,35 @@ TESTED = {  # the others may be learned from
     *("dataset-2_walk_normal_001", "walk1_subject5", "Neutral_FW"),
 }
 LENGTHS = (5, 15, 30, 60)  # frames
-PAST, EVERY, MOST = 10, 40, 8  # frames; frames from window to window; windows of a clip
+PAST = 10  # frames before the gap
+EVERY = 40  # frames from the start of a window to that of the next one
+MOST_WINDOWS = 8  # of a clip, for each length
 MEASURES = {"L2Q": True, "L2P": True, "NPSS": True}
 BASELINES = ("linear",)
 
 
 def cases(collection: str, clips: list[Motion]) -> Iterator[Case]:
     """Yield windows of the tested clips, each laid so that its last frame before the gap is at the origin."""
-    others = without(clips, TESTED)
+    training_clips = without(clips, TESTED)
+    tested_clips = [clip for clip in clips if clip.name in TESTED]
     for length in LENGTHS:
-        for clip in clips:
-            for start in range(0, min(len(clip) - length - PAST, MOST * EVERY), EVERY):
-                window = laid(clip[start : start + PAST + length + 1]) if clip.name in TESTED else None
-                if window:
-                    given = {
-                        "past": window[:PAST],
-                        "next": window[-1:],
-                        "frames": [[length]],
-                        "clips": others,
-                    }
-                    whole = f"{collection}, {length} frames"
-                    yield Case(
-                        whole, f"{clip.name}-{start}-{length}", given, (window[PAST:-1], spread(others))
-                    )
+        for clip in tested_clips:
+            end = min(len(clip) - length - PAST, MOST_WINDOWS * EVERY)
+            for start in range(0, end, EVERY):
+                window = laid(clip[start : start + PAST + length + 1])
+                name = f"{clip.name}-{start}-{length}"
+                yield gap_in(window, f"{collection}, {length} frames", name, training_clips)
+
+
+def gap_in(window: Motion, collection: str, name: str, training_clips: tuple[Motion, ...]) -> Case:
+    """Ask for the frames of a window between its past and its last frame."""
+    request = {
+        "past": window[:PAST],
+        "next": window[-1:],
+        "frames": [[len(window) - PAST - 1]],
+        "clips": training_clips,
+    }
+    return Case(collection, name, request, (window[PAST:-1], spread(training_clips)))
 
 
 def laid(window: Motion) -> Motion:
@@ -63,27 +70,41 @@ def laid(window: Motion) -> Motion:
 
 @cache
 def spread(clips: tuple[Motion, ...]) -> Array:
-    """Give the standard deviations (J, 3) of global positions, over windows of 50 frames, every 20."""
-    windows = [clip[at : at + 50] for clip in clips for at in range(0, len(clip) - 49, 20)]
+    """Return the standard deviations (J, 3) of global positions, over windows of 50 frames, every 20."""
+    windows = [clip[start : start + 50] for clip in clips for start in range(0, len(clip) - 49, 20)]
     points = np.concatenate([forward_kinematics(laid(window)).positions for window in windows])
     return np.maximum(points.std(axis=0), 1e-3)
 
 
+class Gap(NamedTuple):
+    """The frames before a gap, the one after it, and the number of frames between."""
+
+    past: Motion
+    target: Motion
+    frames: int
+
+
+def gap_of(case: Case) -> Gap:
+    """Return the gap that a case asks to fill."""
+    return Gap(case.given["past"], case.given["next"], int(case.given["frames"][0][0]))
+
+
 def linear(case: Case) -> Motion:
     """Move the root along a straight line, and turn each joint along the shortest arc."""
-    past, then, frames = case.given["past"], case.given["next"], int(case.given["frames"][0][0])
-    share = np.arange(1, frames + 1)[:, None] / (frames + 1)
-    roots = (1 - share) * past.root_positions[-1] + share * then.root_positions[0]
-    amounts = np.broadcast_to(share, (frames, len(past.skeleton)))
-    turns = rotations.slerp(past.rotations[-1], then.rotations[0], amounts)
-    return Motion(past.skeleton, roots, turns, past.fps)
+    past, target, frames = gap_of(case)
+    fractions = np.arange(1, frames + 1)[:, None] / (frames + 1)
+    roots = (1 - fractions) * past.root_positions[-1] + fractions * target.root_positions[0]
+    amounts = np.broadcast_to(fractions, (frames, len(past.skeleton)))
+    joint_rotations = rotations.slerp(past.rotations[-1], target.rotations[0], amounts)
+    return Motion(past.skeleton, roots, joint_rotations, past.fps)
 
 
 def graph_walk(case: Case) -> Motion:
     """Walk through the graph of the other clips from pose to pose."""
-    past, then, frames = case.given["past"], case.given["next"], int(case.given["frames"][0][0])
-    found = in_between(graph(case.given["clips"]), past[PAST - 1 :], then[:1], (frames + 1) / past.fps)
-    return found.motion[1:-1]
+    past, target, frames = gap_of(case)
+    seconds = (frames + 1) / past.fps
+    filling = in_between(graph(case.given["clips"]), past[PAST - 1 :], target[:1], seconds)
+    return filling.motion[1:-1]
 
 
 METHODS = {"linear": linear, "in between": graph_walk}
@@ -94,16 +115,35 @@ def score(case: Case, answer: Motion) -> tuple[float, float, float]:
     motion, deviation = case.truth
     if len(answer) != len(motion) or answer.skeleton.names != motion.skeleton.names:
         raise MocapError(f"{case.name} asks for {len(motion)} frames of the body that is given.")
-    real, made = forward_kinematics(motion), forward_kinematics(answer)
-    q, p = (rotations.continuous(rotations.from_matrix(some.matrices)) for some in (real, made))
-    p = p * np.where((p * q).sum(axis=-1, keepdims=True) < 0, -1, 1)
-    l2q = np.sqrt(((p - q) ** 2).sum(axis=(1, 2))).mean()
-    l2p = np.sqrt((((made.positions - real.positions) / deviation) ** 2).sum(axis=(1, 2))).mean()
-    return float(l2q), float(l2p), npss(q, p)
+    true_frames = forward_kinematics(motion)
+    frames = forward_kinematics(answer)
+    true_quaternions = rotations.continuous(rotations.from_matrix(true_frames.matrices))
+    quaternions = rotations.continuous(rotations.from_matrix(frames.matrices))
+    is_opposite = (quaternions * true_quaternions).sum(axis=-1, keepdims=True) < 0
+    quaternions = quaternions * np.where(is_opposite, -1, 1)
+
+    l2q = mean_norm(quaternions - true_quaternions)
+    l2p = mean_norm((frames.positions - true_frames.positions) / deviation)
+    return l2q, l2p, npss(true_quaternions, quaternions)
 
 
-def npss(real: Array, made: Array) -> float:
-    """Compare power spectra (F, ...) over time: the distance of their sums, weighted by the real power."""
-    powers = [np.fft.fft(some.reshape(len(some), -1), axis=0).real ** 2 for some in (real, made)]
-    sums = [np.cumsum(power / np.maximum(power.sum(axis=0), 1e-12), axis=0) for power in powers]
-    return float(np.average(np.abs(sums[0] - sums[1]).sum(axis=0), weights=powers[0].sum(axis=0)))
+def mean_norm(errors: Array) -> float:
+    """Average over frames the Euclidean norm of the errors (F, J, N) in a frame."""
+    return float(np.sqrt((errors**2).sum(axis=(1, 2))).mean())
+
+
+def npss(truth: Array, answer: Array) -> float:
+    """Compare power spectra (F, ...) over time: the distance of their sums, weighted by the true power."""
+    true_powers = power_spectrum(truth)
+    distances = np.abs(cumulated(true_powers) - cumulated(power_spectrum(answer))).sum(axis=0)
+    return float(np.average(distances, weights=true_powers.sum(axis=0)))
+
+
+def power_spectrum(values: Array) -> Array:
+    """Return the squared real parts of the Fourier transform over time (F, columns), as LAFAN1 does."""
+    return np.asarray(np.fft.fft(values.reshape(len(values), -1), axis=0).real ** 2)
+
+
+def cumulated(powers: Array) -> Array:
+    """Sum power spectra up to each frequency, as fractions of the whole power."""
+    return np.cumsum(powers / np.maximum(powers.sum(axis=0), 1e-12), axis=0)
