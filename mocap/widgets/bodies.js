@@ -128,6 +128,16 @@ export function writeCapsule(out, at, ends, radii, left, flatness, side) {
 export const rgb = (colour) => [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16) / 255);
 
 /**
+ * The WebGL 2 of a canvas, if the browser has it and the page's address does not ask for `flat` pictures.
+ * @param {HTMLCanvasElement} canvas
+ * @param {WebGLContextAttributes} settings
+ */
+export function webgl(canvas, settings) {
+  const flat = new URLSearchParams(location.search).has("flat");
+  return flat ? null : canvas.getContext("webgl2", settings);
+}
+
+/**
  * @param {WebGL2RenderingContext} gl
  * @param {string[]} shaders
  */

@@ -13,11 +13,12 @@ from mocap.plotting.picture import Picture
 FOLDER = Path(__file__).parent
 
 # Scripts of the player that other pages share.
+CANVAS = FOLDER / "canvas.js"
 SCENE = FOLDER / "player_scene.js"
 PICTURE = FOLDER / "player_picture.js"
 PAGE = FOLDER / "player_page.js"
 HAND = FOLDER / "player_hand.js"
-SHARED = [SCENE, PICTURE, PAGE, HAND]
+SHARED = [CANVAS, SCENE, PICTURE, PAGE, HAND]
 SHADED = [FOLDER / "bodies.js", FOLDER / "player_body.js"]
 TOUCH = FOLDER / "touch.js"
 WHOLE = FOLDER / "page.html"

@@ -1,7 +1,7 @@
 // The bodies of a player: shaded capsules, whose positions follow from the joints alone. All pictures of a page share
 // one canvas for them, because browsers limit the number with WebGL. Without WebGL, `player_picture.js` draws strokes.
 
-import { Bodies, SIZE, inner, perspective, writeCapsule } from "./bodies.js";
+import { Bodies, SIZE, inner, perspective, webgl, writeCapsule } from "./bodies.js";
 import { NEAR, positionOf } from "./player_picture.js";
 
 /**
@@ -87,8 +87,7 @@ export class Shading {
 
   /** @param {number} capacity */
   constructor(capacity) {
-    const flat = new URLSearchParams(location.search).has("flat");
-    const gl = flat ? null : document.createElement("canvas").getContext("webgl2", { antialias: true });
+    const gl = webgl(document.createElement("canvas"), { antialias: true });
     this.bodies = gl && new Bodies(gl, capacity);
     this.capacity = capacity;
     this.sharp = 1;

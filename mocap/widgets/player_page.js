@@ -1,4 +1,4 @@
-// The page around the canvas: its parts, their style, colours for light and dark pages, and lines and discs on a canvas.
+// The page around the canvas: its parts, their style, and colours for light and dark pages.
 
 /**
  * The model of a widget, which anywidget shares with Python.
@@ -124,77 +124,4 @@ export function keepKeys(root, selector) {
   /** @type {NodeListOf<HTMLElement>} */
   const parts = root.querySelectorAll(selector);
   for (const part of parts) part.dataset.lmSuppressShortcuts = "true";
-}
-
-/**
- * The pen of a canvas.
- * @param {HTMLCanvasElement} canvas
- * @param {CanvasRenderingContext2DSettings} [settings]
- */
-export function penOf(canvas, settings) {
-  const pen = canvas.getContext("2d", settings);
-  if (!pen) throw new Error("The browser draws on no canvas.");
-  return pen;
-}
-
-/**
- * Clear a canvas, and give it as many pixels as the screen has there; sizes are then in pixels of the page.
- * @param {HTMLCanvasElement} canvas
- */
-export function clearedPen(canvas) {
-  const sharp = devicePixelRatio || 1;
-  const size = [canvas.clientWidth, canvas.clientHeight];
-  const pixels = size.map((length) => Math.round(length * sharp));
-  if (canvas.width !== pixels[0] || canvas.height !== pixels[1]) [canvas.width, canvas.height] = pixels;
-  const pen = penOf(canvas);
-  pen.setTransform(sharp, 0, 0, sharp, 0, 0);
-  pen.clearRect(0, 0, size[0], size[1]);
-  pen.lineCap = "round";
-  pen.lineJoin = "round";
-  return { pen, wide: size[0], high: size[1] };
-}
-
-/**
- * Stroke the current path of a pen.
- * @param {CanvasRenderingContext2D} pen
- * @param {string} colour
- * @param {number} width
- * @param {number} alpha
- */
-export function paintStroke(pen, colour, width, alpha = 1) {
-  pen.globalAlpha = alpha;
-  pen.strokeStyle = colour;
-  pen.lineWidth = width;
-  pen.stroke();
-  pen.globalAlpha = 1;
-}
-
-/**
- * A line through points [x, y].
- * @param {CanvasRenderingContext2D} pen
- * @param {number[][]} points
- * @param {string} colour
- * @param {number} width
- * @param {number} alpha
- */
-export function paintLine(pen, points, colour, width = 1, alpha = 1) {
-  pen.beginPath();
-  points.forEach(([x, y], k) => (k ? pen.lineTo(x, y) : pen.moveTo(x, y)));
-  paintStroke(pen, colour, width, alpha);
-}
-
-/**
- * A disc, with an edge if it has a colour.
- * @param {CanvasRenderingContext2D} pen
- * @param {number[]} centre
- * @param {number} radius
- * @param {string} colour
- * @param {string | null} edge
- */
-export function paintDisc(pen, [x, y], radius, colour, edge = null) {
-  pen.beginPath();
-  pen.arc(x, y, radius, 0, 2 * Math.PI);
-  pen.fillStyle = colour;
-  pen.fill();
-  if (edge !== null) paintStroke(pen, edge, 1.5);
 }

@@ -1,8 +1,8 @@
 // The picture of a scene on a canvas: ground, paths, footprints, ghosts, and bodies with their shadows.
 
 import { rgb } from "./bodies.js";
+import { clearedPen, mapInto, paintDisc, paintLine, paintStroke } from "./canvas.js";
 import { Shading } from "./player_body.js";
-import { clearedPen, paintDisc, paintLine, paintStroke } from "./player_page.js";
 
 /**
  * @import { Look } from "./bodies.js"
@@ -197,19 +197,10 @@ export class Picture {
     const size = Math.min(120, canvas.clientWidth / 4);
     const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
     const seen = [...positions, [x, z]].map(([px, pz]) => [px * c - pz * s, px * s + pz * c]);
-    const walking = seen[seen.length - 1];
-    const [[left, right], [top, bottom]] = [0, 1].map((k) => [
-      Math.min(...seen.map((p) => p[k])),
-      Math.max(...seen.map((p) => p[k])),
-    ]);
-    const scale = size / Math.max(right - left, bottom - top, 1);
-    /**
-     * @param {number[]} position
-     * @returns {[number, number]}
-     */
-    const put = ([px, py]) => [canvas.clientWidth - 16 - (right - px) * scale, 16 + (py - top) * scale];
+    const box = [canvas.clientWidth - 16 - size, 16, size, size];
+    const put = mapInto(seen, box, { least: 1, align: [1, 0] });
     paintLine(pen, seen.slice(0, -1).map(put), asked, 4, 0.5);
-    paintDisc(pen, put(walking), 5, ink);
+    paintDisc(pen, put(seen[seen.length - 1]), 5, ink);
   }
 
   /**

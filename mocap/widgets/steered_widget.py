@@ -18,7 +18,7 @@ from mocap.errors import MocapError, shortened
 from mocap.plotting.style import COLOURS, own_colour
 from mocap.steering.characters import Character, as_motion
 from mocap.widgets.company import LONGEST_FAULT, Company, checked
-from mocap.widgets.embedding import PAGE, PICTURE, SCENE, SHADED, TOUCH, joined
+from mocap.widgets.embedding import CANVAS, PAGE, PICTURE, SCENE, SHADED, TOUCH, joined
 from mocap.widgets.live import display_live
 from mocap.widgets.player import LOOK, play
 from mocap.widgets.shared_traits import AnyWidget, shared, validate
@@ -33,7 +33,7 @@ USUAL_SPEED = 1.1  # metres per second of the recording, if it is within the ran
 class Steered(AnyWidget):
     """A widget with pictures of characters, and a `command` that the reader and Python may set."""
 
-    _esm = joined(*SHADED, SCENE, PICTURE, PAGE, TOUCH, *map(Path(__file__).with_name, OWN))
+    _esm = joined(*SHADED, CANVAS, SCENE, PICTURE, PAGE, TOUCH, *map(Path(__file__).with_name, OWN))
     scene = shared({})
     command = shared([0.0, 1.1, ""])
     company: Company

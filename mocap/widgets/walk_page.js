@@ -6,7 +6,8 @@ import { arrays, firstLine, pathOnto, read, written } from "./walk_line.js";
 import { Camera } from "./walk_camera.js";
 import { Hands } from "./walk_hands.js";
 import { LOOKS, rgb } from "./bodies.js";
-import { COLOURS, Scene, flatPen } from "./walk_scene.js";
+import { penOf } from "./canvas.js";
+import { COLOURS, Scene } from "./walk_scene.js";
 import { drawSmall } from "./walk_small.js";
 import { bvh, download, gif } from "./walk_saving.js";
 
@@ -477,7 +478,7 @@ export class Page extends Hands {
     const height = Math.round((width * this.height) / this.width);
     const pictures = [];
     Object.assign(small, { width, height });
-    const pen = flatPen(small, { willReadFrequently: true });
+    const pen = penOf(small, { willReadFrequently: true });
     for (let frame = 0; frame < Math.min(walk.frames, 20 * this.about.fps); frame += this.about.fps / 12.5) {
       this.time = frame;
       this.aim(0.08, frame === 0);

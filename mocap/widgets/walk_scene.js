@@ -1,8 +1,9 @@
 // The picture of the walking page: a soft ground, lines and discs on it, and figures with their shadows. Without
 // WebGL 2, it is drawn as round strokes on a flat canvas.
 
+import { Bodies, FIGURES, rgb, SIZE, webgl } from "./bodies.js";
+import { paintLine, penOf } from "./canvas.js";
 import { capsules } from "./walk_body.js";
-import { Bodies, FIGURES, rgb, SIZE } from "./bodies.js";
 
 /**
  * @import { Layout, Look } from "./bodies.js"
@@ -72,17 +73,6 @@ class Ground extends Bodies {
   }
 }
 
-/**
- * The pen of a canvas without WebGL.
- * @param {HTMLCanvasElement} canvas
- * @param {CanvasRenderingContext2DSettings} [settings]
- */
-export function flatPen(canvas, settings) {
-  const pen = canvas.getContext("2d", settings);
-  if (!pen) throw new Error("The browser draws on no canvas.");
-  return pen;
-}
-
 export class Scene {
   /** @type {number[]} points of all bands, as triangles */
   bands = [];
@@ -99,8 +89,7 @@ export class Scene {
   constructor(canvas, pieces, capacity) {
     this.canvas = canvas;
     this.pieces = pieces;
-    const flat = new URLSearchParams(location.search).has("flat");
-    this.gl = flat ? null : canvas.getContext("webgl2", { antialias: true, alpha: false });
+    this.gl = webgl(canvas, { antialias: true, alpha: false });
     this.figures = this.gl && new Ground(this.gl, pieces.length * capacity);
     this.instances = this.figures?.instances ?? new Float32Array(SIZE * pieces.length * capacity);
   }
@@ -201,7 +190,7 @@ export class Scene {
    */
   drawFlat(camera, look, count) {
     const { canvas, bands, instances } = this;
-    const pen = flatPen(canvas);
+    const pen = penOf(canvas);
     /**
      * @param {number} x
      * @param {number} y
@@ -237,11 +226,8 @@ export class Scene {
           see(x + cast * camera.sun[0] * y, height * y, z + cast * camera.sun[2] * y),
         );
         if (ends.some(([, , w]) => w < 0.1)) continue;
-        pen.strokeStyle = height ? colourOf(v[SIZE - 1], look) : look.shade;
-        pen.lineWidth = ((v[3] + v[7]) * camera.zoom * canvas.height) / 2 / ends[0][2];
-        pen.beginPath();
-        for (const [px, py] of ends) pen.lineTo(px, py + 0.01);
-        pen.stroke();
+        const colour = height ? colourOf(v[SIZE - 1], look) : look.shade;
+        paintLine(pen, ends, colour, ((v[3] + v[7]) * camera.zoom * canvas.height) / 2 / ends[0][2]);
       }
     }
   }

@@ -1,9 +1,15 @@
 // A small overview: the line with the figure, and the clips as bars, with the current one highlighted and seams as arcs.
 
+import { alongTime, arcBetween, clearedPen, mapInto, paintDisc, paintLine } from "./canvas.js";
 import { edgeAt } from "./walk_body.js";
-import { COLOURS, flatPen } from "./walk_scene.js";
+import { COLOURS } from "./walk_scene.js";
 
-/** @import { Page } from "./walk_page.js" */
+/**
+ * @import { Page } from "./walk_page.js"
+ *
+ * The pen of the overview, and its size.
+ * @typedef {ReturnType<typeof clearedPen>} Cleared
+ */
 
 /**
  * Draw it, a square for the line, and the clips below.
@@ -11,77 +17,50 @@ import { COLOURS, flatPen } from "./walk_scene.js";
  * @param {HTMLCanvasElement} canvas
  */
 export function drawSmall(page, canvas) {
-  const { walk, look, about } = page;
-  const ratio = Math.min(devicePixelRatio, 2);
-  const width = canvas.clientWidth * ratio;
-  const height = canvas.clientHeight * ratio;
-  const pen = flatPen(canvas);
-  if (canvas.width !== width) Object.assign(canvas, { width, height });
-  pen.clearRect(0, 0, width, height);
-  if (!walk.frames || page.stroke) return;
+  const cleared = clearedPen(canvas);
+  if (!page.walk.frames || page.stroke) return;
+  drawLine(page, cleared);
+  drawClips(page, cleared);
+}
+
+/**
+ * The line from above, and where the figure is.
+ * @param {Page} page
+ * @param {Cleared} cleared
+ */
+function drawLine(page, { pen, wide }) {
   const { z, x } = page.line;
-  const size = width * 0.9;
-  const [z0, z1, x0, x1] = [Math.min(...z), Math.max(...z), Math.min(...x), Math.max(...x)];
-  const scale = size / Math.max(z1 - z0, x1 - x0, 0.1);
-  /**
-   * @param {number} pz
-   * @param {number} px
-   * @returns {[number, number]}
-   */
-  const put = (pz, px) => [
-    width / 2 + (px - (x0 + x1) / 2) * scale,
-    width / 2 + (pz - (z0 + z1) / 2) * scale,
-  ];
-  pen.lineWidth = width / 50;
-  pen.lineCap = "round";
-  pen.lineJoin = "round";
-  pen.strokeStyle = look.line;
-  pen.beginPath();
-  for (let i = 0; i < z.length; i += 6) pen.lineTo(...put(z[i], x[i]));
-  pen.stroke();
-  pen.fillStyle = look.ink;
-  pen.beginPath();
+  const points = Array.from(z, (pz, i) => [x[i], pz]);
+  const put = mapInto(points, [0.05 * wide, 0.05 * wide, 0.9 * wide, 0.9 * wide], { least: 0.1 });
   const [walkingZ, walkingX] = page.position();
-  pen.arc(...put(walkingZ, walkingX), width / 24, 0, 7);
-  pen.fill();
+  const line = points.filter((_, i) => i % 6 === 0).map(put);
+  paintLine(pen, line, page.look.line, wide / 50);
+  paintDisc(pen, put([walkingX, walkingZ]), wide / 24, page.look.ink);
+}
+
+/**
+ * The clips along time, and the last edges of the walk, which fade.
+ * @param {Page} page
+ * @param {Cleared} cleared
+ */
+function drawClips({ walk, look, about, time }, { pen, wide, high }) {
   const { clips } = about;
-  const longest = Math.max(...clips.map((clip) => clip.frames));
-  const row = (height - width) / (clips.length + 0.5);
-  const top = width + row / 2;
-  /**
-   * @param {number} clip
-   * @param {number} frame
-   * @returns {[number, number]}
-   */
-  const spot = (clip, frame) => [(frame / longest) * width * 0.96 + width * 0.02, top + clip * row];
+  const row = (high - wide) / (clips.length + 0.5);
+  const spot = alongTime(clips, [0.02 * wide, 0.98 * wide], wide + row / 2, row);
   clips.forEach((clip, n) => {
-    pen.globalAlpha = 0.35;
-    pen.lineWidth = row * 0.35;
-    pen.strokeStyle = COLOURS[n % 7];
-    pen.beginPath();
-    pen.moveTo(...spot(n, 0));
-    pen.lineTo(...spot(n, clip.frames));
-    pen.stroke();
+    paintLine(pen, [spot(n, 0), spot(n, clip.frames)], COLOURS[n % COLOURS.length], row * 0.35, 0.35);
   });
-  const [now, elapsed] = edgeAt(walk, page.time);
+  const [now, elapsed] = edgeAt(walk, time);
   for (let at = Math.max(0, now - 40); at <= now; at++) {
-    const edge = walk.edges[at];
-    const fade = Math.max(0, Math.min(1, 1 - (page.time - walk.begins[at] - edge.frames) / 120));
-    const colour = COLOURS[edge.start.clip % 7];
-    pen.globalAlpha = fade;
-    pen.strokeStyle = edge.seam ? look.ink : colour;
-    pen.lineWidth = edge.seam ? row * 0.12 : row * 0.6;
-    pen.beginPath();
-    pen.moveTo(...spot(edge.start.clip, edge.start.frame));
-    if (edge.seam) {
-      const [ax, ay] = spot(edge.start.clip, edge.start.frame);
-      const [bx, by] = spot(edge.end.clip, edge.end.frame);
-      pen.quadraticCurveTo((ax + bx) / 2 + row, (ay + by) / 2, bx, by);
+    const { seam, frames, start, end } = walk.edges[at];
+    const fade = Math.max(0, Math.min(1, 1 - (time - walk.begins[at] - frames) / 120));
+    const from = spot(start.clip, start.frame);
+    if (seam) {
+      const arc = arcBetween(from, spot(end.clip, end.frame), [row / 2, 0]);
+      paintLine(pen, arc, look.ink, row * 0.12, fade);
     } else {
-      const played = at === now ? Math.min(edge.frames, elapsed) : edge.frames;
-      pen.lineTo(...spot(edge.start.clip, edge.start.frame + played));
+      const to = spot(start.clip, start.frame + (at === now ? Math.min(frames, elapsed) : frames));
+      paintLine(pen, [from, to], COLOURS[start.clip % COLOURS.length], row * 0.6, fade);
     }
-    pen.stroke();
   }
-  pen.globalAlpha = 1;
 }

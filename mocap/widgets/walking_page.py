@@ -29,7 +29,7 @@ STEPS = {"root": 0.0005, "quaternion": 1 / 2048, "angle": 2 * np.pi / 65536, "tr
 SETTINGS = ("BEAM_WIDTH", "LAYER", "LOOK", "RESCUE", "SEAM")  # of the search in `mocap.plain`
 # Scripts, each after those that it uses.
 WALKING = ("search", "body", "line", "camera", "scene", "saving", "small", "hands", "page")
-PARTS = ("bodies", *(f"walk_{part}" for part in WALKING))
+PARTS = ("bodies", "canvas", *(f"walk_{part}" for part in WALKING))
 ZX = [2, 0]  # columns of a position (x, y, z), for complex numbers z + ix
 RAW_DEFLATE = -15  # window size of zlib, negative for a stream without a header
 

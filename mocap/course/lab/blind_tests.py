@@ -27,7 +27,7 @@ from mocap.matching.transitions import Transition, Transitions
 from mocap.plotting.bodies import film_strip
 from mocap.plotting.picture import few_colours, small_png
 from mocap.plotting.style import COLOURS
-from mocap.widgets.embedding import PAGE, PICTURE, SCENE, Embedded
+from mocap.widgets.embedding import CANVAS, PAGE, PICTURE, SCENE, Embedded
 from mocap.widgets.player import SIDES, packed_character
 
 SECONDS = 2.6  # how long a film is
@@ -87,7 +87,7 @@ class BlindTest(Embedded):
     window: int
     below: float
     seed: int
-    scripts = (SCENE, PICTURE, PAGE, Path(__file__).with_name("blind.js"))
+    scripts = (CANVAS, SCENE, PICTURE, PAGE, Path(__file__).with_name("blind.js"))
 
     def __repr__(self) -> str:
         return (

@@ -1,7 +1,16 @@
 // The maps to point at: a distance grid, a graph along time, a walk from above. Each draws itself on a canvas, finds
 // what is under a finger, moves on by the keys, and shows by an orange dot where the seam stands while it plays.
 
-import { clearedPen, paintDisc, paintLine, paintStroke, penOf } from "../../widgets/player_page.js";
+import {
+  alongTime,
+  arcBetween,
+  clearedPen,
+  mapInto,
+  paintDisc,
+  paintLine,
+  paintStroke,
+  penOf,
+} from "../../widgets/canvas.js";
 import { whenPointed } from "../../widgets/touch.js";
 
 /**
@@ -47,6 +56,7 @@ import { whenPointed } from "../../widgets/touch.js";
  */
 
 const NAME_WIDE = 96; // pixels
+const MARGIN = 14; // pixels around a walk
 const PLAYED = "#E69F00";
 const CIVIDIS = [
   "#00224E",
@@ -71,6 +81,21 @@ export function sheet(canvas) {
   const cleared = clearedPen(canvas);
   cleared.pen.font = "11px system-ui, sans-serif";
   return cleared;
+}
+
+/**
+ * What the upright axis of a map or a chart shows, along its middle.
+ * @param {CanvasRenderingContext2D} pen
+ * @param {string} text
+ * @param {number} middle
+ */
+export function writeUpright(pen, text, middle) {
+  pen.save();
+  pen.translate(9, middle);
+  pen.rotate(-Math.PI / 2);
+  pen.textAlign = "center";
+  pen.fillText(text, 0, 0);
+  pen.restore();
 }
 
 /**
@@ -340,12 +365,7 @@ export class GridMap extends Map2D {
     pen.textBaseline = "middle";
     pen.textAlign = "right";
     labels(from[0], size[1], (y, text) => pen.fillText(text, left - 5, top + y));
-    pen.save();
-    pen.translate(9, top + size[1] / 2);
-    pen.rotate(-Math.PI / 2);
-    pen.textAlign = "center";
-    pen.fillText(`${first.name} (s)`, 0, 0);
-    pen.restore();
+    writeUpright(pen, `${first.name} (s)`, top + size[1] / 2);
   }
 }
 
@@ -355,10 +375,8 @@ export class GraphMap extends Map2D {
   graph;
   /** @type {Clip[]} */
   clips;
-  /** @type {number} */
-  wide;
-  /** @type {number} */
-  high;
+  /** @type {ReturnType<typeof alongTime>} of a frame of a clip */
+  positionOf;
 
   /**
    * @param {PackedGraph} graph
@@ -370,33 +388,12 @@ export class GraphMap extends Map2D {
   }
 
   /**
-   * @param {number} clip
-   * @param {number} frame
-   * @returns {[number, number]}
-   */
-  positionOf(clip, frame) {
-    const { wide, clips } = this;
-    const longest = Math.max(...clips.map((c) => c.frames));
-    const rows = clips.length;
-    return [
-      NAME_WIDE + ((wide - NAME_WIDE - 12) * frame) / longest,
-      26 + ((this.high - 44) * clip) / Math.max(1, rows - 1 || 1),
-    ];
-  }
-
-  /**
    * Points of an arc.
    * @param {number[]} transition
-   * @returns {[number, number][]}
    */
   arc([source, leave, target, enter]) {
-    const [x0, y0] = this.positionOf(source, leave);
-    const [x1, y1] = this.positionOf(target, enter + this.inspector.window);
-    const lift = source === target ? 20 : 0;
-    return Array.from({ length: 13 }, (_, k) => k / 12).map((t) => [
-      x0 + t * (x1 - x0),
-      y0 + t * (y1 - y0) - 4 * t * (1 - t) * lift,
-    ]);
+    const ends = [this.positionOf(source, leave), this.positionOf(target, enter + this.inspector.window)];
+    return arcBetween(ends[0], ends[1], [0, source === target ? -20 : 0]);
   }
 
   /**
@@ -443,8 +440,8 @@ export class GraphMap extends Map2D {
    */
   draw(palette, { pick, lit, colours }) {
     const { pen, wide, high } = sheet(this.canvas);
-    this.wide = wide;
-    this.high = high;
+    const row = (high - 44) / Math.max(1, this.clips.length - 1);
+    this.positionOf = alongTime(this.clips, [NAME_WIDE, wide - 12], 26, row);
     this.drawn = true;
     pen.textBaseline = "middle";
     pen.textAlign = "right";
@@ -479,37 +476,12 @@ export class GraphMap extends Map2D {
 export class PathMap extends Map2D {
   /** @type {PackedWalk} */
   walk;
-  /** @type {number[]} its ends */
-  x;
-  /** @type {number[]} its ends */
-  z;
-  /** @type {number} */
-  wide;
-  /** @type {number} */
-  high;
+  /** @type {(point: number[]) => [number, number]} of a point [x, z] */
+  positionOf;
 
   /** @param {PackedWalk} walk */
   show(walk) {
     this.walk = walk;
-    const all = [...walk.path, ...walk.asked];
-    /** @param {number} k */
-    const range = (k) => [Math.min(...all.map((p) => p[k])), Math.max(...all.map((p) => p[k]))];
-    [this.x, this.z] = [range(0), range(1)];
-  }
-
-  /**
-   * @param {number[]} point
-   * @returns {[number, number]}
-   */
-  positionOf([x, z]) {
-    const { wide, high } = this;
-    /** @param {number[]} ends */
-    const span = ([low, high_]) => Math.max(high_ - low, 0.5);
-    const margin = 14;
-    const scale = Math.min((wide - 2 * margin) / span(this.x), (high - 2 * margin) / span(this.z));
-    /** @param {number[]} ends */
-    const middle = ([low, high_]) => (low + high_) / 2;
-    return [wide / 2 - (x - middle(this.x)) * scale, high / 2 - (z - middle(this.z)) * scale];
   }
 
   /**
@@ -550,8 +522,11 @@ export class PathMap extends Map2D {
   draw(palette, { pick, lit, colours }) {
     const { pen, wide, high } = sheet(this.canvas);
     const { walk } = this;
-    this.wide = wide;
-    this.high = high;
+    /** @param {number[]} point */
+    const turned = ([x, z]) => [-x, -z];
+    const all = [...walk.path, ...walk.asked].map(turned);
+    const put = mapInto(all, [MARGIN, MARGIN, wide - 2 * MARGIN, high - 2 * MARGIN], { least: 0.5 });
+    this.positionOf = (point) => put(turned(point));
     this.drawn = true;
     const [asked, path] = [walk.asked, walk.path].map((points) => points.map((p) => this.positionOf(p)));
     if (asked.length) paintLine(pen, asked, palette.asked, 6, 0.75);

@@ -1,8 +1,8 @@
 // The stage, where the bodies of two windows and of their blend stand, and the chart below it, on the same clock.
 // `Picture` and its colours for light and dark pages are the player's.
 
-import { sheet } from "./inspector_maps.js";
-import { paintDisc, paintLine } from "../../widgets/player_page.js";
+import { sheet, writeUpright } from "./inspector_maps.js";
+import { paintDisc, paintLine } from "../../widgets/canvas.js";
 import { Picture, sideOf } from "../../widgets/player_picture.js";
 import { whenPointed } from "../../widgets/touch.js";
 
@@ -158,12 +158,7 @@ export class Chart {
     pen.textAlign = "right";
     pen.textBaseline = "middle";
     for (const v of ticks([0, highest], 3)) pen.fillText(spoken(v), left - 5, y(v));
-    pen.save();
-    pen.translate(9, (top + bottom) / 2);
-    pen.rotate(-Math.PI / 2);
-    pen.textAlign = "center";
-    pen.fillText(up, 0, 0);
-    pen.restore();
+    writeUpright(pen, up, (top + bottom) / 2);
     const here = x(at[0]);
     paintLine(
       pen,
