@@ -199,9 +199,9 @@ def make_route(graph: CompiledGraph, path: GroundPath, request: PathRequest) -> 
     if path.length > 3600 * fastest:
         hour = f"takes these clips more than an hour, at {fastest:.2f} m/s at most"
         raise MocapError(f"A path of {path.length:.0f} m {hour}: is it in metres, and do they walk?")
-    for place, wish in (*request.labels, *request.times):
+    for place, requested in (*request.labels, *request.times):
         if not 0 <= place <= path.length:
-            raise MocapError(f"'{wish}' is asked for {place} m along a path of {path.length:.1f} m.")
+            raise MocapError(f"'{requested}' is asked for {place} m along a path of {path.length:.1f} m.")
     points = path.resampled(TUNED.route_spacing).points
     along = np.linspace(0, path.length, len(points))
     label = np.full(len(points), -1)

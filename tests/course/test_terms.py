@@ -68,7 +68,6 @@ PRIVATE = {
 }
 EXCEPTIONS = {
     "leave no gap in this format": "bones of a file do have no gap between them",
-    "after each hop": "the search's own documentation still says so",
     "the *gap* or residual": "the name of the exercise that asks for the residual",
 }
 
