@@ -49,8 +49,15 @@ def test_the_search_answers(page, first):
     page.goto(first)
     page.locator("input[name=q]").fill("footskate")
     page.locator("input[name=q]").press("Enter")
-    wait_until(lambda: page.locator("#search-results li a").count() > 1)
-    page.locator("#search-results li a").first.click()
+    results = page.locator("#search-results li a")
+
+    def are_all_there():
+        count = results.count()
+        page.wait_for_timeout(300)  # results come one by one, and move those below them
+        return 1 < count == results.count()
+
+    wait_until(are_all_there)
+    results.first.click()
     wait_until(lambda: "search.html" not in page.url)
 
 
