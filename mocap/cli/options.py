@@ -108,7 +108,7 @@ PATH_READING = {"id": "--id", "length": "--length"}
 # The options for the parameters of `files.load`, which are named in its errors.
 READING = {
     "skeleton": "--skeleton",
-    "fps": "--read-fps",
+    "fps": "--read-fps (once --fps)",  # both work until 0.3
     "scale": "--scale",
     "up": "--up",
     "roles": "--joints",
