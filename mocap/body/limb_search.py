@@ -51,7 +51,7 @@ class SearchLimits:
 
 @dataclass(frozen=True)
 class Weights:
-    """How much each property of two segments counts that are tried as a limb; their length counts 1."""
+    """Weights of the properties of two segments that may be a limb, relative to that of their length."""
 
     hinge_bends: float = 0.5  # the joint between the segments is used
     end_bends: float = 0.1  # so is the joint at the end, as an ankle is

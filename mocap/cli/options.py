@@ -197,7 +197,7 @@ def require_file(path: Path, advice: str) -> None:
 
 
 def with_chosen_roles(motion: "Motion", joints: Sequence[Path]) -> "Motion":
-    """Give a motion's joints the roles that one of some files says, or that are found."""
+    """Return a motion whose joints have the roles of a file, or those that are found by a search."""
     from mocap.files.role_maps import choose_roles, read_roles  # the help needs no NumPy
 
     maps = {path: read_roles(path) for path in joints}

@@ -104,8 +104,8 @@ def read_bvh(path: Path, options: ReadOptions) -> Recording:
     """Read a BVH file."""
     from mocap.files import bvh
 
-    scale, up = options.scale, options.up
-    return bvh.read(path, scale=scale, fps=options.fps, stretch=options.stretch, up=up)
+    scale = options.scale
+    return bvh.read(path, scale=scale, fps=options.fps, stretch=options.stretch, up=options.up)
 
 
 def read_npz(path: Path, options: ReadOptions) -> Recording:
