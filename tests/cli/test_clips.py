@@ -153,7 +153,8 @@ def test_the_former_name_of_the_rate_that_is_read_warns(folder, run):
 
 def test_info_says_that_the_rate_of_an_amc_is_assumed(folder, run):
     write_acclaim(wave(3), folder / "clips" / "c.amc")
-    assert "assumed  120 Hz, as an .amc says no rate; --read-fps (once --fps) sets another" in run("info clips/c.amc").out
+    said = "assumed  120 Hz, as an .amc says no rate; --read-fps (once --fps) sets another"
+    assert said in run("info clips/c.amc").out
     assert "assumed" not in run("info clips/c.amc --read-fps 60").out
     assert "assumed" not in run("info clips/a.bvh").out
 
