@@ -16,6 +16,7 @@ from cyclopts import CycloptsError
 from mocap.files import formats
 from mocap.matching import other_metrics
 from mocap.quality import judging
+from mocap.quality.measures import see
 from tests.cli.listing import understood
 from tests.strategies import wave
 
@@ -83,7 +84,8 @@ PLACES = {
     "COMMANDS": "mocap/cli/main.py",
     "real_data": "conftest.py",
     "test_root_grid_adds_metres_and_radians": "tests/matching/test_distance_grids.py",
-    "measure_smoothness": "mocap/quality/judging.py",
+    "measure_smoothness": "mocap/quality/smoothness.py",
+    "measure_feet": "mocap/quality/standing_feet.py",
     "measure_joints": "mocap/quality/judging.py",
     "measure_limbs": "mocap/quality/judging.py",
     "measure_body": "mocap/quality/judging.py",
@@ -177,7 +179,7 @@ def test_the_measure_of_the_recipe_stands_out_in_its_flaw():
     constant = re.search(r"`(SLOWEST_RATE = .*?)  #", PAGE)[1]
     space = dict(vars(judging))
     line = recipe("yield Measure(").strip()
-    exec(f"{constant}\ndef measure(motion):\n    {line}", space)
-    (fine,) = space["measure"](wave(20))
-    (coarse,) = space["measure"](replace(wave(20), fps=15.0))
+    exec(f"{constant}\ndef measure(seen):\n    {line}", space)
+    (fine,) = space["measure"](see(wave(20), ()))
+    (coarse,) = space["measure"](see(replace(wave(20), fps=15.0), ()))
     assert fine.ratio < 1 < coarse.ratio

@@ -7,7 +7,10 @@ frames that repeat the one before; a root that leaps by 10, 30 or 100 cm for a f
 30°, 60° or 120° for a frame; the rest pose in 1, 2 or 5 frames before the clip; a body 2, 5 or 10 cm lower,
 or 10, 20 or 30 cm higher; read as centimetres in place of inches, metres and millimetres; shaken by 2, 5 or
 10 mm; sliding at 95, 90 or 80 % of its pace; knees that bend backwards; the bones of one side 1, 3 or 5 %
-longer; 5, 15 or 45 frames left out. Clips keep their own frame rate, as some limits are for a frame.
+longer; 5, 15 or 45 frames left out; a second half that is moved aside by 3, 10 or 30 cm, or in which a hip is
+rotated by 9°, 23° or 57°; a pose that is held for 0.1, 0.3 or 1 s; a body that dips by 3, 6 or 12 cm for half
+a second. Clips keep their own frame rate, as some limits are for a frame. `figures/judged_faults.py` tries
+all measures of `judge` together.
 """
 
 from collections.abc import Callable, Iterator
@@ -18,9 +21,10 @@ import numpy as np
 from _trials import WALKS, Clips, Collection, Measure, Row, Study, Trial, cmu
 
 from mocap.body import Motion, find_legs, rotations
-from mocap.quality import Judgement, inspect, judge, limits
+from mocap.quality import Judgement, inspect, judge, limits, spread
 
 LONGEST = 6.0  # seconds of a clip that are judged
+DIP = 0.5  # seconds
 Copies = Callable[[Motion], Iterator[Motion]]
 
 
@@ -125,6 +129,45 @@ def cut(clip: Motion) -> Iterator[Motion]:
         yield frames_of(clip, np.delete(np.arange(len(clip)), slice(middle, middle + count)))
 
 
+def aside_halfway(clip: Motion) -> Iterator[Motion]:
+    """Move the second half aside."""
+    for metres in (0.03, 0.1, 0.3):
+        roots = clip.root_positions.copy()
+        roots[len(clip) // 2 :, 0] += metres
+        yield replace(clip, root_positions=roots)
+
+
+def rotated_halfway(clip: Motion) -> Iterator[Motion]:
+    """Rotate a hip in the second half."""
+    hip = find_legs(clip.skeleton)[0].hip
+    for degrees in (9, 23, 57):
+        turned = clip.rotations.copy()
+        second = slice(len(clip) // 2, None)
+        turned[second, hip] = rotations.multiply(turned[second, hip], about_x(degrees))
+        yield replace(clip, rotations=turned)
+
+
+def held(clip: Motion) -> Iterator[Motion]:
+    """Hold the pose in the middle of a clip."""
+    for seconds in (0.1, 0.3, 1.0):
+        counts = np.ones(len(clip), int)
+        counts[len(clip) // 2] += round(seconds * clip.fps)
+        yield frames_of(clip, np.repeat(np.arange(len(clip)), counts))
+
+
+def dipping(clip: Motion) -> Iterator[Motion]:
+    """Lower a body for half a second."""
+    seconds = np.abs(np.arange(len(clip)) - len(clip) // 2) / clip.fps
+    ramp = np.clip(2 - 4 * seconds / DIP, 0, 1)
+    for metres in (0.03, 0.06, 0.12):
+        yield replace(clip, root_positions=clip.root_positions - metres * ramp[:, None] * [0, 1, 0])
+
+
+def has_leaps(clip: Motion) -> bool:
+    """Tell whether frames of a clip count as leaps in the data."""
+    return bool(np.isnan(spread([clip]).velocity[0]).any())
+
+
 def has_flaw(kind: str, clip: Motion) -> bool:
     """Tell whether `inspect` reports a kind of flaw."""
     return any(flaw.kind == kind for flaw in inspect(clip).flaws)
@@ -208,6 +251,9 @@ REST_POSE = flaws("rest pose", after_rest_poses)
 HEIGHT_SMALL = partial(tried, is_reported=has_impossible_height, copies=SMALLER)
 HEIGHT_LARGE = partial(tried, is_reported=has_impossible_height, copies=LARGER)
 BENT = measure_of("bent", backwards)
+JOLT = measure_of("jolt", aside_halfway)
+SNAPPING = measure_of("snap", rotated_halfway)
+STANDSTILL = measure_of("frozen", held)
 
 # reads: statement: a table
 TRIALS = {
@@ -221,22 +267,34 @@ TRIALS = {
     "under": Trial(flaws("under the floor", LOWERED), (0.01, 0.02, 0.05, 0.09)),
     "smallest": Trial(HEIGHT_SMALL, (1.0, 0.05, 0.5)),
     "tallest": Trial(HEIGHT_LARGE, (2.5, 5.0, 50.0)),
-    "jolt": Trial(measure_of("jolt", cut), (2.0, 3.0, 8.0, 20.0)),
+    "leap": Trial(partial(tried, is_reported=has_leaps, copies=cut), (2.0, 3.0, 8.0, 20.0)),
+    "jolt": Trial(JOLT, (4.0, 3.0, 8.0, 16.0)),
+    "jolt_floor": Trial(JOLT, (0.03, 0.3)),
+    "jolt_ceiling": Trial(JOLT, (0.2, 0.8, 1.6)),
     "seam_jolt": Trial(against_itself, (1.0, 1.2, 2.0, 4.0)),
-    "tremble": Trial(measure_of("tremble", shaken), (1.0, 0.5, 5.0, 10.0)),
+    "tremble": Trial(measure_of("tremble", shaken), (2.0, 1.0, 3.0, 8.0)),
+    "snap_ratio": Trial(SNAPPING, (4.0, 3.0, 8.0, 12.0)),
+    "snap_floor": Trial(SNAPPING, (0.5, 1.4)),
+    "snap_ceiling": Trial(SNAPPING, (1.1, 2.0, 3.0)),
+    "still": Trial(STANDSTILL, (0.05, 0.005, 0.2)),
+    "halting": Trial(STANDSTILL, (0.1, 0.05, 0.5)),
+    "standstill": Trial(STANDSTILL, (0.05, 0.03, 0.3, 1.0)),
+    "slip": Trial(measure_of("slip", sliding), (6.0, 3.0, 9.0, 20.0)),
     "foot_sliding": Trial(measure_of("foot_sliding", sliding), (1.0, 0.5, 4.0, 8.0)),
-    "sliding_speed": Trial(measure_of("sliding_speed", sliding), (4.0, 2.0, 15.0, 30.0)),
-    "sunk": Trial(measure_of("sunk", LOWERED), (1.0, 2.0, 5.0, 9.0)),
+    "sliding_speed": Trial(measure_of("sliding_speed", sliding), (8.0, 4.0, 2.0, 30.0)),
+    "toes": Trial(measure_of("toes", dipping), (3.0, 2.0, 7.0, 9.0)),
+    "sunk": Trial(measure_of("sunk", LOWERED), (3.0, 1.0, 2.0, 9.0)),
     "aloft": Trial(measure_of("aloft", RAISED), (10.0, 15.0, 35.0)),
     "lopsided": Trial(measure_of("lopsided", lopsided), (5.0, 10.0, 40.0)),
     "bones": Trial(stretched, (2.0, 1.0, 10.0)),
-    "rotation": Trial(measure_of("rotation", snapping), (1000.0, 2000.0, 5000.0)),
+    "rotation": Trial(measure_of("rotation", snapping), (1000.0, 1500.0, 3000.0, 5000.0)),
     "path": Trial(aside, (5.0, 2.0, 10.0, 25.0)),
     "shortest": Trial(measure_of("size", SMALLER), (0.5, 0.25, 1.0)),
     "longest": Trial(measure_of("size", LARGER), (1.8, 2.2, 5.0)),
     "backwards": Trial(BENT, (0.0, 5.0, 20.0, 40.0)),
     "folded": Trial(BENT, (90.0, 120.0, 170.0)),
     "about_one_axis": Trial(BENT, (0.0, 0.25, 0.9)),
+    "sure_bend": Trial(BENT, (0.0, 0.2, 0.4)),
 }
 FIXED = {
     "flip": "in a snap an angle changes as much as its joint rotates, so any value above 1 tells them apart"

@@ -120,10 +120,11 @@ def judge(
 ) -> int:
     """Measure the quality of motions from any source, and rank them.
 
-    The motions are listed from best to worst. The measures are jolts, trembling, feet below or above the
-    ground, foot sliding, joints that bend or rotate too far, bones of varying length, a body of an unusual
-    size, and the distance from a path. Each number is the ratio of a measure to its limit, which captured
-    motion keeps. Agreement with a request and liveliness are not measured.
+    The motions are listed from best to worst. The measures are jolts, trembling, bones that snap, frozen
+    frames, feet below or above the ground, foot sliding, a path that does not fit the steps, joints that bend
+    or rotate too far, bones of varying length, a body of an unusual size, and the distance from a path. Each
+    number is the ratio of a measure to its limit, which captured motion keeps. Agreement with a request and
+    liveliness are not measured.
 
     Parameters
     ----------

@@ -2,7 +2,7 @@
 
 A seam is compared with windows of the same length in the clips, because clips also have jumps of velocity.
 A new measure of clips belongs in `clip_flaws`, one of seams in `seam_measures`, and one of whole motions in
-`judging`, with its limit.
+`smoothness`, `standing_feet` or `judging`, with its limit.
 
 Reading order (notebooks 01, 04, 09 to 11)
 ----------------------------------------
@@ -10,8 +10,11 @@ Reading order (notebooks 01, 04, 09 to 11)
 2. `seam_measures`: foot sliding, jumps of velocity at a seam, rotations of the knees
 3. `falling`: the centre of mass, and its acceleration in a flight
 4. `joint_limits`: joint angles and the human range of motion
-5. `judging`: a few measures of any motion, each divided by its limit
-6. `limits`: the limits, which captured people keep
+5. `measures`: a measured value, and what all measures of a motion start from
+6. `smoothness`: jolts, snapping bones, frozen stretches and trembling
+7. `standing_feet`: feet that slide, or sink below the height at which they stand
+8. `judging`: the measures of any motion, each divided by its limit
+9. `limits`: the limits, which captured people keep
 
 References
 ----------

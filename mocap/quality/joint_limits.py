@@ -57,18 +57,21 @@ class Bend(NamedTuple):
         return np.maximum(self.angles / self.least, self.angles / self.most)
 
 
-def joint_bends(motion: Motion, legs: Sequence[Leg] = ()) -> list[Bend]:
+def joint_bends(motion: Motion, legs: Sequence[Leg] = (), poses: GlobalPoses | None = None) -> list[Bend]:
     """Measure the angles of the joints whose limits are known.
 
     The axis of a knee or an elbow is the axis about which it bends most in the clip. A knee whose shank is in
     front is recognised as bent backwards. An arm may have any direction, therefore an elbow that is bent
-    backwards in all frames is not recognised.
+    backwards in all frames is not recognised. An arm that is nearly straight in all frames has no sure axis,
+    so it is not known which of its bends are backwards.
 
     Parameters
     ----------
     motion : F frames.
     legs : the left and the right leg, as returned by `body.find_legs`. Without them knees, hips and the neck
         are left out. Elbows, wrists and the neck are found by their roles or names.
+    poses : the world poses of all joints, as returned by `body.forward_kinematics`. They are computed by
+        default.
 
     Examples
     --------
@@ -79,7 +82,8 @@ def joint_bends(motion: Motion, legs: Sequence[Leg] = ()) -> list[Bend]:
     ['back', 'bent', 'nodding', 'out']
     """
     skeleton = motion.skeleton
-    poses = forward_kinematics(motion)
+    if poses is None:
+        poses = forward_kinematics(motion)
     hip_axis = _hip_axis(poses.positions, legs)
     bends = [_hinge_bend(poses, skeleton.names[leg.knee], leg[:3], hip_axis) for leg in legs]
     for arm in _arms(skeleton):
@@ -156,20 +160,43 @@ def _named(skeleton: Skeleton, part: str) -> int | None:
 def _hinge_bend(poses: GlobalPoses, name: str, joints: Sequence[int], hip_axis: Array) -> Bend:
     """Measure the flexion of a hinge joint between two bones, degrees, negative backwards.
 
-    Forwards is the direction in which the joint mostly bends in the clip. It is reversed if this is a
-    negative rotation about `hip_axis`, unit vectors (F, 3), which no human knee allows.
+    It is the rotation about the joint's axis, atan2(n · axis, u · v) of the directions u and v of both bones
+    with n = u × v. Sideways bending does not count. Without a sure axis no angle is too far backwards.
     """
-    upper, lower = np.diff(poses.positions[:, list(joints)], axis=1).swapaxes(0, 1)
-    normals = np.cross(upper, lower)
+    bones = np.diff(poses.positions[:, list(joints)], axis=1)
+    bones /= np.maximum(np.linalg.norm(bones, axis=-1, keepdims=True), 1e-12)
+    upper = bones[:, 0]
+    lower = bones[:, 1]
     to_world = poses.matrices[:, joints[0]]  # from the frame of the upper bone
-    local_normals = np.einsum("fji,fj->fi", to_world, normals)
-    total = local_normals.sum(axis=0)
-    axis = total / max(float(np.linalg.norm(total)), 1e-12)
-    if (normals * hip_axis).sum() < -LIMITS.about_one_axis * np.linalg.norm(normals, axis=-1).sum():
+    normals = np.einsum("fji,fj->fi", to_world, np.cross(upper, lower))
+    to_the_left = np.einsum("fji,fj->fi", to_world, np.broadcast_to(hip_axis, upper.shape)).mean(axis=0)
+    axis, is_sure = _hinge_axis(normals, to_the_left)
+    angles = np.degrees(np.arctan2(normals @ axis, (upper * lower).sum(axis=-1)))
+    return Bend(name, "bent", np.asarray(angles), -LIMITS.backwards if is_sure else -np.inf, LIMITS.folded)
+
+
+def _hinge_axis(normals: Array, to_the_left: Array) -> tuple[Array, bool]:
+    """Find the axis of a hinge, about which its flexion is positive, and whether it is sure.
+
+    It is the first principal axis of the normals. A knee's points to the left, about which no human knee
+    bends backwards; if it does not lie across the body, and for an elbow, flexion is what the joint mostly
+    does.
+
+    Parameters
+    ----------
+    normals : shape (F, 3), the cross products of the directions of both bones.
+    to_the_left : shape (3,), the body's left, or zeros if it tells nothing. Both are in the frame of the
+        upper bone.
+    """
+    _, directions = np.linalg.eigh(normals.T @ normals)  # in ascending order
+    axis = directions[:, -1]
+    across = float(axis @ to_the_left)
+    if abs(across) > LIMITS.about_one_axis:
+        return axis * np.sign(across), True
+    mean_sine = float(normals.mean(axis=0) @ axis)
+    if mean_sine < 0:
         axis = -axis
-    sine = np.linalg.norm(local_normals, axis=-1) * np.sign(local_normals @ axis)
-    angles = np.degrees(np.arctan2(sine, (upper * lower).sum(-1)))
-    return Bend(name, "bent", np.asarray(angles), -LIMITS.backwards, LIMITS.folded)
+    return axis, abs(mean_sine) > LIMITS.sure_bend
 
 
 def _angles(first: Array, second: Array) -> Array:

@@ -207,7 +207,7 @@ def spread(clips: Sequence[Motion]) -> Spread:
     """
     clips = require_compatible(clips)
     velocity_jumps = [jumps(clip) for clip in clips]
-    leap = LIMITS.jolt * float(np.percentile(np.concatenate(velocity_jumps), MOSTLY))
+    leap = LIMITS.leap * float(np.percentile(np.concatenate(velocity_jumps), MOSTLY))
     return Spread(tuple(np.where(of_clip > leap, np.nan, of_clip) for of_clip in velocity_jumps))
 
 
