@@ -200,11 +200,11 @@ def at_rate(clip: Motion, fps: float | None) -> Motion:
     return mocap.resample(clip, fps) if fps and fps < clip.fps else clip
 
 
-def chosen(clips: Clips) -> Iterator[Motion]:
-    """Choose the clips of each laboratory that get faults."""
+def chosen(clips: Clips, count: int) -> Iterator[Motion]:
+    """Choose the first clips of each laboratory, at most `count`, that get faults."""
     for motions in clips.values():
         short = [with_roles(motion[: round(LONGEST * motion.fps)]) for motion in motions]
-        yield from [motion for motion in short if travels(motion)][:EACH]
+        yield from [motion for motion in short if travels(motion)][:count]
 
 
 def travels(clip: Motion) -> bool:
@@ -261,6 +261,7 @@ def main() -> None:
     parser.add_argument("folders", nargs="+", type=Path, metavar="FOLDER")
     parser.add_argument("--fps", type=float, help="resample clips of a higher frame rate")
     parser.add_argument("--laboratories", nargs="+", metavar="NAME", help="only these folders")
+    parser.add_argument("--each", type=int, default=EACH, metavar="N", help="clips of a folder with faults")
     parser.add_argument("--without", nargs="+", default=[], metavar="NAME", help="leave these folders out")
     options = parser.parse_args()
     warnings.simplefilter("ignore")
@@ -270,7 +271,7 @@ def main() -> None:
     start = time.process_time()
     print(*table_of_clips(clips), sep="\n", flush=True)
     print(f"\n{time.process_time() - start:.1f} s of CPU\n")
-    for line in table_of_faults([*chosen(clips)]):
+    for line in table_of_faults([*chosen(clips, options.each)]):
         print(line, flush=True)
 
 

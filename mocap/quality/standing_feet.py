@@ -19,7 +19,7 @@ from mocap.quality.limits import LIMITS
 from mocap.quality.measures import Measure, Seen
 from mocap.quality.seam_measures import feet_of, foot_sliding, mean_foot_sliding
 
-LOWEST = 5  # percentile of a ball's heights: where it stands
+LOWEST = 15  # percentile of a ball's heights: where it stands, even if it is lower for a moment
 LOW = 0.035  # of the leg's length: a standing ball is no higher above it
 LEVEL = 0.2  # m/s: a standing ball rises or falls no faster
 WALKING = 0.25  # m/s: a slower body does not walk
