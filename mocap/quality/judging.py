@@ -183,7 +183,8 @@ def judge(
     - jolt: the largest jump of velocity of the middle of the body, within 1/30 s, divided by the usual one in
       the second around it, or, with `against`, by the usual jump in windows of a third of a second of these
       clips.
-    - tremble: the distance of joints from their trajectories without frequencies above 8 Hz.
+    - tremble: the distance of joints from their trajectories without frequencies above 8 Hz, which takes 20
+      frames per second.
     - snap: the largest leap in the direction of a thigh, shank, upper arm or forearm, divided by the usual
       one in the second around it.
     - frozen: the longest stretch in which no joint moves and which starts or ends abruptly.

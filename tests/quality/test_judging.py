@@ -124,6 +124,12 @@ def test_fingers_and_toes_may_flip_and_sink():
         assert "rotation" not in stand_out(flipping) and "jolt" not in stand_out(flipping), joint
 
 
+def test_a_low_frame_rate_shows_no_trembling():
+    judged = judge(resample(WALK, 15))
+    assert "tremble" not in [measure.name for measure in judged.measures]
+    assert judged.left_out == ("tremble: 15 frames per second are too few to show it",)
+
+
 def test_who_stands_or_comes_to_rest_is_not_frozen():
     standing = concatenate([replace(WALK[200:201], contacts={}, labels={})] * 60)
     assert measured(standing, "frozen").value == 0
