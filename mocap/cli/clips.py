@@ -5,6 +5,7 @@ import re
 import sys
 import tempfile
 from collections.abc import Sequence
+from functools import partial
 from json import dumps
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -17,6 +18,7 @@ from mocap.cli.options import (
     READING,
     FileReading,
     PathReading,
+    PlainNames,
     Reading,
     Sources,
     bar,
@@ -32,6 +34,7 @@ from mocap.files.conversion import find_files
 from mocap.methods import match_webs
 
 if TYPE_CHECKING:
+    from mocap.body.motion import Motion
     from mocap.quality.clip_flaws import Flaw
 
 
@@ -160,27 +163,56 @@ def judge(
     return 2 if problems else 0
 
 
-def convert(source: Path, target: Path, *, reading: Reading, to: Literal["bvh", "glb"] = "bvh") -> int:
-    """Convert motion files, or whole folders, to .bvh or .glb.
+def convert(
+    source: Path,
+    target: Path | None = None,
+    *,
+    out: Path | None = None,
+    reading: Reading,
+    to: Literal["bvh", "glb", "npz", "csv"] = "bvh",
+    plain_names: PlainNames = False,
+) -> int:
+    """Convert motion files, or whole folders, to .bvh, .glb, .npz or .csv.
 
     Convert a clip, or all clips in a folder and its subfolders. For one clip, the suffix of OUT selects the
     format. Lengths in a .bvh file are centimetres. A .glb file is for engines and viewers, and shows a body
-    of capsules.
+    of capsules. An .npz file keeps all numbers, labels and contacts, in the layout of AMASS for the SMPL
+    body. A .csv file is a table of the positions of joints in metres, which cannot be read again as a motion.
 
     Parameters
     ----------
     source (IN) : a motion file, or a folder.
     target (OUT) : file or folder to write.
+    out : the same as OUT.
     to : format of the files in a folder.
 
     Notes
     -----
     Example: mocap convert clips/ out/ --to glb
+
+    Example: mocap convert walk.bvh -o walk.npz
     """
+    target = _only_one(target, out)
     pairs = conversion.plan(source, target, f".{to}")
-    failed = conversion.convert(pairs, reading.load_any, progress=bar("converting"))
+    load = partial(_load_plain, reading) if plain_names else reading.load_any
+    failed = conversion.convert(pairs, load, progress=bar("converting"))
     where_to = f" to {target}" if not source.is_dir() else f" to .{to}, in {target}"
     return report_failures("converted", len(pairs), failed, where_to)
+
+
+def _only_one(target: Path | None, out: Path | None) -> Path:
+    """Return the file or folder to write, which is an argument or an option."""
+    if target is not None and out is not None:
+        raise MocapError(f"mocap convert writes to one place, got {target} and {out}.")
+    place = target or out
+    if place is None:
+        raise MocapError("mocap convert needs OUT: the file or the folder to write.")
+    return place
+
+
+def _load_plain(reading: Reading, path: Path) -> "Motion":
+    """Read a clip with plain names of joints; a function of the module can be sent to other processes."""
+    return files.with_plain_names(reading.load_any(path))
 
 
 def find(

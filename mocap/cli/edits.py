@@ -38,7 +38,7 @@ def warp(
     ----------
     source (IN) : a motion file.
     keys (FILE) : a text file of keys, described below.
-    out (OUT) : file to write, .bvh or .glb.
+    out (OUT) : file to write, .bvh, .glb, .npz or .csv.
     window : duration of the edit before the first and after the last pose, seconds, see below.
     loose_feet : do not remove foot sliding. Needed for bodies without legs.
 
@@ -62,7 +62,7 @@ def warp(
 
     Example: mocap warp walk.bvh --keys keys.txt -o warped.bvh
     """
-    check_out("warped clip", out, [source])
+    check_out("warped clip", out, [source, keys])
     from mocap.editing import warp_plans  # the help needs no NumPy
 
     motion = reading.load(source)
@@ -100,14 +100,14 @@ def bend(
     ----------
     source (IN) : a motion file of a walk.
     along (PATH) : the path, .csv with points x, z in metres, or .svg.
-    out (OUT) : file to write, .bvh or .glb.
+    out (OUT) : file to write, .bvh, .glb, .npz or .csv.
     limit (DEGREES) : the highest angular speed that bending adds to that of the walk, degrees per second.
 
     Notes
     -----
     Example: mocap bend walk.bvh --along line.csv -o bent.bvh
     """
-    check_out("bent walk", out, [source])
+    check_out("bent walk", out, [source, along])
     line = drawn.load(along)
     bent = editing.bend(reading.load(source), line, limit=math.radians(limit))
     print_rows(bent=bent.report())
@@ -134,7 +134,7 @@ def loop(
     Parameters
     ----------
     clip : a motion file.
-    out : file to write, .bvh or .glb.
+    out : file to write, .bvh, .glb, .npz or .csv.
     shortest : shortest duration of a cycle, seconds.
     longest : longest duration of a cycle, seconds.
     straight : remove the change of heading of a cycle, so that it continues straight ahead.
@@ -199,7 +199,7 @@ def blend(
     slack (SECONDS) : largest difference between the starts, or the ends, of the clips, seconds, at most half
         of the shortest clip.
     clean : detect footplants, and remove foot sliding.
-    out : file to write, .bvh or .glb.
+    out : file to write, .bvh, .glb, .npz or .csv.
 
     Notes
     -----

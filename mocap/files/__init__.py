@@ -23,11 +23,14 @@ Reading order (notebooks 01, 10)
 16. `loose_joints`: joints of a file that are no part of the body
 17. `rigid_bones`: rigid bones for files whose bones change length
 18. `bvh`: reader and writer of BVH files
-19. `amass`: the archives of AMASS, for the 22 joints of the SMPL body
-20. `role_maps`: the roles of joints, as TOML
-21. `gltf_capsules`: a body surface of rigid capsules around the bones
-22. `gltf`: writer of glTF files, with joints, skin and animation
-23. `tuned`: the constants that trials chose
+19. `motion_archives`: reader and writer of `.npz` archives
+20. `amass`: the layout of AMASS in archives, for the 22 joints of the SMPL body
+21. `position_tables`: writer of joint positions as `.csv`
+22. `role_maps`: the roles of joints, as TOML
+23. `plain_names`: names of joints that three.js keeps
+24. `gltf_capsules`: a body surface of rigid capsules around the bones
+25. `gltf`: writer of glTF files, with joints, skin and animation
+26. `tuned`: the constants that trials chose
 
 References
 ----------

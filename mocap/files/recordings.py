@@ -16,6 +16,7 @@ class Recording(NamedTuple):
         metres. Only bones of a `.bvh` file can stretch.
     space : the unit and the vertical axis that it was read in; None if the format says both.
     evidence : of the space; None if the format or the caller says it, or the joints make no body.
+    has_roles : whether the file says the roles of joints, or that there are none, so that none are searched.
     assumed : what the file does not say, such as its frame rate, as a phrase that ends with a remedy for it.
     """
 
@@ -25,3 +26,4 @@ class Recording(NamedTuple):
     assumed: Remedy | None = None
     space: Space | None = None
     evidence: Evidence | None = None
+    has_roles: bool = False
