@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from mocap import files, quality, widgets
 from mocap._shared.atomic import make_folder, require_folder
+from mocap.cli.clip_reports import describe_clips
 from mocap.cli.clip_sets import read_found
 from mocap.cli.options import (
     CM,
@@ -24,6 +25,7 @@ from mocap.cli.options import (
     bar,
     print_rows,
     report_failures,
+    require_file,
     require_output,
     timed_stage,
 )
@@ -38,7 +40,7 @@ if TYPE_CHECKING:
     from mocap.quality.clip_flaws import Flaw
 
 
-def info(file: Path, *, joints: bool = False, reading: FileReading) -> None:
+def info(file: Path, *, joints: bool = False, json: bool = False, reading: FileReading) -> int:
     """Report the duration, the path and the flaws of a clip.
 
     Report the duration of a clip, the height of the body, the length of its path, its change of heading, and
@@ -46,16 +48,29 @@ def info(file: Path, *, joints: bool = False, reading: FileReading) -> None:
 
     Parameters
     ----------
-    file : a motion file.
+    file : a motion file, or with --json also a folder.
     joints : print the roles of the joints and their names instead, as .toml, which other commands accept by
         --joints.
+    json : print all numbers as JSON, of the clip or of all clips in the folder and its subfolders. Files that
+        cannot be read are listed with their errors.
 
     Notes
     -----
     Example: mocap info walk.bvh --joints > map.toml
+
+    Example: mocap info clips/ --json > clips.json
     """
     from mocap.files.spaces import unit_name  # the help needs no NumPy
 
+    if json:
+        if joints:
+            raise MocapError("--joints prints roles and --json prints numbers: give one of them.")
+        clips, failed = describe_clips(find_files([file]), reading)
+        print(dumps({"clips": clips, "failed": failed}, indent=1, allow_nan=False))
+        for problem in failed:
+            print(f"mocap: {printable(problem['error'])}", file=sys.stderr)
+        return 2 if failed else 0
+    require_file(file, "give one of its files, or --json for all of them")
     reading.require_skeleton_of_use(file)
     recording = reading.read(file)
     motion = recording.motion
@@ -63,7 +78,7 @@ def info(file: Path, *, joints: bool = False, reading: FileReading) -> None:
         from mocap.files.role_maps import format_roles  # the help needs no NumPy
 
         print(format_roles(motion))
-        return
+        return 0
     with timed_stage("measuring"):
         report = quality.inspect(motion, recording.angles)
     flaws = [_with_remedy(flaw, len(motion)) for flaw in report.flaws]
@@ -72,6 +87,7 @@ def info(file: Path, *, joints: bool = False, reading: FileReading) -> None:
         print(f"space    {unit_name(recording.space.scale)} a unit, {recording.space.up} up")
     if recording.assumed:
         print(f"assumed  {recording.assumed.worded(READING[recording.assumed.parameter])}")
+    return 0
 
 
 def _with_remedy(flaw: "Flaw", frames: int) -> "Flaw":

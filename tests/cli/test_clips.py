@@ -365,3 +365,76 @@ def test_plain_names_of_a_folder(folder, run):
     run("convert in out --to glb --plain-names")
     for name in ("a", "b"):
         assert b'"righips"' in (folder / "out" / f"{name}.glb").read_bytes()
+
+
+# JSON -------------------------------------------------------------------------------------------------------
+
+# The keys of a clip, which `mocap/STABLE.md` promises.
+KEYS = ["file", "name", "frames", "fps", "duration", "joints", "labels", "contacts", "height"]
+KEYS += ["heading_change", "path", "flaws", "scale", "up", "doubt", "assumed"]
+
+
+def document(text):
+    """Parse JSON strictly: without NaN, and without a key that comes twice."""
+
+    def pairs(items):
+        assert len(dict(items)) == len(items)
+        return dict(items)
+
+    return json.loads(text, object_pairs_hook=pairs, parse_constant=lambda name: pytest.fail(name))
+
+
+def test_info_as_json_has_the_same_keys_for_a_file_and_a_folder(folder, run):
+    (folder / "clips" / "bad.bvh").write_text("HIERARCHY\n")
+    (folder / "clips" / "worse.npz").write_bytes(b"PK")
+    write_acclaim(wave(3), folder / "clips" / "Füße.amc")
+    clip = replace(wave(20, name="hand made"), labels={"walk": True})
+    load_save.save(clip, "clips/c.npz")
+    said = run("info clips --json", 2)
+    listed = document(said.out)
+    assert list(listed) == ["clips", "failed"]
+    assert [row["file"] for row in listed["clips"]] == [
+        str(Path("clips", *parts)) for parts in (["Füße.amc"], ["a.bvh"], ["c.npz"], ["more", "b.BVH"])
+    ]
+    assert all(list(row) == KEYS for row in listed["clips"])
+    amc, bvh, npz, _ = listed["clips"]
+    assert amc["assumed"].startswith("120 Hz, as an .amc says no rate; --read-fps")
+    assert (bvh["frames"], bvh["fps"], bvh["joints"], bvh["scale"]) == (40, 30.0, 4, 0.01)
+    assert (npz["name"], npz["labels"], npz["contacts"]) == ("hand made", ["walk"], ["hand"])
+    assert (npz["scale"], npz["up"]) == (None, None)
+    failed, damaged = listed["failed"]
+    assert damaged["file"] == str(Path("clips", "worse.npz")) and "a damaged one" in damaged["error"]
+    assert failed == {
+        "file": str(Path("clips", "bad.bvh")),
+        "error": f"{failed['file']}: expected a line 'MOTION', got none",
+    }
+    assert failed["error"] in said.err
+    alone = run("info clips/a.bvh --json")
+    assert document(alone.out) == {"clips": [bvh], "failed": []} and alone.err == ""
+
+
+def test_info_as_json_has_stretches_of_flaws(folder, run):
+    frozen = concatenate([wave(20), *[wave(1)] * 9])
+    load_save.save(frozen, "clips/frozen.bvh")
+    (row,) = document(run("info clips/frozen.bvh --json").out)["clips"]
+    flaws = {flaw["kind"]: flaw for flaw in row["flaws"]}
+    assert list(flaws["frozen"]) == ["kind", "stretches", "detail"]
+    assert flaws["frozen"]["stretches"] == [[21, 29]]
+
+
+def test_a_folder_of_bad_files_is_a_document_too(folder, run):
+    (folder / "bad").mkdir()
+    (folder / "bad" / "a.bvh").write_text("ROOT\n")
+    listed = document(run("info bad --json", 2).out)
+    assert listed["clips"] == [] and len(listed["failed"]) == 1
+
+
+def test_the_promised_keys_are_those_of_the_page():
+    page = (Path(conversion.__file__).parents[1] / "STABLE.md").read_text("utf-8")
+    table = page.split("## JSON of `mocap info --json`")[1].split("## ")[0]
+    named = [
+        name
+        for row in re.findall(r"^\| (`.*?) \|", table, re.MULTILINE)
+        for name in re.findall(r"`(\w+)`", row)
+    ]
+    assert named == KEYS
