@@ -187,8 +187,8 @@ def _read_motion(path: str | Path) -> Motion:
     with _validated(path):
         names = arrays["names"].tolist()
         dofs = arrays["dofs"].tolist()
-        tables = [arrays[key] for key in ("parents", "offsets", "axes")]
-        skeleton = Skeleton(names, *tables, dofs, _roles(arrays))
+        tree = {"parents": arrays["parents"], "offsets": arrays["offsets"]}
+        skeleton = Skeleton(names, **tree, axes=arrays["axes"], dofs=dofs, roles=_roles(arrays))
         fps = arrays["fps"].item()
         return Motion(skeleton, arrays["root_positions"], arrays["rotations"], fps, **_marks(arrays))
 

@@ -48,7 +48,8 @@ class Flaw(NamedTuple):
         >>> Flaw("frozen", [3, 4, 5, 9]).stretches()
         [[3, 6], [9, 10]]
         """
-        return runs(np.isin(np.arange(self.frames[-1] + 1), self.frames)).tolist()
+        rows = runs(np.isin(np.arange(self.frames[-1] + 1), self.frames))
+        return [[int(start), int(stop)] for start, stop in rows]
 
     def as_dict(self) -> dict[str, Any]:
         """Return the flaw as a dictionary of plain numbers and texts, for JSON."""
