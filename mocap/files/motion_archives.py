@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mocap._shared import archives
 from mocap._shared.archives import Arrays, Kind, Layout, Rules
@@ -23,6 +24,7 @@ from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError, shortened
 from mocap.files import amass, spaces
 from mocap.files.recordings import Recording
+from mocap.files.text import LARGEST
 
 MOST_JOINTS = 10_000  # of a skeleton, far above those of any rig
 NOT_UNIT = 2e-6  # difference of a quaternion's length from 1; `Motion` refuses half of it
@@ -59,7 +61,15 @@ def _rules(arrays: Arrays) -> Rules:
     yield f"a skeleton has at most {MOST_JOINTS} joints", len(arrays["names"]) <= MOST_JOINTS
     lengths = np.linalg.norm(arrays["rotations"], axis=-1)
     yield "rotations are quaternions of length 1", np.abs(lengths - 1) < NOT_UNIT
+    for key in ("root_positions", "offsets"):
+        yield f"'{key}' are finite and below {LARGEST:g} m", np.abs(arrays[key]) < LARGEST
+    yield f"the frame rate is from {1 / LARGEST:g} to {LARGEST:g} Hz", _is_rate(arrays["fps"])
     yield from _rules_of_marks(arrays)
+
+
+def _is_rate(fps: NDArray[Any]) -> bool:
+    """Return whether a number is a frame rate that all measures in seconds can use."""
+    return bool(1 / LARGEST < fps < LARGEST)
 
 
 def _rules_of_marks(arrays: Arrays) -> Rules:

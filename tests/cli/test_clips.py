@@ -422,6 +422,13 @@ def test_info_as_json_has_stretches_of_flaws(folder, run):
     assert flaws["frozen"]["stretches"] == [[21, 29]]
 
 
+def test_info_as_json_of_a_single_frame_and_of_odd_names(folder, run):
+    load_save.save(wave(1, name="é\n\x1b[31m"), "clips/one.npz")
+    (row,) = document(run("info clips/one.npz --json").out)["clips"]
+    assert (row["frames"], row["duration"], row["path"]) == (1, 0.0, 0.0)
+    assert row["name"] == "é\n\x1b[31m"
+
+
 def test_a_folder_of_bad_files_is_a_document_too(folder, run):
     (folder / "bad").mkdir()
     (folder / "bad" / "a.bvh").write_text("ROOT\n")

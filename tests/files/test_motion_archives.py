@@ -1,5 +1,6 @@
 """Motions as `.npz` files: what is saved comes back, others read it too, and what is refused."""
 
+import errno
 import os
 import pickle
 from dataclasses import replace
@@ -11,8 +12,8 @@ from hypothesis import given
 import mocap
 from mocap._shared.archives import pack
 from mocap.body import Skeleton, rotations
-from mocap.errors import FormatError
-from mocap.files import amass, load_save, motion_archives
+from mocap.errors import FormatError, MocapError
+from mocap.files import amass, load_save, motion_archives, position_tables
 from tests.files.test_amass import by_hand
 from tests.refusals import refused, unwarned
 from tests.strategies import random_motion, seeds, wave
@@ -186,13 +187,14 @@ BAD = [
     ({"rotations": np.ones((9, 4, 4))}, "rotations are quaternions of length 1"),
     ({"rotations": np.full((9, 4, 4), 1e300)}, "rotations are quaternions of length 1"),
     ({"rotations": np.array([{}], object)}, "'rotations' to fit the other arrays, got object"),
-    ({"root_positions": np.full((9, 3), np.nan)}, "is not finite in frame 0"),
+    ({"root_positions": np.full((9, 3), np.nan)}, r"'root_positions' are finite and below 1e\+09 m"),
     ({"root_positions": np.zeros((8, 3))}, "'rotations' to fit the other arrays"),
-    ({"offsets": np.full((4, 3), np.inf)}, "The offset of joint 'root' is not a finite number"),
+    ({"offsets": np.full((4, 3), 1e300)}, r"'offsets' are finite and below 1e\+09 m"),
     ({"axes": np.full((4, 4), 1e300)}, "of length 1"),
     ({"dofs": np.array(["xx", "", "", ""])}, "needs dofs such as 'xyz'"),
-    ({"fps": np.array(np.nan)}, "needs a frame rate above 0"),
-    ({"fps": np.array(-1.0)}, "needs a frame rate above 0"),
+    ({"fps": np.array(np.nan)}, r"the frame rate is from 1e-09 to 1e\+09 Hz"),
+    ({"fps": np.array(-1.0)}, "the frame rate is from 1e-09"),
+    ({"fps": np.array(1e-300)}, "the frame rate is from 1e-09"),
     ({"fps": np.ones(2)}, "'fps' to fit the other arrays"),
     ({"role_joints": np.array(["nobody", "root"])}, "No joint 'nobody'"),
     ({"contact_names": np.array(["nobody", "side"])}, "No joint 'nobody'"),
@@ -262,3 +264,26 @@ def test_numbers_that_amass_cannot_hold_are_refused(tmp_path):
     far = replace(smpl(), root_positions=np.full((7, 3), 2e6))
     refused("positions are below 1e6 m", load_save.save, far, tmp_path / "a.npz")
     refused("frame rate is below 1e6 Hz", load_save.save, replace(smpl(), fps=1e7), tmp_path / "a.npz")
+
+
+def test_a_motion_that_goes_too_far_is_not_written(tmp_path):
+    far = replace(wave(3), root_positions=np.full((3, 3), 1e9))
+    refused(r"'root_positions' are finite and below 1e\+09 m", load_save.save, far, tmp_path / "a.npz")
+    refused("the frame rate is from 1e-09", load_save.save, replace(wave(3), fps=1e50), tmp_path / "a.npz")
+
+
+@pytest.mark.parametrize("suffix", [".npz", ".csv"])
+@pytest.mark.parametrize("trouble", [KeyboardInterrupt(), OSError(errno.ENOSPC, "No space left on device")])
+def test_an_interruption_or_a_full_disk_leaves_the_old_file(tmp_path, monkeypatch, suffix, trouble):
+    path = tmp_path / f"a{suffix}"
+    load_save.save(wave(3), path)
+    before = path.read_bytes()
+
+    def fail(*_, **__):
+        raise trouble
+
+    monkeypatch.setattr(np, "savez_compressed", fail)
+    monkeypatch.setattr(position_tables, "_rows", fail)
+    with pytest.raises(KeyboardInterrupt if isinstance(trouble, KeyboardInterrupt) else MocapError):
+        load_save.save(wave(4), path)
+    assert path.read_bytes() == before and [file.name for file in tmp_path.iterdir()] == [path.name]
