@@ -77,8 +77,6 @@ def with_plain_names(motion: Motion) -> Motion:
     >>> still = Motion(bone, [[0, 1, 0]], [[[1, 0, 0, 0], [1, 0, 0, 0]]], 30.0)
     >>> with_plain_names(still).skeleton.names
     ('righip', 'footL')
-
-    Notebook: 01b-motion-files
     """
     skeleton = require_motion(motion).skeleton
     plain = dict(zip(skeleton.names, plain_names(skeleton.names), strict=True))
