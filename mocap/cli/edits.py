@@ -1,7 +1,8 @@
 """The commands that edit clips: `mocap warp`, `bend`, `loop`, `blend` and `retarget`."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -244,8 +245,9 @@ def retarget(
     Parameters
     ----------
     clips (IN) : motion files, or folders of them.
-    to (FILE) : the body, from a motion file of a person who walks, which also defines the height of the feet,
-        or from an .asf file with an upright rest pose.
+    to (FILE) : the body, from a motion file of a person who walks, or of one or two frames in which it
+        stands, such as a T-pose. These also define the height of the feet. Or from an .asf file with an
+        upright rest pose.
     out (DIR) : folder to write to.
     format : format of the files to write.
     to_scale : metres per unit of length in FILE, as --scale for IN.
@@ -262,20 +264,30 @@ def retarget(
         target = out if source.is_dir() else out / f"{source.stem}.{format}"
         pairs += plan(source, target, f".{format}")
     require_apart(pairs, [to])
-    wear = partial(_worn, reading, _body(to, to_scale, reading.joints))
+    wear = partial(_worn, reading, _body(to, to_scale, reading.joints), [source for source, _ in pairs])
     failed = convert(pairs, wear, progress=bar("retargeting"))
     return options.report_failures("retargeted", len(pairs), failed, f", in {out}")
 
 
-def _worn(reading: Reading, wearer: "Stance | body.Skeleton", source: Path) -> "body.Motion":
-    """Read a clip and retarget it."""
+def _worn(
+    reading: Reading, wearer: "Stance | body.Skeleton", sources: Sequence[Path], source: Path
+) -> "body.Motion":
+    """Read a clip and retarget it. Feet that never stand in it are as high as in others of the sources."""
     from mocap.editing.retargeting import wear  # the help needs no NumPy
 
-    return wear(reading.load(source), wearer)
+    return wear(reading.load(source), wearer, clips=_readable(reading, sources, source))
+
+
+def _readable(reading: Reading, sources: Sequence[Path], chosen: Path) -> "Iterator[body.Motion]":
+    """Read the sources other than the chosen one, leaving out those that cannot be read."""
+    for source in sources:
+        if source != chosen:
+            with suppress(MocapError):
+                yield reading.load(source)
 
 
 def _body(path: Path, scale: float | None, joints: Sequence[Path]) -> "Stance | body.Skeleton":
-    """Read the body to which clips are retargeted, and its stance from a clip in which it stands."""
+    """Read the body to which clips are retargeted, and its stance from a clip or pose in which it stands."""
     from mocap.editing.stances import stance_of_zero
     from mocap.files.asf import read_skeleton
 
@@ -288,6 +300,8 @@ def _body(path: Path, scale: float | None, joints: Sequence[Path]) -> "Stance | 
         return editing.stance_of(clip)
     except MocapError as error:
         try:  # the clip has no stance, but its rest pose may be sufficient
-            return stance_of_zero(clip.skeleton, 0.0).skeleton
+            at_rest = stance_of_zero(clip.skeleton, 0.0).skeleton
         except MocapError:
             raise MocapError(f"{path}: {error}") from None
+        warn(f"{path}: {error} The rest pose of its skeleton is taken as the stance.")
+        return at_rest
