@@ -165,7 +165,7 @@ def convert(source: Path, target: Path, *, reading: Reading, to: Literal["bvh", 
 
     Convert a clip, or all clips in a folder and its subfolders. For one clip, the suffix of OUT selects the
     format. Lengths in a .bvh file are centimetres. A .glb file is for engines and viewers, and shows a body
-    of capsules.
+    of capsules. Its skeleton can be rigged: bones point along y, and the rest pose stands on the floor.
 
     Parameters
     ----------

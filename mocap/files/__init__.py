@@ -26,8 +26,10 @@ Reading order (notebooks 01, 10)
 19. `amass`: the archives of AMASS, for the 22 joints of the SMPL body
 20. `role_maps`: the roles of joints, as TOML
 21. `gltf_capsules`: a body surface of rigid capsules around the bones
-22. `gltf`: writer of glTF files, with joints, skin and animation
-23. `tuned`: the constants that trials chose
+22. `gltf_rest`: a rest pose that stands on the floor
+23. `gltf_bones`: the directions of bones, and the axes of joints along them
+24. `gltf`: writer of glTF files, with joints, skin and animation
+25. `tuned`: the constants that trials chose
 
 References
 ----------

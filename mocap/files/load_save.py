@@ -165,13 +165,18 @@ def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
     ----------
     motion : F frames.
     path : the file, `.bvh` or `.glb`. A `.glb` file is for engines and viewers: it is in metres, includes a
-        body of capsules, and cannot be read by mocap.
+        body of capsules, and cannot be read by mocap. Its bones point along the y axes of their joints, and
+        its rest pose stands on the floor.
     precision : the number of decimals in a `.bvh` file, which is in centimetres. With 6, the error of joint
         positions is at most 1e-7 m, with 9 at most 1e-10 m.
 
     Raises
     ------
     MocapError : for another format, a missing folder, or a motion that the format cannot represent.
+
+    Warns
+    -----
+    MocapWarning : if the rest pose of the skeleton does not stand. A `.glb` gets the mean pose of the motion.
 
     Examples
     --------
@@ -218,6 +223,10 @@ def save_clips(motions: Sequence[Motion], path: str | Path, *, root: bool = Fals
     ------
     MocapError, SkeletonMismatch : as for `save`, and for equal names, different skeletons, or several motions
         or `root` in another format.
+
+    Warns
+    -----
+    MocapWarning : as for `save`. All motions of a file share one rest pose.
 
     Examples
     --------
