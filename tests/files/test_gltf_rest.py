@@ -14,6 +14,7 @@ from mocap.datasets import samples
 from mocap.errors import MocapWarning
 from mocap.files import gltf, load_save
 from mocap.files.gltf_bones import bone_axes, bone_directions
+from mocap.files.gltf_rest import with_standing_rest
 from tests.editing.bodies import LONG, SMPL, along_x, renamed, rested
 from tests.files.glb_reader import Glb
 from tests.strategies import random_motion, random_quaternions, seeds
@@ -161,6 +162,66 @@ def test_a_rest_pose_that_is_found_has_limbs_that_mirror_each_other(body):
         np.testing.assert_allclose(rest[left, :3, 3] * MIRROR, rest[right, :3, 3], atol=1e-4)
 
 
+def rest_turned(angles):
+    """Return whether the rest pose is kept if its thighs are rotated by these degrees about x and z."""
+    motion = walk()
+    turns = np.tile(rotations.IDENTITY, (len(motion.skeleton), 1))
+    for name in motion.skeleton.names:
+        if any(part in name for part in ("femur", "tibia", "foot", "toes")):
+            turns[motion.skeleton.index(name)] = rotations.from_rotvec(np.radians([angles[0], 0, angles[1]]))
+    body = rested(motion, turns)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        return with_standing_rest([body])[0] is body, bool(caught)
+
+
+@pytest.mark.parametrize(
+    ("angles", "kept"), [((40, 0), True), ((50, 0), False), ((0, 40), True), ((0, 50), False)]
+)
+def test_thighs_of_a_rest_pose_that_stands_are_within_45_degrees_of_vertical(angles, kept):
+    assert rest_turned(angles) == (kept, not kept)
+
+
+@pytest.mark.parametrize(("degrees", "kept"), [(25, True), (35, False)])
+def test_hips_of_a_rest_pose_that_stands_are_within_30_degrees_of_level(degrees, kept):
+    motion = all_alike(walk(), rotations.from_rotvec([0, 0, np.radians(degrees)]))
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        assert (with_standing_rest([motion])[0] is motion) == kept
+    assert bool(caught) != kept
+
+
+def test_another_rest_pose_changes_no_position_in_any_frame_and_no_length_of_a_bone():
+    motions = [odd(walk()), odd(walk("jog"))]
+    with pytest.warns(MocapWarning, match=REPLACED):
+        standing = with_standing_rest(motions)
+    for old, new in zip(motions, standing, strict=True):
+        np.testing.assert_allclose(joint_positions(new), joint_positions(old), atol=1e-9)
+        lengths = np.linalg.norm(old.skeleton.offsets, axis=-1)
+        np.testing.assert_allclose(np.linalg.norm(new.skeleton.offsets, axis=-1), lengths, atol=1e-12)
+    assert np.array_equal(standing[0].skeleton.offsets, standing[1].skeleton.offsets)
+
+
+def test_the_rest_pose_that_is_found_is_that_of_the_body_whatever_its_zero_pose():
+    """Joint axes of a file mean nothing: the same motion gives the same pose."""
+    with pytest.warns(MocapWarning, match=REPLACED):
+        rests = [with_standing_rest([odd(walk(), seed)])[0].skeleton.rest for seed in (0, 1)]
+    np.testing.assert_allclose(rests[0], rests[1], atol=1e-9)
+
+
+def test_a_person_who_holds_still_rests_in_that_pose():
+    motion = walk()[:1].at([0] * 20)
+    with pytest.warns(MocapWarning, match=REPLACED):
+        still = with_standing_rest([odd(motion)])[0]
+    skeleton = motion.skeleton
+    found = still.skeleton.rest
+    pose = joint_positions(motion)[0] - joint_positions(motion)[0, 0]
+    knees = [skeleton.index("ltibia"), skeleton.index("rtibia")]
+    assert found[knees, 2].mean() == pytest.approx(pose[knees, 2].mean(), abs=0.02)
+    head = skeleton.index("head")
+    np.testing.assert_allclose(found[head], pose[head] * [0, 1, 1], atol=0.03)
+
+
 def test_feet_that_hang_at_rest_are_laid_flat_and_nothing_else_changes():
     motion = on_tiptoe(walk())
     skeleton = motion.skeleton
@@ -223,6 +284,42 @@ def test_z_points_forward_in_trunk_legs_and_arms_and_up_in_feet():
     for role in ("pelvis", "waist", "chest", "neck", "left hip", "left knee", "left shoulder", "left elbow"):
         assert z[joints[role], 2] > 0.97, role
     assert z[joints["left ball"], 1] > 0.97
+
+
+def z_of(*bones):
+    """Return the z axis of each bone of a chain."""
+    chain = Skeleton(
+        [f"j{k}" for k in range(len(bones) + 1)], np.arange(len(bones) + 1) - 1, [[0, 0, 0], *bones]
+    )
+    return rotations.rotate(bone_axes(chain), [0, 0, 1])[:-1]
+
+
+def elevated(degrees, heading=0.0):
+    """Return a bone that runs forward and rises by an angle."""
+    up, turn = np.radians([degrees, heading])
+    return [np.cos(up) * np.sin(turn), np.sin(up), np.cos(up) * np.cos(turn)]
+
+
+def test_bones_that_run_forward_take_the_axes_of_their_parent_and_others_point_z_forward():
+    shin = [0, -1, 0]
+    np.testing.assert_allclose(z_of(shin, elevated(-50))[1], elevated(40), atol=1e-12)
+    np.testing.assert_allclose(
+        z_of(shin, elevated(10), elevated(0))[1:], [elevated(100), elevated(90)], atol=1e-9
+    )
+    # Below 45° from forward the parent decides, beyond it the world.
+    thumb = [elevated(0, 50), elevated(0, 40)]
+    np.testing.assert_allclose(z_of([1, 0, 0], *thumb)[1:], [elevated(0, -40), elevated(0, -50)], atol=1e-9)
+    np.testing.assert_allclose(z_of([0, 1, 0], elevated(46))[1], elevated(-44), atol=1e-9)
+    np.testing.assert_allclose(z_of([0, 0, 1], elevated(44))[1], elevated(134), atol=1e-9)
+
+
+def test_bones_at_the_root_or_behind_their_parent_have_z_up():
+    np.testing.assert_allclose(z_of(elevated(20)), [elevated(110)], atol=1e-12)
+    back = [0, -0.1, -1]
+    z = z_of([0, 0, 1], back)[1]
+    assert z[1] > 0.99 and abs(z @ back) < 1e-9
+    beside = elevated(44, 0)
+    np.testing.assert_allclose(z_of([0, -1, 0], beside)[1], elevated(134), atol=1e-9)  # 134° apart
 
 
 CONTINUED = {  # joint: (parent, offset); the joint that the bone "a" points at
