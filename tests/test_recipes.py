@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 import mocap
 from mocap import datasets, graphs
@@ -121,14 +122,15 @@ def glb_document(path: Path) -> dict:
 
 
 def rest_positions(nodes: list[dict], roots: list[int]) -> np.ndarray:
-    """Add the translations down the tree, in metres; no node is rotated or scaled at rest."""
+    """Return the positions of nodes at rest, in metres; no node is scaled."""
     positions = {}
-    waiting = [(root, np.zeros(3)) for root in roots]
+    waiting = [(root, np.zeros(3), Rotation.identity()) for root in roots]
     while waiting:
-        node, origin = waiting.pop()
-        assert not {"rotation", "scale", "matrix"} & set(nodes[node])
-        positions[node] = origin + nodes[node].get("translation", [0, 0, 0])
-        waiting += [(child, positions[node]) for child in nodes[node].get("children", [])]
+        node, origin, above = waiting.pop()
+        assert not {"scale", "matrix"} & set(nodes[node])
+        positions[node] = origin + above.apply(nodes[node].get("translation", [0, 0, 0]))
+        here = above * Rotation.from_quat(nodes[node].get("rotation", [0, 0, 0, 1]))
+        waiting += [(child, positions[node], here) for child in nodes[node].get("children", [])]
     return np.array([positions[node] for node in sorted(positions)])
 
 

@@ -192,8 +192,9 @@ def convert(
 
     Convert a clip, or all clips in a folder and its subfolders. For one clip, the suffix of OUT selects the
     format. Lengths in a .bvh file are centimetres. A .glb file is for engines and viewers, and shows a body
-    of capsules. An .npz file keeps all numbers, labels and contacts, in the layout of AMASS for the SMPL
-    body. A .csv file is a table of the positions of joints in metres, which cannot be read again as a motion.
+    of capsules. Its skeleton can be rigged: bones point along y, and the rest pose stands on the floor. An
+    .npz file keeps all numbers, labels and contacts, in the layout of AMASS for the SMPL body. A .csv file is
+    a table of the positions of joints in metres, which cannot be read again as a motion.
 
     Parameters
     ----------

@@ -29,8 +29,10 @@ Reading order (notebooks 01, 10)
 22. `role_maps`: the roles of joints, as TOML
 23. `plain_names`: names of joints that three.js keeps
 24. `gltf_capsules`: a body surface of rigid capsules around the bones
-25. `gltf`: writer of glTF files, with joints, skin and animation
-26. `tuned`: the constants that trials chose
+25. `gltf_rest`: a rest pose that stands on the floor
+26. `gltf_bones`: the directions of bones, and the axes of joints along them
+27. `gltf`: writer of glTF files, with joints, skin and animation
+28. `tuned`: the constants that trials chose
 
 References
 ----------

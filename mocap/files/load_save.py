@@ -166,7 +166,8 @@ def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
     ----------
     motion : F frames.
     path : the file, `.bvh`, `.glb`, `.npz` or `.csv`. A `.glb` file is for engines and viewers: it is in
-        metres and includes a body of capsules. An `.npz` file keeps all fields of the motion exactly, see
+        metres and includes a body of capsules. Its bones point along the y axes of their joints, and its rest
+        pose stands on the floor. An `.npz` file keeps all fields of the motion exactly, see
         `files.motion_archives`. If the body is SMPL's, it has the layout of AMASS instead, with z up, and
         positions are kept within rounding, 1e-12 m. A `.csv` file is a table of the positions of joints in
         metres: a column `time` in seconds, and `<joint>_x`, `<joint>_y` and `<joint>_z` for each joint.
@@ -178,6 +179,10 @@ def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
     Raises
     ------
     MocapError : for another format, a missing folder, or a motion that the format cannot represent.
+
+    Warns
+    -----
+    MocapWarning : if the rest pose of the skeleton does not stand. A `.glb` gets the mean pose of the motion.
 
     Examples
     --------
@@ -229,6 +234,10 @@ def save_clips(motions: Sequence[Motion], path: str | Path, *, root: bool = Fals
     ------
     MocapError, SkeletonMismatch : as for `save`, and for equal names, different skeletons, or several motions
         or `root` in another format.
+
+    Warns
+    -----
+    MocapWarning : as for `save`. All motions of a file share one rest pose.
 
     Examples
     --------
