@@ -298,14 +298,16 @@ test_a_wrong_line_is_named = refused_texts(
 )
 
 
-def test_graphs_and_other_archives_in_a_folder_are_no_clips(tmp_path):
+def test_graphs_and_other_archives_in_a_folder_are_no_clips_but_damaged_ones_are_reported(tmp_path):
     load_save.save(wave(3), tmp_path / "b.bvh")
     np.savez(tmp_path / "c.npz", poses=np.zeros((2, 66)), trans=np.zeros((2, 3)), mocap_framerate=60.0)
     np.savez(tmp_path / "graph.npz", nodes=np.zeros(3))
     (tmp_path / "broken.npz").write_bytes(b"PK")
     (tmp_path / "notes.txt").write_text("")
-    assert [path.name for path in conversion.find_files([tmp_path])] == ["b.bvh", "c.npz"]
-    assert [path.name for path, _ in conversion.plan(tmp_path, tmp_path / "out")] == ["b.bvh", "c.npz"]
+    names = ["b.bvh", "broken.npz", "c.npz"]
+    assert [path.name for path in conversion.find_files([tmp_path])] == names
+    assert [path.name for path, _ in conversion.plan(tmp_path, tmp_path / "out")] == names
+    refused("broken.npz", load_save.load, tmp_path / "broken.npz")
 
 
 def test_folders_in_folders_are_searched_but_for_hidden_ones(tmp_path):
