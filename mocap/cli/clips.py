@@ -5,13 +5,14 @@ import re
 import sys
 import tempfile
 from collections.abc import Sequence
+from functools import partial
 from json import dumps
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from mocap import files, quality, widgets
 from mocap._shared.atomic import make_folder, require_folder
-from mocap.cli.clip_sets import read_found
+from mocap.cli.clip_sets import Spaces, read_found
 from mocap.cli.options import (
     CM,
     READING,
@@ -32,6 +33,7 @@ from mocap.files.conversion import find_files
 from mocap.methods import match_webs
 
 if TYPE_CHECKING:
+    from mocap.files.recordings import Recording
     from mocap.quality.clip_flaws import Flaw
 
 
@@ -54,7 +56,7 @@ def info(file: Path, *, joints: bool = False, reading: FileReading) -> None:
     from mocap.files.spaces import unit_name  # the help needs no NumPy
 
     reading.require_skeleton_of_use(file)
-    recording = reading.read(file)
+    recording = reading.read_with_roles(file)
     motion = recording.motion
     if joints:
         from mocap.files.role_maps import format_roles  # the help needs no NumPy
@@ -138,14 +140,18 @@ def judge(
     """
     from mocap.quality.judging import judgement_table
 
-    recordings, _ = read_found(reading.read, find_files(against), against, READING)
+    paths = find_files(motions)
+    sources = find_files(against)
+    spaces = reading.survey([*paths, *sources])
+    read_source = partial(_read_surveyed, reading, spaces)
+    recordings, _ = read_found(read_source, sources, against, READING)
     clips = [recording.motion for recording in recordings]
     line = drawn.load(path) if path else None
     judgements = []
     problems = []
-    for file in bar("judging")(find_files(motions)):
+    for file in bar("judging")(paths):
         try:
-            recording = reading.read(file, math.inf)
+            recording = read_source(file, stretch=math.inf)
             judged = quality.judge(recording.motion, against=clips, path=line, stretch=recording.stretch)
             judgements.append(judged)
         except MocapError as error:
@@ -158,6 +164,13 @@ def judge(
     for problem in dict.fromkeys([*omissions, *problems]):
         print(f"mocap: {printable(problem)}", file=sys.stderr)
     return 2 if problems else 0
+
+
+def _read_surveyed(
+    reading: Reading, spaces: Spaces, path: Path, *, stretch: float | None = None
+) -> "Recording":
+    """Read a clip in the space of its set."""
+    return reading.read_with_roles(path, spaces.get(path), stretch=stretch)
 
 
 def convert(source: Path, target: Path, *, reading: Reading, to: Literal["bvh", "glb"] = "bvh") -> int:
@@ -178,7 +191,9 @@ def convert(source: Path, target: Path, *, reading: Reading, to: Literal["bvh", 
     Example: mocap convert clips/ out/ --to glb
     """
     pairs = conversion.plan(source, target, f".{to}")
-    failed = conversion.convert(pairs, reading.load_any, progress=bar("converting"))
+    spaces = reading.survey([path for path, _ in pairs])
+    load = partial(reading.load_any, spaces=spaces)
+    failed = conversion.convert(pairs, load, progress=bar("converting"))
     where_to = f" to {target}" if not source.is_dir() else f" to .{to}, in {target}"
     return report_failures("converted", len(pairs), failed, where_to)
 

@@ -6,10 +6,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from mocap import body, editing
-from mocap.cli.clip_sets import named_apart, read_found
 from mocap.cli.options import (
     RATE,
-    READING,
     ReadingAtRate,
     check_out,
     frame_at,
@@ -114,8 +112,7 @@ def cut(
         check_out("clip", out, paths)
     from mocap.files.load_save import save_clips  # the help needs no NumPy
 
-    recordings, paths_read = read_found(reading.read, paths, clips, READING)
-    motions = [cutting.apply(clip) for clip in named_apart(recordings, paths_read)]
+    motions = [cutting.apply(clip) for clip in reading.load_set(paths, clips)]
     with timed_stage("writing"):
         save_clips(motions, out, root=root)
     for motion in motions:

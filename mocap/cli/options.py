@@ -15,7 +15,7 @@ from mocap import body, files, graphs
 from mocap._shared.atomic import require_writable
 from mocap._shared.deprecation import DEPRECATED, Deprecation
 from mocap._shared.progress import Progress
-from mocap.cli.clip_sets import named_apart, read_found, warn_of_space, warn_of_spaces
+from mocap.cli.clip_sets import named_apart, read_set, surveyed_spaces, warn_of_space
 from mocap.cli.messages import VERBOSITY, note
 from mocap.cli.typed_commands import ONE_EACH
 from mocap.datasets.clip_origins import Origin
@@ -26,7 +26,9 @@ if TYPE_CHECKING:
 
     from mocap.body.ground_path import GroundPath
     from mocap.body.motion import Motion
+    from mocap.cli.clip_sets import Spaces
     from mocap.files.recordings import Recording
+    from mocap.files.spaces import Space
     from mocap.graphs.motion_graph import MotionGraph
 
 
@@ -259,12 +261,13 @@ class FileReading:
             raise MocapError("--fps is the former name of --read-fps: give --read-fps alone.")
         warn("--fps is read as --read-fps, which does not resample; mocap cut --rate resamples.")
 
-    def read(self, path: Path, stretch: float | None = None) -> "Recording":
-        """Read a clip, and raise the errors of `files.load` with the names of options.
+    def read(self, path: Path, space: "Space | None" = None, *, stretch: float | None = None) -> "Recording":
+        """Read a clip without the roles of its joints, with the names of options in errors.
 
         Parameters
         ----------
         path : the clip.
+        space : its unit and its vertical axis, by default those of the options, or as its frames show.
         stretch : the largest change of a bone's length, metres, by default as for `files.load`.
         """
         with timed_stage("loading packages"):
@@ -276,9 +279,25 @@ class FileReading:
             raise MocapError(f"{path} is a skeleton without a motion: give an .amc file, or a .bvh.")
         limit = TUNED.stretch if stretch is None else stretch
         rate = self.read_fps or self.fps
+        scale, up = (self.scale, self.up) if space is None else space.answer
         with named_options(READING), timed_reading(path):
-            recording = read(path, self.skeleton, rate, self.scale, limit, self.up)
-        warn_of_space(path, recording, READING)
+            return read(path, self.skeleton, rate, scale, limit, up)
+
+    def read_with_roles(
+        self, path: Path, space: "Space | None" = None, *, stretch: float | None = None
+    ) -> "Recording":
+        """Read a clip and find the roles of its joints. State its space, unless it is given.
+
+        Parameters
+        ----------
+        path, space, stretch : as for `read`.
+        """
+        recording = self.read(path, space, stretch=stretch)
+        if space is None:
+            warn_of_space(path, recording, READING)
+        return self._with_roles(recording)
+
+    def _with_roles(self, recording: "Recording") -> "Recording":
         with named_options(READING):
             return recording._replace(motion=with_chosen_roles(recording.motion, self.joints))
 
@@ -289,16 +308,42 @@ class FileReading:
 
     def load(self, path: Path) -> "Motion":
         """Read a clip, and warn about a body of an impossible size."""
+        return self.load_body(path, {})
+
+    def load_set(self, paths: Iterable[Path], named: Sequence[Path]) -> "list[Motion]":
+        """Read clips as one set; those of folders that cannot be read are left out, see `read_found`."""
+        recordings, paths_read = read_set(self.read, paths, named, READING)
+        return named_apart([self._with_roles(recording) for recording in recordings], paths_read)
+
+    def survey(self, paths: Sequence[Path]) -> "Spaces":
+        """Decide and state the spaces of clips that are read again later: see `surveyed_spaces`."""
+        if self.scale is not None and self.up is not None:
+            return {}
+        return surveyed_spaces(self.read, paths, READING, progress=bar("surveying"))
+
+    def load_any(self, path: Path, spaces: "Spaces") -> "Motion":
+        """Read one of several clips, of which some may not need the skeleton.
+
+        Parameters
+        ----------
+        path : the clip.
+        spaces : from `survey`.
+        """
+        return self.read_with_roles(path, spaces.get(path)).motion
+
+    def load_body(self, path: Path, spaces: "Spaces") -> "Motion":
+        """Read one of several clips, and warn about a body of an impossible size.
+
+        Parameters
+        ----------
+        path, spaces : as for `load_any`.
+        """
         from mocap.quality.clip_flaws import warn_of_size
 
         self.require_skeleton_of_use(path)
-        motion = self.read(path).motion
+        motion = self.load_any(path, spaces)
         warn_of_size([motion])
         return motion
-
-    def load_any(self, path: Path) -> "Motion":
-        """Read one of several clips, of which some may not need the skeleton."""
-        return self.read(path).motion
 
 
 @dataclass(frozen=True)
@@ -337,14 +382,10 @@ class Sources:
         The clips that could be read, and their files with the options by which they can be read again.
         """
         with timed_stage("loading packages"):
-            from mocap.files.clip_sets import agree
             from mocap.quality.clip_flaws import warn_of_size  # the help needs no NumPy
 
         with named_options(SOURCES):
-            recordings, read = read_found(self._read, bar("reading")(paths), named, SOURCES)
-        recordings = agree(recordings, lambda number, scale, up: self._read(read[number], scale, up))
-        warn_of_spaces(read, recordings, SOURCES)
-        with named_options(SOURCES):
+            recordings, read = read_set(self._read, bar("reading")(paths), named, SOURCES)
             recordings = [self._with_roles(recording) for recording in recordings]
         clips = named_apart(recordings, read)
         warn_of_size(clips)
@@ -361,12 +402,13 @@ class Sources:
             return Origin(path, self.skeleton, self.scale)
         return Origin(path, self.skeleton, recording.space.scale, up=recording.space.up)
 
-    def _read(self, path: Path, scale: float | None = None, up: str | None = None) -> "Recording":
+    def _read(self, path: Path, space: "Space | None" = None) -> "Recording":
         from mocap.files.load_save import read  # the help needs no NumPy
         from mocap.files.tuned import TUNED
 
+        scale, up = (self.scale, self.up) if space is None else space.answer
         with timed_reading(path):
-            return read(path, self.skeleton, None, scale or self.scale, TUNED.stretch, up or self.up)
+            return read(path, self.skeleton, None, scale, TUNED.stretch, up)
 
 
 @dataclass(frozen=True)
