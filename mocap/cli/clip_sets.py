@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Protocol
 from mocap._shared.progress import Progress
 from mocap.errors import MocapError, MocapWarning, warn
 from mocap.files.conversion import names_apart, run_in_processes
-from mocap.files.formats import says_space
+from mocap.files.formats import has_fixed_space
 
 if TYPE_CHECKING:
     from mocap.body.motion import Motion
@@ -128,7 +128,7 @@ def surveyed_spaces(
     """
     from mocap.files.clip_sets import agreed_spaces  # the help needs no NumPy
 
-    surveyed = [path for path in dict.fromkeys(paths) if not says_space(path)]
+    surveyed = [path for path in dict.fromkeys(paths) if not has_fixed_space(path)]
     if len(surveyed) < 2:
         return {}
     members = run_in_processes(partial(_survey, read), [(path,) for path in surveyed], progress=progress)

@@ -15,6 +15,7 @@ from mocap.cli.options import (
     number,
     print_rows,
     timed_stage,
+    warn_of_lost_roles,
 )
 from mocap.cli.tuned import TUNED
 from mocap.errors import MocapError, printable, shortened, warn
@@ -119,6 +120,7 @@ def cut(
         rows = f"{len(motion)} frames at {motion.fps:g} Hz, {motion.duration:.2f} s"
         print_rows(cut=f"{printable(motion.name)}: {rows}")
     print_rows(wrote=out)
+    warn_of_lost_roles(motions[0], out)
 
 
 def _warn_of_leap(cycle: "Motion") -> None:

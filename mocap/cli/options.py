@@ -4,6 +4,7 @@ import math
 import os
 import re
 import time
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -19,7 +20,7 @@ from mocap.cli.clip_sets import named_apart, read_set, surveyed_spaces, warn_of_
 from mocap.cli.messages import VERBOSITY, note
 from mocap.cli.typed_commands import ONE_EACH
 from mocap.datasets.clip_origins import Origin
-from mocap.errors import MocapError, SkeletonMismatch, printable, warn
+from mocap.errors import MocapError, MocapWarning, SkeletonMismatch, printable, warn
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -439,8 +440,14 @@ class Building(Sources):
 
 
 def load_graph(path: Path, skeleton: Path | None = None, joints: Sequence[Path] = ()) -> "MotionGraph":
-    """Read a graph and its clips, with a bar; `joints` are files of the roles of their joints."""
-    motion_graph = graphs.load(path, skeleton=skeleton, progress=bar("reading"))
+    """Read a graph and its clips, with a bar; `joints` are files of roles that replace those of the graph."""
+    return with_joints(graphs.load(path, skeleton=skeleton, progress=bar("reading")), joints)
+
+
+def with_joints(motion_graph: "MotionGraph", joints: Sequence[Path]) -> "MotionGraph":
+    """Return a graph whose clips have the roles of files, instead of those that the graph stores."""
+    if not joints:
+        return motion_graph
     clips = tuple(with_chosen_roles(clip, joints) for clip in motion_graph.clips)
     return replace(motion_graph, clips=clips)
 
@@ -533,6 +540,32 @@ def write_out(motion: "Motion", out: Path, *, details: str = "") -> None:
     with timed_stage("writing"):
         files.save(motion, out)
     print_rows(wrote=f"{out}{details}")
+    warn_of_lost_roles(motion, out)
+
+
+def warn_of_lost_roles(motion: "Motion", out: Path) -> None:
+    """Warn if a motion has roles that are not found in its file, which cannot store them.
+
+    A .glb file cannot be read by a command, so that no role is missed.
+    """
+    if out.suffix.lower() != ".bvh" or not motion.skeleton.roles:
+        return
+    stripped = replace(motion, skeleton=replace(motion.skeleton, roles={}))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MocapWarning)  # they are shown when the file is read
+        is_found = _roles_of(body.with_roles(stripped)) == _roles_of(motion)
+    if not is_found:
+        warn(f"{out}: a .bvh cannot store the roles of joints: commands that read it need --joints again.")
+
+
+def _roles_of(motion: "Motion") -> dict[str, int]:
+    """Return the roles of a motion's joints, {} without legs."""
+    from mocap.body.limbs import roles  # the help needs no NumPy
+
+    try:
+        return roles(motion.skeleton)
+    except MocapError:
+        return {}
 
 
 def report_failures(verb: str, count: int, problems: Sequence[str], where_to: str = "") -> int:

@@ -100,12 +100,12 @@ def begins(name: str, beginning: str) -> bool:
     return name.lower().startswith(beginning.lower()) and not rest[:1].isalnum()
 
 
-def says_space(path: Path) -> bool:
+def has_fixed_space(path: Path) -> bool:
     """Return whether the format of a file says its unit and its vertical axis.
 
     Examples
     --------
-    >>> says_space(Path("walk.amc")), says_space(Path("walk.bvh"))
+    >>> has_fixed_space(Path("walk.amc")), has_fixed_space(Path("walk.bvh"))
     (True, False)
     """
     return path.suffix.lower() == ".amc"
