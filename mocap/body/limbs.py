@@ -135,6 +135,17 @@ def _limbs(skeleton: Skeleton) -> dict[str, int]:
     return at_rest | joints
 
 
+def has_leg_roles(skeleton: Skeleton) -> bool:
+    """Return whether a skeleton stores the roles of both legs.
+
+    Examples
+    --------
+    >>> has_leg_roles(Skeleton(["hip"], [-1], [[0, 0, 0]], roles={"left hip": "hip"}))
+    False
+    """
+    return _has_legs(skeleton.roles)
+
+
 def _has_legs(joints: Iterable[str]) -> bool:
     return {f"{side} {part}" for side in SIDES for part in LEG[:3]} <= set(joints)
 
