@@ -67,9 +67,20 @@ class Space(NamedTuple):
         return (self.scale, self.up)
 
     def clause(self) -> str:
-        """State the unit, the axis, the height of the body, and the doubt."""
+        """State the unit, the axis, the height of the body, and the doubt.
+
+        A small body that moves at the pace of an adult has the same numbers as an adult in another unit.
+        Therefore the height in the default unit is stated too, if there may be such a body.
+        """
         stated = f"{unit_name(self.scale)} a unit, {self.up} up: {self.height:.2f} m tall"
-        return f"{stated}; {self.doubt}" if self.doubt else stated
+        if self.doubt:
+            return f"{stated}; {self.doubt}"
+        by_default = self.height * self.usual[0] / self.scale
+        smallest, largest = TUNED.default_height
+        is_chosen = "scale" in self.decided and self.scale != self.usual[0]
+        if is_chosen and smallest <= by_default <= largest:
+            return f"{stated} ({by_default:.2f} m if it is {unit_name(self.usual[0])} a unit)"
+        return stated
 
     def overruled_by(self, names: Mapping[str, str]) -> str:
         """Name the parameters that overrule the space, as a sentence.

@@ -72,7 +72,7 @@ def test_what_the_caller_says_is_not_decided_and_not_stated(tmp_path):
     lying = unwarned(load_save.load, path, scale=0.0254, up="y")
     assert np.ptp(joint_positions(lying)[0, :, 1]) < 1.2
     with pytest.warns(
-        MocapWarning, match=r"read as 1 inch a unit, z up: 1\.7\d m tall\. scale= overrules it"
+        MocapWarning, match=r"1 inch a unit, z up: 1\.7\d m tall \(0\.68 m .*\)\. scale= overrules it"
     ):
         load_save.load(path, up="z")
     refused("up must be 'y', 'z', '-y', '-z', 'x' or '-x', got 'Y'", load_save.load, path, up="Y")
@@ -93,6 +93,15 @@ def test_a_toy_at_its_own_pace_keeps_its_size_and_a_doubt_is_stated(tmp_path):
     with pytest.warns(MocapWarning, match=r"0\.30 m tall; 1\.6\d m if it is 5\.64 cm a unit"):
         motion = load_save.load(tmp_path / "toy.bvh")
     assert np.allclose(motion.root_positions, toy.root_positions, atol=1e-6)
+
+
+def test_a_toy_at_an_adults_pace_is_an_adult_number_for_number_and_both_sizes_are_stated(tmp_path):
+    load_save.save(resized(WALK, 0.3 / 1.75, own_pace=False), tmp_path / "toy.bvh")
+    said = (
+        r"5\.64 cm a unit, y up: 1\.6\d m tall \(0\.30 m if it is 1 cm a unit\)\. scale= and up= overrule it"
+    )
+    with pytest.warns(MocapWarning, match=said):
+        load_save.load(tmp_path / "toy.bvh")
 
 
 def lying():
