@@ -168,7 +168,7 @@ def _warn_of_spaces(
         if member is not None and space is not None:
             of_hierarchy.setdefault(member.hierarchy, {}).setdefault(space, []).append(path)
     for files in of_hierarchy.values():
-        if len({space.answer for space in files}) > 1:
+        if len({space.choices() for space in files}) > 1:
             warn(_differing(files, options))
             continue
         for space, alike in files.items():
@@ -182,9 +182,9 @@ def _differing(files: "Mapping[Space, Sequence[Path]]", options: Mapping[str, st
     alike: dict[tuple[float, str], list[Path]] = {}
     spaces: dict[tuple[float, str], Space] = {}
     for space, paths in files.items():
-        alike.setdefault(space.answer, []).extend(paths)
-        spaces.setdefault(space.answer, space)
-    clauses = [f"{_listed(paths)} as {spaces[answer].clause()}" for answer, paths in alike.items()]
+        alike.setdefault(space.choices(), []).extend(paths)
+        spaces.setdefault(space.choices(), space)
+    clauses = [f"{_listed(paths)} as {spaces[choice].clause()}" for choice, paths in alike.items()]
     remedy = next(iter(files)).overruled_by(options)
     return f"Clips of the same joints are read differently: {', and '.join(clauses)}. {remedy}"
 

@@ -280,7 +280,7 @@ class FileReading:
             raise MocapError(f"{path} is a skeleton without a motion: give an .amc file, or a .bvh.")
         limit = TUNED.stretch if stretch is None else stretch
         rate = self.read_fps or self.fps
-        scale, up = (self.scale, self.up) if space is None else space.answer
+        scale, up = (self.scale, self.up) if space is None else space.choices()
         with named_options(READING), timed_reading(path):
             return read(path, self.skeleton, rate, scale, limit, up)
 
@@ -407,7 +407,7 @@ class Sources:
         from mocap.files.load_save import read  # the help needs no NumPy
         from mocap.files.tuned import TUNED
 
-        scale, up = (self.scale, self.up) if space is None else space.answer
+        scale, up = (self.scale, self.up) if space is None else space.choices()
         with timed_reading(path):
             return read(path, self.skeleton, None, scale, TUNED.stretch, up)
 

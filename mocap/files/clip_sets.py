@@ -82,7 +82,7 @@ def agree(
         if space is None or recording.space is None:
             agreed.append(recording)
             continue
-        if space.answer != recording.space.answer:
+        if space.choices() != recording.space.choices():
             recording = read_again(number, space)
         agreed.append(recording._replace(space=space))
     return agreed
@@ -121,7 +121,7 @@ def _of_similar_size(numbered: Sequence[NumberedMember]) -> list[list[NumberedMe
 def decide_together(members: Sequence[SetMember]) -> list[Space]:
     """Decide the space of files that belong together: one for all, unless they contradict each other."""
     certain = [member for member in members if not member.space.doubt]
-    if len({member.space.answer for member in certain}) > 1:
+    if len({member.space.choices() for member in certain}) > 1:
         return [member.space for member in members]
     first = members[0].space
     scale = None if "scale" in first.decided else first.scale

@@ -61,10 +61,9 @@ class Space(NamedTuple):
     usual: tuple[float, str]
     decided: tuple[str, ...] = ()
 
-    @property
-    def answer(self) -> tuple[float, str]:
-        """The unit and the axis."""
-        return (self.scale, self.up)
+    def choices(self) -> tuple[float, str]:
+        """Return what `files.load` needs to read a clip in this space: scale and up."""
+        return self.scale, self.up
 
     def clause(self) -> str:
         """State the unit, the axis, the height of the body, and the doubt.
@@ -99,7 +98,7 @@ class Space(NamedTuple):
         ----------
         names : as for `overruled_by`.
         """
-        if self.answer == self.usual and not self.doubt:
+        if self.choices() == self.usual and not self.doubt:
             return ""
         return f"read as {self.clause()}. {self.overruled_by(names)}"
 

@@ -128,12 +128,12 @@ def alone_and_together(paths):
     """Return the spaces of files that are read each by itself, and their recordings as a set."""
 
     def read(number, space=None):
-        scale, up = (None, None) if space is None else space.answer
+        scale, up = (None, None) if space is None else space.choices()
         return load_save.read(paths[number], None, None, scale, 0.02, up)
 
     recordings = [read(number) for number in range(len(paths))]
     spaces = clip_sets.agreed_spaces([clip_sets.set_member(recording) for recording in recordings])
-    alone = [recording.space.answer for recording in recordings]
+    alone = [recording.space.choices() for recording in recordings]
     return alone, clip_sets.agree(recordings, spaces, read)
 
 
@@ -143,7 +143,7 @@ def test_a_set_has_one_space_that_its_surest_clip_settles(tmp_path):
 
     alone, together = alone_and_together(paths)
     assert alone != [(0.056444, "z")] * 2
-    assert [recording.space.answer for recording in together] == [(0.056444, "z")] * 2
+    assert [recording.space.choices() for recording in together] == [(0.056444, "z")] * 2
     assert together[0].motion.root_positions[0] == pytest.approx([0.0, 0.2, 0.0], abs=1e-5)
 
 
@@ -152,7 +152,7 @@ def test_files_of_one_body_that_show_different_axes_beyond_doubt_keep_them(tmp_p
     paths.append(written(WALK[:8], tmp_path / "short.bvh", 0.01, "y"))
     alone, together = alone_and_together(paths)
     assert [up for _, up in alone[:3]] == ["y", "z", "y"]
-    assert [recording.space.answer for recording in together] == alone
+    assert [recording.space.choices() for recording in together] == alone
 
 
 def test_files_of_one_hierarchy_in_different_units_do_not_decide_for_each_other(tmp_path):
@@ -173,7 +173,7 @@ def test_bodies_of_other_joints_or_another_size_do_not_decide_for_each_other(tmp
     for body, path in zip(bodies, paths, strict=True):
         load_save.save(body, path)
     alone, together = alone_and_together(paths)
-    assert [recording.space.answer for recording in together] == alone
+    assert [recording.space.choices() for recording in together] == alone
     assert alone == [(0.01, "y"), (0.01, "y"), (0.0254, "y")]
 
 
