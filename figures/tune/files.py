@@ -159,7 +159,8 @@ TRIALS = {
     **{name: Trial(in_spaces, values) for name, values in SPACES.items()},
     "carried": Trial(binary, (2.0, 0.0, 0.1, 0.5)),
 }
-STUDY = Study(tuned, TRIALS, {}, (SHORT, MIXED))
+FIXED = {"same_body": "between the ratio of two adults, 1.3, and that of two units, 1.77 (5.64 cm and 1 dm)"}
+STUDY = Study(tuned, TRIALS, FIXED, (SHORT, MIXED))
 
 if __name__ == "__main__":
     STUDY.main(__doc__)

@@ -184,6 +184,7 @@ class Kind:
     rules : a function that yields the validity rules for all arrays of a file.
     parts : by name. Array `key` of part 3 of "node" is called "node_3_key".
     version : the version of the layout. Files of a later one are refused.
+    added : arrays that were added to the layout, by their key, and the version since which files have them.
 
     Examples
     --------
@@ -196,30 +197,37 @@ class Kind:
     rules: Callable[[Arrays], Rules]
     parts: Mapping[str, Part] = field(default_factory=dict)
     version: int = 1
+    added: Mapping[str, int] = field(default_factory=dict)
 
     @property
     def wanted(self) -> str:
         """The description of the expected file, for errors."""
-        versions = " or ".join(map(str, range(1, self.version + 1)))
+        *earlier, last = map(str, range(1, self.version + 1))
+        versions = f"{', '.join(earlier)} or {last}" if earlier else last
         return f"{self.name} saved by mocap, version {versions}"
 
     def part(self, arrays: Arrays, name: str, number: int) -> Arrays:
         """Extract the arrays of one part from those of a file; `numbered` is the inverse."""
-        return {key: arrays[f"{name}_{number}_{key}"] for key in self.parts[name].arrays}
+        keys = {f"{name}_{number}_{key}": key for key in self.parts[name].arrays}
+        return {key: arrays[whole_key] for whole_key, key in keys.items() if whole_key in arrays}
 
-    def fits(self, arrays: Mapping[str, Shaped]) -> Iterator[tuple[str, type, bool]]:
-        """Yield the name and type of each array of this kind, and whether the shape of that in `arrays` fits.
+    def layout_of(self, layout: Layout, version: int) -> Layout:
+        """Return the part of a layout that files of a version have."""
+        return {key: row for key, row in layout.items() if self.added.get(key, 1) <= version}
+
+    def fits(self, arrays: Mapping[str, Shaped], version: int) -> Iterator[tuple[str, type, bool]]:
+        """Yield the name and type of each array of a version, and whether the shape of that in `arrays` fits.
 
         Parts follow the other arrays, whose shapes determine their number. Iterate further only if an array
         fits.
         """
         sizes: dict[str, int] = {}
-        for key, (kind, shape) in self.arrays.items():
+        for key, (kind, shape) in self.layout_of(self.arrays, version).items():
             yield key, kind, _has_shape(arrays.get(key), shape, sizes)
         for name, part in self.parts.items():
             for number in range(sizes[part.number]):
                 of_part = f"{name}_{number}_"
-                for key, (kind, shape) in part.arrays.items():
+                for key, (kind, shape) in self.layout_of(part.arrays, version).items():
                     named = tuple(_in_part(size, of_part) for size in shape)
                     yield of_part + key, kind, _has_shape(arrays.get(of_part + key), named, sizes)
 
@@ -271,7 +279,7 @@ def write_archive(path: str | Path, kind: Kind, arrays: Mapping[str, Any]) -> No
         raise MocapError(f"This is written as .npz, got '{path}'.")
     exact = {key: np.asarray(array) for key, array in arrays.items()}
     whole: Arrays = {}
-    for key, dtype, fits in kind.fits(exact):
+    for key, dtype, fits in kind.fits(exact, kind.version):
         if not fits:
             raise MocapError(f"Cannot save {kind.name}: '{key}' does not fit its other arrays.")
         whole[key] = exact[key].astype(dtype)
@@ -287,6 +295,8 @@ def write_archive(path: str | Path, kind: Kind, arrays: Mapping[str, Any]) -> No
 
 def read_archive(path: str | Path, kind: Kind, room: int = ROOM) -> Arrays:
     """Read the arrays of a file from `write_archive`, and its `version`.
+
+    A file of an earlier version does not have the arrays that were added later.
 
     Parameters
     ----------
@@ -311,7 +321,7 @@ def read_archive(path: str | Path, kind: Kind, room: int = ROOM) -> Arrays:
         version = members["version"].read()
         if int(version) > kind.version:
             raise FormatError(path, None, kind.wanted, f"version {version}, which a newer mocap wrote")
-        arrays = {key: members[key].read() for key in _checked(path, kind, members)}
+        arrays = {key: members[key].read() for key in _checked(path, kind, members, int(version))}
         for rule, holds in kind.rules(arrays):
             if not np.all(holds):
                 raise FormatError(path, None, f"that {rule}", "a damaged file")
@@ -341,10 +351,10 @@ def other_kind(path: str | Path, expected: str, members: Mapping[str, Member]) -
     return FormatError(path, None, expected, kind, remedy=Remedy(f"{LOADERS[kind]} reads it"))
 
 
-def _checked(path: str | Path, kind: Kind, members: Mapping[str, Member]) -> list[str]:
-    """List the names of all arrays of a kind. Raise at the first that is missing or does not fit."""
+def _checked(path: str | Path, kind: Kind, members: Mapping[str, Member], version: int) -> list[str]:
+    """List the names of all arrays of a version. Raise at the first that is missing or does not fit."""
     keys = []
-    for key, dtype, fits in kind.fits(members):
+    for key, dtype, fits in kind.fits(members, version):
         if key not in members:
             raise FormatError(path, None, kind.wanted, f"one without {key}")
         if not fits or members[key].dtype.kind != np.dtype(dtype).kind:

@@ -144,7 +144,18 @@ def has_named_legs(skeleton: Skeleton) -> bool:
     >>> has_named_legs(SKELETON), has_named_legs(Skeleton(["a", "b"], [-1, 0], [[0, 0, 0], [0, 1, 0]]))
     (True, False)
     """
-    return _has_legs(skeleton.roles) or bool(find_pair(skeleton, "legs"))
+    return has_leg_roles(skeleton) or bool(find_pair(skeleton, "legs"))
+
+
+def has_leg_roles(skeleton: Skeleton) -> bool:
+    """Return whether a skeleton stores the roles of both legs.
+
+    Examples
+    --------
+    >>> has_leg_roles(Skeleton(["hip"], [-1], [[0, 0, 0]], roles={"left hip": "hip"}))
+    False
+    """
+    return _has_legs(skeleton.roles)
 
 
 def _has_legs(joints: Iterable[str]) -> bool:

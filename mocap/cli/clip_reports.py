@@ -28,9 +28,10 @@ def describe_clips(
     """
     clips = []
     failed = []
+    spaces = reading.survey(paths)
     for path in bar("measuring")(paths):
         try:
-            clips.append(_describe(path, reading.read(path)))
+            clips.append(_describe(path, reading.read_with_roles(path, spaces.get(path))))
         except MocapError as error:
             failed.append({"file": str(path), "error": error.worded(READING)})
     return clips, failed

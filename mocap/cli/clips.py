@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from mocap import files, quality, widgets
 from mocap._shared.atomic import make_folder, require_folder
 from mocap.cli.clip_reports import describe_clips
-from mocap.cli.clip_sets import read_found
+from mocap.cli.clip_sets import Spaces, read_found
 from mocap.cli.options import (
     CM,
     READING,
@@ -37,6 +37,7 @@ from mocap.methods import match_webs
 
 if TYPE_CHECKING:
     from mocap.body.motion import Motion
+    from mocap.files.recordings import Recording
     from mocap.quality.clip_flaws import Flaw
 
 
@@ -72,7 +73,7 @@ def info(file: Path, *, joints: bool = False, json: bool = False, reading: FileR
         return 2 if failed else 0
     require_file(file, "give one of its files, or --json for all of them")
     reading.require_skeleton_of_use(file)
-    recording = reading.read(file)
+    recording = reading.read_with_roles(file)
     motion = recording.motion
     if joints:
         from mocap.files.role_maps import format_roles  # the help needs no NumPy
@@ -157,14 +158,18 @@ def judge(
     """
     from mocap.quality.judging import judgement_table
 
-    recordings, _ = read_found(reading.read, find_files(against), against, READING)
+    paths = find_files(motions)
+    sources = find_files(against)
+    spaces = reading.survey([*paths, *sources])
+    read_source = partial(_read_surveyed, reading, spaces)
+    recordings, _ = read_found(read_source, sources, against, READING)
     clips = [recording.motion for recording in recordings]
     line = drawn.load(path) if path else None
     judgements = []
     problems = []
-    for file in bar("judging")(find_files(motions)):
+    for file in bar("judging")(paths):
         try:
-            recording = reading.read(file, math.inf)
+            recording = read_source(file, stretch=math.inf)
             judged = quality.judge(recording.motion, against=clips, path=line, stretch=recording.stretch)
             judgements.append(judged)
         except MocapError as error:
@@ -177,6 +182,13 @@ def judge(
     for problem in dict.fromkeys([*omissions, *problems]):
         print(f"mocap: {printable(problem)}", file=sys.stderr)
     return 2 if problems else 0
+
+
+def _read_surveyed(
+    reading: Reading, spaces: Spaces, path: Path, *, stretch: float | None = None
+) -> "Recording":
+    """Read a clip in the space of its set."""
+    return reading.read_with_roles(path, spaces.get(path), stretch=stretch)
 
 
 def convert(
@@ -211,7 +223,8 @@ def convert(
     """
     target = _only_one(target, out)
     pairs = conversion.plan(source, target, f".{to}")
-    load = partial(_load_plain, reading) if plain_names else reading.load_any
+    spaces = reading.survey([path for path, _ in pairs])
+    load = partial(_load_plain if plain_names else Reading.load_any, reading, spaces=spaces)
     failed = conversion.convert(pairs, load, progress=bar("converting"))
     where_to = f" to {target}" if not source.is_dir() else f" to .{to}, in {target}"
     return report_failures("converted", len(pairs), failed, where_to)
@@ -227,9 +240,9 @@ def _only_one(target: Path | None, out: Path | None) -> Path:
     return place
 
 
-def _load_plain(reading: Reading, path: Path) -> "Motion":
+def _load_plain(reading: Reading, path: Path, spaces: Spaces) -> "Motion":
     """Read a clip with plain names of joints; a function of the module can be sent to other processes."""
-    return files.with_plain_names(reading.load_any(path))
+    return files.with_plain_names(reading.load_any(path, spaces))
 
 
 def find(

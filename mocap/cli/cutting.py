@@ -6,10 +6,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from mocap import body, editing, files
-from mocap.cli.clip_sets import named_apart, read_found
 from mocap.cli.options import (
     RATE,
-    READING,
     PlainNames,
     ReadingAtRate,
     check_out,
@@ -18,6 +16,7 @@ from mocap.cli.options import (
     number,
     print_rows,
     timed_stage,
+    warn_of_lost_roles,
 )
 from mocap.cli.tuned import TUNED
 from mocap.errors import MocapError, printable, shortened, warn
@@ -116,14 +115,14 @@ def cut(
         check_out("clip", out, paths)
     from mocap.files.load_save import save_clips  # the help needs no NumPy
 
-    recordings, paths_read = read_found(reading.read, paths, clips, READING)
-    motions = [cutting.apply(clip) for clip in named_apart(recordings, paths_read)]
+    motions = [cutting.apply(clip) for clip in reading.load_set(paths, clips)]
     with timed_stage("writing"):
         save_clips(motions, out, root=root)
     for motion in motions:
         rows = f"{len(motion)} frames at {motion.fps:g} Hz, {motion.duration:.2f} s"
         print_rows(cut=f"{printable(motion.name)}: {rows}")
     print_rows(wrote=out)
+    warn_of_lost_roles(motions[0], out)
 
 
 def _warn_of_leap(cycle: "Motion") -> None:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from mocap import blending, body, editing, feet, quality
 from mocap._shared.atomic import require_folder
 from mocap.cli import options
+from mocap.cli.clip_sets import Spaces
 from mocap.cli.options import TURN, Clean, PathReading, Reading, bar, check_out, number, print_rows, write_out
 from mocap.cli.tuned import TUNED
 from mocap.errors import MocapError, Remedy, warn
@@ -207,13 +208,18 @@ def blend(
     Example: mocap blend slow.bvh brisk.bvh --weights 0.3 0.7 -o walk.bvh
     """
     check_out("blend", out, clips)
+    from mocap.quality.clip_flaws import warn_of_size  # the help needs no NumPy
+
     if len(clips) < 2:
         raise MocapError("Give two clips or more: a blend is made of several.")
     if weights and len(weights) != len(clips):
         raise MocapError(f"{len(clips)} clips need {len(clips)} weights, got {len(weights)}.")
     if fade and (weights or len(clips) != 2):
         raise MocapError(f"--fade passes from one clip into another, got {len(clips)} clips.")
-    motions = [reading.load(path) for path in bar("reading")(clips)]
+    for path in clips:
+        reading.require_skeleton_of_use(path)
+    motions = reading.load_set(bar("reading")(clips), clips)
+    warn_of_size(motions)
     motions = [body.resample(motion, motions[0].fps) for motion in motions]
     if clean:
         motions = [feet.mark_plants(motion) for motion in motions]
@@ -264,38 +270,54 @@ def retarget(
         target = out if source.is_dir() else out / f"{source.stem}.{format}"
         pairs += plan(source, target, f".{format}")
     require_apart(pairs, [to])
-    wear = partial(_worn, reading, _body(to, to_scale, reading.joints), [source for source, _ in pairs])
-    failed = convert(pairs, wear, progress=bar("retargeting"))
+    paths = [path for path, _ in pairs]
+    spaces = reading.survey(paths if to_scale or _is_skeleton(to) else [*paths, to])
+    wearer = _body(to, to_scale, reading.joints, spaces)
+    failed = convert(pairs, partial(_worn, reading, spaces, wearer, paths), progress=bar("retargeting"))
     return options.report_failures("retargeted", len(pairs), failed, f", in {out}")
 
 
+def _is_skeleton(path: Path) -> bool:
+    """Return whether a file is a skeleton without a motion, which says its unit itself."""
+    return path.suffix.lower() == ".asf"
+
+
 def _worn(
-    reading: Reading, wearer: "Stance | body.Skeleton", sources: Sequence[Path], source: Path
+    reading: Reading,
+    spaces: Spaces,
+    wearer: "Stance | body.Skeleton",
+    sources: Sequence[Path],
+    source: Path,
 ) -> "body.Motion":
     """Read a clip and retarget it. Feet that never stand in it are as high as in others of the sources."""
     from mocap.editing.retargeting import wear  # the help needs no NumPy
 
-    return wear(reading.load(source), wearer, clips=_readable(reading, sources, source))
+    clips = _readable(reading, spaces, sources, source)
+    return wear(reading.load_body(source, spaces), wearer, clips=clips)
 
 
-def _readable(reading: Reading, sources: Sequence[Path], chosen: Path) -> "Iterator[body.Motion]":
+def _readable(
+    reading: Reading, spaces: Spaces, sources: Sequence[Path], chosen: Path
+) -> "Iterator[body.Motion]":
     """Read the sources other than the chosen one, leaving out those that cannot be read."""
     for source in sources:
         if source != chosen:
             with suppress(MocapError):
-                yield reading.load(source)
+                yield reading.load_body(source, spaces)
 
 
-def _body(path: Path, scale: float | None, joints: Sequence[Path]) -> "Stance | body.Skeleton":
+def _body(
+    path: Path, scale: float | None, joints: Sequence[Path], spaces: Spaces
+) -> "Stance | body.Skeleton":
     """Read the body to which clips are retargeted, and its stance from a clip or pose in which it stands."""
     from mocap.editing.stances import stance_of_zero
     from mocap.files.asf import read_skeleton
 
-    if path.suffix.lower() == ".asf":
+    if _is_skeleton(path):
         if scale:
             raise MocapError(f"--to-scale is for clips; {path} says its unit of length itself.")
         return read_skeleton(path).skeleton
-    clip = Reading(scale=scale, joints=joints).load(path)
+    clip = Reading(scale=scale, joints=joints).load_body(path, spaces)
     try:
         return editing.stance_of(clip)
     except MocapError as error:

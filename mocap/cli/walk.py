@@ -189,7 +189,7 @@ def _graph(path: Path, clips: Sequence[Path], sources: Sources, out: Path) -> "g
             return options.load_graph(path, sources.skeleton, sources.joints)
         motions, _ = sources.load(files_read, clips)
         motions += [editing.mirror(clip) for clip in motions if mirrored_name(clip.name) in content.names]
-    return graphs.load(path, motions)
+    return options.with_joints(graphs.load(path, motions), sources.joints)
 
 
 def crowd(

@@ -100,6 +100,17 @@ def begins(name: str, beginning: str) -> bool:
     return name.lower().startswith(beginning.lower()) and not rest[:1].isalnum()
 
 
+def has_fixed_space(path: Path) -> bool:
+    """Return whether the format of a file says its unit and its vertical axis.
+
+    Examples
+    --------
+    >>> has_fixed_space(Path("walk.amc")), has_fixed_space(Path("walk.bvh"))
+    (True, False)
+    """
+    return path.suffix.lower() == ".amc"
+
+
 def read_bvh(path: Path, options: ReadOptions) -> Recording:
     """Read a BVH file."""
     from mocap.files import bvh

@@ -61,19 +61,46 @@ class Space(NamedTuple):
     usual: tuple[float, str]
     decided: tuple[str, ...] = ()
 
-    def sentence(self, names: Mapping[str, str]) -> str:
-        """State the space, the doubt, and the parameters that overrule it; "" if there is nothing to state.
+    def choices(self) -> tuple[float, str]:
+        """Return what `files.load` needs to read a clip in this space: scale and up."""
+        return self.scale, self.up
+
+    def clause(self) -> str:
+        """State the unit, the axis, the height of the body, and the doubt.
+
+        A small body that moves at the pace of an adult has the same numbers as an adult in another unit.
+        Therefore the height in the default unit is stated too, if there may be such a body.
+        """
+        stated = f"{unit_name(self.scale)} a unit, {self.up} up: {self.height:.2f} m tall"
+        if self.doubt:
+            return f"{stated}; {self.doubt}"
+        by_default = self.height * self.usual[0] / self.scale
+        smallest, largest = TUNED.default_height
+        is_chosen = "scale" in self.decided and self.scale != self.usual[0]
+        if is_chosen and smallest <= by_default <= largest:
+            return f"{stated} ({by_default:.2f} m if it is {unit_name(self.usual[0])} a unit)"
+        return stated
+
+    def overruled_by(self, names: Mapping[str, str]) -> str:
+        """Name the parameters that overrule the space, as a sentence.
 
         Parameters
         ----------
         names : of the parameters `scale` and `up` on the surface that is used.
         """
-        if (self.scale, self.up) == self.usual and not self.doubt:
+        remedies = [names[parameter] for parameter in self.decided if parameter in names]
+        return f"{' and '.join(remedies)} overrule{'' if len(remedies) > 1 else 's'} it."
+
+    def sentence(self, names: Mapping[str, str]) -> str:
+        """State the space, the doubt, and the parameters that overrule it; "" if there is nothing to state.
+
+        Parameters
+        ----------
+        names : as for `overruled_by`.
+        """
+        if self.choices() == self.usual and not self.doubt:
             return ""
-        stated = f"read as {unit_name(self.scale)} a unit, {self.up} up: {self.height:.2f} m tall"
-        doubt = f"; {self.doubt}" if self.doubt else ""
-        remedies = " and ".join(names[parameter] for parameter in self.decided if parameter in names)
-        return f"{stated}{doubt}. {remedies} overrule{'' if ' and ' in remedies else 's'} it."
+        return f"read as {self.clause()}. {self.overruled_by(names)}"
 
 
 def unit_name(scale: float) -> str:
@@ -156,7 +183,7 @@ def _axis(evidence: Sequence[Evidence], usual: str) -> tuple[str, str]:
     on_floor = all(clip.on_floor for clip in evidence)
     if lead >= TUNED.probable_axis and on_floor and stands:
         return best, usual
-    is_stated = lead >= TUNED.sure_axis or not stands
+    is_stated = scores[best] - scores[usual] >= TUNED.sure_axis or not stands
     return usual, best if is_stated else ""
 
 

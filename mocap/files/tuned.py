@@ -45,6 +45,7 @@ class Tuned:
     clock_weight: float = 3.0  # most that a clock may speak against a unit. Some falls are none
     sure_axis: float = 1.0  # lead of the best axis over the next
     probable_axis: float = 2.0  # lead from which on the best axis of a body on the floor is taken, and stated
+    same_body: float = 1.5  # ratio of the bones of two files from which on they differ in the unit or by age
     still_foot: float = 0.4  # how much slower the lowest joint is than the others, as a logarithm to base 10
 
     # Rotations in a .glb

@@ -22,6 +22,7 @@ from scipy.spatial import cKDTree
 from mocap._shared.arrays import Array, VectorsLike
 from mocap._shared.records import NamedTuple
 from mocap.body import rotations
+from mocap.body.body_sides import partners
 from mocap.body.ground_path import GroundPath, as_path
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import Leg, find_legs, with_roles
@@ -127,10 +128,10 @@ def measure_joints(motion: Motion, positions: Array) -> Iterator[Measure]:
     speeds = np.degrees(rotations.angle_between(motion.rotations[1:], motion.rotations[:-1])) * motion.fps
     fastest = _largest_at(speeds, skeleton, first=1)
     yield Measure("rotation", float(speeds.max()), LIMITS.rotation, "°/s", fastest)
-    partners = [skeleton.partner(joint) for joint in range(len(skeleton))]
-    if partners != list(range(len(skeleton))):
+    images = partners(skeleton)
+    if images != list(range(len(skeleton))):
         lengths = np.linalg.norm(skeleton.offsets, axis=-1)
-        differences = 1000 * np.abs(lengths - lengths[partners])
+        differences = 1000 * np.abs(lengths - lengths[images])
         joint = skeleton.names[differences.argmax()]
         yield Measure("lopsided", float(differences.max()), LIMITS.lopsided, "mm", f"'{joint}'")
     heights = 100 * positions[..., 1].min(axis=1)
