@@ -35,13 +35,29 @@ EMPTY_END_SITE = ("End Site", "{", "\tOFFSET 0 0 0", "}")  # below a joint witho
 
 @dataclass
 class Joint:
-    """A joint of the file. An End Site is named after the whole hierarchy has been read."""
+    """A joint of the file. An End Site is named after the whole hierarchy has been read.
+
+    line : of its name in the file.
+    parent : the index of the parent, -1 for a root.
+    offset : from the parent, in the unit of the file, shape (3,).
+    channels : the names of its channels.
+    column : of its first channel in the numbers of a frame.
+    """
 
     line: int
     name: str
     parent: int
     offset: NDArray[np.float64] | None = None
     channels: list[str] = field(default_factory=list)
+    column: int = 0
+
+    def columns(self, names: Container[str]) -> list[int]:
+        """Return the columns of those channels that have one of the names."""
+        return [self.column + n for n, channel in enumerate(self.channels) if channel in names]
+
+    def axes(self) -> str:
+        """Return the axes of the rotation channels in order, such as "zxy"."""
+        return "".join(channel[0] for channel in self.channels if channel in ROTATIONS)
 
 
 def _statements(text: str) -> Iterator[tuple[int, str, str]]:
@@ -77,6 +93,10 @@ def read_hierarchy(path: str | Path, text: str) -> list[Joint]:
         tree.add(line, keyword, argument)
     if tree.open or tree.allowed:
         raise FormatError(path, line, " or ".join(tree.allowed), "the end of the hierarchy")
+    column = 0
+    for joint in tree.joints:
+        joint.column = column
+        column += len(joint.channels)
     return _named(path, tree.joints)
 
 

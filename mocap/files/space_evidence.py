@@ -11,7 +11,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Mask
 from mocap._shared.records import NamedTuple
-from mocap.body.limb_tree import largest_part
+from mocap.body.limb_tree import extents, largest_part
 from mocap.files.tuned import TUNED
 
 AXES = ("y", "z", "-y", "-z", "x", "-x")
@@ -67,7 +67,7 @@ def gather(parents: Indices, positions: Array, rate: float) -> Evidence | None:
     """
     joints = main_body(parents, positions)
     points = positions[:, joints]
-    if len(joints) < TUNED.least_joints or not np.ptp(points, axis=1).max() > 0:
+    if len(joints) < TUNED.least_joints or not extents(points).max() > 0:
         return None
     parents = _renumbered(parents, joints)
     scores, stillness = _axis_scores(parents, points, rate)
@@ -205,9 +205,14 @@ def stride(points: Array, axis: str, fps: float, size: float) -> Stride | None:
     lag = _cycle(points @ direction(axis), fps)
     if lag is None:
         return None
-    centre = np.delete(points.mean(axis=1), "xyz".index(axis[-1]), axis=1)
+    centre = np.delete(_centres(points), "xyz".index(axis[-1]), axis=1)
     lengths = np.linalg.norm(centre[lag:] - centre[:-lag], axis=1)
     return Stride(lag / fps, float(np.median(lengths) / (LEG * size)))
+
+
+def _centres(points: Array) -> Array:
+    """Return the mean of all joints in each frame, (F, 3)."""
+    return np.full(points.shape[1], 1 / points.shape[1]) @ points
 
 
 def _cycle(heights: Array, fps: float) -> int | None:
@@ -254,10 +259,13 @@ def _axis_scores(parents: Indices, points: Array, fps: float) -> tuple[dict[str,
     An axis gains if the body is longest along it, if the lowest joint stands still, and if the lowest joints
     have a mirror image and the topmost one has none. It loses by travel along it.
     """
-    size = np.median(np.linalg.norm(np.ptp(points, axis=1), axis=1))
+    boxes = extents(points)
+    size = np.median(np.linalg.norm(boxes, axis=1))
     paired = paired_joints(parents, points).astype(float)
-    extents = np.median(np.ptp(points, axis=1), axis=0) / size
-    travel = np.ptp(points.mean(axis=1), axis=0) / size
+    lengths = np.median(boxes, axis=0) / size
+    travel = np.ptp(_centres(points), axis=0) / size
+    speeds = _horizontal_speeds(points, fps)
+    usual_speeds = np.median(speeds, axis=(1, 2))
     scores = {}
     stillness = {}
     for axis in AXES:
@@ -265,24 +273,26 @@ def _axis_scores(parents: Indices, points: Array, fps: float) -> tuple[dict[str,
         heights = points @ direction(axis)
         lowest = heights.argmin(axis=1)
         topmost = heights.argmax(axis=1)
-        excess = extents[index] - np.delete(extents, index).max()
+        excess = lengths[index] - np.delete(lengths, index).max()
         feet_below = np.mean(paired[lowest] - paired[topmost])
-        stillness[axis] = _stillness(points, index, lowest, fps, size)
+        stillness[axis] = 0.0
+        if usual_speeds[index] > TUNED.moving_speed * size:
+            stillness[axis] = _stillness(speeds[index], usual_speeds[index], lowest)
         rising = np.clip(travel[index] - TUNED.sideways_travel, 0, 1.5)
         evidence = [2.0 * np.clip(2 * excess, -1, 1), 1.5 * stillness[axis], 1.5 * feet_below, -2.0 * rising]
         scores[axis] = float(sum(evidence))
     return scores, stillness
 
 
-def _stillness(points: Array, axis: int, lowest: Indices, fps: float, size: float) -> float:
-    """Return -log10 of the horizontal speed of the lowest joints, over that of all; 0 if nothing moves."""
+def _horizontal_speeds(points: Array, fps: float) -> Array:
+    """Return the speeds of joints across each axis, as if it were vertical, (3, F, J); 0 in a short clip."""
     if len(points) < max(0.3 * fps, 6):
-        return 0.0
-    velocities = np.gradient(points, 1 / fps, axis=0)
-    velocities[..., axis] = 0
-    speeds = np.linalg.norm(velocities, axis=-1)
-    usual = np.median(speeds)
-    if usual <= TUNED.moving_speed * size:
-        return 0.0
+        return np.zeros((3, *points.shape[:2]))
+    squares = np.moveaxis(np.gradient(points, 1 / fps, axis=0) ** 2, -1, 0)
+    return np.sqrt(squares[[1, 0, 0]] + squares[[2, 2, 1]])
+
+
+def _stillness(speeds: Array, usual: float, lowest: Indices) -> float:
+    """Return -log10 of the usual speed of the lowest joints, over that of all; at most 1.5."""
     at_lowest = np.take_along_axis(speeds, lowest[:, None], axis=1)
     return float(-np.log10(np.median(at_lowest) / usual + 0.03))

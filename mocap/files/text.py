@@ -59,9 +59,10 @@ def read_text(path: str | Path, *, most: int = -1) -> str:  # reads: name: a key
     if zero >= 0:
         line = text.count("\n", 0, zero) + 1
         raise FormatError(path, line, "text", "a zero byte, as in a binary file")
-    if not text.strip():
+    if not text or text.isspace():
         raise FormatError(path, None, "some text", "an empty file")
-    text = text.replace("\r\n", "\n").replace("\r", "\n")
+    if "\r" in text:  # a search takes a hundredth of the time of a replacement
+        text = text.replace("\r\n", "\n").replace("\r", "\n")
     marker = f"\n{text}".find("\n<<<<<<< ")
     if marker >= 0:
         line = text.count("\n", 0, marker) + 1
