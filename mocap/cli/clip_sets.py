@@ -70,10 +70,9 @@ def named_apart(recordings: "Sequence[Recording]", paths: Sequence[Path]) -> "li
 
 
 def warn_of_space(path: Path, recording: "Recording", options: Mapping[str, str]) -> None:
-    """State the unit and the vertical axis that a clip was read in, if they are unusual or in doubt."""
-    stated = recording.space.sentence(options) if recording.space else ""
-    if stated:
-        warn(f"{path}: {stated}")
+    """State the space that a clip was read in, if it is unusual or in doubt, and the body of several."""
+    for notice in recording.notices(options):
+        warn(f"{path}: {notice}")
 
 
 def warn_of_spaces(

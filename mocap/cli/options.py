@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from mocap.body.ground_path import GroundPath
     from mocap.body.motion import Motion
     from mocap.files.recordings import Recording
+    from mocap.files.spaces import Space
     from mocap.graphs.motion_graph import MotionGraph
 
 
@@ -98,6 +99,10 @@ Up = Annotated[
     Literal["y", "z", "-y", "-z", "x", "-x"] | None,
     "axis of the file that points up (default: as the frames show; y, for .npz z)",
 ]
+RootOffset = Annotated[
+    Literal["add", "ignore"] | None,
+    "whether the positions of the root in a .bvh are relative to its OFFSET (default: as the frames show)",
+]
 Clean = Annotated[bool, "remove foot sliding"]
 Seed = Annotated[int, number(0, 2**32 - 1, int), "seed of the random numbers"]
 
@@ -111,9 +116,12 @@ READING = {
     "fps": "--read-fps (once --fps)",  # both work until 0.3
     "scale": "--scale",
     "up": "--up",
+    "root_offset": "--root-offset",
+    "body": "--body",
     "roles": "--joints",
 }
-SOURCES = READING | {"fps": "--read-fps to mocap convert"}  # commands that read several clips lack the option
+# Commands that read several clips lack two options.
+SOURCES = READING | {"fps": "--read-fps to mocap convert", "body": "--body of mocap convert"}
 DEPRECATED.append(Deprecation("--fps", since="0.2", removed_in="0.3", instead="--read-fps"))
 
 
@@ -250,6 +258,12 @@ class FileReading:
         "metres per unit of length in the clip (default: as the frames show)",
     ] = None
     up: Up = None
+    root_offset: RootOffset = None
+    body: Annotated[
+        int | None,
+        number(1, 1000, int),
+        "number of the body in a .bvh of several bodies, from 1 (default: the first)",
+    ] = None
 
     def __post_init__(self) -> None:
         """Warn about the former name of an option."""
@@ -277,7 +291,9 @@ class FileReading:
         limit = TUNED.stretch if stretch is None else stretch
         rate = self.read_fps or self.fps
         with named_options(READING), timed_reading(path):
-            recording = read(path, self.skeleton, rate, self.scale, limit, self.up)
+            recording = read(
+                path, self.skeleton, rate, self.scale, limit, self.up, self.root_offset, self.body
+            )
         warn_of_space(path, recording, READING)
         with named_options(READING):
             return recording._replace(motion=with_chosen_roles(recording.motion, self.joints))
@@ -322,6 +338,7 @@ class Sources:
     skeleton: Skeleton = None
     scale: Annotated[float | None, LENGTH, "metres per unit of a .bvh (default: as the frames show)"] = None
     up: Up = None
+    root_offset: RootOffset = None
     joints: Joints = ()
 
     def load(self, paths: Sequence[Path], named: Sequence[Path]) -> "tuple[list[Motion], list[Origin]]":
@@ -342,7 +359,7 @@ class Sources:
 
         with named_options(SOURCES):
             recordings, read = read_found(self._read, bar("reading")(paths), named, SOURCES)
-        recordings = agree(recordings, lambda number, scale, up: self._read(read[number], scale, up))
+        recordings = agree(recordings, lambda number, space: self._read(read[number], space))
         warn_of_spaces(read, recordings, SOURCES)
         with named_options(SOURCES):
             recordings = [self._with_roles(recording) for recording in recordings]
@@ -359,14 +376,16 @@ class Sources:
         """Return a file with the options by which its clip can be read again."""
         if recording.space is None:
             return Origin(path, self.skeleton, self.scale)
-        return Origin(path, self.skeleton, recording.space.scale, up=recording.space.up)
+        scale, up, root_offset = recording.space.choices()
+        return Origin(path, self.skeleton, scale, up=up, root_offset=root_offset)
 
-    def _read(self, path: Path, scale: float | None = None, up: str | None = None) -> "Recording":
+    def _read(self, path: Path, space: "Space | None" = None) -> "Recording":
         from mocap.files.load_save import read  # the help needs no NumPy
         from mocap.files.tuned import TUNED
 
         with timed_reading(path):
-            return read(path, self.skeleton, None, scale or self.scale, TUNED.stretch, up or self.up)
+            scale, up, root_offset = space.choices() if space else (self.scale, self.up, self.root_offset)
+            return read(path, self.skeleton, None, scale, TUNED.stretch, up, root_offset)
 
 
 @dataclass(frozen=True)

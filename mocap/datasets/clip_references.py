@@ -154,7 +154,13 @@ def _load_clips(
         return [sample(name) for name in references.names]
     clips = []
     for name, origin in zip(references.names, progress(origins), strict=True):
-        clip = load(origin.path, skeleton=skeleton or origin.skeleton, scale=origin.scale, up=origin.up)
+        clip = load(
+            origin.path,
+            skeleton=skeleton or origin.skeleton,
+            scale=origin.scale,
+            up=origin.up,
+            root_offset=origin.root_offset,
+        )
         clips.append(replace(mirror(clip) if origin.mirrored else clip, name=name))
     return clips
 

@@ -7,28 +7,29 @@ Reading order (notebooks 01, 10)
 --------------------------------
  1. `load_save`: load and save, by the suffix
  2. `formats`: the table of formats that can be read
- 3. `conversion`: search for motion files in folders, and their conversion
- 4. `path_files`: paths from .csv and .svg files
- 5. `svg_drawings`: the lines of an SVG picture, and which of them is meant
- 6. `svg_shapes`: the lines of one element of a picture, as points
- 7. `text`: checked reading of text files, lines, numbers and tables
- 8. `decimals`: the numbers of a long text, converted many at a time
- 9. `space_evidence`: evidence of a clip's unit and vertical axis, from its frames
-10. `spaces`: the decision on the unit and the vertical axis
-11. `recordings`: a motion with the angles and the bone stretch of its file
-12. `clip_sets`: several files with one unit and one vertical axis
-13. `frame_rates`: frame rates from frame times of few digits
-14. `asf`: the skeleton of Acclaim files
-15. `acclaim`: the numbers of Acclaim files, and the motion that they describe
-16. `bvh_hierarchy`: the skeleton of BVH files
-17. `loose_joints`: joints of a file that are no part of the body
-18. `rigid_bones`: rigid bones for files whose bones change length
-19. `bvh`: reader and writer of BVH files
-20. `amass`: the archives of AMASS, for the 22 joints of the SMPL body
-21. `role_maps`: the roles of joints, as TOML
-22. `gltf_capsules`: a body surface of rigid capsules around the bones
-23. `gltf`: writer of glTF files, with joints, skin and animation
-24. `tuned`: the constants that trials chose
+ 3. `read_options`: the options of `load`, as readers of formats receive them
+ 4. `conversion`: search for motion files in folders, and their conversion
+ 5. `path_files`: paths from .csv and .svg files
+ 6. `svg_drawings`: the lines of an SVG picture, and which of them is meant
+ 7. `svg_shapes`: the lines of one element of a picture, as points
+ 8. `text`: checked reading of text files, lines, numbers and tables
+ 9. `decimals`: the numbers of a long text, converted many at a time
+10. `space_evidence`: evidence of a clip's unit and vertical axis, from its frames
+11. `spaces`: the decision on the unit and the vertical axis
+12. `recordings`: a motion with the angles and the bone stretch of its file
+13. `clip_sets`: several files with one unit and one vertical axis
+14. `frame_rates`: frame rates from frame times of few digits
+15. `asf`: the skeleton of Acclaim files
+16. `acclaim`: the numbers of Acclaim files, and the motion that they describe
+17. `bvh_hierarchy`: the skeleton of BVH files
+18. `loose_joints`: joints of a file that are no part of the body
+19. `rigid_bones`: rigid bones for files whose bones change length
+20. `bvh`: reader and writer of BVH files
+21. `amass`: the archives of AMASS, for the 22 joints of the SMPL body
+22. `role_maps`: the roles of joints, as TOML
+23. `gltf_capsules`: a body surface of rigid capsules around the bones
+24. `gltf`: writer of glTF files, with joints, skin and animation
+25. `tuned`: the constants that trials chose
 
 References
 ----------

@@ -1,6 +1,7 @@
 """BVH files: a hierarchy of joints, and the values of their channels in every frame.
 
-Position channels replace the offset of a joint. Rotation channels are intrinsic Euler angles in the given
+Position channels replace the offset of a joint, or, in files of some programs, are relative to that of the
+root. Rotation channels are intrinsic Euler angles in the given
 order: Zrotation Xrotation Yrotation is R = Rz Rx Ry. The format has no unit: it is `scale` metres, by default
 a centimetre. `bvh_hierarchy` explains the names of joints.
 """
@@ -24,9 +25,10 @@ from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError, Remedy, shortened, warn
 from mocap.files import frame_rates, spaces
-from mocap.files.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
+from mocap.files.bvh_hierarchy import POSITIONS, ROTATIONS, Hierarchy, Joint, read_hierarchy, write_hierarchy
 from mocap.files.decimals import parse_numbers
 from mocap.files.loose_joints import without_loose_joints
+from mocap.files.read_options import ReadOptions
 from mocap.files.recordings import Recording
 from mocap.files.rigid_bones import fit
 from mocap.files.space_evidence import Evidence, frames_to_look_at, gather
@@ -43,14 +45,7 @@ TIMES = re.compile(
 )
 
 
-def read(
-    path: str | Path,
-    *,
-    scale: float | None = None,
-    fps: float | None = None,
-    stretch: float = TUNED.stretch,
-    up: str | None = None,
-) -> Recording:
+def read(path: str | Path, options: ReadOptions) -> Recording:
     """Read a BVH file.
 
     Position channels below the root are allowed. If they vary, rigid bones are fitted by `rigid_bones`, as
@@ -62,11 +57,8 @@ def read(
     Parameters
     ----------
     path : the file.
-    scale : metres in one unit of the file; by default as the frames show, see `spaces`.
-    fps : frames per second, by default from the frame time, as an integer if the digits of the file allow it.
-    stretch : the largest change of the length of a bone, metres.
-    up : the axis that points up, such as "z"; by default as the frames show. The motion is rotated so that y
-        is up.
+    options : those of `files.load`. By default `spaces` finds the unit, the vertical axis and whether to add
+        the root's OFFSET to its positions. The motion is rotated so that y is up.
 
     Raises
     ------
@@ -78,28 +70,50 @@ def read(
         digits for one frame rate; and if bones were fitted, with the changes of their lengths and the
         distances of the joints from the file.
     """
-    joints, values, rate = _channels(path, fps=fps)
+    hierarchy, values, rate = _channels(path, options)
+    joints = hierarchy.joints
     angles = {joint.name: values[:, joint.columns(ROTATIONS)] for joint in joints}
     positions, local = _poses(joints, values)
-    evidence = _evidence(joints, positions, local, rate) if scale is None or up is None else None
-    space = spaces.decide([evidence] if evidence else [], (SCALE, "y"), scale=scale, up=up)
+    offset = _root_offset(joints[0])
+    is_open = None in (options.scale, options.up) or (options.root_offset is None and offset.any())
+    evidence = _evidence(joints, positions, local, rate, offset) if is_open else None
+    space = spaces.decide(
+        [evidence] if evidence else [],
+        (SCALE, "y"),
+        scale=options.scale,
+        up=options.up,
+        root_offset=options.root_offset,
+    )
+    if space.root_offset == "add":
+        positions[:, 0] += offset
     joints, positions, local = _without_reference(joints, space.scale * positions, local)
     joints, positions, local = without_loose_joints(path, joints, positions, local)
     stretches = _stretches(joints, positions)
-    offsets, local = _rigid(path, joints, (positions, local), stretch)
+    offsets, local = _rigid(path, joints, (positions, local), options.stretch)
     names = [joint.name for joint in joints]
     parents = np.array([joint.parent for joint in joints])
     dofs = [joint.axes()[::-1] for joint in joints]
     skeleton = Skeleton(names, parents, offsets, dofs=dofs)
     motion = spaces.upright(Motion(skeleton, positions[:, 0], local, rate, Path(path).stem), space.up)
-    return Recording(motion, angles, stretches, space=space, evidence=evidence)
+    is_chosen = options.body is not None
+    bodies = () if is_chosen else hierarchy.roots
+    return Recording(motion, angles, stretches, space=space, evidence=evidence, bodies=bodies)
 
 
-def _evidence(joints: list[Joint], positions: Array, local: Array, rate: float) -> Evidence | None:
+def _evidence(
+    joints: list[Joint], positions: Array, local: Array, rate: float, root_offset: Array
+) -> Evidence | None:
     """Gather the evidence of the space from poses in the unit of the file."""
     frames, rate = frames_to_look_at(positions[:, 0], rate)
     parents = np.array([joint.parent for joint in joints])
-    return gather(parents, world_positions(parents, positions[frames], local[frames]), rate)
+    return gather(parents, world_positions(parents, positions[frames], local[frames]), rate, root_offset)
+
+
+def _root_offset(root: Joint) -> Array:
+    """Return the OFFSET of the root, (3,), along the axes of its position channels, and 0 along others."""
+    assert root.offset is not None  # since its brace is closed
+    has_position = [channel in root.channels for channel in POSITIONS]
+    return np.where(has_position, root.offset, 0.0)
 
 
 def _poses(joints: list[Joint], values: Array) -> tuple[Array, Array]:
@@ -147,21 +161,21 @@ def _without_reference(
     return joints, positions[:, 1:], local[:, 1:]
 
 
-def _channels(path: str | Path, *, fps: float | None = None) -> tuple[list[Joint], Array, float]:
-    """Read the joints, the numbers of their channels (F, C), and the frame rate, unless it is `fps`."""
+def _channels(path: str | Path, options: ReadOptions) -> tuple[Hierarchy, Array, float]:
+    """Read the hierarchy, the numbers of all channels (F, C), and the frame rate, unless it is given."""
     text = with_decimal_points(path, read_text(path))
     start = re.search(r"^[ \t]*MOTION[ \t]*$", text, re.MULTILINE | re.IGNORECASE)
     if start is None:
         raise FormatError(path, None, "a line 'MOTION'", "none")
-    joints = read_hierarchy(path, text[: start.start()])
+    hierarchy = read_hierarchy(path, text[: start.start()], options.body)
     times = TIMES.match(text, start.end())
     if times is None:
         line = text.count("\n", 0, start.end()) + 2
         got = f"'{' '.join(text[start.end() :][:200].split()[:4])}'"
         raise FormatError(path, line, "'Frames: <count>' and 'Frame Time: <seconds>'", got)
-    values = _values(path, text, times, sum(len(joint.channels) for joint in joints))
-    check_room(path, len(values) * len(joints), values.size)
-    return joints, values, fps or _rate(path, text, times)
+    values = _values(path, text, times, hierarchy.width)
+    check_room(path, len(values) * len(hierarchy.joints), values.size)
+    return hierarchy, values, options.fps or _rate(path, text, times)
 
 
 def _values(path: str | Path, text: str, times: re.Match[str], width: int) -> Array:

@@ -7,8 +7,8 @@ from collections.abc import Callable, Sequence
 from mocap.files.recordings import Recording
 from mocap.files.spaces import Space, decide
 
-ReadAgain = Callable[[int, float, str], Recording]
-"""Reads the recording of a number again, with a unit in metres and a vertical axis."""
+ReadAgain = Callable[[int, Space], Recording]
+"""Reads the recording of a number again, in a space."""
 
 
 def agree(recordings: Sequence[Recording], read_again: ReadAgain) -> list[Recording]:
@@ -26,8 +26,8 @@ def agree(recordings: Sequence[Recording], read_again: ReadAgain) -> list[Record
         if space is None or recording.space is None:
             agreed.append(recording)
             continue
-        if (space.scale, space.up) != (recording.space.scale, recording.space.up):
-            recording = read_again(number, space.scale, space.up)
+        if space.choices() != recording.space.choices():
+            recording = read_again(number, space)
         agreed.append(recording._replace(space=space))
     return agreed
 
@@ -48,5 +48,6 @@ def agreed_spaces(recordings: Sequence[Recording]) -> dict[tuple[str, ...], Spac
         assert first is not None
         scale = None if "scale" in first.decided else first.scale
         up = None if "up" in first.decided else first.up
-        spaces[names] = decide(evidence, first.usual, scale=scale, up=up)
+        relative = None if "root_offset" in first.decided else first.root_offset
+        spaces[names] = decide(evidence, first.usual, scale=scale, up=up, root_offset=relative)
     return spaces

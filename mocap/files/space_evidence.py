@@ -9,13 +9,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Indices, Mask
+from mocap._shared.arrays import Array, Indices, Mask, frozen
 from mocap._shared.records import NamedTuple
 from mocap.body.limb_tree import extents, largest_part
 from mocap.files.tuned import TUNED
 
 AXES = ("y", "z", "-y", "-z", "x", "-x")
 GRAVITY = 9.81  # m/s²
+NO_OFFSET: Array = frozen([0.0, 0.0, 0.0], np.float64)
 
 
 class Stride(NamedTuple):
@@ -36,6 +37,8 @@ class Evidence(NamedTuple):
     on_floor : whether the lowest joints are at 0 along the best axis.
     fall : acceleration in free fall, units/s²; None if the body never falls.
     stride : the cycle of the gait; None if there is none.
+    floors : for each axis, the median height of the lowest joint.
+    root_offset : the vector to which the positions of the root may be relative, shape (3,).
     """
 
     size: float
@@ -45,6 +48,8 @@ class Evidence(NamedTuple):
     on_floor: bool
     fall: float | None
     stride: Stride | None
+    floors: dict[str, float]
+    root_offset: Array
 
     def best_axis(self) -> str:
         """Return the axis with the highest score."""
@@ -56,7 +61,9 @@ CHAIN_SPREAD = 0.22  # of the logarithm of that ratio; dogs are at 2.5
 LEG = 0.53  # of the height from the lowest to the topmost joint
 
 
-def gather(parents: Indices, positions: Array, rate: float) -> Evidence | None:
+def gather(
+    parents: Indices, positions: Array, rate: float, root_offset: Array = NO_OFFSET
+) -> Evidence | None:
     """Gather the evidence of a clip, or return None if its joints make no body.
 
     Parameters
@@ -64,22 +71,25 @@ def gather(parents: Indices, positions: Array, rate: float) -> Evidence | None:
     parents : shape (J,), -1 for the root.
     positions : shape (F, J, 3), in the world, in the unit of the file, of `frames_to_look_at`.
     rate : of these frames, Hz.
+    root_offset : the vector to which the positions of the root may be relative, shape (3,).
     """
     joints = main_body(parents, positions)
     points = positions[:, joints]
     if len(joints) < TUNED.least_joints or not extents(points).max() > 0:
         return None
     parents = _renumbered(parents, joints)
-    scores, stillness = _axis_scores(parents, points, rate)
+    scores, stillness, floors = _axis_scores(parents, points, rate)
     axis = max(scores, key=lambda name: scores[name])
     heights = points @ direction(axis)
     tall = float(np.quantile(np.ptp(heights, axis=1), 0.9))
     chain = longest_chain(parents, points)
     stands = bool(abs(np.log(chain / max(tall, 1e-12) / CHAIN)) < CHAIN_SPREAD)
     size = tall if stands else chain / CHAIN
-    on_floor = bool(abs(np.median(heights.min(axis=1))) < 0.1 * tall)
+    possible_floors = floors[axis] + np.array([0.0, root_offset @ direction(axis)])
+    on_floor = bool(np.abs(possible_floors).min() < 0.1 * tall)
     fall = free_fall(heights, rate, size)
-    return Evidence(size, stands, scores, stillness, on_floor, fall, stride(points, axis, rate, size))
+    cycle = stride(points, axis, rate, size)
+    return Evidence(size, stands, scores, stillness, on_floor, fall, cycle, floors, root_offset)
 
 
 def frames_to_look_at(root_positions: Array, fps: float) -> tuple[Indices, float]:
@@ -253,8 +263,10 @@ def _are_same(first: list[float], second: list[float]) -> bool:
     return float(np.abs(np.subtract(first, second)).max()) < TUNED.mirrored_bones * max(first)
 
 
-def _axis_scores(parents: Indices, points: Array, fps: float) -> tuple[dict[str, float], dict[str, float]]:
-    """Score each signed axis, and return how still the lowest joint stands if the axis points up.
+def _axis_scores(
+    parents: Indices, points: Array, fps: float
+) -> tuple[dict[str, float], dict[str, float], dict[str, float]]:
+    """Score each signed axis, and return how still and how high the lowest joint is if the axis points up.
 
     An axis gains if the body is longest along it, if the lowest joint stands still, and if the lowest joints
     have a mirror image and the topmost one has none. It loses by travel along it.
@@ -268,10 +280,12 @@ def _axis_scores(parents: Indices, points: Array, fps: float) -> tuple[dict[str,
     usual_speeds = np.median(speeds, axis=(1, 2))
     scores = {}
     stillness = {}
+    floors = {}
     for axis in AXES:
         index = "xyz".index(axis[-1])
         heights = points @ direction(axis)
         lowest = heights.argmin(axis=1)
+        floors[axis] = float(np.median(heights.min(axis=1)))
         topmost = heights.argmax(axis=1)
         excess = lengths[index] - np.delete(lengths, index).max()
         feet_below = np.mean(paired[lowest] - paired[topmost])
@@ -281,7 +295,7 @@ def _axis_scores(parents: Indices, points: Array, fps: float) -> tuple[dict[str,
         rising = np.clip(travel[index] - TUNED.sideways_travel, 0, 1.5)
         evidence = [2.0 * np.clip(2 * excess, -1, 1), 1.5 * stillness[axis], 1.5 * feet_below, -2.0 * rising]
         scores[axis] = float(sum(evidence))
-    return scores, stillness
+    return scores, stillness, floors
 
 
 def _horizontal_speeds(points: Array, fps: float) -> Array:
