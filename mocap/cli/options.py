@@ -85,6 +85,7 @@ def frame_at(time_in_clip: str, fps: float) -> int:
 
 
 SHORTEST_STAGE = 0.05  # seconds: a shorter stage would be shown as 0.0 s
+SHORTEST_LINE = 0.5  # metres: a shorter path is doubted
 LENGTH = number(1e-6, 1e6)  # metres per unit
 CM = number(0.001, 1000)  # centimetres
 RATE = number(1, 1000)  # frames per second
@@ -229,13 +230,17 @@ class PathReading:
         return self != PathReading()
 
     def load(self, path: Path) -> "GroundPath":
-        """Read a path, with the names of options in errors and warnings."""
+        """Read a path, with the names of options in errors; warn of one that is shorter than a step."""
         from mocap.files.path_files import read_path  # the help needs no NumPy
 
         if self.unit is not None and self.length is not None:
             raise MocapError("Give one of --unit and --length: each sets the size of the path.")
         with named_options(PATH_READING):
-            return read_path(path, self.unit, self.length, self.id, PATH_READING)
+            line = read_path(path, self.unit, self.length, self.id, PATH_READING)
+        if line.length < SHORTEST_LINE and self.length is None:
+            size = f"{line.length:.2g} m long, shorter than a step"
+            warn(f"{path} is {size}: is its unit right? --unit or --length sets its size.")
+        return line
 
 
 @dataclass(frozen=True)

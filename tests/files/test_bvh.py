@@ -141,7 +141,7 @@ def test_a_header_that_counts_other_frames_than_follow_is_corrected_and_that_is_
     assert motion == expected
 
 
-@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "utf-16-le", "shift-jis"])
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "shift-jis"])
 def test_files_in_other_encodings_are_the_same(tmp_path, encoding):
     text = BVH.replace("left leg", "左足").replace("\n", "\r\n")
     (tmp_path / "a.bvh").write_bytes(text.encode(encoding))
@@ -149,6 +149,11 @@ def test_files_in_other_encodings_are_the_same(tmp_path, encoding):
     assert "左足" in motion.skeleton.names
     (tmp_path / "a.bvh").write_text(text, "utf-8")
     assert motion == load_save.load(tmp_path / "a.bvh")
+
+
+def test_the_end_of_a_file_of_dos_is_no_number(write):
+    dos = BVH.replace("\n", "\r\n")
+    assert load_save.load(write(f"{dos}\x1a")) == load_save.load(write(BVH))
 
 
 def test_decimal_commas_are_read_as_points_and_that_is_said(write):
