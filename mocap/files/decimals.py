@@ -22,7 +22,7 @@ ZERO = ord("0")
 NINE = ord("9")
 MOST_DIGITS = 15  # of an integer that is surely below 2⁵³
 POWERS = 10.0 ** np.arange(MOST_DIGITS + 1)
-BLOCK = 2**17  # characters that are converted at a time: their arrays fit into the cache of a processor
+BLOCK = 2**16  # characters that are converted at a time: their arrays fit into the cache of a processor
 
 
 def parse_numbers(text: str) -> Array | None:
@@ -95,6 +95,6 @@ def _plain_decimals(characters: NDArray[np.uint8], starts: Indices, stops: Indic
 
 def _counts(mask: Mask, starts: Indices, stops: Indices) -> Indices:
     """Count the marked characters of each word."""
-    sums = np.zeros(len(mask) + 1, int)
+    sums = np.zeros(len(mask) + 1, np.int32)
     np.cumsum(mask, out=sums[1:])
     return sums[stops] - sums[starts]
