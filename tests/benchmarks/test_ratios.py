@@ -329,7 +329,7 @@ def read_bvh(data, folder, name):
     """Read a file of given unit and axis, compared with NumPy's `loadtxt`, the base of other readers."""
     path = data / "bvh" / name
     rows = path.read_text().partition("Frame Time")[2].splitlines()[1:]
-    return partial(load, path, scale=0.01, up="y"), partial(np.loadtxt, rows)
+    return partial(load, path, scale=0.01, up="y", root_offset="ignore"), partial(np.loadtxt, rows)
 
 
 def find_space(data, folder):
