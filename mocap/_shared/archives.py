@@ -38,8 +38,10 @@ LAST = {"U": 0x10FFFF, "b": 1}  # the largest codes of characters and of boolean
 
 # The kinds of files, and the functions that read them.
 AMASS = "an AMASS archive"
+MOTION = "a motion"
 LOADERS = {
     AMASS: "mocap.load",
+    MOTION: "mocap.load",
     "a motion graph": "graphs.load",
     "a match web": "match_webs.load_web",
     "a parametric motion graph": "parametric_graphs.load_parametric",
@@ -78,12 +80,19 @@ class Member:
         with self.archive.open(self.entry) as packed, warnings.catch_warnings(action="ignore"):
             whole = npy.read_array(packed, allow_pickle=False)
         array = whole.astype(self.dtype.newbyteorder("="), "C", copy=False)
-        if last := LAST.get(self.dtype.kind):
-            codes: NDArray[Any] = array.reshape(-1).view(np.uint32 if last > 1 else np.uint8)
-            is_surrogate = codes >> 11 == 27
-            if np.any((codes > last) | is_surrogate):
-                raise UnicodeError
+        if not _is_text(array):
+            raise UnicodeError
         return array
+
+
+def _is_text(array: NDArray[Any]) -> bool:
+    """Return whether all characters of an array of texts are Unicode, and all booleans 0 or 1."""
+    last = LAST.get(array.dtype.kind)
+    if last is None or array.dtype.itemsize == 0:
+        return True
+    codes: NDArray[Any] = np.ascontiguousarray(array).reshape(-1).view(np.uint32 if last > 1 else np.uint8)
+    is_surrogate = codes >> 11 == 27
+    return not np.any((codes > last) | is_surrogate)
 
 
 def pack(path: str | Path, arrays: Mapping[str, Any]) -> None:
@@ -268,14 +277,21 @@ def write_archive(path: str | Path, kind: Kind, arrays: Mapping[str, Any]) -> No
         whole[key] = exact[key].astype(dtype)
         if not np.array_equal(whole[key], exact[key]):
             raise MocapError(f"Cannot save {kind.name}: '{key}' holds values that {dtype.__name__} has not.")
+        if not _is_text(whole[key]):
+            raise MocapError(f"Cannot save {kind.name}: '{key}' holds characters that are not Unicode text.")
     for rule, holds in kind.rules(whole):
         if not np.all(holds):
             raise MocapError(f"Cannot save {kind.name}: expected that {rule}.")
     pack(path, {"format": np.array(f"mocap: {kind.name}"), "version": np.array(kind.version), **whole})
 
 
-def read_archive(path: str | Path, kind: Kind) -> Arrays:
+def read_archive(path: str | Path, kind: Kind, room: int = ROOM) -> Arrays:
     """Read the arrays of a file from `write_archive`, and its `version`.
+
+    Parameters
+    ----------
+    path, room : as for `open_archive`.
+    kind : the kind of the file.
 
     Raises
     ------
@@ -289,7 +305,7 @@ def read_archive(path: str | Path, kind: Kind) -> Arrays:
     Traceback (most recent call last):
     mocap.errors.MocapError: Cannot read gone.npz: No such file or directory.
     """
-    with open_archive(path, kind.wanted) as members:
+    with open_archive(path, kind.wanted, room) as members:
         if kind_of(members) != kind.name:
             raise other_kind(path, kind.wanted, members)
         version = members["version"].read()

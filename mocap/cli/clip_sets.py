@@ -59,7 +59,7 @@ def read_found(
         warn(f"Left out: {problem.worded(options)}")
     if len(problems) > SHOWN_PROBLEMS:
         count = len(problems) - SHOWN_PROBLEMS
-        warn(f"Left out: {count} more files that cannot be read; mocap info says why.")
+        warn(f"Left out: {count} more files that cannot be read; mocap info --json says why.")
     return recordings, files_read
 
 

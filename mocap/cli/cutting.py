@@ -5,11 +5,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from mocap import body, editing
+from mocap import body, editing, files
 from mocap.cli.clip_sets import named_apart, read_found
 from mocap.cli.options import (
     RATE,
     READING,
+    PlainNames,
     ReadingAtRate,
     check_out,
     frame_at,
@@ -51,6 +52,7 @@ class Cutting:
         "number of copies of a cycle, each of which starts where the last one ended",
     ] = 1
     home: Annotated[bool, "start over the origin with heading 0, towards +z"] = False
+    plain_names: PlainNames = False
 
     def apply(self, clip: "Motion") -> "Motion":
         """Make all changes to a clip."""
@@ -66,7 +68,7 @@ class Cutting:
             motion = editing.repeated(motion, self.times)
         if self.home:
             motion = body.place(motion, 0.0, [0.0, 0.0])
-        return motion
+        return files.with_plain_names(motion) if self.plain_names else motion
 
     def _stretch(self, clip: "Motion") -> "Motion":
         """Return the frames from `from_` up to `to`."""
@@ -92,7 +94,7 @@ def cut(
     Parameters
     ----------
     clips (CLIP) : motion files, or folders of them.
-    out (OUT) : file to write, .bvh or .glb. For several clips, and with --root, .glb.
+    out (OUT) : file to write, .bvh, .glb, .npz or .csv. For several clips, and with --root, .glb.
     root : add a joint on the floor below the hips, with their heading, which engines use for root motion.
 
     Notes

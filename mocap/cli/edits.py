@@ -1,7 +1,8 @@
 """The commands that edit clips: `mocap warp`, `bend`, `loop`, `blend` and `retarget`."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -38,7 +39,7 @@ def warp(
     ----------
     source (IN) : a motion file.
     keys (FILE) : a text file of keys, described below.
-    out (OUT) : file to write, .bvh or .glb.
+    out (OUT) : file to write, .bvh, .glb, .npz or .csv.
     window : duration of the edit before the first and after the last pose, seconds, see below.
     loose_feet : do not remove foot sliding. Needed for bodies without legs.
 
@@ -62,7 +63,7 @@ def warp(
 
     Example: mocap warp walk.bvh --keys keys.txt -o warped.bvh
     """
-    check_out("warped clip", out, [source])
+    check_out("warped clip", out, [source, keys])
     from mocap.editing import warp_plans  # the help needs no NumPy
 
     motion = reading.load(source)
@@ -100,14 +101,14 @@ def bend(
     ----------
     source (IN) : a motion file of a walk.
     along (PATH) : the path, .csv with points x, z in metres, or .svg.
-    out (OUT) : file to write, .bvh or .glb.
+    out (OUT) : file to write, .bvh, .glb, .npz or .csv.
     limit (DEGREES) : the highest angular speed that bending adds to that of the walk, degrees per second.
 
     Notes
     -----
     Example: mocap bend walk.bvh --along line.csv -o bent.bvh
     """
-    check_out("bent walk", out, [source])
+    check_out("bent walk", out, [source, along])
     line = drawn.load(along)
     bent = editing.bend(reading.load(source), line, limit=math.radians(limit))
     print_rows(bent=bent.report())
@@ -134,7 +135,7 @@ def loop(
     Parameters
     ----------
     clip : a motion file.
-    out : file to write, .bvh or .glb.
+    out : file to write, .bvh, .glb, .npz or .csv.
     shortest : shortest duration of a cycle, seconds.
     longest : longest duration of a cycle, seconds.
     straight : remove the change of heading of a cycle, so that it continues straight ahead.
@@ -199,7 +200,7 @@ def blend(
     slack (SECONDS) : largest difference between the starts, or the ends, of the clips, seconds, at most half
         of the shortest clip.
     clean : detect footplants, and remove foot sliding.
-    out : file to write, .bvh or .glb.
+    out : file to write, .bvh, .glb, .npz or .csv.
 
     Notes
     -----
@@ -244,8 +245,9 @@ def retarget(
     Parameters
     ----------
     clips (IN) : motion files, or folders of them.
-    to (FILE) : the body, from a motion file of a person who walks, which also defines the height of the feet,
-        or from an .asf file with an upright rest pose.
+    to (FILE) : the body, from a motion file of a person who walks, or of one or two frames in which it
+        stands, such as a T-pose. These also define the height of the feet. Or from an .asf file with an
+        upright rest pose.
     out (DIR) : folder to write to.
     format : format of the files to write.
     to_scale : metres per unit of length in FILE, as --scale for IN.
@@ -262,20 +264,30 @@ def retarget(
         target = out if source.is_dir() else out / f"{source.stem}.{format}"
         pairs += plan(source, target, f".{format}")
     require_apart(pairs, [to])
-    wear = partial(_worn, reading, _body(to, to_scale, reading.joints))
+    wear = partial(_worn, reading, _body(to, to_scale, reading.joints), [source for source, _ in pairs])
     failed = convert(pairs, wear, progress=bar("retargeting"))
     return options.report_failures("retargeted", len(pairs), failed, f", in {out}")
 
 
-def _worn(reading: Reading, wearer: "Stance | body.Skeleton", source: Path) -> "body.Motion":
-    """Read a clip and retarget it."""
+def _worn(
+    reading: Reading, wearer: "Stance | body.Skeleton", sources: Sequence[Path], source: Path
+) -> "body.Motion":
+    """Read a clip and retarget it. Feet that never stand in it are as high as in others of the sources."""
     from mocap.editing.retargeting import wear  # the help needs no NumPy
 
-    return wear(reading.load(source), wearer)
+    return wear(reading.load(source), wearer, clips=_readable(reading, sources, source))
+
+
+def _readable(reading: Reading, sources: Sequence[Path], chosen: Path) -> "Iterator[body.Motion]":
+    """Read the sources other than the chosen one, leaving out those that cannot be read."""
+    for source in sources:
+        if source != chosen:
+            with suppress(MocapError):
+                yield reading.load(source)
 
 
 def _body(path: Path, scale: float | None, joints: Sequence[Path]) -> "Stance | body.Skeleton":
-    """Read the body to which clips are retargeted, and its stance from a clip in which it stands."""
+    """Read the body to which clips are retargeted, and its stance from a clip or pose in which it stands."""
     from mocap.editing.stances import stance_of_zero
     from mocap.files.asf import read_skeleton
 
@@ -288,6 +300,8 @@ def _body(path: Path, scale: float | None, joints: Sequence[Path]) -> "Stance | 
         return editing.stance_of(clip)
     except MocapError as error:
         try:  # the clip has no stance, but its rest pose may be sufficient
-            return stance_of_zero(clip.skeleton, 0.0).skeleton
+            at_rest = stance_of_zero(clip.skeleton, 0.0).skeleton
         except MocapError:
             raise MocapError(f"{path}: {error}") from None
+        warn(f"{path}: {error} The rest pose of its skeleton is taken as the stance.")
+        return at_rest

@@ -60,7 +60,7 @@ def inbetween(
     graph : an .npz file from `mocap graph` as the source of motion. Its clips must not have been moved.
     clips (CLIP) : motion files, or folders of them, as the source of motion (default: START and END).
     alone : write only the new motion, without START and END.
-    out : file to write, .bvh or .glb.
+    out : file to write, .bvh, .glb, .npz or .csv.
 
     Notes
     -----
@@ -78,7 +78,7 @@ def inbetween(
         raise MocapError("--graph and --clips both say where to take motion from: give one of them.")
     files = [start, end] if end else [start]
     sources = find_files(clips) if clips else []
-    check_out("whole motion", out, [*files, *sources])
+    check_out("whole motion", out, [*files, *sources, *([graph] if graph else [])])
     first, second, time = _sides(building.load(files, files)[0], gap, seconds, ahead)
     frames = max(1, round(time * first.fps))
     if time < in_betweening.SHORTEST:

@@ -20,6 +20,7 @@ from mocap.cli.messages import VERBOSITY, note
 from mocap.cli.typed_commands import ONE_EACH
 from mocap.datasets.clip_origins import Origin
 from mocap.errors import MocapError, SkeletonMismatch, printable, warn
+from mocap.files.formats import WRITTEN, enumerated
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -98,13 +99,17 @@ Joints = Annotated[
 ]
 Up = Annotated[
     Literal["y", "z", "-y", "-z", "x", "-x"] | None,
-    "axis of the file that points up (default: as the frames show; y, for .npz z)",
+    "axis of the file that points up (default: as the frames show; y, for AMASS z)",
 ]
 RootOffset = Annotated[
     Literal["add", "ignore"] | None,
     "whether the positions of the root in a .bvh are relative to its OFFSET (default: as the frames show)",
 ]
 Clean = Annotated[bool, "remove foot sliding"]
+PlainNames = Annotated[
+    bool,
+    "drop the characters [ ] . : / from the names of joints, and replace blanks by _, as three.js does",
+]
 Seed = Annotated[int, number(0, 2**32 - 1, int), "seed of the random numbers"]
 
 
@@ -465,20 +470,17 @@ def print_rows(**rows: object) -> None:
     print("\n".join(f"{name:<12} {printable(text)}" for name, text in rows.items()))
 
 
-def check_out(
-    thing: str, out: Path, read: Iterable[Path] = (), formats: Sequence[str] = (".bvh", ".glb")
-) -> None:
+def check_out(thing: str, out: Path, read: Iterable[Path] = (), formats: Sequence[str] = WRITTEN) -> None:
     """Raise, before any work is done, if a file cannot be written or is one of the input files.
 
     Examples
     --------
     >>> check_out("walk", Path("walk.fbx"))
     Traceback (most recent call last):
-    mocap.errors.MocapError: A walk is written as .bvh or .glb, got 'walk.fbx'.
+    mocap.errors.MocapError: A walk is written as .bvh, .glb, .npz or .csv, got 'walk.fbx'.
     """
     if out.suffix.lower() not in formats:
-        allowed = " or ".join(filter(None, [", ".join(formats[:-1]), formats[-1]]))
-        raise MocapError(f"A {thing} is written as {allowed}, got '{out}'.")
+        raise MocapError(f"A {thing} is written as {enumerated(formats)}, got '{out}'.")
     require_other(out, read)
     require_output(out)
 

@@ -25,11 +25,14 @@ Reading order (notebooks 01, 10)
 18. `loose_joints`: joints of a file that are no part of the body
 19. `rigid_bones`: rigid bones for files whose bones change length
 20. `bvh`: reader and writer of BVH files
-21. `amass`: the archives of AMASS, for the 22 joints of the SMPL body
-22. `role_maps`: the roles of joints, as TOML
-23. `gltf_capsules`: a body surface of rigid capsules around the bones
-24. `gltf`: writer of glTF files, with joints, skin and animation
-25. `tuned`: the constants that trials chose
+21. `motion_archives`: reader and writer of `.npz` archives
+22. `amass`: the layout of AMASS in archives, for the 22 joints of the SMPL body
+23. `position_tables`: writer of joint positions as `.csv`
+24. `role_maps`: the roles of joints, as TOML
+25. `plain_names`: names of joints that three.js keeps
+26. `gltf_capsules`: a body surface of rigid capsules around the bones
+27. `gltf`: writer of glTF files, with joints, skin and animation
+28. `tuned`: the constants that trials chose
 
 References
 ----------

@@ -27,10 +27,10 @@ def is_clip(path: Path) -> bool:
     >>> is_clip(Path("walk.BVH")), is_clip(Path("walk.asf")), is_clip(Path("graph.npz"))
     (True, False, False)
     """
-    from mocap.files.amass import is_amass  # imported here, because the help of the command needs no NumPy
+    from mocap.files.motion_archives import is_motion  # the help of the command needs no NumPy
 
     suffix = path.suffix.lower()
-    return suffix in formats.READ and (suffix != ".npz" or is_amass(path))
+    return suffix in formats.READ and (suffix != ".npz" or is_motion(path))
 
 
 def find_files(paths: Iterable[Path]) -> list[Path]:

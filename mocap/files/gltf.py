@@ -23,6 +23,7 @@ from mocap.body.planar import PlanarTransform, heading
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened
 from mocap.files.gltf_capsules import body, reaches
+from mocap.files.plain_names import plain_name
 from mocap.files.tuned import TUNED
 
 Record = dict[str, Any]
@@ -42,7 +43,8 @@ XYZW = [1, 2, 3, 0]  # indices that reorder (w, x, y, z) to the order of glTF
 INFLUENCES = 4  # joints that influence a vertex: glTF requires four, of which only the first is used here
 
 ASSET = {"version": "2.0", "generator": "mocap"}
-BODY = {"name": "body", "mesh": 0, "skin": 0}
+BODY_NAME = "body"
+BODY: Record = {"name": BODY_NAME, "mesh": 0, "skin": 0}
 CLAY = {"baseColorFactor": [0.45, 0.55, 0.65, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.8}
 
 
@@ -141,12 +143,13 @@ def _document(motions: Sequence[Motion], root: bool, block: Block) -> Record:
     """Build the JSON part of the file, and add its arrays to the block."""
     skeleton = motions[0].skeleton
     body_node = len(skeleton)  # after all joints
-    nodes = [*_nodes(skeleton), BODY]
+    nodes = [*_nodes(skeleton), BODY | {"name": _free_name(BODY_NAME, "drawn", skeleton)}]
     skin = _skin(skeleton, root, block)
     if root:
-        nodes.append({"name": _floor_name(skeleton), "children": [0]})
+        nodes.append({"name": _free_name("root", "floor", skeleton), "children": [0]})
     document: Record = {"asset": ASSET, "scene": 0}
-    document["scenes"] = [{"name": motions[0].name, "nodes": [skin["skeleton"], body_node]}]
+    scene_name = _free_name(motions[0].name, "clip", skeleton)
+    document["scenes"] = [{"name": scene_name, "nodes": [skin["skeleton"], body_node]}]
     document["nodes"] = nodes
     document["skins"] = [skin]
     document["materials"] = [{"name": "clay", "pbrMetallicRoughness": CLAY}]
@@ -182,11 +185,15 @@ def _floor_node(skeleton: Skeleton) -> int:
     return len(skeleton) + 1
 
 
-def _floor_name(skeleton: Skeleton) -> str:
-    """Return the name of a joint on the floor, which no joint of the skeleton has."""
-    name = "root"
-    while name in skeleton.names:
-        name = f"floor_{name}"
+def _free_name(name: str, prefix: str, skeleton: Skeleton) -> str:
+    """Return a name that no joint has, with prefixes if necessary.
+
+    Programs that need unique names would rename the joint. Names that differ only in characters that three.js
+    drops are the same.
+    """
+    names_of_joints = {plain_name(joint) for joint in skeleton.names}
+    while plain_name(name) in names_of_joints:
+        name = f"{prefix}_{name}"
     return name
 
 
@@ -230,7 +237,8 @@ def _mesh(skeleton: Skeleton, block: Block) -> Record:
     attributes["JOINTS_0"] = block.add(carriers, target=VERTICES)
     attributes["WEIGHTS_0"] = block.add(weights, target=VERTICES)
     indices = block.add(corners.ravel().astype(index_type), target=CORNERS)
-    return {"name": "body", "primitives": [{"attributes": attributes, "indices": indices, "material": 0}]}
+    name = _free_name(BODY_NAME, "drawn", skeleton)
+    return {"name": name, "primitives": [{"attributes": attributes, "indices": indices, "material": 0}]}
 
 
 def _animation(motion: Motion, rotates: Mask, travel: PlanarTransform | None, block: Block) -> Record:

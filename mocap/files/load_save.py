@@ -11,7 +11,7 @@ from mocap._shared.quantities import check_number, described
 from mocap.body.limbs import with_roles
 from mocap.body.motion import Motion, require_motion, require_motions, rotating_joints
 from mocap.errors import MocapError, warn
-from mocap.files import bvh, formats, gltf, spaces
+from mocap.files import bvh, formats, gltf, motion_archives, position_tables, spaces
 from mocap.files.read_options import ReadOptions
 from mocap.files.recordings import Recording
 from mocap.files.role_maps import read_roles
@@ -19,7 +19,6 @@ from mocap.files.text import check_above_0, read_text
 from mocap.files.tuned import TUNED
 
 PARAMETERS = {name: f"{name}=" for name in ("scale", "up", "root_offset", "body")}  # of `load`, in notices
-WRITTEN = ".bvh and .glb"
 
 
 def load(  # noqa: PLR0913 (each by its name)
@@ -49,7 +48,7 @@ def load(  # noqa: PLR0913 (each by its name)
         rigid bones are fitted, with a warning that reports the error of joint positions. `math.inf` accepts
         any change.
     up : the axis of the file that points up: "y", "z", "-y", "-z", "x" or "-x". By default the one that the
-        frames show, from the standing feet: y for `.bvh` and z for `.npz` if they do not. The motion is
+        frames show, from the standing feet: y for `.bvh` and z for AMASS if they do not. The motion is
         rotated so that y is up.
     root_offset : "add" if the positions of the root in a `.bvh` file are relative to its OFFSET, as some
         programs write them, or "ignore" if they replace it. By default it is added if the body is on the
@@ -61,7 +60,8 @@ def load(  # noqa: PLR0913 (each by its name)
 
     Returns
     -------
-    The motion, named after the file.
+    The motion, named after the file. One that `save` wrote to an `.npz` file is as it was saved, with its
+    name, labels, contacts and roles.
 
     Raises
     ------
@@ -92,6 +92,8 @@ def load(  # noqa: PLR0913 (each by its name)
     for notice in recording.notices(PARAMETERS):
         warn(f"{path}: {notice}")
     by_role = read_roles(roles) if isinstance(roles, str | Path) else roles
+    if recording.has_roles and by_role is None:
+        return recording.motion
     return with_roles(recording.motion, by_role)
 
 
@@ -171,15 +173,20 @@ def read_angles(path: str | Path, *, skeleton: str | Path | None = None) -> dict
 def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
     """Write a motion to a file. An existing file is replaced once the new one is complete.
 
-    Labels and contacts are not written, because the formats cannot represent them.
+    Labels, contacts and roles are written to `.npz` only, because the other formats cannot represent them.
 
     Parameters
     ----------
     motion : F frames.
-    path : the file, `.bvh` or `.glb`. A `.glb` file is for engines and viewers: it is in metres, includes a
-        body of capsules, and cannot be read by mocap.
-    precision : the number of decimals in a `.bvh` file, which is in centimetres. With 6, the error of joint
-        positions is at most 1e-7 m, with 9 at most 1e-10 m.
+    path : the file, `.bvh`, `.glb`, `.npz` or `.csv`. A `.glb` file is for engines and viewers: it is in
+        metres and includes a body of capsules. An `.npz` file keeps all fields of the motion exactly, see
+        `files.motion_archives`. If the body is SMPL's, it has the layout of AMASS instead, with z up, and
+        positions are kept within rounding, 1e-12 m. A `.csv` file is a table of the positions of joints in
+        metres: a column `time` in seconds, and `<joint>_x`, `<joint>_y` and `<joint>_z` for each joint.
+        `load` reads `.bvh` and `.npz`.
+    precision : the number of decimals in a `.bvh` file, which is in centimetres, or in a `.csv` file, which
+        is in metres. With 6, the error of joint positions is at most 1e-7 m in `.bvh` and 5e-7 m in `.csv`.
+        With 9, it is at most 1e-10 m in `.bvh`.
 
     Raises
     ------
@@ -212,8 +219,13 @@ def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
             )
         case ".glb":
             write_file(path, gltf.glb(motion))
+        case ".npz":
+            motion_archives.write(motion, path)
+        case ".csv":
+            position_tables.write(motion, path, precision=precision)
         case _:
-            raise MocapError(f"Cannot write {path}: mocap writes {WRITTEN}.")
+            written = formats.enumerated(formats.WRITTEN, "and")
+            raise MocapError(f"Cannot write {path}: mocap writes {written}.")
 
 
 def save_clips(motions: Sequence[Motion], path: str | Path, *, root: bool = False) -> None:
@@ -222,7 +234,7 @@ def save_clips(motions: Sequence[Motion], path: str | Path, *, root: bool = Fals
     Parameters
     ----------
     motions : one or more, with different names. Their frame rates may differ.
-    path : the file. A single motion may also be written as `.bvh`, without `root`.
+    path : the file. A single motion may also be written in another format of `save`, without `root`.
     root : whether to add a joint on the floor below the hips, with their heading, which moves a character in
         engines. It is called "root", or "floor_root" if the skeleton has that name.
 

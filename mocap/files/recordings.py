@@ -19,6 +19,7 @@ class Recording(NamedTuple):
     space : the unit and the vertical axis that it was read in; None if the format says both.
     evidence : of the space; None if the format or the caller says it, or the joints make no body.
     bodies : the names of the roots of all bodies in a `.bvh` file of which the first was read by default.
+    has_roles : whether the file says the roles of joints, or that there are none, so that none are searched.
     assumed : what the file does not say, such as its frame rate, as a phrase that ends with a remedy for it.
     """
 
@@ -29,6 +30,7 @@ class Recording(NamedTuple):
     space: Space | None = None
     evidence: Evidence | None = None
     bodies: tuple[str, ...] = ()
+    has_roles: bool = False
 
     def notices(self, names: Mapping[str, str]) -> list[str]:
         """State what was decided or chosen by default, and the parameters that overrule it.

@@ -152,7 +152,7 @@ def test_the_suffix_decides(tmp_path):
 test_other_formats_and_options_that_make_no_sense_are_refused = refusals(
     (r"mocap reads .amc .with .asf., .bvh", load_save.load, "walk.mp4"),
     ("files.asf.read_skeleton reads it", load_save.load, "walk.asf"),
-    (r"mocap writes .bvh and .glb", load_save.save, wave(3), "b.fbx"),
+    (r"mocap writes .bvh, .glb, .npz and .csv", load_save.save, wave(3), "b.fbx"),
     (r"Cannot read walk.GLB: mocap only writes it; in Blender", load_save.load, "walk.GLB"),
     (
         "in metres, got a scale of 2 for walk.npz: leave out scale=.",
