@@ -318,14 +318,14 @@ def read_archive(path: str | Path, kind: Kind, room: int = ROOM) -> Arrays:
     with open_archive(path, kind.wanted, room) as members:
         if kind_of(members) != kind.name:
             raise other_kind(path, kind.wanted, members)
-        version = members["version"].read()
-        if int(version) > kind.version:
+        version = int(members["version"].read())
+        if version > kind.version:
             raise FormatError(path, None, kind.wanted, f"version {version}, which a newer mocap wrote")
-        arrays = {key: members[key].read() for key in _checked(path, kind, members, int(version))}
+        arrays = {key: members[key].read() for key in _checked(path, kind, members, version)}
         for rule, holds in kind.rules(arrays):
             if not np.all(holds):
                 raise FormatError(path, None, f"that {rule}", "a damaged file")
-    return arrays | {"version": version}
+    return arrays | {"version": np.array(version)}
 
 
 def kind_of(members: Mapping[str, Member]) -> str:

@@ -27,6 +27,10 @@ Spaces = Mapping[Path, "Space | None"]
 """The space of each file; None for one whose format or user says it, and for one that shows none."""
 
 
+Choices = tuple[float, str, str | None]
+"""The scale, the axis that points up, and the use of the root's offset, as `Space.choices` returns them."""
+
+
 class Read(Protocol):
     """A function that reads a file, in a space if one is given, and otherwise as its frames show."""
 
@@ -105,6 +109,8 @@ def read_set(
     from mocap.files.clip_sets import agree, agreed_spaces, set_member  # the help needs no NumPy
 
     recordings, files_read = read_found(read, paths, named, options)
+    for path, recording in zip(files_read, recordings, strict=True):
+        warn_of_bodies(path, recording, options)
     members = [set_member(recording) for recording in recordings]
     spaces = agreed_spaces(members)
     recordings = agree(recordings, spaces, lambda number, space: read(files_read[number], space))
@@ -150,8 +156,15 @@ def _survey(read: Read, path: Path) -> "SetMember | None":
 
 
 def warn_of_space(path: Path, recording: "Recording", options: Mapping[str, str]) -> None:
-    """State the unit and the vertical axis that a clip was read in, if they are unusual or in doubt."""
+    """State the space that a clip was read in, if it is unusual or in doubt."""
     stated = recording.space.sentence(options) if recording.space else ""
+    if stated:
+        warn(f"{path}: {stated}")
+
+
+def warn_of_bodies(path: Path, recording: "Recording", options: Mapping[str, str]) -> None:
+    """State that the first of several bodies was read, if a file has several."""
+    stated = recording.body_notice(options)
     if stated:
         warn(f"{path}: {stated}")
 
@@ -179,8 +192,8 @@ def _warn_of_spaces(
 
 def _differing(files: "Mapping[Space, Sequence[Path]]", options: Mapping[str, str]) -> str:
     """State the different spaces of files of one hierarchy: each is read as it is by itself."""
-    alike: dict[tuple[float, str], list[Path]] = {}
-    spaces: dict[tuple[float, str], Space] = {}
+    alike: dict[Choices, list[Path]] = {}
+    spaces: dict[Choices, Space] = {}
     for space, paths in files.items():
         alike.setdefault(space.choices(), []).extend(paths)
         spaces.setdefault(space.choices(), space)

@@ -61,7 +61,7 @@ def info(file: Path, *, joints: bool = False, json: bool = False, reading: FileR
 
     Example: mocap info clips/ --json > clips.json
     """
-    from mocap.files.spaces import unit_name  # the help needs no NumPy
+    from mocap.files.spaces import ROOT_OFFSET, unit_name  # the help needs no NumPy
 
     if json:
         if joints:
@@ -85,7 +85,9 @@ def info(file: Path, *, joints: bool = False, json: bool = False, reading: FileR
     flaws = [_with_remedy(flaw, len(motion)) for flaw in report.flaws]
     print(report._replace(flaws=flaws).table())
     if recording.space:
-        print(f"space    {unit_name(recording.space.scale)} a unit, {recording.space.up} up")
+        scale, up, root_offset = recording.space.choices()
+        offset = f", {ROOT_OFFSET} added" if root_offset == "add" else ""
+        print(f"space    {unit_name(scale)} a unit, {up} up{offset}")
     if recording.assumed:
         print(f"assumed  {recording.assumed.worded(READING[recording.assumed.parameter])}")
     return 0

@@ -16,7 +16,7 @@ from mocap import body, files, graphs
 from mocap._shared.atomic import require_writable
 from mocap._shared.deprecation import DEPRECATED, Deprecation
 from mocap._shared.progress import Progress
-from mocap.cli.clip_sets import named_apart, read_set, surveyed_spaces, warn_of_space
+from mocap.cli.clip_sets import named_apart, read_set, surveyed_spaces, warn_of_bodies, warn_of_space
 from mocap.cli.messages import VERBOSITY, note
 from mocap.cli.typed_commands import ONE_EACH
 from mocap.datasets.clip_origins import Origin
@@ -88,6 +88,7 @@ def frame_at(time_in_clip: str, fps: float) -> int:
 
 
 SHORTEST_STAGE = 0.05  # seconds: a shorter stage would be shown as 0.0 s
+SHORTEST_LINE = 0.5  # metres: a shorter path is doubted
 LENGTH = number(1e-6, 1e6)  # metres per unit
 CM = number(0.001, 1000)  # centimetres
 RATE = number(1, 1000)  # frames per second
@@ -101,6 +102,10 @@ Joints = Annotated[
 Up = Annotated[
     Literal["y", "z", "-y", "-z", "x", "-x"] | None,
     "axis of the file that points up (default: as the frames show; y, for AMASS z)",
+]
+RootOffset = Annotated[
+    Literal["add", "ignore"] | None,
+    "whether the positions of the root in a .bvh are relative to its OFFSET (default: as the frames show)",
 ]
 Clean = Annotated[bool, "remove foot sliding"]
 PlainNames = Annotated[
@@ -119,9 +124,12 @@ READING = {
     "fps": "--read-fps (once --fps)",  # both work until 0.3
     "scale": "--scale",
     "up": "--up",
+    "root_offset": "--root-offset",
+    "body": "--body",
     "roles": "--joints",
 }
-SOURCES = READING | {"fps": "--read-fps to mocap convert"}  # commands that read several clips lack the option
+# Commands that read several clips lack two options.
+SOURCES = READING | {"fps": "--read-fps to mocap convert", "body": "--body of mocap convert"}
 DEPRECATED.append(Deprecation("--fps", since="0.2", removed_in="0.3", instead="--read-fps"))
 
 
@@ -229,13 +237,17 @@ class PathReading:
         return self != PathReading()
 
     def load(self, path: Path) -> "GroundPath":
-        """Read a path, with the names of options in errors and warnings."""
+        """Read a path, with the names of options in errors; warn of one that is shorter than a step."""
         from mocap.files.path_files import read_path  # the help needs no NumPy
 
         if self.unit is not None and self.length is not None:
             raise MocapError("Give one of --unit and --length: each sets the size of the path.")
         with named_options(PATH_READING):
-            return read_path(path, self.unit, self.length, self.id, PATH_READING)
+            line = read_path(path, self.unit, self.length, self.id, PATH_READING)
+        if line.length < SHORTEST_LINE and self.length is None:
+            size = f"{line.length:.2g} m long, shorter than a step"
+            warn(f"{path} is {size}: is its unit right? --unit or --length sets its size.")
+        return line
 
 
 @dataclass(frozen=True)
@@ -258,6 +270,12 @@ class FileReading:
         "metres per unit of length in the clip (default: as the frames show)",
     ] = None
     up: Up = None
+    root_offset: RootOffset = None
+    body: Annotated[
+        int | None,
+        number(1, 1000, int),
+        "number of the body in a .bvh of several bodies, from 1 (default: the first)",
+    ] = None
 
     def __post_init__(self) -> None:
         """Warn about the former name of an option."""
@@ -285,9 +303,9 @@ class FileReading:
             raise MocapError(f"{path} is a skeleton without a motion: give an .amc file, or a .bvh.")
         limit = TUNED.stretch if stretch is None else stretch
         rate = self.read_fps or self.fps
-        scale, up = (self.scale, self.up) if space is None else space.choices()
+        scale, up, root_offset = space.choices() if space else (self.scale, self.up, self.root_offset)
         with named_options(READING), timed_reading(path):
-            return read(path, self.skeleton, rate, scale, limit, up)
+            return read(path, self.skeleton, rate, scale, limit, up, root_offset, self.body)
 
     def read_with_roles(
         self, path: Path, space: "Space | None" = None, *, stretch: float | None = None
@@ -301,6 +319,7 @@ class FileReading:
         recording = self.read(path, space, stretch=stretch)
         if space is None:
             warn_of_space(path, recording, READING)
+        warn_of_bodies(path, recording, READING)
         return self._with_roles(recording)
 
     def _with_roles(self, recording: "Recording") -> "Recording":
@@ -373,6 +392,7 @@ class Sources:
     skeleton: Skeleton = None
     scale: Annotated[float | None, LENGTH, "metres per unit of a .bvh (default: as the frames show)"] = None
     up: Up = None
+    root_offset: RootOffset = None
     joints: Joints = ()
 
     def load(self, paths: Sequence[Path], named: Sequence[Path]) -> "tuple[list[Motion], list[Origin]]":
@@ -406,15 +426,16 @@ class Sources:
         """Return a file with the options by which its clip can be read again."""
         if recording.space is None:
             return Origin(path, self.skeleton, self.scale)
-        return Origin(path, self.skeleton, recording.space.scale, up=recording.space.up)
+        scale, up, root_offset = recording.space.choices()
+        return Origin(path, self.skeleton, scale, up=up, root_offset=root_offset)
 
     def _read(self, path: Path, space: "Space | None" = None) -> "Recording":
         from mocap.files.load_save import read  # the help needs no NumPy
         from mocap.files.tuned import TUNED
 
-        scale, up = (self.scale, self.up) if space is None else space.choices()
+        scale, up, root_offset = space.choices() if space else (self.scale, self.up, self.root_offset)
         with timed_reading(path):
-            return read(path, self.skeleton, None, scale, TUNED.stretch, up)
+            return read(path, self.skeleton, None, scale, TUNED.stretch, up, root_offset)
 
 
 @dataclass(frozen=True)

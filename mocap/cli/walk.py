@@ -177,8 +177,12 @@ def _graph(path: Path, clips: Sequence[Path], sources: Sources, out: Path) -> "g
     from mocap.editing.mirroring import mirrored_name  # the help needs no NumPy
     from mocap.graphs.storage import find_origins, read
 
-    if sources.scale and not clips:
-        raise MocapError("--scale belongs to --clips: the graph remembers the unit of its own clips.")
+    reading = {"--scale": sources.scale, "--up": sources.up, "--root-offset": sources.root_offset}
+    options_given = [option for option, value in reading.items() if value is not None]
+    if options_given and not clips:
+        raise MocapError(
+            f"{options_given[0]} belongs to --clips: the graph remembers how its own clips are read."
+        )
     content = read(path)
     files_read = find_files(clips) if clips else [origin.path for origin in find_origins(path)]
     options.require_other(out, files_read)

@@ -173,8 +173,14 @@ def _load_clips(
     stored_roles = [unpacked_roles(text) for text in references.roles] or [{}] * len(origins)
     clips = []
     for name, roles, origin in zip(references.names, stored_roles, progress(origins), strict=True):
-        asf = skeleton or origin.skeleton
-        clip = load(origin.path, skeleton=asf, scale=origin.scale, up=origin.up, roles=roles)
+        clip = load(
+            origin.path,
+            skeleton=skeleton or origin.skeleton,
+            scale=origin.scale,
+            up=origin.up,
+            root_offset=origin.root_offset,
+            roles=roles,
+        )
         clips.append(replace(mirror(clip) if origin.mirrored else clip, name=name))
     return clips
 

@@ -126,5 +126,7 @@ def decide_together(members: Sequence[SetMember]) -> list[Space]:
     first = members[0].space
     scale = None if "scale" in first.decided else first.scale
     up = None if "up" in first.decided else first.up
+    root_offset = None if "root_offset" in first.decided else first.root_offset
     evidence = [member.evidence for member in certain or members]
-    return [decide(evidence, first.usual, scale=scale, up=up)] * len(members)
+    space = decide(evidence, first.usual, scale=scale, up=up, root_offset=root_offset)
+    return [space] * len(members)

@@ -12,26 +12,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from mocap.errors import FormatError, MocapError, Remedy, shortened
+from mocap.files.read_options import ReadOptions
 
 if TYPE_CHECKING:
     from mocap.files.recordings import Recording
-
-
-class ReadOptions(NamedTuple):
-    """The options of `load`, of which a reader uses those that apply to its format.
-
-    skeleton : the file of the skeleton, for formats with separate skeletons.
-    fps : frames per second, which replace those of the file.
-    scale : metres in one unit of the file.
-    stretch : the largest change of the length of a bone, metres.
-    up : the axis that points up, such as "z".
-    """
-
-    skeleton: Path | None
-    fps: float | None
-    scale: float | None
-    stretch: float
-    up: str | None = None
 
 
 class Format(NamedTuple):
@@ -115,8 +99,7 @@ def read_bvh(path: Path, options: ReadOptions) -> Recording:
     """Read a BVH file."""
     from mocap.files import bvh
 
-    scale = options.scale
-    return bvh.read(path, scale=scale, fps=options.fps, stretch=options.stretch, up=options.up)
+    return bvh.read(path, options)
 
 
 def read_npz(path: Path, options: ReadOptions) -> Recording:

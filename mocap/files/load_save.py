@@ -12,10 +12,13 @@ from mocap.body.limbs import with_roles
 from mocap.body.motion import Motion, require_motion, require_motions, rotating_joints
 from mocap.errors import MocapError, warn
 from mocap.files import bvh, formats, gltf, motion_archives, position_tables, spaces
+from mocap.files.read_options import ReadOptions
 from mocap.files.recordings import Recording
 from mocap.files.role_maps import read_roles
 from mocap.files.text import check_above_0, read_text
 from mocap.files.tuned import TUNED
+
+PARAMETERS = {name: f"{name}=" for name in ("scale", "up", "root_offset", "body")}  # of `load`, in notices
 
 
 def load(  # noqa: PLR0913 (each by its name)
@@ -26,6 +29,8 @@ def load(  # noqa: PLR0913 (each by its name)
     scale: float | None = None,
     stretch: float = TUNED.stretch,
     up: str | None = None,
+    root_offset: str | None = None,
+    body: int | None = None,
     roles: Mapping[str, str] | str | Path | None = None,
 ) -> Motion:
     """Read a motion from a file, in one of the formats of `files.formats.READ`.
@@ -45,6 +50,11 @@ def load(  # noqa: PLR0913 (each by its name)
     up : the axis of the file that points up: "y", "z", "-y", "-z", "x" or "-x". By default the one that the
         frames show, from the standing feet: y for `.bvh` and z for AMASS if they do not. The motion is
         rotated so that y is up.
+    root_offset : "add" if the positions of the root in a `.bvh` file are relative to its OFFSET, as some
+        programs write them, or "ignore" if they replace it. By default it is added if the body is on the
+        floor only then.
+    body : the number of the body in a `.bvh` file of several bodies, from 1. By default the first, with a
+        warning.
     roles : names of joints by role, such as {"left hip": "thigh_l"}, or a TOML file of them, as printed by
         `mocap info FILE --joints`. By default limbs are identified by their names, or by their motion.
 
@@ -75,13 +85,12 @@ def load(  # noqa: PLR0913 (each by its name)
     if Path(path).is_dir():
         loop = "[mocap.load(file) for file in Path(folder).glob('*.bvh')]"
         raise MocapError(f"Cannot read {path}: Is a directory; its files are loaded by {loop}.")
-    for name, number in {"fps": fps, "scale": scale, "stretch": stretch}.items():
+    for name, number in {"fps": fps, "scale": scale, "stretch": stretch, "body": body}.items():
         if number is not None:
             check_number(number, name)
-    recording = read(path, skeleton, fps, scale, stretch, up)
-    stated = recording.space.sentence({"scale": "scale=", "up": "up="}) if recording.space else ""
-    if stated:
-        warn(f"{path}: {stated}")
+    recording = read(path, skeleton, fps, scale, stretch, up, root_offset, body)
+    for notice in recording.notices(PARAMETERS):
+        warn(f"{path}: {notice}")
     by_role = read_roles(roles) if isinstance(roles, str | Path) else roles
     if recording.has_roles and by_role is None:
         return recording.motion
@@ -95,6 +104,8 @@ def read(  # noqa: PLR0913 (the options of `load`)
     scale: float | None,
     stretch: float,
     up: str | None = None,
+    root_offset: str | None = None,
+    body: int | None = None,
 ) -> Recording:
     """Read a motion as `load` does, with the angles and the bone stretch of its file."""
     path = Path(path)
@@ -102,9 +113,11 @@ def read(  # noqa: PLR0913 (the options of `load`)
     if not stretch >= 0:
         raise MocapError(f"stretch must be 0 or more metres, got {stretch}.")
     spaces.require_axis(up)
+    spaces.require_root_offset(root_offset)
     suffix = path.suffix.lower()
     if suffix in formats.READ:
-        options = formats.ReadOptions(None if skeleton is None else Path(skeleton), fps, scale, stretch, up)
+        skeleton_file = None if skeleton is None else Path(skeleton)
+        options = ReadOptions(skeleton_file, fps, scale, stretch, up, root_offset, body)
         return formats.READ[suffix].read(path, options)
     if suffix == ".asf":
         raise MocapError(f"{path} is a skeleton without a motion: files.asf.read_skeleton reads it.")

@@ -17,7 +17,9 @@ from mocap.body import Motion, concatenate, joint_positions, resample, rotations
 from mocap.datasets import samples
 from mocap.files import conversion, load_save
 from tests.files.acclaim_clips import write_acclaim
+from tests.files.test_bvh import two_bodies
 from tests.files.test_rigid_bones import chain, six_channels
+from tests.files.test_spaces import with_offset
 from tests.refusals import refused
 from tests.strategies import wave
 
@@ -120,6 +122,30 @@ def test_convert_a_folder_and_name_what_failed(folder, run):
     made = sorted(str(p.relative_to("out")) for p in Path("out").rglob("*.*"))
     assert made == ["a.bvh", "more/b.bvh"]
     assert same("out/more/b.bvh", "clips/more/b.BVH")
+
+
+def test_each_of_two_bodies_in_a_file_is_converted_by_its_number(folder, run):
+    load_save.save(wave(40, seed=1), "other.bvh")
+    first = Path("clips/a.bvh").read_text()
+    Path("both.bvh").write_text(two_bodies(first, Path("other.bvh").read_text()))
+    said = "both.bvh: 2 bodies with the roots 'root', 'root': the first one is read. --body chooses another."
+    assert said in run("convert both.bvh first.bvh").err
+    assert run("convert both.bvh second.bvh --body 2").err == ""
+    assert same("first.bvh", "clips/a.bvh") and same("second.bvh", "other.bvh")
+    assert not same("first.bvh", "second.bvh")
+    assert "--body of mocap convert chooses another" in run("graph both.bvh -o g.npz", 2).err
+
+
+def test_positions_relative_to_the_offset_of_the_root_are_told_and_a_graph_remembers_them(folder, run):
+    load_save.save(resample(samples.sample("walk_straight"), 30), "walk.bvh")
+    with_offset(Path("walk.bvh"), np.array([0.0, 93.0, 0.0]), relative=True)
+    told = run("info walk.bvh")
+    assert "space    1 cm a unit, y up, the root's OFFSET added" in told.out
+    assert "the root's OFFSET added. --scale, --up and --root-offset overrule it." in told.err
+    assert run("info walk.bvh --root-offset add").err == ""
+    assert "under the floor" in run("info walk.bvh --root-offset ignore").out
+    run("graph walk.bvh -o g.npz")
+    assert "walked " in run("walk g.npz --random 2s -o w.bvh").out
 
 
 def write_poses(path):
