@@ -4,9 +4,9 @@
 
 Each source is a set of clips in metres with y up: captured ones of a folder that `MOCAP_DATA` names, which
 are skipped if it is not there, and bundled ones at other sizes. Each set is written in seven units, with y
-and with z up, and decided as a set. The table counts the spaces that are right, without or with a doubt, and
-those that are wrong, stated or in silence. A small body at an adult's pace has the same numbers as an adult
-in another unit.
+and with z up, and decided as a set, of which the worst clip counts. The table counts the spaces that are
+right, without or with a doubt, and those that are wrong, stated or in silence. A small body at an adult's
+pace has the same numbers as an adult in another unit.
 """
 
 import os
@@ -21,8 +21,9 @@ import numpy as np
 import mocap
 from mocap.body import Motion, joint_positions, rotations
 from mocap.datasets import sample
-from mocap.files.space_evidence import Evidence, frames_to_look_at, gather
-from mocap.files.spaces import UNITS, UPRIGHT, decide
+from mocap.files.clip_sets import SetMember, agreed_spaces
+from mocap.files.space_evidence import frames_to_look_at, gather
+from mocap.files.spaces import UNITS, UPRIGHT, Space, decide
 
 CAPTURED = {
     "Bandai-Namco": ("../bvh/bandai_namco/*.bvh", 0.01),
@@ -37,6 +38,7 @@ CAPTURED = {
     "CMU 49": ("49/49_0*.amc", None),
 }
 OUTCOMES = ("right", "right, in doubt", "wrong, stated", "WRONG IN SILENCE")
+FORMAT = (0.01, "y")  # the unit and the axis by default
 NAMES = {"scale": "scale=", "up": "up="}
 
 
@@ -81,17 +83,22 @@ def lying(clip: Motion) -> Motion:
     return replace(clip, rotations=turned, root_positions=np.full((len(clip), 3), [0.0, 0.2, 0.0]))
 
 
-def evidence_in(clips: Sequence[Motion], unit: float, up: str) -> list[Evidence]:
+def members_in(clips: Sequence[Motion], unit: float, up: str) -> list[SetMember]:
     """Gather the evidence of clips that are written in a unit, with an axis up."""
-    gathered = []
+    members = []
     for clip in clips:
         frames, rate = frames_to_look_at(clip.root_positions, clip.fps)
         positions = joint_positions(clip)[frames] / unit
         turned = rotations.rotate(rotations.inverse(UPRIGHT[up]), positions)
-        evidence = gather(clip.skeleton.parents, turned, rate)
+        skeleton = clip.skeleton
+        evidence = gather(skeleton.parents, turned, rate)
         if evidence is not None:
-            gathered.append(evidence)
-    return gathered
+            hierarchy = (tuple(skeleton.names), tuple(skeleton.parents.tolist()))
+            bones = float(np.linalg.norm(skeleton.offsets[1:], axis=-1).sum()) / unit
+            members.append(
+                SetMember(hierarchy, bones, decide([evidence], FORMAT, scale=None, up=None), evidence)
+            )
+    return members
 
 
 def outcomes(clips: Sequence[Motion]) -> Counter[str]:
@@ -101,9 +108,14 @@ def outcomes(clips: Sequence[Motion]) -> Counter[str]:
 
 
 def outcome(clips: Sequence[Motion], unit: float, up: str) -> str:
-    """Decide the space of a set, and name the outcome."""
-    space = decide(evidence_in(clips, unit, up), (0.01, "y"), scale=None, up=None)
-    if (space.scale, space.up) == (unit, up):
+    """Decide the spaces of the clips of a set, and name the worst outcome."""
+    spaces = agreed_spaces(members_in(clips, unit, up))
+    return max((outcome_of(space, unit, up) for space in spaces if space), key=OUTCOMES.index)
+
+
+def outcome_of(space: Space, unit: float, up: str) -> str:
+    """Name the outcome of a clip."""
+    if space.choices() == (unit, up):
         return "right, in doubt" if space.doubt else "right"
     return "wrong, stated" if space.sentence(NAMES) else "WRONG IN SILENCE"
 

@@ -3,6 +3,8 @@
     python figures/limb_schemes.py                # the table for a bundled walk
     python figures/limb_schemes.py --clip jog     # for another bundled clip
     python figures/limb_schemes.py --limits       # wrong joints with each limit halved and doubled
+    python figures/limb_schemes.py --mixed 50     # rigs of three kinds at a time, with random names
+    python figures/limb_schemes.py --files FOLDER # captured clips under random names
 
 All bodies have the proportions of one walker. A scheme changes the names of the joints of legs and arms, and
 the bones: fingers, joints for a twist, roots on the floor, hair. The names are those of public files and of
@@ -11,8 +13,11 @@ the manuals of programs.
 
 import argparse
 import time
+import warnings
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
+from pathlib import Path
 
 import numpy as np
 
@@ -21,7 +26,10 @@ from mocap.body import limb_search, limb_tree
 from mocap.body.kinematics import forward_kinematics
 from mocap.body.limb_search import FoundLimbs, find_limbs
 from mocap.body.skeleton import Skeleton
-from mocap.datasets import sample
+from mocap.datasets import SAMPLES, sample
+from mocap.errors import MocapError, MocapWarning
+from mocap.files.conversion import find_files
+from mocap.files.load_save import read
 
 SIDES = {"left": 1, "right": -1}  # and the sign of x on that side
 LEG = ("hip", "knee", "ankle", "ball", "tip")
@@ -101,6 +109,11 @@ class Rig:
                 self.parents[child] = self.parents[name]
         for table in (self.parents, self.positions, self.turns):
             del table[name]
+
+    def has_flat_toes(self) -> bool:
+        """Return whether the toes are at the ankles, but for noise."""
+        feet = [self.positions[f"{side} ball"] - self.positions[f"{side} ankle"] for side in SIDES]
+        return bool(np.abs(np.mean(feet, axis=1)).max() < 1e-2)
 
     def names(self) -> list[str]:
         """List the joints, parents first, in the order in which they were added."""
@@ -255,6 +268,57 @@ def tail(rig: Rig) -> None:
 def sword(rig: Rig) -> None:
     """Add a sword in the right hand."""
     rig.hang_chain("sword", "right wrist", (-0.05, 0.0, 0.05), (0.0, 0.0, 0.9), 2)
+
+
+def two_props(rig: Rig) -> None:
+    """Add a stick in each hand, as long as a ski pole."""
+    for side, sign in SIDES.items():
+        rig.hang_chain(f"{side} pole", f"{side} wrist", (0.08 * sign, 0.0, 0.03), (0.0, -0.55, 0.3), 2)
+
+
+def five_toes(rig: Rig) -> None:
+    """Add five toes of two bones in place of the tip of the foot."""
+    for side, sign in SIDES.items():
+        rig.drop(f"{side} tip")
+        for number in range(5):
+            first = (0.02 * sign * (number - 2), -0.01, 0.05 - 0.006 * number)
+            rig.hang_chain(f"{side} toe {number}", f"{side} ball", first, (0.0, 0.0, 0.02), 2)
+
+
+def face(rig: Rig) -> None:
+    """Add eyes and a jaw."""
+    for side, sign in SIDES.items():
+        rig.hang(f"{side} eye", "head", (0.03 * sign, 0.06, 0.08))
+    rig.hang_chain("jaw", "head", (0.0, 0.0, 0.03), (0.0, -0.04, 0.05), 2)
+
+
+def kneecaps(rig: Rig) -> None:
+    """Add a helper in front of each knee and behind each elbow, with a tip."""
+    for side in SIDES:
+        for role, ahead in (("knee", 0.06), ("elbow", -0.04)):
+            rig.hang_chain(f"{side} {role} helper", f"{side} {role}", (0.0, 0.0, ahead), (0.0, 0.0, 0.03), 2)
+
+
+def cape(rig: Rig) -> None:
+    """Add a cape of three chains that nearly reach the floor, listed before the arms."""
+    arms = {name: rig.parents.pop(f"{name}") for name in ("left clavicle", "right clavicle")}
+    for number, across in enumerate((-0.15, 0.0, 0.15)):
+        rig.hang_chain(f"cape {number}", "spine3", (across, 0.05, -0.14), (0.0, -0.24, -0.02), 5)
+    rig.parents |= arms
+
+
+def backpack(rig: Rig) -> None:
+    """Add a backpack with two straps."""
+    rig.hang_chain("pack", "spine3", (0.0, 0.0, -0.2), (0.0, -0.3, 0.0), 2)
+    for side, sign in SIDES.items():
+        rig.hang_chain(f"{side} strap", "spine3", (0.14 * sign, 0.1, 0.1), (0.0, -0.2, 0.0), 2)
+
+
+def spine_of_many(rig: Rig) -> None:
+    """Split each bone of the spine and of the neck in three."""
+    for child in ("spine1", "spine2", "spine3", "neck1", "neck2"):
+        rig.insert(f"{child} a", child, 0.33)
+        rig.insert(f"{child} b", child, 0.5)
 
 
 def hinges(rig: Rig) -> None:
@@ -532,7 +596,57 @@ ODDITIES: dict[str, tuple[Change, ...]] = {
     "noise of 1 cm": (noise,),
     "a clip run backwards": (fingers, backwards),
     "one frame": (fingers, one_frame),
+    "poles in both hands": (two_props,),
+    "five toes on each foot": (five_toes,),
+    "eyes and a jaw": (face,),
+    "helpers at knees and elbows": (kneecaps,),
+    "a cape": (cape,),
+    "a backpack": (backpack,),
+    "a spine of many bones": (spine_of_many,),
 }
+
+# reads: statement: a table
+KINDS: dict[str, Change] = {
+    "fingers": fingers,
+    "twists": twists,
+    "split bones": split_bones,
+    "muscles": muscles,
+    "hip bones": hip_bones,
+    "thighs on spine": thighs_on_spine,
+    "pelvis below hips": pelvis_below_hips,
+    "metatarsals": metatarsals,
+    "heels": heels,
+    "targets": root_and_targets,
+    "root on floor": root_on_floor,
+    "hair": hair,
+    "skirt": skirt,
+    "coat": coat,
+    "wings": wings,
+    "tail": tail,
+    "sword": sword,
+    "poles": two_props,
+    "face": face,
+    "kneecaps": kneecaps,
+    "cape": cape,
+    "backpack": backpack,
+    "long spine": spine_of_many,
+    "hinges": hinges,
+    "five toes": five_toes,
+    "flat toes": flat_toes,
+    "no toes": without("ball", "tip"),
+    "backwards": backwards,
+    "noise": noise,
+}
+"""Changes that may be made to one rig, in this order."""
+EXCLUSIVE = (
+    {"metatarsals", "five toes", "flat toes", "no toes"},
+    {"heels", "flat toes", "no toes"},
+    {"twists", "split bones"},
+    {"targets", "root on floor"},
+    {"hip bones", "thighs on spine", "pelvis below hips"},
+    {"sword", "poles"},
+)
+"""Kinds of which a rig has at most one."""
 
 
 # The table --------------------------------------------------------------------------------------------------
@@ -560,7 +674,9 @@ def expected_roles(rig: Rig) -> dict[str, str]:
         ball = f"{side} ball"
         if f"{side} metatarsals" in rig.parents:
             roles[ball] = f"{side} metatarsals"
-        if ball in roles and np.array_equal(rig.positions[ball], rig.positions[f"{side} ankle"]):
+        if f"{side} toe 0 1" in rig.parents:
+            roles[f"{side} tip"] = f"{side} toe 0 1"  # the big toe
+        if ball in roles and rig.has_flat_toes():
             roles.pop(ball)
         if not {f"{side} {role}" for role in ARM[1:4]} <= roles.keys():
             roles = {role: name for role, name in roles.items() if role.split()[1] not in ARM}
@@ -575,9 +691,14 @@ def found_roles(rig: Rig, limbs: FoundLimbs) -> dict[str, str]:
 
 def random_names(rig: Rig, seed: int) -> dict[str, str]:
     """Give all joints of a rig random names of twelve letters."""
+    return dict(zip(rig.parents, random_words(len(rig.parents), seed), strict=True))
+
+
+def random_words(count: int, seed: int) -> list[str]:
+    """Return random words of twelve letters."""
     chance = np.random.default_rng(seed)
-    letters = chance.integers(ord("a"), ord("z") + 1, (len(rig.parents), 12))
-    return {name: "".join(map(chr, row)) for name, row in zip(rig.parents, letters, strict=True)}
+    letters = chance.integers(ord("a"), ord("z") + 1, (count, 12))
+    return ["".join(map(chr, row)) for row in letters]
 
 
 def wrong_roles(rig: Rig, limbs: FoundLimbs) -> list[str]:
@@ -630,14 +751,76 @@ def print_limits(clip: str) -> None:
             print(f"{limit.name:<28} {counts[0]:>6} {counts[1]:>7}")
 
 
+def mixed_kinds(seed: int, count: int = 3) -> list[str]:
+    """Choose some kinds of changes that fit together at random."""
+    chance = np.random.default_rng(seed)
+    while True:
+        numbers = sorted(chance.choice(len(KINDS), count, replace=False).tolist())
+        kinds = [list(KINDS)[number] for number in numbers]
+        if all(len(group.intersection(kinds)) < 2 for group in EXCLUSIVE):
+            return kinds
+
+
+def mixed_rig(seed: int) -> tuple[list[str], Rig]:
+    """Make a rig with three kinds of changes, from a bundled clip, both chosen at random."""
+    kinds = mixed_kinds(seed)
+    return kinds, odd_rig([KINDS[kind] for kind in kinds], SAMPLES[seed % len(SAMPLES)])
+
+
+def print_mixed(count: int) -> None:
+    """Print the mixed rigs that have a wrong role, and how many are right and doubtful."""
+    outcomes: Counter[str] = Counter()
+    for seed in range(count):
+        kinds, rig = mixed_rig(seed)
+        limbs = find_limbs(*rig.skeleton(random_names(rig, seed)))
+        wrong = wrong_roles(rig, limbs)
+        doubt = "in doubt" if limbs.doubts else "without a doubt"
+        outcomes[f"{'wrong' if wrong else 'right'}, {doubt}"] += 1
+        if wrong:
+            doubts = "; ".join(limbs.doubts) or "SILENT"
+            print(f"{seed:>4} {', '.join(kinds):<40} {', '.join(wrong)}; {doubts}")
+    counts = [f"{number} {outcome}" for outcome, number in outcomes.items()]
+    print(f"of {count} rigs:", ", ".join(counts))
+
+
+def print_renamed(folder: Path) -> None:
+    """Print how often random names change a role in the clips of a folder, and what is doubtful."""
+    changed = tried = 0
+    doubtful: list[str] = []
+    for path in find_files([folder]):
+        try:
+            motion = read(path, None, None, None, np.inf).motion
+        except MocapError as error:
+            print(f"{path}: {error}")
+            continue
+        limbs = find_limbs(motion.skeleton, motion.positions)
+        doubtful += [f"{path}: {'; '.join(limbs.doubts)}"] if limbs.doubts else []
+        for seed in range(3):
+            names = random_words(len(motion.skeleton), seed)
+            anonymous = replace(motion.skeleton, names=names, roles={})
+            tried += 1
+            if find_limbs(anonymous, motion.positions).roles != limbs.roles:
+                changed += 1
+                print(f"{path}: names of seed {seed} change a role")
+    print("\n".join(doubtful))
+    print(f"{changed} of {tried} renamed clips have other roles; {len(doubtful)} clips are in doubt")
+
+
 def main() -> None:
     """Print the table that the command line asks for."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("--clip", default="walk_straight", help="a bundled clip")
     parser.add_argument("--limits", action="store_true", help="vary the limits of the search")
+    parser.add_argument("--mixed", type=int, metavar="N", help="N rigs of three kinds at a time")
+    parser.add_argument("--files", type=Path, metavar="FOLDER", help="rename the joints of captured clips")
     options = parser.parse_args()
+    warnings.simplefilter("ignore", MocapWarning)
     if options.limits:
         print_limits(options.clip)
+    elif options.mixed:
+        print_mixed(options.mixed)
+    elif options.files:
+        print_renamed(options.files)
     else:
         print_table(options.clip)
 

@@ -23,7 +23,7 @@ The rooms of the package, from the lowest layer up, with the notebooks that teac
 in lower layers. `help(mocap.graphs)`, for example, lists the files of a room in reading order.
 
 body       the model of a moving body: skeletons, motions, rotations, kinematics (01, 03)
-files      motion files: ASF/AMC, BVH, AMASS .npz, glTF, whole folders, and paths from CSV and SVG (01, 10)
+files      motion files: ASF/AMC, BVH, AMASS .npz, glTF, CSV, and paths from CSV and SVG (01, 10)
 matching   similarity of frames: metrics, distance grids, transitions (02, 05, 15)
 feet       foot contacts: footplants, footskate clean-up (04)
 blending   transitions between motions: blends, inertialization, registration (04, 15)

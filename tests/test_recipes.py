@@ -11,10 +11,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 import mocap
 from mocap import datasets, graphs
 from mocap.body import Motion
+from tests.files.test_amass import by_hand
 from tests.test_types import ROOT
 
 PAGE = ROOT / "notebooks" / "RECIPES.md"
@@ -58,10 +60,12 @@ def test_pandas_has_a_table_of_positions(tmp_path):
     pandas = pytest.importorskip("pandas", reason="no pandas here: pip install pandas")
     (program,) = programs("pandas")
     printed = run(program, tmp_path)
-    table = pandas.read_csv(tmp_path / "positions.csv", header=[0, 1], index_col=0)
+    table = pandas.read_csv(tmp_path / "positions.csv", index_col="time")
     walk = walk_at()
     head = walk.positions[:, walk.skeleton.index("head")]
-    assert np.allclose(table["head"], head) and np.allclose(table.index, np.arange(len(walk)) / walk.fps)
+    assert np.allclose(table[["head_x", "head_y", "head_z"]], head, atol=1e-6)
+    assert np.allclose(table.index, np.arange(len(walk)) / walk.fps)
+    assert "toes_y" in printed
     assert re.search(r"max +[2-5]\.\d\d", printed)  # feet swing at some metres per second
 
 
@@ -72,11 +76,24 @@ def test_torch_has_windows_of_a_second(tmp_path):
     check = (
         "assert windows.shape == ((len(walk) - 30) // 8 + 1, 30, 6 * len(walk.skeleton))\n"
         "assert torch.equal(windows[3, 7], frames[3 * 8 + 7])\n"
+        "assert np.array_equal(rotations, walk.rotations) and contacts.shape == (len(walk), 4)\n"
         "print(float(frames.reshape(len(walk), -1, 6)[9, 5, 1]))\n"
     )
     printed = run(program + check, tmp_path)
     assert f"torch.Size([16, 30, {6 * len(walk.skeleton)}])" in printed
     assert float(printed.split()[-1]) == pytest.approx(walk.positions[9, 5, 1], abs=1e-6)
+
+
+def test_the_arrays_for_torch_are_those_of_the_motion(tmp_path):
+    """The part of the recipe before PyTorch is needed."""
+    (program,) = programs("PyTorch")
+    start = program.index("walk = ")
+    run(f"import mocap\nfrom mocap import datasets\n{program[start : program.index('with np')]}", tmp_path)
+    walk = walk_at(30, "walk_circle")
+    with np.load(tmp_path / "walk.npz") as arrays:
+        assert np.array_equal(arrays["rotations"], walk.rotations)
+        for name, mark in zip(arrays["contact_names"], arrays["contacts"].T, strict=True):
+            assert np.array_equal(mark, walk.contacts[name])
 
 
 def test_an_archive_of_amass_comes_back_as_the_motion_that_it_holds(tmp_path):
@@ -85,9 +102,12 @@ def test_an_archive_of_amass_comes_back_as_the_motion_that_it_holds(tmp_path):
     walk = mocap.load(tmp_path / "walk_poses.npz")
     assert walk.fps == 30 and repr(walk) in printed
     assert np.abs(walk.positions - np.load(tmp_path / "positions.npy")).max() < 1e-9  # metres
-    names = {"poses", "trans", "betas", "gender", "mocap_framerate"}
-    assert set(np.load(tmp_path / "walk_poses.npz").files) == names
-    assert 1.5 < np.load(tmp_path / "walk_poses.npz")["trans"][:, 2].mean() + 0.7 < 2  # z is up
+    with np.load(tmp_path / "walk_poses.npz") as archive:
+        assert {"poses", "trans", "betas", "dmpls", "gender", "mocap_framerate"} <= set(archive.files)
+        placed = by_hand(archive["poses"][9, :66], archive["trans"][9])
+        assert 1.5 < archive["trans"][:, 2].mean() + 0.7 < 2  # z is up
+    x, y, z = walk.positions[9].T
+    assert np.abs(placed - np.stack([x, -z, y], axis=-1)).max() < 1e-9  # metres
 
 
 # A .glb, and the programs that read it ----------------------------------------------------------------------
@@ -102,14 +122,15 @@ def glb_document(path: Path) -> dict:
 
 
 def rest_positions(nodes: list[dict], roots: list[int]) -> np.ndarray:
-    """Add the translations down the tree, in metres; no node is rotated or scaled at rest."""
+    """Return the positions of nodes at rest, in metres; no node is scaled."""
     positions = {}
-    waiting = [(root, np.zeros(3)) for root in roots]
+    waiting = [(root, np.zeros(3), Rotation.identity()) for root in roots]
     while waiting:
-        node, origin = waiting.pop()
-        assert not {"rotation", "scale", "matrix"} & set(nodes[node])
-        positions[node] = origin + nodes[node].get("translation", [0, 0, 0])
-        waiting += [(child, positions[node]) for child in nodes[node].get("children", [])]
+        node, origin, above = waiting.pop()
+        assert not {"scale", "matrix"} & set(nodes[node])
+        positions[node] = origin + above.apply(nodes[node].get("translation", [0, 0, 0]))
+        here = above * Rotation.from_quat(nodes[node].get("rotation", [0, 0, 0, 1]))
+        waiting += [(child, positions[node], here) for child in nodes[node].get("children", [])]
     return np.array([positions[node] for node in sorted(positions)])
 
 

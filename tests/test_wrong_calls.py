@@ -460,7 +460,7 @@ CALLS = {
     ),
     "a format that is not written": (
         "mocap.save(walk, 'w.fbx')",
-        ".bvh and .glb",
+        ".bvh, .glb, .npz and .csv",
         "mocap.save(walk, 'w.glb')",
     ),
     "arguments in another order": (

@@ -8,6 +8,9 @@ The clips are written to files as other programs might have written them, and re
 - All constants of the space, from `least_joints` to `still_foot`: each clip is written in five units, with y
   and with z up. Right: the percentage of the spaces that are found. Wrong in silence: the percentage that is
   read in another space without a word.
+- `root_height`, `floor_error`: each clip on its floor, and with its hips at 0, as if its positions were
+  relative to the root's offset, which is 5 cm too high, right, or too low. Right: the percentage of clips in
+  which it is known whether to add the offset.
 - `carried`: a .glb file. Size: its kilobytes; off: the largest distance of a joint, micrometres, by the
   rounding of rotations.
 """
@@ -87,6 +90,22 @@ def in_spaces(clips: Clips) -> Row:
     return {"right, %": 100 * right / count, "wrong in silence, %": 100 * silent / count}
 
 
+def with_offsets(clips: Clips) -> Row:
+    """Decide whether to add the root's offset, for clips on their floor and clips with their hips at 0."""
+    decided: list[bool] = []
+    for clip in clips:
+        frames, rate = frames_to_look_at(clip.root_positions, clip.fps)
+        positions = joint_positions(clip)[frames]
+        hips = float(np.median(clip.root_positions[:, 1]))
+        for error in (-0.05, 0.0, 0.05):
+            offset = np.array([0.0, hips + error, 0.0])
+            for shift, use in ((0.0, "ignore"), (hips, "add")):
+                evidence = gather(clip.skeleton.parents, positions - [0.0, shift, 0.0], rate, offset)
+                space = decide([evidence] if evidence else [], (1.0, "y"), scale=1.0, up="y")
+                decided.append(space.root_offset == use)
+    return {"right, %": 100 * float(np.mean(decided))}
+
+
 def saved(clip: Motion, suffix: str) -> Motion:
     """Save a clip, and load it again."""
     with tempfile.TemporaryDirectory() as folder:
@@ -157,9 +176,12 @@ TRIALS = {
     "strayed": Trial(stretched, (1.0, 2.0, 5.0)),
     "rotation_weight": Trial(stretched, (0.0, 1e-4, 1e-2, 1.0)),
     **{name: Trial(in_spaces, values) for name, values in SPACES.items()},
+    "root_height": Trial(with_offsets, (0.05, 0.45, 0.6)),
+    "floor_error": Trial(with_offsets, (0.02, 0.05, 0.2)),
     "carried": Trial(binary, (2.0, 0.0, 0.1, 0.5)),
 }
-STUDY = Study(tuned, TRIALS, {}, (SHORT, MIXED))
+FIXED = {"same_body": "between the ratio of two adults, 1.3, and that of two units, 1.77 (5.64 cm and 1 dm)"}
+STUDY = Study(tuned, TRIALS, FIXED, (SHORT, MIXED))
 
 if __name__ == "__main__":
     STUDY.main(__doc__)

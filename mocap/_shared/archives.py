@@ -38,8 +38,10 @@ LAST = {"U": 0x10FFFF, "b": 1}  # the largest codes of characters and of boolean
 
 # The kinds of files, and the functions that read them.
 AMASS = "an AMASS archive"
+MOTION = "a motion"
 LOADERS = {
     AMASS: "mocap.load",
+    MOTION: "mocap.load",
     "a motion graph": "graphs.load",
     "a match web": "match_webs.load_web",
     "a parametric motion graph": "parametric_graphs.load_parametric",
@@ -78,12 +80,19 @@ class Member:
         with self.archive.open(self.entry) as packed, warnings.catch_warnings(action="ignore"):
             whole = npy.read_array(packed, allow_pickle=False)
         array = whole.astype(self.dtype.newbyteorder("="), "C", copy=False)
-        if last := LAST.get(self.dtype.kind):
-            codes: NDArray[Any] = array.reshape(-1).view(np.uint32 if last > 1 else np.uint8)
-            is_surrogate = codes >> 11 == 27
-            if np.any((codes > last) | is_surrogate):
-                raise UnicodeError
+        if not _is_text(array):
+            raise UnicodeError
         return array
+
+
+def _is_text(array: NDArray[Any]) -> bool:
+    """Return whether all characters of an array of texts are Unicode, and all booleans 0 or 1."""
+    last = LAST.get(array.dtype.kind)
+    if last is None or array.dtype.itemsize == 0:
+        return True
+    codes: NDArray[Any] = np.ascontiguousarray(array).reshape(-1).view(np.uint32 if last > 1 else np.uint8)
+    is_surrogate = codes >> 11 == 27
+    return not np.any((codes > last) | is_surrogate)
 
 
 def pack(path: str | Path, arrays: Mapping[str, Any]) -> None:
@@ -175,6 +184,7 @@ class Kind:
     rules : a function that yields the validity rules for all arrays of a file.
     parts : by name. Array `key` of part 3 of "node" is called "node_3_key".
     version : the version of the layout. Files of a later one are refused.
+    added : arrays that were added to the layout, by their key, and the version since which files have them.
 
     Examples
     --------
@@ -187,30 +197,37 @@ class Kind:
     rules: Callable[[Arrays], Rules]
     parts: Mapping[str, Part] = field(default_factory=dict)
     version: int = 1
+    added: Mapping[str, int] = field(default_factory=dict)
 
     @property
     def wanted(self) -> str:
         """The description of the expected file, for errors."""
-        versions = " or ".join(map(str, range(1, self.version + 1)))
+        *earlier, last = map(str, range(1, self.version + 1))
+        versions = f"{', '.join(earlier)} or {last}" if earlier else last
         return f"{self.name} saved by mocap, version {versions}"
 
     def part(self, arrays: Arrays, name: str, number: int) -> Arrays:
         """Extract the arrays of one part from those of a file; `numbered` is the inverse."""
-        return {key: arrays[f"{name}_{number}_{key}"] for key in self.parts[name].arrays}
+        keys = {f"{name}_{number}_{key}": key for key in self.parts[name].arrays}
+        return {key: arrays[whole_key] for whole_key, key in keys.items() if whole_key in arrays}
 
-    def fits(self, arrays: Mapping[str, Shaped]) -> Iterator[tuple[str, type, bool]]:
-        """Yield the name and type of each array of this kind, and whether the shape of that in `arrays` fits.
+    def layout_of(self, layout: Layout, version: int) -> Layout:
+        """Return the part of a layout that files of a version have."""
+        return {key: row for key, row in layout.items() if self.added.get(key, 1) <= version}
+
+    def fits(self, arrays: Mapping[str, Shaped], version: int) -> Iterator[tuple[str, type, bool]]:
+        """Yield the name and type of each array of a version, and whether the shape of that in `arrays` fits.
 
         Parts follow the other arrays, whose shapes determine their number. Iterate further only if an array
         fits.
         """
         sizes: dict[str, int] = {}
-        for key, (kind, shape) in self.arrays.items():
+        for key, (kind, shape) in self.layout_of(self.arrays, version).items():
             yield key, kind, _has_shape(arrays.get(key), shape, sizes)
         for name, part in self.parts.items():
             for number in range(sizes[part.number]):
                 of_part = f"{name}_{number}_"
-                for key, (kind, shape) in part.arrays.items():
+                for key, (kind, shape) in self.layout_of(part.arrays, version).items():
                     named = tuple(_in_part(size, of_part) for size in shape)
                     yield of_part + key, kind, _has_shape(arrays.get(of_part + key), named, sizes)
 
@@ -262,20 +279,29 @@ def write_archive(path: str | Path, kind: Kind, arrays: Mapping[str, Any]) -> No
         raise MocapError(f"This is written as .npz, got '{path}'.")
     exact = {key: np.asarray(array) for key, array in arrays.items()}
     whole: Arrays = {}
-    for key, dtype, fits in kind.fits(exact):
+    for key, dtype, fits in kind.fits(exact, kind.version):
         if not fits:
             raise MocapError(f"Cannot save {kind.name}: '{key}' does not fit its other arrays.")
         whole[key] = exact[key].astype(dtype)
         if not np.array_equal(whole[key], exact[key]):
             raise MocapError(f"Cannot save {kind.name}: '{key}' holds values that {dtype.__name__} has not.")
+        if not _is_text(whole[key]):
+            raise MocapError(f"Cannot save {kind.name}: '{key}' holds characters that are not Unicode text.")
     for rule, holds in kind.rules(whole):
         if not np.all(holds):
             raise MocapError(f"Cannot save {kind.name}: expected that {rule}.")
     pack(path, {"format": np.array(f"mocap: {kind.name}"), "version": np.array(kind.version), **whole})
 
 
-def read_archive(path: str | Path, kind: Kind) -> Arrays:
+def read_archive(path: str | Path, kind: Kind, room: int = ROOM) -> Arrays:
     """Read the arrays of a file from `write_archive`, and its `version`.
+
+    A file of an earlier version does not have the arrays that were added later.
+
+    Parameters
+    ----------
+    path, room : as for `open_archive`.
+    kind : the kind of the file.
 
     Raises
     ------
@@ -289,17 +315,17 @@ def read_archive(path: str | Path, kind: Kind) -> Arrays:
     Traceback (most recent call last):
     mocap.errors.MocapError: Cannot read gone.npz: No such file or directory.
     """
-    with open_archive(path, kind.wanted) as members:
+    with open_archive(path, kind.wanted, room) as members:
         if kind_of(members) != kind.name:
             raise other_kind(path, kind.wanted, members)
-        version = members["version"].read()
-        if int(version) > kind.version:
+        version = int(members["version"].read())
+        if version > kind.version:
             raise FormatError(path, None, kind.wanted, f"version {version}, which a newer mocap wrote")
-        arrays = {key: members[key].read() for key in _checked(path, kind, members)}
+        arrays = {key: members[key].read() for key in _checked(path, kind, members, version)}
         for rule, holds in kind.rules(arrays):
             if not np.all(holds):
                 raise FormatError(path, None, f"that {rule}", "a damaged file")
-    return arrays | {"version": version}
+    return arrays | {"version": np.array(version)}
 
 
 def kind_of(members: Mapping[str, Member]) -> str:
@@ -325,10 +351,10 @@ def other_kind(path: str | Path, expected: str, members: Mapping[str, Member]) -
     return FormatError(path, None, expected, kind, remedy=Remedy(f"{LOADERS[kind]} reads it"))
 
 
-def _checked(path: str | Path, kind: Kind, members: Mapping[str, Member]) -> list[str]:
-    """List the names of all arrays of a kind. Raise at the first that is missing or does not fit."""
+def _checked(path: str | Path, kind: Kind, members: Mapping[str, Member], version: int) -> list[str]:
+    """List the names of all arrays of a version. Raise at the first that is missing or does not fit."""
     keys = []
-    for key, dtype, fits in kind.fits(members):
+    for key, dtype, fits in kind.fits(members, version):
         if key not in members:
             raise FormatError(path, None, kind.wanted, f"one without {key}")
         if not fits or members[key].dtype.kind != np.dtype(dtype).kind:

@@ -16,8 +16,9 @@ Reading order (notebooks 01, 03)
  9. `limb_tree`: bones of constant length, and chains of them
 10. `limb_search`: legs and arms by bones and motion, whatever the names of joints
 11. `limbs`: legs and arms, the heading of the hips, and the role of each joint in a body
-12. `fingerprints`: hashes that identify a clip under any name
-13. `tuned`: the constants that trials chose
+12. `body_sides`: left, right and the head, by names or roles
+13. `fingerprints`: hashes that identify a clip under any name
+14. `tuned`: the constants that trials chose
 
 References
 ----------

@@ -5,7 +5,7 @@
 
 import numpy as np
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Indices
 from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.skeleton import Skeleton
@@ -57,6 +57,33 @@ def place_joints(skeleton: Skeleton, root_positions: Array, local: Array) -> Glo
     for joint in range(1, len(skeleton)):
         positions[joint] += positions[skeleton.parents[joint]]
     return GlobalPoses(np.swapaxes(positions, 0, 1), np.swapaxes(matrices, 0, 1))
+
+
+def world_positions(parents: Indices, positions: Array, local: Array) -> Array:
+    """Compute the world positions of joints whose positions in their parents' frames may vary, (F, J, 3).
+
+    Parameters
+    ----------
+    parents : shape (J,), -1 for the root, each before its children.
+    positions : shape (F, J, 3), of the joints in their parents' frames, and of the root in the world.
+    local : shape (F, J, 4), unit quaternions relative to the parents' frames.
+
+    Examples
+    --------
+    >>> pose = np.array([[rotations.about_y(np.pi / 2), [1, 0, 0, 0]]])
+    >>> positions = np.array([[[0.0, 2.0, 0.0], [0.0, 0.0, 1.0]]])
+    >>> world_positions(np.array([-1, 0]), positions, pose)[0, 1].round(6) + 0.0
+    array([1., 2., 0.])
+    """
+    matrices = rotations.to_matrix(np.swapaxes(local, 0, 1))
+    for joint in range(1, len(parents)):
+        matrices[joint] = matrices[parents[joint]] @ matrices[joint]
+    bones = np.swapaxes(positions, 0, 1)[..., None]
+    world = bones[..., 0].copy()
+    world[1:] = (matrices[parents[1:]] @ bones[1:])[..., 0]
+    for joint in range(1, len(parents)):
+        world[joint] += world[parents[joint]]
+    return np.ascontiguousarray(np.swapaxes(world, 0, 1))
 
 
 def velocities(positions: Array, fps: float) -> Array:

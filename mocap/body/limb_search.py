@@ -61,6 +61,7 @@ class Weights:
     uneven_unused: float = 0.6  # the same if the hinge does not bend
     leaf: float = 0.1  # a split segment ends where the chain ends
     left_below: float = 4.0  # times what is below the limb beyond a hand or a foot
+    most_left_below: float = 1.2  # for both limbs. Poles in both hands are longer than arms
 
 
 LIMITS = SearchLimits()
@@ -143,7 +144,7 @@ def find_limbs(skeleton: Skeleton, positions: ArrayLike, up: ArrayLike = UP) -> 
     legs, doubt = _left_first(tree, skeleton.names, legs, arms)
     roles = {"pelvis": pelvis} | _legs_by_role(tree, legs)
     if arms:
-        roles |= _arms_by_role(tree, arms, legs) | _trunk_by_role(tree, arms)
+        roles |= _arms_by_role(tree, arms, legs) | _trunk_by_role(tree, arms, skeleton.dofs)
     return FoundLimbs(roles, (*doubts, *doubt))
 
 
@@ -184,7 +185,8 @@ def _best_indices(
         if np.abs(np.log(candidate.lengths / image.lengths)).max() > LIMITS.length_difference:
             continue
         score = candidate.score + image.score
-        score -= WEIGHTS.left_below * min(candidate.left_below, image.left_below)
+        below = WEIGHTS.left_below * min(candidate.left_below, image.left_below)
+        score -= min(below, WEIGHTS.most_left_below)
         if score > highest or (score == highest and best is not None and indices < best):
             best = indices
             highest = score
@@ -445,10 +447,12 @@ def _arms_by_role(tree: BodyTree, arms: Pair, legs: Pair) -> dict[str, int]:
     return roles
 
 
-def _trunk_by_role(tree: BodyTree, arms: Pair) -> dict[str, int]:
+def _trunk_by_role(tree: BodyTree, arms: Pair, dofs: Sequence[str]) -> dict[str, int]:
     """Find the chest, on which the arms hang, and the neck and the head on the highest other path from it.
 
-    The head is where that path branches (eyes, jaw, hair), or its last joint with a bone.
+    The head is where that path branches (eyes, jaw, hair), or its last joint with a bone. Of two joints, the
+    last may be the head, unless it cannot rotate, as an end site. Then the other one is the head, without a
+    neck.
     """
     chest = tree.last_common(arms[0].root, arms[1].root)
     in_arms = {joint for arm in arms for joint in tree.path(arm.root)}
@@ -459,8 +463,11 @@ def _trunk_by_role(tree: BodyTree, arms: Pair) -> dict[str, int]:
         branches = tree.children[path[-1]] if len(tree.children[path[-1]]) <= 2 else []
     if not path:
         return {"chest": chest}
-    is_end = not tree.children[path[-1]] and len(path) > 2
-    return {"chest": chest, "neck": path[0], "head": path[-2] if is_end else path[-1]}
+    last = path[-1]
+    if len(path) == 2 and not tree.children[last] and not dofs[last]:
+        return {"chest": chest, "head": path[0]}
+    is_end = not tree.children[last] and len(path) > 2
+    return {"chest": chest, "neck": path[0], "head": path[-2] if is_end else last}
 
 
 def _top(tree: BodyTree, joint: int) -> float:

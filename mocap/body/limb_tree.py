@@ -156,14 +156,26 @@ def largest_part(parents: Indices, positions: Array) -> list[int]:
     [1, 2]
     """
     lengths = _bone_lengths(parents, positions)
-    extent = np.median(np.linalg.norm(np.ptp(positions, axis=1), axis=1))
-    change = np.ptp(np.quantile(lengths, (0.05, 0.95), axis=0), axis=0)
-    is_bone = (change < LIMITS.stretch * extent) & (np.median(lengths, axis=0) < LIMITS.longest_bone * extent)
+    extent = np.median(np.linalg.norm(extents(positions), axis=1))
+    short, usual, long = np.quantile(lengths, (0.05, 0.5, 0.95), axis=0)
+    is_bone = (long - short < LIMITS.stretch * extent) & (usual < LIMITS.longest_bone * extent)
     part = np.arange(len(parents))
     for joint in range(1, len(parents)):
         if is_bone[joint]:
             part[joint] = part[parents[joint]]
     return [int(joint) for joint in np.flatnonzero(part == np.bincount(part).argmax())]
+
+
+def extents(positions: Array) -> Array:
+    """Return the extents along x, y and z of the box around all joints in each frame, (F, 3).
+
+    Examples
+    --------
+    >>> extents(np.array([[[0.0, 0.0, 1.0], [2.0, 0.0, 4.0]]]))
+    array([[2., 0., 3.]])
+    """
+    columns = [np.ptp(positions[..., axis], axis=1) for axis in range(3)]  # six times as fast as one call
+    return np.stack(columns, axis=-1)
 
 
 class Chain:

@@ -135,6 +135,29 @@ def _limbs(skeleton: Skeleton) -> dict[str, int]:
     return at_rest | joints
 
 
+def has_named_legs(skeleton: Skeleton) -> bool:
+    """Return whether roles or known names identify the legs of a skeleton, so that no rest pose is searched.
+
+    Examples
+    --------
+    >>> from mocap.datasets.samples import SKELETON
+    >>> has_named_legs(SKELETON), has_named_legs(Skeleton(["a", "b"], [-1, 0], [[0, 0, 0], [0, 1, 0]]))
+    (True, False)
+    """
+    return has_leg_roles(skeleton) or bool(find_pair(skeleton, "legs"))
+
+
+def has_leg_roles(skeleton: Skeleton) -> bool:
+    """Return whether a skeleton stores the roles of both legs.
+
+    Examples
+    --------
+    >>> has_leg_roles(Skeleton(["hip"], [-1], [[0, 0, 0]], roles={"left hip": "hip"}))
+    False
+    """
+    return _has_legs(skeleton.roles)
+
+
 def _has_legs(joints: Iterable[str]) -> bool:
     return {f"{side} {part}" for side in SIDES for part in LEG[:3]} <= set(joints)
 

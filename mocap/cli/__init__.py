@@ -9,15 +9,16 @@ Reading order
 5. `clusters`: the workers of a Dask cluster
 6. `graph`: `mocap demo` and `mocap graph`, which build, save and describe motion graphs
 7. `walk`: `mocap walk`, `page` and `crowd`, which walk through a graph
-8. `clips`: `mocap info`, `view`, `judge`, `convert` and `find`
-9. `data`: `mocap data`, which lists and downloads clips of other labs
-10. `edits`: `mocap warp`, `bend`, `loop`, `blend` and `retarget`
-11. `cutting`: `mocap cut`, which cuts, resamples, mirrors and repeats clips
-12. `in_betweens`: `mocap inbetween`, which fills the time between two clips
-13. `course`: `mocap course`, which hands out, marks, publishes and runs the notebooks, and `mocap lab`
-14. `help_pages`: help in plain text
-15. `refusals`: errors for invalid commands, options and values, with suggestions
-16. `streams`: output streams that are closed, full, or abandoned by their reader
-17. `main`: all commands under one name, with `mocap completion` and the exit status
-18. `tuned`: the constants that trials chose
+8. `clip_reports`: the numbers of clips, for `mocap info --json`
+9. `clips`: `mocap info`, `view`, `judge`, `convert` and `find`
+10. `data`: `mocap data`, which lists and downloads clips of other labs
+11. `edits`: `mocap warp`, `bend`, `loop`, `blend` and `retarget`
+12. `cutting`: `mocap cut`, which cuts, resamples, mirrors and repeats clips
+13. `in_betweens`: `mocap inbetween`, which fills the time between two clips
+14. `course`: `mocap course`, which hands out, marks, publishes and runs the notebooks, and `mocap lab`
+15. `help_pages`: help in plain text
+16. `refusals`: errors for invalid commands, options and values, with suggestions
+17. `streams`: output streams that are closed, full, or abandoned by their reader
+18. `main`: all commands under one name, with `mocap completion` and the exit status
+19. `tuned`: the constants that trials chose
 """

@@ -5,23 +5,27 @@ import re
 import sys
 import tempfile
 from collections.abc import Sequence
+from functools import partial
 from json import dumps
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from mocap import files, quality, widgets
 from mocap._shared.atomic import make_folder, require_folder
-from mocap.cli.clip_sets import read_found
+from mocap.cli.clip_reports import describe_clips
+from mocap.cli.clip_sets import Spaces, read_found
 from mocap.cli.options import (
     CM,
     READING,
     FileReading,
     PathReading,
+    PlainNames,
     Reading,
     Sources,
     bar,
     print_rows,
     report_failures,
+    require_file,
     require_output,
     timed_stage,
 )
@@ -32,10 +36,12 @@ from mocap.files.conversion import find_files
 from mocap.methods import match_webs
 
 if TYPE_CHECKING:
+    from mocap.body.motion import Motion
+    from mocap.files.recordings import Recording
     from mocap.quality.clip_flaws import Flaw
 
 
-def info(file: Path, *, joints: bool = False, reading: FileReading) -> None:
+def info(file: Path, *, joints: bool = False, json: bool = False, reading: FileReading) -> int:
     """Report the duration, the path and the flaws of a clip.
 
     Report the duration of a clip, the height of the body, the length of its path, its change of heading, and
@@ -43,32 +49,48 @@ def info(file: Path, *, joints: bool = False, reading: FileReading) -> None:
 
     Parameters
     ----------
-    file : a motion file.
+    file : a motion file, or with --json also a folder.
     joints : print the roles of the joints and their names instead, as .toml, which other commands accept by
         --joints.
+    json : print all numbers as JSON, of the clip or of all clips in the folder and its subfolders. Files that
+        cannot be read are listed with their errors.
 
     Notes
     -----
     Example: mocap info walk.bvh --joints > map.toml
-    """
-    from mocap.files.spaces import unit_name  # the help needs no NumPy
 
+    Example: mocap info clips/ --json > clips.json
+    """
+    from mocap.files.spaces import ROOT_OFFSET, unit_name  # the help needs no NumPy
+
+    if json:
+        if joints:
+            raise MocapError("--joints prints roles and --json prints numbers: give one of them.")
+        clips, failed = describe_clips(find_files([file]), reading)
+        print(dumps({"clips": clips, "failed": failed}, indent=1, allow_nan=False))
+        for problem in failed:
+            print(f"mocap: {printable(problem['error'])}", file=sys.stderr)
+        return 2 if failed else 0
+    require_file(file, "give one of its files, or --json for all of them")
     reading.require_skeleton_of_use(file)
-    recording = reading.read(file)
+    recording = reading.read_with_roles(file)
     motion = recording.motion
     if joints:
         from mocap.files.role_maps import format_roles  # the help needs no NumPy
 
         print(format_roles(motion))
-        return
+        return 0
     with timed_stage("measuring"):
         report = quality.inspect(motion, recording.angles)
     flaws = [_with_remedy(flaw, len(motion)) for flaw in report.flaws]
     print(report._replace(flaws=flaws).table())
     if recording.space:
-        print(f"space    {unit_name(recording.space.scale)} a unit, {recording.space.up} up")
+        scale, up, root_offset = recording.space.choices()
+        offset = f", {ROOT_OFFSET} added" if root_offset == "add" else ""
+        print(f"space    {unit_name(scale)} a unit, {up} up{offset}")
     if recording.assumed:
         print(f"assumed  {recording.assumed.worded(READING[recording.assumed.parameter])}")
+    return 0
 
 
 def _with_remedy(flaw: "Flaw", frames: int) -> "Flaw":
@@ -139,14 +161,18 @@ def judge(
     """
     from mocap.quality.judging import judgement_table
 
-    recordings, _ = read_found(reading.read, find_files(against), against, READING)
+    paths = find_files(motions)
+    sources = find_files(against)
+    spaces = reading.survey([*paths, *sources])
+    read_source = partial(_read_surveyed, reading, spaces)
+    recordings, _ = read_found(read_source, sources, against, READING)
     clips = [recording.motion for recording in recordings]
     line = drawn.load(path) if path else None
     judgements = []
     problems = []
-    for file in bar("judging")(find_files(motions)):
+    for file in bar("judging")(paths):
         try:
-            recording = reading.read(file, math.inf)
+            recording = read_source(file, stretch=math.inf)
             judged = quality.judge(recording.motion, against=clips, path=line, stretch=recording.stretch)
             judgements.append(judged)
         except MocapError as error:
@@ -161,27 +187,65 @@ def judge(
     return 2 if problems else 0
 
 
-def convert(source: Path, target: Path, *, reading: Reading, to: Literal["bvh", "glb"] = "bvh") -> int:
-    """Convert motion files, or whole folders, to .bvh or .glb.
+def _read_surveyed(
+    reading: Reading, spaces: Spaces, path: Path, *, stretch: float | None = None
+) -> "Recording":
+    """Read a clip in the space of its set."""
+    return reading.read_with_roles(path, spaces.get(path), stretch=stretch)
+
+
+def convert(
+    source: Path,
+    target: Path | None = None,
+    *,
+    out: Path | None = None,
+    reading: Reading,
+    to: Literal["bvh", "glb", "npz", "csv"] = "bvh",
+    plain_names: PlainNames = False,
+) -> int:
+    """Convert motion files, or whole folders, to .bvh, .glb, .npz or .csv.
 
     Convert a clip, or all clips in a folder and its subfolders. For one clip, the suffix of OUT selects the
     format. Lengths in a .bvh file are centimetres. A .glb file is for engines and viewers, and shows a body
-    of capsules.
+    of capsules. Its skeleton can be rigged: bones point along y, and the rest pose stands on the floor. An
+    .npz file keeps all numbers, labels and contacts, in the layout of AMASS for the SMPL body. A .csv file is
+    a table of the positions of joints in metres, which cannot be read again as a motion.
 
     Parameters
     ----------
     source (IN) : a motion file, or a folder.
     target (OUT) : file or folder to write.
+    out : the same as OUT.
     to : format of the files in a folder.
 
     Notes
     -----
     Example: mocap convert clips/ out/ --to glb
+
+    Example: mocap convert walk.bvh -o walk.npz
     """
+    target = _only_one(target, out)
     pairs = conversion.plan(source, target, f".{to}")
-    failed = conversion.convert(pairs, reading.load_any, progress=bar("converting"))
+    spaces = reading.survey([path for path, _ in pairs])
+    load = partial(_load_plain if plain_names else Reading.load_any, reading, spaces=spaces)
+    failed = conversion.convert(pairs, load, progress=bar("converting"))
     where_to = f" to {target}" if not source.is_dir() else f" to .{to}, in {target}"
     return report_failures("converted", len(pairs), failed, where_to)
+
+
+def _only_one(target: Path | None, out: Path | None) -> Path:
+    """Return the file or folder to write, which is an argument or an option."""
+    if target is not None and out is not None:
+        raise MocapError(f"mocap convert writes to one place, got {target} and {out}.")
+    place = target or out
+    if place is None:
+        raise MocapError("mocap convert needs OUT: the file or the folder to write.")
+    return place
+
+
+def _load_plain(reading: Reading, path: Path, spaces: Spaces) -> "Motion":
+    """Read a clip with plain names of joints; a function of the module can be sent to other processes."""
+    return files.with_plain_names(reading.load_any(path, spaces))
 
 
 def find(

@@ -5,11 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from mocap import body, editing
-from mocap.cli.clip_sets import named_apart, read_found
+from mocap import body, editing, files
 from mocap.cli.options import (
     RATE,
-    READING,
+    PlainNames,
     ReadingAtRate,
     check_out,
     frame_at,
@@ -17,6 +16,7 @@ from mocap.cli.options import (
     number,
     print_rows,
     timed_stage,
+    warn_of_lost_roles,
 )
 from mocap.cli.tuned import TUNED
 from mocap.errors import MocapError, printable, shortened, warn
@@ -51,6 +51,7 @@ class Cutting:
         "number of copies of a cycle, each of which starts where the last one ended",
     ] = 1
     home: Annotated[bool, "start over the origin with heading 0, towards +z"] = False
+    plain_names: PlainNames = False
 
     def apply(self, clip: "Motion") -> "Motion":
         """Make all changes to a clip."""
@@ -66,7 +67,7 @@ class Cutting:
             motion = editing.repeated(motion, self.times)
         if self.home:
             motion = body.place(motion, 0.0, [0.0, 0.0])
-        return motion
+        return files.with_plain_names(motion) if self.plain_names else motion
 
     def _stretch(self, clip: "Motion") -> "Motion":
         """Return the frames from `from_` up to `to`."""
@@ -92,7 +93,7 @@ def cut(
     Parameters
     ----------
     clips (CLIP) : motion files, or folders of them.
-    out (OUT) : file to write, .bvh or .glb. For several clips, and with --root, .glb.
+    out (OUT) : file to write, .bvh, .glb, .npz or .csv. For several clips, and with --root, .glb.
     root : add a joint on the floor below the hips, with their heading, which engines use for root motion.
 
     Notes
@@ -114,14 +115,14 @@ def cut(
         check_out("clip", out, paths)
     from mocap.files.load_save import save_clips  # the help needs no NumPy
 
-    recordings, paths_read = read_found(reading.read, paths, clips, READING)
-    motions = [cutting.apply(clip) for clip in named_apart(recordings, paths_read)]
+    motions = [cutting.apply(clip) for clip in reading.load_set(paths, clips)]
     with timed_stage("writing"):
         save_clips(motions, out, root=root)
     for motion in motions:
         rows = f"{len(motion)} frames at {motion.fps:g} Hz, {motion.duration:.2f} s"
         print_rows(cut=f"{printable(motion.name)}: {rows}")
     print_rows(wrote=out)
+    warn_of_lost_roles(motions[0], out)
 
 
 def _warn_of_leap(cycle: "Motion") -> None:

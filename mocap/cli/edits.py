@@ -1,7 +1,8 @@
 """The commands that edit clips: `mocap warp`, `bend`, `loop`, `blend` and `retarget`."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from mocap import blending, body, editing, feet, quality
 from mocap._shared.atomic import require_folder
 from mocap.cli import options
+from mocap.cli.clip_sets import Spaces
 from mocap.cli.options import TURN, Clean, PathReading, Reading, bar, check_out, number, print_rows, write_out
 from mocap.cli.tuned import TUNED
 from mocap.errors import MocapError, Remedy, warn
@@ -38,7 +40,7 @@ def warp(
     ----------
     source (IN) : a motion file.
     keys (FILE) : a text file of keys, described below.
-    out (OUT) : file to write, .bvh or .glb.
+    out (OUT) : file to write, .bvh, .glb, .npz or .csv.
     window : duration of the edit before the first and after the last pose, seconds, see below.
     loose_feet : do not remove foot sliding. Needed for bodies without legs.
 
@@ -62,7 +64,7 @@ def warp(
 
     Example: mocap warp walk.bvh --keys keys.txt -o warped.bvh
     """
-    check_out("warped clip", out, [source])
+    check_out("warped clip", out, [source, keys])
     from mocap.editing import warp_plans  # the help needs no NumPy
 
     motion = reading.load(source)
@@ -100,14 +102,14 @@ def bend(
     ----------
     source (IN) : a motion file of a walk.
     along (PATH) : the path, .csv with points x, z in metres, or .svg.
-    out (OUT) : file to write, .bvh or .glb.
+    out (OUT) : file to write, .bvh, .glb, .npz or .csv.
     limit (DEGREES) : the highest angular speed that bending adds to that of the walk, degrees per second.
 
     Notes
     -----
     Example: mocap bend walk.bvh --along line.csv -o bent.bvh
     """
-    check_out("bent walk", out, [source])
+    check_out("bent walk", out, [source, along])
     line = drawn.load(along)
     bent = editing.bend(reading.load(source), line, limit=math.radians(limit))
     print_rows(bent=bent.report())
@@ -134,7 +136,7 @@ def loop(
     Parameters
     ----------
     clip : a motion file.
-    out : file to write, .bvh or .glb.
+    out : file to write, .bvh, .glb, .npz or .csv.
     shortest : shortest duration of a cycle, seconds.
     longest : longest duration of a cycle, seconds.
     straight : remove the change of heading of a cycle, so that it continues straight ahead.
@@ -199,20 +201,25 @@ def blend(
     slack (SECONDS) : largest difference between the starts, or the ends, of the clips, seconds, at most half
         of the shortest clip.
     clean : detect footplants, and remove foot sliding.
-    out : file to write, .bvh or .glb.
+    out : file to write, .bvh, .glb, .npz or .csv.
 
     Notes
     -----
     Example: mocap blend slow.bvh brisk.bvh --weights 0.3 0.7 -o walk.bvh
     """
     check_out("blend", out, clips)
+    from mocap.quality.clip_flaws import warn_of_size  # the help needs no NumPy
+
     if len(clips) < 2:
         raise MocapError("Give two clips or more: a blend is made of several.")
     if weights and len(weights) != len(clips):
         raise MocapError(f"{len(clips)} clips need {len(clips)} weights, got {len(weights)}.")
     if fade and (weights or len(clips) != 2):
         raise MocapError(f"--fade passes from one clip into another, got {len(clips)} clips.")
-    motions = [reading.load(path) for path in bar("reading")(clips)]
+    for path in clips:
+        reading.require_skeleton_of_use(path)
+    motions = reading.load_set(bar("reading")(clips), clips)
+    warn_of_size(motions)
     motions = [body.resample(motion, motions[0].fps) for motion in motions]
     if clean:
         motions = [feet.mark_plants(motion) for motion in motions]
@@ -244,8 +251,9 @@ def retarget(
     Parameters
     ----------
     clips (IN) : motion files, or folders of them.
-    to (FILE) : the body, from a motion file of a person who walks, which also defines the height of the feet,
-        or from an .asf file with an upright rest pose.
+    to (FILE) : the body, from a motion file of a person who walks, or of one or two frames in which it
+        stands, such as a T-pose. These also define the height of the feet. Or from an .asf file with an
+        upright rest pose.
     out (DIR) : folder to write to.
     format : format of the files to write.
     to_scale : metres per unit of length in FILE, as --scale for IN.
@@ -262,32 +270,60 @@ def retarget(
         target = out if source.is_dir() else out / f"{source.stem}.{format}"
         pairs += plan(source, target, f".{format}")
     require_apart(pairs, [to])
-    wear = partial(_worn, reading, _body(to, to_scale, reading.joints))
-    failed = convert(pairs, wear, progress=bar("retargeting"))
+    paths = [path for path, _ in pairs]
+    spaces = reading.survey(paths if to_scale or _is_skeleton(to) else [*paths, to])
+    wearer = _body(to, to_scale, reading.joints, spaces)
+    failed = convert(pairs, partial(_worn, reading, spaces, wearer, paths), progress=bar("retargeting"))
     return options.report_failures("retargeted", len(pairs), failed, f", in {out}")
 
 
-def _worn(reading: Reading, wearer: "Stance | body.Skeleton", source: Path) -> "body.Motion":
-    """Read a clip and retarget it."""
+def _is_skeleton(path: Path) -> bool:
+    """Return whether a file is a skeleton without a motion, which says its unit itself."""
+    return path.suffix.lower() == ".asf"
+
+
+def _worn(
+    reading: Reading,
+    spaces: Spaces,
+    wearer: "Stance | body.Skeleton",
+    sources: Sequence[Path],
+    source: Path,
+) -> "body.Motion":
+    """Read a clip and retarget it. Feet that never stand in it are as high as in others of the sources."""
     from mocap.editing.retargeting import wear  # the help needs no NumPy
 
-    return wear(reading.load(source), wearer)
+    clips = _readable(reading, spaces, sources, source)
+    return wear(reading.load_body(source, spaces), wearer, clips=clips)
 
 
-def _body(path: Path, scale: float | None, joints: Sequence[Path]) -> "Stance | body.Skeleton":
-    """Read the body to which clips are retargeted, and its stance from a clip in which it stands."""
+def _readable(
+    reading: Reading, spaces: Spaces, sources: Sequence[Path], chosen: Path
+) -> "Iterator[body.Motion]":
+    """Read the sources other than the chosen one, leaving out those that cannot be read."""
+    for source in sources:
+        if source != chosen:
+            with suppress(MocapError):
+                yield reading.load_body(source, spaces)
+
+
+def _body(
+    path: Path, scale: float | None, joints: Sequence[Path], spaces: Spaces
+) -> "Stance | body.Skeleton":
+    """Read the body to which clips are retargeted, and its stance from a clip or pose in which it stands."""
     from mocap.editing.stances import stance_of_zero
     from mocap.files.asf import read_skeleton
 
-    if path.suffix.lower() == ".asf":
+    if _is_skeleton(path):
         if scale:
             raise MocapError(f"--to-scale is for clips; {path} says its unit of length itself.")
         return read_skeleton(path).skeleton
-    clip = Reading(scale=scale, joints=joints).load(path)
+    clip = Reading(scale=scale, joints=joints).load_body(path, spaces)
     try:
         return editing.stance_of(clip)
     except MocapError as error:
         try:  # the clip has no stance, but its rest pose may be sufficient
-            return stance_of_zero(clip.skeleton, 0.0).skeleton
+            at_rest = stance_of_zero(clip.skeleton, 0.0).skeleton
         except MocapError:
             raise MocapError(f"{path}: {error}") from None
+        warn(f"{path}: {error} The rest pose of its skeleton is taken as the stance.")
+        return at_rest

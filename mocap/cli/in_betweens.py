@@ -60,7 +60,7 @@ def inbetween(
     graph : an .npz file from `mocap graph` as the source of motion. Its clips must not have been moved.
     clips (CLIP) : motion files, or folders of them, as the source of motion (default: START and END).
     alone : write only the new motion, without START and END.
-    out : file to write, .bvh or .glb.
+    out : file to write, .bvh, .glb, .npz or .csv.
 
     Notes
     -----
@@ -78,14 +78,15 @@ def inbetween(
         raise MocapError("--graph and --clips both say where to take motion from: give one of them.")
     files = [start, end] if end else [start]
     sources = find_files(clips) if clips else []
-    check_out("whole motion", out, [*files, *sources])
-    first, second, time = _sides(building.load(files, files)[0], gap, seconds, ahead)
+    check_out("whole motion", out, [*files, *sources, *([graph] if graph else [])])
+    motions, _ = building.load([*files, *sources], [*files, *clips])
+    first, second, time = _sides(motions[: len(files)], gap, seconds, ahead)
     frames = max(1, round(time * first.fps))
     if time < in_betweening.SHORTEST:
         between = in_betweening.interpolate(first, second, frames)
         print_rows(between=f"{time:.2f} s, interpolated")
     else:
-        whole_graph = _graph(graph, clips, building, [first, second], out)
+        whole_graph = _graph(graph, motions[len(files) :], building, [first, second], out)
         filling = in_betweening.fill_gap(graphs.compile_graph(whole_graph), first, second, time)
         between = _at_rate(filling.motion, first.fps, frames)
         print_rows(between=f"{time:.2f} s, {_changes(filling.arrived)}")
@@ -131,13 +132,12 @@ def _frames(gap: str, clip: "Motion") -> tuple[int, int]:
 
 
 def _graph(
-    path: Path | None, clips: Sequence[Path], building: Building, sides: "Sequence[Motion]", out: Path
+    path: Path | None, clips: "Sequence[Motion]", building: Building, sides: "Sequence[Motion]", out: Path
 ) -> "MotionGraph":
     """Load the graph that is the source of motion, or build one of some clips and both sides."""
     if path is None:
         long = [side for side in sides if side.duration >= building.window]  # others have no transition
-        clips_found, _ = building.load(find_files(clips), clips)
-        motions = [*clips_found, *long]
+        motions = [*clips, *long]
         if not motions:
             window = f"a transition of {building.window:.2f} s"
             raise MocapError(f"START and END are shorter than {window}: give --clips to take motion from.")

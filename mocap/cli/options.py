@@ -4,6 +4,7 @@ import math
 import os
 import re
 import time
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -15,18 +16,21 @@ from mocap import body, files, graphs
 from mocap._shared.atomic import require_writable
 from mocap._shared.deprecation import DEPRECATED, Deprecation
 from mocap._shared.progress import Progress
-from mocap.cli.clip_sets import named_apart, read_found, warn_of_space, warn_of_spaces
+from mocap.cli.clip_sets import named_apart, read_set, surveyed_spaces, warn_of_bodies, warn_of_space
 from mocap.cli.messages import VERBOSITY, note
 from mocap.cli.typed_commands import ONE_EACH
 from mocap.datasets.clip_origins import Origin
-from mocap.errors import MocapError, SkeletonMismatch, printable, warn
+from mocap.errors import MocapError, MocapWarning, SkeletonMismatch, printable, warn
+from mocap.files.formats import WRITTEN, enumerated
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
 
     from mocap.body.ground_path import GroundPath
     from mocap.body.motion import Motion
+    from mocap.cli.clip_sets import Spaces
     from mocap.files.recordings import Recording
+    from mocap.files.spaces import Space
     from mocap.graphs.motion_graph import MotionGraph
 
 
@@ -84,6 +88,7 @@ def frame_at(time_in_clip: str, fps: float) -> int:
 
 
 SHORTEST_STAGE = 0.05  # seconds: a shorter stage would be shown as 0.0 s
+SHORTEST_LINE = 0.5  # metres: a shorter path is doubted
 LENGTH = number(1e-6, 1e6)  # metres per unit
 CM = number(0.001, 1000)  # centimetres
 RATE = number(1, 1000)  # frames per second
@@ -96,9 +101,17 @@ Joints = Annotated[
 ]
 Up = Annotated[
     Literal["y", "z", "-y", "-z", "x", "-x"] | None,
-    "axis of the file that points up (default: as the frames show; y, for .npz z)",
+    "axis of the file that points up (default: as the frames show; y, for AMASS z)",
+]
+RootOffset = Annotated[
+    Literal["add", "ignore"] | None,
+    "whether the positions of the root in a .bvh are relative to its OFFSET (default: as the frames show)",
 ]
 Clean = Annotated[bool, "remove foot sliding"]
+PlainNames = Annotated[
+    bool,
+    "drop the characters [ ] . : / from the names of joints, and replace blanks by _, as three.js does",
+]
 Seed = Annotated[int, number(0, 2**32 - 1, int), "seed of the random numbers"]
 
 
@@ -111,9 +124,12 @@ READING = {
     "fps": "--read-fps (once --fps)",  # both work until 0.3
     "scale": "--scale",
     "up": "--up",
+    "root_offset": "--root-offset",
+    "body": "--body",
     "roles": "--joints",
 }
-SOURCES = READING | {"fps": "--read-fps to mocap convert"}  # commands that read several clips lack the option
+# Commands that read several clips lack two options.
+SOURCES = READING | {"fps": "--read-fps to mocap convert", "body": "--body of mocap convert"}
 DEPRECATED.append(Deprecation("--fps", since="0.2", removed_in="0.3", instead="--read-fps"))
 
 
@@ -221,13 +237,17 @@ class PathReading:
         return self != PathReading()
 
     def load(self, path: Path) -> "GroundPath":
-        """Read a path, with the names of options in errors and warnings."""
+        """Read a path, with the names of options in errors; warn of one that is shorter than a step."""
         from mocap.files.path_files import read_path  # the help needs no NumPy
 
         if self.unit is not None and self.length is not None:
             raise MocapError("Give one of --unit and --length: each sets the size of the path.")
         with named_options(PATH_READING):
-            return read_path(path, self.unit, self.length, self.id, PATH_READING)
+            line = read_path(path, self.unit, self.length, self.id, PATH_READING)
+        if line.length < SHORTEST_LINE and self.length is None:
+            size = f"{line.length:.2g} m long, shorter than a step"
+            warn(f"{path} is {size}: is its unit right? --unit or --length sets its size.")
+        return line
 
 
 @dataclass(frozen=True)
@@ -250,6 +270,12 @@ class FileReading:
         "metres per unit of length in the clip (default: as the frames show)",
     ] = None
     up: Up = None
+    root_offset: RootOffset = None
+    body: Annotated[
+        int | None,
+        number(1, 1000, int),
+        "number of the body in a .bvh of several bodies, from 1 (default: the first)",
+    ] = None
 
     def __post_init__(self) -> None:
         """Warn about the former name of an option."""
@@ -259,12 +285,13 @@ class FileReading:
             raise MocapError("--fps is the former name of --read-fps: give --read-fps alone.")
         warn("--fps is read as --read-fps, which does not resample; mocap cut --rate resamples.")
 
-    def read(self, path: Path, stretch: float | None = None) -> "Recording":
-        """Read a clip, and raise the errors of `files.load` with the names of options.
+    def read(self, path: Path, space: "Space | None" = None, *, stretch: float | None = None) -> "Recording":
+        """Read a clip without the roles of its joints, with the names of options in errors.
 
         Parameters
         ----------
         path : the clip.
+        space : its unit and its vertical axis, by default those of the options, or as its frames show.
         stretch : the largest change of a bone's length, metres, by default as for `files.load`.
         """
         with timed_stage("loading packages"):
@@ -276,9 +303,26 @@ class FileReading:
             raise MocapError(f"{path} is a skeleton without a motion: give an .amc file, or a .bvh.")
         limit = TUNED.stretch if stretch is None else stretch
         rate = self.read_fps or self.fps
+        scale, up, root_offset = space.choices() if space else (self.scale, self.up, self.root_offset)
         with named_options(READING), timed_reading(path):
-            recording = read(path, self.skeleton, rate, self.scale, limit, self.up)
-        warn_of_space(path, recording, READING)
+            return read(path, self.skeleton, rate, scale, limit, up, root_offset, self.body)
+
+    def read_with_roles(
+        self, path: Path, space: "Space | None" = None, *, stretch: float | None = None
+    ) -> "Recording":
+        """Read a clip and find the roles of its joints. State its space, unless it is given.
+
+        Parameters
+        ----------
+        path, space, stretch : as for `read`.
+        """
+        recording = self.read(path, space, stretch=stretch)
+        if space is None:
+            warn_of_space(path, recording, READING)
+        warn_of_bodies(path, recording, READING)
+        return self._with_roles(recording)
+
+    def _with_roles(self, recording: "Recording") -> "Recording":
         with named_options(READING):
             return recording._replace(motion=with_chosen_roles(recording.motion, self.joints))
 
@@ -289,16 +333,42 @@ class FileReading:
 
     def load(self, path: Path) -> "Motion":
         """Read a clip, and warn about a body of an impossible size."""
+        return self.load_body(path, {})
+
+    def load_set(self, paths: Iterable[Path], named: Sequence[Path]) -> "list[Motion]":
+        """Read clips as one set; those of folders that cannot be read are left out, see `read_found`."""
+        recordings, paths_read = read_set(self.read, paths, named, READING)
+        return named_apart([self._with_roles(recording) for recording in recordings], paths_read)
+
+    def survey(self, paths: Sequence[Path]) -> "Spaces":
+        """Decide and state the spaces of clips that are read again later: see `surveyed_spaces`."""
+        if self.scale is not None and self.up is not None:
+            return {}
+        return surveyed_spaces(self.read, paths, READING, progress=bar("surveying"))
+
+    def load_any(self, path: Path, spaces: "Spaces") -> "Motion":
+        """Read one of several clips, of which some may not need the skeleton.
+
+        Parameters
+        ----------
+        path : the clip.
+        spaces : from `survey`.
+        """
+        return self.read_with_roles(path, spaces.get(path)).motion
+
+    def load_body(self, path: Path, spaces: "Spaces") -> "Motion":
+        """Read one of several clips, and warn about a body of an impossible size.
+
+        Parameters
+        ----------
+        path, spaces : as for `load_any`.
+        """
         from mocap.quality.clip_flaws import warn_of_size
 
         self.require_skeleton_of_use(path)
-        motion = self.read(path).motion
+        motion = self.load_any(path, spaces)
         warn_of_size([motion])
         return motion
-
-    def load_any(self, path: Path) -> "Motion":
-        """Read one of several clips, of which some may not need the skeleton."""
-        return self.read(path).motion
 
 
 @dataclass(frozen=True)
@@ -322,6 +392,7 @@ class Sources:
     skeleton: Skeleton = None
     scale: Annotated[float | None, LENGTH, "metres per unit of a .bvh (default: as the frames show)"] = None
     up: Up = None
+    root_offset: RootOffset = None
     joints: Joints = ()
 
     def load(self, paths: Sequence[Path], named: Sequence[Path]) -> "tuple[list[Motion], list[Origin]]":
@@ -337,14 +408,10 @@ class Sources:
         The clips that could be read, and their files with the options by which they can be read again.
         """
         with timed_stage("loading packages"):
-            from mocap.files.clip_sets import agree
             from mocap.quality.clip_flaws import warn_of_size  # the help needs no NumPy
 
         with named_options(SOURCES):
-            recordings, read = read_found(self._read, bar("reading")(paths), named, SOURCES)
-        recordings = agree(recordings, lambda number, scale, up: self._read(read[number], scale, up))
-        warn_of_spaces(read, recordings, SOURCES)
-        with named_options(SOURCES):
+            recordings, read = read_set(self._read, bar("reading")(paths), named, SOURCES)
             recordings = [self._with_roles(recording) for recording in recordings]
         clips = named_apart(recordings, read)
         warn_of_size(clips)
@@ -359,14 +426,16 @@ class Sources:
         """Return a file with the options by which its clip can be read again."""
         if recording.space is None:
             return Origin(path, self.skeleton, self.scale)
-        return Origin(path, self.skeleton, recording.space.scale, up=recording.space.up)
+        scale, up, root_offset = recording.space.choices()
+        return Origin(path, self.skeleton, scale, up=up, root_offset=root_offset)
 
-    def _read(self, path: Path, scale: float | None = None, up: str | None = None) -> "Recording":
+    def _read(self, path: Path, space: "Space | None" = None) -> "Recording":
         from mocap.files.load_save import read  # the help needs no NumPy
         from mocap.files.tuned import TUNED
 
+        scale, up, root_offset = space.choices() if space else (self.scale, self.up, self.root_offset)
         with timed_reading(path):
-            return read(path, self.skeleton, None, scale or self.scale, TUNED.stretch, up or self.up)
+            return read(path, self.skeleton, None, scale, TUNED.stretch, up, root_offset)
 
 
 @dataclass(frozen=True)
@@ -397,8 +466,14 @@ class Building(Sources):
 
 
 def load_graph(path: Path, skeleton: Path | None = None, joints: Sequence[Path] = ()) -> "MotionGraph":
-    """Read a graph and its clips, with a bar; `joints` are files of the roles of their joints."""
-    motion_graph = graphs.load(path, skeleton=skeleton, progress=bar("reading"))
+    """Read a graph and its clips, with a bar; `joints` are files of roles that replace those of the graph."""
+    return with_joints(graphs.load(path, skeleton=skeleton, progress=bar("reading")), joints)
+
+
+def with_joints(motion_graph: "MotionGraph", joints: Sequence[Path]) -> "MotionGraph":
+    """Return a graph whose clips have the roles of files, instead of those that the graph stores."""
+    if not joints:
+        return motion_graph
     clips = tuple(with_chosen_roles(clip, joints) for clip in motion_graph.clips)
     return replace(motion_graph, clips=clips)
 
@@ -441,20 +516,17 @@ def print_rows(**rows: object) -> None:
     print("\n".join(f"{name:<12} {printable(text)}" for name, text in rows.items()))
 
 
-def check_out(
-    thing: str, out: Path, read: Iterable[Path] = (), formats: Sequence[str] = (".bvh", ".glb")
-) -> None:
+def check_out(thing: str, out: Path, read: Iterable[Path] = (), formats: Sequence[str] = WRITTEN) -> None:
     """Raise, before any work is done, if a file cannot be written or is one of the input files.
 
     Examples
     --------
     >>> check_out("walk", Path("walk.fbx"))
     Traceback (most recent call last):
-    mocap.errors.MocapError: A walk is written as .bvh or .glb, got 'walk.fbx'.
+    mocap.errors.MocapError: A walk is written as .bvh, .glb, .npz or .csv, got 'walk.fbx'.
     """
     if out.suffix.lower() not in formats:
-        allowed = " or ".join(filter(None, [", ".join(formats[:-1]), formats[-1]]))
-        raise MocapError(f"A {thing} is written as {allowed}, got '{out}'.")
+        raise MocapError(f"A {thing} is written as {enumerated(formats)}, got '{out}'.")
     require_other(out, read)
     require_output(out)
 
@@ -491,6 +563,32 @@ def write_out(motion: "Motion", out: Path, *, details: str = "") -> None:
     with timed_stage("writing"):
         files.save(motion, out)
     print_rows(wrote=f"{out}{details}")
+    warn_of_lost_roles(motion, out)
+
+
+def warn_of_lost_roles(motion: "Motion", out: Path) -> None:
+    """Warn if a motion has roles that are not found in its file, which cannot store them.
+
+    A .glb file cannot be read by a command, so that no role is missed.
+    """
+    if out.suffix.lower() != ".bvh" or not motion.skeleton.roles:
+        return
+    stripped = replace(motion, skeleton=replace(motion.skeleton, roles={}))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MocapWarning)  # they are shown when the file is read
+        is_found = _roles_of(body.with_roles(stripped)) == _roles_of(motion)
+    if not is_found:
+        warn(f"{out}: a .bvh cannot store the roles of joints: commands that read it need --joints again.")
+
+
+def _roles_of(motion: "Motion") -> dict[str, int]:
+    """Return the roles of a motion's joints, {} without legs."""
+    from mocap.body.limbs import roles  # the help needs no NumPy
+
+    try:
+        return roles(motion.skeleton)
+    except MocapError:
+        return {}
 
 
 def report_failures(verb: str, count: int, problems: Sequence[str], where_to: str = "") -> int:

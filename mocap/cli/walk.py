@@ -57,15 +57,16 @@ def walk(
 ) -> int:
     """Walk through a saved graph, along a path or at random.
 
-    The motion is written as .bvh (centimetres) or .glb (for engines and viewers). Ctrl-C during the search
-    for a walk along a path writes the best walk so far.
+    The motion is written as .bvh (centimetres), .glb (for engines and viewers), .npz (with labels and
+    footplants) or .csv (positions of joints). Ctrl-C during the search for a walk along a path writes the
+    best walk so far.
 
     Parameters
     ----------
     graph : an .npz file from `mocap graph`.
     path : the path, .csv with points x, z in metres, or .svg.
     random (TIME) : duration of a random walk, such as 60s, 10min or 1h.
-    out : file to write, .bvh or .glb.
+    out : file to write, .bvh, .glb, .npz or .csv.
     clips : the clips of the graph (default: those from which it was built, at their stored locations).
     scale : metres per unit of length in the .bvh clips of --clips.
     label (METRES:LABEL) : kind of motion from this distance along the path, as in 6.5:sneak. This option may
@@ -84,7 +85,7 @@ def walk(
     if random is not None and any((label, width, drawn.is_given(), bend, deadline)):
         options_of_paths = "--label, --bend, --width, --unit, --length, --id and --deadline"
         raise MocapError(f"{options_of_paths} belong to --path, not to --random.")
-    options.check_out("walk", out)
+    options.check_out("walk", out, [graph, *([path] if path else [])])
     with timed_stage("loading packages"):
         from mocap.synthesis.random_walks import dump  # the help needs no NumPy
 
@@ -176,8 +177,12 @@ def _graph(path: Path, clips: Sequence[Path], sources: Sources, out: Path) -> "g
     from mocap.editing.mirroring import mirrored_name  # the help needs no NumPy
     from mocap.graphs.storage import find_origins, read
 
-    if sources.scale and not clips:
-        raise MocapError("--scale belongs to --clips: the graph remembers the unit of its own clips.")
+    reading = {"--scale": sources.scale, "--up": sources.up, "--root-offset": sources.root_offset}
+    options_given = [option for option, value in reading.items() if value is not None]
+    if options_given and not clips:
+        raise MocapError(
+            f"{options_given[0]} belongs to --clips: the graph remembers how its own clips are read."
+        )
     content = read(path)
     files_read = find_files(clips) if clips else [origin.path for origin in find_origins(path)]
     options.require_other(out, files_read)
@@ -188,7 +193,7 @@ def _graph(path: Path, clips: Sequence[Path], sources: Sources, out: Path) -> "g
             return options.load_graph(path, sources.skeleton, sources.joints)
         motions, _ = sources.load(files_read, clips)
         motions += [editing.mirror(clip) for clip in motions if mirrored_name(clip.name) in content.names]
-    return graphs.load(path, motions)
+    return options.with_joints(graphs.load(path, motions), sources.joints)
 
 
 def crowd(

@@ -10,10 +10,12 @@ from pathlib import Path
 from typing import NamedTuple
 
 AXES = (None, "y", "z", "-y", "-z", "x", "-x")  # that may point up in a file
+ROOT_OFFSETS = (None, "add", "ignore")
+OPTIONAL = ("mirrored", "up", "root_offset")  # parts of a text that may be missing
 
 
 class Origin(NamedTuple):
-    """The file from which a clip was read; `skeleton`, `scale` and `up` are those of `mocap.load`.
+    """The file from which a clip was read, and the parameters of `mocap.load`.
 
     If `mirrored`, the clip is the mirror image of the motion in the file.
     """
@@ -23,6 +25,7 @@ class Origin(NamedTuple):
     scale: float | None = None
     mirrored: bool = False
     up: str | None = None
+    root_offset: str | None = None
 
     def text(self, folder: Path) -> str:
         """Serialise an origin as JSON, with the path of each file relative to a folder, and absolute.
@@ -39,6 +42,8 @@ class Origin(NamedTuple):
             kept["mirrored"] = True
         if self.up is not None:
             kept["up"] = self.up
+        if self.root_offset is not None:
+            kept["root_offset"] = self.root_offset
         return json.dumps(kept)
 
 
@@ -62,7 +67,8 @@ def find_again(text: str, folder: Path) -> Origin | None:
     skeleton = _first_file(folder / name for name in kept["skeleton"])
     if path is None:
         return None
-    return Origin(path, skeleton, kept["scale"], kept.get("mirrored", False), kept.get("up"))
+    options = {name: kept[name] for name in OPTIONAL if name in kept}
+    return Origin(path, skeleton, kept["scale"], **options)
 
 
 def _first_file(places: Iterable[Path]) -> Path | None:
@@ -81,5 +87,6 @@ def is_origin(text: str) -> bool:
         match json.loads(text):
             case {"path": [*path], "skeleton": [*skeleton], "scale": float() | None, **more}:
                 fine = isinstance(more.get("mirrored", False), bool) and more.get("up") in AXES
+                fine = fine and more.get("root_offset") in ROOT_OFFSETS
                 return fine and all(isinstance(place, str) for place in path + skeleton)
     return False

@@ -24,23 +24,27 @@ from mocap.editing.mirroring import mirror
 from mocap.errors import MocapError, Remedy, shortened
 from mocap.files.conversion import is_clip
 from mocap.files.load_save import load
+from mocap.files.role_maps import are_packed_roles, packed_roles, unpacked_roles
 
 MOST_FRAMES = 2**31  # of a clip
 FASTEST = 1e6  # frames per second
 # The arrays of a file for C clips and O origins.
+# reads: statement: a table
 LAYOUT: Layout = {
     "fps": (float, ()),
     "names": (str, ("C",)),
     "frames": (int, ("C",)),  # of each clip
     "fingerprints": (str, ("C",)),
     "origins": (str, ("O",)),
+    "roles": (str, ("C",)),  # of the joints of each clip, from `packed_roles`
 }
 
 
 class ClipReferences(NamedTuple):
     """References to the clips of a graph or web: their rate, names, lengths in frames, and fingerprints.
 
-    A fingerprint of "" matches any clip. `origins` are texts of `Origin`, one for each clip, or none.
+    A fingerprint of "" matches any clip. `origins` are texts of `Origin`, one for each clip, or none. `roles`
+    are texts from `packed_roles`, one for each clip, or none in files of earlier versions.
 
     Examples
     --------
@@ -53,6 +57,7 @@ class ClipReferences(NamedTuple):
     frames: list[int]
     fingerprints: list[str]
     origins: list[str]
+    roles: Sequence[str] = ()
 
 
 def arrays_of_clips(clips: Sequence[Motion], origins: Sequence[Origin], path: str | Path) -> dict[str, Any]:
@@ -62,12 +67,13 @@ def arrays_of_clips(clips: Sequence[Motion], origins: Sequence[Origin], path: st
     arrays["frames"] = [len(clip) for clip in clips]
     arrays["fingerprints"] = [fingerprint(clip) for clip in clips]
     arrays["origins"] = [origin.text(Path(path).parent) for origin in origins]
+    arrays["roles"] = [packed_roles(clip.skeleton.roles) for clip in clips]
     return arrays
 
 
 def references_in(arrays: Arrays) -> ClipReferences:
     """Return the references in the arrays of a file."""
-    return ClipReferences._make(arrays[key].tolist() for key in ClipReferences._fields)
+    return ClipReferences(**{key: arrays[key].tolist() for key in ClipReferences._fields if key in arrays})
 
 
 def rules_of_clips(arrays: Arrays) -> Rules:
@@ -78,6 +84,8 @@ def rules_of_clips(arrays: Arrays) -> Rules:
     yield "the rate is above 0", 0 < arrays["fps"] < FASTEST
     yield "there are clips", len(lengths) > 0
     yield "clips have frames", (lengths > 0) & (lengths < MOST_FRAMES)
+    if "roles" in arrays:
+        yield "roles are names of joints", [are_packed_roles(text) for text in arrays["roles"].tolist()]
 
 
 def find_files_of(references: ClipReferences, path: str | Path) -> list[Origin]:
@@ -110,7 +118,7 @@ def load_references(
     skeleton: Path | None,
     progress: Progress,
 ) -> list[Motion]:
-    """Return the clips to which a file at `path` refers, in its order and at its rate.
+    """Return the clips to which a file at `path` refers, in its order, at its rate, with the roles it stores.
 
     Parameters
     ----------
@@ -142,6 +150,16 @@ def load_references(
         if not fitting:
             raise _difference(path, by_name[name][-1], length)
         chosen.append(fitting[0])
+    return _with_stored_roles(chosen, references)
+
+
+def _with_stored_roles(clips: Sequence[Motion], references: ClipReferences) -> list[Motion]:
+    """Give the joints of clips the roles that are stored, which replace others; those without keep theirs."""
+    chosen = []
+    for clip, text in itertools.zip_longest(clips, references.roles):
+        stored = unpacked_roles(text) if text else {}
+        skeleton = replace(clip.skeleton, roles=stored)
+        chosen.append(replace(clip, skeleton=skeleton) if stored else clip)
     return chosen
 
 
@@ -152,9 +170,17 @@ def _load_clips(
     origins = find_files_of(references, path)
     if not origins:
         return [sample(name) for name in references.names]
+    stored_roles = [unpacked_roles(text) for text in references.roles] or [{}] * len(origins)
     clips = []
-    for name, origin in zip(references.names, progress(origins), strict=True):
-        clip = load(origin.path, skeleton=skeleton or origin.skeleton, scale=origin.scale, up=origin.up)
+    for name, roles, origin in zip(references.names, stored_roles, progress(origins), strict=True):
+        clip = load(
+            origin.path,
+            skeleton=skeleton or origin.skeleton,
+            scale=origin.scale,
+            up=origin.up,
+            root_offset=origin.root_offset,
+            roles=roles,
+        )
         clips.append(replace(mirror(clip) if origin.mirrored else clip, name=name))
     return clips
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array
-from mocap.body import rotations
+from mocap.body import body_sides, rotations
 from mocap.body.limbs import limb_partners, with_roles
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
@@ -52,8 +52,9 @@ def symmetry(skeleton: Skeleton) -> tuple[NDArray[np.intp], Array, Array]:
     """
     joints = range(len(skeleton))
     parents = skeleton.parents
-    partners = np.array([skeleton.partner(joint) for joint in joints])
-    by_role = limb_partners(skeleton) if (partners == joints).all() else {}
+    images = body_sides.partners(skeleton)
+    by_role = limb_partners(skeleton) if images == [*joints] else {}
+    partners = np.array(images)
     for left, right in by_role.items():
         partners[[left, right]] = right, left
     alike = partners[partners] == joints
@@ -67,7 +68,7 @@ def symmetry(skeleton: Skeleton) -> tuple[NDArray[np.intp], Array, Array]:
         raise MocapError(f"No left and right joints here: {shortened(', '.join(skeleton.names), 100)}.")
     across = distances[pairs[0]] / np.linalg.norm(distances[pairs[0]])
     first = int(pairs[0])
-    is_left = first in by_role if by_role else skeleton.side(first) == "left"
+    is_left = first in by_role if by_role else body_sides.sides(skeleton)[first] == "left"
     across *= 1 if is_left else -1
     axis = int(np.abs(across).argmax())
     if abs(across[axis]) > NEAR:

@@ -6,7 +6,7 @@ of global turns, not of those against the parent: a joint that one body lacks co
 not matter. The last knots are the frames.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from itertools import pairwise
 
@@ -17,7 +17,7 @@ from mocap._shared.arguments import checked_by
 from mocap._shared.arrays import Array
 from mocap._shared.quantities import described
 from mocap.body import rotations
-from mocap.body.kinematics import forward_kinematics, joint_positions
+from mocap.body.kinematics import GlobalPoses, forward_kinematics, joint_positions
 from mocap.body.limbs import FEET, SIDES, heading_by_hips
 from mocap.body.motion import Motion, require_motion
 from mocap.body.skeleton import Skeleton
@@ -36,8 +36,8 @@ BELOW = {
     "chest": ("neck", "head", "left shoulder", "right shoulder"),
     "neck": ("head",),
 }
-LIMBS = ("clavicle", "shoulder", "elbow", "wrist"), ("hip", "knee", "ankle")
-BELOW |= {f"{s} {above}": (f"{s} {below}",) for s in SIDES for way in LIMBS for above, below in pairwise(way)}
+BONES = (*pairwise(("clavicle", "shoulder", "elbow", "wrist")), *pairwise(("hip", "knee", "ankle")))
+BELOW |= {f"{side} {above}": (f"{side} {below}",) for side in SIDES for above, below in BONES}
 SHORT = 1e-6  # metres: a shorter bone points nowhere
 SMALL = 1e-9
 
@@ -87,25 +87,40 @@ def copied(motion: Motion, source: Stance, target: Stance, *, scale: float | Non
     if not (np.isfinite(scale) and scale > 0):
         raise MocapError(f"A way over the ground needs a scale above 0, got {scale}.")
     poses = forward_kinematics(motion)
-    seen, parents = rotations.from_matrix(poses.matrices), target.skeleton.parents
-    facing = rotations.about_y(heading_by_hips(poses.positions, source.legs))
-    world = np.empty((len(motion), len(parents), 4))
-    for joint, (own, turn) in enumerate(_bone_turns(source, target)):
-        before = seen[:, own] if own is not None else world[:, parents[joint]] if joint else facing
-        world[:, joint] = rotations.multiply(before, turn)
+    world = _copied_rotations(poses, source, target)
+    parents = target.skeleton.parents
     local = rotations.multiply(rotations.inverse(world[:, parents]), world)
     local[:, 0] = world[:, 0]
     local /= np.linalg.norm(local, axis=-1, keepdims=True)
     start = Motion(target.skeleton, np.zeros((len(motion), 3)), local, motion.fps, motion.name, motion.labels)
-    hips, own = (
-        positions[:, [leg.hip for leg in stance.legs]].mean(axis=1)  # (F, 3)
-        for positions, stance in ((poses.positions, source), (joint_positions(start), target))
-    )
+    hips = _middle_of_hips(poses.positions, source)
     centre = hips[0] * [1, 0, 1]
     wanted = centre + (hips - centre) * [scale, 0, scale]
     wanted[:, 1] = target.height("ankle") + ratio * (hips[:, 1] - source.height("ankle"))
+    roots = wanted - _middle_of_hips(joint_positions(start), target)
     contacts = {name: motion.contacts[old] for old, name in _contact_names(motion, source, target)}
-    return replace(start, root_positions=wanted - own, contacts=contacts)
+    return replace(start, root_positions=roots, contacts=contacts)
+
+
+def _copied_rotations(poses: GlobalPoses, source: Stance, target: Stance) -> Array:
+    """Copy the global rotations of the source's joints, (F, J, 4), J joints of the target."""
+    seen = rotations.from_matrix(poses.matrices)
+    parents = target.skeleton.parents
+    world = np.empty((len(seen), len(parents), 4))
+    for joint, (image, turn) in enumerate(_bone_turns(source, target)):
+        if image is not None:
+            base = seen[:, image]
+        elif joint:
+            base = world[:, parents[joint]]
+        else:
+            base = rotations.about_y(heading_by_hips(poses.positions, source.legs))
+        world[:, joint] = rotations.multiply(base, turn)
+    return world
+
+
+def _middle_of_hips(positions: Array, stance: Stance) -> Array:
+    """Compute the middle of both hips, (F, 3), from positions of the stance's joints (F, J, 3)."""
+    return np.asarray(positions[:, [leg.hip for leg in stance.legs]].mean(axis=1))
 
 
 def _contact_names(motion: Motion, source: Stance, target: Stance) -> Iterator[tuple[str, str]]:
@@ -128,29 +143,31 @@ def _bone_turns(source: Stance, target: Stance) -> list[tuple[int | None, Array]
     Joints belong together by role, or by name where they have none. A joint that has no other turns with the
     one above it, as it stands, and a root above the pelvis with the heading.
     """
-    role_of = {
-        joint: role for role, joint in reversed([*target.roles.items()])
-    }  # the ankle if it is the ball
+    # Of a foot without toes, ankle and ball are one joint: it has the role of the ankle.
+    role_of = {joint: role for role, joint in reversed([*target.roles.items()])}
     looks: list[tuple[int | None, Array]] = []
     for joint, name in enumerate(target.skeleton.names):
         role = role_of.get(joint)
-        own = source.roles.get(role or "")
+        image = source.roles.get(role or "")
         if role is None and name in source.skeleton.names:
-            own = source.skeleton.index(name)
-        stands, above = target.turns[joint], target.skeleton.path_to_root(joint)
-        before = target.turns[above[1]] if joint else rotations.IDENTITY
-        if own is not None:
-            hands = (side for side in SIDES if target.roles.get(f"{side} wrist") in above)
+            image = source.skeleton.index(name)
+        path = target.skeleton.path_to_root(joint)
+        stands = target.turns[joint]
+        if image is not None:
+            hands = (side for side in SIDES if target.roles.get(f"{side} wrist") in path)
             role = next((f"{side} elbow" for side in hands), role)
-            stands, before = rotations.multiply(_laid(role, source, target), stands), source.turns[own]
-        looks.append((own, rotations.multiply(rotations.inverse(before), stands)))
+            stands = rotations.multiply(_laid(role, source, target), stands)
+            base = source.turns[image]
+        else:
+            base = target.turns[path[1]] if joint else rotations.IDENTITY
+        looks.append((image, rotations.multiply(rotations.inverse(base), stands)))
     return looks
 
 
 def _laid(role: str | None, source: Stance, target: Stance) -> Array:
     """Find A, the smallest turn that lays the target's bones at a joint on the source's, (4,)."""
-    both = [below for below in BELOW.get(role or "", ()) if below in source.roles and below in target.roles]
-    bones = np.array([[stance.bone(str(role), below) for below in both] for stance in (target, source)])
+    shared = [end for end in BELOW.get(role or "", ()) if end in source.roles and end in target.roles]
+    bones = np.array([[stance.bone(str(role), end) for end in shared] for stance in (target, source)])
     bones = bones.reshape(2, -1, 3)
     lengths = np.linalg.norm(bones, axis=-1, keepdims=True)
     bones = (bones / np.maximum(lengths, SHORT))[:, (lengths > SHORT).all(axis=(0, 2))]
@@ -159,8 +176,9 @@ def _laid(role: str | None, source: Stance, target: Stance) -> Array:
     if bones.shape[1] == 1:
         return rotations.between(*bones[:, 0])
     # The three axes, with next to no weight, choose the smallest turn where the bones lie on one line.
+    from_target, onto_source = (np.vstack([side, np.eye(3)]) for side in bones)
     weights = [1.0] * bones.shape[1] + [SMALL] * 3
-    turn, _ = Rotation.align_vectors(np.r_[bones[1], np.eye(3)], np.r_[bones[0], np.eye(3)], weights)
+    turn, _ = Rotation.align_vectors(onto_source, from_target, weights)
     return np.asarray(turn.as_quat(scalar_first=True))
 
 
@@ -241,18 +259,25 @@ def retarget(motion: Motion, body: Stance, source: Stance, *, scale: float | Non
     positions = joint_positions(motion)
     plants = floor_pins(base, body)
     wishes = join_pins(floor_under(positions, source, body), plants)
-    who, trunk = body.roles, body.skeleton.path_to_root(body.roles.get("chest", 0))
-    stiff = [*(leg.knee for leg in body.legs), *(joint for joint in trunk if joint > who["pelvis"])]
-    prices = dict.fromkeys((body.skeleton.names[joint] for joint in stiff), STIFF)
+    prices = dict.fromkeys(_stiff_joints(body), STIFF)
     worn = solve(base, wishes, RETARGET, body_of(base, wishes, prices=prices), quiet=True).motion
-    if (moved := np.abs(worn.root_positions - base.root_positions).max()) > MOST * body.leg:
+    moved = np.abs(worn.root_positions - base.root_positions).max()
+    if moved > MOST * body.leg:
         hips = f"the hips move by {100 * moved:.0f} cm to take these steps"
         legs = f"with legs of {100 * body.leg:.0f} cm: no leg takes them at ease"
         warn(f"'{shortened(motion.name)}': {hips}, {legs}.")
     return mark_met(worn, wishes, plants)
 
 
-def wear(motion: Motion, body: Skeleton | Stance) -> Motion:
+def _stiff_joints(body: Stance) -> list[str]:
+    """Name the knees, and the joints of the trunk above the pelvis."""
+    trunk = body.skeleton.path_to_root(body.roles.get("chest", 0))
+    stiff = [leg.knee for leg in body.legs]
+    stiff += [joint for joint in trunk if joint > body.roles["pelvis"]]
+    return [body.skeleton.names[joint] for joint in stiff]
+
+
+def wear(motion: Motion, body: Skeleton | Stance, *, clips: Iterable[Motion] = ()) -> Motion:
     """Retarget a motion as it was read: mark its footplants, find how both bodies stand, call `retarget`.
 
     Parameters
@@ -261,6 +286,7 @@ def wear(motion: Motion, body: Skeleton | Stance) -> Motion:
     body : the skeleton that takes over the motion, such as `mocap.load("child.bvh").skeleton`; or how it
         stands, from `stance_of`. The balls of a skeleton alone stand as high as the clip's, times the ratio
         of the legs.
+    clips : other motions of the old body, for the heights of feet that never stand in this one.
 
     Returns
     -------
@@ -268,7 +294,11 @@ def wear(motion: Motion, body: Skeleton | Stance) -> Motion:
 
     Raises
     ------
-    MocapError : for legs that are not found, a clip in which a foot never stands, and as for `retarget`.
+    MocapError : for legs that are not found, a clip in which no foot ever stands, and as for `retarget`.
+
+    Warns
+    -----
+    MocapWarning : as for `retarget`, and `stance_of`.
 
     Examples
     --------
@@ -283,7 +313,7 @@ def wear(motion: Motion, body: Skeleton | Stance) -> Motion:
     0.7
     """
     motion = with_plants(motion)
-    source = stance_of(motion)
+    source = stance_of(motion, clips=clips)
     if isinstance(body, Skeleton):
         ratio = stance_of_zero(body, 0.0).leg / source.leg
         body = stance_of_zero(body, ratio * source.height("ball"))
@@ -328,8 +358,9 @@ def floor_under(positions: Array, source: Stance, body: Stance) -> Pins:
     lowest = positions[..., 1].min(axis=0)
     sides = [side for side, leg in zip(SIDES, body.legs, strict=True) if not leg.has_ball]
     feet = [role for role in FEET if role not in [f"{side} ball" for side in sides]]
-    dips = {role: max(0.0, source.heights[role] - lowest[source.roles[role]]) for role in feet}
     high = np.full((len(positions), len(feet), 3), np.inf)
     low = -high
-    low[..., 1] = [body.heights[role] - dip * body.leg / source.leg for role, dip in dips.items()]
+    for column, role in enumerate(feet):
+        dip = max(0.0, source.heights[role] - lowest[source.roles[role]])
+        low[:, column, 1] = body.heights[role] - dip * body.leg / source.leg
     return Pins(tuple(body.roles[role] for role in feet), low, high)

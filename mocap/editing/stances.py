@@ -4,7 +4,7 @@ A rest pose says little. Some files rest with the arms out, some with the arms d
 along one line. So two bodies are compared as they stand: feet flat, heading +z.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
@@ -20,12 +20,30 @@ from mocap.body.limbs import FEET, SIDES, Leg, find_legs, heading_by_hips, roles
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.pins import with_plants
-from mocap.errors import MocapError
+from mocap.errors import MocapError, shortened, warn
 
 # Degrees. A rest pose stands where the hips are level and the thighs hang, within these. The files at hand
 # keep to 0 and 20 (CMU), 0 and 1 (others), or are 90 and 90 off: their rest poses are no stances.
 LEVEL = 30.0  # degrees
 HANGING = 45.0  # degrees
+
+# A clip that is no longer is a pose: in it, feet that stand cannot be told from feet that swing.
+FRAMES_OF_A_POSE = 2
+SECONDS_OF_A_POSE = 0.1
+
+# Of the leg's length. In a pose that stands, the ankles differ in height and along the heading by no more. In
+# a step they do: where the legs pass each other one foot is raised, and where both stand one is ahead.
+RAISED = 0.05
+AHEAD = 0.25
+
+# Of the leg's length: from a floor at y = 0 the lowest joint of a pose is no farther. Else the pose is
+# relative to its root, and its lowest joint is taken to be on the floor.
+UNDER_FLOOR = 0.05
+OVER_FLOOR = 0.2
+
+# Percent of the heights of an ankle over its ball while the ball stands, for an ankle that never stands. The
+# 10th and the 50th of captured clips are 1 cm below and above the height of an ankle that stands.
+OF_RUNS = 25
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -97,8 +115,10 @@ class Stance:
         return np.asarray(self.points[self.roles[end]] - self.points[self.roles[start]])
 
 
-def stance_of(motion: Motion, *, mean: bool = False) -> Stance:
+def stance_of(motion: Motion, *, mean: bool = False, clips: Iterable[Motion] = ()) -> Stance:
     """Take the stance of a motion's skeleton: its rest pose where that stands, else the mean over the motion.
+
+    A motion of one or two frames, or less than 0.1 s, is a pose. It is the stance, if it stands.
 
     The mean needs no rest pose that means anything. The idea is ours: each joint's mean turn against the
     body's heading, which is square to the hips' line; a foot's own, while it stands flat, against where it
@@ -109,10 +129,17 @@ def stance_of(motion: Motion, *, mean: bool = False) -> Stance:
     motion : a walk, where the rest pose means nothing; its feet give the heights in any case. Its plants are
         marked if they are not yet.
     mean : take the mean, even where the rest pose stands.
+    clips : other motions of the same body. They are read one by one if an ankle or a ball of `motion` never
+        stands, as in a run, and the first with feet that stand gives the heights.
 
     Raises
     ------
-    MocapError : for a motion in which an ankle or a ball never stands.
+    MocapError : for a motion in which no ball ever stands, and a pose that does not stand.
+
+    Warns
+    -----
+    MocapWarning : for ankles whose height is estimated while the balls stand, and for a pose far off the
+        floor at y = 0.
 
     Examples
     --------
@@ -123,10 +150,12 @@ def stance_of(motion: Motion, *, mean: bool = False) -> Stance:
     Notebook: 13-retargeting
     """
     motion = with_roles(motion)
+    if is_pose(motion):
+        return stance_of_pose(motion)
     joints = roles(motion.skeleton)
     legs = find_legs(motion.skeleton)
     motion = with_plants(motion, legs)
-    heights = standing_heights(motion, joints)
+    heights = _heights_of_body(motion, joints, clips)
     if not mean:
         with suppress(MocapError):
             return stance_of_zero(motion.skeleton, heights)
@@ -142,6 +171,98 @@ def stance_of(motion: Motion, *, mean: bool = False) -> Stance:
             back = rotations.about_y(-np.arctan2(along[:, 0], along[:, 2]))
             turns[foot] = rotations.mean(rotations.multiply(back, world[foot][:, flat]))
     return Stance(motion.skeleton, joints, turns, heights)
+
+
+def _heights_of_body(motion: Motion, joints: Mapping[str, int], clips: Iterable[Motion]) -> dict[str, float]:
+    """Measure the heights of standing feet in a motion, or else in clips of its body, or else of balls."""
+    try:
+        return standing_heights(motion, joints)
+    except MocapError as error:
+        for clip in clips:
+            if clip.skeleton == motion.skeleton and not is_pose(clip):
+                with suppress(MocapError):
+                    return standing_heights(with_plants(clip), joints)
+        heights = heights_from_balls(motion, joints)
+        warn(f"{error} Heights are estimated from the balls alone.")
+        return heights
+
+
+def is_pose(motion: Motion) -> bool:
+    """Return whether a motion is too short to tell feet that stand from feet that swing.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")
+    >>> is_pose(walk[:2]), is_pose(walk[:13])
+    (True, False)
+    """
+    return len(motion) <= FRAMES_OF_A_POSE or motion.duration < SECONDS_OF_A_POSE
+
+
+def stance_of_pose(motion: Motion) -> Stance:
+    """Take a pose as the stance: the mean of few frames in which a body stands, such as a T-pose.
+
+    Its heading becomes +z. Feet keep their rotation against it, and their heights over the floor at y = 0.
+
+    Parameters
+    ----------
+    motion : one frame, or a few.
+
+    Raises
+    ------
+    MocapError : for a pose that does not stand: hips that are not level, thighs that do not hang, or one foot
+        higher than, or ahead of, the other.
+
+    Warns
+    -----
+    MocapWarning : for a pose far from the floor, as its lowest joint is then taken to be on the floor.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")
+    >>> standing = replace(walk[:1], rotations=np.tile([1.0, 0, 0, 0], (1, 38, 1)))
+    >>> round(stance_of_pose(standing).height("ankle"), 3)
+    0.028
+    """
+    motion = with_roles(motion)
+    skeleton = motion.skeleton
+    pose = forward_kinematics(motion)
+    world = np.swapaxes(rotations.from_matrix(pose.matrices), 0, 1)  # (J, F, 4)
+    heading = heading_by_hips(pose.positions, find_legs(skeleton))
+    turns = rotations.mean(rotations.multiply(rotations.about_y(-heading), world))
+    heights = pose.positions[..., 1].mean(axis=0)
+    joints = roles(skeleton)
+    stance = Stance(skeleton, joints, turns, {role: float(heights[joints[role]]) for role in FEET})
+    faults = _faults_of_pose(stance)
+    if faults:
+        raise MocapError(f"The pose in '{shortened(motion.name)}' does not stand: {faults}.")
+    lowest = float(heights.min())
+    if not -UNDER_FLOOR <= lowest / stance.leg <= OVER_FLOOR:
+        place = f"is {abs(lowest):.2f} m {'below' if lowest < 0 else 'above'} y = 0"
+        warn(f"'{shortened(motion.name)}': the lowest joint {place}, and is taken to be on the floor.")
+        stance = replace(stance, heights={role: height - lowest for role, height in stance.heights.items()})
+    return stance
+
+
+def _slants(stance: Stance) -> tuple[float, float]:
+    """Measure how far the hips are off level, and the thighs off hanging, degrees."""
+    level = _degrees(stance.bone("right hip", "left hip"), [1, 0, 0])
+    hanging = max(_degrees(stance.bone(f"{side} hip", f"{side} knee"), [0, -1, 0]) for side in SIDES)
+    return level, hanging
+
+
+def _faults_of_pose(stance: Stance) -> str:
+    """Say why a pose does not stand; nothing if it does."""
+    level, hanging = _slants(stance)
+    if level > LEVEL or hanging > HANGING:
+        return f"its hips are {level:.0f}° off level, its thighs {hanging:.0f}° off hanging"
+    _, rise, lead = np.abs(stance.bone("right ankle", "left ankle")) / stance.leg
+    if rise > RAISED or lead > AHEAD:
+        height, distance = 100 * stance.leg * np.array([rise, lead])
+        return f"one ankle is {height:.0f} cm higher and {distance:.0f} cm further ahead than the other"
+    return ""
 
 
 def stance_of_zero(skeleton: Skeleton, heights: Mapping[str, float] | float) -> Stance:
@@ -170,8 +291,7 @@ def stance_of_zero(skeleton: Skeleton, heights: Mapping[str, float] | float) -> 
     """
     turns = np.tile(rotations.IDENTITY, (len(skeleton), 1))
     rest = Stance(skeleton, roles(skeleton), turns, dict.fromkeys(FEET, 0.0))
-    level = _degrees(rest.bone("right hip", "left hip"), [1, 0, 0])
-    hanging = max(_degrees(rest.bone(f"{side} hip", f"{side} knee"), [0, -1, 0]) for side in SIDES)
+    level, hanging = _slants(rest)
     if level > LEVEL or hanging > HANGING:
         angles = f"its hips are {level:.0f}° off level, its thighs {hanging:.0f}° off hanging"
         raise MocapError(f"The rest pose of {skeleton!r} does not stand: {angles}; give stance_of a walk.")
@@ -219,6 +339,46 @@ def standing_heights(motion: Motion, joints: Mapping[str, int]) -> dict[str, flo
         if not frames.any():
             raise MocapError(f"In '{motion.name}' the {role} never stands: give the stance of another clip.")
         heights[role] = float(np.median(positions[frames, joints[role], 1]))
+    return heights
+
+
+def heights_from_balls(motion: Motion, joints: Mapping[str, int]) -> dict[str, float]:
+    """Estimate how high ankles and balls are when they stand, from balls alone: metres, by role.
+
+    In a run, heels may never stand. The height of an ankle over its ball is then the lower quartile over the
+    frames in which the ball stands. If the ball of one side never stands, the other side's heights are taken.
+
+    Parameters
+    ----------
+    motion : on a floor at y = 0; its `contacts` say when balls stand.
+    joints : the roles of its joints.
+
+    Raises
+    ------
+    MocapError : if no ball ever stands.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")
+    >>> heights = heights_from_balls(walk, roles(walk.skeleton))
+    >>> round(heights["left ball"], 3), round(heights["left ankle"], 3)
+    (0.026, 0.068)
+    """
+    positions = joint_positions(motion)
+    heights: dict[str, float] = {}
+    for side, opposite in (SIDES, SIDES[::-1]):
+        balls = (joints[f"{side} ball"], joints[f"{opposite} ball"])
+        marks = [motion.contacts[motion.skeleton.names[ball]] for ball in balls]
+        if not np.any(marks):
+            name = shortened(motion.name)
+            raise MocapError(f"In '{name}' no foot ever stands: give the stance of another clip.")
+        stands = side if marks[0].any() else opposite
+        frames = marks[0] if marks[0].any() else marks[1]
+        ball = positions[frames, joints[f"{stands} ball"], 1]
+        ankle = positions[frames, joints[f"{stands} ankle"], 1]
+        heights[f"{side} ball"] = float(np.median(ball))
+        heights[f"{side} ankle"] = heights[f"{side} ball"] + float(np.percentile(ankle - ball, OF_RUNS))
     return heights
 
 

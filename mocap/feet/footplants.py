@@ -14,6 +14,7 @@ from scipy.ndimage import binary_propagation
 from mocap._shared.arrays import Array, Mask
 from mocap._shared.arrays import runs as runs  # which the room exports
 from mocap._shared.records import NamedTuple
+from mocap.body.body_sides import sides
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import Leg, find_legs, with_roles
 from mocap.body.motion import Motion, require_motion
@@ -235,12 +236,13 @@ def find_footprints(motion: Motion) -> list[Footprint]:
     Notebook: 12-path-editing
     """
     points = joint_positions(motion)[..., [0, 2]]
+    side_of = sides(motion.skeleton)
     prints = []
     for name, down in motion.contacts.items():
         joint = motion.skeleton.index(name)
         for start, end in runs(down).tolist():
             place = points[start:end, joint].mean(axis=0).tolist()
-            prints.append(Footprint(name, motion.skeleton.side(joint), start, end, *place))
+            prints.append(Footprint(name, side_of[joint], start, end, *place))
     return prints
 
 

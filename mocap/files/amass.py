@@ -4,6 +4,9 @@ An archive contains `poses` (F, 66 or more) or (F, 22 or more, 3), or their part
 `pose_body` (F, 63). It also contains `trans` (F, 3), a frame rate, and the shape parameters of the body,
 `betas`. The shape model has a separate licence and is not included: all archives are read with the mean body
 of 22 joints. Fingers, face and soft tissue, the numbers after the first 66 of a pose, are ignored.
+
+Archives that are written have the arrays of AMASS's files of the SMPL+H body: 156 numbers of a pose, of which
+those of the fingers are 0, and 0 for `betas` and `dmpls`.
 """
 
 from __future__ import annotations
@@ -18,12 +21,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mocap._shared.archives import LOADERS, Member, kind_of, open_archive, other_kind
+from mocap._shared.archives import (
+    AMASS,
+    LOADERS,
+    Arrays,
+    Layout,
+    Member,
+    Rules,
+    kind_of,
+    open_archive,
+    other_kind,
+)
+from mocap._shared.arrays import Indices
 from mocap.body import rotations
 from mocap.body.joint_trees import place_joints
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from mocap.errors import FormatError, MocapError, Remedy, warn
+from mocap.errors import FormatError, Remedy, warn
 from mocap.files import frame_rates, spaces
 from mocap.files.recordings import Recording
 from mocap.files.space_evidence import frames_to_look_at, gather
@@ -44,23 +58,89 @@ WIDTHS = {
     "trans": 3,
 }  # numbers of a frame that are read
 LARGEST = 1e6  # radians, metres, frames per second: upper bound of all numbers
+ALL_JOINTS = 52  # of the SMPL+H body, with fingers
+SHAPES = 16  # shape parameters of a body
+SOFT_SHAPES = 8  # shape parameters of soft tissue in a frame
+# The arrays that are written, for F frames.
+# reads: statement: a table
+ARRAYS: Layout = {
+    "poses": (float, ("F", 3 * ALL_JOINTS)),  # rotation vectors, radians
+    "trans": (float, ("F", 3)),  # metres
+    "betas": (float, (SHAPES,)),
+    "dmpls": (float, ("F", SOFT_SHAPES)),
+    "gender": (str, ()),
+    "mocap_framerate": (float, ()),
+}
+SAME_OFFSET = 1e-6  # metres: the largest difference of offsets of one body, as in `Skeleton.require_same`
 REAL_NUMBERS = "fiu"  # kinds of NumPy types: floating point, signed and unsigned integers
 ROOM = 2**27  # bytes of arrays in the smallest file, enough for a quarter of an hour of standing still
 
 
-def is_amass(path: str | Path) -> bool:
+def is_amass(members: Mapping[str, Member]) -> bool:
     """Return whether an `.npz` file is an AMASS archive, by the names of its arrays.
 
     Examples
     --------
-    >>> is_amass("graph.npz")
+    >>> is_amass({})
     False
     """
-    try:
-        with open_archive(path, "an AMASS archive", ROOM) as members:
-            return "trans" in members and ("poses" in members or set(PARTS) <= set(members))
-    except MocapError:
-        return False
+    return "trans" in members and ("poses" in members or set(PARTS) <= set(members))
+
+
+def joints_of_smpl(skeleton: Skeleton) -> Indices | None:
+    """Return the index of each joint of `SKELETON` in a skeleton of the same body, or None for another body.
+
+    The joints may have another order, as in a BVH file.
+
+    Examples
+    --------
+    >>> joints_of_smpl(SKELETON)[:4]
+    array([0, 1, 2, 3])
+    >>> joints_of_smpl(Skeleton(["hips", "knee"], [-1, 0], [[0, 0, 0], [0, -0.4, 0]]))
+    """
+    if set(skeleton.names) != set(SKELETON.names):
+        return None
+    joints = np.array([skeleton.names.index(name) for name in SKELETON.names])
+    parents = [skeleton.names[skeleton.parents[joint]] for joint in joints[1:]]
+    expected = [SKELETON.names[parent] for parent in SKELETON.parents[1:]]
+    differences = np.abs(skeleton.offsets[joints] - SKELETON.offsets)[1:]
+    is_same = parents == expected and differences.max() <= SAME_OFFSET
+    return joints if is_same else None
+
+
+def arrays_of(motion: Motion, joints: Indices) -> dict[str, Any]:
+    """Convert a motion of the SMPL body to the arrays of an archive, with z up.
+
+    Parameters
+    ----------
+    motion : F frames.
+    joints : the index of each joint of `SKELETON`, from `joints_of_smpl`.
+    """
+    z_up = rotations.inverse(spaces.UPRIGHT[AXES[1]])
+    local = motion.rotations[:, joints]
+    local[:, 0] = rotations.multiply(z_up, local[:, 0])
+    poses = np.zeros((len(motion), ALL_JOINTS, 3))
+    poses[:, : len(joints)] = rotations.to_rotvec(local)
+    trans = rotations.rotate(z_up, motion.root_positions) - PELVIS
+    frames = len(motion)
+    moving = {"poses": poses.reshape(frames, -1), "trans": trans, "mocap_framerate": motion.fps}
+    return moving | _mean_body(frames)
+
+
+def _mean_body(frames: int) -> dict[str, Any]:
+    """Return the arrays of an archive that describe the mean body, without soft tissue."""
+    return {"gender": "neutral", "betas": np.zeros(SHAPES), "dmpls": np.zeros((frames, SOFT_SHAPES))}
+
+
+def rules(arrays: Arrays) -> Rules:
+    """Yield the validity rules of the arrays that are written."""
+    yield "positions are below 1e6 m", np.abs(arrays["trans"]) < LARGEST
+    yield "the frame rate is below 1e6 Hz", arrays["mocap_framerate"] < LARGEST
+
+
+def is_written_by_mocap(members: Mapping[str, Member]) -> bool:
+    """Return whether an archive was written by mocap, with z up and the exact frame rate."""
+    return "format" in members and kind_of(members) == AMASS
 
 
 def read(path: str | Path, *, fps: float | None = None, up: str | None = None) -> Recording:
@@ -86,23 +166,16 @@ def read(path: str | Path, *, fps: float | None = None, up: str | None = None) -
     MocapWarning : if the file has shape parameters, which are ignored.
     """
     with open_archive(path, WANTED, ROOM) as members:
-        if "poses" not in members and kind_of(members) in LOADERS:
-            raise other_kind(path, WANTED, members)
-        has_parts = "poses" not in members and set(PARTS) <= set(members)
-        keys = PARTS if has_parts else ("poses",)
-        frames = _count_frames(path, members, keys[0])
-        for key in (*keys[1:], "trans"):
-            rows = _count_frames(path, members, key)
-            if rows != frames:
-                raise FormatError(path, None, f"as many rows of {key} as of {keys[0]}, {frames}", str(rows))
-        if frames == 0:
-            raise FormatError(path, None, f"one frame or more in '{keys[0]}'", "none")
-        rate = fps or _rate(path, members)
+        keys = _keys_of_poses(path, members)
+        frames = _count_all_frames(path, members, keys)
+        is_ours = is_written_by_mocap(members)
+        rate = fps or _rate(path, members, exact=is_ours)
         poses = np.hstack([_rows(members[key], frames) for key in keys])[:, :WIDTH]
         trans = members["trans"].read()[:, : WIDTHS["trans"]]
         _require_small(path, "poses", poses)
         _require_small(path, "trans", trans)
         has_shape = _has_shape(members)
+    up = up or (AXES[1] if is_ours else None)
     if has_shape:
         effect = "the bones are those of the mean body, so feet may stand some centimetres off the ground"
         warn(f"{path}: betas, the shape of the body, are ignored: {effect}.")
@@ -119,6 +192,27 @@ def read(path: str | Path, *, fps: float | None = None, up: str | None = None) -
     local[:, 0] = rotations.multiply(turn, local[:, 0])
     motion = Motion(SKELETON, rotations.rotate(turn, positions), local, rate, Path(path).stem)
     return Recording(motion, {}, {}, space=space, evidence=evidence)
+
+
+def _keys_of_poses(path: str | Path, members: Mapping[str, Member]) -> tuple[str, ...]:
+    """Return the names of the arrays of poses, whole or in parts. Raise for a file of another kind."""
+    if "poses" in members:
+        return ("poses",)
+    if kind_of(members) in LOADERS:
+        raise other_kind(path, WANTED, members)
+    return PARTS if set(PARTS) <= set(members) else ("poses",)
+
+
+def _count_all_frames(path: str | Path, members: Mapping[str, Member], keys: tuple[str, ...]) -> int:
+    """Return the number of frames. Raise if there are none, or arrays have different numbers of rows."""
+    frames = _count_frames(path, members, keys[0])
+    for key in (*keys[1:], "trans"):
+        rows = _count_frames(path, members, key)
+        if rows != frames:
+            raise FormatError(path, None, f"as many rows of {key} as of {keys[0]}, {frames}", str(rows))
+    if frames == 0:
+        raise FormatError(path, None, f"one frame or more in '{keys[0]}'", "none")
+    return frames
 
 
 def _rows(member: Member, frames: int) -> NDArray[Any]:
@@ -153,8 +247,8 @@ def _has_shape(members: Mapping[str, Member]) -> bool:
     return bool(betas.read().any())
 
 
-def _rate(path: str | Path, members: Mapping[str, Member]) -> float:
-    """Read the frame rate, under its newer or its older name."""
+def _rate(path: str | Path, members: Mapping[str, Member], *, exact: bool) -> float:
+    """Read the frame rate, under its newer or its older name, unless `exact` without noise in its digits."""
     key = next((key for key in RATES if key in members), None)
     if key is None:
         raise FormatError(path, None, f"'{RATES[0]}'", "none", remedy=Remedy("give {}", "fps"))
@@ -164,4 +258,4 @@ def _rate(path: str | Path, members: Mapping[str, Member]) -> float:
     rate = array.read().item()
     if not 0 < rate < LARGEST:
         raise FormatError(path, None, f"one number above 0 in '{key}'", str(rate))
-    return frame_rates.without_noise(float(rate))
+    return float(rate) if exact else frame_rates.without_noise(float(rate))

@@ -1,6 +1,7 @@
 """BVH files: a hierarchy of joints, and the values of their channels in every frame.
 
-Position channels replace the offset of a joint. Rotation channels are intrinsic Euler angles in the given
+Position channels replace the offset of a joint, or, in files of some programs, are relative to that of the
+root. Rotation channels are intrinsic Euler angles in the given
 order: Zrotation Xrotation Yrotation is R = Rz Rx Ry. The format has no unit: it is `scale` metres, by default
 a centimetre. `bvh_hierarchy` explains the names of joints.
 """
@@ -19,35 +20,32 @@ from numpy.typing import NDArray
 from mocap._shared.arrays import Array
 from mocap._shared.atomic import replacing
 from mocap.body import euler, rotations
+from mocap.body.joint_trees import world_positions
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError, Remedy, shortened, warn
 from mocap.files import frame_rates, spaces
-from mocap.files.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
+from mocap.files.bvh_hierarchy import POSITIONS, ROTATIONS, Hierarchy, Joint, read_hierarchy, write_hierarchy
+from mocap.files.decimals import parse_numbers
 from mocap.files.loose_joints import without_loose_joints
+from mocap.files.read_options import ReadOptions
 from mocap.files.recordings import Recording
 from mocap.files.rigid_bones import fit
 from mocap.files.space_evidence import Evidence, frames_to_look_at, gather
-from mocap.files.text import LARGEST, check_room, quick_numbers, read_text, to_numbers, with_decimal_points
+from mocap.files.text import LARGEST, check_room, read_text, to_numbers, with_decimal_points
 from mocap.files.tuned import TUNED
 
 SCALE = 0.01  # metres in a unit of files that are written, and of those whose frames do not show it
 STILL = 1e-5  # metres: the largest movement of a fixed joint in its parent's frame, by rounding in the file
 SHORTEST = 1e-5  # seconds: the smallest frame time
 LONGEST = 10.0  # seconds: the largest frame time
+FRAMES_AT_ONCE = 256  # whose angles are converted: their arrays fit into the cache of a processor
 TIMES = re.compile(
     r"\s*Frames[ \t]*:[ \t]*(\S+)[ \t]*\n\s*Frame[ \t]+Time[ \t]*:[ \t]*(\S+)[ \t]*(?:\n|\Z)", re.IGNORECASE
 )
 
 
-def read(
-    path: str | Path,
-    *,
-    scale: float | None = None,
-    fps: float | None = None,
-    stretch: float = TUNED.stretch,
-    up: str | None = None,
-) -> Recording:
+def read(path: str | Path, options: ReadOptions) -> Recording:
     """Read a BVH file.
 
     Position channels below the root are allowed. If they vary, rigid bones are fitted by `rigid_bones`, as
@@ -59,11 +57,8 @@ def read(
     Parameters
     ----------
     path : the file.
-    scale : metres in one unit of the file; by default as the frames show, see `spaces`.
-    fps : frames per second, by default from the frame time, as an integer if the digits of the file allow it.
-    stretch : the largest change of the length of a bone, metres.
-    up : the axis that points up, such as "z"; by default as the frames show. The motion is rotated so that y
-        is up.
+    options : those of `files.load`. By default `spaces` finds the unit, the vertical axis and whether to add
+        the root's OFFSET to its positions. The motion is rotated so that y is up.
 
     Raises
     ------
@@ -75,53 +70,82 @@ def read(
         digits for one frame rate; and if bones were fitted, with the changes of their lengths and the
         distances of the joints from the file.
     """
-    joints, blocks, rate = _channels(path, fps=fps)
-    angles = {}
-    for joint, block in zip(joints, blocks, strict=True):
-        angles[joint.name] = block[:, _rotation_columns(joint)]
-    positions, local = _poses(joints, blocks)
-    evidence = _evidence(joints, positions, local, rate) if scale is None or up is None else None
-    space = spaces.decide([evidence] if evidence else [], (SCALE, "y"), scale=scale, up=up)
+    hierarchy, values, rate = _channels(path, options)
+    joints = hierarchy.joints
+    angles = {joint.name: values[:, joint.columns(ROTATIONS)] for joint in joints}
+    positions, local = _poses(joints, values)
+    offset = _root_offset(joints[0])
+    is_open = None in (options.scale, options.up) or (options.root_offset is None and offset.any())
+    evidence = _evidence(joints, positions, local, rate, offset) if is_open else None
+    space = spaces.decide(
+        [evidence] if evidence else [],
+        (SCALE, "y"),
+        scale=options.scale,
+        up=options.up,
+        root_offset=options.root_offset,
+    )
+    if space.root_offset == "add":
+        positions[:, 0] += offset
     joints, positions, local = _without_reference(joints, space.scale * positions, local)
     joints, positions, local = without_loose_joints(path, joints, positions, local)
-    lengths = np.linalg.norm(positions, axis=-1)
-    changes = np.ptp(lengths, axis=0).tolist()
-    offsets, local = _rigid(path, joints, (positions, local), stretch)
+    stretches = _stretches(joints, positions)
+    offsets, local = _rigid(path, joints, (positions, local), options.stretch)
     names = [joint.name for joint in joints]
     parents = np.array([joint.parent for joint in joints])
-    dofs = [_axes(joint)[::-1] for joint in joints]
+    dofs = [joint.axes()[::-1] for joint in joints]
     skeleton = Skeleton(names, parents, offsets, dofs=dofs)
     motion = spaces.upright(Motion(skeleton, positions[:, 0], local, rate, Path(path).stem), space.up)
-    stretches = dict(zip(names[1:], changes[1:], strict=True))
-    return Recording(motion, angles, stretches, space=space, evidence=evidence)
+    is_chosen = options.body is not None
+    bodies = () if is_chosen else hierarchy.roots
+    return Recording(motion, angles, stretches, space=space, evidence=evidence, bodies=bodies)
 
 
-def _evidence(joints: list[Joint], positions: Array, local: Array, rate: float) -> Evidence | None:
+def _evidence(
+    joints: list[Joint], positions: Array, local: Array, rate: float, root_offset: Array
+) -> Evidence | None:
     """Gather the evidence of the space from poses in the unit of the file."""
     frames, rate = frames_to_look_at(positions[:, 0], rate)
-    world = positions[frames].copy()
-    turned = local[frames].copy()
-    for index, joint in enumerate(joints[1:], 1):
-        parent_rotations = turned[:, joint.parent]
-        world[:, index] = world[:, joint.parent] + rotations.rotate(parent_rotations, world[:, index])
-        turned[:, index] = rotations.multiply(parent_rotations, turned[:, index])
     parents = np.array([joint.parent for joint in joints])
-    return gather(parents, world, rate)
+    return gather(parents, world_positions(parents, positions[frames], local[frames]), rate, root_offset)
 
 
-def _poses(joints: list[Joint], blocks: list[Array]) -> tuple[Array, Array]:
-    """Convert channels to positions in the parents' frames (F, J, 3), in the file's unit, and rotations."""
-    frames = len(blocks[0])
+def _root_offset(root: Joint) -> Array:
+    """Return the OFFSET of the root, (3,), along the axes of its position channels, and 0 along others."""
+    assert root.offset is not None  # since its brace is closed
+    has_position = [channel in root.channels for channel in POSITIONS]
+    return np.where(has_position, root.offset, 0.0)
+
+
+def _poses(joints: list[Joint], values: Array) -> tuple[Array, Array]:
+    """Convert channels to positions in the parents' frames (F, J, 3), in the file's unit, and rotations.
+
+    Joints whose rotation channels have the same order are converted together.
+    """
+    frames = len(values)
     positions = np.tile(np.array([joint.offset for joint in joints]), (frames, 1, 1))
     local = np.tile(rotations.IDENTITY, (frames, len(joints), 1))
-    for index, (joint, block) in enumerate(zip(joints, blocks, strict=True)):
-        for channel, numbers in zip(joint.channels, block.T, strict=True):
-            if channel in POSITIONS:
-                positions[:, index, POSITIONS.index(channel)] = numbers
-        order = _axes(joint).upper()
-        if order:
-            local[:, index] = euler.from_euler(order, np.radians(block[:, _rotation_columns(joint)]))
+    joints_of: dict[str, list[int]] = {}  # by the order of their rotation channels
+    for index, joint in enumerate(joints):
+        for column in joint.columns(POSITIONS):
+            axis = POSITIONS.index(joint.channels[column - joint.column])
+            positions[:, index, axis] = values[:, column]
+        joints_of.setdefault(joint.axes().upper(), []).append(index)
+    joints_of.pop("", None)
+    for order, indices in joints_of.items():
+        columns = [joints[index].columns(ROTATIONS) for index in indices]
+        for start in range(0, frames, FRAMES_AT_ONCE):
+            angles = np.radians(values[start : start + FRAMES_AT_ONCE, columns])
+            local[start : start + FRAMES_AT_ONCE, indices] = euler.from_euler(order, angles)
     return positions, local
+
+
+def _stretches(joints: list[Joint], positions: Array) -> dict[str, float]:
+    """Return the change of the length of each bone, in the unit of the positions in the parents' frames."""
+    stretches = dict.fromkeys([joint.name for joint in joints[1:]], 0.0)
+    for index in np.flatnonzero(np.ptp(positions[:, 1:], axis=0).any(axis=1)) + 1:
+        lengths = np.linalg.norm(positions[:, index], axis=-1)
+        stretches[joints[index].name] = float(np.ptp(lengths))
+    return stretches
 
 
 def _without_reference(
@@ -137,22 +161,21 @@ def _without_reference(
     return joints, positions[:, 1:], local[:, 1:]
 
 
-def _channels(path: str | Path, *, fps: float | None = None) -> tuple[list[Joint], list[Array], float]:
-    """Read the joints, the numbers of each joint (F, channels), and the frame rate, unless it is `fps`."""
+def _channels(path: str | Path, options: ReadOptions) -> tuple[Hierarchy, Array, float]:
+    """Read the hierarchy, the numbers of all channels (F, C), and the frame rate, unless it is given."""
     text = with_decimal_points(path, read_text(path))
     start = re.search(r"^[ \t]*MOTION[ \t]*$", text, re.MULTILINE | re.IGNORECASE)
     if start is None:
         raise FormatError(path, None, "a line 'MOTION'", "none")
-    joints = read_hierarchy(path, text[: start.start()])
+    hierarchy = read_hierarchy(path, text[: start.start()], options.body)
     times = TIMES.match(text, start.end())
     if times is None:
         line = text.count("\n", 0, start.end()) + 2
         got = f"'{' '.join(text[start.end() :][:200].split()[:4])}'"
         raise FormatError(path, line, "'Frames: <count>' and 'Frame Time: <seconds>'", got)
-    counts = [len(joint.channels) for joint in joints]
-    values = _values(path, text, times, sum(counts))
-    check_room(path, len(values) * len(joints), values.size)
-    return joints, np.split(values, np.cumsum(counts)[:-1], axis=1), fps or _rate(path, text, times)
+    values = _values(path, text, times, hierarchy.width)
+    check_room(path, len(values) * len(hierarchy.joints), values.size)
+    return hierarchy, values, options.fps or _rate(path, text, times)
 
 
 def _values(path: str | Path, text: str, times: re.Match[str], width: int) -> Array:
@@ -161,9 +184,8 @@ def _values(path: str | Path, text: str, times: re.Match[str], width: int) -> Ar
     count = to_numbers(path, line, [times[1]], "a number of frames", 1)[0]
     if width == 0:
         raise FormatError(path, line, "channels, which have numbers in every frame", "none")
-    words = text[times.end() :].split()
-    values = quick_numbers(words) if len(words) == count * width else None
-    if values is None:
+    values = parse_numbers(text[times.end() :])
+    if values is None or values.size != count * width or not np.all(np.abs(values) < LARGEST):
         values = _rows(path, text, times, width)
     frames = values.size // width
     if frames == 0:
@@ -196,16 +218,6 @@ def _rate(path: str | Path, text: str, times: re.Match[str]) -> float:
     if not is_certain:
         warn(f"{path}: a frame time of {times[2]} s has few digits: it is read as {rate:g} Hz.")
     return rate
-
-
-def _rotation_columns(joint: Joint) -> list[int]:
-    """Return the indices of a joint's rotation channels."""
-    return [column for column, channel in enumerate(joint.channels) if channel in ROTATIONS]
-
-
-def _axes(joint: Joint) -> str:
-    """Return the axes of a joint's rotation channels in order, such as "zxy"."""
-    return "".join(joint.channels[column][0] for column in _rotation_columns(joint))
 
 
 def _rigid(

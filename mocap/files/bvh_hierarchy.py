@@ -1,4 +1,4 @@
-"""The hierarchy of a BVH file: a tree of joints, each with an offset and channels.
+"""The hierarchy of a BVH file: a tree of joints for each body, each joint with an offset and channels.
 
 An End Site of `head` becomes the joint `head_end`, further ones `head_end2`, … An End Site of length zero is
 dropped, because it only marks the end of a branch.
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Container, Iterator
+from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -16,11 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple
 from mocap.body.skeleton import Skeleton
-from mocap.errors import FormatError, MocapError, shortened, warn
+from mocap.errors import FormatError, MocapError, Remedy, shortened, warn
 from mocap.files.text import to_numbers
 
 FIRST = ("HIERARCHY", "ROOT")  # keywords that begin a file
+AFTER_ROOT = ("ROOT",)  # of another body
 OPENING = ("ROOT", "JOINT", "END")  # keywords before a brace that opens
 INSIDE_JOINT = ("OFFSET", "CHANNELS", "JOINT", "END", "}")
 INSIDE_END_SITE = ("OFFSET", "}")
@@ -35,13 +37,29 @@ EMPTY_END_SITE = ("End Site", "{", "\tOFFSET 0 0 0", "}")  # below a joint witho
 
 @dataclass
 class Joint:
-    """A joint of the file. An End Site is named after the whole hierarchy has been read."""
+    """A joint of the file. An End Site is named after the whole hierarchy has been read.
+
+    line : of its name in the file.
+    parent : the index of the parent, -1 for a root.
+    offset : from the parent, in the unit of the file, shape (3,).
+    channels : the names of its channels.
+    column : of its first channel in the numbers of a frame.
+    """
 
     line: int
     name: str
     parent: int
     offset: NDArray[np.float64] | None = None
     channels: list[str] = field(default_factory=list)
+    column: int = 0
+
+    def columns(self, names: Container[str]) -> list[int]:
+        """Return the columns of those channels that have one of the names."""
+        return [self.column + n for n, channel in enumerate(self.channels) if channel in names]
+
+    def axes(self) -> str:
+        """Return the axes of the rotation channels in order, such as "zxy"."""
+        return "".join(channel[0] for channel in self.channels if channel in ROTATIONS)
 
 
 def _statements(text: str) -> Iterator[tuple[int, str, str]]:
@@ -53,31 +71,80 @@ def _statements(text: str) -> Iterator[tuple[int, str, str]]:
                 yield number, words[0].upper(), "".join(words[1:]).strip()
 
 
-def read_hierarchy(path: str | Path, text: str) -> list[Joint]:
-    """Parse a hierarchy: return its joints, parents first.
+class Hierarchy(NamedTuple):
+    """The joints of one body of a file, parents first, the `roots` of all its bodies, and its `width`.
+
+    The width is the number of channels of all bodies.
+    """
+
+    joints: list[Joint]
+    roots: tuple[str, ...]
+    width: int
+
+
+def read_hierarchy(path: str | Path, text: str, body: int | None = None) -> Hierarchy:
+    """Parse a hierarchy, and choose one of its bodies.
+
+    Parameters
+    ----------
+    path : the file, for errors.
+    text : of its hierarchy.
+    body : the number of the body, from 1; None for the first.
 
     Raises
     ------
     FormatError : with the line that breaks the format.
+    MocapError : if the file has no such body.
 
     Examples
     --------
     >>> text = '''ROOT hips {
     ... OFFSET 0 0 0
     ... End Site { OFFSET 0 9 0 } }'''
-    >>> hips, end = read_hierarchy("walk.bvh", text)
+    >>> hips, end = read_hierarchy("walk.bvh", text).joints
     >>> end.name, end.parent, end.offset
     ('hips_end', 0, array([0., 9., 0.]))
     """
+    joints = _parse_joints(path, text)
+    width = 0
+    for joint in joints:
+        joint.column = width
+        width += len(joint.channels)
+    bodies = _bodies(joints)
+    roots = tuple(root.name for root, *_ in bodies)
+    if body is not None and body not in range(1, len(bodies) + 1):
+        count = "1 body" if len(bodies) == 1 else f"{len(bodies)} bodies"
+        remedy = Remedy("{} is the number of one, from 1", "body")
+        raise MocapError(f"{path} holds {count}, got {body}", remedy=remedy)
+    return Hierarchy(_named(path, bodies[int(body or 1) - 1]), roots, width)
+
+
+def _parse_joints(path: str | Path, text: str) -> list[Joint]:
+    """Parse the joints of all bodies. Raise at the line that breaks the format."""
     tree = _Tree(path)
     line = 1
     for line, keyword, argument in _statements(text):
         if keyword not in tree.allowed:
-            raise FormatError(path, line, " or ".join(tree.allowed) or "MOTION", f"'{keyword}'")
+            allowed = (*tree.allowed, "MOTION") if tree.allowed == AFTER_ROOT else tree.allowed
+            raise FormatError(path, line, " or ".join(allowed), f"'{keyword}'")
         tree.add(line, keyword, argument)
-    if tree.open or tree.allowed:
+    if tree.allowed != AFTER_ROOT:
         raise FormatError(path, line, " or ".join(tree.allowed), "the end of the hierarchy")
-    return _named(path, tree.joints)
+    return tree.joints
+
+
+def _bodies(joints: Sequence[Joint]) -> list[list[Joint]]:
+    """Split the joints of a file at its roots; the parents of each body are counted from its root."""
+    bodies: list[list[Joint]] = []
+    start = 0  # the number of the root of the body
+    for number, joint in enumerate(joints):
+        if joint.parent < 0:
+            bodies.append([])
+            start = number
+        else:
+            joint.parent -= start
+        bodies[-1].append(joint)
+    return bodies
 
 
 class _Tree:
@@ -85,7 +152,7 @@ class _Tree:
 
     joints : parents first. An End Site has an empty name.
     open : the joints whose braces are open, innermost last.
-    allowed : the keywords that may follow, none after the brace that closes the root.
+    allowed : the keywords that may follow.
     """
 
     def __init__(self, path: str | Path) -> None:
@@ -133,7 +200,7 @@ class _Tree:
         if self.open:
             is_end_site = not self.joints[self.open[-1]].name
             return INSIDE_END_SITE if is_end_site else INSIDE_JOINT
-        return () if self.joints else FIRST
+        return AFTER_ROOT if self.joints else FIRST
 
 
 def _channels(path: str | Path, line: int, words: list[str]) -> list[str]:

@@ -5,7 +5,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from mocap import files
 from mocap._shared.atomic import UNFINISHED, make_folder
@@ -15,6 +15,8 @@ from mocap.files import formats
 
 if TYPE_CHECKING:
     from mocap.body.motion import Motion
+
+Result = TypeVar("Result")
 
 MOST_WORKERS = 61  # processes of a pool; Windows cannot wait for more
 
@@ -27,10 +29,10 @@ def is_clip(path: Path) -> bool:
     >>> is_clip(Path("walk.BVH")), is_clip(Path("walk.asf")), is_clip(Path("graph.npz"))
     (True, False, False)
     """
-    from mocap.files.amass import is_amass  # imported here, because the help of the command needs no NumPy
+    from mocap.files.motion_archives import is_motion  # the help of the command needs no NumPy
 
     suffix = path.suffix.lower()
-    return suffix in formats.READ and (suffix != ".npz" or is_amass(path))
+    return suffix in formats.READ and (suffix != ".npz" or is_motion(path))
 
 
 def find_files(paths: Iterable[Path]) -> list[Path]:
@@ -155,20 +157,43 @@ def convert(
     >>> convert([(Path("gone.amc"), Path("walk.bvh"))], files.load)
     ['Cannot read gone.amc: No such file or directory.']
     """
-    if len(pairs) == 1:
-        return list(filter(None, [_convert(load, *pairs[0])]))
+    return list(filter(None, run_in_processes(partial(_convert, load), pairs, progress=progress)))
+
+
+def run_in_processes(
+    work: Callable[..., Result], tasks: Sequence[tuple[Path, ...]], *, progress: Progress = iter
+) -> list[Result]:
+    """Call a function for each task in parallel processes; a single task is executed in this process.
+
+    Parameters
+    ----------
+    work : the function. It is sent to other processes, as its results are sent back.
+    tasks : the arguments of each call.
+    progress : wraps the tasks while they are executed, to show a progress bar.
+
+    Raises
+    ------
+    MocapError : if a process ends before its work is done.
+
+    Examples
+    --------
+    >>> run_in_processes(Path.exists, [(Path("gone.amc"),)])
+    [False]
+    """
+    if len(tasks) == 1:
+        return [work(*tasks[0])]
     from concurrent.futures import BrokenExecutor, ProcessPoolExecutor  # imported here, because it is slow
 
     from mocap._shared.tasks import serve
 
-    workers = min(len(pairs), os.cpu_count() or 1, MOST_WORKERS)
+    workers = min(len(tasks), os.cpu_count() or 1, MOST_WORKERS)
     with ProcessPoolExecutor(workers, initializer=serve) as pool:
-        outcomes = pool.map(partial(_convert, load), *zip(*pairs, strict=True))
+        outcomes = pool.map(work, *zip(*tasks, strict=True))
         try:
-            return list(filter(None, [next(outcomes) for _ in progress(pairs)]))
+            return [next(outcomes) for _ in progress(tasks)]
         except BrokenExecutor as error:
             raise MocapError("A worker was ended from outside: is there enough memory?") from error
-        finally:  # after an interruption, pending files are not converted
+        finally:  # after an interruption, pending tasks are not executed
             pool.shutdown(cancel_futures=True)
 
 

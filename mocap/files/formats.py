@@ -1,37 +1,21 @@
-"""The formats of motion files that can be read, in a table used by `load_save`, folders, errors and commands.
+"""The formats of motion files, in tables used by `load_save`, folders, errors and commands.
 
-A new format takes a row of `READ` and a reader above it. A reader imports its module when it is called, so
-that the help of the command can print the table without NumPy.
+A new format to read takes a row of `READ` and a reader above it. A reader imports its module when it is
+called, so that the help of the command can print the table without NumPy.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from mocap.errors import FormatError, MocapError, Remedy, shortened
+from mocap.files.read_options import ReadOptions
 
 if TYPE_CHECKING:
     from mocap.files.recordings import Recording
-
-
-class ReadOptions(NamedTuple):
-    """The options of `load`, of which a reader uses those that apply to its format.
-
-    skeleton : the file of the skeleton, for formats with separate skeletons.
-    fps : frames per second, which replace those of the file.
-    scale : metres in one unit of the file.
-    stretch : the largest change of the length of a bone, metres.
-    up : the axis that points up, such as "z".
-    """
-
-    skeleton: Path | None
-    fps: float | None
-    scale: float | None
-    stretch: float
-    up: str | None = None
 
 
 class Format(NamedTuple):
@@ -100,37 +84,50 @@ def begins(name: str, beginning: str) -> bool:
     return name.lower().startswith(beginning.lower()) and not rest[:1].isalnum()
 
 
+def has_fixed_space(path: Path) -> bool:
+    """Return whether the format of a file says its unit and its vertical axis.
+
+    Examples
+    --------
+    >>> has_fixed_space(Path("walk.amc")), has_fixed_space(Path("walk.bvh"))
+    (True, False)
+    """
+    return path.suffix.lower() == ".amc"
+
+
 def read_bvh(path: Path, options: ReadOptions) -> Recording:
     """Read a BVH file."""
     from mocap.files import bvh
 
-    scale = options.scale
-    return bvh.read(path, scale=scale, fps=options.fps, stretch=options.stretch, up=options.up)
+    return bvh.read(path, options)
 
 
 def read_npz(path: Path, options: ReadOptions) -> Recording:
-    """Read an AMASS archive, which is in metres."""
-    from mocap.files import amass
+    """Read an archive of AMASS or mocap, which is in metres."""
+    from mocap.files import motion_archives
 
     if options.scale not in (None, 1.0):
         problem = f"All .npz files are in metres, got a scale of {options.scale:g} for {path}."
         raise MocapError(problem, remedy=Remedy("leave out {}", "scale"))
-    return amass.read(path, fps=options.fps, up=options.up)
+    return motion_archives.read(path, fps=options.fps, up=options.up)
 
 
 READ: dict[str, Format] = {
     ".amc": Format(".amc (with .asf)", read_amc),
     ".bvh": Format(".bvh", read_bvh),
-    ".npz": Format("AMASS .npz", read_npz),
+    ".npz": Format(".npz (AMASS, mocap)", read_npz),
 }
 """The formats that can be read, by the lower-case suffix of their files."""
+
+WRITTEN = (".bvh", ".glb", ".npz", ".csv")
+"""The suffixes of the formats that `save` writes."""
 
 
 _BY_BLENDER = "in Blender, import it and export Motion Capture (.bvh) first"
 _MARKERS = "markers have no bones: solve a skeleton first, and export it as .bvh"
 _PICKLE = "a pickle may run code: save poses, trans and mocap_framerate by numpy.savez as an .npz first"
 _POSITIONS = "positions alone have no bones: fit a body to them first, such as SMPL (an AMASS .npz)"
-_TABLE = "a table of numbers has no bones: export .bvh from the program that recorded it first"
+_TABLE = "a table of positions has no rotations: export or save the motion itself first, as .bvh or .npz"
 
 OTHERS: dict[str, str] = dict.fromkeys(
     (".fbx", ".gltf", ".dae", ".usd", ".usda", ".usdc", ".usdz", ".vrma"), _BY_BLENDER
@@ -153,5 +150,15 @@ def listed(last: str = "and") -> str:
     >>> listed()
     '.amc (with .asf), ...'
     """
-    *first, final = (form.name for form in READ.values())
-    return f"{', '.join(first)} {last} {final}"
+    return enumerated([form.name for form in READ.values()], last)
+
+
+def enumerated(names: Sequence[str], last: str = "or") -> str:
+    """Format names as an enumeration for a sentence.
+
+    Examples
+    --------
+    >>> enumerated([".bvh", ".glb", ".npz"]), enumerated([".html"])
+    ('.bvh, .glb or .npz', '.html')
+    """
+    return f" {last} ".join(filter(None, [", ".join(names[:-1]), names[-1]]))

@@ -1,8 +1,9 @@
 """Motions as a `.glb` file: a node for each joint, a skin, and animations of rotations [GLTF21].
 
-The nodes are in the rest pose, with the lowest joint on the ground. Rotations of joints with a short limb
-below are stored as normalised 16-bit integers, which changes joint positions by at most 0.1 mm. The file
-consists of a JSON text and a block of binary data [GLTF21, 4.4].
+The nodes are in the rest pose, which stands with its lowest joint on the ground (`gltf_rest`), and the skin
+is bound to this pose. The y axis of each joint runs along its bone (`gltf_bones`). Rotations of joints with a
+short limb below are stored as normalised 16-bit integers, which changes joint positions by at most 0.1 mm.
+The file consists of a JSON text and a block of binary data [GLTF21, 4.4].
 """
 
 from __future__ import annotations
@@ -16,13 +17,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mocap._shared.arrays import Mask
+from mocap._shared.arrays import Array, Mask
 from mocap.body import rotations
 from mocap.body.motion import Motion, require_compatible, rotating_joints
 from mocap.body.planar import PlanarTransform, heading
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened
+from mocap.files.gltf_bones import bone_axes
 from mocap.files.gltf_capsules import body, reaches
+from mocap.files.gltf_rest import with_standing_rest
+from mocap.files.plain_names import plain_name
 from mocap.files.tuned import TUNED
 
 Record = dict[str, Any]
@@ -39,10 +43,12 @@ VERTICES = 34962  # the target of an array: data of vertices
 CORNERS = 34963  # the target of an array: corners of triangles
 TRANSLATION = 3  # column of a 4 × 4 matrix
 XYZW = [1, 2, 3, 0]  # indices that reorder (w, x, y, z) to the order of glTF
+LEAST_ROTATION = 1e-12  # sine of half the angle: below this, a node is not rotated
 INFLUENCES = 4  # joints that influence a vertex: glTF requires four, of which only the first is used here
 
 ASSET = {"version": "2.0", "generator": "mocap"}
-BODY = {"name": "body", "mesh": 0, "skin": 0}
+BODY_NAME = "body"
+BODY: Record = {"name": BODY_NAME, "mesh": 0, "skin": 0}
 CLAY = {"baseColorFactor": [0.45, 0.55, 0.65, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.8}
 
 
@@ -52,7 +58,8 @@ def glb(motions: Motion | Sequence[Motion], *, root: bool = False) -> bytes:
     Parameters
     ----------
     motions : a motion, or motions with different names, each of which becomes an animation. Their frame rates
-        may differ. Joints keep their names. Labels and contacts are omitted.
+        may differ. Joints keep their names. Labels and contacts are omitted. If the rest pose of the body
+        does not stand, the file gets one that does, for all animations.
     root : whether to add a joint on the floor below the hips, with their heading, as the parent of the
         skeleton's root. Engines move a character by such a joint (root motion).
 
@@ -139,14 +146,17 @@ def _of_one_body(motions: Sequence[Motion]) -> list[Motion]:
 
 def _document(motions: Sequence[Motion], root: bool, block: Block) -> Record:
     """Build the JSON part of the file, and add its arrays to the block."""
+    motions = with_standing_rest(motions)
     skeleton = motions[0].skeleton
+    axes = bone_axes(skeleton)
     body_node = len(skeleton)  # after all joints
-    nodes = [*_nodes(skeleton), BODY]
-    skin = _skin(skeleton, root, block)
+    nodes = [*_nodes(skeleton, axes), BODY | {"name": _free_name(BODY_NAME, "drawn", skeleton)}]
+    skin = _skin(skeleton, axes, root, block)
     if root:
-        nodes.append({"name": _floor_name(skeleton), "children": [0]})
+        nodes.append({"name": _free_name("root", "floor", skeleton), "children": [0]})
     document: Record = {"asset": ASSET, "scene": 0}
-    document["scenes"] = [{"name": motions[0].name, "nodes": [skin["skeleton"], body_node]}]
+    scene_name = _free_name(motions[0].name, "clip", skeleton)
+    document["scenes"] = [{"name": scene_name, "nodes": [skin["skeleton"], body_node]}]
     document["nodes"] = nodes
     document["skins"] = [skin]
     document["materials"] = [{"name": "clay", "pbrMetallicRoughness": CLAY}]
@@ -155,7 +165,8 @@ def _document(motions: Sequence[Motion], root: bool, block: Block) -> Record:
     motions = [_without(travel, motion) for travel, motion in zip(travels, motions, strict=True)]
     rotates = np.any([rotating_joints(motion) for motion in motions], axis=0)
     document["animations"] = [
-        _animation(motion, rotates, travel, block) for travel, motion in zip(travels, motions, strict=True)
+        _animation(motion, axes, rotates, travel, block)
+        for travel, motion in zip(travels, motions, strict=True)
     ]
     document["accessors"] = block.accessors
     document["bufferViews"] = block.views
@@ -163,13 +174,17 @@ def _document(motions: Sequence[Motion], root: bool, block: Block) -> Record:
     return document
 
 
-def _nodes(skeleton: Skeleton) -> list[Record]:
-    """Build a node for each joint, with its offset. The root is raised until the lowest joint is at y = 0."""
-    offsets = skeleton.offsets.copy()
-    offsets[0] = [0.0, -skeleton.rest[:, 1].min(), 0.0]
+def _nodes(skeleton: Skeleton, axes: Array) -> list[Record]:
+    """Build a node for each joint: its position and orientation at rest, relative to its parent."""
+    above = _axes_of_parents(skeleton, axes)
+    positions = rotations.rotate(rotations.inverse(above), skeleton.offsets)
+    positions[0] = _floor_to_root(skeleton)
+    quaternions = _relative_to_bones(skeleton, axes, rotations.IDENTITY)[:, XYZW]
     nodes: list[Record] = []
     for joint, name in enumerate(skeleton.names):
-        node: Record = {"name": name, "translation": (offsets[joint] + 0.0).tolist()}
+        node: Record = {"name": name, "translation": (positions[joint] + 0.0).tolist()}
+        if np.abs(quaternions[joint, :3]).max() > LEAST_ROTATION:
+            node["rotation"] = np.clip(quaternions[joint], -1, 1).tolist()
         children = skeleton.children(joint)
         if children:
             node["children"] = children
@@ -177,16 +192,38 @@ def _nodes(skeleton: Skeleton) -> list[Record]:
     return nodes
 
 
+def _floor_to_root(skeleton: Skeleton) -> Array:
+    """Return the position of the root at rest, (3,), metres: the lowest joint is at y = 0."""
+    return np.array([0.0, -skeleton.rest[:, 1].min(), 0.0])
+
+
+def _axes_of_parents(skeleton: Skeleton, axes: Array) -> Array:
+    """Return the orientation of each joint's parent at rest, (J, 4); the identity for the root."""
+    above = axes[skeleton.parents]
+    above[0] = rotations.IDENTITY
+    return above
+
+
+def _relative_to_bones(skeleton: Skeleton, axes: Array, local: Array) -> Array:
+    """Convert local rotations R, (..., J, 4), to those of nodes with axes A along the bones: A_p⁻¹ R A."""
+    rotated = rotations.multiply(local, axes)
+    return rotations.multiply(rotations.inverse(_axes_of_parents(skeleton, axes)), rotated)
+
+
 def _floor_node(skeleton: Skeleton) -> int:
     """Return the node of a joint on the floor: the last one, after the joints and the body."""
     return len(skeleton) + 1
 
 
-def _floor_name(skeleton: Skeleton) -> str:
-    """Return the name of a joint on the floor, which no joint of the skeleton has."""
-    name = "root"
-    while name in skeleton.names:
-        name = f"floor_{name}"
+def _free_name(name: str, prefix: str, skeleton: Skeleton) -> str:
+    """Return a name that no joint has, with prefixes if necessary.
+
+    Programs that need unique names would rename the joint. Names that differ only in characters that three.js
+    drops are the same.
+    """
+    names_of_joints = {plain_name(joint) for joint in skeleton.names}
+    while plain_name(name) in names_of_joints:
+        name = f"{prefix}_{name}"
     return name
 
 
@@ -204,22 +241,25 @@ def _without(travel: PlanarTransform | None, motion: Motion) -> Motion:
     return replace(motion, root_positions=root_positions, rotations=local)
 
 
-def _skin(skeleton: Skeleton, root: bool, block: Block) -> Record:
-    """Build the skin: for each joint the inverse bind matrix, which moves its rest position to the origin."""
+def _skin(skeleton: Skeleton, axes: Array, root: bool, block: Block) -> Record:
+    """Build the skin: for each joint the inverse of its world matrix at rest, [A | p]⁻¹ = [A⁻¹ | -A⁻¹ p]."""
     nodes = list(range(len(skeleton)))
-    rest = skeleton.rest
+    rest = skeleton.rest + _floor_to_root(skeleton)
     if root:
         nodes.append(_floor_node(skeleton))
-        rest = np.vstack([rest, [0.0, rest[:, 1].min(), 0.0]])
-    matrices = np.tile(np.eye(4, dtype=np.float32), (len(nodes), 1, 1))  # stored by columns
-    matrices[:, TRANSLATION, :3] = -rest
+        rest = np.vstack([rest, np.zeros(3)])
+        axes = np.vstack([axes, rotations.IDENTITY])
+    matrices = np.tile(np.eye(4, dtype=np.float32), (len(nodes), 1, 1))  # stored by columns: transposed
+    matrices[:, :3, :3] = rotations.to_matrix(axes)
+    matrices[:, TRANSLATION, :3] = -rotations.rotate(rotations.inverse(axes), rest)
     accessor = block.add(matrices.reshape(len(nodes), -1))
     return {"inverseBindMatrices": accessor, "joints": nodes, "skeleton": nodes[-1] if root else 0}
 
 
 def _mesh(skeleton: Skeleton, block: Block) -> Record:
-    """Build the surface of the body. Each vertex is influenced by one joint."""
+    """Build the surface of the body at rest. Each vertex is influenced by one joint."""
     positions, normals, joints, corners = body(skeleton)
+    positions = positions + _floor_to_root(skeleton)
     index_type = np.uint16 if len(positions) < 2**16 - 1 else np.uint32  # the largest index is reserved
     carriers = np.zeros((len(positions), INFLUENCES), np.uint16)
     carriers[:, 0] = joints
@@ -230,10 +270,13 @@ def _mesh(skeleton: Skeleton, block: Block) -> Record:
     attributes["JOINTS_0"] = block.add(carriers, target=VERTICES)
     attributes["WEIGHTS_0"] = block.add(weights, target=VERTICES)
     indices = block.add(corners.ravel().astype(index_type), target=CORNERS)
-    return {"name": "body", "primitives": [{"attributes": attributes, "indices": indices, "material": 0}]}
+    name = _free_name(BODY_NAME, "drawn", skeleton)
+    return {"name": name, "primitives": [{"attributes": attributes, "indices": indices, "material": 0}]}
 
 
-def _animation(motion: Motion, rotates: Mask, travel: PlanarTransform | None, block: Block) -> Record:
+def _animation(
+    motion: Motion, axes: Array, rotates: Mask, travel: PlanarTransform | None, block: Block
+) -> Record:
     """Build an animation: the translation of the root, and the rotations of joints that rotate in any.
 
     The travel, if there is one, is that of the joint on the floor.
@@ -247,7 +290,8 @@ def _animation(motion: Motion, rotates: Mask, travel: PlanarTransform | None, bl
     clock = block.add(times, bounds=True)
     samplers = [{"input": clock, "output": block.add(motion.root_positions.astype(np.float32))}]
     channels: list[Record] = [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]
-    quaternions = rotations.continuous(motion.rotations)[..., XYZW]
+    local = _relative_to_bones(motion.skeleton, axes, motion.rotations)
+    quaternions = rotations.continuous(local)[..., XYZW]
     limbs = reaches(motion.skeleton)
     for joint in np.flatnonzero(rotates).tolist():
         values: NDArray[Any] = quaternions[:, joint].astype(np.float32)

@@ -91,6 +91,8 @@ def _capsules(skeleton: Skeleton, longest: float) -> Iterator[Capsule]:
     limbs = reaches(skeleton)
     head_radius = HEAD * longest
     is_head = [_is_head(name) for name in skeleton.names]
+    if not any(is_head) and "head" in skeleton.roles:
+        is_head[skeleton.index(skeleton.roles["head"])] = True
     for joint in range(1, len(skeleton)):
         parent = int(skeleton.parents[joint])
         bone = skeleton.offsets[joint]

@@ -11,13 +11,14 @@ from mocap._shared.quantities import check_number, described
 from mocap.body.limbs import with_roles
 from mocap.body.motion import Motion, require_motion, require_motions, rotating_joints
 from mocap.errors import MocapError, warn
-from mocap.files import bvh, formats, gltf, spaces
+from mocap.files import bvh, formats, gltf, motion_archives, position_tables, spaces
+from mocap.files.read_options import ReadOptions
 from mocap.files.recordings import Recording
 from mocap.files.role_maps import read_roles
 from mocap.files.text import check_above_0, read_text
 from mocap.files.tuned import TUNED
 
-WRITTEN = ".bvh and .glb"
+PARAMETERS = {name: f"{name}=" for name in ("scale", "up", "root_offset", "body")}  # of `load`, in notices
 
 
 def load(  # noqa: PLR0913 (each by its name)
@@ -28,6 +29,8 @@ def load(  # noqa: PLR0913 (each by its name)
     scale: float | None = None,
     stretch: float = TUNED.stretch,
     up: str | None = None,
+    root_offset: str | None = None,
+    body: int | None = None,
     roles: Mapping[str, str] | str | Path | None = None,
 ) -> Motion:
     """Read a motion from a file, in one of the formats of `files.formats.READ`.
@@ -45,14 +48,20 @@ def load(  # noqa: PLR0913 (each by its name)
         rigid bones are fitted, with a warning that reports the error of joint positions. `math.inf` accepts
         any change.
     up : the axis of the file that points up: "y", "z", "-y", "-z", "x" or "-x". By default the one that the
-        frames show, from the standing feet: y for `.bvh` and z for `.npz` if they do not. The motion is
+        frames show, from the standing feet: y for `.bvh` and z for AMASS if they do not. The motion is
         rotated so that y is up.
+    root_offset : "add" if the positions of the root in a `.bvh` file are relative to its OFFSET, as some
+        programs write them, or "ignore" if they replace it. By default it is added if the body is on the
+        floor only then.
+    body : the number of the body in a `.bvh` file of several bodies, from 1. By default the first, with a
+        warning.
     roles : names of joints by role, such as {"left hip": "thigh_l"}, or a TOML file of them, as printed by
         `mocap info FILE --joints`. By default limbs are identified by their names, or by their motion.
 
     Returns
     -------
-    The motion, named after the file.
+    The motion, named after the file. One that `save` wrote to an `.npz` file is as it was saved, with its
+    name, labels, contacts and roles.
 
     Raises
     ------
@@ -76,14 +85,15 @@ def load(  # noqa: PLR0913 (each by its name)
     if Path(path).is_dir():
         loop = "[mocap.load(file) for file in Path(folder).glob('*.bvh')]"
         raise MocapError(f"Cannot read {path}: Is a directory; its files are loaded by {loop}.")
-    for name, number in {"fps": fps, "scale": scale, "stretch": stretch}.items():
+    for name, number in {"fps": fps, "scale": scale, "stretch": stretch, "body": body}.items():
         if number is not None:
             check_number(number, name)
-    recording = read(path, skeleton, fps, scale, stretch, up)
-    stated = recording.space.sentence({"scale": "scale=", "up": "up="}) if recording.space else ""
-    if stated:
-        warn(f"{path}: {stated}")
+    recording = read(path, skeleton, fps, scale, stretch, up, root_offset, body)
+    for notice in recording.notices(PARAMETERS):
+        warn(f"{path}: {notice}")
     by_role = read_roles(roles) if isinstance(roles, str | Path) else roles
+    if recording.has_roles and by_role is None:
+        return recording.motion
     return with_roles(recording.motion, by_role)
 
 
@@ -94,6 +104,8 @@ def read(  # noqa: PLR0913 (the options of `load`)
     scale: float | None,
     stretch: float,
     up: str | None = None,
+    root_offset: str | None = None,
+    body: int | None = None,
 ) -> Recording:
     """Read a motion as `load` does, with the angles and the bone stretch of its file."""
     path = Path(path)
@@ -101,9 +113,11 @@ def read(  # noqa: PLR0913 (the options of `load`)
     if not stretch >= 0:
         raise MocapError(f"stretch must be 0 or more metres, got {stretch}.")
     spaces.require_axis(up)
+    spaces.require_root_offset(root_offset)
     suffix = path.suffix.lower()
     if suffix in formats.READ:
-        options = formats.ReadOptions(None if skeleton is None else Path(skeleton), fps, scale, stretch, up)
+        skeleton_file = None if skeleton is None else Path(skeleton)
+        options = ReadOptions(skeleton_file, fps, scale, stretch, up, root_offset, body)
         return formats.READ[suffix].read(path, options)
     if suffix == ".asf":
         raise MocapError(f"{path} is a skeleton without a motion: files.asf.read_skeleton reads it.")
@@ -159,19 +173,29 @@ def read_angles(path: str | Path, *, skeleton: str | Path | None = None) -> dict
 def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
     """Write a motion to a file. An existing file is replaced once the new one is complete.
 
-    Labels and contacts are not written, because the formats cannot represent them.
+    Labels, contacts and roles are written to `.npz` only, because the other formats cannot represent them.
 
     Parameters
     ----------
     motion : F frames.
-    path : the file, `.bvh` or `.glb`. A `.glb` file is for engines and viewers: it is in metres, includes a
-        body of capsules, and cannot be read by mocap.
-    precision : the number of decimals in a `.bvh` file, which is in centimetres. With 6, the error of joint
-        positions is at most 1e-7 m, with 9 at most 1e-10 m.
+    path : the file, `.bvh`, `.glb`, `.npz` or `.csv`. A `.glb` file is for engines and viewers: it is in
+        metres and includes a body of capsules. Its bones point along the y axes of their joints, and its rest
+        pose stands on the floor. An `.npz` file keeps all fields of the motion exactly, see
+        `files.motion_archives`. If the body is SMPL's, it has the layout of AMASS instead, with z up, and
+        positions are kept within rounding, 1e-12 m. A `.csv` file is a table of the positions of joints in
+        metres: a column `time` in seconds, and `<joint>_x`, `<joint>_y` and `<joint>_z` for each joint.
+        `load` reads `.bvh` and `.npz`.
+    precision : the number of decimals in a `.bvh` file, which is in centimetres, or in a `.csv` file, which
+        is in metres. With 6, the error of joint positions is at most 1e-7 m in `.bvh` and 5e-7 m in `.csv`.
+        With 9, it is at most 1e-10 m in `.bvh`.
 
     Raises
     ------
     MocapError : for another format, a missing folder, or a motion that the format cannot represent.
+
+    Warns
+    -----
+    MocapWarning : if the rest pose of the skeleton does not stand. A `.glb` gets the mean pose of the motion.
 
     Examples
     --------
@@ -200,8 +224,13 @@ def save(motion: Motion, path: str | Path, *, precision: int = 6) -> None:
             )
         case ".glb":
             write_file(path, gltf.glb(motion))
+        case ".npz":
+            motion_archives.write(motion, path)
+        case ".csv":
+            position_tables.write(motion, path, precision=precision)
         case _:
-            raise MocapError(f"Cannot write {path}: mocap writes {WRITTEN}.")
+            written = formats.enumerated(formats.WRITTEN, "and")
+            raise MocapError(f"Cannot write {path}: mocap writes {written}.")
 
 
 def save_clips(motions: Sequence[Motion], path: str | Path, *, root: bool = False) -> None:
@@ -210,7 +239,7 @@ def save_clips(motions: Sequence[Motion], path: str | Path, *, root: bool = Fals
     Parameters
     ----------
     motions : one or more, with different names. Their frame rates may differ.
-    path : the file. A single motion may also be written as `.bvh`, without `root`.
+    path : the file. A single motion may also be written in another format of `save`, without `root`.
     root : whether to add a joint on the floor below the hips, with their heading, which moves a character in
         engines. It is called "root", or "floor_root" if the skeleton has that name.
 
@@ -218,6 +247,10 @@ def save_clips(motions: Sequence[Motion], path: str | Path, *, root: bool = Fals
     ------
     MocapError, SkeletonMismatch : as for `save`, and for equal names, different skeletons, or several motions
         or `root` in another format.
+
+    Warns
+    -----
+    MocapWarning : as for `save`. All motions of a file share one rest pose.
 
     Examples
     --------

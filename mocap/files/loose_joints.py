@@ -12,6 +12,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap.body import rotations
+from mocap.body.joint_trees import world_positions
 from mocap.body.limb_search import LIMITS, UP, limb_pairs
 from mocap.body.limb_tree import BodyTree, largest_part
 from mocap.errors import shortened, warn
@@ -43,12 +44,14 @@ def without_loose_joints(
     -----
     MocapWarning : with the joints that are left out.
     """
+    if not np.ptp(positions[:, 1:], axis=0).any():
+        return list(joints), positions, local
     lengths = np.linalg.norm(positions[:, 1:], axis=-1)
     if not (np.ptp(lengths, axis=0) > LOOSE).any():
         return list(joints), positions, local
     frames = np.linspace(0, len(positions) - 1, min(len(positions), LIMITS.frames)).astype(int)
     parents = np.array([joint.parent for joint in joints])
-    world = _world_positions(parents, positions[frames], local[frames])
+    world = world_positions(parents, positions[frames], local[frames])
     body = largest_part(parents, world)
     is_body = limb_pairs(BodyTree(parents, world, UP)) and not _is_stretched(parents, lengths, body)
     if len(body) == len(joints) or not is_body:
@@ -74,17 +77,6 @@ def _is_stretched(parents: Array, lengths: Array, body: Sequence[int]) -> bool:
     hanging = [joint - 1 for joint, parent in enumerate(parents) if parent in body and joint not in body]
     changes = np.ptp(lengths[:, hanging], axis=0)
     return bool((changes < STRETCHED * np.median(lengths[:, hanging], axis=0)).any())
-
-
-def _world_positions(parents: Array, positions: Array, local: Array) -> Array:
-    """Place joints in the world, (F, J, 3), whose positions in their parents' frames change."""
-    world = positions.copy()
-    turns = local.copy()
-    for joint, parent in enumerate(parents[1:], start=1):
-        offset = rotations.rotate(turns[:, parent], positions[:, joint])
-        world[:, joint] = world[:, parent] + offset
-        turns[:, joint] = rotations.multiply(turns[:, parent], local[:, joint])
-    return world
 
 
 def _pose_in_world(

@@ -1,8 +1,12 @@
-"""The roles of a clip's joints as a TOML file, which people correct: `mocap info --joints` prints it."""
+"""The roles of a clip's joints as a TOML file, which people correct, and as a text in the files of graphs.
+
+`mocap info --joints` prints the TOML file.
+"""
 
 import json
 import tomllib
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from pathlib import Path
 
 from mocap.body.limbs import LEG, ROLES, SIDES, TIPS, roles
@@ -130,3 +134,40 @@ def choose_roles(names: tuple[str, ...], maps: Mapping[Path, Mapping[str, str]])
         if len(missing) < len(joints):
             warn(f"{problem} and {len(missing) - 1} others, so the roles are not used for it.")
     return {}
+
+
+def packed_roles(roles: Mapping[str, str]) -> str:
+    """Return the names of joints by role as a JSON text, for the files of graphs.
+
+    Examples
+    --------
+    >>> packed_roles({"left hip": "thigh_l"})
+    '{"left hip": "thigh_l"}'
+    """
+    return json.dumps(dict(roles))
+
+
+def unpacked_roles(text: str) -> dict[str, str]:
+    """Return the roles in a text from `packed_roles`.
+
+    Examples
+    --------
+    >>> unpacked_roles('{"left hip": "thigh_l"}')
+    {'left hip': 'thigh_l'}
+    """
+    return dict(json.loads(text))
+
+
+def are_packed_roles(text: str) -> bool:
+    """Return whether a text is valid output of `packed_roles`.
+
+    Examples
+    --------
+    >>> are_packed_roles('{"left hip": "thigh_l"}'), are_packed_roles('{"left": 3}')
+    (True, False)
+    """
+    with suppress(ValueError):
+        content = json.loads(text)
+        if isinstance(content, dict):
+            return all(role in (*ROLES, *TIPS) and isinstance(name, str) for role, name in content.items())
+    return False

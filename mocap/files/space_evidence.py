@@ -9,13 +9,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Indices, Mask
+from mocap._shared.arrays import Array, Indices, Mask, frozen
 from mocap._shared.records import NamedTuple
-from mocap.body.limb_tree import largest_part
+from mocap.body.limb_tree import extents, largest_part
 from mocap.files.tuned import TUNED
 
 AXES = ("y", "z", "-y", "-z", "x", "-x")
 GRAVITY = 9.81  # m/s²
+NO_OFFSET: Array = frozen([0.0, 0.0, 0.0], np.float64)
 
 
 class Stride(NamedTuple):
@@ -36,6 +37,8 @@ class Evidence(NamedTuple):
     on_floor : whether the lowest joints are at 0 along the best axis.
     fall : acceleration in free fall, units/s²; None if the body never falls.
     stride : the cycle of the gait; None if there is none.
+    floors : for each axis, the median height of the lowest joint.
+    root_offset : the vector to which the positions of the root may be relative, shape (3,).
     """
 
     size: float
@@ -45,6 +48,8 @@ class Evidence(NamedTuple):
     on_floor: bool
     fall: float | None
     stride: Stride | None
+    floors: dict[str, float]
+    root_offset: Array
 
     def best_axis(self) -> str:
         """Return the axis with the highest score."""
@@ -56,7 +61,9 @@ CHAIN_SPREAD = 0.22  # of the logarithm of that ratio; dogs are at 2.5
 LEG = 0.53  # of the height from the lowest to the topmost joint
 
 
-def gather(parents: Indices, positions: Array, rate: float) -> Evidence | None:
+def gather(
+    parents: Indices, positions: Array, rate: float, root_offset: Array = NO_OFFSET
+) -> Evidence | None:
     """Gather the evidence of a clip, or return None if its joints make no body.
 
     Parameters
@@ -64,22 +71,25 @@ def gather(parents: Indices, positions: Array, rate: float) -> Evidence | None:
     parents : shape (J,), -1 for the root.
     positions : shape (F, J, 3), in the world, in the unit of the file, of `frames_to_look_at`.
     rate : of these frames, Hz.
+    root_offset : the vector to which the positions of the root may be relative, shape (3,).
     """
     joints = main_body(parents, positions)
     points = positions[:, joints]
-    if len(joints) < TUNED.least_joints or not np.ptp(points, axis=1).max() > 0:
+    if len(joints) < TUNED.least_joints or not extents(points).max() > 0:
         return None
     parents = _renumbered(parents, joints)
-    scores, stillness = _axis_scores(parents, points, rate)
+    scores, stillness, floors = _axis_scores(parents, points, rate)
     axis = max(scores, key=lambda name: scores[name])
     heights = points @ direction(axis)
     tall = float(np.quantile(np.ptp(heights, axis=1), 0.9))
     chain = longest_chain(parents, points)
     stands = bool(abs(np.log(chain / max(tall, 1e-12) / CHAIN)) < CHAIN_SPREAD)
     size = tall if stands else chain / CHAIN
-    on_floor = bool(abs(np.median(heights.min(axis=1))) < 0.1 * tall)
+    possible_floors = floors[axis] + np.array([0.0, root_offset @ direction(axis)])
+    on_floor = bool(np.abs(possible_floors).min() < 0.1 * tall)
     fall = free_fall(heights, rate, size)
-    return Evidence(size, stands, scores, stillness, on_floor, fall, stride(points, axis, rate, size))
+    cycle = stride(points, axis, rate, size)
+    return Evidence(size, stands, scores, stillness, on_floor, fall, cycle, floors, root_offset)
 
 
 def frames_to_look_at(root_positions: Array, fps: float) -> tuple[Indices, float]:
@@ -205,9 +215,14 @@ def stride(points: Array, axis: str, fps: float, size: float) -> Stride | None:
     lag = _cycle(points @ direction(axis), fps)
     if lag is None:
         return None
-    centre = np.delete(points.mean(axis=1), "xyz".index(axis[-1]), axis=1)
+    centre = np.delete(_centres(points), "xyz".index(axis[-1]), axis=1)
     lengths = np.linalg.norm(centre[lag:] - centre[:-lag], axis=1)
     return Stride(lag / fps, float(np.median(lengths) / (LEG * size)))
+
+
+def _centres(points: Array) -> Array:
+    """Return the mean of all joints in each frame, (F, 3)."""
+    return np.full(points.shape[1], 1 / points.shape[1]) @ points
 
 
 def _cycle(heights: Array, fps: float) -> int | None:
@@ -248,41 +263,50 @@ def _are_same(first: list[float], second: list[float]) -> bool:
     return float(np.abs(np.subtract(first, second)).max()) < TUNED.mirrored_bones * max(first)
 
 
-def _axis_scores(parents: Indices, points: Array, fps: float) -> tuple[dict[str, float], dict[str, float]]:
-    """Score each signed axis, and return how still the lowest joint stands if the axis points up.
+def _axis_scores(
+    parents: Indices, points: Array, fps: float
+) -> tuple[dict[str, float], dict[str, float], dict[str, float]]:
+    """Score each signed axis, and return how still and how high the lowest joint is if the axis points up.
 
     An axis gains if the body is longest along it, if the lowest joint stands still, and if the lowest joints
     have a mirror image and the topmost one has none. It loses by travel along it.
     """
-    size = np.median(np.linalg.norm(np.ptp(points, axis=1), axis=1))
+    boxes = extents(points)
+    size = np.median(np.linalg.norm(boxes, axis=1))
     paired = paired_joints(parents, points).astype(float)
-    extents = np.median(np.ptp(points, axis=1), axis=0) / size
-    travel = np.ptp(points.mean(axis=1), axis=0) / size
+    lengths = np.median(boxes, axis=0) / size
+    travel = np.ptp(_centres(points), axis=0) / size
+    speeds = _horizontal_speeds(points, fps)
+    usual_speeds = np.median(speeds, axis=(1, 2))
     scores = {}
     stillness = {}
+    floors = {}
     for axis in AXES:
         index = "xyz".index(axis[-1])
         heights = points @ direction(axis)
         lowest = heights.argmin(axis=1)
+        floors[axis] = float(np.median(heights.min(axis=1)))
         topmost = heights.argmax(axis=1)
-        excess = extents[index] - np.delete(extents, index).max()
+        excess = lengths[index] - np.delete(lengths, index).max()
         feet_below = np.mean(paired[lowest] - paired[topmost])
-        stillness[axis] = _stillness(points, index, lowest, fps, size)
+        stillness[axis] = 0.0
+        if usual_speeds[index] > TUNED.moving_speed * size:
+            stillness[axis] = _stillness(speeds[index], usual_speeds[index], lowest)
         rising = np.clip(travel[index] - TUNED.sideways_travel, 0, 1.5)
         evidence = [2.0 * np.clip(2 * excess, -1, 1), 1.5 * stillness[axis], 1.5 * feet_below, -2.0 * rising]
         scores[axis] = float(sum(evidence))
-    return scores, stillness
+    return scores, stillness, floors
 
 
-def _stillness(points: Array, axis: int, lowest: Indices, fps: float, size: float) -> float:
-    """Return -log10 of the horizontal speed of the lowest joints, over that of all; 0 if nothing moves."""
+def _horizontal_speeds(points: Array, fps: float) -> Array:
+    """Return the speeds of joints across each axis, as if it were vertical, (3, F, J); 0 in a short clip."""
     if len(points) < max(0.3 * fps, 6):
-        return 0.0
-    velocities = np.gradient(points, 1 / fps, axis=0)
-    velocities[..., axis] = 0
-    speeds = np.linalg.norm(velocities, axis=-1)
-    usual = np.median(speeds)
-    if usual <= TUNED.moving_speed * size:
-        return 0.0
+        return np.zeros((3, *points.shape[:2]))
+    squares = np.moveaxis(np.gradient(points, 1 / fps, axis=0) ** 2, -1, 0)
+    return np.sqrt(squares[[1, 0, 0]] + squares[[2, 2, 1]])
+
+
+def _stillness(speeds: Array, usual: float, lowest: Indices) -> float:
+    """Return -log10 of the usual speed of the lowest joints, over that of all; at most 1.5."""
     at_lowest = np.take_along_axis(speeds, lowest[:, None], axis=1)
     return float(-np.log10(np.median(at_lowest) / usual + 0.03))

@@ -18,7 +18,7 @@ from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
-from mocap.files.space_evidence import GRAVITY, LEG, Evidence
+from mocap.files.space_evidence import GRAVITY, LEG, Evidence, direction
 from mocap.files.tuned import TUNED
 
 UNITS = {
@@ -34,6 +34,8 @@ UNITS = {
 
 PRIOR = dict(zip(UNITS, (0.30, 0.03, 0.50, 0.04, 0.06, 0.02, 0.05), strict=True))
 """The fraction of files in each unit."""
+
+ROOT_OFFSET = "the root's OFFSET"
 
 _AROUND_Z = rotations.from_rotvec([0, 0, np.pi / 2])
 
@@ -51,7 +53,9 @@ class Space(NamedTuple):
     height : of the body, metres.
     doubt : what else may be meant, as a clause; "" if the space is certain, or nothing is known.
     usual : the unit and the axis that nobody needs to be told: those of the format, or of the caller.
-    decided : the parameters, of `scale` and `up`, that neither the user nor the format says.
+    decided : the parameters, of `scale`, `up` and `root_offset`, that neither the user nor the format says.
+    root_offset : "add" if the positions of the root are relative to its offset, "ignore" if they replace it;
+        None if it has no offset.
     """
 
     scale: float
@@ -60,20 +64,55 @@ class Space(NamedTuple):
     doubt: str
     usual: tuple[float, str]
     decided: tuple[str, ...] = ()
+    root_offset: str | None = None
+
+    def choices(self) -> tuple[float, str, str | None]:
+        """Return what `files.load` needs to read a clip in this space: scale, up and root_offset."""
+        return self.scale, self.up, self.root_offset
+
+    def _is_relative(self) -> bool:
+        """Return whether the frames show that the positions of the root are relative to its offset."""
+        return self.root_offset == "add" and "root_offset" in self.decided
+
+    def clause(self) -> str:
+        """State the unit, the axis, the height of the body, a relative root, and the doubt.
+
+        A small body that moves at the pace of an adult has the same numbers as an adult in another unit.
+        Therefore the height in the default unit is stated too, if there may be such a body.
+        """
+        stated = f"{unit_name(self.scale)} a unit, {self.up} up: {self.height:.2f} m tall"
+        stated += f", {ROOT_OFFSET} added" if self._is_relative() else ""
+        if self.doubt:
+            return f"{stated}; {self.doubt}"
+        by_default = self.height * self.usual[0] / self.scale
+        smallest, largest = TUNED.default_height
+        is_chosen = "scale" in self.decided and self.scale != self.usual[0]
+        if is_chosen and smallest <= by_default <= largest:
+            return f"{stated} ({by_default:.2f} m if it is {unit_name(self.usual[0])} a unit)"
+        return stated
+
+    def overruled_by(self, names: Mapping[str, str]) -> str:
+        """Name the parameters that overrule the space, as a sentence.
+
+        Parameters
+        ----------
+        names : of the parameters `scale`, `up` and `root_offset` on the surface that is used.
+        """
+        states_offset = self._is_relative() or ROOT_OFFSET in self.doubt
+        decided = [name for name in self.decided if name != "root_offset" or states_offset]
+        *first, last = (names[name] for name in decided if name in names)
+        return f"{', '.join(first)} and {last} overrule it." if first else f"{last} overrules it."
 
     def sentence(self, names: Mapping[str, str]) -> str:
         """State the space, the doubt, and the parameters that overrule it; "" if there is nothing to state.
 
         Parameters
         ----------
-        names : of the parameters `scale` and `up` on the surface that is used.
+        names : as for `overruled_by`.
         """
-        if (self.scale, self.up) == self.usual and not self.doubt:
+        if (self.scale, self.up) == self.usual and not self.doubt and not self._is_relative():
             return ""
-        stated = f"read as {unit_name(self.scale)} a unit, {self.up} up: {self.height:.2f} m tall"
-        doubt = f"; {self.doubt}" if self.doubt else ""
-        remedies = " and ".join(names[parameter] for parameter in self.decided if parameter in names)
-        return f"{stated}{doubt}. {remedies} overrule{'' if ' and ' in remedies else 's'} it."
+        return f"read as {self.clause()}. {self.overruled_by(names)}"
 
 
 def unit_name(scale: float) -> str:
@@ -114,8 +153,26 @@ def require_axis(up: str | None) -> None:
         raise MocapError(f"up must be 'y', 'z', '-y', '-z', 'x' or '-x', got {str(up)[:20]!r}.")
 
 
+def require_root_offset(root_offset: str | None) -> None:
+    """Raise unless a value is one that `files.load` takes for the offset of the root.
+
+    Examples
+    --------
+    >>> require_root_offset("yes")
+    Traceback (most recent call last):
+    mocap.errors.MocapError: root_offset must be 'add' or 'ignore', got 'yes'.
+    """
+    if root_offset not in (None, "add", "ignore"):
+        raise MocapError(f"root_offset must be 'add' or 'ignore', got {str(root_offset)[:20]!r}.")
+
+
 def decide(
-    evidence: Sequence[Evidence], default: tuple[float, str], *, scale: float | None, up: str | None
+    evidence: Sequence[Evidence],
+    default: tuple[float, str],
+    *,
+    scale: float | None,
+    up: str | None,
+    root_offset: str | None = None,
 ) -> Space:
     """Decide the space of a set of clips.
 
@@ -123,23 +180,41 @@ def decide(
     ----------
     evidence : of each clip that shows a body; may be empty.
     default : the unit in metres, and the axis, that the format has by default.
-    scale, up : what the user or the file says; None to decide it.
+    scale, up, root_offset : what the user or the file says; None to decide it.
     """
     usual_scale, usual_up = default
     spoken = (scale or usual_scale, up or usual_up)
-    decided = tuple(name for name, value in (("scale", scale), ("up", up)) if value is None)
+    choices = {"scale": scale, "up": up}
+    if any(clip.root_offset.any() for clip in evidence):
+        choices["root_offset"] = root_offset
+    decided = tuple(name for name, value in choices.items() if value is None)
     if not evidence:
-        return Space(*spoken, 0.0, "", spoken, decided)
-    doubts = []
+        return Space(*spoken, 0.0, "", spoken, decided, root_offset)
     axis, other_axis = _axis(evidence, usual_up)
-    if up is None and other_axis:
-        doubts.append(f"perhaps {other_axis} is up")
     unit, other_unit = _unit(evidence, usual_scale)
     size = float(np.median([clip.size for clip in evidence]))
-    if scale is None and other_unit and _is_stated(size * unit, size * other_unit):
-        doubts.append(f"{size * other_unit:.2f} m if it is {unit_name(other_unit)} a unit")
+    doubts = {"up": f"perhaps {other_axis} is up" if other_axis else ""}
+    if other_unit and _is_stated(size * unit, size * other_unit):
+        doubts["scale"] = f"{size * other_unit:.2f} m if it is {unit_name(other_unit)} a unit"
     chosen = (scale or unit, up or axis)
-    return Space(*chosen, size * chosen[0], ", or ".join(doubts), spoken, decided)
+    if "root_offset" in decided:
+        root_offset, doubts["root_offset"] = _root_offset(evidence, chosen[1])
+    doubt = ", or ".join(text for name, text in doubts.items() if text and name in decided)
+    return Space(*chosen, size * chosen[0], doubt, spoken, decided, root_offset)
+
+
+def _root_offset(evidence: Sequence[Evidence], axis: str) -> tuple[str, str]:
+    """Return whether to "add" the root's offset to its positions or to "ignore" it, and the doubt, or "".
+
+    It is added if the offset lifts a body that is a leg's length below the floor onto it.
+    """
+    height = float(np.median([clip.root_offset @ direction(axis) / clip.size for clip in evidence]))
+    floor = float(np.median([clip.floors[axis] / clip.size for clip in evidence]))
+    if height < TUNED.root_height or abs(floor + height) > height / 2:
+        return "ignore", ""
+    if abs(floor + height) < TUNED.floor_error:
+        return "add", ""
+    return "ignore", f"perhaps {ROOT_OFFSET} is to be added"
 
 
 def _axis(evidence: Sequence[Evidence], usual: str) -> tuple[str, str]:
@@ -156,7 +231,7 @@ def _axis(evidence: Sequence[Evidence], usual: str) -> tuple[str, str]:
     on_floor = all(clip.on_floor for clip in evidence)
     if lead >= TUNED.probable_axis and on_floor and stands:
         return best, usual
-    is_stated = lead >= TUNED.sure_axis or not stands
+    is_stated = scores[best] - scores[usual] >= TUNED.sure_axis or not stands
     return usual, best if is_stated else ""
 
 

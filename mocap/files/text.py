@@ -54,14 +54,15 @@ def read_text(path: str | Path, *, most: int = -1) -> str:  # reads: name: a key
             data = file.read(most)
     except OSError as error:
         raise MocapError(f"Cannot read {path}: {error.strerror}.") from error
-    text = decode(data)
+    text = decode(data).rstrip("\x1a")  # the end of a file of DOS
     zero = text.find("\0")
     if zero >= 0:
         line = text.count("\n", 0, zero) + 1
         raise FormatError(path, line, "text", "a zero byte, as in a binary file")
-    if not text.strip():
+    if not text or text.isspace():
         raise FormatError(path, None, "some text", "an empty file")
-    text = text.replace("\r\n", "\n").replace("\r", "\n")
+    if "\r" in text:  # a search takes a hundredth of the time of a replacement
+        text = text.replace("\r\n", "\n").replace("\r", "\n")
     marker = f"\n{text}".find("\n<<<<<<< ")
     if marker >= 0:
         line = text.count("\n", 0, marker) + 1
@@ -82,8 +83,9 @@ def decode(data: bytes) -> str:
     """
     if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         return data.decode("utf-16", errors="replace")
-    if data[1:2] == b"\0" and data[3:4] == b"\0":  # letters of UTF-16 without a mark
-        return data.decode("utf-16-le", errors="replace")
+    for first, name in ((1, "utf-16-le"), (0, "utf-16-be")):  # letters of UTF-16 without a mark
+        if data[first : first + 3 : 2] == b"\0\0":
+            return data.decode(name, errors="replace")
     with suppress(UnicodeDecodeError):
         return data.decode("utf-8-sig")
     with suppress(UnicodeDecodeError):

@@ -45,7 +45,12 @@ class Tuned:
     clock_weight: float = 3.0  # most that a clock may speak against a unit. Some falls are none
     sure_axis: float = 1.0  # lead of the best axis over the next
     probable_axis: float = 2.0  # lead from which on the best axis of a body on the floor is taken, and stated
+    same_body: float = 1.5  # ratio of the bones of two files from which on they differ in the unit or by age
     still_foot: float = 0.4  # how much slower the lowest joint is than the others, as a logarithm to base 10
+
+    # Positions of the root that are relative to its offset. Heights are fractions of the body's size
+    root_height: float = 0.25  # least height of an offset that may be added. Hips are at 0.5 to 0.6
+    floor_error: float = 0.1  # height of the lowest joint above or below the floor. Ankles are at 0.06
 
     # Rotations in a .glb
     carried: float = 0.25  # metres. A joint with a shorter limb below is rounded to 16 bits, 8 µm at its end

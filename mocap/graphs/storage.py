@@ -39,7 +39,7 @@ ARRAYS: Layout = {
 
 
 class GraphFile(NamedTuple):
-    """The content of a file: the rate, names, lengths and fingerprints of the clips, and the graph."""
+    """The content of a file: the rate, names, lengths, fingerprints and roles of the clips, and the graph."""
 
     fps: float
     window: int
@@ -47,6 +47,7 @@ class GraphFile(NamedTuple):
     frames: list[int]
     fingerprints: list[str]
     origins: list[str]
+    roles: list[str]
     graph: nx.MultiDiGraph
 
 
@@ -128,7 +129,7 @@ def load(
 
     Returns
     -------
-    The same graph, bit for bit.
+    The same graph, bit for bit. The joints of its clips have the roles that they had when it was saved.
 
     Raises
     ------
@@ -163,8 +164,9 @@ def read(path: str | Path) -> GraphFile:
     FormatError, MocapError : as for `load`.
     """
     arrays = read_archive(path, GRAPH)
-    if arrays["version"] < VERSION:
+    if arrays["version"] < PORTABLE_FINGERPRINTS:
         arrays["fingerprints"] = np.zeros_like(arrays["fingerprints"])
+    arrays.setdefault("roles", np.array([], str))
     return GraphFile(**{key: arrays[key].tolist() for key in GraphFile._fields[:-1]}, graph=_graph(arrays))
 
 
@@ -223,5 +225,5 @@ def _rules_of_edges(arrays: Arrays) -> Rules:
     yield "edges play what lies between their ends", np.where(arrays["is_transition"], blends, plays_on)
 
 
-VERSION = 2  # fingerprints of version 1 were computed from all digits
-GRAPH = Kind("a motion graph", ARRAYS, _rules, version=VERSION)
+PORTABLE_FINGERPRINTS = 2  # the version since which fingerprints are not computed from all digits
+GRAPH = Kind("a motion graph", ARRAYS, _rules, version=3, added={"roles": 3})

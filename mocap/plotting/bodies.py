@@ -15,6 +15,7 @@ from mocap._shared.arrays import Array, Indices
 from mocap._shared.quantities import described
 from mocap._shared.records import NamedTuple
 from mocap.body import Motion, Skeleton, joint_positions
+from mocap.body.body_sides import head_joints, sides
 from mocap.body.motion import require_motion
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import distinct_joints
@@ -41,12 +42,7 @@ def bones(skeleton: Skeleton) -> tuple[Indices, Indices, NDArray[np.str_]]:
     """
     ends = np.array(distinct_joints(skeleton)[1:], np.intp)
     starts = skeleton.parents[ends]
-    return starts, ends, np.array([skeleton.side(int(parent)) for parent in starts], str)
-
-
-def head_joints(skeleton: Skeleton) -> list[int]:
-    """Find the joints with "head" in their names, of which the last is the tip of the head."""
-    return [joint for joint, name in enumerate(skeleton.names) if "head" in name.lower()]
+    return starts, ends, np.array(sides(skeleton), str)[starts]
 
 
 def draw_body(

@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
 from mocap.body import Skeleton
-from mocap.plotting.bodies import bones, head_joints
+from mocap.body.body_sides import head_joints
+from mocap.plotting.bodies import bones
 from mocap.plotting.style import COLOURS, FLOOR
 
 TALL = 1.9  # metres, the height of the visible space above the ground

@@ -4,6 +4,7 @@ The thresholds are beyond what people do; `limits` has them, and the clips on wh
 """
 
 from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
 
 import numpy as np
 
@@ -39,8 +40,23 @@ class Flaw(NamedTuple):
     frames: list[int]
     detail: str = ""
 
+    def stretches(self) -> list[list[int]]:
+        """Return the stretches of consecutive frames, each as its first frame and the one after its last.
+
+        Examples
+        --------
+        >>> Flaw("frozen", [3, 4, 5, 9]).stretches()
+        [[3, 6], [9, 10]]
+        """
+        rows = runs(np.isin(np.arange(self.frames[-1] + 1), self.frames))
+        return [[int(start), int(stop)] for start, stop in rows]
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the flaw as a dictionary of plain numbers and texts, for JSON."""
+        return {"kind": self.kind, "stretches": self.stretches(), "detail": self.detail}
+
     def __str__(self) -> str:
-        stretches = runs(np.isin(np.arange(self.frames[-1] + 1), self.frames))
+        stretches = self.stretches()
         shown = [f"{start}" if stop == start + 1 else f"{start}-{stop - 1}" for start, stop in stretches]
         text = f"{self.kind} in frame {', '.join(shown[:SHOWN])}"
         if len(shown) > SHOWN:
@@ -82,6 +98,23 @@ class Report(NamedTuple):
         }
         rows = [*measures.items(), *(("", flaw) for flaw in flaws[1:])]
         return "\n".join(f"{name:<8} {printable(text)}" for name, text in rows)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the report as a dictionary of plain numbers and texts, for JSON: metres, seconds, radians.
+
+        Examples
+        --------
+        >>> from mocap.datasets.samples import sample
+        >>> list(inspect(sample("walk_straight")).as_dict())[:5]
+        ['name', 'frames', 'fps', 'duration', 'joints']
+        """
+        motion = self.motion
+        counts = {"frames": len(motion), "fps": motion.fps, "duration": motion.duration}
+        marks = {"labels": [*motion.labels], "contacts": [*motion.contacts]}
+        measures = {"height": self.height, "heading_change": self.heading_change, "path": self.path}
+        flaws = [flaw.as_dict() for flaw in self.flaws]
+        joints = {"joints": len(motion.skeleton)}
+        return {"name": motion.name, **counts, **joints, **marks, **measures, "flaws": flaws}
 
 
 def warn_of_size(motions: Iterable[Motion]) -> None:

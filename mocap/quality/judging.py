@@ -22,6 +22,7 @@ from scipy.spatial import cKDTree
 from mocap._shared.arrays import Array, Indices, VectorsLike
 from mocap._shared.records import NamedTuple
 from mocap.body import rotations
+from mocap.body.body_sides import partners
 from mocap.body.ground_path import GroundPath, as_path
 from mocap.body.limbs import Leg, find_legs, with_roles
 from mocap.body.motion import Motion, require_motion, require_motions
@@ -41,10 +42,10 @@ def measure_joints(seen: Seen) -> Iterator[Measure]:
     skeleton = seen.motion.skeleton
     yield _sunk(seen)
     yield _rotation(seen)
-    partners = [skeleton.partner(joint) for joint in range(len(skeleton))]
-    if partners != list(range(len(skeleton))):
+    images = partners(skeleton)
+    if images != list(range(len(skeleton))):
         lengths = np.linalg.norm(skeleton.offsets, axis=-1)
-        differences = 1000 * np.abs(lengths - lengths[partners])
+        differences = 1000 * np.abs(lengths - lengths[images])
         joint = skeleton.names[differences.argmax()]
         yield Measure("lopsided", float(differences.max()), LIMITS.lopsided, "mm", f"'{joint}'")
     heights = 100 * seen.positions[..., 1].min(axis=1)

@@ -16,6 +16,7 @@ from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import MocapError, NoWalk
 from mocap.feet.footskate import clean_up
 from mocap.files import bvh
+from mocap.files.formats import WRITTEN, enumerated
 from mocap.files.load_save import save
 from mocap.graphs.edge_tables import Edge, edge_table, require_node
 from mocap.graphs.motion_graph import MotionGraph, Node, require_graph
@@ -223,17 +224,17 @@ def dump(  # noqa: PLR0913 (a walk, a file, a duration, and options)
     True
     """
     suffix = Path(path).suffix.lower()
-    if suffix not in (".bvh", ".glb"):
-        raise MocapError(f"A long walk is written as .bvh or .glb, got '{path}'.")
-    if suffix == ".glb" and seconds > LONGEST:
-        raise MocapError(f"A .glb of a walk may last {LONGEST:g} s, not {seconds:g}: write .bvh.")
+    if suffix not in WRITTEN:
+        raise MocapError(f"A long walk is written as {enumerated(WRITTEN)}, got '{path}'.")
+    if suffix != ".bvh" and seconds > LONGEST:
+        raise MocapError(f"A {suffix} of a walk may last {LONGEST:g} s, not {seconds:g}: write .bvh.")
     # The header of a .bvh file contains the number of frames, which is known from the same walk.
     walks = cut_walk(motion_graph, wander(motion_graph, seed=seed), seconds, TUNED.piece)
     counts = [sum(motion_graph.graph.edges[edge]["frames"] for edge in walk) for walk in walks]
     pieces = stream(with_footplants(motion_graph) if clean else motion_graph, seconds=seconds, seed=seed)
     pieces = cleaned(pieces) if clean else pieces
     shown = (next(pieces) for _ in progress(counts))
-    if suffix == ".glb":
+    if suffix != ".bvh":
         save(concatenate(list(shown)), path)
         return sum(counts)
     rotates = np.any([rotating_joints(clip) for clip in motion_graph.clips], axis=0)

@@ -21,10 +21,11 @@ from mocap._shared.arrays import Array, Indices, runs
 from mocap._shared.quantities import described
 from mocap._shared.records import dataclass
 from mocap.body import Motion, Skeleton, joint_positions
+from mocap.body.body_sides import head_joints
 from mocap.body.motion import require_motion
 from mocap.errors import MocapError
 from mocap.feet.footplants import find_footprints, mark_plants
-from mocap.plotting.bodies import bodies_along, bones, film_strip, head_joints
+from mocap.plotting.bodies import bodies_along, bones, film_strip
 from mocap.plotting.picture import legible, small_png
 from mocap.plotting.style import ASTRAY, COLOURS, MARK, PATH, own_colour, source_colours
 from mocap.synthesis.walk_to_motion import Seam

@@ -9,6 +9,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array, Indices
 from mocap._shared.records import NamedTuple
+from mocap.body.body_sides import sides
 from mocap.body.limbs import roles
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
@@ -274,6 +275,7 @@ def _bones(skeleton: Skeleton) -> dict[int, list[Any]]:
     limbs = reaches(skeleton)
     longest = limbs[0]
     pieces = {}
+    side_of = sides(skeleton)
     lengths = np.linalg.norm(skeleton.offsets, axis=-1)
     for joint in range(1, len(skeleton)):
         length = lengths[joint]
@@ -283,5 +285,5 @@ def _bones(skeleton: Skeleton) -> dict[int, list[Any]]:
             parent = int(skeleton.parents[joint])
             start = _end(np.zeros(3), start_radius)
             end = _end(skeleton.offsets[joint], end_radius)
-            pieces[joint] = [parent, *start, *end, 1, SIDES.get(skeleton.side(parent), 0)]
+            pieces[joint] = [parent, *start, *end, 1, SIDES.get(side_of[parent], 0)]
     return pieces

@@ -6,7 +6,17 @@ import numpy as np
 import pytest
 
 import mocap
-from mocap._shared.archives import AMASS, LOADERS, Kind, Part, numbered, pack, read_archive, write_archive
+from mocap._shared.archives import (
+    AMASS,
+    LOADERS,
+    MOTION,
+    Kind,
+    Part,
+    numbered,
+    pack,
+    read_archive,
+    write_archive,
+)
 from mocap.errors import FormatError
 from mocap.graphs import storage
 from mocap.methods.groups import group_storage
@@ -78,6 +88,7 @@ def test_what_is_not_of_the_kind_is_named(path, arrays, words):
     [
         ({"names": ["a"]}, "Cannot save some pairs: 'names' does not fit its other arrays"),
         ({"rows": np.full((3, 2), 0.5)}, "'rows' holds values that int has not"),
+        ({"names": ["a", "\udc80", "c"]}, "'names' holds characters that are not Unicode text"),
         ({"rate": np.nan}, "'rate' holds values that float has not|expected that rates"),
         ({"rate": -1.0}, "Cannot save some pairs: expected that rates are above 0"),
         ({"node_1_pairs": np.full((1, 3), 0.5)}, "'node_1_pairs' holds values that bool has not"),
@@ -136,5 +147,5 @@ def function(loader):
 
 
 def test_every_kind_has_a_loader():
-    assert {*KINDS, AMASS} == set(LOADERS)
+    assert {*KINDS, AMASS, MOTION} == set(LOADERS)
     assert all(map(callable, map(function, LOADERS.values())))

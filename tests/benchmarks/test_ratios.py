@@ -27,6 +27,7 @@ from mocap.body.kinematics import forward_kinematics
 from mocap.body.rotations import to_matrix
 from mocap.datasets import sample
 from mocap.feet import clean_up, mark_plants
+from mocap.files.load_save import read
 from mocap.files.path_files import load_path
 from mocap.graphs import build, from_transitions, prune, prune_graph, threshold_curve
 from mocap.matching import distance_grid, point_cloud, time_path
@@ -51,6 +52,8 @@ from tests.tuning import tune
 pytestmark = pytest.mark.benchmark
 
 CORNER = GroundPath([[0, 0], [0, 4], [4, 4]])
+PUPPY = "puppy0512_motion_graph"
+MEREDITH = "pymo/AV_8Walk_Meredith_HVHA_Rep1.bvh"
 DRAGGED = 22  # forward kinematics while a handle is dragged: 60 ms for 4 s of motion
 
 
@@ -322,6 +325,23 @@ def read_file(data, folder, suffix):
     return partial(load, path), partial(np.array, numbers_of(path).split(), float)
 
 
+def read_bvh(data, folder, name):
+    """Read a file of given unit and axis, compared with NumPy's `loadtxt`, the base of other readers."""
+    path = data / "bvh" / name
+    rows = path.read_text().partition("Frame Time")[2].splitlines()[1:]
+    return partial(load, path, scale=0.01, up="y", root_offset="ignore"), partial(np.loadtxt, rows)
+
+
+def find_space(data, folder):
+    """Find the unit, the vertical axis and the limbs of a clip, compared with reading it without these."""
+    path = data / f"bvh/{PUPPY}/walk_normal_left_45.bvh"
+    motion = load(path, scale=0.01, up="y")
+    names = [f"joint {number}" for number in range(len(motion.skeleton))]
+    renamed = folder / "renamed.bvh"
+    save(replace(motion, skeleton=replace(motion.skeleton, names=names, roles={})), renamed)
+    return partial(quietly, load, renamed), partial(read, renamed, None, None, 0.01, 0.02, "y")
+
+
 def numbers_of(path):
     """Return the numbers alone of a file's frames, as text."""
     text = path.read_text()
@@ -397,7 +417,14 @@ STEPS = {
 }
 BESIDE_BARE = [
     ("read .amc, in parsing its numbers", 3, partial(read_file, suffix=".amc")),
-    ("read .bvh, in parsing its numbers", 3, partial(read_file, suffix=".bvh")),
+    ("read .bvh, in parsing its numbers", 2, partial(read_file, suffix=".bvh")),
+    ("read .bvh of decimals, in loadtxt", 1.3, partial(read_bvh, name=MEREDITH)),
+    (
+        "read .bvh with exponents, in loadtxt",
+        1.5,
+        partial(read_bvh, name=f"{PUPPY}/walk_normal_left_180.bvh"),
+    ),
+    ("unit, axis and limbs of a .bvh, in reading it without", 2, find_space),
     ("write .bvh, in formatting its numbers", 3, write_bvh),
     ("forward kinematics, in products of matrices", 3, place_joints),
     *(

@@ -70,6 +70,35 @@ def test_names_at_random_change_no_role(seed):
         assert anonymous == limbs_of(rig, names)
 
 
+@pytest.mark.parametrize("seed", [3, 5, 12, 20, 33, 46])
+def test_limbs_of_rigs_of_three_kinds_at_a_time_are_found_or_their_doubts_are_told(seed):
+    kinds, rig = limb_schemes.mixed_rig(seed)
+    found = limbs_of(rig, random_names(rig, seed))
+    assert len(kinds) == 3
+    assert found.doubts or wrong_roles(rig, found) == []
+
+
+@pytest.mark.sweep
+def test_most_rigs_of_three_kinds_are_right_and_no_other_is_silent():
+    right = 0
+    for seed in range(60):
+        _, rig = limb_schemes.mixed_rig(seed)
+        found = limbs_of(rig, random_names(rig, seed))
+        wrong = wrong_roles(rig, found)
+        right += not wrong
+        assert found.doubts or not wrong
+    assert right >= 55
+
+
+def test_a_head_without_a_neck_is_not_its_end_site():
+    rig = walker()
+    limb_schemes.without("neck1", "neck2")(rig)
+    skeleton, positions = rig.skeleton({})
+    joints = find_limbs(skeleton, positions).roles
+    assert "neck" not in joints
+    assert skeleton.names[joints["head"]] == "head"
+
+
 @pytest.mark.parametrize(("scale", "turn"), [(0.01, 0.0), (100.0, 1.0), (39.37, 2.5)])
 def test_neither_unit_nor_heading_nor_up_axis_changes_a_role(scale, turn):
     rig, names = scheme_rig(SCHEMES["Unreal mannequin"])

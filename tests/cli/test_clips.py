@@ -17,7 +17,9 @@ from mocap.body import Motion, concatenate, joint_positions, resample, rotations
 from mocap.datasets import samples
 from mocap.files import conversion, load_save
 from tests.files.acclaim_clips import write_acclaim
+from tests.files.test_bvh import two_bodies
 from tests.files.test_rigid_bones import chain, six_channels
+from tests.files.test_spaces import with_offset
 from tests.refusals import refused
 from tests.strategies import wave
 
@@ -120,6 +122,30 @@ def test_convert_a_folder_and_name_what_failed(folder, run):
     made = sorted(str(p.relative_to("out")) for p in Path("out").rglob("*.*"))
     assert made == ["a.bvh", "more/b.bvh"]
     assert same("out/more/b.bvh", "clips/more/b.BVH")
+
+
+def test_each_of_two_bodies_in_a_file_is_converted_by_its_number(folder, run):
+    load_save.save(wave(40, seed=1), "other.bvh")
+    first = Path("clips/a.bvh").read_text()
+    Path("both.bvh").write_text(two_bodies(first, Path("other.bvh").read_text()))
+    said = "both.bvh: 2 bodies with the roots 'root', 'root': the first one is read. --body chooses another."
+    assert said in run("convert both.bvh first.bvh").err
+    assert run("convert both.bvh second.bvh --body 2").err == ""
+    assert same("first.bvh", "clips/a.bvh") and same("second.bvh", "other.bvh")
+    assert not same("first.bvh", "second.bvh")
+    assert "--body of mocap convert chooses another" in run("graph both.bvh -o g.npz", 2).err
+
+
+def test_positions_relative_to_the_offset_of_the_root_are_told_and_a_graph_remembers_them(folder, run):
+    load_save.save(resample(samples.sample("walk_straight"), 30), "walk.bvh")
+    with_offset(Path("walk.bvh"), np.array([0.0, 93.0, 0.0]), relative=True)
+    told = run("info walk.bvh")
+    assert "space    1 cm a unit, y up, the root's OFFSET added" in told.out
+    assert "the root's OFFSET added. --scale, --up and --root-offset overrule it." in told.err
+    assert run("info walk.bvh --root-offset add").err == ""
+    assert "under the floor" in run("info walk.bvh --root-offset ignore").out
+    run("graph walk.bvh -o g.npz")
+    assert "walked " in run("walk g.npz --random 2s -o w.bvh").out
 
 
 def write_poses(path):
@@ -299,3 +325,149 @@ def test_a_query_that_finds_nothing_says_so(walks, run):
     told = run(f"{walks} walks --below 0.01")
     assert told.out.splitlines()[-1] == "found        0 in 0 clips"
     assert "only itself" in told.err
+
+
+# .npz and .csv ----------------------------------------------------------------------------------------------
+
+
+def test_convert_to_arrays_and_tables_and_back(folder, run):
+    assert run("convert clips/a.bvh -o a.npz").out == "converted    1 of 1 to a.npz\n"
+    run("convert a.npz back.bvh")
+    run("convert a.npz a.csv")
+    assert same("back.bvh", "clips/a.bvh")
+    assert load_save.load("a.npz").name == "a"
+    assert np.array_equal(load_save.load("a.npz").rotations, load_save.load("clips/a.bvh").rotations)
+    header, *rows = (folder / "a.csv").read_text("utf-8").splitlines()
+    assert header.startswith("time,root_x,root_y,root_z,") and len(rows) == 40
+    for suffix in ("npz", "csv"):
+        run(f"convert clips out --to {suffix}")
+        assert sorted(path.name for path in (folder / "out").rglob(f"*.{suffix}")) == [
+            f"a.{suffix}",
+            f"b.{suffix}",
+        ]
+
+
+def test_other_commands_write_and_read_arrays(folder, run):
+    clip = replace(wave(40), labels={"walk": np.arange(40) > 20})
+    load_save.save(clip, "a.npz")
+    run("cut a.npz --from 10 -o cut.npz")
+    cut = load_save.load("cut.npz")
+    assert len(cut) == 30 and cut.labels["walk"].sum() == 19 and cut.contacts.keys() == clip.contacts.keys()
+    (folder / "set").mkdir()
+    for number in range(2):
+        clip = replace(wave(90, seed=number), labels={"walk": True})
+        load_save.save(clip, f"set/{number}.npz")
+    run("graph set --threshold 50 -o set/graph.npz")
+    run("walk set/graph.npz --random 0.2s -o walk.npz")
+    assert "walk" in load_save.load("walk.npz").labels
+    run("walk set/graph.npz --random 0.2s -o walk.csv")
+    assert (folder / "walk.csv").read_text("utf-8").startswith("time,root_x")
+
+
+def test_a_file_that_is_read_is_not_replaced_by_a_table_or_an_archive(folder, run):
+    run("graph clips --threshold 50 --whole -o graph.npz")
+    before = (folder / "graph.npz").read_bytes()
+    assert "is one of the files to read" in run("walk graph.npz --random 1s -o graph.npz", 2).err
+    assert (folder / "graph.npz").read_bytes() == before
+
+
+@pytest.mark.parametrize("line", ["convert {} out.{}", "cut {} -o out.{}"])
+@pytest.mark.parametrize("suffix", ["bvh", "npz"])
+def test_plain_names_are_written_on_request(folder, run, line, suffix):
+    skeleton = replace(wave(9).skeleton, names=["rig:hips", "rig.hips", "a b", "side"])
+    load_save.save(replace(wave(9), skeleton=skeleton, contacts={}), "odd.bvh")
+    run(line.format("odd.bvh", suffix))
+    assert "rig:hips" in load_save.load(f"out.{suffix}").skeleton.names
+    run(f"{line.format('odd.bvh', suffix)} --plain-names")
+    names = load_save.load(f"out.{suffix}").skeleton.names
+    assert sorted(names) == ["a_b", "righips", "righips_2", "side"]
+
+
+def test_plain_names_of_a_folder(folder, run):
+    (folder / "in").mkdir()
+    skeleton = replace(wave(9).skeleton, names=["rig:hips", "b", "c", "d"])
+    for name in ("a", "b"):
+        load_save.save(replace(wave(9), skeleton=skeleton, contacts={}), f"in/{name}.bvh")
+    run("convert in out --to glb --plain-names")
+    for name in ("a", "b"):
+        assert b'"righips"' in (folder / "out" / f"{name}.glb").read_bytes()
+
+
+# JSON -------------------------------------------------------------------------------------------------------
+
+# The keys of a clip, which `mocap/STABLE.md` promises.
+KEYS = ["file", "name", "frames", "fps", "duration", "joints", "labels", "contacts", "height"]
+KEYS += ["heading_change", "path", "flaws", "scale", "up", "doubt", "assumed"]
+
+
+def document(text):
+    """Parse JSON strictly: without NaN, and without a key that comes twice."""
+
+    def pairs(items):
+        assert len(dict(items)) == len(items)
+        return dict(items)
+
+    return json.loads(text, object_pairs_hook=pairs, parse_constant=lambda name: pytest.fail(name))
+
+
+def test_info_as_json_has_the_same_keys_for_a_file_and_a_folder(folder, run):
+    (folder / "clips" / "bad.bvh").write_text("HIERARCHY\n")
+    (folder / "clips" / "worse.npz").write_bytes(b"PK")
+    write_acclaim(wave(3), folder / "clips" / "Füße.amc")
+    clip = replace(wave(20, name="hand made"), labels={"walk": True})
+    load_save.save(clip, "clips/c.npz")
+    said = run("info clips --json", 2)
+    listed = document(said.out)
+    assert list(listed) == ["clips", "failed"]
+    assert [row["file"] for row in listed["clips"]] == [
+        str(Path("clips", *parts)) for parts in (["Füße.amc"], ["a.bvh"], ["c.npz"], ["more", "b.BVH"])
+    ]
+    assert all(list(row) == KEYS for row in listed["clips"])
+    amc, bvh, npz, _ = listed["clips"]
+    assert amc["assumed"].startswith("120 Hz, as an .amc says no rate; --read-fps")
+    assert (bvh["frames"], bvh["fps"], bvh["joints"], bvh["scale"]) == (40, 30.0, 4, 0.01)
+    assert (npz["name"], npz["labels"], npz["contacts"]) == ("hand made", ["walk"], ["hand"])
+    assert (npz["scale"], npz["up"]) == (None, None)
+    failed, damaged = listed["failed"]
+    assert damaged["file"] == str(Path("clips", "worse.npz")) and "a damaged one" in damaged["error"]
+    assert failed == {
+        "file": str(Path("clips", "bad.bvh")),
+        "error": f"{failed['file']}: expected a line 'MOTION', got none",
+    }
+    assert failed["error"] in said.err
+    alone = run("info clips/a.bvh --json")
+    assert document(alone.out) == {"clips": [bvh], "failed": []} and alone.err == ""
+
+
+def test_info_as_json_has_stretches_of_flaws(folder, run):
+    frozen = concatenate([wave(20), *[wave(1)] * 9])
+    load_save.save(frozen, "clips/frozen.bvh")
+    (row,) = document(run("info clips/frozen.bvh --json").out)["clips"]
+    flaws = {flaw["kind"]: flaw for flaw in row["flaws"]}
+    assert list(flaws["frozen"]) == ["kind", "stretches", "detail"]
+    assert flaws["frozen"]["stretches"] == [[21, 29]]
+
+
+def test_info_as_json_of_a_single_frame_and_of_odd_names(folder, run):
+    load_save.save(wave(1, name="é\n\x1b[31m"), "clips/one.npz")
+    (row,) = document(run("info clips/one.npz --json").out)["clips"]
+    assert (row["frames"], row["duration"], row["path"]) == (1, 0.0, 0.0)
+    assert row["name"] == "é\n\x1b[31m"
+
+
+def test_a_folder_of_bad_files_is_a_document_too(folder, run):
+    (folder / "bad").mkdir()
+    (folder / "bad" / "a.bvh").write_text("ROOT\n")
+    listed = document(run("info bad --json", 2).out)
+    assert listed["clips"] == [] and len(listed["failed"]) == 1
+
+
+def test_the_promised_keys_are_those_of_the_page():
+    page = (Path(conversion.__file__).parents[1] / "STABLE.md").read_text("utf-8")
+    table = page.split("## JSON of `mocap info --json`")[1].split("## ")[0]
+    named = [
+        name
+        for row in re.findall(r"^\| (`.*?) \|", table, re.MULTILINE)
+        for name in re.findall(r"`(\w+)`", row)
+    ]
+    assert named == KEYS

@@ -1,6 +1,7 @@
 """`mocap bend`, `loop`, `blend`, `retarget` and `warp`, as a person types them."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -162,9 +163,31 @@ def test_a_skeleton_and_another_format_with_steps_as_long_as_the_legs(child_s, r
     assert np.ptp(places[:, 2]) == pytest.approx(own * child().leg / adult().leg, rel=0.02)
 
 
-def test_a_single_pose_says_whose_body_it_is(child_s, run):
-    run("retarget clips/a.bvh --to pose.bvh -o out")
+def test_a_single_pose_in_a_stride_gives_the_body_and_its_rest_pose_with_a_warning(child_s, run):
+    err = run("retarget clips/a.bvh --to pose.bvh -o out").err
+    assert "does not stand: one ankle is" in err
+    assert "The rest pose of its skeleton is taken as the stance." in err
     assert stance_of(load("out/a.bvh")).leg == pytest.approx(child().leg, abs=1e-5)
+
+
+def test_a_standing_pose_of_two_frames_says_how_high_the_feet_are(child_s, run):
+    """Here the feet of the hierarchy lie level, and those of the pose are tilted by 31°."""
+    body = child().skeleton
+    offsets = body.offsets.copy()
+    turns = np.tile([1.0, 0, 0, 0], (2, len(body), 1))
+    for side in "lr":
+        ball = body.index(f"{side}toes")
+        offsets[ball] = [0, 0, np.linalg.norm(offsets[ball])]
+        for joint, angle in ((f"{side}foot", 31.0), (f"{side}toes", -31.0)):
+            turns[:, body.index(joint)] = rotations.from_rotvec([np.radians(angle), 0, 0])
+    pose = Motion(replace(body, offsets=offsets), np.zeros((2, 3)), turns, 30.0, "bind")
+    rise = 0.01 - joint_positions(pose)[..., 1].min()
+    pose = replace(pose, root_positions=np.array([[0, rise, 0]] * 2))
+    load_save.save(pose, "bind.bvh")
+    assert not run("retarget clips/a.bvh --to bind.bvh -o out").err
+    ankle = body.index("lfoot")
+    standing = joint_positions(load("out/a.bvh"))[walk()[:200].contacts["lfoot"], ankle, 1]
+    assert standing == pytest.approx(joint_positions(pose)[0, ankle, 1], abs=0.003)
 
 
 def test_a_hand_is_raised_and_the_clip_lasts_longer(folder, run):

@@ -115,6 +115,13 @@ def test_a_mirrored_origin_is_checked(tmp_path):
     assert not is_origin(text.replace("true", "1")) and not is_origin("[]")
 
 
+def test_an_origin_remembers_the_use_of_the_offset_of_the_root(tmp_path):
+    (tmp_path / "a.bvh").write_text("")
+    text = Origin(tmp_path / "a.bvh", root_offset="add").text(tmp_path)
+    assert is_origin(text) and find_again(text, tmp_path).root_offset == "add"
+    assert not is_origin(text.replace('"add"', '"both"'))
+
+
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     storage.save(bundled("walk_circle", "walk_curve_1"), tmp_path / "graph.npz")
@@ -130,6 +137,12 @@ def test_it_wanders_and_writes_gltf_for_engines(folder, run):
     read = Glb((folder / "out.glb").read_bytes())
     assert read.nodes[0]["name"] == "root"
     assert max(times[-1] for times, _ in read.curves().values()) > 5.9
+
+
+def test_a_path_shorter_than_a_step_is_doubted(folder, run):
+    (folder / "short.csv").write_text("0,0\n0,0.003\n0.0005,0.005\n")
+    said = run("walk graph.npz --path short.csv -o out.bvh").err
+    assert "short.csv is 0.0051 m long, shorter than a step: is its unit right? --unit" in said
 
 
 def test_a_deadline_ends_the_search_with_the_best_walk_so_far(folder, run, monkeypatch):

@@ -90,6 +90,34 @@ def test_a_map_works_where_a_graph_reads_the_clips(folder, run):
     assert (folder / "walk.bvh").exists()
 
 
+def test_a_graph_stores_the_roles_that_it_was_built_with(folder, run):
+    lines = [f'"{role}" = "{name}"' for role, name in BALLS.items()]
+    (folder / "map.toml").write_text("\n".join(lines))
+    run("graph numbers.bvh --mirror --joints map.toml --threshold 12 -o graph.npz")
+    run("graph numbers.bvh --mirror --threshold 12 -o found.npz")
+    walks = {"stored": "graph.npz", "given": "found.npz --joints map.toml", "found": "found.npz"}
+    walks["clips"] = "graph.npz --clips numbers.bvh"
+    walks["replaced"] = "graph.npz --joints found.toml"
+    (folder / "found.toml").write_text(run("info numbers.bvh --joints").out)
+    for name, arguments in walks.items():
+        run(f"walk {arguments} --random 1s --clean -o {name}.bvh")
+    texts = {name: (folder / f"{name}.bvh").read_bytes() for name in walks}
+    assert texts["stored"] == texts["given"] == texts["clips"]
+    assert texts["found"] == texts["replaced"] != texts["stored"]
+
+
+def test_a_file_that_cannot_store_roles_that_are_given_says_so(folder, run):
+    (folder / "found.toml").write_text(run("info numbers.bvh --joints").out)
+    lines = [f'"{role}" = "{name}"' for role, name in BALLS.items()]
+    (folder / "map.toml").write_text("\n".join(lines))
+    said = "a .bvh cannot store the roles of joints: commands that read it need --joints again."
+    assert f"cut.bvh: {said}" in run("cut numbers.bvh --joints map.toml -o cut.bvh").err
+    assert said in run("bend numbers.bvh --along line.csv --joints map.toml -o bent.bvh").err
+    assert said not in run("cut numbers.bvh --joints map.toml -o cut.glb").err
+    assert said not in run("cut numbers.bvh --joints found.toml -o cut.bvh").err
+    assert said not in run("cut usual.bvh -o cut.bvh").err
+
+
 def test_legs_that_are_not_found_have_the_option_as_remedy(folder, capsys):
     legless = Skeleton(["hips", "chest", "head"], [-1, 0, 1], [[0, 0, 0], [0, 0.5, 0], [0, 0.3, 0]])
     pole = replace(WALK, skeleton=legless, rotations=WALK.rotations[:, :3], contacts={})

@@ -8,14 +8,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mocap import load
-from mocap.body import PlanarTransform, Skeleton, joint_positions, resample, rotations
+from mocap.body import Motion, PlanarTransform, Skeleton, joint_positions, resample, rotations
 from mocap.body.limbs import FEET, ROLES, roles
 from mocap.datasets.samples import SKELETON, sample
 from mocap.editing.mirroring import mirror, symmetry
 from mocap.editing.stances import Stance, proportioned, stance_of, stance_of_zero, standing_heights
 from mocap.feet.footplants import mark_plants
 from mocap.files import load_save
-from tests.editing.bodies import NAMINGS, adult, along_x, renamed, rested, walk, without
+from tests.editing.bodies import NAMINGS, adult, along_x, child, renamed, rested, walk, without
 from tests.refusals import refusals, refused, told, unwarned
 from tests.strategies import random_quaternions, seeds
 
@@ -90,6 +90,64 @@ def test_feet_that_never_stand_flat_and_feet_that_never_stand():
     loose = replace(walk(), contacts=apart)
     assert standing_heights(loose, adult().roles)["left ball"] == pytest.approx(0.026, abs=0.003)
     assert np.isfinite(stance_of(loose, mean=True).turns).all()
+
+
+def in_the_rest_pose(frames=2, root=(0.0, 0.97, 0.0), ankles=0.0):
+    """Return a pose of the bundled body with straight legs, and its feet tilted by an angle, radians."""
+    turns = np.tile([1.0, 0, 0, 0], (frames, len(SKELETON), 1))
+    for foot in ("lfoot", "rfoot"):
+        turns[:, SKELETON.index(foot)] = rotations.from_rotvec([ankles, 0, 0])
+    return Motion(SKELETON, np.tile(root, (frames, 1)), turns, 30.0, "pose")
+
+
+@pytest.mark.parametrize("frames", [1, 2])
+@pytest.mark.parametrize("angle", [0.0, 2.0])
+def test_a_standing_pose_of_one_or_two_frames_is_the_stance_wherever_it_heads(frames, angle):
+    pose = PlanarTransform(angle, 3.0, -1.0).apply_motion(in_the_rest_pose(frames, (0, 1.07, 0), ankles=0.4))
+    stance = unwarned(stance_of, pose)
+    points = joint_positions(in_the_rest_pose(1, (0, 1.07, 0), ankles=0.4))[0]
+    assert np.allclose(stance.points - stance.points[0], points - points[0])
+    ankles = [points[stance.roles[f"{side} ankle"], 1] for side in ("left", "right")]
+    assert [stance.heights[f"{side} ankle"] for side in ("left", "right")] == pytest.approx(ankles)
+    flat = stance_of_zero(SKELETON, 0.03)  # what the rest pose alone would give
+    assert degrees_apart(stance.turns, flat.turns)[stance.roles["left ankle"]] > 15
+
+
+def test_a_pose_that_is_relative_to_its_root_is_put_on_the_floor_with_a_sentence():
+    pose = in_the_rest_pose(root=(0.0, 0.0, 0.0))
+    stance = told("the lowest joint is 1.00 m below y = 0, and is taken to be on the floor", stance_of, pose)
+    assert min(stance.heights.values()) < 0.03
+    lowest = joint_positions(pose)[0, :, 1].min()
+    assert stance.heights["left ankle"] == pytest.approx(
+        joint_positions(pose)[0, stance.roles["left ankle"], 1] - lowest
+    )
+
+
+def test_a_stride_and_a_body_that_lies_are_no_stances():
+    for frame in range(0, 120, 10):
+        refused(
+            "The pose in 'walk_straight' does not stand: one ankle is", stance_of, walk()[frame : frame + 1]
+        )
+    turns = in_the_rest_pose().rotations.copy()
+    turns[:, 0] = rotations.from_rotvec([-np.pi / 2, 0, 0])
+    refused("its thighs 90° off hanging", stance_of, replace(in_the_rest_pose(), rotations=turns))
+
+
+def test_a_run_takes_the_heights_of_other_clips_of_its_body_or_of_balls_alone():
+    never = np.zeros(len(walk()), bool)
+    run = replace(walk(), name="run", contacts={**walk().contacts, "lfoot": never, "rfoot": never})
+    assert unwarned(stance_of, run, clips=[walk(2.0)]).heights == stance_of(walk(2.0)).heights
+    other_body = replace(walk(), skeleton=child().skeleton)
+    alone = told(
+        "'run' the left ankle never stands.*estimated from the balls", stance_of, run, clips=[other_body]
+    )
+    assert alone.heights == pytest.approx(adult().heights, abs=0.012)
+    hop = replace(run, contacts={**run.contacts, "ltoes": never})
+    left, right = (told("never stands", stance_of, hop).heights[f"{side} ball"] for side in ("left", "right"))
+    assert left == right
+    refused(
+        "In 'run' no foot ever stands", stance_of, replace(run, contacts=dict.fromkeys(run.contacts, never))
+    )
 
 
 def lengths(stance, *roles):

@@ -48,9 +48,11 @@ class Glb:
         above = {child: node for node, row in enumerate(self.nodes) for child in row.get("children", ())}
         return [above.get(node, -1) for node in range(len(self.nodes))]
 
-    def curves(self):
-        """Give {(node, path): (times, values)}."""
-        (animation,) = self.document["animations"]
+    def curves(self, clip=None):
+        """Return {(node, path): (times, values)} of an animation by its name, or of the only one."""
+        clips = {animation["name"]: animation for animation in self.document["animations"]}
+        animation = clips[clip] if clip is not None else clips.popitem()[1]
+        assert clip is not None or not clips
         found = {}
         for channel in animation["channels"]:
             sampler = animation["samplers"][channel["sampler"]]
@@ -61,12 +63,15 @@ class Glb:
             found[of["node"], of["path"]] = (times, self.arrays[sampler["output"]])
         return found
 
-    def poses(self, seconds, rest=False):
-        """Give every joint's matrix (4, 4) in the world, at a time of the animation or at rest."""
-        curves, local = {} if rest else self.curves(), []
+    def poses(self, seconds, rest=False, clip=None):
+        """Give every joint's matrix (4, 4) in the world, at a time of an animation or at rest."""
+        curves, local = {} if rest else self.curves(clip), []
         for node in range(len(self.nodes)):
             matrix = np.eye(4)
             matrix[:3, 3] = self.nodes[node].get("translation", np.zeros(3))
+            turn = self.nodes[node].get("rotation", [0.0, 0.0, 0.0, 1.0])
+            assert abs(np.linalg.norm(turn) - 1) < 1e-6
+            matrix[:3, :3] = Rotation.from_quat(turn).as_matrix()
             if (node, "translation") in curves:
                 times, places = curves[node, "translation"]
                 matrix[:3, 3] = [np.interp(seconds, times, column) for column in places.T]
@@ -83,11 +88,15 @@ class Glb:
             matrix = local[node] @ matrix
         return matrix
 
+    def inverse_binds(self):
+        """Return the inverse bind matrix of each joint, (J, 4, 4)."""
+        by_columns = self.arrays[self.document["skins"][0]["inverseBindMatrices"]]
+        return by_columns.reshape(-1, 4, 4).swapaxes(1, 2)
+
     def skinned(self, seconds, rest=False):
         """Give where the body's corners are, (V, 3): the sum of weight · joint · inverse bind · corner."""
         attributes = self.document["meshes"][0]["primitives"][0]["attributes"]
         places, joints, weights = (self.arrays[attributes[k]] for k in ("POSITION", "JOINTS_0", "WEIGHTS_0"))
-        bind = self.arrays[self.document["skins"][0]["inverseBindMatrices"]].reshape(-1, 4, 4).swapaxes(1, 2)
-        moves = self.poses(seconds, rest) @ bind
+        moves = self.poses(seconds, rest) @ self.inverse_binds()
         mixed = np.einsum("vk,vkij->vij", weights, moves[joints])
         return np.einsum("vij,vj->vi", mixed, np.c_[places, np.ones(len(places))])[:, :3]

@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 
 from mocap.body import joint_positions, limbs
 from mocap.errors import FormatError
-from mocap.files import amass, load_save
+from mocap.files import amass, load_save, motion_archives
 from tests.refusals import refused, told, unwarned
 from tests.strategies import seeds
 
@@ -83,7 +83,7 @@ def test_poses_in_three_dimensions_or_in_parts_are_the_same(archive):
     tall = load_save.load(archive(poses=poses[:, :72].reshape(4, 24, 3)), up="z")
     parts = {"poses": None, "root_orient": poses[:, :3], "pose_body": poses[:, 3:66]}
     path = archive(**parts, trans=trans, mocap_framerate=None, fps=120.0)
-    assert amass.is_amass(path)
+    assert motion_archives.is_motion(path)
     assert tall == expected == load_save.load(path, up="z")
     short = archive(**(parts | {"pose_body": poses[:3, 3:66]}))
     refused("as many rows of pose_body as of root_orient, 4, got 3", load_save.load, short)
@@ -126,4 +126,4 @@ def test_a_broken_archive_is_refused(archive, changes, message):
 def test_files_of_other_kinds_are_refused(tmp_path):
     for path, reason in ((tmp_path / "gone.npz", "No such file"), (tmp_path, "Is a directory")):
         refused(f"Cannot read {path}: {reason}", load_save.load, path)
-        assert not amass.is_amass(path)
+        assert not motion_archives.is_motion(path)

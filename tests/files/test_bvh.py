@@ -16,7 +16,7 @@ from mocap.datasets import sample
 from mocap.errors import FormatError, MocapWarning
 from mocap.files import load_save
 from tests.files.acclaim_clips import TEXTS
-from tests.refusals import refused, refused_texts
+from tests.refusals import refused, refused_texts, unwarned
 from tests.strategies import random_motion, seeds, wave
 
 BVH = TEXTS["BVH"]
@@ -141,7 +141,7 @@ def test_a_header_that_counts_other_frames_than_follow_is_corrected_and_that_is_
     assert motion == expected
 
 
-@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "utf-16-le", "shift-jis"])
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "shift-jis"])
 def test_files_in_other_encodings_are_the_same(tmp_path, encoding):
     text = BVH.replace("left leg", "左足").replace("\n", "\r\n")
     (tmp_path / "a.bvh").write_bytes(text.encode(encoding))
@@ -149,6 +149,11 @@ def test_files_in_other_encodings_are_the_same(tmp_path, encoding):
     assert "左足" in motion.skeleton.names
     (tmp_path / "a.bvh").write_text(text, "utf-8")
     assert motion == load_save.load(tmp_path / "a.bvh")
+
+
+def test_the_end_of_a_file_of_dos_is_no_number(write):
+    dos = BVH.replace("\n", "\r\n")
+    assert load_save.load(write(f"{dos}\x1a")) == load_save.load(write(BVH))
 
 
 def test_decimal_commas_are_read_as_points_and_that_is_said(write):
@@ -211,7 +216,7 @@ BROKEN = [
     ("3 Yrotation", "3 Xrotation", r"line 22: expected the number of channels .*, got 'xrotation' twice"),
     ("3 Yrotation Z", "4 Wrotation X", r"line 22: expected the number of channels .*, got 'wrotation'$"),
     ("}\nMOTION", "MOTION", r"line 27: expected .*, got the end of the hierarchy"),
-    ("}\nMOTION", "}\n}\nMOTION", r"line 29: expected MOTION, got '}'"),
+    ("}\nMOTION", "}\n}\nMOTION", r"line 29: expected ROOT or MOTION, got '}'"),
     ("End Site\n\t\t{", "End Site\n\t\t", r"line 12: expected {, got 'OFFSET'"),
 ]
 test_a_broken_file_is_refused_at_its_line = refused_texts(
@@ -320,3 +325,42 @@ def test_a_body_that_stands_along_z_is_turned_upright(tmp_path):
     turned = np.concatenate([rotations.multiply(back, walk.rotations[:, :1]), walk.rotations[:, 1:]], axis=1)
     load_save.save(replace(walk, rotations=turned), tmp_path / "a.bvh")
     assert load_save.load(tmp_path / "a.bvh").root_positions == pytest.approx(walk.root_positions, abs=1e-6)
+
+
+def two_bodies(first, second):
+    """Join two BVH files of as many frames into one of two bodies."""
+    (bones, frames), (other_bones, other_frames) = (text.split("MOTION\n") for text in (first, second))
+    *head, blank = frames.split("\n")
+    rows = [f"{row} {other}" for row, other in zip(head[2:], other_frames.split("\n")[2:-1], strict=True)]
+    return "\n".join([bones + other_bones.replace("HIERARCHY\n", "") + "MOTION", *head[:2], *rows, blank])
+
+
+def test_of_two_bodies_the_first_is_read_with_a_warning_and_each_by_its_number(write):
+    other = BVH.replace("OFFSET 0 40 0", "OFFSET 0 60 0").replace("100 50 0 0 90", "90 50 0 0 45")
+    text = two_bodies(BVH, other.replace("ROOT hips", "ROOT hips of B"))
+    path = write(text)
+    with pytest.warns(
+        MocapWarning,
+        match=r"2 bodies with the roots 'hips', 'hips of B': the first one is read\. body= chooses",
+    ):
+        assert load_save.load(path) == load_save.load(write(BVH))
+    path = write(text)
+    assert unwarned(load_save.load, path, body=1) == load_save.load(write(BVH))
+    second = unwarned(load_save.load, write(text), body=2)
+    assert second.skeleton.names[0] == "hips of B"
+    assert np.array_equal(joint_positions(second), joint_positions(load_save.load(write(other))))
+
+
+def test_bodies_may_have_joints_of_equal_names(write):
+    expected = load_save.load(write(BVH))
+    assert unwarned(load_save.load, write(two_bodies(BVH, BVH)), body=2) == expected
+
+
+def test_a_body_that_a_file_lacks_is_refused(write):
+    refused(
+        r"a\.bvh holds 1 body, got 2: body= is the number of one, from 1", load_save.load, write(BVH), body=2
+    )
+    both = write(two_bodies(BVH, BVH))
+    for number in (0, 3, 1.5):
+        refused(rf"a\.bvh holds 2 bodies, got {number}", load_save.load, both, body=number)
+    refused("body must be a number", load_save.load, both, body="hips")

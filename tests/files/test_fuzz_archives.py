@@ -7,6 +7,7 @@ import re
 import struct
 import tracemalloc
 import zipfile
+from dataclasses import replace
 from functools import cache, partial
 
 import networkx as nx
@@ -45,6 +46,14 @@ def save_amass(path, size=1):
     numbers = np.tile(numbers, (1 + 400 * (size - 1), 1))
     facts = {"betas": np.zeros(16), "gender": "neutral", "mocap_framerate": 30.0}
     pack(path, {"poses": numbers[:, :156], "trans": numbers[:, 156:], **facts})
+
+
+def save_motion(path, size=1):
+    frames = 90 * (1 + 40 * (size - 1))
+    clip = wave(frames, name="walk")
+    marks = {name: np.arange(frames) % 3 == 0 for name in ("walk", "jump")}
+    skeleton = replace(clip.skeleton, roles={"pelvis": "root"})
+    load_save.save(replace(clip, skeleton=skeleton, labels=marks, contacts={"hand": marks["walk"]}), path)
 
 
 def save_match_web(path, size=1):
@@ -106,6 +115,7 @@ KINDS = {
     "group": (save_three, use_three),
     "graph": (save_graph, lambda path: summary(storage.load(path, CLIPS).graph, fps=30).table()),
     "amass": (save_amass, partial(load_save.load, up="z")),
+    "motion": (save_motion, load_save.load),
 }
 
 

@@ -152,7 +152,7 @@ def test_the_suffix_decides(tmp_path):
 test_other_formats_and_options_that_make_no_sense_are_refused = refusals(
     (r"mocap reads .amc .with .asf., .bvh", load_save.load, "walk.mp4"),
     ("files.asf.read_skeleton reads it", load_save.load, "walk.asf"),
-    (r"mocap writes .bvh and .glb", load_save.save, wave(3), "b.fbx"),
+    (r"mocap writes .bvh, .glb, .npz and .csv", load_save.save, wave(3), "b.fbx"),
     (r"Cannot read walk.GLB: mocap only writes it; in Blender", load_save.load, "walk.GLB"),
     (
         "in metres, got a scale of 2 for walk.npz: leave out scale=.",
@@ -298,14 +298,16 @@ test_a_wrong_line_is_named = refused_texts(
 )
 
 
-def test_graphs_and_other_archives_in_a_folder_are_no_clips(tmp_path):
+def test_graphs_and_other_archives_in_a_folder_are_no_clips_but_damaged_ones_are_reported(tmp_path):
     load_save.save(wave(3), tmp_path / "b.bvh")
     np.savez(tmp_path / "c.npz", poses=np.zeros((2, 66)), trans=np.zeros((2, 3)), mocap_framerate=60.0)
     np.savez(tmp_path / "graph.npz", nodes=np.zeros(3))
     (tmp_path / "broken.npz").write_bytes(b"PK")
     (tmp_path / "notes.txt").write_text("")
-    assert [path.name for path in conversion.find_files([tmp_path])] == ["b.bvh", "c.npz"]
-    assert [path.name for path, _ in conversion.plan(tmp_path, tmp_path / "out")] == ["b.bvh", "c.npz"]
+    names = ["b.bvh", "broken.npz", "c.npz"]
+    assert [path.name for path in conversion.find_files([tmp_path])] == names
+    assert [path.name for path, _ in conversion.plan(tmp_path, tmp_path / "out")] == names
+    refused("broken.npz", load_save.load, tmp_path / "broken.npz")
 
 
 def test_folders_in_folders_are_searched_but_for_hidden_ones(tmp_path):

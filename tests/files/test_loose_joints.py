@@ -6,7 +6,6 @@ import pytest
 from mocap.body import joint_positions
 from mocap.datasets import sample
 from mocap.errors import MocapWarning
-from mocap.files import bvh
 from mocap.files.load_save import load, save
 from tests.refusals import refused
 
@@ -63,4 +62,4 @@ def test_a_prop_that_moves_is_left_out(tmp_path):
 def test_a_bone_that_stretches_is_not_left_out(tmp_path):
     way = np.linspace(0, 12, len(WALK))[:, None] * [1, 0, 0] + [40, 0, 0]
     with_joints(tmp_path / "long.bvh", prop=way)
-    refused("'sword' in one place below its parent", bvh.read, tmp_path / "long.bvh")
+    refused("'sword' in one place below its parent", load, tmp_path / "long.bvh")

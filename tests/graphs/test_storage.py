@@ -64,6 +64,18 @@ def test_last_digits_do_not_matter_and_what_an_older_version_saved_opens(saved):
         assert nx.utils.graphs_equal(storage.load(older, CLIPS).graph, GRAPH.graph)
 
 
+def test_roles_are_those_with_which_the_graph_was_saved(tmp_path):
+    bodies = [replace(clip.skeleton, roles={"head": "hand", "left tip": "side"}) for clip in CLIPS]
+    clips = [replace(clip, skeleton=body) for clip, body in zip(CLIPS, bodies, strict=True)]
+    graph = build(clips, window=8, threshold=0.05)
+    storage.save(graph, tmp_path / "graph.npz")
+    other = [replace(clip, skeleton=replace(clip.skeleton, roles={"neck": "elbow"})) for clip in CLIPS]
+    for passed in (CLIPS, clips, other):
+        assert storage.load(tmp_path / "graph.npz", passed).clips == graph.clips
+    older = changed(tmp_path / "graph.npz", version=np.array(2), roles=None)
+    assert storage.load(older, other).clips == tuple(other)
+
+
 def test_a_file_tells_something_without_its_clips(saved):
     found = storage.read(saved)
     assert (found.fps, found.window, found.names, found.frames) == (30.0, 8, ["a", "b ü"], [90, 70])
@@ -118,10 +130,14 @@ MISFITS = [
     ({"names": ["a", "a"]}, "names of their own"),
     ({"names": ["a"]}, "'frames' to fit"),
     ({"names": np.array([{}, []], object)}, "'names' to fit"),  # nothing is unpickled
-    ({"version": 3, "nodes": None}, "version 3, which a newer mocap wrote"),
+    ({"version": 4, "nodes": None}, "version 4, which a newer mocap wrote"),
     ({"format": "mocap motion"}, "npz of another kind"),
     ({"origins": ["not JSON"]}, "origins are"),
     ({"origins": ["{}", "{}"]}, "origins are"),
+    ({"roles": None}, "one without roles"),
+    ({"roles": ["{}"]}, "'roles' to fit"),
+    ({"roles": ["{}", '{"left toe": "hand"}']}, "roles are names of joints"),
+    ({"roles": ["[", "{}"]}, "roles are names of joints"),
 ]
 
 

@@ -203,7 +203,7 @@ def test_an_interruption_leaves_nothing(tmp_path):
 
 
 test_what_cannot_be_written_is_told = refusals(
-    ("as .bvh or .glb", lambda: dump(GRAPH, "walk.amc", seconds=10)),
+    ("as .bvh, .glb, .npz or .csv", lambda: dump(GRAPH, "walk.amc", seconds=10)),
     ("may last 3600 s, not 3601: write .bvh", lambda: dump(GRAPH, "walk.glb", seconds=3601)),
     ("longer than 0 s", lambda: dump(GRAPH, "walk.bvh", seconds=0)),
     ("longer than 0 s", lambda: dump(GRAPH, "walk.bvh", seconds=np.nan)),

@@ -88,7 +88,7 @@ def load_web(
 
     Returns
     -------
-    The same web, bit for bit.
+    The same web, bit for bit. The joints of its clips have the roles that they had when it was saved.
 
     Raises
     ------
@@ -133,4 +133,4 @@ def _rules(arrays: Arrays) -> Rules:
     yield "a path stays in its two clips", clip[inside] == clip[inside - 1]
 
 
-WEB = Kind("a match web", ARRAYS, _rules)
+WEB = Kind("a match web", ARRAYS, _rules, version=2, added={"roles": 2})

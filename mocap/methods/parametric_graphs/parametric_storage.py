@@ -13,6 +13,7 @@ import numpy as np
 from mocap._shared.archives import Arrays, Kind, Layout, Part, Rules, numbered, read_archive, write_archive
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError
+from mocap.files.role_maps import are_packed_roles, packed_roles, unpacked_roles
 from mocap.methods.match_webs.motion_spaces import MotionSpace
 from mocap.methods.parametric_graphs.examples import Examples
 from mocap.methods.parametric_graphs.parametric_edges import ParametricEdge
@@ -25,12 +26,14 @@ UNIT = 1e-5  # tolerance of the squared length of a quaternion, 1
 EVEN = 1e-6  # tolerance of a phase, a second, or a sum of weights
 # The arrays of the file, with K nodes and E edges.
 ARRAYS: Layout = {"names": (str, ("K",)), "sources": (int, ("E",)), "targets": (int, ("E",))}
+# reads: statement: a table
 SKELETON: Layout = {
     "joints": (str, ("j",)),
     "parents": (int, ("j",)),
     "offsets": (float, ("j", 3)),
     "axes": (float, ("j", 4)),
     "dofs": (str, ("j",)),
+    "roles": (str, ()),  # from `packed_roles`
 }
 # The arrays of n examples on g phases, with c contacts.
 # reads: statement: a table
@@ -122,6 +125,7 @@ def _arrays_of_space(space: Space) -> dict[str, Any]:
     arrays |= {key: getattr(space, key) for key in ("scale", "parameters", "low", "high")}
     return arrays | {
         "joints": skeleton.names,
+        "roles": packed_roles(skeleton.roles),
         "sampled_weights": space.weights,
         "sampled_values": space.values,
     }
@@ -162,9 +166,9 @@ def load_parametric(path: str | Path) -> nx.DiGraph:
 def _space(arrays: Arrays) -> Space:
     """Build the space of a node from its arrays."""
     offsets = arrays["offsets"]
-    skeleton = Skeleton(
-        arrays["joints"].tolist(), arrays["parents"], offsets, arrays["axes"], arrays["dofs"].tolist()
-    )
+    joints, dofs = (arrays[key].tolist() for key in ("joints", "dofs"))
+    roles = unpacked_roles(str(arrays["roles"])) if "roles" in arrays else {}
+    skeleton = Skeleton(joints, arrays["parents"], offsets, arrays["axes"], dofs, roles)
     fields: dict[str, Any] = {key: arrays[key] for key in EXAMPLES}
     for key in ("fps", "sway", "offset", "dropped"):
         fields[key] = arrays[key].item()
@@ -211,6 +215,8 @@ def _rules_of_examples(node: Arrays) -> Rules:
     grid = node["grid"]
     seconds = node["seconds"]
     yield "rates are 1 to 1000 Hz", RATES[0] <= node["fps"] <= RATES[-1]
+    if "roles" in node:
+        yield "roles are names of joints", are_packed_roles(str(node["roles"]))
     yield "contacts are of joints", np.isin(node["contact_names"], node["joints"])
     yield "there are examples", len(seconds) > 0
     yield "phases grow from below 0 to above 1", len(grid) > 1 and grid[0] < 0 and grid[-1] > 1
@@ -246,4 +252,4 @@ def _rules_of_edges(edge: Arrays, source: int, target: int) -> Rules:
 
 
 PARTS = {"node": Part("K", {**SKELETON, **EXAMPLES, **SPACE}), "edge": Part("E", EDGE)}
-PARAMETRIC = Kind("a parametric motion graph", ARRAYS, _rules, PARTS)
+PARAMETRIC = Kind("a parametric motion graph", ARRAYS, _rules, PARTS, version=2, added={"roles": 2})

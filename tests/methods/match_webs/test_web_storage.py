@@ -59,6 +59,15 @@ def test_a_web_saved_again_is_the_same_file(saved, bundled, tmp_path):
     assert (tmp_path / "web.npz").read_bytes() == saved.read_bytes()
 
 
+def test_roles_are_those_with_which_the_web_was_saved(saved, bundled, tmp_path):
+    bodies = [replace(clip.skeleton, roles={"left ball": "ltoes_end"}) for clip in bundled.clips]
+    clips = [replace(clip, skeleton=body) for clip, body in zip(bundled.clips, bodies, strict=True)]
+    save_web(replace(bundled.web, clips=tuple(clips)), tmp_path / "web.npz")
+    assert load_web(tmp_path / "web.npz").clips == tuple(clips)
+    older = changed(saved, tmp_path / "older.npz", version=np.array(1), roles=None)
+    assert load_web(older, clips).clips == tuple(clips)
+
+
 def test_the_file_is_small_and_holds_no_frames(bundled, saved):
     assert saved.stat().st_size < 0.05 * sum(clip.rotations.nbytes for clip in bundled.clips)
 

@@ -112,6 +112,21 @@ def test_a_damaged_file_is_refused_with_what_is_wrong(saved, tmp_path, change, w
     refused(words, load_parametric, tmp_path / "bad.npz", kind=FormatError)
 
 
+def test_roles_come_back_and_files_without_them_open(saved, tmp_path):
+    graph = walking().copy()
+    examples = graph.nodes["walk"]["space"].examples
+    skeleton = dataclasses.replace(examples.skeleton, roles={"left ball": "ltoes_end"})
+    examples = dataclasses.replace(examples, skeleton=skeleton)
+    graph.nodes["walk"]["space"] = dataclasses.replace(graph.nodes["walk"]["space"], examples=examples)
+    save_parametric(graph, tmp_path / "graph.npz")
+    back = load_parametric(tmp_path / "graph.npz")
+    assert back.nodes["walk"]["space"].examples.skeleton == skeleton
+    with np.load(saved) as archive:
+        older = {key: array for key, array in archive.items() if not key.endswith("_roles")}
+    np.savez(tmp_path / "older.npz", **older | {"version": np.array(1)})
+    assert load_parametric(tmp_path / "older.npz").nodes["walk"]["space"].examples.skeleton.roles == {}
+
+
 def test_missing_and_cut_files_are_refused(saved, tmp_path):
     refused("Cannot read", load_parametric, tmp_path / "no.npz")
     (tmp_path / "cut.npz").write_bytes(saved.read_bytes()[:-100])
