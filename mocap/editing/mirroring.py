@@ -99,6 +99,10 @@ def _turns(skeleton: Skeleton, partners: NDArray[np.intp], across: Array) -> Arr
     turns = rotations.nearest(matrices + small * (usual + 0.1 * np.outer(upward, upward)))
     for _ in range(2):  # what the bones leave open stays as it is, and what they fix becomes exact
         turns = rotations.nearest(matrices + small * turns)
+    # A joint without bones has its parent's turn. Then an end that never turns does not turn in the mirror.
+    for joint in range(1, len(skeleton)):
+        if not skeleton.children(joint):
+            turns[joint] = turns[skeleton.parents[joint]]
     return rotations.from_matrix(turns)
 
 

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from mocap import load
 from mocap.body import Motion, PlanarTransform, Skeleton, joint_positions, resample, rotations
 from mocap.body.limbs import FEET, ROLES, roles
+from mocap.body.motion import rotating_joints
 from mocap.datasets.samples import SKELETON, sample
 from mocap.editing.mirroring import mirror, symmetry
 from mocap.editing.stances import Stance, proportioned, stance_of, stance_of_zero, standing_heights
@@ -271,6 +272,19 @@ def test_where_all_axes_of_a_side_point_the_other_way_a_knee_bends_as_its_partne
     axes[[WALK.skeleton.index(name) for name in leg]] = [0.0, 1.0, 0.0, 0.0]
     there, here = rested(mirror(WALK), axes), mirror(rested(WALK, axes))
     assert rotations.angle_between(there.rotations, here.rotations).max() < 1e-6
+
+
+def test_the_end_of_a_chain_that_never_turns_does_not_turn_in_the_mirror_either():
+    """A bent foot is no mirror image of its partner, so its joint is turned; the toe's end below is not."""
+    offsets = WALK.skeleton.offsets.copy()
+    for name in ("lwrist", "rtoes", "rtoes_end"):
+        joint = WALK.skeleton.index(name)
+        offsets[joint] = rotations.rotate(rotations.from_rotvec([0.1, 0.3, -0.2]), offsets[joint])
+    body = replace(WALK.skeleton, offsets=offsets)
+    image = mirror(replace(WALK, skeleton=body))
+    ends = [joint for joint in range(len(body)) if not body.children(joint)]
+    assert not rotating_joints(WALK)[ends].any()
+    assert not rotating_joints(image)[ends].any()
 
 
 def test_plants_and_words_change_sides():
