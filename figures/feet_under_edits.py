@@ -23,6 +23,7 @@ from mocap import blending, body, datasets, editing, feet, files, graphs
 from mocap._shared.arrays import Array
 from mocap.body import GroundPath, Motion
 from mocap.body.limbs import find_legs, roles, with_roles
+from mocap.editing.mirroring import mirror_above_floor
 from mocap.editing.stances import Stance
 from mocap.editing.toes import clean_feet, lowest_heights
 from mocap.editing.warp_plans import load_plan, warp
@@ -104,7 +105,7 @@ COMMANDS: dict[str, Edit] = {
     "loop": looped,
     "blend": blended,
     "walk": walked,
-    "mirror": editing.mirror,
+    "mirror": mirror_above_floor,
     "convert": converted,
 }
 

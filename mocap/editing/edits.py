@@ -17,7 +17,7 @@ from mocap.editing.bodies import Body, body_of, require_reachable, warn_of_gaps
 from mocap.editing.displacements import displaced, spline_basis
 from mocap.editing.pins import Pins, join_pins, pin, pin_errors, plant_pins
 from mocap.editing.solver import CLOSE, EVERY_FRAME, REACH, Basis, solve, with_frames_of
-from mocap.editing.toes import SLACK, bend_toes, lowest_allowed, toe_tips
+from mocap.editing.toes import SLACK, bend_toes, lowest_allowed
 from mocap.errors import MocapError
 
 # The splines make the change, and what they leave is closed frame by frame. Around stones of 10 to 50 cm on
@@ -102,7 +102,7 @@ def brought(
     solved = solve(
         motion, wishes, EDIT, body or priced(motion, wishes, *EDITED), quiet=True, frames=frames
     ).motion
-    floor = floor_for(solved, plants.joints, allowed)
+    floor = floor_for(bend_toes(solved, allowed), plants.joints, allowed)
     if pin_errors(solved, floor).max() > SLACK:
         floored = join_pins(floor, wishes)
         body = body or priced(motion, floored, *EDITED)
@@ -162,14 +162,8 @@ def allowed_by(pins: Pins, motion: Motion) -> Array:
 
 
 def floor_for(motion: Motion, feet: Sequence[int], allowed: Array) -> Pins:
-    """Keep feet, and the other joints that are too low, above the heights allowed (F, J), metres.
-
-    The tips of toes are left to `bend_toes`.
-    """
-    sinks = (joint_positions(motion)[..., 1] < allowed - SLACK).any(axis=0)
-    skeleton = motion.skeleton
-    tips = [tip for leg in find_legs(skeleton) for tip in toe_tips(skeleton, leg)]
-    sinks[tips] = False
+    """Keep feet, and the other joints that are too low, above the heights allowed (F, J), metres."""
+    sinks = (joint_positions(motion)[..., 1] < allowed - 2 * SLACK).any(axis=0)
     joints = sorted({*feet, *np.flatnonzero(sinks).tolist()})
     low = np.full((len(motion), len(joints), 3), -np.inf)
     low[..., 1] = allowed[:, joints]

@@ -18,6 +18,7 @@ from mocap.body import rotations
 from mocap.body.limbs import limb_partners, with_roles
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
+from mocap.editing.toes import bend_toes, lowest_allowed
 from mocap.errors import MocapError, shortened, warn
 
 LOPSIDED = 0.01  # metres: by how much a bone and its partner may differ without a warning
@@ -170,6 +171,32 @@ def mirror(motion: Motion) -> Motion:
     name = mirrored_name(motion.name)
     mirrored = replace(motion, root_positions=root_positions, rotations=local[:, partners], name=name)
     return replace(mirrored, labels=labels, contacts=contacts)
+
+
+def mirror_above_floor(motion: Motion) -> Motion:
+    """Swap left and right, and bend toes that a body with legs of two lengths would push through the floor.
+
+    Parameters
+    ----------
+    motion : F frames.
+
+    Raises
+    ------
+    MocapError : as for `symmetry`.
+
+    Warns
+    -----
+    MocapWarning : as for `mirror`.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_curve_1")[:120]
+    >>> bool((mirror_above_floor(walk).rotations == mirror(walk).rotations).all())  # its legs are alike
+    True
+    """
+    partners, *_ = symmetry(with_roles(motion).skeleton)
+    return bend_toes(mirror(motion), lowest_allowed(motion)[:, partners])
 
 
 def _reflection(across: Array) -> Array:

@@ -263,7 +263,7 @@ def retarget(motion: Motion, body: Stance, source: Stance, *, scale: float | Non
     prices = dict.fromkeys(_stiff_joints(body), STIFF)
     worn = solve(base, wishes, RETARGET, body_of(base, wishes, prices=prices), quiet=True).motion
     allowed = lowest_worn(positions, body.leg / source.leg, len(body.skeleton))
-    floor = floor_for(worn, (), allowed)
+    floor = floor_for(bend_toes(worn, allowed), (), allowed)
     if floor.joints:
         floored = join_pins(floor, wishes)
         worn = solve(base, floored, RETARGET, body_of(base, floored, prices=prices), quiet=True).motion

@@ -12,8 +12,9 @@ from mocap.body import Motion, PlanarTransform, Skeleton, joint_positions, resam
 from mocap.body.limbs import FEET, ROLES, roles
 from mocap.body.motion import rotating_joints
 from mocap.datasets.samples import SKELETON, sample
-from mocap.editing.mirroring import mirror, symmetry
+from mocap.editing.mirroring import mirror, mirror_above_floor, symmetry
 from mocap.editing.stances import Stance, proportioned, stance_of, stance_of_zero, standing_heights
+from mocap.editing.toes import bend_toes, lowest_allowed
 from mocap.feet.footplants import mark_plants
 from mocap.files import load_save
 from tests.editing.bodies import NAMINGS, adult, along_x, child, renamed, rested, walk, without
@@ -307,6 +308,17 @@ def test_a_lopsided_body_is_mirrored_with_a_sentence():
     assert np.allclose(image.skeleton.offsets, offsets)
     assert np.abs(joint_positions(image) - reflected(lopsided)).max() < 0.06
     unwarned(mirror, WALK)
+
+
+def test_longer_toes_of_one_side_do_not_sink_in_the_mirror():
+    offsets = WALK.skeleton.offsets.copy()
+    offsets[WALK.skeleton.index("ltoes_end")] *= 2
+    lopsided = replace(WALK, skeleton=replace(WALK.skeleton, offsets=offsets))
+    lopsided = bend_toes(lopsided, lowest_allowed(WALK))
+    lowest = joint_positions(lopsided)[..., 1].min()
+    plain, raised = (told("bones differ by up to", call, lopsided) for call in (mirror, mirror_above_floor))
+    assert joint_positions(plain)[..., 1].min() < lowest - 0.003
+    assert joint_positions(raised)[..., 1].min() > lowest - 0.0011
 
 
 ARM = Skeleton(["root", "elbow", "hand"], [-1, 0, 1], np.eye(3))
