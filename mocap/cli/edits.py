@@ -221,7 +221,8 @@ def blend(
     registration = blending.register(motions, slack=slack)
     first, last = registration.span
     worst = 100 * max(registration.costs)
-    from mocap.editing.toes import clean_feet, lowest_heights  # the help needs no NumPy
+    from mocap.editing.edits import clean_feet  # the help needs no NumPy
+    from mocap.editing.toes import lowest_heights
 
     print_rows(registered=f"{len(motions)} clips, {last - first:.2f} s in common, {worst:.1f} cm")
     weights = weights or [1 / len(clips)] * len(clips)

@@ -11,10 +11,11 @@ from mocap._shared.quantities import check_radians
 from mocap._shared.records import dataclass
 from mocap.body.ground_path import GroundPath, as_path
 from mocap.body.motion import Motion
+from mocap.editing.edits import raised
 from mocap.editing.line_rounding import RoundedLine, round_line
 from mocap.editing.path_editing import Ride, moving_frames, plants_kept, ride_of
 from mocap.editing.pins import with_plants
-from mocap.editing.toes import bend_toes, lowest_allowed
+from mocap.editing.toes import lowest_allowed
 from mocap.editing.turning import lean, slow_down
 from mocap.errors import MocapError, shortened, warn
 from mocap.feet.footskate import clean_up
@@ -159,7 +160,7 @@ def bend(
     target = moving_frames(line.path, walked)
     flat = (target @ moving_frames(ride.path, ridden).inverse()).apply_motion(slowed)
     laid, held = lean(flat, np.asarray(target.angle), angle)
-    cleaned = bend_toes(clean_up(laid, held=held), lowest_allowed(slowed))
+    cleaned = raised(clean_up(laid, held=held), lowest_allowed(slowed))
     bent = Bent(cleaned, laid, path, line, replace(ride, along=ridden), walked)
     fastest = np.abs(bent.turned).max(initial=0.0)
     if fastest > max(WILD, 2 * limit):

@@ -20,8 +20,9 @@ from mocap.blending.joining import join
 from mocap.body import rotations
 from mocap.body.motion import Motion, concatenate, require_motion, resample
 from mocap.body.planar import PlanarTransform, align_frames, heading
+from mocap.editing.edits import raised
 from mocap.editing.path_editing import plants_kept
-from mocap.editing.toes import bend_toes, lowest_allowed, lowest_heights
+from mocap.editing.toes import lowest_allowed, lowest_heights
 from mocap.errors import MocapError, MocapWarning, shortened, warn
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
@@ -237,7 +238,7 @@ def _cleaned(cycle: Motion, lowest: Array) -> Motion:
     start = neighbours * (len(cycle) - 1)
     middle = slice(start, start + len(cycle))
     with warnings.catch_warnings(action="ignore", category=MocapWarning):  # of frames in all rounds
-        cleaned = bend_toes(clean_up(rounds), lowest_allowed(rounds, lowest))[middle]
+        cleaned = raised(clean_up(rounds), lowest_allowed(rounds, lowest))[middle]
     kept = plants_kept(cleaned, rounds[middle])
     if kept < 1:
         released = f"'{shortened(cycle.name)}': {1 - kept:.0%} of the planted frames are let go"

@@ -19,10 +19,14 @@ from mocap.editing.pins import Pins, join_pins, pin, pin_errors, plant_pins
 from mocap.editing.solver import CLOSE, EVERY_FRAME, REACH, Basis, solve, with_frames_of
 from mocap.editing.toes import SLACK, bend_toes, lowest_allowed
 from mocap.errors import MocapError
+from mocap.feet.footskate import clean_up
 
 # The splines make the change, and what they leave is closed frame by frame. Around stones of 10 to 50 cm on
 # eleven walks accelerations grow by 3 % in the median, 12 % at worst; if joints are not led, by 6 and 22 %.
 EDIT = (Basis(knots=0.125, calm=0.25, weight=100.0, lead=0.25), CLOSE, CLOSE)
+
+SUNK = 0.003  # metres: cleaned feet that are lower by less are left alone
+UP = np.array([0.0, 1.0, 0.0])
 
 CLOSED = 1e-4  # metres: of pins that are missed by more a warning tells, and plants among them are let go
 
@@ -136,10 +140,10 @@ def plants_within(plants: Pins, motion: Motion, frames: slice) -> Pins:
         return plants
     positions = joint_positions(motion)[:, list(plants.joints)]
     stays = np.repeat(~changes[:, None], len(plants.joints), axis=1)
-    planted = plants.held.all(axis=-1)
+    planted = np.asarray(plants.held.all(axis=-1))
     for leg in find_legs(motion.skeleton):  # a rigid foot: both of its joints stay, or neither
         foot = np.isin(plants.joints, leg)
-        for start, stop in runs(planted[:, foot].any(axis=1)):
+        for start, stop in runs(np.asarray(planted[:, foot].any(axis=1))):
             if not changes[start:stop].all():
                 stays[start:stop, foot] |= planted[start:stop, foot]
     low = np.where(stays[..., None], positions, plants.low)
@@ -190,6 +194,60 @@ def mark_met(motion: Motion, pins: Pins, plants: Pins) -> Motion:
     stands = plants.held.all(axis=-1) & met[:, [pins.joints.index(joint) for joint in plants.joints]]
     marks = {motion.skeleton.names[joint]: mark for joint, mark in zip(plants.joints, stands.T, strict=True)}
     return replace(motion, contacts={**motion.contacts, **marks})
+
+
+def clean_feet(motion: Motion, lowest: Array | None = None) -> Motion:
+    """Remove foot sliding by `feet.clean_up`, and keep all joints above the floor.
+
+    Parameters
+    ----------
+    motion : F frames of J joints; its `contacts` say when feet stand.
+    lowest : as for `lowest_allowed`.
+
+    Raises
+    ------
+    MocapError : as for `feet.clean_up`.
+
+    Warns
+    -----
+    MocapWarning : for plants that are let go, as by `feet.clean_up`.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")[:120]
+    >>> heights = joint_positions(clean_feet(walk))[walk.contacts["rtoes"], walk.skeleton.index("rtoes"), 1]
+    >>> bool(np.ptp(heights) < 1e-9)
+    True
+    """
+    return raised(clean_up(motion), lowest_allowed(motion, lowest))
+
+
+def raised(motion: Motion, allowed: Array) -> Motion:
+    """Raise the tips of toes that are lower than allowed, and other joints under the floor, y = 0.
+
+    Toes bend. If other joints are lower than allowed under the floor, by more than 3 mm, the smallest smooth
+    change raises them.
+
+    Parameters
+    ----------
+    motion : F frames of J joints, with clean feet. Plants stay where they are, or rise to the floor.
+    allowed : the lowest height of each joint, (F, J), metres.
+    """
+    bent = bend_toes(motion, allowed)
+    plants = plant_pins(motion)
+    under_floor = np.minimum(allowed, 0.0)
+    floor = floor_for(bent, plants.joints, under_floor)
+    if pin_errors(bent, floor).max() <= SUNK:
+        return bent
+    rise = np.zeros((*plants.low.shape[:2], 1))
+    short = np.where(plants.held[..., 1], under_floor[:, list(plants.joints)] - plants.low[..., 1], 0.0)
+    for leg in find_legs(motion.skeleton):  # a rigid foot: both of its joints rise by as much
+        foot = np.isin(plants.joints, leg)
+        rise[:, foot, 0] = np.maximum(short[:, foot].max(axis=1, keepdims=True), 0.0)
+    wishes = join_pins(floor, Pins(plants.joints, plants.low + rise * UP, plants.high + rise * UP))
+    solved = solve(motion, wishes, EDIT, priced(motion, wishes, *EDITED), quiet=True).motion
+    return bend_toes(solved, allowed)
 
 
 def posed(motion: Motion, frame: int, places: Mapping[str, ArrayLike], *, feet: bool = True) -> Motion:

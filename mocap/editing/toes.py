@@ -18,7 +18,6 @@ from mocap.body.limbs import Leg, find_legs, with_roles
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
-from mocap.feet.footskate import clean_up
 
 SLACK = 0.001  # metres: a tip that is lower by less is left alone
 
@@ -46,7 +45,7 @@ def toe_tips(skeleton: Skeleton, leg: Leg) -> list[int]:
 
 def lowest_heights(clips: Sequence[Motion]) -> Array:
     """Compute the lowest height of each joint in clips of one skeleton, (J,), metres."""
-    return np.min([joint_positions(clip)[..., 1].min(axis=0) for clip in clips], axis=0)
+    return np.asarray(np.min([joint_positions(clip)[..., 1].min(axis=0) for clip in clips], axis=0))
 
 
 def lowest_allowed(motion: Motion, lowest: Array | None = None) -> Array:
@@ -76,33 +75,6 @@ def lowest_allowed(motion: Motion, lowest: Array | None = None) -> Array:
     feet = [joint for joint in range(len(skeleton)) if {*ankles} & {*skeleton.path_to_root(joint)}]
     allowed[:, feet] = np.maximum(lowest[feet], allowed[:, feet])
     return allowed
-
-
-def clean_feet(motion: Motion, lowest: Array | None = None) -> Motion:
-    """Remove foot sliding by `feet.clean_up`, and keep the toes above the floor.
-
-    Parameters
-    ----------
-    motion : F frames of J joints; its `contacts` say when feet stand.
-    lowest : as for `lowest_allowed`.
-
-    Raises
-    ------
-    MocapError : as for `feet.clean_up`.
-
-    Warns
-    -----
-    MocapWarning : for plants that are let go, as by `feet.clean_up`.
-
-    Examples
-    --------
-    >>> from mocap.datasets import sample
-    >>> walk = sample("walk_straight")[:120]
-    >>> heights = joint_positions(clean_feet(walk))[walk.contacts["rtoes"], walk.skeleton.index("rtoes"), 1]
-    >>> bool(np.ptp(heights) < 1e-9)
-    True
-    """
-    return bend_toes(clean_up(motion), lowest_allowed(motion, lowest))
 
 
 def bend_toes(motion: Motion, allowed: Array) -> Motion:

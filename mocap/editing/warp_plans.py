@@ -14,12 +14,11 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.planar import heading
 from mocap.editing.displacements import displaced
-from mocap.editing.edits import brought, plants_within, posed_with
+from mocap.editing.edits import brought, clean_feet, plants_within, posed_with
 from mocap.editing.keys import HALF_SECOND, Key, keys_around, offsets
 from mocap.editing.pins import Pins, join_pins, pin, plant_pins
 from mocap.editing.retiming import retime
 from mocap.editing.solver import with_frames_of
-from mocap.editing.toes import clean_feet
 from mocap.errors import FormatError, MocapError
 from mocap.files.text import lines, read_text, to_numbers
 

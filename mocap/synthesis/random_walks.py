@@ -14,7 +14,8 @@ from mocap._shared.progress import Progress
 from mocap._shared.quantities import check_number
 from mocap.body.motion import Motion, concatenate, rotating_joints
 from mocap.body.planar import IDENTITY, PlanarTransform
-from mocap.editing.toes import clean_feet, lowest_heights
+from mocap.editing.edits import clean_feet
+from mocap.editing.toes import lowest_heights
 from mocap.errors import MocapError, NoWalk
 from mocap.files import bvh
 from mocap.files.load_save import save

@@ -16,7 +16,8 @@ from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.motion import Motion, gather_marks
 from mocap.body.planar import IDENTITY, PlanarTransform
-from mocap.editing.toes import clean_feet, lowest_heights
+from mocap.editing.edits import clean_feet
+from mocap.editing.toes import lowest_heights
 from mocap.errors import MocapError, NoWalk
 from mocap.feet.footplants import mark_plants
 from mocap.graphs.edge_tables import Edge, EdgeTable, edge_table

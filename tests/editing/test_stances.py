@@ -321,6 +321,14 @@ def test_longer_toes_of_one_side_do_not_sink_in_the_mirror():
     assert joint_positions(raised)[..., 1].min() > lowest - 0.0011
 
 
+def test_a_captured_mirror_image_on_a_longer_leg_is_raised_to_the_floor(real_data):
+    clip = load(real_data / "cmu/127/127_33.amc")
+    plain, raised = (told("bones differ by up to", call, clip) for call in (mirror, mirror_above_floor))
+    lowest = min(0.0, joint_positions(clip)[..., 1].min())
+    assert joint_positions(plain)[..., 1].min() < lowest - 0.005
+    assert joint_positions(raised)[..., 1].min() > lowest - 0.0011
+
+
 ARM = Skeleton(["root", "elbow", "hand"], [-1, 0, 1], np.eye(3))
 ODD = Skeleton(["root", "lhip", "rhip", "lknee", "rknee"], [-1, 0, 0, 1, 0], np.eye(5)[:, :3])
 

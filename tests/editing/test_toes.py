@@ -9,10 +9,11 @@ from mocap import load
 from mocap.body import joint_positions, resample, rotations
 from mocap.body.limbs import find_legs
 from mocap.datasets.samples import SKELETON, sample
-from mocap.editing import bend, edit, pin, pin_errors, retarget, solve
+from mocap.editing import bend, edit, pin, pin_errors, plant_pins, retarget, solve
+from mocap.editing.edits import clean_feet
 from mocap.editing.solver import CLOSE
 from mocap.editing.stances import Stance
-from mocap.editing.toes import bend_toes, clean_feet, lowest_allowed, lowest_heights, toe_tips
+from mocap.editing.toes import bend_toes, lowest_allowed, lowest_heights, toe_tips
 from mocap.editing.warp_plans import load_plan, warp
 from mocap.feet.footplants import mark_plants
 from tests.editing.bodies import adult, walk, without
@@ -175,6 +176,15 @@ def test_a_bent_walk_keeps_the_tips_of_its_toes_as_high_as_they_were():
     clip = sample("walk_curve_1")[:300]
     bent = bend(clip, [[0, 0], [0, 3], [2, 1]]).motion
     assert tip_heights(bent).min() > tip_heights(clip).min() - 0.0011
+
+
+def test_cleaned_feet_that_sink_rise_with_their_plants():
+    """Toes cannot bend so far here: the balls themselves are too low."""
+    low = replace(walk(1.5), root_positions=walk(1.5).root_positions - [0, 0.035, 0])
+    assert joint_positions(low)[:, FEET, 1].min() < -0.008
+    cleaned = clean_feet(low, lowest_heights([walk(1.5)]))
+    assert joint_positions(cleaned)[:, FEET, 1].min() > -1e-4
+    assert pin_errors(cleaned, plant_pins(cleaned)).max() < 1e-6
 
 
 def test_cleaned_feet_keep_their_toes_above_the_floor_of_the_clips():

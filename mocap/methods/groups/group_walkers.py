@@ -10,8 +10,9 @@ from mocap._shared.records import dataclass
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
 from mocap.body.planar import from_ground, on_ground
+from mocap.editing.edits import clean_feet
 from mocap.editing.path_editing import moving_frames, plants_kept, ride_of
-from mocap.editing.toes import clean_feet, lowest_heights
+from mocap.editing.toes import lowest_heights
 from mocap.errors import MocapError, MocapWarning, warn
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph
