@@ -55,11 +55,13 @@ class Cutting:
 
     def apply(self, clip: "Motion") -> "Motion":
         """Make all changes to a clip."""
+        from mocap.editing.mirroring import mirror_above_floor  # the help needs no NumPy
+
         motion = self._stretch(clip)
         if self.rate:
             motion = body.resample(motion, self.rate)
         if self.mirror:
-            motion = editing.mirror(motion)
+            motion = mirror_above_floor(motion)
         if self.in_place:
             motion = editing.in_place(motion)
         if self.times > 1:

@@ -34,7 +34,8 @@ def warp(
     """Edit the poses and the timing of a clip by a few keys.
 
     Move joints at a few times of a clip, or change the times of its frames. Smooth curves interpolate the
-    changes between the keys, and foot sliding is removed.
+    changes between the keys, and foot sliding is removed between them. Without keys of time, all other frames
+    stay exactly as they are.
 
     Parameters
     ----------
@@ -226,11 +227,14 @@ def blend(
     registration = blending.register(motions, slack=slack)
     first, last = registration.span
     worst = 100 * max(registration.costs)
+    from mocap.editing.edits import clean_feet  # the help needs no NumPy
+    from mocap.editing.toes import lowest_heights
+
     print_rows(registered=f"{len(motions)} clips, {last - first:.2f} s in common, {worst:.1f} cm")
     weights = weights or [1 / len(clips)] * len(clips)
     mixed = blending.crossfade(registration, seconds=fade) if fade else blending.mix(registration, weights)
     print_rows(blended=f"{mixed.duration:.2f} s")
-    write_out(feet.clean_up(mixed) if clean else mixed, out)
+    write_out(clean_feet(mixed, lowest_heights(motions)) if clean else mixed, out)
 
 
 def retarget(

@@ -10,20 +10,21 @@ Reading order (notebooks 10 to 14)
  2. `turns`: how a joint is turned, as a position in metres
  3. `pins`: where joints shall be, and for how long
  4. `bodies`: which joints may turn, about which axes, at what price; limits, and orientations that are kept
- 5. `solver`: how a change may run over time; the smallest smooth one, for each frame by itself or for all
- 6. `edits`: a calm change, to the last digit; one pose, made by dragging joints; levels, from coarse to fine
- 7. `path_editing`: the path taken off a motion, changed, and the motion put back on it
- 8. `turning`: slower in bends, and leaning in, as people take them
- 9. `line_rounding`: a line rounded where a walk would turn too fast on it
-10. `bending`: a walk laid on any line, with feet that stand
-11. `keys`: keys, the curve through them, and warps by offsets and by scale
-12. `retiming`: time keys, and motions at moments between their frames
-13. `warp_plans`: a whole warp out of a small text file
-14. `stances`: how a body stands, as a value; find it, whatever the rest pose is; change its proportions
-15. `retargeting`: every joint looks where that of the other body looks; where the new feet may be
-16. `mirroring`: left and right swapped, by names and geometry
-17. `cycles`: the stretch of a clip that makes the best cycle, closed by a blend or by a warp
-18. `travel`: the travel over the ground, removed
+ 5. `toes`: toes that bend so that their tips stay above the floor
+ 6. `solver`: how a change may run over time; the smallest smooth one, for each frame by itself or for all
+ 7. `edits`: a calm change, to the last digit; one pose, made by dragging joints; levels, from coarse to fine
+ 8. `path_editing`: the path taken off a motion, changed, and the motion put back on it
+ 9. `turning`: slower in bends, and leaning in, as people take them
+10. `line_rounding`: a line rounded where a walk would turn too fast on it
+11. `bending`: a walk laid on any line, with feet that stand
+12. `keys`: keys, the curve through them, and warps by offsets and by scale
+13. `retiming`: time keys, and motions at moments between their frames
+14. `warp_plans`: a whole warp out of a small text file
+15. `stances`: how a body stands, as a value; find it, whatever the rest pose is; change its proportions
+16. `retargeting`: every joint looks where that of the other body looks; where the new feet may be
+17. `mirroring`: left and right swapped, by names and geometry
+18. `cycles`: the stretch of a clip that makes the best cycle, closed by a blend or by a warp
+19. `travel`: the travel over the ground, removed
 
 References
 ----------

@@ -11,9 +11,11 @@ from mocap._shared.quantities import check_radians
 from mocap._shared.records import dataclass
 from mocap.body.ground_path import GroundPath, as_path
 from mocap.body.motion import Motion
+from mocap.editing.edits import raised
 from mocap.editing.line_rounding import RoundedLine, round_line
 from mocap.editing.path_editing import Ride, moving_frames, plants_kept, ride_of
 from mocap.editing.pins import with_plants
+from mocap.editing.toes import lowest_allowed
 from mocap.editing.turning import lean, slow_down
 from mocap.errors import MocapError, shortened, warn
 from mocap.feet.footskate import clean_up
@@ -158,7 +160,8 @@ def bend(
     target = moving_frames(line.path, walked)
     flat = (target @ moving_frames(ride.path, ridden).inverse()).apply_motion(slowed)
     laid, held = lean(flat, np.asarray(target.angle), angle)
-    bent = Bent(clean_up(laid, held=held), laid, path, line, replace(ride, along=ridden), walked)
+    cleaned = raised(clean_up(laid, held=held), lowest_allowed(slowed))
+    bent = Bent(cleaned, laid, path, line, replace(ride, along=ridden), walked)
     fastest = np.abs(bent.turned).max(initial=0.0)
     if fastest > max(WILD, 2 * limit):
         cause = "where it stands, or goes to and fro, its way turns at once; bend a walk that goes on"

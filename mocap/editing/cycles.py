@@ -12,6 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from mocap._shared.arrays import Array
 from mocap._shared.quantities import described
 from mocap._shared.records import NamedTuple
 from mocap._shared.ties import first_least
@@ -19,7 +20,9 @@ from mocap.blending.joining import join
 from mocap.body import rotations
 from mocap.body.motion import Motion, concatenate, require_motion, resample
 from mocap.body.planar import PlanarTransform, align_frames, heading
+from mocap.editing.edits import raised
 from mocap.editing.path_editing import plants_kept
+from mocap.editing.toes import lowest_allowed, lowest_heights
 from mocap.errors import MocapError, MocapWarning, shortened, warn
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
@@ -212,7 +215,7 @@ def loop(  # reads: name: `found` is a parameter that users may give by its name
     if straight:
         cycle = _straightened(cycle)
     if clean:
-        cycle = _cleaned(cycle)
+        cycle = _cleaned(cycle, lowest_heights([motion]))
     return cycle
 
 
@@ -228,14 +231,14 @@ def _straightened(cycle: Motion) -> Motion:
     return replace(cycle, root_positions=roots, rotations=local)
 
 
-def _cleaned(cycle: Motion) -> Motion:
+def _cleaned(cycle: Motion, lowest: Array) -> Motion:
     """Clean up many rounds, of which the middle one has neighbours as far as any correction reaches."""
     neighbours = int(np.ceil(MARGIN / cycle.duration))  # rounds on each side
     rounds = mark_plants(repeated(replace(cycle, contacts={}), 2 * neighbours + 1))
     start = neighbours * (len(cycle) - 1)
     middle = slice(start, start + len(cycle))
     with warnings.catch_warnings(action="ignore", category=MocapWarning):  # of frames in all rounds
-        cleaned = clean_up(rounds)[middle]
+        cleaned = raised(clean_up(rounds), lowest_allowed(rounds, lowest))[middle]
     kept = plants_kept(cleaned, rounds[middle])
     if kept < 1:
         released = f"'{shortened(cycle.name)}': {1 - kept:.0%} of the planted frames are let go"

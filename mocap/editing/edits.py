@@ -2,23 +2,31 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy import sparse
 
-from mocap._shared.arrays import Array, Indices
+from mocap._shared.arrays import Array, Indices, runs
 from mocap._shared.records import NamedTuple
+from mocap.body.kinematics import joint_positions
+from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.editing.bodies import Body, body_of, require_reachable, warn_of_gaps
 from mocap.editing.displacements import displaced, spline_basis
 from mocap.editing.pins import Pins, join_pins, pin, pin_errors, plant_pins
-from mocap.editing.solver import CLOSE, REACH, Basis, solve
+from mocap.editing.solver import CLOSE, EVERY_FRAME, REACH, Basis, solve, with_frames_of
+from mocap.editing.toes import SLACK, bend_toes, lowest_allowed
 from mocap.errors import MocapError
+from mocap.feet.footskate import clean_up
 
 # The splines make the change, and what they leave is closed frame by frame. Around stones of 10 to 50 cm on
 # eleven walks accelerations grow by 3 % in the median, 12 % at worst; if joints are not led, by 6 and 22 %.
 EDIT = (Basis(knots=0.125, calm=0.25, weight=100.0, lead=0.25), CLOSE, CLOSE)
+
+SUNK = 0.003  # metres: cleaned feet that are lower by less are left alone
+UP = np.array([0.0, 1.0, 0.0])
 
 CLOSED = 1e-4  # metres: of pins that are missed by more a warning tells, and plants among them are let go
 
@@ -40,8 +48,10 @@ LEVELLED = 4.0, 8.0  # few passes get no further with more; with 1 necks bend by
 POSED = (16.0, 16.0)
 
 
-def edit(motion: Motion, pins: Pins, *, body: Body | None = None) -> Motion:
+def edit(motion: Motion, pins: Pins, *, body: Body | None = None, frames: slice = EVERY_FRAME) -> Motion:
     """Change a motion so that its joints are where pins ask, and its planted feet still stand.
+
+    No joint is farther under the floor than it was, unless the pins ask for it.
 
     Parameters
     ----------
@@ -50,6 +60,8 @@ def edit(motion: Motion, pins: Pins, *, body: Body | None = None) -> Motion:
     body : which joints turn, at what price; by default those above pinned ones, with root and trunk at 16 and
         the neck at 32 times the prices of `body_of`: a hand that reaches tips the trunk by some 10°, about as
         people do. A trunk that must not tip is pinned by `keep_turned`.
+    frames : those that may change, in a row, such as `slice(100, 200)`. All others stay the same to the last
+        bit, and a plant that is not completely inside stays where it was in each frame.
 
     Returns
     -------
@@ -78,9 +90,88 @@ def edit(motion: Motion, pins: Pins, *, body: Body | None = None) -> Motion:
     """
     if len(pins) == len(motion) and not pins.asked.any():
         return motion
-    pins = join_pins(plants := plant_pins(motion), pins)
-    body = body or priced(motion, pins, *EDITED)
-    return mark_met(solve(motion, pins, EDIT, body, quiet=True).motion, pins, plants)
+    return brought(motion, motion, pins, body, frames)
+
+
+def brought(
+    motion: Motion, source: Motion, pins: Pins, body: Body | None = None, frames: slice = EVERY_FRAME
+) -> Motion:
+    """Bring a motion to pins, as `edit` does, with the plants and the floor of a source that it was made of.
+
+    If joints would sink, the pins are solved for again, together with a floor.
+    """
+    plants = plant_pins(source)
+    wishes = join_pins(plants_within(plants, source, frames), pins)
+    allowed = allowed_by(pins, source)
+    solved = solve(
+        motion, wishes, EDIT, body or priced(motion, wishes, *EDITED), quiet=True, frames=frames
+    ).motion
+    floor = floor_for(bend_toes(solved, allowed), plants.joints, allowed)
+    if pin_errors(solved, floor).max() > SLACK:
+        floored = join_pins(floor, wishes)
+        body = body or priced(motion, floored, *EDITED)
+        solved = solve(motion, floored, EDIT, body, quiet=True, frames=frames).motion
+    stays = np.ones(len(motion), bool)
+    stays[frames] = False
+    return with_frames_of(mark_met(bend_toes(solved, allowed), wishes, plants), motion, stays)
+
+
+def plants_within(plants: Pins, motion: Motion, frames: slice) -> Pins:
+    """Let feet stay where they were in all other frames, and in plants that reach from these into them.
+
+    Parameters
+    ----------
+    plants : of F frames, as from `plant_pins`.
+    motion : F frames.
+    frames : those that may change, in a row.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> plants = plant_pins(walk := sample("walk_straight")[:240])
+    >>> plants_within(plants, walk, slice(None)) is plants
+    True
+    >>> bool(plants_within(plants, walk, slice(100, 140)).held[:100].all())
+    True
+    """
+    changes = np.zeros(len(motion), bool)
+    changes[frames] = True
+    if changes.all():
+        return plants
+    positions = joint_positions(motion)[:, list(plants.joints)]
+    stays = np.repeat(~changes[:, None], len(plants.joints), axis=1)
+    planted = np.asarray(plants.held.all(axis=-1))
+    for leg in find_legs(motion.skeleton):  # a rigid foot: both of its joints stay, or neither
+        foot = np.isin(plants.joints, leg)
+        for start, stop in runs(np.asarray(planted[:, foot].any(axis=1))):
+            if not changes[start:stop].all():
+                stays[start:stop, foot] |= planted[start:stop, foot]
+    low = np.where(stays[..., None], positions, plants.low)
+    high = np.where(stays[..., None], positions, plants.high)
+    return Pins(plants.joints, low, high)
+
+
+def allowed_by(pins: Pins, motion: Motion) -> Array:
+    """Compute how low each joint may be, (F, J), metres: as `lowest_allowed`, or lower if pins ask for it.
+
+    Where pins ask that a part of a limb be lower, all of the limb may be as low as it must.
+    """
+    allowed = lowest_allowed(motion)
+    skeleton = motion.skeleton
+    for column, joint in enumerate(pins.joints):
+        if (pins.high[:, column, 1] < allowed[:, joint] - SLACK).any():
+            below = [end for end in range(len(skeleton)) if joint in skeleton.path_to_root(end)]
+            allowed[:, [*below, *skeleton.path_to_root(joint)]] = -np.inf
+    return allowed
+
+
+def floor_for(motion: Motion, feet: Sequence[int], allowed: Array) -> Pins:
+    """Keep feet, and the other joints that are too low, above the heights allowed (F, J), metres."""
+    sinks = (joint_positions(motion)[..., 1] < allowed - 2 * SLACK).any(axis=0)
+    joints = sorted({*feet, *np.flatnonzero(sinks).tolist()})
+    low = np.full((len(motion), len(joints), 3), -np.inf)
+    low[..., 1] = allowed[:, joints]
+    return Pins(joints, low, np.full_like(low, np.inf))
 
 
 def mark_met(motion: Motion, pins: Pins, plants: Pins) -> Motion:
@@ -103,6 +194,60 @@ def mark_met(motion: Motion, pins: Pins, plants: Pins) -> Motion:
     stands = plants.held.all(axis=-1) & met[:, [pins.joints.index(joint) for joint in plants.joints]]
     marks = {motion.skeleton.names[joint]: mark for joint, mark in zip(plants.joints, stands.T, strict=True)}
     return replace(motion, contacts={**motion.contacts, **marks})
+
+
+def clean_feet(motion: Motion, lowest: Array | None = None) -> Motion:
+    """Remove foot sliding by `feet.clean_up`, and keep all joints above the floor.
+
+    Parameters
+    ----------
+    motion : F frames of J joints; its `contacts` say when feet stand.
+    lowest : as for `lowest_allowed`.
+
+    Raises
+    ------
+    MocapError : as for `feet.clean_up`.
+
+    Warns
+    -----
+    MocapWarning : for plants that are let go, as by `feet.clean_up`.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")[:120]
+    >>> heights = joint_positions(clean_feet(walk))[walk.contacts["rtoes"], walk.skeleton.index("rtoes"), 1]
+    >>> bool(np.ptp(heights) < 1e-9)
+    True
+    """
+    return raised(clean_up(motion), lowest_allowed(motion, lowest))
+
+
+def raised(motion: Motion, allowed: Array) -> Motion:
+    """Raise the tips of toes that are lower than allowed, and other joints under the floor, y = 0.
+
+    Toes bend. If other joints are lower than allowed under the floor, by more than 3 mm, the smallest smooth
+    change raises them.
+
+    Parameters
+    ----------
+    motion : F frames of J joints, with clean feet. Plants stay where they are, or rise to the floor.
+    allowed : the lowest height of each joint, (F, J), metres.
+    """
+    bent = bend_toes(motion, allowed)
+    plants = plant_pins(motion)
+    under_floor = np.minimum(allowed, 0.0)
+    floor = floor_for(bent, plants.joints, under_floor)
+    if pin_errors(bent, floor).max() <= SUNK:
+        return bent
+    rise = np.zeros((*plants.low.shape[:2], 1))
+    short = np.where(plants.held[..., 1], under_floor[:, list(plants.joints)] - plants.low[..., 1], 0.0)
+    for leg in find_legs(motion.skeleton):  # a rigid foot: both of its joints rise by as much
+        foot = np.isin(plants.joints, leg)
+        rise[:, foot, 0] = np.maximum(short[:, foot].max(axis=1, keepdims=True), 0.0)
+    wishes = join_pins(floor, Pins(plants.joints, plants.low + rise * UP, plants.high + rise * UP))
+    solved = solve(motion, wishes, EDIT, priced(motion, wishes, *EDITED), quiet=True).motion
+    return bend_toes(solved, allowed)
 
 
 def posed(motion: Motion, frame: int, places: Mapping[str, ArrayLike], *, feet: bool = True) -> Motion:
@@ -142,17 +287,23 @@ def posed(motion: Motion, frame: int, places: Mapping[str, ArrayLike], *, feet: 
 
     Notebook: 11-warping
     """
+    plants = plant_pins(motion) if feet else Pins((), *np.zeros((2, len(motion), 0, 3)))
+    return posed_with(motion, frame, places, plants)
+
+
+def posed_with(motion: Motion, frame: int, places: Mapping[str, ArrayLike], plants: Pins) -> Motion:
+    """Drag joints to places in one frame, as `posed`, with feet where `plants` hold them."""
     if not 0 <= frame < len(motion):
         raise MocapError(f"'{motion.name}' has {len(motion)} frames, none with number {frame}.")
-    pins = plant_pins(motion).only([frame]) if feet else Pins((), *np.zeros((2, len(motion), 0, 3)))
+    pins = plants.only([frame])
     for joint, place in places.items():
         free = np.isnan(place)
         box = (np.where(free, end, place) for end in (-np.inf, np.inf))
         pins = join_pins(pins, pin(motion, joint, [frame], *box))
     require_reachable(motion, pins)
     body = priced(motion, pins, *POSED)
-    now = replace(motion[frame : frame + 1], name=f"{motion.name}[{frame}]")
-    return replace(solve(now, pins.at([frame]), [POSE], body).motion, name=motion.name)
+    pose = replace(motion[frame : frame + 1], name=f"{motion.name}[{frame}]")
+    return replace(solve(pose, pins.at([frame]), [POSE], body).motion, name=motion.name)
 
 
 def priced(motion: Motion, pins: Pins, trunk: float, neck: float) -> Body:
@@ -196,12 +347,14 @@ class Level(NamedTuple):
     """
 
     knots: float
-    asked: int
+    asked: int  # reads: name: public, and in notebook 14
     worst: float
     rms: float
 
 
-def scattered_fit(basis: sparse.csr_array, data: Array, at: Indices) -> Array:
+def scattered_fit(
+    basis: sparse.csr_array, data: Array, at: Indices
+) -> Array:  # reads: name: public, and in notebook 14
     """Fit control points to data at some frames, each by itself [LWS97], as [LS99, scattered data].
 
     Alone, a datum u_j with the weights w_ij = B_i(t_j) would ask for β_ij = w_ij u_j / Σ_i w_ij² of control
@@ -277,22 +430,27 @@ def hierarchy(
 
     Notebook: 14-levels
     """
-    if not len(knots) or not all(0 < b < a for a, b in zip((np.inf, *knots), knots, strict=False)):
+    from_coarse = [np.inf, *knots]
+    if not len(knots) or not all(0 < fine < coarse for coarse, fine in pairwise(from_coarse)):
         raise MocapError(f"From level to level the knots come nearer, above 0 s; got {tuple(knots)[:8]}.")
-    motion, levels, errors = base, [], pin_errors(base, pins)
+    motion = base
+    levels: list[Level] = []
+    errors = pin_errors(base, pins)
     body = priced(base, pins, *LEVELLED)
     for seconds in knots:
         if errors.max(initial=0.0) <= TOLERANCE:
             break
-        asked = np.asarray(pins.held.any(axis=-1) | (errors > 0))  # (F, P + T)
-        frames = np.asarray(asked.any(axis=1))
+        requested = np.asarray(pins.held.any(axis=-1) | (errors > 0))  # (F, P + T)
+        frames = np.asarray(requested.any(axis=1))
         missed = errors.max(axis=1) > TOLERANCE  # in all other frames the spline shall stay where it is
         change = solve(motion, pins.only(missed), [ASK], body, quiet=True).change
         # The root's place listens to all frames, a joint's turns to those in which a joint below is pinned.
         below = [np.isin(body.joints, movers) for movers in pins.movers(base.skeleton)]
-        who = np.hstack([np.repeat(frames[:, None], 3, axis=1), asked @ np.array(below)])  # (F, n)
+        listening = np.hstack([np.repeat(frames[:, None], 3, axis=1), requested @ np.array(below)])  # (F, n)
         basis = spline_basis(len(base), seconds * base.fps)
-        fits = [scattered_fit(basis, change[at, n, None], np.flatnonzero(at)) for n, at in enumerate(who.T)]
+        fits = []
+        for number, chosen in enumerate(listening.T):
+            fits.append(scattered_fit(basis, change[chosen, number, None], np.flatnonzero(chosen)))
         motion = displaced(motion, body.displacement(basis @ np.hstack(fits), len(base.skeleton)))
         errors = pin_errors(motion, pins)
         rms = float(np.sqrt((errors[frames] ** 2).mean()))

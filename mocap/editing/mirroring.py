@@ -15,9 +15,11 @@ from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array
 from mocap.body import body_sides, rotations
+from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import limb_partners, with_roles
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
+from mocap.editing.toes import SLACK, bend_toes, lowest_allowed
 from mocap.errors import MocapError, shortened, warn
 
 LOPSIDED = 0.01  # metres: by how much a bone and its partner may differ without a warning
@@ -25,6 +27,7 @@ NEAR = np.cos(np.radians(10))  # of a plane to one of the axes, to be taken for 
 CLEAR = 0.2  # of the square of the bones: how much better one way must fit than the other
 KEPT = 1e-6  # of the square of the bones: how much speaks for no turn, where bones leave it open
 ACROSS = np.array([1.0, 0.0, 0.0])  # the world is mirrored in the plane x = 0
+UP = np.array([0.0, 1.0, 0.0])
 ENDING = "_mirrored"
 OPPOSITE = {"left": "right", "right": "left", "Left": "Right", "Right": "Left"}
 
@@ -100,6 +103,10 @@ def _turns(skeleton: Skeleton, partners: NDArray[np.intp], across: Array) -> Arr
     turns = rotations.nearest(matrices + small * (usual + 0.1 * np.outer(upward, upward)))
     for _ in range(2):  # what the bones leave open stays as it is, and what they fix becomes exact
         turns = rotations.nearest(matrices + small * turns)
+    # A joint without bones has its parent's turn. Then an end that never turns does not turn in the mirror.
+    for joint in range(1, len(skeleton)):
+        if not skeleton.children(joint):
+            turns[joint] = turns[skeleton.parents[joint]]
     return rotations.from_matrix(turns)
 
 
@@ -167,6 +174,40 @@ def mirror(motion: Motion) -> Motion:
     name = mirrored_name(motion.name)
     mirrored = replace(motion, root_positions=root_positions, rotations=local[:, partners], name=name)
     return replace(mirrored, labels=labels, contacts=contacts)
+
+
+def mirror_above_floor(motion: Motion) -> Motion:
+    """Swap left and right, and keep a body with legs of two lengths above the floor.
+
+    Toes bend as in `toes.bend_toes`. If that is not enough, the whole motion is raised, so that no joint is
+    farther under the floor, y = 0, than the lowest joint was.
+
+    Parameters
+    ----------
+    motion : F frames.
+
+    Raises
+    ------
+    MocapError : as for `symmetry`.
+
+    Warns
+    -----
+    MocapWarning : as for `mirror`.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_curve_1")[:120]
+    >>> bool((mirror_above_floor(walk).rotations == mirror(walk).rotations).all())  # its legs are alike
+    True
+    """
+    partners, *_ = symmetry(with_roles(motion).skeleton)
+    mirrored = bend_toes(mirror(motion), lowest_allowed(motion)[:, partners])
+    lowest = min(0.0, float(joint_positions(motion)[..., 1].min()))
+    rise = lowest - float(joint_positions(mirrored)[..., 1].min())
+    if rise <= SLACK:
+        return mirrored
+    return replace(mirrored, root_positions=mirrored.root_positions + rise * UP)
 
 
 def _reflection(across: Array) -> Array:

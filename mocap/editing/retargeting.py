@@ -22,10 +22,11 @@ from mocap.body.limbs import FEET, SIDES, heading_by_hips
 from mocap.body.motion import Motion, require_motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.bodies import body_of
-from mocap.editing.edits import mark_met
+from mocap.editing.edits import floor_for, mark_met
 from mocap.editing.pins import Pins, join_pins, pin_errors, plant_pins, with_plants
 from mocap.editing.solver import CLOSE, Basis, solve
 from mocap.editing.stances import Stance, stance_of, stance_of_zero
+from mocap.editing.toes import bend_toes
 from mocap.errors import MocapError, shortened, warn
 from mocap.feet.footskate import clean_up
 
@@ -261,6 +262,12 @@ def retarget(motion: Motion, body: Stance, source: Stance, *, scale: float | Non
     wishes = join_pins(floor_under(positions, source, body), plants)
     prices = dict.fromkeys(_stiff_joints(body), STIFF)
     worn = solve(base, wishes, RETARGET, body_of(base, wishes, prices=prices), quiet=True).motion
+    allowed = lowest_worn(positions, body.leg / source.leg, len(body.skeleton))
+    floor = floor_for(bend_toes(worn, allowed), (), allowed)
+    if floor.joints:
+        floored = join_pins(floor, wishes)
+        worn = solve(base, floored, RETARGET, body_of(base, floored, prices=prices), quiet=True).motion
+    worn = bend_toes(worn, allowed)
     moved = np.abs(worn.root_positions - base.root_positions).max()
     if moved > MOST * body.leg:
         hips = f"the hips move by {100 * moved:.0f} cm to take these steps"
@@ -350,10 +357,33 @@ def floor_pins(motion: Motion, stance: Stance) -> Pins:
     return plant_pins(motion, stance.legs, np.reshape([stance.heights[role] for role in FEET], (2, 2)))
 
 
+def lowest_worn(positions: Array, ratio: float, joints: int) -> Array:
+    """Compute how low the joints of another body may be, (F, joints), metres.
+
+    They may be on the floor, y = 0, or as far under it as the lowest joint of the source is in that frame, in
+    proportion to the legs.
+
+    Parameters
+    ----------
+    positions : of the source's joints, (F, J, 3), metres.
+    ratio : of the length of the new legs to that of the old ones.
+    joints : how many joints the other body has.
+
+    Examples
+    --------
+    >>> lowest_worn(np.array([[[0.0, 0.02, 0.0]], [[0.0, -0.02, 0.0]]]), 0.5, 2)
+    array([[ 0.  ,  0.  ],
+           [-0.01, -0.01]])
+    """
+    lowest = np.minimum(ratio * positions[..., 1].min(axis=1), 0.0)
+    return np.repeat(lowest[:, None], joints, axis=1)
+
+
 def floor_under(positions: Array, source: Stance, body: Stance) -> Pins:
     """Keep ankles and balls above where they stand, or as far below as they ever were, for the body's size.
 
-    `positions` (F, J, 3), metres, are those of the source's joints.
+    They are no farther under the floor at y = 0 than they ever were. `positions` (F, J, 3), metres, are those
+    of the source's joints.
     """
     lowest = positions[..., 1].min(axis=0)
     sides = [side for side, leg in zip(SIDES, body.legs, strict=True) if not leg.has_ball]
@@ -363,4 +393,6 @@ def floor_under(positions: Array, source: Stance, body: Stance) -> Pins:
     for column, role in enumerate(feet):
         dip = max(0.0, source.heights[role] - lowest[source.roles[role]])
         low[:, column, 1] = body.heights[role] - dip * body.leg / source.leg
+        depth = body.leg / source.leg * min(0.0, lowest[source.roles[role]])
+        low[:, column, 1] = np.maximum(low[:, column, 1], depth)
     return Pins(tuple(body.roles[role] for role in feet), low, high)

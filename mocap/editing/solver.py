@@ -12,12 +12,13 @@ and the weight in place of [Gle98]'s Lagrange multipliers are ours.
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from scipy import sparse
 from scipy.linalg import solveh_banded
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Mask
 from mocap._shared.records import NamedTuple
 from mocap.body.kinematics import forward_kinematics
 from mocap.body.motion import Motion
@@ -36,6 +37,8 @@ LEAP = 0.3  # radians: no joint turns further in a pass; else 46 of 216 elbows t
 CEILING = 1000.0  # damping at first where pins hold one: the body bows. Else levels bend necks further
 NEAR = 1e-4  # metres: so near to the end of its box a joint keeps to it in the next step; with 0 it leaves
 RIDGE = 1e-13  # of the largest entry: a clip of fewer frames than splines leaves some of them unseen
+KEPT = 2  # frames on either side of those that may change: beside them a change and its rate are 0
+EVERY_FRAME = slice(None)
 
 
 class Basis(NamedTuple):
@@ -99,8 +102,14 @@ class Solved(NamedTuple):
     change: Array
 
 
-def solve(
-    base: Motion, pins: Pins, bases: Sequence[Basis], body: Body | None = None, *, quiet: bool = False
+def solve(  # noqa: PLR0913 (a motion, constraints, how to solve, and two options)
+    base: Motion,
+    pins: Pins,
+    bases: Sequence[Basis],
+    body: Body | None = None,
+    *,
+    quiet: bool = False,
+    frames: slice = EVERY_FRAME,
 ) -> Solved:
     """Bring joints to their pins by the smallest smooth change, in one basis after the other.
 
@@ -116,6 +125,8 @@ def solve(
     body : which joints turn, at what price; `body_of(base, pins)` by default. For a single frame, make
         it from the whole clip, which shows the hinges.
     quiet : whether to say nothing of pins that are missed.
+    frames : those that may change, in a row. All others stay the same to the last bit, and the change begins
+        and ends smoothly.
 
     Returns
     -------
@@ -149,6 +160,11 @@ def solve(
         raise MocapError("To solve takes a basis or more, got none.")
     body = body or body_of(base, pins)
     change, worst = np.zeros((len(base), len(body.price))), list[float]()
+    first, stop, _ = frames.indices(len(base))
+    window = slice(max(first - KEPT, 0), stop + KEPT)
+    stays = np.ones(len(base), bool)
+    stays[first:stop] = False
+    before = base
     for number, way in enumerate(bases):
         if number == 0 and (np.isfinite(pins.high) & ~pins.held)[:, : len(pins.joints)].any():
             way = way._replace(damping=CEILING)
@@ -157,21 +173,36 @@ def solve(
         poses = forward_kinematics(base)
         places = pins.places(base, poses)
         missed = np.linalg.norm(pins.gap(places), axis=-1).max(axis=1, initial=0.0)
-        rows = np.flatnonzero(missed > MET) if way.alone else slice(None)
+        rows = np.flatnonzero((missed > MET) & ~stays) if way.alone else window
         worst, change = worst or [float(missed.max(initial=0.0))], np.zeros_like(change)
         if (missed > MET).any():
             wanted = led(places, pins, base.fps, way.lead) if way.lead else pins
-            change[rows], left = _descend(base[rows], wanted.at(rows), body, way)
+            change[rows], left = _descend(base[rows], wanted.at(rows), body, way, stays[rows])
             base = displaced(base, body.displacement(change, len(base.skeleton)))
             worst += left
+    base = with_frames_of(base, before, stays)
     if not quiet:
         warn_of_gaps(base, pins)
     return Solved(base, worst, change)
 
 
-def _descend(base: Motion, pins: Pins, body: Body, way: Basis) -> tuple[Array, list[float]]:
+def with_frames_of(motion: Motion, source: Motion, chosen: Mask) -> Motion:
+    """Replace the chosen frames (F,) by those of the source: poses and contacts, to the last bit."""
+    if not chosen.any():
+        return motion
+    roots = np.where(chosen[:, None], source.root_positions, motion.root_positions)
+    turned = np.where(chosen[:, None, None], source.rotations, motion.rotations)
+    contacts = dict(motion.contacts)
+    for name, mark in source.contacts.items():
+        contacts[name] = np.where(chosen, mark, contacts.get(name, mark))
+    return replace(motion, root_positions=roots, rotations=turned, contacts=contacts)
+
+
+def _descend(base: Motion, pins: Pins, body: Body, way: Basis, stays: Mask) -> tuple[Array, list[float]]:
     """Improve the change (F, n) pass by pass; also give the worst gap after each pass, metres."""
-    curve = Curve(way, base, body.price)
+    curve = Curve(way, base, body.price, stays)
+    if not curve.basis.shape[1]:  # no curve of this basis leaves in place the frames that stay
+        return np.zeros((len(base), len(body.price))), []
     worst: list[float] = []
     c = np.zeros((curve.basis.shape[1], len(body.price)))
     damping = np.full((len(base) if way.alone else 1, 1), way.damping)
@@ -245,18 +276,21 @@ class Curve:
     """How a change x = B c may run over F frames, and the least squares of its control points c (K, n).
 
     `basis` is B (F, K), `bends` are τ² times its second differences (F - 2, K). Splines that are far apart
-    share no frame and no bend. So the equations are banded, and the time is linear in F.
+    share no frame and no bend. So the equations are banded, and the time is linear in F. Those that would
+    change a frame that `stays` (F,), at the beginning or the end, are left out.
     """
 
-    def __init__(self, way: Basis, base: Motion, price: Array) -> None:
+    def __init__(self, way: Basis, base: Motion, price: Array, stays: Mask | None = None) -> None:
         frames, identity = len(base), sparse.eye_array(len(base), format="csr")
         self.weight, self.price, self.alone = way.weight, price, way.alone
         self.basis = spline_basis(frames, way.knots * base.fps) if way.knots else identity
+        if stays is not None and stays.any():
+            self.basis = self.basis[:, np.flatnonzero(self.basis[stays].sum(axis=0) == 0)]
         knots, ends = self.basis.shape[1], max(frames - 2, 0)
         second = self.basis[:ends] - 2 * self.basis[1 : ends + 1] + self.basis[2 : ends + 2]
         self.bends = (way.calm * base.fps) ** 2 * second
         near = (self.basis.T @ self.basis + abs(self.bends.T) @ abs(self.bends)).tocoo()
-        apart = range(1 + int((near.col - near.row).max()))
+        apart = range(1 + int((near.col - near.row).max(initial=0)))
         both = (self.basis.tocsc(), self.bends.tocsc())
         # b_k b_{k+d} in each frame, (K - d, F), and the same of the bends, added up.
         self.pairs, bent = ([(b[:, : knots - d] * b[:, d:]).T.tocsr() for d in apart] for b in both)

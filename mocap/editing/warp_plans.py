@@ -5,6 +5,8 @@ import re
 from difflib import get_close_matches
 from pathlib import Path
 
+import numpy as np
+
 from mocap._shared.arrays import Array
 from mocap._shared.records import NamedTuple
 from mocap.body import rotations
@@ -12,12 +14,12 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.planar import heading
 from mocap.editing.displacements import displaced
-from mocap.editing.edits import edit, posed
+from mocap.editing.edits import brought, clean_feet, plants_within, posed_with
 from mocap.editing.keys import HALF_SECOND, Key, keys_around, offsets
-from mocap.editing.pins import join_pins, pin, plant_pins
+from mocap.editing.pins import Pins, join_pins, pin, plant_pins
 from mocap.editing.retiming import retime
+from mocap.editing.solver import with_frames_of
 from mocap.errors import FormatError, MocapError
-from mocap.feet.footskate import clean_up
 from mocap.files.text import lines, read_text, to_numbers
 
 AT = "'at MOMENT JOINT LEFT UP AHEAD [level]', 'at MOMENT same' or 'at MOMENT level'"
@@ -86,18 +88,11 @@ def load_plan(path: str | Path, motion: Motion) -> WarpPlan:
     """
     plan = WarpPlan(str(path), {}, [])
     for number, words in lines(read_text(path)):
-        if found := POSE.fullmatch(" ".join(words)):
-            _add_wish(plan, motion, number, found)
+        pose = POSE.fullmatch(" ".join(words))
+        if pose:
+            _add_wish(plan, motion, number, pose)
         elif words[0] == "time" and len(words) == 3:
-            new, old = to_numbers(path, number, words[1:], "time NEW OLD, in seconds", 2).tolist()
-            line, *last = plan.times[-1] if plan.times else (0, -math.inf, -math.inf)
-            if not (last[0] < new and last[1] < old):
-                expected = f"two seconds after {last[0]:g} and {last[1]:g}, those of line {line}"
-                raise FormatError(path, number, expected, f"{new:g} and {old:g}")
-            if not 0 <= old <= motion.duration + 0.5 / motion.fps:
-                expected = f"an old second up to {motion.duration:g}, the clip's last"
-                raise FormatError(path, number, expected, f"{old:g}")
-            plan.times.append((number, new, min(old, motion.duration)))
+            _add_time(plan, motion, number, words[1:])
         else:
             raise FormatError(path, number, AT if words[0] == "at" else LINE, f"'{' '.join(words)}'")
     if not plan.wishes and not plan.times:
@@ -107,27 +102,42 @@ def load_plan(path: str | Path, motion: Motion) -> WarpPlan:
     return plan
 
 
-def _add_wish(plan: WarpPlan, motion: Motion, line: int, found: re.Match[str]) -> None:
+def _add_time(plan: WarpPlan, motion: Motion, line: int, words: list[str]) -> None:
+    """Add the new and the old second of a line to the plan."""
+    new, old = to_numbers(plan.path, line, words, "time NEW OLD, in seconds", 2).tolist()
+    line_of_last, *last = plan.times[-1] if plan.times else (0, -math.inf, -math.inf)
+    if not (last[0] < new and last[1] < old):
+        expected = f"two seconds after {last[0]:g} and {last[1]:g}, those of line {line_of_last}"
+        raise FormatError(plan.path, line, expected, f"{new:g} and {old:g}")
+    if not 0 <= old <= motion.duration + 0.5 / motion.fps:
+        expected = f"an old second up to {motion.duration:g}, the clip's last"
+        raise FormatError(plan.path, line, expected, f"{old:g}")
+    plan.times.append((line, new, min(old, motion.duration)))
+
+
+def _add_wish(plan: WarpPlan, motion: Motion, line: int, pose: re.Match[str]) -> None:
     """Add what a line asks of a pose to the plan."""
-    moment = float(to_numbers(plan.path, line, [found["moment"]], "a moment", 1)[0])
-    frame = round(moment * motion.fps if found["seconds"] else moment)
+    moment = float(to_numbers(plan.path, line, [pose["moment"]], "a moment", 1)[0])
+    frame = round(moment * motion.fps if pose["seconds"] else moment)
     if frame >= len(motion):
         last = f"{len(motion) - 1}, or second {motion.duration:g}"
         raise FormatError(plan.path, line, f"a moment up to frame {last}", f"frame {frame}")
-    joint, place, names = found["joint"] or found["word"], None, motion.skeleton.names
-    if found["joint"]:
-        move = to_numbers(plan.path, line, found["move"].split(), "LEFT UP AHEAD, in metres", 3)
+    joint = pose["joint"] or pose["word"]
+    names = motion.skeleton.names
+    place: Array | None = None
+    if pose["joint"]:
+        move = to_numbers(plan.path, line, pose["move"].split(), "LEFT UP AHEAD, in metres", 3)
         if joint not in names:
             alike = ", ".join(get_close_matches(joint[:80], names, cutoff=0.0))
             raise FormatError(plan.path, line, f"a joint, such as {alike}", f"'{joint}'")
-        now = motion[frame : frame + 1]
-        turn = rotations.about_y(heading(now.rotations[0, 0]))
-        place = joint_positions(now)[0, names.index(joint)] + rotations.rotate(turn, move)
-    for other in plan.wishes.setdefault(frame, []):
-        if place is None or other.place is None or joint == other.joint:
-            got = f"'{joint}' beside '{other.joint}' of line {other.line}"
+        chosen = motion[frame : frame + 1]
+        turn = rotations.about_y(heading(chosen.rotations[0, 0]))
+        place = joint_positions(chosen)[0, names.index(joint)] + rotations.rotate(turn, move)
+    for wish in plan.wishes.setdefault(frame, []):
+        if place is None or wish.place is None or joint == wish.joint:
+            got = f"'{joint}' beside '{wish.joint}' of line {wish.line}"
             raise FormatError(plan.path, line, f"one wish for a joint at frame {frame}", got)
-    level = found["word"] == "level" or bool(found["level"])
+    level = pose["word"] == "level" or bool(pose["level"])
     plan.wishes[frame].append(Wish(line, joint, place, level))
 
 
@@ -135,15 +145,15 @@ def warp(motion: Motion, plan: WarpPlan, *, window: float = HALF_SECOND, feet: b
     """Carry out a plan: poses by `posed`, the curves between them by `offsets`, then the times by `retime`.
 
     Where the plan does not say from when on the motion is as it was, it is so `window` seconds before the
-    first pose and after the last one.
+    first pose and after the last one. Up to there, and from there, no number of the motion changes.
 
     Parameters
     ----------
     motion : F frames.
     plan : as `load_plan` reads it for this motion.
     window : seconds.
-    feet : keep feet that stand in their places, at the keys by `posed`, and between them by `edit`, which
-        brings the joints to their places as well; asks for the motion's `contacts`.
+    feet : keep feet that stand in their places, at keys by `posed`, and between them as `edit` does, which
+        brings the joints to their places and nothing under the floor; asks for the motion's `contacts`.
 
     Raises
     ------
@@ -162,19 +172,44 @@ def warp(motion: Motion, plan: WarpPlan, *, window: float = HALF_SECOND, feet: b
     >>> warp(walk, WarpPlan("keys.txt", {180: [Wish(1, "lhand", place, level=False)]}, []))
     Motion('walk_straight', 1158 frames at 120 Hz, 9.64 s, 38 joints)
     """
-    keys, pins = [], []
+    if plan.wishes:
+        motion = _warp_poses(motion, plan, window, feet)
+    if plan.times:
+        motion = retime(motion, [(new, old) for _, new, old in plan.times])
+        motion = clean_feet(motion) if feet else motion
+    return motion
+
+
+def _warp_poses(motion: Motion, plan: WarpPlan, window: float, feet: bool) -> Motion:
+    """Carry out what a plan asks of poses. Frames before and after those of the keys stay the same."""
+    frames = _frames_between_keys(motion, plan, window)
+    no_pins = Pins((), *np.zeros((2, len(motion), 0, 3)))
+    plants = plants_within(plant_pins(motion), motion, frames) if feet else no_pins
+    keys: list[Key] = []
+    pins: list[Pins] = []
     for frame, wishes in sorted(plan.wishes.items()):
         places = {wish.joint: wish.place for wish in wishes if wish.place is not None}
         try:
-            pose = posed(motion, frame, places, feet=feet) if places else None
+            pose = posed_with(motion, frame, places, plants) if places else None
         except MocapError as error:
             raise MocapError(f"{plan.path}, line {wishes[0].line}: {error}") from None
         keys.append(Key(frame, pose, any(wish.level for wish in wishes)))
         pins += [pin(motion, joint, [frame], place) for joint, place in places.items()]
-    if keys:
-        motion = displaced(motion, offsets(motion, keys_around(motion, keys, window)))
-        motion = edit(motion, join_pins(plant_pins(motion), *pins)) if feet else motion
-    if plan.times:
-        motion = retime(motion, [(new, old) for _, new, old in plan.times])
-        motion = clean_up(motion) if feet else motion
-    return motion
+    if not pins:
+        return motion
+    warped = displaced(motion, offsets(motion, keys_around(motion, keys, window)))
+    if feet:
+        return brought(warped, motion, join_pins(*pins), frames=frames)
+    stays = np.ones(len(motion), bool)
+    stays[frames] = False
+    return with_frames_of(warped, motion, stays)
+
+
+def _frames_between_keys(motion: Motion, plan: WarpPlan, window: float) -> slice:
+    """Find the frames that a plan changes: all between the first and the last key."""
+    moved = {frame: any(wish.place is not None for wish in wishes) for frame, wishes in plan.wishes.items()}
+    keys = [Key(frame, motion[:1] if moved[frame] else None) for frame in sorted(moved)]
+    keys = keys_around(motion, keys, window)
+    start = 0 if keys[0].pose is not None else keys[0].frame + 1
+    stop = len(motion) if keys[-1].pose is not None else keys[-1].frame
+    return slice(start, max(start, stop))

@@ -9,12 +9,14 @@ from pathlib import Path
 import numpy as np
 
 from mocap._shared.arguments import called_as
+from mocap._shared.arrays import Array
 from mocap._shared.progress import Progress
 from mocap._shared.quantities import check_number
 from mocap.body.motion import Motion, concatenate, rotating_joints
 from mocap.body.planar import IDENTITY, PlanarTransform
+from mocap.editing.edits import clean_feet
+from mocap.editing.toes import lowest_heights
 from mocap.errors import MocapError, NoWalk
-from mocap.feet.footskate import clean_up
 from mocap.files import bvh
 from mocap.files.formats import WRITTEN, enumerated
 from mocap.files.load_save import save
@@ -164,23 +166,24 @@ def stream(motion_graph: MotionGraph, *, seconds: float, seed: int = 0) -> Itera
         place = PlanarTransform(*(float(np.asarray(numbers)[-1]) for numbers in ends))
 
 
-def cleaned(pieces: Iterator[Motion]) -> Iterator[Motion]:
+def cleaned(pieces: Iterator[Motion], lowest: Array) -> Iterator[Motion]:
     """Remove footskate from consecutive pieces of a motion, as `synthesis.to_motion` does from the whole.
 
     Each piece is cleaned together with the last 2 · `TUNED.margin` of the motion before it, and its own last
     `TUNED.margin` is yielded with the next piece. Every frame is therefore cleaned with all frames on which
-    it depends, and the boundaries are not visible.
+    it depends, and the boundaries are not visible. `lowest` has the lowest height of each joint in the clips,
+    (J,), metres.
     """
     waiting = next(pieces)
     cleaned_frames = 0  # of `waiting`, that have been yielded
     margin = round(TUNED.margin * waiting.fps)
     for piece in pieces:
         if len(waiting) - cleaned_frames > margin:
-            yield clean_up(waiting)[cleaned_frames:-margin]
+            yield clean_feet(waiting, lowest)[cleaned_frames:-margin]
             cleaned_frames = min(len(waiting) - margin, margin)
             waiting = waiting[-2 * margin :]
         waiting = concatenate([waiting, piece])
-    yield clean_up(waiting)[cleaned_frames:]
+    yield clean_feet(waiting, lowest)[cleaned_frames:]
 
 
 def dump(  # noqa: PLR0913 (a walk, a file, a duration, and options)
@@ -232,7 +235,7 @@ def dump(  # noqa: PLR0913 (a walk, a file, a duration, and options)
     walks = cut_walk(motion_graph, wander(motion_graph, seed=seed), seconds, TUNED.piece)
     counts = [sum(motion_graph.graph.edges[edge]["frames"] for edge in walk) for walk in walks]
     pieces = stream(with_footplants(motion_graph) if clean else motion_graph, seconds=seconds, seed=seed)
-    pieces = cleaned(pieces) if clean else pieces
+    pieces = cleaned(pieces, lowest_heights(motion_graph.clips)) if clean else pieces
     shown = (next(pieces) for _ in progress(counts))
     if suffix != ".bvh":
         save(concatenate(list(shown)), path)

@@ -16,9 +16,10 @@ from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.motion import Motion, gather_marks
 from mocap.body.planar import IDENTITY, PlanarTransform
+from mocap.editing.edits import clean_feet
+from mocap.editing.toes import lowest_heights
 from mocap.errors import MocapError, NoWalk
 from mocap.feet.footplants import mark_plants
-from mocap.feet.footskate import clean_up
 from mocap.graphs.edge_tables import Edge, EdgeTable, edge_table
 from mocap.graphs.motion_graph import MotionGraph, require_graph
 
@@ -133,8 +134,8 @@ def to_motion(
     walk : consecutive edges.
     name : the name of the new motion.
     start : the transform of the first clip, by default the identity.
-    clean : whether to remove footskate by `feet.clean_up`. Footplants are marked first if no clip has
-        contacts.
+    clean : whether to remove footskate by `feet.clean_up`, and to keep the toes above the floor. Footplants
+        are marked first if no clip has contacts.
 
     Returns
     -------
@@ -179,7 +180,7 @@ def to_motion(
     contacts = gather_marks([motion_graph.clips[clip].contacts for clip in visited], owner)
     clip = motion_graph.clips[0]
     motion = Motion(clip.skeleton, roots, local_rotations, clip.fps, name, labels, contacts)
-    return clean_up(motion) if clean else motion
+    return clean_feet(motion, lowest_heights(motion_graph.clips)) if clean else motion
 
 
 def with_footplants(motion_graph: MotionGraph) -> MotionGraph:

@@ -10,9 +10,11 @@ from hypothesis import strategies as st
 from mocap import load
 from mocap.body import Motion, PlanarTransform, Skeleton, joint_positions, resample, rotations
 from mocap.body.limbs import FEET, ROLES, roles
+from mocap.body.motion import rotating_joints
 from mocap.datasets.samples import SKELETON, sample
-from mocap.editing.mirroring import mirror, symmetry
+from mocap.editing.mirroring import mirror, mirror_above_floor, symmetry
 from mocap.editing.stances import Stance, proportioned, stance_of, stance_of_zero, standing_heights
+from mocap.editing.toes import bend_toes, lowest_allowed
 from mocap.feet.footplants import mark_plants
 from mocap.files import load_save
 from tests.editing.bodies import NAMINGS, adult, along_x, child, renamed, rested, walk, without
@@ -273,6 +275,19 @@ def test_where_all_axes_of_a_side_point_the_other_way_a_knee_bends_as_its_partne
     assert rotations.angle_between(there.rotations, here.rotations).max() < 1e-6
 
 
+def test_the_end_of_a_chain_that_never_turns_does_not_turn_in_the_mirror_either():
+    """A bent foot is no mirror image of its partner, so its joint is turned; the toe's end below is not."""
+    offsets = WALK.skeleton.offsets.copy()
+    for name in ("lwrist", "rtoes", "rtoes_end"):
+        joint = WALK.skeleton.index(name)
+        offsets[joint] = rotations.rotate(rotations.from_rotvec([0.1, 0.3, -0.2]), offsets[joint])
+    body = replace(WALK.skeleton, offsets=offsets)
+    image = mirror(replace(WALK, skeleton=body))
+    ends = [joint for joint in range(len(body)) if not body.children(joint)]
+    assert not rotating_joints(WALK)[ends].any()
+    assert not rotating_joints(image)[ends].any()
+
+
 def test_plants_and_words_change_sides():
     left = np.arange(len(WALK)) % 2 == 0
     marked = replace(WALK, labels={"turn left": left, "Right": ~left, "walk": True})
@@ -293,6 +308,25 @@ def test_a_lopsided_body_is_mirrored_with_a_sentence():
     assert np.allclose(image.skeleton.offsets, offsets)
     assert np.abs(joint_positions(image) - reflected(lopsided)).max() < 0.06
     unwarned(mirror, WALK)
+
+
+def test_longer_toes_of_one_side_do_not_sink_in_the_mirror():
+    offsets = WALK.skeleton.offsets.copy()
+    offsets[WALK.skeleton.index("ltoes_end")] *= 2
+    lopsided = replace(WALK, skeleton=replace(WALK.skeleton, offsets=offsets))
+    lopsided = bend_toes(lopsided, lowest_allowed(WALK))
+    lowest = joint_positions(lopsided)[..., 1].min()
+    plain, raised = (told("bones differ by up to", call, lopsided) for call in (mirror, mirror_above_floor))
+    assert joint_positions(plain)[..., 1].min() < lowest - 0.003
+    assert joint_positions(raised)[..., 1].min() > lowest - 0.0011
+
+
+def test_a_captured_mirror_image_on_a_longer_leg_is_raised_to_the_floor(real_data):
+    clip = load(real_data / "cmu/127/127_33.amc")
+    plain, raised = (told("bones differ by up to", call, clip) for call in (mirror, mirror_above_floor))
+    lowest = min(0.0, joint_positions(clip)[..., 1].min())
+    assert joint_positions(plain)[..., 1].min() < lowest - 0.005
+    assert joint_positions(raised)[..., 1].min() > lowest - 0.0011
 
 
 ARM = Skeleton(["root", "elbow", "hand"], [-1, 0, 1], np.eye(3))

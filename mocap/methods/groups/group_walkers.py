@@ -10,9 +10,10 @@ from mocap._shared.records import dataclass
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
 from mocap.body.planar import from_ground, on_ground
+from mocap.editing.edits import clean_feet
 from mocap.editing.path_editing import moving_frames, plants_kept, ride_of
+from mocap.editing.toes import lowest_heights
 from mocap.errors import MocapError, MocapWarning, warn
-from mocap.feet.footskate import clean_up
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.methods.groups.flocking import RATE, Configuration, nearest_two
@@ -146,7 +147,7 @@ def _walk_one(graph: CompiledGraph, trajectory: Points, *, bend: bool) -> tuple[
         seconds = np.arange(len(walk)) / graph.fps
         planned_along = np.interp(seconds, np.arange(len(extended)) / RATE, along)
         walk = _bend_onto(walk, path, planned_along)
-    cleaned = clean_up(walk)
+    cleaned = clean_feet(walk, lowest_heights(graph.source.clips))
     return cleaned, plants_kept(cleaned, walk)
 
 

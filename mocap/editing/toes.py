@@ -1,0 +1,167 @@
+"""Toes that bend so that their tips stay above the floor.
+
+The clean-up of feet rotates a foot about its ball, and retargeting copies the rotations of toes to longer
+ones. Both push the tips of the toes through the floor. Ankles and balls have their own constraints, therefore
+the toes bend about their lateral axis, as at toe-off. The method is ours.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from scipy.ndimage import convolve1d, maximum_filter1d
+
+from mocap._shared.arrays import Array
+from mocap.body import rotations
+from mocap.body.kinematics import GlobalPoses, forward_kinematics, hinge_of, joint_positions
+from mocap.body.limbs import Leg, find_legs, with_roles
+from mocap.body.motion import Motion
+from mocap.body.skeleton import Skeleton
+from mocap.errors import MocapError
+
+SLACK = 0.001  # metres: a tip that is lower by less is left alone
+
+# Seconds before and after a bend over which it begins and ends. With 0 toes start to bend with a jolt.
+EASE = 0.05
+FURTHEST = np.radians(80.0)  # radians: toes bend no further
+LEVEL = 0.5  # radians: toes within this angle of the floor show where their lateral axis is
+SHORT = 1e-9  # metres: toes that point straight down in every frame have no lateral axis, and stay
+
+
+def toe_tips(skeleton: Skeleton, leg: Leg) -> list[int]:
+    """List the joints that end the toes of a leg: those below its ball that have no joint below them.
+
+    Examples
+    --------
+    >>> from mocap.datasets.samples import SKELETON
+    >>> [SKELETON.names[tip] for leg in find_legs(SKELETON) for tip in toe_tips(SKELETON, leg)]
+    ['ltoes_end', 'rtoes_end']
+    """
+    if not leg.has_ball:
+        return []
+    below = [joint for joint in range(len(skeleton)) if leg.ball in skeleton.path_to_root(joint)[1:]]
+    return [joint for joint in below if not skeleton.children(joint)]
+
+
+def lowest_heights(clips: Sequence[Motion]) -> Array:
+    """Compute the lowest height of each joint in clips of one skeleton, (J,), metres."""
+    return np.asarray(np.min([joint_positions(clip)[..., 1].min(axis=0) for clip in clips], axis=0))
+
+
+def lowest_allowed(motion: Motion, lowest: Array | None = None) -> Array:
+    """Compute how low each joint may be after an edit, (F, J), metres.
+
+    A joint may be on the floor, y = 0, or as far under it as it was in the same frame. An ankle, and what is
+    below it, may nowhere be lower than the lowest of its positions.
+
+    Parameters
+    ----------
+    motion : F frames, before the edit.
+    lowest : the lowest height of each joint in the clips that the motion is made of, (J,), metres; by default
+        in the motion itself.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")
+    >>> allowed = lowest_allowed(walk)[:, walk.skeleton.index("ltoes_end")]
+    >>> bool(np.ptp(allowed) == 0), round(float(allowed[0]), 3)  # this tip is never under the floor
+    (True, 0.017)
+    """
+    lowest = lowest_heights([motion]) if lowest is None else lowest
+    allowed = np.minimum(joint_positions(motion)[..., 1], 0.0)
+    skeleton = motion.skeleton
+    ankles = [leg.ankle for leg in _legs(motion)]
+    feet = [joint for joint in range(len(skeleton)) if {*ankles} & {*skeleton.path_to_root(joint)}]
+    allowed[:, feet] = np.maximum(lowest[feet], allowed[:, feet])
+    return allowed
+
+
+def bend_toes(motion: Motion, allowed: Array) -> Motion:
+    """Bend toes so that their tips are no lower than allowed.
+
+    Only the rotations of the balls change. A bend begins and ends smoothly within 0.05 s.
+
+    Parameters
+    ----------
+    motion : F frames of J joints.
+    allowed : the lowest height of each joint, (F, J), metres, as `lowest_allowed` computes it; only those of
+        toe tips matter.
+
+    Returns
+    -------
+    The same frames; the motion itself if no tip is lower by more than a millimetre, or it has no toes.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")[:120]
+    >>> raised = bend_toes(walk, lowest_allowed(walk) + 0.02)  # tips 2 cm higher than they ever were
+    >>> tip = walk.skeleton.index("ltoes_end")
+    >>> [round(float(joint_positions(clip)[:, tip, 1].min()), 3) for clip in (walk, raised)]
+    [0.017, 0.036]
+    """
+    poses = forward_kinematics(motion)
+    turned = motion.rotations.copy()
+    for leg in _legs(motion):
+        tips = toe_tips(motion.skeleton, leg)
+        if not tips or (poses.positions[:, tips, 1] >= allowed[:, tips] - SLACK).all():
+            continue
+        axis = _lateral_axis(motion, poses, leg, tips)
+        angles = [_angles(poses, leg.ball, tip, axis, allowed[:, tip] - SLACK) for tip in tips]
+        bends = _eased(np.max(angles, axis=0), motion.fps)[:, None] * axis
+        turned[:, leg.ball] = rotations.multiply(turned[:, leg.ball], rotations.from_rotvec(bends))
+    if np.array_equal(turned, motion.rotations):
+        return motion
+    return replace(motion, rotations=turned)
+
+
+def _legs(motion: Motion) -> tuple[Leg, ...]:
+    """Find the legs of a motion; () if it has none."""
+    try:
+        return find_legs(with_roles(motion).skeleton)
+    except MocapError:
+        return ()
+
+
+def _lateral_axis(motion: Motion, poses: GlobalPoses, leg: Leg, tips: Sequence[int]) -> Array:
+    """Find the axis about which toes bend upwards, a unit vector in the frame of the ball, (3,)."""
+    toes = poses.positions[:, tips].mean(axis=1) - poses.positions[:, leg.ball]
+    level_lengths = np.hypot(toes[:, 0], toes[:, 2])
+    slopes = np.arctan2(np.abs(toes[:, 1]), level_lengths)
+    frames = slopes <= max(LEVEL, float(slopes.min()))
+    lateral = np.cross(toes[frames], [0.0, 1.0, 0.0])
+    lateral /= np.maximum(np.linalg.norm(lateral, axis=1, keepdims=True), SHORT)
+    axis = np.einsum("fji,fj->i", poses.matrices[frames, leg.ball], lateral)
+    axis /= max(float(np.linalg.norm(axis)), SHORT)
+    hinge = hinge_of(motion, leg.ball)
+    if hinge is None or abs(hinge @ axis) < np.cos(LEVEL):
+        return np.asarray(axis)
+    return np.asarray(hinge * np.sign(hinge @ axis))
+
+
+def _angles(poses: GlobalPoses, ball: int, tip: int, axis: Array, lowest: Array) -> Array:
+    """Compute the smallest bends, radians, that raise a tip to the lowest heights allowed, (F,).
+
+    Bent by θ, the tip is at the height c + r cos(θ - φ): c is the part along the axis, φ the bend at which it
+    is highest.
+    """
+    toe = poses.positions[:, tip] - poses.positions[:, ball]
+    axes = poses.matrices[:, ball] @ axis
+    along = np.einsum("fi,fi->f", toe, axes)[:, None] * axes
+    level = toe - along
+    upright = np.cross(axes, level)
+    rise = lowest - poses.positions[:, ball, 1] - along[:, 1]
+    radius = np.maximum(np.hypot(level[:, 1], upright[:, 1]), SLACK)
+    highest = np.arctan2(upright[:, 1], level[:, 1])
+    angles = highest - np.arccos(np.clip(rise / radius, -1.0, 1.0))
+    angles[poses.positions[:, tip, 1] >= lowest] = 0.0
+    return np.asarray(np.clip(angles, 0.0, FURTHEST))
+
+
+def _eased(angles: Array, fps: float) -> Array:
+    """Compute a smooth curve that is nowhere below the angles, (F,)."""
+    reach = max(1, round(EASE * fps))
+    window = np.hanning(2 * reach + 3)[1:-1]
+    wide = maximum_filter1d(angles, 2 * reach + 1, mode="nearest")
+    return np.asarray(convolve1d(wide, window / window.sum(), mode="nearest"))
