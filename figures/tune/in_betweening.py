@@ -71,7 +71,7 @@ TRIALS = {
     "tried": Trial(filled, (4, 12, 48)),
     "most_tried": Trial(filled, (24, 200)),
     "pose": Trial(filled, (0.03, 0.05, 0.2)),
-    "rounds": Trial(filled, (1, 3)),
+    "rounds": Trial(filled, (1, 2)),
     "fade": Trial(filled, (0.1, 0.25, 1.0)),
     "near_end": Trial(filled, (0.0, 0.15, 0.6)),
     "ahead": Trial(filled, (1 / 30, 0.2)),

@@ -44,8 +44,7 @@ class FootTarget(NamedTuple):
     ankle : shape (F, 3), metres.
     turn : shape (F, 3), rotation vectors in the world's frame, radians.
     places, marks : where ankle and ball stand, (2, F, 3), metres, and when, (2, F).
-    side : (F,), on which side the knee bends while the ankle stands: 1 forwards, -1 backwards, as it was.
-    reach : (F,), how far apart hip and ankle shall come while the foot stands, metres.
+    least_bend : the least angle of the knee while the foot stands, (F,), radians.
     """
 
     track: LegTrack
@@ -53,8 +52,7 @@ class FootTarget(NamedTuple):
     turn: Array
     places: Array
     marks: Mask
-    side: Array
-    reach: Array
+    least_bend: Array
 
     @property
     def planted(self) -> Mask:
@@ -122,12 +120,13 @@ def foot_target(
     if track.leg.has_ball:
         behind = places[1] + length * away / np.linalg.norm(away, axis=1, keepdims=True)
     goal = np.where(flat[:, None], places[0], behind)
-    side = np.where(track.own < -BACK, -1.0, 1.0)
     # A leg that must become shorter stays bent while its foot stands: the knee of a straight one jolts as
-    # soon as the hip moves.
+    # soon as the hip moves. A knee that is bent backwards stays as straight as it is.
     shorter = flat & (np.linalg.norm(goal - track.hip, axis=1) > track.limit + SHORTER)
-    reach = np.where(binary_propagation(shorter, mask=flat), track.long(BENT), track.limit)
-    return FootTarget(track, goal, 0 * goal, places, marks, side, reach).led(goal)
+    backwards = binary_propagation(flat & (track.own < -BACK), mask=flat)
+    stays_bent = binary_propagation(shorter & ~backwards, mask=flat)
+    least_bend = np.where(stays_bent, BENT, np.minimum(track.own, BENT))
+    return FootTarget(track, goal, 0 * goal, places, marks, least_bend).led(goal)
 
 
 def place_plants(joints: tuple[Array, Array], marks: tuple[Mask, Mask], length: float) -> Array:
@@ -163,10 +162,11 @@ def place_plants(joints: tuple[Array, Array], marks: tuple[Mask, Mask], length: 
     for start, stop, kind in plants:
         own, other = joints[kind], joints[1 - kind]
         place = own[start:stop].mean(axis=0)
-        if placed[1 - kind, start]:
-            together = np.flatnonzero(placed[1 - kind, start:stop]) + start
+        before = start if placed[1 - kind, start] else max(start - 1, 0)
+        if placed[1 - kind, before]:
+            together = np.flatnonzero(placed[1 - kind, before:stop]) + before
             away = (own - other)[together].mean(axis=0)
-            place = places[1 - kind, start] + length * away / np.linalg.norm(away)
+            place = places[1 - kind, before] + length * away / np.linalg.norm(away)
         places[kind, start:stop], placed[kind, start:stop] = place, True
     return places
 

@@ -6,9 +6,10 @@ plant the corrections come and go smoothly (5).
 
 Four things differ from the paper. Step 5 is taken with step 2, as one curve that bends least, instead of by
 fades. While only the ball stands, the foot turns about it as the knee asks. The root only rises or falls, by
-at most 2 cm, and no bone is stretched, because a skeleton's lengths are fixed. And the root's way and all
-knees are found together, by the same sum that step 5 makes least, so that no knee pops. A plant that the leg
-cannot reach, or that would still jolt a knee, is moved to where its foot was then, and at last let go.
+at most 2 cm, the pelvis lists by at most 4°, and no bone is stretched, because a skeleton's lengths are
+fixed. And the root, the pelvis and all knees are found together, by the same sum that step 5 makes least, in
+which a knee's angle counts most, so that no knee pops at any frame rate. A plant that the leg cannot reach,
+or that would still jolt a knee, is moved to where its foot was then, and at last let go.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -24,18 +25,20 @@ from mocap.body.motion import Motion, require_motion
 from mocap.errors import MocapError, shortened, warn
 from mocap.feet.ankle_targets import FootTarget, foot_target
 from mocap.feet.footplants import least_frames, settle
-from mocap.feet.least_bending import MOST, Excess, hold_plants
-from mocap.feet.leg_track import UP, pose_leg, track_leg
+from mocap.feet.hip_heights import Pelvis, find_pelvis, listed_rotations
+from mocap.feet.least_bending import MOST, Excess, Held, hold_plants
+from mocap.feet.leg_track import UP, LegTrack, pose_leg, track_leg
 
-# Plants are moved by this share of the way, as long as what goes beyond falls by a tenth each time. With 0.25
-# or 0.35 slow walks accelerate by up to 1.27 times as much as they did.
-SHARE, FALLS = 0.5, 0.9
+# Plants are moved by this fraction of the distance to their foot. With 0.25 or 0.35 slow walks accelerate by
+# up to 1.27 times as much as they did.
+FRACTION = 0.5
+FALLS = 0.9  # Plants are moved again as long as the worst excess falls by this factor each time.
 
 
 def clean_up(
     motion: Motion, legs: Sequence[Leg] | None = None, *, held: Mapping[int, Array] | None = None
 ) -> Motion:
-    """Make planted feet stand still, at the cost of small changes to the legs and to the root's height.
+    """Make planted feet stand still, at the cost of small changes to the legs and to the hips' heights.
 
     In the paper: [KSG02, all steps].
 
@@ -49,8 +52,9 @@ def clean_up(
 
     Returns
     -------
-    The same frames. Within each plant its joint stays in one place, but for rounding. Only the root's height,
-    by at most 2 cm for a leg of 0.85 m, and the rotations of hips, knees and ankles differ. Contacts are
+    The same frames. Within each plant its joint stays in one place, but for rounding. The root's height
+    differs by at most 2 cm for a leg of 0.85 m, and the pelvis lists by at most 4° further. The rotations of
+    hips, knees and ankles differ, and those of the joints that keep the trunk's direction. Contacts are
     settled: gaps shorter than 0.05 s are closed, and plants as short, or let go, are no longer marked.
 
     Raises
@@ -76,33 +80,54 @@ def clean_up(
     """
     require_motion(motion)
     legs = find_legs(motion.skeleton) if legs is None else legs
-    own, span = forward_kinematics(motion), least_frames(motion.fps)
-    tracks = [track_leg(motion, leg, own) for leg in legs]
-    marks = asked = settled_marks(motion, legs)
-    moved, before, moving = np.zeros((len(legs), len(motion), 3)), np.inf, not held
+    global_poses = forward_kinematics(motion)
+    tracks = [track_leg(motion, leg, global_poses) for leg in legs]
+    pelvis = find_pelvis(motion, legs, global_poses)
+    settled = settled_marks(motion, legs)
+    marks, solution = _solve(tracks, pelvis, settled, held)
+    pose = listed_rotations(motion, pelvis, legs, global_poses, solution.angle)
+    listed = pelvis.rotation(solution.angle)
+    for target, (bend, wanted) in zip(solution.targets, solution.poses, strict=True):
+        pose[:, target.track.leg[:3]] = pose_leg(target.track, bend, wanted, target.turn, listed)
+    released = marks_by_joint(motion, legs, settled & ~marks)
+    _warn_of_plants_let_go(motion, released, MOST * tracks[0].length)
+    contacts = {**motion.contacts, **marks_by_joint(motion, legs, marks)}
+    roots = motion.root_positions + solution.rise[:, None] * UP
+    return replace(motion, root_positions=roots, rotations=pose, contacts=contacts)
+
+
+def _solve(
+    tracks: Sequence[LegTrack], pelvis: Pelvis, marks: Mask, held: Mapping[int, Array] | None
+) -> tuple[Mask, Held]:
+    """Hold plants; move those that exceed bounds, and let go those for which that does not help.
+
+    Returns
+    -------
+    The marks (L, 2, F) of the plants that are held, and the correction that holds them.
+    """
+    frames = marks.shape[-1]
+    span = least_frames(tracks[0].motion.fps)
+    moved = np.zeros((len(tracks), frames, 3))
+    last_worst = np.inf
+    moves = not held
     while True:
         # Steps 1, 2 and 5: each plant gets a place, and between plants the ankles go from place to place.
-        asks = zip(tracks, marks, moved, strict=True)
-        targets = [foot_target(track, mark, held or {}, way) for track, mark, way in asks]
-        # Steps 3 and 4: the root rises or falls, and the knees bend.
-        rise, targets, poses, excesses = hold_plants(targets)
+        legs = zip(tracks, marks, moved, strict=True)
+        targets = [foot_target(track, mark, held or {}, shift) for track, mark, shift in legs]
+        # Steps 3 and 4: the root rises or falls, the pelvis lists, and the knees bend.
+        solution = hold_plants(targets, pelvis)
+        excesses = solution.excesses
         if not excesses or not marks.any():
-            break
+            return marks, solution
         worst = max(float(amount.max()) for _, amount in excesses)
-        moving, before = moving and worst < FALLS * before, worst
-        if moving:
+        moves = moves and worst < FALLS * last_worst
+        last_worst = worst
+        if moves:
             for leg, frame in {(leg, frame) for leg, _, frame in _nearest(marks, excesses, span)}:
-                moved[leg] += _way_back(targets[leg], frame)
+                moved[leg] += _towards_foot(solution.targets[leg], frame)
         else:
             # Each round unmarks at least one planted frame, so they end: at the latest when none is left.
             marks = let_go(marks, excesses, span)
-    pose, up = motion.rotations.copy(), rise[:, None] * UP
-    for target, (bend, wanted) in zip(targets, poses, strict=True):
-        pose[:, target.track.leg[:3]] = pose_leg(target.track, bend, wanted, target.turn)
-    found, gone = (marks_by_joint(motion, legs, chosen) for chosen in (marks, asked & ~marks))
-    _warn_of_plants_let_go(motion, gone, MOST * tracks[0].length)
-    roots, contacts = motion.root_positions + up, {**motion.contacts, **found}
-    return replace(motion, root_positions=roots, rotations=pose, contacts=contacts)
 
 
 def settled_marks(motion: Motion, legs: Sequence[Leg]) -> Mask:
@@ -111,7 +136,8 @@ def settled_marks(motion: Motion, legs: Sequence[Leg]) -> Mask:
     The ball of a foot without toes never stands.
     """
     names = [[motion.skeleton.names[joint] for joint in (leg.ankle, leg.ball)] for leg in legs]
-    if missing := [name for pair in names for name in pair if name not in motion.contacts]:
+    missing = [name for pair in names for name in pair if name not in motion.contacts]
+    if missing:
         unknown = f"when these joints stand: {', '.join(missing)}"
         raise MocapError(f"'{motion.name}' does not say {unknown}; mark_plants finds out.")
     span = least_frames(motion.fps)
@@ -122,20 +148,20 @@ def settled_marks(motion: Motion, legs: Sequence[Leg]) -> Mask:
 
 def marks_by_joint(motion: Motion, legs: Sequence[Leg], marks: Mask) -> dict[str, Mask]:
     """Return when joints stand, by their names, of marks (L, 2, F) as from `settled_marks`."""
-    rows = [
-        (joint, mark)
-        for leg, leg_marks in zip(legs, marks, strict=True)
-        for joint, mark in zip(leg[2:] if leg.has_ball else leg[2:3], leg_marks, strict=False)
-    ]
-    return {motion.skeleton.names[joint]: mark for joint, mark in rows}
+    by_name = {}
+    for leg, leg_marks in zip(legs, marks, strict=True):
+        for joint, mark in zip(leg[2:] if leg.has_ball else leg[2:3], leg_marks, strict=False):
+            by_name[motion.skeleton.names[joint]] = mark
+    return by_name
 
 
-def _way_back(target: FootTarget, frame: int) -> Array:
+def _towards_foot(target: FootTarget, frame: int) -> Array:
     """Move the plant of a frame towards where its joint was in that frame, (F, 3), metres."""
     kind = int(not target.marks[0, frame])
-    away = (target.track.ankle, target.track.ball)[kind][frame] - target.places[kind, frame]
+    joint = (target.track.ankle, target.track.ball)[kind]
+    distance = joint[frame] - target.places[kind, frame]
     plant = binary_propagation(np.arange(len(target.planted)) == frame, mask=target.planted)
-    return np.asarray(SHARE * plant[:, None] * away)
+    return np.where(plant[:, None], FRACTION * distance, 0.0)
 
 
 def let_go(marks: Mask, excesses: Sequence[Excess], span: int) -> Mask:
@@ -153,9 +179,9 @@ def let_go(marks: Mask, excesses: Sequence[Excess], span: int) -> Mask:
     clip, so `settle` does not close it, and the frame nearest to the worst one is in it.
     """
     kept = marks.copy()
-    for leg, joint, near in _nearest(marks, excesses, span):
+    for leg, joint, frame in _nearest(marks, excesses, span):
         row = kept[leg, joint]  # a part of `kept` itself
-        row[max(near - span, 0) : near + span + 1] = False
+        row[max(frame - span, 0) : frame + span + 1] = False
         row[:] = settle(row, span)
     return kept
 
@@ -165,17 +191,21 @@ def _nearest(marks: Mask, excesses: Sequence[Excess], span: int) -> Iterator[tup
     frames = np.arange(marks.shape[-1])
     for legs, amount in excesses:
         # The worst frames: no other frame within `span` is worse.
-        for worst in np.flatnonzero((amount > 0) & (amount == maximum_filter1d(amount, 2 * span + 1))):
-            away = np.where(marks[legs], np.abs(frames - worst), len(frames))  # (legs, 2, F)
-            for plant in np.argwhere(away.min(axis=-1) == away.min()):  # the nearest; two may be as near
+        is_peak = (amount > 0) & (amount == maximum_filter1d(amount, 2 * span + 1))
+        for worst in np.flatnonzero(is_peak):
+            distances = np.where(marks[legs], np.abs(frames - worst), len(frames))  # (legs, 2, F)
+            nearest = distances.min()
+            for plant in np.argwhere(distances.min(axis=-1) == nearest):  # two may be as near
                 leg, joint = plant.tolist()
-                yield leg + (legs.start or 0), joint, int(away[leg, joint].argmin())
+                yield leg + (legs.start or 0), joint, int(distances[leg, joint].argmin())
 
 
-def _warn_of_plants_let_go(motion: Motion, gone: Mapping[str, Mask], most: float) -> None:
+def _warn_of_plants_let_go(motion: Motion, released: Mapping[str, Mask], bound: float) -> None:
     """Warn of plants that were let go, in the order of the motion's contacts."""
-    plants = [f"{name} {a}-{b - 1}" for name in motion.contacts if name in gone for a, b in runs(gone[name])]
-    if plants:
-        told = ", ".join(plants[:2]) + (f" and {len(plants) - 2} more" if len(plants) > 2 else "")
-        why = f"would move the root by more than {100 * most:.2g} cm, stretch a leg or jolt a knee"
-        warn(f"'{shortened(motion.name, 30)}': to hold these plants {why}, so they are let go: {told}.")
+    names = [name for name in motion.contacts if name in released]
+    plants = [f"{name} {start}-{stop - 1}" for name in names for start, stop in runs(released[name])]
+    if not plants:
+        return
+    listed = ", ".join(plants[:2]) + (f" and {len(plants) - 2} more" if len(plants) > 2 else "")
+    reason = f"would move the root by more than {100 * bound:.2g} cm, stretch a leg or jolt a knee"
+    warn(f"'{shortened(motion.name, 30)}': to hold these plants {reason}, so they are let go: {listed}.")

@@ -1,271 +1,308 @@
-"""The root's height and the knees that hold all plants and bend the least: step 3 of [KSG02].
+"""The hips and knees that hold all footplants with the smoothest correction: step 3 of [KSG02].
 
-While an ankle stands, the root's height says how its knee is bent. While only the ball stands, the knee may
-bend as it likes, and the foot turns about the ball; and so may a knee in the air. So the unknowns are the
-root's rise in each frame, and each knee's extra angle in each frame in which its ankle does not stand. The
-best are those whose corrections e, of the root and of each knee and ankle, are the least of
+The unknowns of a frame are the root's rise, the list of the pelvis, and an additional angle of each knee. The
+corrections e of the root, the pelvis, each knee and each ankle minimise
 
-    Σ |e_{f-1} - 2 e_f + e_{f+1}|² + κ⁴ Σ |e_f|²
+    Σ w² (|e_{f-1} - 2 e_f + e_{f+1}|² + κ⁴ |e_f|²)
 
-over the whole clip: the sum of step 5. The root's rise has a bound, and so has each knee's jump from one
-picture of a film to the next. They are found by damped Gauss-Newton steps, which hold the root at its bound,
-and by multipliers for the jumps (an augmented Lagrangian). What is unknown in a frame meets only its
-neighbours, so a step solves a banded system.
+over the clip: the sum of step 5, with a weight w and a duration 1 / κ for each kind of correction. While a
+foot stands, the distance from hip to ankle and the angle of the knee must agree: the gap between the two is
+a residual with a large weight, as is the angle by which a knee is too straight.
+
+The angle of a knee has the largest weight of the corrections. The ankles of captured clips tremble by a
+millimetre while they stand. The knee's angle does not, because the hip trembles with them. If the ankle is
+held still, either the hip or the knee trembles, and near a straight leg a millimetre at the hip is several
+degrees at the knee: knee popping. Therefore the hips take up what is fast, and the knees what is slow.
+
+The minimum is found by damped Gauss-Newton steps, which keep root and pelvis within their bounds. The
+unknowns of a frame depend only on its neighbours, so that each step solves a banded system.
 """
 
 from collections.abc import Sequence
-from functools import partial
 
 import numpy as np
 from scipy.linalg import solveh_banded
-from scipy.ndimage import binary_propagation, maximum_filter1d
 
 from mocap._shared.arrays import Array, Mask
+from mocap._shared.records import NamedTuple
 from mocap.feet.ankle_targets import FLAT, FootTarget, band_product, bending_bands
-from mocap.feet.leg_track import ROUNDING, UP, dot
+from mocap.feet.hip_heights import Pelvis
+from mocap.feet.leg_track import ROUNDING, dot
+from mocap.feet.tuned import TUNED
 
-# Of the leg's length: 2 cm for a leg of 0.85 m. The root rises or falls by no more.
-MOST = 0.0235
+MOST = 0.0235  # of the leg's length, 2 cm for a leg of 0.85 m: the largest rise or fall of the root
+MOST_LIST = np.radians(4.0)  # radians: the largest list of the pelvis, half of what it lists in a walk
+UNSEEN = 0.006  # of the leg's length, 5 mm: a knee may jump by so much more than usual between two pictures
+SHOWN = 1 / 30  # seconds between two pictures of a film
+USUAL = 99.9  # percent of a clip's own jumps that count as usual
+STEP = 1e-5  # metres and radians, for differences that approximate derivatives
 
-# Of the leg's length: 5 mm. A knee may jump by so much from one picture of a film (30 Hz) to the next beyond
-# what is usual. Of a figure 400 pixels high that is less than one; four times as much is plain to see.
-UNSEEN = 0.006
-SHOWN = 1 / 30  # seconds between two pictures
-USUAL = 99.9  # percent of a clip's own jumps: what all but one in a thousand stay below is no jolt
+DAMPING = 1e-3  # of the first step, a fraction of the diagonal
+LESS_DAMPING = 0.2  # factor after a step that gains
+MORE_DAMPING = 10.0  # factor after one that does not
 
-# Seconds in which a correction of the root and of knees dies away, 1 / κ. With 0.05 eight walks slowed to a
-# quarter accelerate by 1.21 to 1.45 times as much as they did; with 0.1 knees turn by a tenth further, and
-# what is a second away is changed by some micrometres.
-NEAR = 0.075
+# Rows of the unknowns: two of the body, then one for each leg. Corrections begin with the same two rows.
+RISE = 0
+LIST = 1
+BODY = 2
 
-# How much a metre of the root and of an ankle counts, where a metre of a knee counts 1, one that a leg lacks
-# 30, and one that a knee jumps too far √10, for a curve that bends freely, all squared. With 4 for the root
-# knees turn by 3.6° instead of 2.6° (95 % of the frames of slow and straight-legged walks); with 0.5 for
-# ankles a straight-legged stop at 120 Hz accelerates by 1.22 times as much as it did, with 1.5 by 1.18. Jumps
-# count twice as much in each solution; else a straight-legged run lets go of a tenth of its planted frames.
-ROOT, FOOT, STIFF, HARD, HARDER = 2.0, 1.5, 30.0, 10.0, 2.0
+# Rows of a leg's corrections
+KNEE = slice(0, 3)
+ANKLE = slice(3, 6)
+ANGLE = 6
+GAP = 7
+STRAIGHT = 8
+LEG = 9  # how many
 
-# At most: solutions, each with new multipliers; steps in each; the gain of a step that is the last one. With
-# 20 solutions a slow walk accelerates by 2.2 times as much as it did; with 12 steps a stand on straight legs
-# by 1.8 times. The multipliers come only nearer to their aim, so that is a little less than `UNSEEN`.
-TRIES, STEPS, GAIN, AIM = 10, 20, 1e-3, 0.9
-
-STEP = 1e-5  # metres and radians, for slopes
-
-Pose = tuple[Array, Array]  # a knee's angle (..., F), radians, and the way from hip to ankle (..., F, 3)
-Excess = tuple[slice, Array]  # of which legs, and by how much their plants go beyond bounds, (F,)
+Pose = tuple[Array, Array]  # a knee's angle (..., F), radians, and the vector from hip to ankle (..., F, 3)
+Excess = tuple[slice, Array]  # of which legs, and by how much their plants exceed bounds, (F,)
 
 
-def hold_plants(targets: Sequence[FootTarget]) -> tuple[Array, list[FootTarget], list[Pose], list[Excess]]:
+class Held(NamedTuple):
+    """A correction that holds the footplants.
+
+    Parameters
+    ----------
+    rise : of the root, shape (F,), metres.
+    angle : of the list of the pelvis, shape (F,), radians.
+    targets : the targets over which feet have rolled.
+    poses : of each leg, the angle of its knee (F,), radians, and the vector from hip to ankle (F, 3), metres.
+    excesses : amounts (F,) and the legs whose plants they concern. An amount is positive where the root's
+        rise is too large, a knee jumps too far from one picture of a film to the next, or a leg is too short.
+    """
+
+    rise: Array
+    angle: Array
+    targets: list[FootTarget]
+    poses: list[Pose]
+    excesses: list[Excess]
+
+
+def hold_plants(targets: Sequence[FootTarget], pelvis: Pelvis) -> Held:
     """Find the smoothest correction that brings planted ankles to their targets.
 
     In the paper: [KSG02, step 3]. There the root moves in all directions, and step 4 may stretch the legs.
 
-    A knee that still jumps too far is pushed back by as much, again and again (an augmented Lagrangian), and
-    is no longer bent backwards there.
-
     Parameters
     ----------
     targets : where each leg's ankle must be in F frames. While it is in the air, the leg only points there;
-        while only the ball stands, the foot turns about it.
-
-    Returns
-    -------
-    The root's rise (F,), metres; the targets over which feet have rolled; each knee's angle (F,), radians,
-    with the way from hip to ankle (F, 3), metres; by how much plants go beyond bounds, and whose plants they
-    are: the amount (F,) is above 0 where the root's rise is too large, a knee jumps too far from one picture
-    of a film to the next, or a leg is too short.
+        while only the ball stands, the foot rotates about it.
+    pelvis : from which the legs hang.
     """
-    tracks = [target.track for target in targets]
-    span, own = max(1, round(SHOWN * tracks[0].motion.fps)), np.array([track.knee.T for track in tracks])
-    change, length = np.zeros((1 + len(tracks), own.shape[-1])), tracks[0].length
-    usual, push = np.linalg.norm(_jumps(own, span), axis=1), np.zeros_like(own)
-    usual = np.maximum(np.percentile(usual, USUAL, method="lower"), usual)  # (L, F)
-    most = usual + AIM * UNSEEN * length
-    for hard in HARD * HARDER ** np.arange(TRIES):
-        change = _least_bent(targets, change, push, most, (span, hard))
-        poses = [_pose(target, change[0], extra) for target, extra in zip(targets, change[1:], strict=True)]
-        ends = [way + change[0][:, None] * UP for _, way in poses]
-        targets = [target.led(target.track.hip + end) for target, end in zip(targets, ends, strict=True)]
-        jumps = _jumps(own + _knees(_displacements(targets, change)), span)
-        beyond = np.linalg.norm(jumps, axis=1) - usual  # than it did, and than is usual
-        if not (jolting := beyond > UNSEEN * length).any():
+    change = _least_bent(targets, pelvis)
+    solved = [_pose(target, pelvis, leg, change) for leg, target in enumerate(targets)]
+    hips = [target.track.hip + _shift(pelvis, leg, change) for leg, target in enumerate(targets)]
+    ankles = [hip + wanted for hip, (_, wanted) in zip(hips, solved, strict=True)]
+    led = [target.led(ankle) for target, ankle in zip(targets, ankles, strict=True)]
+    # The gap that is left, some micrometres, is closed: no leg is stretched.
+    change[RISE] = np.clip(change[RISE], *_reach(led, pelvis, change))
+    poses = []
+    for leg, target in enumerate(led):
+        free, wanted = _pose(target, pelvis, leg, change)
+        closed = np.copysign(target.track.bend(np.sqrt(dot(wanted, wanted))), free)
+        bend = np.where(target.planted, closed, free)
+        change[BODY + leg] = bend - target.track.own
+        poses.append((bend, wanted))
+    return Held(change[RISE], change[LIST], led, poses, _excesses(led, pelvis, change, poses))
+
+
+def _excesses(
+    targets: Sequence[FootTarget], pelvis: Pelvis, change: Array, poses: Sequence[Pose]
+) -> list[Excess]:
+    """Return where a correction exceeds the bounds of the root, the knees and the legs."""
+    length = targets[0].track.length
+    span = max(1, round(SHOWN * targets[0].track.motion.fps))
+    knees = np.array([target.track.knee.T for target in targets])
+    jumps = np.linalg.norm(_jumps(knees, span), axis=1)
+    usual = np.maximum(np.percentile(jumps, USUAL, method="lower"), jumps)
+    moved = np.array([_leg(target, pelvis, leg, change)[KNEE] for leg, target in enumerate(targets)])
+    jolts = np.linalg.norm(_jumps(knees + moved / TUNED.knee, span), axis=1) - usual
+    all_legs = slice(None)
+    risen_too_far = np.abs(change[RISE]) - MOST * length - ROUNDING
+    excesses = [(all_legs, risen_too_far), (all_legs, jolts.max(axis=0) - UNSEEN * length)]
+    for leg, target in enumerate(targets):
+        _, wanted = poses[leg]
+        distance = np.sqrt(dot(wanted, wanted))
+        missing = distance - target.track.long(0.0) - ROUNDING
+        excesses.append((slice(leg, leg + 1), np.where(target.planted, missing, -1.0)))
+    return [excess for excess in excesses if (excess[1] > 0).any()]
+
+
+def _shift(pelvis: Pelvis, leg: int, change: Array) -> Array:
+    """Return the displacement of a leg's hip, (..., F, 3), metres, by a change (..., 2 + L, F)."""
+    return pelvis.shift(leg, change[..., RISE, :], change[..., LIST, :])
+
+
+def _pose(target: FootTarget, pelvis: Pelvis, leg: int, change: Array) -> Pose:
+    """Return the angle of a knee and the vector from hip to ankle; while a foot stands they may disagree."""
+    bend = target.track.own + change[..., BODY + leg, :]
+    hip = target.track.hip + _shift(pelvis, leg, change)
+    wanted = target.ankle - hip
+    rolls = target.rolls
+    distance = target.track.long(bend)[..., rolls]
+    wanted[..., rolls, :] = target.rolled(hip[..., rolls, :], distance)
+    return bend, wanted
+
+
+def _reach(targets: Sequence[FootTarget], pelvis: Pelvis, change: Array) -> tuple[Array, Array]:
+    """Return the lowest and the highest rise at which all planted legs reach, (F,) each, metres."""
+    bound = MOST * targets[0].track.length
+    listed = change.copy()
+    listed[RISE] = 0.0
+    lowest = np.full(change.shape[-1], -bound)
+    highest = np.full(change.shape[-1], bound)
+    for leg, target in enumerate(targets):
+        rolls = target.rolls
+        foot = np.linalg.norm(target.places[1] - target.ankle, axis=1) - FLAT
+        place = np.where(rolls[:, None], target.places[1], target.ankle)
+        place = place - _shift(pelvis, leg, listed)
+        fall, rise = target.track.rises(place, np.where(rolls, foot, 0.0))
+        lowest = np.where(target.planted, np.maximum(lowest, fall), lowest)
+        highest = np.where(target.planted, np.minimum(highest, rise), highest)
+    # If one leg asks for a lower root than another, the lower one counts.
+    return np.minimum(lowest, highest), highest
+
+
+def _leg(target: FootTarget, pelvis: Pelvis, leg: int, change: Array) -> Array:
+    """Return the weighted corrections of a leg, (..., 9, F), by a change (..., 2 + L, F)."""
+    track = target.track
+    bend, wanted = _pose(target, pelvis, leg, change)
+    shift = _shift(pelvis, leg, change)
+    distance = np.sqrt(dot(wanted, wanted))
+    knee = shift + track.thigh(bend, wanted) - (track.knee - track.hip)
+    stretch = np.where(target.planted, 1.0, track.long(bend) / distance)
+    ankle = shift + stretch[..., None] * wanted - (track.ankle - track.hip)
+    lever = track.length / 4
+    angle = TUNED.angle * lever * (bend - track.own)
+    gap = TUNED.closed * np.where(target.planted, distance - track.long(bend), 0.0)
+    straightened = np.maximum(target.least_bend - bend, 0.0)
+    straight = TUNED.bent * lever * np.where(target.planted, straightened, 0.0)
+    angles = np.stack([angle, gap, straight], axis=-1)
+    rows = np.concatenate([TUNED.knee * knee, TUNED.foot * ankle, angles], axis=-1)
+    return np.moveaxis(rows, -1, -2)
+
+
+def _corrections(targets: Sequence[FootTarget], pelvis: Pelvis, change: Array) -> Array:
+    """Return all weighted corrections, (2 + 9 L, F): root, pelvis, then those of each leg."""
+    legs = [_leg(target, pelvis, leg, change) for leg, target in enumerate(targets)]
+    weights = [[TUNED.root], [TUNED.list * pelvis.half]]
+    return np.concatenate([weights * change[:BODY], *legs])
+
+
+def _derivatives(targets: Sequence[FootTarget], pelvis: Pelvis, change: Array, corrections: Array) -> Array:
+    """Return the derivatives of all corrections by the unknowns of their frame, (2 + L, 2 + 9 L, F)."""
+    derivatives = np.zeros((len(change), *corrections.shape))
+    derivatives[RISE, RISE] = TUNED.root
+    derivatives[LIST, LIST] = TUNED.list * pelvis.half
+    for leg, target in enumerate(targets):
+        unknowns = [RISE, LIST, BODY + leg]
+        smaller = np.repeat(change[None], len(unknowns), axis=0)
+        smaller[np.arange(len(unknowns)), unknowns] -= STEP
+        rows = _rows(leg)
+        derivatives[unknowns, rows] = (corrections[rows] - _leg(target, pelvis, leg, smaller)) / STEP
+    return derivatives
+
+
+def _rows(leg: int) -> slice:
+    """Return which of all corrections are a leg's."""
+    return slice(BODY + LEG * leg, BODY + LEG * (leg + 1))
+
+
+def _bands(legs: int, frames: int, fps: float) -> tuple[Array, Array]:
+    """Return the matrices of the sum by their bands, and which rows are smooth corrections.
+
+    The bands have shape (2 + 9 L, 3, F), as of `bending_bands`; gaps and straight knees do not have to be
+    smooth, so that their matrix is diagonal.
+    """
+    ones = np.ones(frames)
+    kinds = {
+        fade: bending_bands(ones, (fade * fps) ** -4.0)
+        for fade in (TUNED.fade, TUNED.list_fade, TUNED.angle_fade)
+    }
+    bands = np.repeat(kinds[TUNED.fade][None], BODY + LEG * legs, axis=0)
+    bands[LIST] = kinds[TUNED.list_fade]
+    smooth = np.ones(len(bands), bool)
+    for leg in range(legs):
+        start = _rows(leg).start
+        bands[start + ANGLE] = kinds[TUNED.angle_fade]
+        bands[start + GAP] = bending_bands(0 * ones, 1.0)
+        bands[start + STRAIGHT] = bending_bands(0 * ones, (TUNED.fade * fps) ** -4.0)
+        smooth[[start + GAP, start + STRAIGHT]] = False
+    return bands, smooth
+
+
+def _least_bent(targets: Sequence[FootTarget], pelvis: Pelvis) -> Array:
+    """Minimise the sum by damped Gauss-Newton steps: the root's rise, the list and the knees' angles."""
+    track = targets[0].track
+    frames = len(track.hip)
+    bounds = np.array([[MOST * track.length], [MOST_LIST]])
+    bands, smooth = _bands(len(targets), frames, track.motion.fps)
+    change = np.zeros((BODY + len(targets), frames))
+    corrections = _corrections(targets, pelvis, change)
+    cost = _cost(bands, corrections)
+    damping = DAMPING
+    derivatives = _derivatives(targets, pelvis, change, corrections)
+    for _ in range(TUNED.steps):
+        pull = np.einsum("kmf,mf->kf", derivatives, band_product(bands, corrections))
+        # A root or a pelvis at its bound stays there if it is pulled beyond.
+        held = (np.abs(change[:BODY]) >= bounds) & (pull[:BODY] * change[:BODY] < 0)
+        diagonal = np.einsum("kmf,mf->kf", derivatives[:, smooth] ** 2, bands[smooth, 0])
+        tried = change - _gauss_newton(derivatives, bands, pull, damping * diagonal, held)
+        tried[:BODY] = np.clip(tried[:BODY], -bounds, bounds)
+        tried_corrections = _corrections(targets, pelvis, tried)
+        gain = cost - _cost(bands, tried_corrections)
+        if gain <= 0:
+            damping *= MORE_DAMPING
+            continue
+        is_last = gain <= TUNED.gain * cost
+        change = tried
+        corrections = tried_corrections
+        cost -= gain
+        if is_last:
             break
-        push = _beyond(jumps + push, most) / HARDER
-        near = maximum_filter1d(jolting, 2 * span + 1, axis=1)
-        targets = [_eased(target, jolts) for target, jolts in zip(targets, near, strict=True)]
-    poses = [_pose(target, change[0], extra) for target, extra in zip(targets, change[1:], strict=True)]
-    excesses = [(slice(None), abs(change[0]) - MOST * length - ROUNDING)]
-    excesses += [(slice(None), beyond.max(axis=0) - UNSEEN * length)]
-    for n, (target, (_, wanted)) in enumerate(zip(targets, poses, strict=True)):
-        lack = np.linalg.norm(wanted, axis=1) - target.track.long(0.0) - ROUNDING
-        excesses.append((slice(n, n + 1), np.where(target.planted, lack, -1.0)))
-    return change[0], list(targets), poses, [excess for excess in excesses if (excess[1] > 0).any()]
-
-
-def _eased(target: FootTarget, jolts: Mask) -> FootTarget:
-    """Let a knee that jolts no longer be bent backwards in the run of frames in which it was."""
-    back = target.side == -1
-    return target._replace(side=np.where(binary_propagation(back & jolts, mask=back), 1.0, target.side))
-
-
-def _pose(target: FootTarget, rise: Array, extra: Array) -> Pose:
-    """Give the knee's angle (..., F), radians, and the way from hip to ankle (..., F, 3) of a risen root."""
-    track, free = target.track, target.track.own + extra
-    hip = track.hip + rise[..., None] * UP
-    wanted, rolls = target.ankle - hip, target.rolls
-    wanted[..., rolls, :] = target.rolled(hip[..., rolls, :], track.long(free)[..., rolls])
-    held = track.bend(np.sqrt(dot(wanted, wanted)))
-    held *= np.where(rolls, np.copysign(1.0, free), target.side)
-    return np.where(target.planted, held, free), wanted
-
-
-def _bounds(targets: Sequence[FootTarget]) -> tuple[Array, Array]:
-    """Give how far the root may fall and rise for all planted legs to reach, (F,) each, metres."""
-    most, every = MOST * targets[0].track.length, []
-    for target in targets:
-        foot = (np.linalg.norm(target.places[1] - target.ankle, axis=1) - FLAT) * target.rolls
-        place = np.where(target.rolls[:, None], target.places[1], target.ankle)
-        every.append(np.where(target.planted, target.track.rises(place, foot), [[-most], [most]]))
-    # Where one leg asks for a lower root than another or than the bound, the lower one counts.
-    top = np.minimum(np.min(every, axis=0)[1], most)
-    return np.minimum(np.maximum(np.max(every, axis=0)[0], -most), top), top
-
-
-def _displacements(targets: Sequence[FootTarget], change: Array) -> Array:
-    """Give how far the root and each knee and ankle are moved, and what each leg lacks, (1 + 7 L, F).
-
-    The rows are the root's height, and for each leg three of its knee, three of its ankle, and its lack.
-    """
-    legs = [_leg(target, change[0], extra) for target, extra in zip(targets, change[1:], strict=True)]
-    return np.concatenate([ROOT * change[:1], *legs])
-
-
-def _slopes(targets: Sequence[FootTarget], change: Array, here: Array) -> Array:
-    """Give how fast all that is displaced `here` (1 + 7 L, F) goes with each unknown, (1 + L, 1 + 7 L, F)."""
-    slopes = np.zeros((len(change), *here.shape))
-    slopes[0, 0] = ROOT
-    for leg, target in enumerate(targets, 1):
-        rows = slice(7 * leg - 6, 7 * leg + 1)
-        lower = _leg(target, change[0] - [[STEP], [0.0]], change[leg] - [[0.0], [STEP]])
-        slopes[[0, leg], rows] = (here[rows] - lower) / STEP
-    return slopes
-
-
-def _leg(target: FootTarget, rise: Array, extra: Array) -> Array:
-    """Give a leg's rows of the displacements, (..., 7, F).
-
-    While the foot rolls, the leg also lacks what the knee's angle asks for, where no triangle is as long.
-    """
-    track, (bend, wanted) = target.track, _pose(target, rise, extra)
-    far, root = np.sqrt(dot(wanted, wanted)), rise[..., None] * UP
-    knee = root + track.thigh(bend, wanted) - (track.knee - track.hip)
-    long = np.where(target.planted, 1.0, track.long(bend) / far)
-    ankle = root + long[..., None] * wanted - (track.ankle - track.hip)
-    lack = target.planted * np.maximum(far - target.reach, 0.0)
-    lack += target.rolls * np.abs(far - track.long(track.own + extra))
-    return np.moveaxis(np.concatenate([knee, FOOT * ankle, lack[..., None]], axis=-1), -1, -2)
-
-
-def _knees(rows: Array) -> Array:
-    """Take the knees' part of all rows (..., 1 + 7 L, F): (..., L, 3, F)."""
-    *others, _, frames = rows.shape
-    return rows[..., 1:, :].reshape(*others, -1, 7, frames)[..., :3, :]
-
-
-def _least_bent(
-    targets: Sequence[FootTarget], change: Array, push: Array, most: Array, jolts: tuple[int, float]
-) -> Array:
-    """Improve a change (1 + L, F) of the root's rise and of the knees' angles where ankles do not stand.
-
-    Knees jump by at most `most` (L, F), as soon as their multipliers `push` (L, 3, F) are found. `jolts` are
-    over how many frames, and how much one counts.
-    """
-    track, legs, (span, hard) = targets[0].track, len(targets), jolts
-    hard /= span * (2 * span**2 + 1) / 3  # a free curve jumps so much less for a push of 1
-    near = (NEAR * track.motion.fps) ** -4.0
-    bands = np.repeat([bending_bands(np.ones_like(change[0]), near)], 1 + 7 * legs, axis=0)
-    bands[7::7] = bending_bands(0 * change[0], STIFF**2 * near)
-    own = _jumps(np.array([target.track.knee.T for target in targets]), span) + push
-    weighed = partial(_weighed, targets, bands, (own, most, span, hard))
-    bottom, top = _bounds(targets)
-    change = np.array([np.clip(change[0], bottom, top), *change[1:]])
-    (here, pull, over, cost), damping = weighed(change), 1e-3
-    slopes = _slopes(targets, change, here)
-    for _ in range(STEPS):
-        target = np.einsum("kmf,mf->kf", slopes, pull)
-        # A root at its bound stays there if it is pulled beyond.
-        held = (change[0] >= top) & (target[0] < 0) | (change[0] <= bottom) & (target[0] > 0)
-        terms = [(slopes, bands, 1)]
-        if over.any():
-            ties = np.repeat([bending_bands(hard * row.any(axis=0), 0.0, span) for row in over], 3, axis=0)
-            terms.append((_knees(slopes).reshape(1 + legs, 3 * legs, -1), ties, span))
-        tried = change - _gauss_newton(terms, target, damping, held)
-        tried[0] = np.clip(tried[0], bottom, top)
-        there, *rest, less = weighed(tried)
-        gain = cost - less
-        damping *= 0.2 if gain > 0 else 10.0
-        if gain > 0:
-            change, here, (pull, over), cost = tried, there, rest, less
-        if 0 <= gain <= GAIN * abs(cost):
-            break
-        slopes = _slopes(targets, change, here) if gain > 0 else slopes
+        damping *= LESS_DAMPING
+        derivatives = _derivatives(targets, pelvis, change, corrections)
     return change
 
 
-def _weighed(
-    targets: Sequence[FootTarget], bands: Array, bounds: tuple[Array, Array, int, float], change: Array
-) -> tuple[Array, Array, Array, float]:
-    """Give how far all is moved, how hard it is pulled back, by how much knees jump too far, and the sum."""
-    (own, most, span, hard), moved = bounds, _displacements(targets, change)
-    pull, over = band_product(bands, moved), _beyond(own + _jumps(_knees(moved), span), most)
-    cost = (moved * pull).sum() + hard * (over**2).sum()
-    wide = np.pad(over, [(0, 0), (0, 0), (span, span)])  # curves are 0 before and after
-    _knees(pull)[:] += hard * _jumps(wide, span)[..., span:-span]
-    return moved, pull, over, float(cost)
+def _cost(bands: Array, corrections: Array) -> float:
+    """Return the sum that is minimised."""
+    return float((corrections * band_product(bands, corrections)).sum())
 
 
-def _gauss_newton(
-    terms: Sequence[tuple[Array, Array, int]], target: Array, damping: float, held: Mask
-) -> Array:
-    """Solve (Σ Sᵀ B S + damping · diagonal) x = target for a step x, (K, F).
+def _gauss_newton(derivatives: Array, bands: Array, pull: Array, damping: Array, held: Mask) -> Array:
+    """Solve (Σ Sᵀ B S + damping) x = pull for a step x, (K, F).
 
     Parameters
     ----------
-    terms : for each sum S, how far each of M rows moves for each of K unknowns, (K, M, F); B, a symmetric
-        matrix for each row by three of its lower diagonals, (M, 3, F), and how many frames these are apart.
-    target : (K, F).
-    held : where the first unknown stays, (F,).
+    derivatives : S of each of M rows by each of K unknowns, (K, M, F).
+    bands : B, a symmetric matrix for each row by its lower diagonals, (M, 3, F).
+    pull : shape (K, F).
+    damping : what is added to the diagonal, (K, F).
+    held : where the first two unknowns stay, (2, F).
     """
-    kinds, frames = target.shape
-    # The unknowns of a frame stand side by side, so the whole has K lower diagonals for each frame.
-    whole = np.zeros(((1 + 2 * max(span for *_, span in terms)) * kinds, frames, kinds))
-    for slopes, bands, span in terms:
-        for later in range(3):
-            apart = later * span
-            if apart >= frames:
-                continue
-            weighed = bands[:, later, : frames - apart] * slopes[..., : frames - apart]
-            parts = np.einsum("kmf,lmf->klf", weighed, slopes[..., apart:])
-            for one, other in np.ndindex(kinds, kinds):
-                if (row := apart * kinds + other - one) >= 0:
-                    whole[row, : frames - apart, one] += parts[one, other]
-    # Where nothing depends on an unknown, as on a planted knee's extra angle, the step is 0.
-    whole[0] += damping * whole[0] + 1e-9 * whole[0].max() + np.finfo(float).tiny
-    whole[0, :, 0] += 1e9 * whole[0].max() * held
-    step = solveh_banded(whole.reshape(len(whole), -1), target.T.ravel(), lower=True)
+    kinds, frames = pull.shape
+    # The unknowns of a frame are neighbours, so that the matrix has K lower diagonals for each frame.
+    whole = np.zeros((3 * kinds, frames, kinds))
+    for later in range(min(3, frames)):
+        weighted = bands[:, later, : frames - later] * derivatives[..., : frames - later]
+        parts = np.einsum("kmf,lmf->klf", weighted, derivatives[..., later:])
+        for first, second in np.ndindex(kinds, kinds):
+            row = later * kinds + second - first
+            if row >= 0:
+                whole[row, : frames - later, first] += parts[first, second]
+    # Where nothing depends on an unknown, the step is 0.
+    whole[0] += damping.T + 1e-9 * damping.max() + np.finfo(float).tiny
+    whole[0, :, :BODY] += np.where(held.T, 1e9 * whole[0].max(), 0.0)
+    step = solveh_banded(whole.reshape(len(whole), -1), pull.T.ravel(), lower=True)
     return np.asarray(step.reshape(frames, kinds).T)
 
 
-def _beyond(vectors: Array, most: Array) -> Array:
-    """Give what vectors (..., 3, F) are longer than `most` (..., F)."""
-    size = np.linalg.norm(vectors, axis=-2)
-    return np.asarray(vectors * (np.maximum(size - most, 0.0) / np.maximum(size, ROUNDING))[..., None, :])
-
-
 def _jumps(curves: Array, span: int) -> Array:
-    """Give the second differences over `span` frames of curves (..., F), 0 near their ends."""
+    """Return the second differences over `span` frames of curves (..., F), 0 near their ends."""
     jumps = np.zeros_like(curves)
-    inner = curves[..., span : curves.shape[-1] - span]
-    jumps[..., span : span + inner.shape[-1]] = curves[..., 2 * span :] - 2 * inner + curves[..., : -2 * span]
+    middle = slice(span, max(curves.shape[-1] - span, span))
+    later = curves[..., 2 * span :]
+    earlier = curves[..., : -2 * span]
+    jumps[..., middle] = later - 2 * curves[..., middle] + earlier
     return jumps

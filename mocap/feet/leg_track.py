@@ -141,7 +141,9 @@ def track_leg(motion: Motion, leg: Leg, poses: GlobalPoses) -> LegTrack:
     return LegTrack(motion, leg, poses.matrices, hip, knee, ankle, ball, *hinge)
 
 
-def pose_leg(track: LegTrack, bend: Array, wanted: Array, turn: ArrayLike) -> Array:
+def pose_leg(
+    track: LegTrack, bend: Array, wanted: Array, turn: ArrayLike, pelvis: Array = rotations.IDENTITY
+) -> Array:
     """Pose a leg by the angle of its knee and the direction of its ankle [KSG02, step 4].
 
     Parameters
@@ -151,6 +153,7 @@ def pose_leg(track: LegTrack, bend: Array, wanted: Array, turn: ArrayLike) -> Ar
         wanted.
     wanted : the way from the hip to the ankle, shape (F, 3).
     turn : shape (F, 3), rotation vectors in the world's frame: how the foot is turned beyond what it was.
+    pelvis : shape (F, 4), quaternions in the world's frame: how the joint above the hip is turned.
 
     Returns
     -------
@@ -165,7 +168,8 @@ def pose_leg(track: LegTrack, bend: Array, wanted: Array, turn: ArrayLike) -> Ar
     sole = rotations.multiply(rotations.inverse(carried), rotations.from_rotvec(turn))
     posed = []
     above = motion.skeleton.parents[list(leg[:3])]  # of a split thigh, a joint between
-    for parent, joint, more in zip(above, leg[:3], (swing, fold, sole), strict=True):
+    thigh = rotations.multiply(rotations.inverse(pelvis), swing)
+    for parent, joint, more in zip(above, leg[:3], (thigh, fold, sole), strict=True):
         # The same turn, seen from the parent's frame, comes on top of the joint's own rotation.
         above_it = rotations.from_matrix(track.matrices[:, parent])
         local = rotations.multiply(rotations.multiply(rotations.inverse(above_it), more), above_it)

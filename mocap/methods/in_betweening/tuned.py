@@ -20,7 +20,7 @@ class Tuned:
     # The clean-up may release what it should hold at the ends, by up to 1° of a joint. Feet then slide by up
     # to 0.3 mm. After the second round most do not. Where a straight leg makes the clean-up lower the root
     # near an end, 1 mm is left, which `put_back` removes.
-    rounds: int = 2  # times that feet are cleaned up and ends brought to the poses
+    rounds: int = 4  # times that feet are cleaned up and ends brought to the poses
     fade: float = 0.5  # seconds in which a residual fades, at most. In a shorter walk, half of it
     near_end: float = 0.3  # seconds. A footplant so near to an end keeps its position at the frame next to it
 

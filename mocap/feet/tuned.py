@@ -1,0 +1,30 @@
+"""Constants of the clean-up that trials chose; `figures/tune/feet.py` runs the trials again."""
+
+from __future__ import annotations
+
+from mocap._shared.records import dataclass
+
+
+@dataclass(frozen=True)
+class Tuned:
+    """Each constant with its unit, and the reason for its value."""
+
+    # Weights of corrections, each of a metre; the knee's angle counts as metres on a quarter of the leg
+    root: float = 3.0  # weight of the root's rise. At 1 the root trembles more, at 6 knees snap
+    list: float = 5.0  # weight of a hip's height by the list of the pelvis. At 10 more knees snap
+    knee: float = 2.0  # weight of the knee's position. 1 to 4 are as good on walks
+    foot: float = 4.0  # weight of the ankle's position. At 1.5 the root trembles more
+    angle: float = 10.0  # weight of the knee's angle. At 3 knees snap by twice as much
+    bent: float = 100.0  # weight of the angle by which a knee is too straight. At 30 straight legs jolt
+    closed: float = 1000.0  # weight of the gap between leg and ankle. 100 to 3000 are as good
+
+    # Durations in which corrections fade
+    fade: float = 0.075  # seconds, of the root, knees and ankles. At 0.05 the root trembles more
+    list_fade: float = 0.025  # seconds. At 0.04 pelvises list more, at 0.01 standing bodies tremble
+    angle_fade: float = 0.06  # seconds, of a knee's angle. At 0.24 the ends of a motion change more
+
+    steps: int = 20  # at most, of Gauss-Newton. 10 to 40 are as good on walks
+    gain: float = 1e-3  # fraction of the cost; a step that gains less is the last one. 1e-4 takes longer
+
+
+TUNED = Tuned()
