@@ -294,7 +294,8 @@ def held(joint: str, *bones: Vector) -> Change:
 skis = held("ankle", (0.0, -0.08, 0.0), (0.0, 0.0, 0.8))
 stilts = held("ankle", (0.0, -0.05, 0.0), (0.0, -0.4, 0.0))
 swords = held("wrist", (0.05, 0.0, 0.05), (0.0, 0.0, 0.9))
-shields = held("wrist", (0.0, 0.0, 0.1), (0.0, 0.4, 0.0))
+shields = held("elbow", (0.0, 0.0, 0.1), (0.0, -0.35, 0.0))
+guards = held("knee", (0.0, 0.0, 0.1), (0.0, -0.6, 0.0))
 rigid_wings = held("clavicle", (0.0, 0.1, -0.1), (0.7, 0.1, 0.0))
 
 
@@ -633,7 +634,8 @@ ODDITIES: dict[str, tuple[Change, ...]] = {
     "skis and poles": (skis, two_props),
     "stilts": (stilts,),
     "two swords": (swords,),
-    "two shields": (shields,),
+    "two shields on the forearms": (shields,),
+    "long guards on the shanks": (guards,),
     "rigid wings": (rigid_wings,),
     "five toes on each foot": (five_toes,),
     "eyes and a jaw": (face,),
@@ -666,6 +668,8 @@ KINDS: dict[str, Change] = {
     "swords": swords,
     "skis": skis,
     "stilts": stilts,
+    "shields": shields,
+    "guards": guards,
     "face": face,
     "kneecaps": kneecaps,
     "cape": cape,

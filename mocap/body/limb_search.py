@@ -12,7 +12,7 @@ Names count only if all of this is open, and it is reported.
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import combinations
+from itertools import combinations, product
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -99,6 +99,7 @@ class Candidate(NamedTuple):
 
 
 Pair = tuple[Limb, Limb]
+ChainWithCandidates = tuple[Chain, Mapping[ChainIndices, Candidate]]
 
 
 class FoundLimbs(NamedTuple):
@@ -163,12 +164,24 @@ def limb_pairs(tree: BodyTree) -> list[Pair]:
     pairs = []
     for siblings in tree.children.values():
         tops = [joint for joint in siblings if tree.reach[joint] > shortest] if len(siblings) > 1 else []
-        chains = [(chain, limb_candidates(chain)) for chain in map(tree.chain, tops)]
-        for (first, in_first), (second, in_second) in combinations(chains, 2):
-            indices = _best_indices(in_first, in_second)
-            if indices is not None:
-                pairs.append((_limb(first, indices), _limb(second, indices)))
+        chains = [[(chain, limb_candidates(chain)) for chain in tree.chains(top, shortest)] for top in tops]
+        for first, second in combinations(chains, 2):
+            pair = _best_pair(first, second)
+            if pair is not None:
+                pairs.append(pair)
     return pairs
+
+
+def _best_pair(first: Sequence[ChainWithCandidates], second: Sequence[ChainWithCandidates]) -> Pair | None:
+    """Choose the pair of limbs with the highest score in the chains of two sides; None without any."""
+    best = None
+    highest = 0.0
+    for (chain, candidates), (image, in_image) in product(first, second):
+        indices, score = _best_indices(candidates, in_image)
+        if indices is not None and score > highest:
+            best = (_limb(chain, indices), _limb(image, indices))
+            highest = score
+    return best
 
 
 def _limb(chain: Chain, indices: ChainIndices) -> Limb:
@@ -177,8 +190,8 @@ def _limb(chain: Chain, indices: ChainIndices) -> Limb:
 
 def _best_indices(
     in_first: Mapping[ChainIndices, Candidate], in_second: Mapping[ChainIndices, Candidate]
-) -> ChainIndices | None:
-    """Choose the indices of a pair of limbs in two chains; None if no similar ones score above 0.
+) -> tuple[ChainIndices | None, float]:
+    """Choose the indices of a pair of limbs in two chains, and their score; None if no score is above 0.
 
     Both sides are scored together, at the same indices. A single side may carry a sword: what is left below
     the limb counts by the smaller one.
@@ -196,7 +209,7 @@ def _best_indices(
         if score > highest or (score == highest and best is not None and indices < best):
             best = indices
             highest = score
-    return best
+    return best, highest
 
 
 def limb_candidates(chain: Chain) -> dict[ChainIndices, Candidate]:
