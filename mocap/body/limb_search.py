@@ -231,7 +231,8 @@ def limb_candidates(chain: Chain) -> dict[ChainIndices, Candidate]:
 def _candidate(chain: Chain, indices: ChainIndices, lengths: Array) -> Candidate:
     """Score two segments as a limb, with the weights of `Weights`."""
     bend = chain.bend(*indices)
-    is_used = np.ptp(bend) > LIMITS.bends and chain.bend_ranges[indices.hinge] > LIMITS.bends / 2
+    hinge_turns = chain.bend_ranges[indices.hinge] > LIMITS.bends / 2
+    is_used = hinge_turns and bool(np.ptp(bend) > LIMITS.bends)
     uneven = WEIGHTS.uneven if is_used else WEIGHTS.uneven_unused
     total = float(lengths.sum())
     score = total / chain.tree.height - _penalty_of_passed(chain, indices, bend, is_used=is_used)
