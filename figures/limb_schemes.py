@@ -276,6 +276,36 @@ def two_props(rig: Rig) -> None:
         rig.hang_chain(f"{side} pole", f"{side} wrist", (0.08 * sign, 0.0, 0.03), (0.0, -0.55, 0.3), 2)
 
 
+def held(joint: str, *bones: Vector) -> Change:
+    """Fix a rigid thing on a joint of both sides: offsets of its bones on the left, each below the last."""
+
+    def change(rig: Rig) -> None:
+        for side, sign in SIDES.items():
+            parent = f"{side} {joint}"
+            for number, bone in enumerate(bones):
+                name = f"{side} held by {joint} {number}"
+                offset = np.multiply(bone, (sign, 1.0, 1.0)).tolist()
+                rig.hang(name, parent, offset)
+                parent = name
+
+    return change
+
+
+skis = held("ankle", (0.0, -0.08, 0.0), (0.0, 0.0, 0.8))
+stilts = held("ankle", (0.0, -0.05, 0.0), (0.0, -0.4, 0.0))
+swords = held("wrist", (0.05, 0.0, 0.05), (0.0, 0.0, 0.9))
+shields = held("elbow", (0.0, 0.0, 0.1), (0.0, -0.35, 0.0))
+guards = held("knee", (0.0, 0.0, 0.1), (0.0, -0.6, 0.0))
+rigid_wings = held("clavicle", (0.0, 0.1, -0.1), (0.7, 0.1, 0.0))
+
+
+def skis_of_two(rig: Rig) -> None:
+    """Add skis whose fronts and backs both hang on the ankle."""
+    for side in SIDES:
+        for end, ahead in (("front", 0.4), ("back", -0.4)):
+            rig.hang(f"{side} ski, {end}", f"{side} ankle", (0.0, -0.08, ahead))
+
+
 def five_toes(rig: Rig) -> None:
     """Add five toes of two bones in place of the tip of the foot."""
     for side, sign in SIDES.items():
@@ -597,6 +627,16 @@ ODDITIES: dict[str, tuple[Change, ...]] = {
     "a clip run backwards": (fingers, backwards),
     "one frame": (fingers, one_frame),
     "poles in both hands": (two_props,),
+    "skis": (skis,),
+    "skis on feet without toes": (without("ball", "tip"), skis),
+    "skis on the balls of the feet": (held("ball", (0.0, -0.03, 0.0), (0.0, 0.0, 0.8)),),
+    "skis of two halves": (skis_of_two,),
+    "skis and poles": (skis, two_props),
+    "stilts": (stilts,),
+    "two swords": (swords,),
+    "two shields on the forearms": (shields,),
+    "long guards on the shanks": (guards,),
+    "rigid wings": (rigid_wings,),
     "five toes on each foot": (five_toes,),
     "eyes and a jaw": (face,),
     "helpers at knees and elbows": (kneecaps,),
@@ -625,6 +665,11 @@ KINDS: dict[str, Change] = {
     "tail": tail,
     "sword": sword,
     "poles": two_props,
+    "swords": swords,
+    "skis": skis,
+    "stilts": stilts,
+    "shields": shields,
+    "guards": guards,
     "face": face,
     "kneecaps": kneecaps,
     "cape": cape,
@@ -644,7 +689,9 @@ EXCLUSIVE = (
     {"twists", "split bones"},
     {"targets", "root on floor"},
     {"hip bones", "thighs on spine", "pelvis below hips"},
-    {"sword", "poles"},
+    {"sword", "poles", "swords"},
+    {"skis", "stilts"},
+    {"hinges", "noise"},  # which of several joints in one place is the hip, noise hides
 )
 """Kinds of which a rig has at most one."""
 

@@ -3,14 +3,16 @@
 The method is ours. A limb is two segments of similar length with a hinge between them: thigh and shank, or
 upper arm and forearm. A segment is a bone, or several bones in one line that never bend, as where a thigh is
 split or has a joint for its twist. Two limbs that hang side by side and have segments of equal lengths are a
-pair. The legs are the pair that holds the lowest joint in most frames, and the arms the longest other pair.
-Left and right follow from where toes point, how knees and elbows bend, and which way the body goes.
+pair. Above a limb is at most a clavicle, and below it a hand, a foot, or a rigid thing: a shank and a ski
+below a thigh are no limb. The legs are the pair that holds the lowest joint in most frames, and the arms the
+longest other pair. Left and right follow from where toes point, how knees and elbows bend, and which way the
+body goes.
 Names count only if all of this is open, and it is reported.
 """
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import combinations
+from itertools import combinations, product
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -40,6 +42,9 @@ class SearchLimits:
     knee_at_rest: float = 0.035  # radians: a bend that a knee keeps and a split bone has not
     roots: int = 4  # joints of a chain, from its top, that may be a hip or a shoulder
     hand: float = 0.3  # of a limb's length: what may follow below its end (hand, foot)
+    clavicle: float = 0.8  # of the limb's first segment: a bone above its root. Clavicles have 0.7
+    prop: float = 1.1  # of the limb's longer segment: a bone below its end. Hands have 0.4
+    foot: float = 0.75  # of the shank: what is farther from the ankle is no toe. Feet have 0.5
     near_floor: float = 0.03  # above the lowest joint of a frame
     toe_ahead: float = 0.02  # that a toe is ahead of its ankle while it stands
     standing: float = 0.3  # of the frames: those in which an ankle is lowest
@@ -60,6 +65,7 @@ class Weights:
     uneven: float = 0.3  # times the logarithm of the segments' ratio
     uneven_unused: float = 0.6  # the same if the hinge does not bend
     leaf: float = 0.1  # a split segment ends where the chain ends
+    skipped: float = 0.8  # a segment above is as long as a limb's: thigh, shank and a ski are no limb
     left_below: float = 4.0  # times what is below the limb beyond a hand or a foot
     most_left_below: float = 1.2  # for both limbs. Poles in both hands are longer than arms
 
@@ -93,6 +99,7 @@ class Candidate(NamedTuple):
 
 
 Pair = tuple[Limb, Limb]
+ChainWithCandidates = tuple[Chain, Mapping[ChainIndices, Candidate]]
 
 
 class FoundLimbs(NamedTuple):
@@ -157,12 +164,24 @@ def limb_pairs(tree: BodyTree) -> list[Pair]:
     pairs = []
     for siblings in tree.children.values():
         tops = [joint for joint in siblings if tree.reach[joint] > shortest] if len(siblings) > 1 else []
-        chains = [(chain, limb_candidates(chain)) for chain in map(tree.chain, tops)]
-        for (first, in_first), (second, in_second) in combinations(chains, 2):
-            indices = _best_indices(in_first, in_second)
-            if indices is not None:
-                pairs.append((_limb(first, indices), _limb(second, indices)))
+        chains = [[(chain, limb_candidates(chain)) for chain in tree.chains(top, shortest)] for top in tops]
+        for first, second in combinations(chains, 2):
+            pair = _best_pair(first, second)
+            if pair is not None:
+                pairs.append(pair)
     return pairs
+
+
+def _best_pair(first: Sequence[ChainWithCandidates], second: Sequence[ChainWithCandidates]) -> Pair | None:
+    """Choose the pair of limbs with the highest score in the chains of two sides; None without any."""
+    best = None
+    highest = 0.0
+    for (chain, candidates), (image, in_image) in product(first, second):
+        indices, score = _best_indices(candidates, in_image)
+        if indices is not None and score > highest:
+            best = (_limb(chain, indices), _limb(image, indices))
+            highest = score
+    return best
 
 
 def _limb(chain: Chain, indices: ChainIndices) -> Limb:
@@ -171,8 +190,8 @@ def _limb(chain: Chain, indices: ChainIndices) -> Limb:
 
 def _best_indices(
     in_first: Mapping[ChainIndices, Candidate], in_second: Mapping[ChainIndices, Candidate]
-) -> ChainIndices | None:
-    """Choose the indices of a pair of limbs in two chains; None if no similar ones score above 0.
+) -> tuple[ChainIndices | None, float]:
+    """Choose the indices of a pair of limbs in two chains, and their score; None if no score is above 0.
 
     Both sides are scored together, at the same indices. A single side may carry a sword: what is left below
     the limb counts by the smaller one.
@@ -190,7 +209,7 @@ def _best_indices(
         if score > highest or (score == highest and best is not None and indices < best):
             best = indices
             highest = score
-    return best
+    return best, highest
 
 
 def limb_candidates(chain: Chain) -> dict[ChainIndices, Candidate]:
@@ -212,13 +231,11 @@ def limb_candidates(chain: Chain) -> dict[ChainIndices, Candidate]:
 def _candidate(chain: Chain, indices: ChainIndices, lengths: Array) -> Candidate:
     """Score two segments as a limb, with the weights of `Weights`."""
     bend = chain.bend(*indices)
-    is_used = np.ptp(bend) > LIMITS.bends
-    passed = [*range(indices.root + 1, indices.hinge), *range(indices.hinge + 1, indices.end)]
-    keeps_a_bend = bend.min() > LIMITS.knee_at_rest and not any(chain.is_kinked[joint] for joint in passed)
-    penalty = WEIGHTS.passed if is_used or keeps_a_bend else WEIGHTS.passed_unclear
+    hinge_turns = chain.bend_ranges[indices.hinge] > LIMITS.bends / 2
+    is_used = hinge_turns and bool(np.ptp(bend) > LIMITS.bends)
     uneven = WEIGHTS.uneven if is_used else WEIGHTS.uneven_unused
     total = float(lengths.sum())
-    score = total / chain.tree.height - penalty * len(passed)
+    score = total / chain.tree.height - _penalty_of_passed(chain, indices, bend, is_used=is_used)
     score -= uneven * abs(float(np.log(lengths[0] / lengths[1])))
     if is_used:
         score += WEIGHTS.hinge_bends
@@ -226,7 +243,31 @@ def _candidate(chain: Chain, indices: ChainIndices, lengths: Array) -> Candidate
         score += WEIGHTS.end_bends
     if indices.end > indices.hinge + 1 and chain.left_below(indices.end) == 0:
         score -= WEIGHTS.leaf
-    return Candidate(lengths, score, max(0.0, chain.left_below(indices.end) / total - LIMITS.hand))
+    above = slice(indices.root + 1)
+    if chain.segments[above, above].max() > LIMITS.clavicle * lengths[0]:
+        score -= WEIGHTS.skipped
+    holds_prop = is_used and _is_prop(chain, indices.end, lengths)
+    left_below = 0.0 if holds_prop else chain.left_below(indices.end) / total - LIMITS.hand
+    return Candidate(lengths, score, max(0.0, left_below))
+
+
+def _penalty_of_passed(chain: Chain, indices: ChainIndices, bend: Array, *, is_used: bool) -> float:
+    """Compute the penalty for the joints within the segments, which may split a bone or be the hinge.
+
+    A joint within a segment whose bend changes is less likely one that splits a bone.
+    """
+    passed = [*range(indices.root + 1, indices.hinge), *range(indices.hinge + 1, indices.end)]
+    keeps_a_bend = bend.min() > LIMITS.knee_at_rest and not any(chain.is_kinked[joint] for joint in passed)
+    penalty = WEIGHTS.passed if is_used or keeps_a_bend else WEIGHTS.passed_unclear
+    return sum(
+        WEIGHTS.passed_unclear if chain.bend_ranges[joint] > LIMITS.bends else penalty for joint in passed
+    )
+
+
+def _is_prop(chain: Chain, end: int, lengths: Array) -> bool:
+    """Tell whether below the end of a limb is one rigid thing, longer than its segments: a ski or a sword."""
+    is_rigid = max(chain.bend_ranges[end + 1 :], default=0.0) < LIMITS.bends / 2
+    return is_rigid and bool(chain.segments[end:, end:].max() > LIMITS.prop * lengths.max())
 
 
 # Legs and arms ----------------------------------------------------------------------------------------------
@@ -301,6 +342,17 @@ def _doubts_of_legs(
         yield f"the body lies or hangs, or up is another axis: the legs {_ends(names, [legs])} do not stand"
     if not _is_used(tree, legs):
         yield f"the knees {_ends(names, [legs], 'hinge')} hardly bend in these frames"
+    if any(_goes_on(tree, leg) for leg in legs):
+        yield f"below the ankles {_ends(names, [legs])} are long bones with joints that bend"
+
+
+def _goes_on(tree: BodyTree, leg: Limb) -> bool:
+    """Tell whether a joint bends that is farther below a leg than a foot is long."""
+    segments = Chain(tree, leg).distances.mean(axis=0)
+    foot = LIMITS.hand * (segments[0, 1] + segments[1, 2])
+    below = tree.chain(leg.end)
+    bends = zip(below.along, below.bend_ranges, strict=True)
+    return any(distance > foot and bend > LIMITS.bends for distance, bend in bends)
 
 
 def _doubts_of_arms(
@@ -366,7 +418,7 @@ def side_votes(tree: BodyTree, legs: Pair, arms: Pair | None) -> dict[str, float
     ahead = _ahead(tree, legs)
     steps = np.diff(tree.positions[:, tree.joints].mean(axis=1), axis=0)
     distance = max(float(np.abs(steps).sum()), 0.2 * tree.height)
-    toes = np.mean([_toes_ahead(tree, leg.end, ahead) for leg in legs])
+    toes = np.mean([_toes_ahead(tree, leg, ahead) for leg in legs])
     knees = np.mean([_hinge_ahead(tree, leg, ahead) for leg in legs])
     elbows = np.mean([_hinge_ahead(tree, arm, ahead) for arm in arms]) if arms else 0.0
     lengths = np.array([toes / 0.04, knees / 0.015, elbows / 0.02])
@@ -380,9 +432,9 @@ def _along(tree: BodyTree, vectors: Array, ahead: Array) -> float:
     return float(np.mean(np.sum(vectors * ahead, axis=-1))) / tree.height
 
 
-def _toes_ahead(tree: BodyTree, ankle: int, ahead: Array) -> float:
+def _toes_ahead(tree: BodyTree, leg: Limb, ahead: Array) -> float:
     """Return how far the joint of a foot that is farthest from the ankle is ahead of it; negative behind."""
-    offsets = [tree.positions[:, joint] - tree.positions[:, ankle] for joint in tree.below(ankle)]
+    offsets = [tree.positions[:, joint] - tree.positions[:, leg.end] for joint in foot_joints(tree, leg)]
     return max((_along(tree, offset, ahead) for offset in offsets), key=abs)
 
 
@@ -412,12 +464,12 @@ def _toes(tree: BodyTree, legs: Pair) -> list[tuple[int | None, int | None]]:
     low, for a foot in the air hangs. What is ahead on one foot is so on the other, which may be turned out.
     """
     ahead = _ahead(tree, legs)
-    distances = [_ahead_of_ankle(tree, leg.end, ahead) for leg in legs]
+    feet = [foot_joints(tree, leg) for leg in legs]
+    distances = [_ahead_of_ankle(tree, joints, ahead) for joints in feet]
     if len(distances[0]) == len(distances[1]):
         distances = [np.maximum(*distances)] * 2
     toes: list[tuple[int | None, int | None]] = []
-    for leg, distance in zip(legs, distances, strict=True):
-        joints = tree.below(leg.end)
+    for joints, distance in zip(feet, distances, strict=True):
         is_ahead = dict(zip(joints, distance > LIMITS.toe_ahead, strict=True))
         farthest = joints[int(np.argmax(distance))]
         path = [joint for joint in tree.path(farthest) if is_ahead.get(joint)]
@@ -426,11 +478,31 @@ def _toes(tree: BodyTree, legs: Pair) -> list[tuple[int | None, int | None]]:
     return toes
 
 
-def _ahead_of_ankle(tree: BodyTree, ankle: int, ahead: Array) -> Array:
-    """Return how far each joint below an ankle is ahead of it while it stands: medians, in heights."""
+def foot_joints(tree: BodyTree, leg: Limb) -> list[int]:
+    """List the ankle and the joints of the foot below it, without skis and stilts.
+
+    A joint that is too far from the ankle for a toe is left out, and so are joints that only hold such a one,
+    unless the foot has no other joint.
+    """
+    below = tree.below(leg.end)
+    offsets = tree.positions[:, below] - tree.positions[:, [leg.end]]
+    distances = np.median(np.linalg.norm(offsets, axis=-1), axis=0)
+    farthest = LIMITS.foot * Chain(tree, leg).distances[:, 1, 2].mean()
+    within_foot = [joint for joint, distance in zip(below, distances, strict=True) if distance <= farthest]
+    holders = {above for joint in set(below) - set(within_foot) for above in tree.path(joint)}
+    ends = [joint for joint in within_foot if joint not in holders]
+    foot = {joint for end in ends for joint in tree.path(end) if joint in within_foot}
+    return sorted(foot | {leg.end}) if ends else within_foot
+
+
+def _ahead_of_ankle(tree: BodyTree, joints: Sequence[int], ahead: Array) -> Array:
+    """Return how far each joint of a foot is ahead of its first, the ankle, in heights.
+
+    They are medians over the frames in which the ankle is low.
+    """
+    ankle = joints[0]
     heights = tree.heights[:, ankle]
     stands: Mask = heights <= np.quantile(heights, LIMITS.standing)
-    joints = tree.below(ankle)
     offsets = tree.positions[stands][:, joints] - tree.positions[stands][:, [ankle]]
     along = np.einsum("fjc,fc->fj", offsets, ahead[stands])
     return np.asarray(np.median(along, axis=0)) / tree.height

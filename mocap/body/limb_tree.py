@@ -119,17 +119,39 @@ class BodyTree:
         shared = set(self.path(first)[:-1]) & set(self.path(second)[:-1])
         return max(shared)  # parents have lower numbers than their children
 
-    def chain(self, top: int) -> "Chain":
-        """Follow the longest path down from a joint, without joints at the position of their parent."""
-        joints = [top]
+    def chain(self, top: int, branching: int | None = None) -> "Chain":
+        """Follow the longest path down from a joint, without joints at the position of their parent.
+
+        At the joint `branching`, the second longest path is followed.
+        """
+        path = self._path_down(top, branching)
         shortest = LIMITS.no_bone * self.height
-        below = self.children[top]
-        while below:
-            joint = max(below, key=self._reach_with_bone)
-            if self.lengths[joint] > shortest:
-                joints.append(joint)
-            below = self.children[joint]
+        joints = [top] + [joint for joint in path[1:] if self.lengths[joint] > shortest]
         return Chain(self, joints[: LIMITS.most_joints])
+
+    def _path_down(self, top: int, branching: int | None = None) -> list[int]:
+        path = [top]
+        while below := self.children[path[-1]]:
+            longest_first = sorted(below, key=self._reach_with_bone, reverse=True)
+            path.append(longest_first[path[-1] == branching])
+        return path
+
+    def chains(self, top: int, shortest: float) -> list["Chain"]:
+        """List the longest chain down from a joint, and those that leave it for the second longest.
+
+        A shield may be longer than the forearm that it hangs on.
+
+        Parameters
+        ----------
+        top : the first joint of all chains.
+        shortest : the least length of what follows after a chain has left the longest one.
+        """
+        chains = [self.chain(top)]
+        for joint in self._path_down(top):
+            reaches = [self._reach_with_bone(child) for child in self.children[joint]]
+            if sum(reach > shortest for reach in reaches) > 1:
+                chains.append(self.chain(top, joint))
+        return chains
 
 
 def _bone_lengths(parents: Indices, positions: Array) -> Array:

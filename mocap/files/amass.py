@@ -1,9 +1,11 @@
 """AMASS archives (`.npz`): poses of the SMPL body as rotation vectors, in metres, with z up [AMASS19].
 
 An archive contains `poses` (F, 66 or more) or (F, 22 or more, 3), or their parts `root_orient` (F, 3) and
-`pose_body` (F, 63). It also contains `trans` (F, 3), a frame rate, and the shape parameters of the body,
-`betas`. The shape model has a separate licence and is not included: all archives are read with the mean body
-of 22 joints. Fingers, face and soft tissue, the numbers after the first 66 of a pose, are ignored.
+`pose_body` (F, 63). Other programs for SMPL call the parts `global_orient` and `body_pose`, or the whole
+`smpl_poses`, and the positions `transl` or `smpl_trans`. It also contains `trans` (F, 3), a frame rate, and
+the shape parameters of the body, `betas`. The shape model has a separate licence and is not included: all
+archives are read with the mean body of 22 joints. Fingers, face and soft tissue, the numbers after the first
+66 of a pose, are ignored.
 
 Archives that are written have the arrays of AMASS's files of the SMPL+H body: 156 numbers of a pose, of which
 those of the fingers are 0, and 0 for `betas` and `dmpls`.
@@ -50,12 +52,22 @@ AXES = (1.0, "z")  # metres in a unit, and the axis that points up
 WANTED = "an AMASS archive with poses and trans"
 RATES = ("mocap_framerate", "mocap_frame_rate", "fps", "framerate", "frame_rate")
 WIDTH = 3 * len(SKELETON)  # numbers of a pose that are read
-PARTS = ("root_orient", "pose_body")  # of a pose, in archives without `poses`
+POSES = (("poses",), ("root_orient", "pose_body"), ("global_orient", "body_pose"), ("smpl_poses",))
+"""The names of poses, whole or in two parts. The first that an archive has are read."""
+USUAL_POSES = POSES[:2]  # those of AMASS
+POSITIONS = ("trans", "transl", "smpl_trans")  # of the body, in other programs too
+WHOLE = ("root_orient", "global_orient")  # arrays of which each number is read
+SCALING = "smpl_scaling"  # of the unit of `smpl_trans`, in metres the positions are divided by it
 WIDTHS = {
     "poses": WIDTH,
     "root_orient": 3,
     "pose_body": WIDTH - 3,
+    "global_orient": 3,
+    "body_pose": WIDTH - 3,
+    "smpl_poses": WIDTH,
     "trans": 3,
+    "transl": 3,
+    "smpl_trans": 3,
 }  # numbers of a frame that are read
 LARGEST = 1e6  # radians, metres, frames per second: upper bound of all numbers
 ALL_JOINTS = 52  # of the SMPL+H body, with fingers
@@ -84,7 +96,8 @@ def is_amass(members: Mapping[str, Member]) -> bool:
     >>> is_amass({})
     False
     """
-    return "trans" in members and ("poses" in members or set(PARTS) <= set(members))
+    has_poses = any(set(keys) <= set(members) for keys in POSES)
+    return has_poses and any(key in members for key in POSITIONS)
 
 
 def joints_of_smpl(skeleton: Skeleton) -> Indices | None:
@@ -163,25 +176,30 @@ def read(path: str | Path, *, fps: float | None = None, up: str | None = None) -
 
     Warns
     -----
-    MocapWarning : if the file has shape parameters, which are ignored.
+    MocapWarning : if the file has shape parameters, which are ignored, and if its arrays have names of other
+        programs than AMASS.
     """
     with open_archive(path, WANTED, ROOM) as members:
         keys = _keys_of_poses(path, members)
-        frames = _count_all_frames(path, members, keys)
+        key_of_positions = next((key for key in POSITIONS if key in members), POSITIONS[0])
+        frames = _count_all_frames(path, members, (*keys, key_of_positions))
         is_ours = is_written_by_mocap(members)
         rate = fps or _rate(path, members, exact=is_ours)
         poses = np.hstack([_rows(members[key], frames) for key in keys])[:, :WIDTH]
-        trans = members["trans"].read()[:, : WIDTHS["trans"]]
-        _require_small(path, "poses", poses)
-        _require_small(path, "trans", trans)
+        trans = _rows(members[key_of_positions], frames)[:, : WIDTHS[key_of_positions]]
+        _require_small(path, " and ".join(keys), poses)
+        _require_small(path, key_of_positions, trans)
+        scaling = _scaling(path, members) if key_of_positions == "smpl_trans" else 1.0
         has_shape = _has_shape(members)
+    if keys not in USUAL_POSES or key_of_positions != POSITIONS[0]:
+        _warn_of_names(path, (*keys, key_of_positions), scaling)
     up = up or (AXES[1] if is_ours else None)
     if has_shape:
         effect = "the bones are those of the mean body, so feet may stand some centimetres off the ground"
         warn(f"{path}: betas, the shape of the body, are ignored: {effect}.")
     vectors = poses.astype(float).reshape(frames, -1, 3)
     local = rotations.from_rotvec(vectors)
-    positions = PELVIS + trans.astype(float)
+    positions = PELVIS + trans.astype(float) / scaling
     evidence = None
     if up is None:
         looked_at, looked_rate = frames_to_look_at(positions, rate)
@@ -196,17 +214,34 @@ def read(path: str | Path, *, fps: float | None = None, up: str | None = None) -
 
 def _keys_of_poses(path: str | Path, members: Mapping[str, Member]) -> tuple[str, ...]:
     """Return the names of the arrays of poses, whole or in parts. Raise for a file of another kind."""
-    if "poses" in members:
-        return ("poses",)
+    keys = next((keys for keys in POSES if set(keys) <= set(members)), POSES[0])
+    if keys != POSES[0] or keys[0] in members:
+        return keys
     if kind_of(members) in LOADERS:
         raise other_kind(path, WANTED, members)
-    return PARTS if set(PARTS) <= set(members) else ("poses",)
+    return keys
+
+
+def _scaling(path: str | Path, members: Mapping[str, Member]) -> float:
+    """Read by what positions are divided to be in metres; 1 if the file does not say it."""
+    array = members.get(SCALING)
+    if array is None:
+        return 1.0
+    return _positive_number(path, SCALING, array)
+
+
+def _warn_of_names(path: str | Path, keys: tuple[str, ...], scaling: float) -> None:
+    """Warn that arrays with the names of other programs are read as those of AMASS."""
+    divided = f" / {scaling:g}" if scaling != 1.0 else ""
+    *poses, positions = keys
+    read_as = f"{' and '.join(poses)} are read as the poses of AMASS"
+    warn(f"{path}: {read_as}, and {positions}{divided} as its trans, in metres.")
 
 
 def _count_all_frames(path: str | Path, members: Mapping[str, Member], keys: tuple[str, ...]) -> int:
     """Return the number of frames. Raise if there are none, or arrays have different numbers of rows."""
     frames = _count_frames(path, members, keys[0])
-    for key in (*keys[1:], "trans"):
+    for key in keys[1:]:
         rows = _count_frames(path, members, key)
         if rows != frames:
             raise FormatError(path, None, f"as many rows of {key} as of {keys[0]}, {frames}", str(rows))
@@ -226,7 +261,9 @@ def _count_frames(path: str | Path, members: Mapping[str, Member], key: str) -> 
         raise FormatError(path, None, "arrays 'poses' and 'trans', as AMASS archives have", f"no '{key}'")
     array = members[key]
     is_table = len(array.shape) in (2, 3) and array.dtype.kind in REAL_NUMBERS
-    if not is_table or math.prod(array.shape[1:]) < WIDTHS[key]:
+    width = math.prod(array.shape[1:])
+    has_other_parts = key in WHOLE and width != WIDTHS[key]
+    if not is_table or width < WIDTHS[key] or has_other_parts:
         raise FormatError(path, None, f"{WIDTHS[key]} numbers for each frame in '{key}'", str(array))
     return array.shape[0]
 
@@ -252,10 +289,16 @@ def _rate(path: str | Path, members: Mapping[str, Member], *, exact: bool) -> fl
     key = next((key for key in RATES if key in members), None)
     if key is None:
         raise FormatError(path, None, f"'{RATES[0]}'", "none", remedy=Remedy("give {}", "fps"))
-    array = members[key]
+    rate = _positive_number(path, key, members[key])
+    return rate if exact else frame_rates.without_noise(rate)
+
+
+def _positive_number(path: str | Path, key: str, array: Member) -> float:
+    """Read an array of a single number above 0."""
+    expected = f"one number above 0 in '{key}'"
     if math.prod(array.shape) != 1 or array.dtype.kind not in REAL_NUMBERS:
-        raise FormatError(path, None, f"one number above 0 in '{key}'", str(array))
-    rate = array.read().item()
-    if not 0 < rate < LARGEST:
-        raise FormatError(path, None, f"one number above 0 in '{key}'", str(rate))
-    return float(rate) if exact else frame_rates.without_noise(float(rate))
+        raise FormatError(path, None, expected, str(array))
+    number = array.read().item()
+    if not 0 < number < LARGEST:
+        raise FormatError(path, None, expected, str(number))
+    return float(number)

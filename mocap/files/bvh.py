@@ -32,7 +32,7 @@ from mocap.files.read_options import ReadOptions
 from mocap.files.recordings import Recording
 from mocap.files.rigid_bones import fit
 from mocap.files.space_evidence import Evidence, frames_to_look_at, gather
-from mocap.files.text import LARGEST, check_room, read_text, to_numbers, with_decimal_points
+from mocap.files.text import LARGEST, check_room, read_text, to_numbers, without_commas
 from mocap.files.tuned import TUNED
 
 SCALE = 0.01  # metres in a unit of files that are written, and of those whose frames do not show it
@@ -40,6 +40,15 @@ STILL = 1e-5  # metres: the largest movement of a fixed joint in its parent's fr
 SHORTEST = 1e-5  # seconds: the smallest frame time
 LONGEST = 10.0  # seconds: the largest frame time
 FRAMES_AT_ONCE = 256  # whose angles are converted: their arrays fit into the cache of a processor
+# The parts of a file that hold numbers: statements of joints, the frame time, and all rows of frames.
+NUMBERS = re.compile(
+    r"(?:^|[{}])[ \t]*(?:OFFSET|CHANNELS)\b[^{}\n]*"
+    r"|^[ \t]*Frame[ \t]+Time[ \t]*:[^\n]*"
+    r"|^(?=[ \t]*[-+.\d])(?s:.*)\Z",
+    re.IGNORECASE | re.MULTILINE,
+)
+ABOVE = re.compile(r"[^{}]*?(?=^[ \t]*HIERARCHY\b)", re.IGNORECASE | re.MULTILINE)
+COMMENT = re.compile(r"^[ \t]*(?:#|//).*", re.MULTILINE)
 TIMES = re.compile(
     r"\s*Frames[ \t]*:[ \t]*(\S+)[ \t]*\n\s*Frame[ \t]+Time[ \t]*:[ \t]*(\S+)[ \t]*(?:\n|\Z)", re.IGNORECASE
 )
@@ -163,7 +172,7 @@ def _without_reference(
 
 def _channels(path: str | Path, options: ReadOptions) -> tuple[Hierarchy, Array, float]:
     """Read the hierarchy, the numbers of all channels (F, C), and the frame rate, unless it is given."""
-    text = with_decimal_points(path, read_text(path))
+    text = without_commas(path, _without_comments(path, read_text(path)), NUMBERS)
     start = re.search(r"^[ \t]*MOTION[ \t]*$", text, re.MULTILINE | re.IGNORECASE)
     if start is None:
         raise FormatError(path, None, "a line 'MOTION'", "none")
@@ -178,6 +187,25 @@ def _channels(path: str | Path, options: ReadOptions) -> tuple[Hierarchy, Array,
     return hierarchy, values, options.fps or _rate(path, text, times)
 
 
+def _without_comments(path: str | Path, text: str) -> str:
+    """Return a text with blank lines in place of comments, and of what is above HIERARCHY, and warn of it."""
+    comments: list[str] = []
+
+    def blank(part: re.Match[str]) -> str:
+        comments.extend(line.strip() for line in part[0].split("\n") if line.strip())
+        return "\n" * part[0].count("\n")
+
+    if "#" in text or "//" in text:
+        text = COMMENT.sub(blank, text)
+    above = ABOVE.match(text)
+    if above and above[0].strip():
+        text = blank(above) + text[above.end() :]
+    if comments:
+        shown = shortened(comments[0], 40)
+        warn(f"{path}: comments are left out, {len(comments)} in all, such as '{shown}'.")
+    return text
+
+
 def _values(path: str | Path, text: str, times: re.Match[str], width: int) -> Array:
     """Read the frames (F, channels); `times` is the match with their count."""
     line = text.count("\n", 0, times.start(1)) + 1
@@ -185,26 +213,38 @@ def _values(path: str | Path, text: str, times: re.Match[str], width: int) -> Ar
     if width == 0:
         raise FormatError(path, line, "channels, which have numbers in every frame", "none")
     values = parse_numbers(text[times.end() :])
+    is_cut = False
     if values is None or values.size != count * width or not np.all(np.abs(values) < LARGEST):
-        values = _rows(path, text, times, width)
+        values, is_cut = _rows(path, text, times, width)
     frames = values.size // width
     if frames == 0:
         raise FormatError(path, line, "one frame or more", "none")
-    if frames != count:
+    if frames != count and not (is_cut and frames + 1 == count):
         warn(f"{path}: the header says {count:.15g} frames, and {frames} whole ones follow: all are read.")
     return values.reshape(frames, width)
 
 
-def _rows(path: str | Path, text: str, times: re.Match[str], width: int) -> Array:
-    """Read the frames one line at a time, and raise at the first line that is not a whole frame."""
+def _rows(path: str | Path, text: str, times: re.Match[str], width: int) -> tuple[Array, bool]:
+    """Read the frames one line at a time, and raise at the first line that is not a whole frame.
+
+    The last line may be a part of one, where a recording was interrupted: it is left out with a warning.
+
+    Returns
+    -------
+    The numbers of all whole frames, and whether a part of one was left out.
+    """
     rows: list[Array] = []
     first_line = text.count("\n", 0, times.end()) + 1
-    for number, row in enumerate(text[times.end() :].split("\n"), first_line):
-        words = row.split()
-        if words:
-            expected = f"{width} numbers after {len(rows)} complete frames"
-            rows.append(to_numbers(path, number, words, expected, width))
-    return np.concatenate([np.empty(0), *rows])
+    lines = [(number, row.split()) for number, row in enumerate(text[times.end() :].split("\n"), first_line)]
+    lines = [(number, words) for number, words in lines if words]
+    is_cut = len(lines) > 1 and len(lines[-1][1]) < width
+    if is_cut:
+        last_line, words = lines.pop()
+        warn(f"{path}: line {last_line}, the last one, ends after {len(words)} of {width} numbers: left out.")
+    for number, words in lines:
+        expected = f"{width} numbers after {len(rows)} complete frames"
+        rows.append(to_numbers(path, number, words, expected, width))
+    return np.concatenate([np.empty(0), *rows]), is_cut
 
 
 def _rate(path: str | Path, text: str, times: re.Match[str]) -> float:

@@ -29,6 +29,10 @@ def read_amc(path: Path, options: ReadOptions) -> Recording:
     """Read an Acclaim motion and its skeleton, by default a matching `.asf` file in the same folder."""
     from mocap.files import acclaim, asf
 
+    if options.up not in (None, "y"):
+        problem = f"All .amc files have y up, got {options.up} up for {path}."
+        raise MocapError(problem, remedy=Remedy("leave out {}", "up"))
+    _require_single_body(path, options)
     skeleton = options.skeleton or skeleton_beside(path)
     return acclaim.read(path, asf.read_skeleton(skeleton, scale=options.scale), fps=options.fps)
 
@@ -109,7 +113,15 @@ def read_npz(path: Path, options: ReadOptions) -> Recording:
     if options.scale not in (None, 1.0):
         problem = f"All .npz files are in metres, got a scale of {options.scale:g} for {path}."
         raise MocapError(problem, remedy=Remedy("leave out {}", "scale"))
+    _require_single_body(path, options)
     return motion_archives.read(path, fps=options.fps, up=options.up)
+
+
+def _require_single_body(path: Path, options: ReadOptions) -> None:
+    """Raise if another body than the first is asked of a format that has one."""
+    if options.body not in (None, 1):
+        problem = f"{path} holds 1 body, as all {path.suffix.lower()} files do, got {options.body}."
+        raise MocapError(problem, remedy=Remedy("leave out {}", "body"))
 
 
 READ: dict[str, Format] = {

@@ -48,8 +48,8 @@ def load(  # noqa: PLR0913 (each by its name)
         rigid bones are fitted, with a warning that reports the error of joint positions. `math.inf` accepts
         any change.
     up : the axis of the file that points up: "y", "z", "-y", "-z", "x" or "-x". By default the one that the
-        frames show, from the standing feet: y for `.bvh` and z for AMASS if they do not. The motion is
-        rotated so that y is up.
+        frames show, from the standing feet: y for `.bvh` and z for AMASS if they do not. An `.amc` always has
+        y up. The motion is rotated so that y is up.
     root_offset : "add" if the positions of the root in a `.bvh` file are relative to its OFFSET, as some
         programs write them, or "ignore" if they replace it. By default it is added if the body is on the
         floor only then.
@@ -65,7 +65,8 @@ def load(  # noqa: PLR0913 (each by its name)
 
     Raises
     ------
-    MocapError : for a file that is missing or has another format, and if no skeleton matches.
+    MocapError : for a file that is missing or has another format, if no skeleton matches, and for an option
+        that does not apply to the format, such as `up` to `.amc`.
     FormatError : for a file that breaks its format, with the line.
 
     Warns

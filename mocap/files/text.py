@@ -17,6 +17,7 @@ from mocap.errors import FormatError, MocapError, shortened, warn
 LARGEST = 1e9  # units of a file: upper bound of numbers, far above those of any motion
 JAPANESE = re.compile("[\u3041-\u30ff\u4e00-\u9fff]{2}")
 DECIMAL_COMMA = re.compile(r"(?<=\d),(?=\d)")
+TWO_COMMAS = re.compile(r"\d,[-+]?\d+,[-+]?\d")  # of a list of integers
 DECIMAL_POINT = re.compile(r"\d\.\d")
 MOST_POSES = 10_000_000  # poses of single joints: above this, `POSES_PER_NUMBER` is checked
 MOST_ROWS = 500_000  # of a table
@@ -107,6 +108,44 @@ def with_decimal_points(path: str | Path, text: str) -> str:
         return text
     warn(f"{path}: its numbers have decimal commas, which are read as points.")
     return DECIMAL_COMMA.sub(".", text)
+
+
+def without_commas(path: str | Path, text: str, parts: re.Pattern[str]) -> str:
+    r"""Return a text whose numbers have decimal points and are separated by blanks, and warn of any change.
+
+    Parameters
+    ----------
+    path : the file.
+    text : of the file.
+    parts : matches the parts of the text that hold numbers. In each of them, a comma between two digits is a
+        decimal comma, unless the part also has decimal points. All other commas and semicolons separate.
+
+    Examples
+    --------
+    >>> without_commas("a.bvh", "JOINT a,b\nOFFSET 0.5 1 2", re.compile("OFFSET.*"))
+    'JOINT a,b\nOFFSET 0.5 1 2'
+    """
+    if "," not in text and ";" not in text:
+        return text
+    used: set[str] = set()
+
+    def changed(part: re.Match[str]) -> str:
+        numbers = part[0]
+        has_decimal_commas = not (DECIMAL_POINT.search(numbers) or TWO_COMMAS.search(numbers))
+        if has_decimal_commas and DECIMAL_COMMA.search(numbers):
+            used.add("decimal")
+            numbers = DECIMAL_COMMA.sub(".", numbers)
+        if "," in numbers or ";" in numbers:
+            used.add("separator")
+            numbers = numbers.replace(",", " ").replace(";", " ")
+        return numbers
+
+    text = parts.sub(changed, text)
+    if "decimal" in used:
+        warn(f"{path}: its numbers have decimal commas, which are read as points.")
+    if "separator" in used:
+        warn(f"{path}: its numbers are separated by commas or semicolons, which are read as blanks.")
+    return text
 
 
 def check_room(path: str | Path, poses: int, numbers: int) -> None:

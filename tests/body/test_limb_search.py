@@ -159,6 +159,25 @@ def test_what_is_no_body_has_no_limbs(parents, places):
     assert found == ({}, ("no two limbs are mirror images of each other",))
 
 
+@pytest.mark.parametrize("name", ["skis", "two swords"])
+def test_rigid_things_on_feet_and_hands_are_in_doubt_in_a_single_pose(name):
+    rig = limb_schemes.odd_rig((*ODDITIES[name], limb_schemes.one_frame))
+    assert "hardly bend" in " ".join(limbs_of(rig).doubts)
+
+
+@pytest.mark.parametrize("height", [0.3, 0.6])
+def test_stilts_of_any_height_are_below_the_ankles(height):
+    stilts = limb_schemes.held("ankle", (0.0, -0.05, 0.0), (0.0, -height, 0.0))
+    rig = limb_schemes.odd_rig((stilts,), "walk_circle")
+    assert wrong_roles(rig, limbs_of(rig)) == []
+
+
+def test_long_bones_below_the_legs_are_told():
+    rig = limb_schemes.odd_rig((limb_schemes.flat_toes, limb_schemes.split_bones, limb_schemes.noise))
+    found = limbs_of(rig)
+    assert not wrong_roles(rig, found) or "below the ankles" in " ".join(found.doubts)
+
+
 def test_a_dog_has_more_than_two_legs():
     rig = walker()
     limb_schemes.without("clavicle", "hand")(rig)

@@ -6,7 +6,7 @@ from hypothesis import given
 from scipy.spatial.transform import Rotation
 
 from mocap.body import joint_positions, limbs
-from mocap.errors import FormatError
+from mocap.errors import FormatError, MocapWarning
 from mocap.files import amass, load_save, motion_archives
 from tests.refusals import refused, told, unwarned
 from tests.strategies import seeds
@@ -75,6 +75,27 @@ def test_the_body_stands_upright_and_faces_where_the_archive_says(archive):
 def test_older_and_newer_names_of_the_rate(archive):
     assert load_save.load(archive(mocap_framerate=None, mocap_frame_rate=np.array([60]))).fps == 60.0
     assert load_save.load(archive(mocap_framerate=None), fps=25.0).fps == 25.0
+
+
+def test_arrays_with_the_names_of_other_programs_are_read_and_that_is_said(archive):
+    poses, trans = numbers()["poses"], numbers()["trans"]
+    expected = load_save.load(archive(poses=poses[:, :66]), up="z")
+    usual = {"poses": None, "trans": None}
+    parts = {"global_orient": poses[:, None, :3], "body_pose": poses[:, 3:72].reshape(4, 23, 3)}
+    for positions in ({"transl": trans}, {"transl": trans[:, None]}):
+        path = archive(**usual, **parts, **positions)
+        said = "global_orient and body_pose are read as the poses of AMASS, and transl as its trans"
+        with pytest.warns(MocapWarning, match=said):
+            assert load_save.load(path, up="z") == expected
+    path = archive(**usual, smpl_poses=poses[:, :72], smpl_trans=90 * trans, smpl_scaling=np.array([90.0]))
+    with pytest.warns(MocapWarning, match="smpl_poses .* and smpl_trans / 90 as its trans, in metres"):
+        dance = load_save.load(path, up="z")
+    assert np.allclose(dance.root_positions, expected.root_positions)
+    assert np.array_equal(dance.rotations, expected.rotations)
+    six = archive(**usual, global_orient=np.zeros((4, 6)), body_pose=np.zeros((4, 63)), transl=trans)
+    refused(r"3 numbers for each frame in 'global_orient', got float64\(4, 6\)", load_save.load, six)
+    unscaled = archive(**usual, smpl_poses=poses[:, :72], smpl_trans=trans, smpl_scaling=0.0)
+    refused("one number above 0 in 'smpl_scaling', got 0.0", load_save.load, unscaled)
 
 
 def test_poses_in_three_dimensions_or_in_parts_are_the_same(archive):

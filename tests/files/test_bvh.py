@@ -163,6 +163,69 @@ def test_decimal_commas_are_read_as_points_and_that_is_said(write):
         assert load_save.load(write(re.sub(r"(?<=\d)\.(?=\d)", ",", with_points))) == expected
 
 
+COMMAS = {
+    "comma and blank": lambda text: re.sub(r"(?m)(?<=\d) (?=[-\d])", ", ", text),
+    "comma": lambda text: re.sub(r"(?m)(?<=\d) (?=[-\d])", ",", text),
+    "semicolon": lambda text: re.sub(r"(?m)(?<=\d) (?=[-\d])", ";", text),
+    "comma before the channels": lambda text: re.sub(r"(CHANNELS \d) (\w+) ", r"\1, \2, ", text),
+}
+
+
+@pytest.mark.parametrize("change", COMMAS.values(), ids=COMMAS)
+def test_separators_are_read_as_blanks_and_that_is_said(write, change):
+    text = BVH.replace(" 90", " 90.5")
+    expected = load_save.load(write(text))
+    with pytest.warns(MocapWarning, match="separated by commas or semicolons"):
+        assert load_save.load(write(change(text))) == expected
+
+
+def test_decimal_commas_between_separators_are_points(write):
+    text = BVH.replace(" 90", " 90.5").replace("OFFSET 10 0 0", "OFFSET 10.25 0 0")
+    expected = load_save.load(write(text))
+    german = re.sub(r"(?<=\d)\.(?=\d)", ",", text)
+    with pytest.warns(MocapWarning) as told:
+        assert load_save.load(write(re.sub(r"(?<=\d) (?=[-\d])", "; ", german))) == expected
+    assert ["decimal" in str(told[0].message), "separated" in str(told[1].message)] == [True, True]
+
+
+@pytest.mark.parametrize("part", ["Frame Time: 0.0333333", "OFFSET 10.25 0 0", "90.5"])
+def test_a_decimal_comma_in_one_part_only_is_a_point(write, part):
+    text = BVH.replace(" 90", " 90.5").replace("OFFSET 10 0 0", "OFFSET 10.25 0 0")
+    expected = load_save.load(write(text))
+    with pytest.warns(MocapWarning, match="decimal commas"):
+        assert load_save.load(write(text.replace(part, part.replace(".", ",")))) == expected
+
+
+def test_commas_in_names_stay(write):
+    named = load_save.load(write(BVH.replace("JOINT head", "JOINT head, left; 2#1")))
+    assert "head, left; 2#1" in named.skeleton.names
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "count"),
+    [
+        ("HIERARCHY", "# made by hand\n\nHIERARCHY", 1),
+        ("HIERARCHY", "Exported on Monday,\nin centimetres\nHIERARCHY", 2),
+        ("MOTION", "// the frames\nMOTION", 1),
+        ("\n0 100 50", "\n# frame 1\n0 100 50", 1),
+    ],
+)
+def test_comments_are_left_out_and_that_is_said(write, old, new, count):
+    expected = load_save.load(write(BVH))
+    with pytest.warns(MocapWarning, match=f"comments are left out, {count} in all, such as"):
+        assert load_save.load(write(BVH.replace(old, new))) == expected
+
+
+def test_a_last_row_that_was_cut_off_is_left_out_and_that_is_said(write):
+    expected = load_save.load(write(BVH))[:1]
+    said = "line 33, the last one, ends after 8 of 12 numbers: left out"
+    with pytest.warns(MocapWarning, match=said) as told:
+        assert load_save.load(write(BVH.replace("90 90 0 0 0 0", "90 9"))) == expected
+    assert len(told) == 1  # the header counts the frame that was cut off
+    with pytest.warns(MocapWarning, match="left out"):
+        assert load_save.load(write(BVH.replace("90 90 0 0 0 0", "90 -"))) == expected
+
+
 def test_joints_of_equal_names_get_a_number_and_that_is_said(write):
     with pytest.warns(MocapWarning, match="1 joints have the name of another, such as 'left leg'"):
         motion = load_save.load(write(BVH.replace("JOINT head", "JOINT left leg")))
@@ -204,7 +267,7 @@ BROKEN = [
         r"line 33: expected 12 numbers after 1 complete frames, all below 1e\+09, got 'nan' as number 8",
     ),
     ("90 90 0", "90 x 0", r"line 33: expected 12 numbers .* got 'x' as number 8"),
-    ("90 90 0 0 0 0", "90 9", r"line 33: expected 12 numbers after 1 complete frames, got 8"),
+    ("90 90 0 0 0 0", "90 9\n0", r"line 33: expected 12 numbers after 1 complete frames, got 8"),
     ("MOTION\n", "", r"expected a line 'MOTION'"),
     ("ROOT hips", "ROOT", r"line 2: expected a name after ROOT"),
     ("ROOT hips", "JOINT hips", r"line 2: expected HIERARCHY or ROOT, got 'JOINT'"),

@@ -158,6 +158,9 @@ test_other_formats_and_options_that_make_no_sense_are_refused = refusals(
         "in metres, got a scale of 2 for walk.npz: leave out scale=.",
         partial(load_save.load, "walk.npz", scale=2.0),
     ),
+    ("y up, got z up for walk.amc: leave out up=.", partial(load_save.load, "walk.amc", up="z")),
+    ("holds 1 body, as all .amc files do, got 2: leave out body=.", partial(load_save.load, "a.amc", body=2)),
+    ("holds 1 body, as all .npz files do, got 2: leave out body=.", partial(load_save.load, "a.npz", body=2)),
     *(
         (f"{option} must be a number above 0", partial(load_save.load, "walk.bvh", **{option: value}))
         for option in ("fps", "scale")
