@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array, Mask
 from mocap._shared.records import NamedTuple, dataclass
+from mocap.body.limb_tree import LIMITS as TREE_LIMITS
 from mocap.body.limb_tree import BodyTree, Chain
 from mocap.body.skeleton import Skeleton
 
@@ -60,6 +61,7 @@ class Weights:
     uneven: float = 0.3  # times the logarithm of the segments' ratio
     uneven_unused: float = 0.6  # the same if the hinge does not bend
     leaf: float = 0.1  # a split segment ends where the chain ends
+    fan: float = 0.3  # three or more bones start at a joint within a segment, as at a hand with fingers
     left_below: float = 4.0  # times what is below the limb beyond a hand or a foot
     most_left_below: float = 1.2  # for both limbs. Poles in both hands are longer than arms
 
@@ -226,6 +228,8 @@ def _candidate(chain: Chain, indices: ChainIndices, lengths: Array) -> Candidate
         score += WEIGHTS.end_bends
     if indices.end > indices.hinge + 1 and chain.left_below(indices.end) == 0:
         score -= WEIGHTS.leaf
+    if any(chain.is_fan(joint) for joint in passed):
+        score -= WEIGHTS.fan
     return Candidate(lengths, score, max(0.0, chain.left_below(indices.end) / total - LIMITS.hand))
 
 
@@ -450,7 +454,8 @@ def _arms_by_role(tree: BodyTree, arms: Pair, legs: Pair) -> dict[str, int]:
 def _trunk_by_role(tree: BodyTree, arms: Pair, dofs: Sequence[str]) -> dict[str, int]:
     """Find the chest, on which the arms hang, and the neck and the head on the highest other path from it.
 
-    The head is where that path branches (eyes, jaw, hair), or its last joint with a bone. Of two joints, the
+    The head is where that path branches (eyes, jaw, hair), or its last joint with a bone. A joint at the
+    position of its parent, such as one for the face, is not the head, but its parent is. Of two joints, the
     last may be the head, unless it cannot rotate, as an end site. Then the other one is the head, without a
     neck.
     """
@@ -463,6 +468,9 @@ def _trunk_by_role(tree: BodyTree, arms: Pair, dofs: Sequence[str]) -> dict[str,
         branches = tree.children[path[-1]] if len(tree.children[path[-1]]) <= 2 else []
     if not path:
         return {"chest": chest}
+    shortest = TREE_LIMITS.no_bone * tree.height
+    while len(path) > 2 and tree.children[path[-1]] and tree.lengths[path[-1]] < shortest:
+        path.pop()
     last = path[-1]
     if len(path) == 2 and not tree.children[last] and not dofs[last]:
         return {"chest": chest, "head": path[0]}

@@ -99,6 +99,12 @@ def test_a_head_without_a_neck_is_not_its_end_site():
     assert skeleton.names[joints["head"]] == "head"
 
 
+def test_a_joint_for_the_face_at_the_position_of_the_head_is_not_the_head():
+    rig = limb_schemes.odd_rig(ODDITIES["a joint for the face"])
+    skeleton, positions = rig.skeleton({})
+    assert skeleton.names[find_limbs(skeleton, positions).roles["head"]] == "head"
+
+
 @pytest.mark.parametrize(("scale", "turn"), [(0.01, 0.0), (100.0, 1.0), (39.37, 2.5)])
 def test_neither_unit_nor_heading_nor_up_axis_changes_a_role(scale, turn):
     rig, names = scheme_rig(SCHEMES["Unreal mannequin"])
