@@ -115,7 +115,7 @@ def outcome(clips: Sequence[Motion], unit: float, up: str) -> str:
 
 def outcome_of(space: Space, unit: float, up: str) -> str:
     """Name the outcome of a clip."""
-    if space.choices() == (unit, up):
+    if (space.scale, space.up) == (unit, up):
         return "right, in doubt" if space.doubt else "right"
     return "wrong, stated" if space.sentence(NAMES) else "WRONG IN SILENCE"
 

@@ -322,6 +322,27 @@ def face(rig: Rig) -> None:
     rig.hang_chain("jaw", "head", (0.0, 0.0, 0.03), (0.0, -0.04, 0.05), 2)
 
 
+def face_root(rig: Rig) -> None:
+    """Add a joint at the head on which eyes, a jaw and the top of the head hang."""
+    rig.add("face", "head", rig.positions["head"])
+    rig.parents["top"] = "face"
+    for name, offset in (("left eye", (0.03, 0.08, 0.08)), ("jaw", (0.0, 0.0, 0.05))):
+        rig.hang(name, "face", offset)
+
+
+def stiff_palms(rig: Rig) -> None:
+    """Add three bones of the palm in line with the forearm, with long fingers, to hands that never bend."""
+    for side in SIDES:
+        rig.drop(f"{side} hand")
+        wrist = rig.positions[f"{side} wrist"]
+        rig.turns[f"{side} wrist"] = rig.turns[f"{side} elbow"]
+        forearm = wrist[0] - rig.positions[f"{side} elbow"][0]
+        along = rig.turns[f"{side} wrist"][0].T @ forearm / np.linalg.norm(forearm)
+        for number, length in enumerate((0.045, 0.05, 0.045)):
+            first = length * along + [0.0, 0.0, 0.01 * (number - 1)]
+            rig.hang_chain(f"{side} palm {number}", f"{side} wrist", tuple(first), tuple(0.06 * along), 4)
+
+
 def kneecaps(rig: Rig) -> None:
     """Add a helper in front of each knee and behind each elbow, with a tip."""
     for side in SIDES:
@@ -639,6 +660,8 @@ ODDITIES: dict[str, tuple[Change, ...]] = {
     "rigid wings": (rigid_wings,),
     "five toes on each foot": (five_toes,),
     "eyes and a jaw": (face,),
+    "a joint for the face": (face_root,),
+    "palms of stiff hands": (stiff_palms,),
     "helpers at knees and elbows": (kneecaps,),
     "a cape": (cape,),
     "a backpack": (backpack,),

@@ -180,7 +180,11 @@ TRIALS = {
     "floor_error": Trial(with_offsets, (0.02, 0.05, 0.2)),
     "carried": Trial(binary, (2.0, 0.0, 0.1, 0.5)),
 }
-FIXED = {"same_body": "between the ratio of two adults, 1.3, and that of two units, 1.77 (5.64 cm and 1 dm)"}
+FIXED = {
+    "same_body": "between the ratio of two adults, 1.3, and that of two units, 1.77 (5.64 cm and 1 dm)",
+    "carried_length": "above the length of a hand that has fingers on one side only; swords are longer",
+    "frames_of_props": "the lengths of bones do not change; more frames only take longer",
+}
 STUDY = Study(tuned, TRIALS, FIXED, (SHORT, MIXED))
 
 if __name__ == "__main__":

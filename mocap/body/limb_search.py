@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array, Mask
 from mocap._shared.records import NamedTuple, dataclass
+from mocap.body.limb_tree import LIMITS as TREE_LIMITS
 from mocap.body.limb_tree import BodyTree, Chain
 from mocap.body.skeleton import Skeleton
 
@@ -66,6 +67,7 @@ class Weights:
     uneven_unused: float = 0.6  # the same if the hinge does not bend
     leaf: float = 0.1  # a split segment ends where the chain ends
     skipped: float = 0.8  # a segment above is as long as a limb's: thigh, shank and a ski are no limb
+    fan: float = 0.3  # three or more bones start at a joint within a segment, as at a hand with fingers
     left_below: float = 4.0  # times what is below the limb beyond a hand or a foot
     most_left_below: float = 1.2  # for both limbs. Poles in both hands are longer than arms
 
@@ -254,14 +256,16 @@ def _candidate(chain: Chain, indices: ChainIndices, lengths: Array) -> Candidate
 def _penalty_of_passed(chain: Chain, indices: ChainIndices, bend: Array, *, is_used: bool) -> float:
     """Compute the penalty for the joints within the segments, which may split a bone or be the hinge.
 
-    A joint within a segment whose bend changes is less likely one that splits a bone.
+    A joint within a segment whose bend changes, or at which fingers start, is less likely one that splits a
+    bone.
     """
     passed = [*range(indices.root + 1, indices.hinge), *range(indices.hinge + 1, indices.end)]
     keeps_a_bend = bend.min() > LIMITS.knee_at_rest and not any(chain.is_kinked[joint] for joint in passed)
-    penalty = WEIGHTS.passed if is_used or keeps_a_bend else WEIGHTS.passed_unclear
-    return sum(
-        WEIGHTS.passed_unclear if chain.bend_ranges[joint] > LIMITS.bends else penalty for joint in passed
+    usual = WEIGHTS.passed if is_used or keeps_a_bend else WEIGHTS.passed_unclear
+    penalty = sum(
+        WEIGHTS.passed_unclear if chain.bend_ranges[joint] > LIMITS.bends else usual for joint in passed
     )
+    return penalty + (WEIGHTS.fan if any(chain.is_fan(joint) for joint in passed) else 0.0)
 
 
 def _is_prop(chain: Chain, end: int, lengths: Array) -> bool:
@@ -522,7 +526,8 @@ def _arms_by_role(tree: BodyTree, arms: Pair, legs: Pair) -> dict[str, int]:
 def _trunk_by_role(tree: BodyTree, arms: Pair, dofs: Sequence[str]) -> dict[str, int]:
     """Find the chest, on which the arms hang, and the neck and the head on the highest other path from it.
 
-    The head is where that path branches (eyes, jaw, hair), or its last joint with a bone. Of two joints, the
+    The head is where that path branches (eyes, jaw, hair), or its last joint with a bone. A joint at the
+    position of its parent, such as one for the face, is not the head, but its parent is. Of two joints, the
     last may be the head, unless it cannot rotate, as an end site. Then the other one is the head, without a
     neck.
     """
@@ -535,6 +540,9 @@ def _trunk_by_role(tree: BodyTree, arms: Pair, dofs: Sequence[str]) -> dict[str,
         branches = tree.children[path[-1]] if len(tree.children[path[-1]]) <= 2 else []
     if not path:
         return {"chest": chest}
+    shortest = TREE_LIMITS.no_bone * tree.height
+    while len(path) > 2 and tree.children[path[-1]] and tree.lengths[path[-1]] < shortest:
+        path.pop()
     last = path[-1]
     if len(path) == 2 and not tree.children[last] and not dofs[last]:
         return {"chest": chest, "head": path[0]}

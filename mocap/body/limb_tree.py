@@ -277,6 +277,12 @@ class Chain:
         ranges = [float(np.ptp(self.bend(index - 1, index, index + 1))) for index in inner]
         return [0.0, *ranges, 0.0][: len(self)]
 
+    def is_fan(self, index: int) -> bool:
+        """Return whether three or more bones start at a joint, as fingers do at a hand."""
+        shortest = LIMITS.no_bone * self.tree.height
+        children = self.tree.children[self.joints[index]]
+        return sum(self.tree.lengths[child] > shortest for child in children) >= 3
+
     def left_below(self, index: int) -> float:
         """Return the length along the bones from a joint to the farthest end below it."""
         return self.tree.reach[self.joints[index]]

@@ -27,6 +27,7 @@ from mocap.errors import MocapError, Remedy, shortened, warn
 ROLES_BY_HAND = Remedy("name them by {} when the clip is read", "roles")
 
 SHORT = 1e-6  # metres: a bone of this length or less has no direction
+SIMILAR = 0.1  # of the longer bone: the largest difference of the bones of fingers that are mirror images
 
 # Names of hip, knee, ankle and of shoulder, elbow, wrist on the left side, by source. Legs and arms are
 # looked up separately. A prefix up to a colon is ignored.
@@ -391,7 +392,7 @@ def limb_partners(skeleton: Skeleton) -> dict[int, int]:
     """Pair the joints of left and right limbs by their roles, {left joint: right joint}.
 
     Joints between those with roles, such as clavicles, are paired too, and the joints below, such as fingers,
-    in the order of the tree. Others are not paired; without limbs there are no pairs.
+    in the order of the tree. Others, such as a sword, are not paired; without limbs there are no pairs.
 
     Examples
     --------
@@ -413,11 +414,34 @@ def limb_partners(skeleton: Skeleton) -> dict[int, int]:
     for joint, image in open_pairs:
         below = [child for child in skeleton.children(joint) if child not in pairs]
         images = [child for child in skeleton.children(image) if child not in pairs.values()]
-        if len(below) == len(images):
-            new_pairs = dict(zip(below, images, strict=True))
-            pairs |= new_pairs
-            open_pairs += new_pairs.items()
+        new_pairs = _paired_children(skeleton, below, images)
+        pairs |= new_pairs
+        open_pairs += new_pairs.items()
     return pairs
+
+
+def _paired_children(skeleton: Skeleton, below: Sequence[int], images: Sequence[int]) -> dict[int, int]:
+    """Pair the joints below two partners, in the order of the tree.
+
+    If one side has further joints, such as a sword, only joints with similar bones are paired.
+    """
+    if len(below) == len(images):
+        return dict(zip(below, images, strict=True))
+    pairs: dict[int, int] = {}
+    for joint in below:
+        free = [image for image in images if image not in pairs.values()]
+        image = next((image for image in free if _are_similar(skeleton, joint, image)), None)
+        if image is not None:
+            pairs[joint] = image
+    return pairs
+
+
+def _are_similar(skeleton: Skeleton, joint: int, image: int) -> bool:
+    """Check whether two joints have bones of nearly the same length and as many joints below them."""
+    lengths = np.linalg.norm(skeleton.offsets[[joint, image]], axis=1)
+    paths = [skeleton.path_to_root(end) for end in range(len(skeleton))]
+    counts = [sum(top in path for path in paths) for top in (joint, image)]
+    return bool(np.ptp(lengths) <= SIMILAR * lengths.max()) and counts[0] == counts[1]
 
 
 def _paired_paths(skeleton: Skeleton, joint: int, image: int) -> dict[int, int]:

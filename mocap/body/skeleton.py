@@ -19,6 +19,8 @@ _LEFT = ("left", "Left", "_l", "_L", "l", "L")
 _RIGHT = ("right", "Right", "_r", "_R", "r", "R")
 _SIDES = [pair for left, right in zip(_LEFT, _RIGHT, strict=True) for pair in ((left, right), (right, left))]
 
+SAME_OFFSET = 1e-4  # metres: files of one body differ by less, where each writes rounded positions of joints
+
 
 @dataclass(frozen=True, eq=False)
 class Skeleton:
@@ -45,7 +47,7 @@ class Skeleton:
     Notes
     -----
     Two skeletons are equal, `==`, if all fields are exactly equal, and then have the same hash.
-    `require_same` is less strict: it accepts offsets that agree within 1 µm, and ignores `axes` and `dofs`.
+    `require_same` is less strict: it accepts offsets that agree within 0.1 mm, and ignores `axes` and `dofs`.
 
     Examples
     --------
@@ -214,7 +216,7 @@ class Skeleton:
 
     # reads: name: the other skeleton, as in `__eq__`
     def require_same(self, other: Skeleton) -> None:
-        """Raise `SkeletonMismatch` unless `other` has the same joints, tree and offsets."""
+        """Raise `SkeletonMismatch` unless `other` has the same joints, tree and offsets, within 0.1 mm."""
         if self is other:
             return
         if missing := set(self.names) ^ set(other.names):
@@ -225,7 +227,7 @@ class Skeleton:
                 "The skeletons have the same joints in another order or tree. Retarget one first."
             )
         gaps = np.linalg.norm(self.offsets - other.offsets, axis=-1)
-        if gaps.max() > 1e-6:
+        if gaps.max() > SAME_OFFSET:
             worst = f"'{self.names[gaps.argmax()]}' sits {100 * gaps.max():.2g} cm apart"
             raise SkeletonMismatch(f"The skeletons' bones differ: {worst}. Retarget one first.")
 

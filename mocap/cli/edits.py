@@ -1,11 +1,11 @@
 """The commands that edit clips: `mocap warp`, `bend`, `loop`, `blend` and `retarget`."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from mocap import blending, body, editing, feet, quality
 from mocap._shared.atomic import require_folder
@@ -260,7 +260,7 @@ def retarget(
         upright rest pose.
     out (DIR) : folder to write to.
     format : format of the files to write.
-    to_scale : metres per unit of length in FILE, as --scale for IN.
+    to_scale : metres per unit of length in FILE, as --scale for IN (default: as the frames show).
 
     Notes
     -----
@@ -275,10 +275,17 @@ def retarget(
         pairs += plan(source, target, f".{format}")
     require_apart(pairs, [to])
     paths = [path for path, _ in pairs]
-    spaces = reading.survey(paths if to_scale or _is_skeleton(to) else [*paths, to])
+    is_apart = reading.scale or reading.up or to_scale or _is_skeleton(to)  # --scale and --up are for IN
+    spaces = reading.survey(paths if is_apart else [*paths, to])
     wearer = _body(to, to_scale, reading.joints, spaces)
     failed = convert(pairs, partial(_worn, reading, spaces, wearer, paths), progress=bar("retargeting"))
     return options.report_failures("retargeted", len(pairs), failed, f", in {out}")
+
+
+class BodyReading(Reading):
+    """The reading of the file to whose body clips are retargeted, for which --up is no option."""
+
+    named: ClassVar[Mapping[str, str]] = {"scale": "--to-scale"}
 
 
 def _is_skeleton(path: Path) -> bool:
@@ -321,7 +328,7 @@ def _body(
         if scale:
             raise MocapError(f"--to-scale is for clips; {path} says its unit of length itself.")
         return read_skeleton(path).skeleton
-    clip = Reading(scale=scale, joints=joints).load_body(path, spaces)
+    clip = BodyReading(scale=scale, joints=joints).load_body(path, spaces)
     try:
         return editing.stance_of(clip)
     except MocapError as error:

@@ -255,6 +255,7 @@ class FileReading:
     """Options of a command that reads single clips."""
 
     joints: ClassVar[Sequence[Path]] = ()  # files of roles, an option of `Reading`
+    named: ClassVar[Mapping[str, str]] = READING  # the options by which messages name the parameters
 
     skeleton: Skeleton = None
     read_fps: Annotated[
@@ -318,7 +319,7 @@ class FileReading:
         """
         recording = self.read(path, space, stretch=stretch)
         if space is None:
-            warn_of_space(path, recording, READING)
+            warn_of_space(path, recording, self.named)
         warn_of_bodies(path, recording, READING)
         return self._with_roles(recording)
 

@@ -101,7 +101,7 @@ def walk(
         print_rows(walked=f"{frames / motions.fps:.1f} s at random", wrote=out)
         return 0
     settings = steering.Settings(width=width or 100, progress=bar("searching"), deadline=longest_search)
-    with timed_stage("following the path"):
+    with timed_stage("following the path"), options.named_options({"bend": "--bend"}):
         turn = math.radians(bend or 0)
         followed = steering.follow_path(motions, line, request, settings=settings, bend=turn)
     print_rows(walked=followed.report())

@@ -83,7 +83,7 @@ ARRAYS: Layout = {
     "gender": (str, ()),
     "mocap_framerate": (float, ()),
 }
-SAME_OFFSET = 1e-6  # metres: the largest difference of offsets of one body, as in `Skeleton.require_same`
+SAME_OFFSET = 1e-6  # metres: the largest difference of the offsets of SMPL's body
 REAL_NUMBERS = "fiu"  # kinds of NumPy types: floating point, signed and unsigned integers
 ROOM = 2**27  # bytes of arrays in the smallest file, enough for a quarter of an hour of standing still
 

@@ -95,7 +95,7 @@ def read(path: str | Path, options: ReadOptions) -> Recording:
     )
     if space.root_offset == "add":
         positions[:, 0] += offset
-    joints, positions, local = _without_reference(joints, space.scale * positions, local)
+    joints, positions, local = _without_reference(path, joints, space.scale * positions, local)
     joints, positions, local = without_loose_joints(path, joints, positions, local)
     stretches = _stretches(joints, positions)
     offsets, local = _rigid(path, joints, (positions, local), options.stretch)
@@ -158,12 +158,18 @@ def _stretches(joints: list[Joint], positions: Array) -> dict[str, float]:
 
 
 def _without_reference(
-    joints: list[Joint], positions: Array, local: Array
+    path: str | Path, joints: list[Joint], positions: Array, local: Array
 ) -> tuple[list[Joint], Array, Array]:
-    """Merge the root with its only child if that moves: p = p_root + R_root p_child, R = R_root R_child."""
+    """Merge the root with its only child if that moves: p = p_root + R_root p_child, R = R_root R_child.
+
+    A warning states that the root is left out, unless it stands still.
+    """
     parents = [joint.parent for joint in joints]
     if parents.count(0) != 1 or np.ptp(positions[:, 1], axis=0).max() <= STILL:
         return joints, positions, local
+    if np.ptp(positions[:, 0], axis=0).max() > STILL:
+        root, child = (shortened(joint.name, 40) for joint in joints[:2])
+        warn(f"{path}: the moving root '{root}' is left out: '{child}' carries its travel.")
     positions[:, 1] = positions[:, 0] + rotations.rotate(local[:, 0], positions[:, 1])
     local[:, 1] = rotations.multiply(local[:, 0], local[:, 1])
     joints = [replace(joint, parent=joint.parent - 1) for joint in joints[1:]]

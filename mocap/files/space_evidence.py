@@ -11,7 +11,8 @@ import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Mask, frozen
 from mocap._shared.records import NamedTuple
-from mocap.body.limb_tree import extents, largest_part
+from mocap.body.limb_search import limb_pairs
+from mocap.body.limb_tree import BodyTree, extents, largest_part
 from mocap.files.tuned import TUNED
 
 AXES = ("y", "z", "-y", "-z", "x", "-x")
@@ -130,12 +131,33 @@ def main_body(parents: Indices, positions: Array) -> Indices:
     """Return the joints of the body, parents first, without a chain above it such as a point on the floor.
 
     A root that stands still, targets of inverse kinematics and props move against their parents, and are no
-    part of the body: see `body.limb_tree.largest_part`.
+    part of the body: see `body.limb_tree.largest_part`. Nor is a sword that keeps its distance from a hand.
     """
     joints = largest_part(parents, positions)
     while len(joints) > 1 and np.count_nonzero(parents[joints[1:]] == joints[0]) == 1:
         joints = joints[1:]
-    return np.array(joints)
+    carried = carried_joints(parents, positions) if len(joints) >= TUNED.least_joints else set()
+    return np.array([joint for joint in joints if joint not in carried])
+
+
+def carried_joints(parents: Indices, positions: Array) -> set[int]:
+    """Return the joints beyond the end of a limb that are farther from it than any of its mirror image.
+
+    A hand with a sword reaches much farther below the wrist than the other hand.
+    """
+    steps = max(1, len(positions) // TUNED.frames_of_props)
+    tree = BodyTree(parents, positions[::steps], direction(AXES[0]))
+    carried: set[int] = set()
+    for limbs in limb_pairs(tree):
+        shorter, longer = sorted((limb.end for limb in limbs), key=lambda end: tree.reach[end])
+        surplus = tree.reach[longer] - tree.reach[shorter]
+        if surplus > TUNED.carried_length * tree.height:
+            distances = {longer: 0.0}
+            for joint in tree.below(longer)[1:]:
+                distances[joint] = distances[tree.parents[joint]] + float(tree.lengths[joint])
+            farthest = tree.reach[shorter] + TUNED.carried_length * tree.height / 2
+            carried |= {joint for joint, distance in distances.items() if distance > farthest}
+    return carried
 
 
 def longest_chain(parents: Indices, points: Array) -> float:

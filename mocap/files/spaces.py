@@ -92,7 +92,7 @@ class Space(NamedTuple):
         return stated
 
     def overruled_by(self, names: Mapping[str, str]) -> str:
-        """Name the parameters that overrule the space, as a sentence.
+        """Name the parameters that overrule the space, as a sentence; "" if the surface has none of them.
 
         Parameters
         ----------
@@ -100,7 +100,10 @@ class Space(NamedTuple):
         """
         states_offset = self._is_relative() or ROOT_OFFSET in self.doubt
         decided = [name for name in self.decided if name != "root_offset" or states_offset]
-        *first, last = (names[name] for name in decided if name in names)
+        available = [names[name] for name in decided if name in names]
+        if not available:
+            return ""
+        *first, last = available
         return f"{', '.join(first)} and {last} overrule it." if first else f"{last} overrules it."
 
     def sentence(self, names: Mapping[str, str]) -> str:
@@ -112,7 +115,7 @@ class Space(NamedTuple):
         """
         if (self.scale, self.up) == self.usual and not self.doubt and not self._is_relative():
             return ""
-        return f"read as {self.clause()}. {self.overruled_by(names)}"
+        return f"read as {self.clause()}. {self.overruled_by(names)}".rstrip()
 
 
 def unit_name(scale: float) -> str:

@@ -21,6 +21,8 @@ class Tuned:
     moving_speed: float = 0.02  # per second. If all joints are slower, a joint at rest shows nothing
     sideways_travel: float = 0.5  # a body that travels further along an axis does not stand along it
     mirrored_bones: float = 0.1  # relative difference of the bones of two limbs
+    carried_length: float = 0.1  # how much farther one hand must reach than the other. Fingers differ by less
+    frames_of_props: int = 30  # that show which limbs are mirror images
     airborne: float = 0.03  # height above the floor of the lowest joint in a jump
     air_frames: int = 6  # frames of a jump. Fewer show no parabola
     air_time: tuple[float, float] = (0.12, 1.2)  # seconds of a jump

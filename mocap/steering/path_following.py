@@ -14,7 +14,7 @@ from mocap._shared.arrays import Indices, VectorsLike
 from mocap._shared.deadlines import OUT_OF_TIME, Deadline
 from mocap.body.ground_path import GroundPath, as_path
 from mocap.body.planar import on_ground
-from mocap.errors import MocapError, NoWalk, warn
+from mocap.errors import MocapError, NoWalk, Remedy, warn
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph, walk_track
 from mocap.graphs.components import reached
 from mocap.graphs.motion_graph import MotionGraph
@@ -150,7 +150,8 @@ def _require_near(graph: CompiledGraph, followed: Followed) -> None:
         speed = np.abs(np.diff(on_ground(followed.track))).sum() / followed.seconds
         if speed < TUNED.slowest:
             raise too_slow(graph, f"{distance}, and goes at {speed:.2f} m/s")
-        raise NoWalk(f"{distance}: no clips turn as it does; try `bend`, or add clips that turn.")
+        remedy = Remedy("add clips that turn, or try {}", "bend")
+        raise NoWalk(f"{distance}; no clips turn as it does.", remedy=remedy)
 
 
 def _warn_of_departures(followed: Followed, bend: float) -> None:
@@ -161,7 +162,7 @@ def _warn_of_departures(followed: Followed, bend: float) -> None:
         cause = "the clips sway so far" if bend else "no clips turn as it does there"
         rounded = followed.bent and followed.bent.rounded[followed.off.argmax()]
         cause = "it turns too fast there" if rounded else cause
-        cause += "" if bend else "; `bend` turns them, and `follow_as_2002` may come nearer"
+        cause += "" if bend else "; add clips that turn, or bend the walk onto the path"
         furthest = f"the furthest by {100 * worst:.0f} cm at {start:.1f} to {end:.1f} m"
         warn(f"The walk leaves the path {often}, {furthest}: {cause}.")
 

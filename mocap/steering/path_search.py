@@ -18,7 +18,7 @@ from mocap._shared.deadlines import OUT_OF_TIME, Deadline
 from mocap._shared.records import NamedTuple
 from mocap._shared.ties import first_least
 from mocap.body.planar import on_ground
-from mocap.errors import NoWalk
+from mocap.errors import NoWalk, Remedy
 from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.graphs.tuned import TUNED as GRAPH_TUNED
 from mocap.steering.layered_search import EQUAL, LayeredSearch, States, macro_edge_states, standing
@@ -284,12 +284,10 @@ def too_slow(graph: CompiledGraph, nearest: str = "") -> NoWalk:
     if not walking:
         return NoWalk(f"{fault}; no clip goes faster than {TUNED.walking_speed:g} m/s: add some that walk.")
     reason = f"{len(walking)} of {len(clips)} clips go faster than {TUNED.walking_speed:g} m/s"
-    remedy = (
-        "try a larger threshold, more walks, or `bend`"
-        if nearest
-        else "try a larger threshold, or more walks"
-    )
-    return NoWalk(f"{fault}; {reason}, but few transitions join their steps: {remedy}.")
+    problem = f"{fault}; {reason}, but few transitions join their steps"
+    if nearest:
+        return NoWalk(f"{problem}.", remedy=Remedy("try a larger threshold, more walks, or {}", "bend"))
+    return NoWalk(f"{problem}: try a larger threshold, or more walks.")
 
 
 def _square(numbers: Points) -> Array:

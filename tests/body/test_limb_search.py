@@ -10,7 +10,7 @@ from limb_schemes import LEG, ODDITIES, SCHEMES, random_names, scheme_rig, walke
 
 from mocap.body import limbs, rotations
 from mocap.body.limb_search import find_limbs
-from mocap.body.limbs import find_legs, roles, with_roles
+from mocap.body.limbs import find_legs, limb_partners, roles, with_roles
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.datasets import SAMPLES, sample
@@ -22,6 +22,7 @@ from tests.refusals import refusals
 SHOWN = ("Mixamo, colon", "Unreal mannequin", "3ds Max Biped, spaces", "Rigify, DEF", "VRM", "Daz Genesis 8",
          "Character Creator", "SMPL", "ARKit", "Second Life", "MakeHuman, BVH", "OpenPose", "MikuMikuDance",
          "SOMA, BONES-SEED")  # fmt: skip
+FINGERS = ("thumb", "index", "middle", "ring", "little")
 DOUBTS = {
     "wings": "the arms end at",
     "no forearms": "no second pair",
@@ -97,6 +98,12 @@ def test_a_head_without_a_neck_is_not_its_end_site():
     joints = find_limbs(skeleton, positions).roles
     assert "neck" not in joints
     assert skeleton.names[joints["head"]] == "head"
+
+
+def test_a_joint_for_the_face_at_the_position_of_the_head_is_not_the_head():
+    rig = limb_schemes.odd_rig(ODDITIES["a joint for the face"])
+    skeleton, positions = rig.skeleton({})
+    assert skeleton.names[find_limbs(skeleton, positions).roles["head"]] == "head"
 
 
 @pytest.mark.parametrize(("scale", "turn"), [(0.01, 0.0), (100.0, 1.0), (39.37, 2.5)])
@@ -196,6 +203,18 @@ WALK = sample("walk_straight")[:240]
 def anonymous(motion: Motion) -> Motion:
     """Give all joints numbers for names."""
     return renamed(motion, {name: f"bone{n:02d}" for n, name in enumerate(motion.skeleton.names)})
+
+
+def test_fingers_are_paired_and_a_sword_in_one_hand_is_not():
+    rig = limb_schemes.odd_rig(ODDITIES["a sword"])
+    skeleton, positions = rig.skeleton({})
+    roles = {role: skeleton.names[joint] for role, joint in find_limbs(skeleton, positions).roles.items()}
+    pairs = limb_partners(replace(skeleton, roles=roles))
+    names = {skeleton.names[left]: skeleton.names[right] for left, right in pairs.items()}
+    fingers = [name for name in skeleton.names if name.startswith("left") and name.split()[1] in FINGERS]
+    assert len(fingers) == 15
+    assert all(names[name] == name.replace("left", "right") for name in fingers)
+    assert not any("sword" in name for pair in names.items() for name in pair)
 
 
 def test_a_motion_with_known_names_stays_as_it_is():

@@ -66,6 +66,12 @@ def test_the_same_is_no_mismatch():
     three().require_same(three())
 
 
+def test_offsets_that_differ_by_the_rounding_of_a_file_are_the_same():
+    three(end=0.1).require_same(three(end=0.10002))
+    with pytest.raises(SkeletonMismatch, match="sits"):
+        three(end=0.1).require_same(three(end=0.1002))
+
+
 test_mismatches_are_named = refusals(
     (SkeletonMismatch, "these joints: b, d", three().require_same, three("adc")),
     (SkeletonMismatch, "another order or tree", three().require_same, three(parents=(-1, 0, 0))),

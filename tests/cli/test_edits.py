@@ -155,6 +155,16 @@ def test_a_folder_of_clips_on_the_body_of_a_clip(child_s, run, broken):
     assert standing.mean() == pytest.approx(child().heights["left ball"], abs=0.003)
 
 
+def test_the_unit_of_the_clips_is_not_that_of_the_body_and_each_is_stated_with_its_option(child_s, run):
+    clip = load_save.load("clips/a.bvh")
+    small = replace(clip.skeleton, offsets=0.01 * clip.skeleton.offsets)  # files are in centimetres
+    load_save.save(replace(clip, skeleton=small, root_positions=0.01 * clip.root_positions), "in_m.bvh")
+    err = run("retarget in_m.bvh --to clips/b.bvh --scale 1 -o out").err
+    assert "is its scale right?" not in err
+    err = run("retarget clips/a.bvh --to in_m.bvh --scale 0.01 -o back").err
+    assert "in_m.bvh: read as 1 m a unit, y up: 1.7" in err and "--to-scale overrules it." in err
+
+
 def test_a_skeleton_and_another_format_with_steps_as_long_as_the_legs(child_s, run):
     run("retarget clips/a.bvh --to child.asf -o out --format glb")
     assert written(child_s / "out") == ["a.glb"]

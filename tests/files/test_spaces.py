@@ -12,7 +12,14 @@ from mocap.body.skeleton import Skeleton
 from mocap.datasets import sample
 from mocap.errors import MocapError, MocapWarning
 from mocap.files import bvh, clip_sets, load_save, spaces
-from mocap.files.space_evidence import direction, frames_to_look_at, free_fall, gather, main_body
+from mocap.files.space_evidence import (
+    carried_joints,
+    direction,
+    frames_to_look_at,
+    free_fall,
+    gather,
+    main_body,
+)
 from tests.editing.bodies import renamed
 from tests.refusals import refused, unwarned
 
@@ -198,6 +205,33 @@ def test_props_and_still_roots_are_no_part_of_the_body():
     joints = main_body(parents, everything)
     assert 0 not in joints and len(parents) - 1 not in joints
     assert len(joints) == len(WALK.skeleton)
+
+
+def with_sword(motion, length, direction):
+    """Return a motion with a sword in the right hand, which keeps its direction in the frame of the hand."""
+    skeleton = motion.skeleton
+    names = [*skeleton.names, "hilt", "point"]
+    parents = [*skeleton.parents, skeleton.index("rhand"), len(skeleton)]
+    offsets = [*skeleton.offsets, [0.0, 0.0, 0.0], length * np.array(direction)]
+    still = np.broadcast_to(rotations.IDENTITY, (len(motion), 2, 4))
+    turns = np.concatenate([motion.rotations, still], axis=1)
+    return replace(motion, skeleton=Skeleton(names, parents, offsets), rotations=turns)
+
+
+@pytest.mark.parametrize("direction", [(0, 0, 1), (0, 1, 0), (0, -0.7, 0.7), (-1, 0, 0)])
+def test_a_sword_in_a_hand_changes_neither_unit_nor_axis(tmp_path, direction):
+    path = written(with_sword(WALK, 0.9, direction), tmp_path / "sword.bvh", 0.0254, "z")
+    with pytest.warns(MocapWarning, match=r"read as 1 inch a unit, z up: 1\.[67]\d m tall \(0"):
+        load_save.load(path)
+
+
+def test_fingers_of_one_hand_only_are_no_props():
+    parents = WALK.skeleton.parents
+    positions = joint_positions(WALK)
+    is_finger = np.array([name in ("lfingers", "lfingers_end") for name in WALK.skeleton.names])
+    numbers = np.cumsum(~is_finger) - 1
+    kept = np.where(parents < 0, -1, numbers[parents])[~is_finger]
+    assert carried_joints(kept, positions[:, ~is_finger]) == set()
 
 
 @pytest.mark.parametrize("unit", [1.0, 0.01, 0.0254])

@@ -78,10 +78,10 @@ def test_any_line_with_any_walk(graph, line):
 def test_without_bending_a_straight_walk_stays_straight():
     """The naive way: 6 m off an S on average, and nothing that the search could do about it."""
     path = SHAPES["letter S"](1.6)
-    off = r"The nearest walk is \d\.\d m off the line on average: no clips turn as it does; try `bend`"
+    off = r"The nearest walk is \d\.\d m off the line on average; no clips turn as it does: add clips"
     require_refused(straight_walker(), path, off, bend=0.0)
     assert bent_walk(straight_walker(), path).off.mean() < 0.025
-    leaves = "no clips turn as it does there; `bend` turns them, and `follow_as_2002`"
+    leaves = "no clips turn as it does there; add clips that turn, or bend the walk onto the path"
     assert told(leaves, follow_path, straight_walker(), GroundPath([[0, 0], [0, 4], [2.4, 8]])).bent is None
 
 
@@ -166,7 +166,7 @@ def test_clips_that_stand_cannot_follow_a_line():
 def test_jumps_that_do_not_turn_as_a_circle_does_are_told_of_bend(real_data):
     clips = [resample(load(real_data / "cmu" / "16" / f"16_{n:02}.amc"), 30) for n in (1, 5)]
     jumps = compile_graph(prune(build(clips, window=10, threshold=0.06)))
-    require_refused(jumps, circle(2.0), "1 of 2 clips go .*, more walks, or `bend`", bend=0.0)
+    require_refused(jumps, circle(2.0), "1 of 2 clips go .*, more walks, or bend=", bend=0.0)
     bent = bent_walk(jumps, circle(2.0))
     assert bent.progress > 0.97 and bent.off.mean() < 0.05
 

@@ -291,7 +291,7 @@ def test_bent_walks_meet_waypoints_that_no_clip_turns_to():
         Waypoint(-0.5, 5.5),
         Waypoint(0, 9, seconds=8.5),
     ]
-    refused("as it does; try `bend`", through_waypoints, straight_walker(), points, kind=NoWalk)
+    refused("clips that turn, or try bend=", through_waypoints, straight_walker(), points, kind=NoWalk)
     _, bent = through_waypoints(straight_walker(), points, bend=LIMIT)
     assert max(arrival.off for arrival in bent) < 0.08
     late = [abs(arrival.late) for arrival in bent if not math.isnan(arrival.late)]
