@@ -269,7 +269,12 @@ def _penalty_of_passed(chain: Chain, indices: ChainIndices, bend: Array, *, is_u
 
 
 def _is_prop(chain: Chain, end: int, lengths: Array) -> bool:
-    """Tell whether below the end of a limb is one rigid thing, longer than its segments: a ski or a sword."""
+    """Tell whether below the end of a limb is one rigid thing, longer than its segments: a ski or a sword.
+
+    A stiff forearm and hand are one rigid thing too, but fingers start there.
+    """
+    if any(chain.is_fan(joint) for joint in range(end + 1, len(chain))):
+        return False
     is_rigid = max(chain.bend_ranges[end + 1 :], default=0.0) < LIMITS.bends / 2
     return is_rigid and bool(chain.segments[end:, end:].max() > LIMITS.prop * lengths.max())
 
