@@ -281,7 +281,7 @@ class Chain:
         """Return whether three or more bones start at a joint, as fingers do at a hand."""
         shortest = LIMITS.no_bone * self.tree.height
         children = self.tree.children[self.joints[index]]
-        return sum(self.tree.lengths[child] > shortest for child in children) >= 3
+        return len([child for child in children if self.tree.lengths[child] > shortest]) >= 3
 
     def left_below(self, index: int) -> float:
         """Return the length along the bones from a joint to the farthest end below it."""
