@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from mocap._shared.arrays import Array
 from mocap.body import body_sides, rotations
 from mocap.body.kinematics import joint_positions
-from mocap.body.limbs import limb_partners, with_roles
+from mocap.body.limbs import limb_partners, roles, with_roles
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.toes import SLACK, bend_toes, lowest_allowed
@@ -62,6 +62,7 @@ def symmetry(skeleton: Skeleton) -> tuple[NDArray[np.intp], Array, Array]:
         partners[[left, right]] = right, left
     alike = partners[partners] == joints
     alike[1:] &= partners[parents[1:]] == parents[partners[1:]]
+    alike |= props(skeleton, partners)
     if not alike.all():
         name = shortened(skeleton.names[int(alike.argmin())], 40)
         raise MocapError(f"'{name}' has no mirror image: its side has other joints than the other.")
@@ -79,6 +80,31 @@ def symmetry(skeleton: Skeleton) -> tuple[NDArray[np.intp], Array, Array]:
     return partners, across, _turns(skeleton, partners, across)
 
 
+def props(skeleton: Skeleton, partners: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """Return whether each joint is of a prop that only one side has, such as a sword in one hand, (J,).
+
+    A prop begins at a joint without a partner below a joint that has one. It has no role in the body.
+
+    Examples
+    --------
+    >>> from mocap.datasets.samples import SKELETON
+    >>> bool(props(SKELETON, symmetry(SKELETON)[0]).any())
+    False
+    """
+    in_prop = np.zeros(len(skeleton), dtype=bool)
+    for joint, parent in enumerate(skeleton.parents[1:], 1):
+        is_paired = partners[parent] != parent
+        in_prop[joint] = partners[joint] == joint and (is_paired or in_prop[parent])
+    try:
+        in_body = list(roles(skeleton).values())
+    except MocapError:
+        in_body = list(range(len(skeleton)))
+    # What a joint with a role hangs from is of the body too.
+    for joint in in_body:
+        in_prop[skeleton.path_to_root(joint)] = False
+    return in_prop
+
+
 def _turns(skeleton: Skeleton, partners: NDArray[np.intp], across: Array) -> Array:
     """Give K of each joint: the rotation that maximises Σ H o · K o', with bones o and the partner's o'.
 
@@ -89,7 +115,7 @@ def _turns(skeleton: Skeleton, partners: NDArray[np.intp], across: Array) -> Arr
     mirror = _reflection(across)
     upward = np.cross(across, np.roll(across, 1))  # any direction in the plane, for bones that are opposite
     matrices = np.zeros((len(skeleton), 3, 3))
-    for child in range(1, len(skeleton)):
+    for child in np.flatnonzero(~props(skeleton, partners))[1:]:
         bone = mirror @ skeleton.offsets[child]
         matrices[skeleton.parents[child]] += np.outer(bone, skeleton.offsets[partners[child]])
     usual = np.tile(np.eye(3), (len(skeleton), 1, 1))
@@ -142,7 +168,8 @@ def mirror(motion: Motion) -> Motion:
 
     Warns
     -----
-    MocapWarning : where a bone and its partner differ by more than 1 cm, with the bone and how much.
+    MocapWarning : where a bone and its partner differ by more than 1 cm, with the bone and how much; for a
+        prop that only one side has. It stays on its side, and is held as it was.
 
     Examples
     --------
@@ -161,6 +188,10 @@ def mirror(motion: Motion) -> Motion:
         difference = f"{1e3 * gaps.max():.0f} mm ({shortened(skeleton.names[gaps.argmax()], 40)})"
         differ = f"'{shortened(motion.name, 60)}': left and right bones differ by up to {difference}"
         warn(f"{differ}, so its mirror image does not reach as far.")
+    held = props(skeleton, partners)
+    if held.any():
+        prop = shortened(skeleton.names[int(held.argmax())], 40)
+        warn(f"'{shortened(motion.name, 60)}': only one side has '{prop}', which stays there.")
     parent_turns = rotations.inverse(turns[skeleton.parents])
     parent_turns[0] = rotations.from_matrix(_reflection(ACROSS) @ _reflection(across))
     vectors = -motion.rotations[..., 1:] @ _reflection(across)  # (w, v) becomes (w, -H v)
@@ -172,7 +203,8 @@ def mirror(motion: Motion) -> Motion:
     contacts = {names[joint]: mark for joint, mark in motion.contacts.items()}
     root_positions = motion.root_positions @ _reflection(ACROSS)
     name = mirrored_name(motion.name)
-    mirrored = replace(motion, root_positions=root_positions, rotations=local[:, partners], name=name)
+    local = np.where(held[:, None], motion.rotations, local[:, partners])
+    mirrored = replace(motion, root_positions=root_positions, rotations=local, name=name)
     return replace(mirrored, labels=labels, contacts=contacts)
 
 

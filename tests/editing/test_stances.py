@@ -329,6 +329,31 @@ def test_a_captured_mirror_image_on_a_longer_leg_is_raised_to_the_floor(real_dat
     assert joint_positions(raised)[..., 1].min() > lowest - 0.0011
 
 
+def with_sword(motion, *, side="r"):
+    """Hang a sword of two bones on a hand; it turns in the hand."""
+    body = motion.skeleton
+    hand = body.index(f"{side}hand")
+    names = [*body.names, "hilt", "point"]
+    offsets = np.vstack([body.offsets, [[0.0, 0.0, 0.1], [0.0, 0.0, 0.8]]])
+    skeleton = Skeleton(names, [*body.parents, hand, len(body)], offsets)
+    turns = np.zeros((len(motion), 2, 3))
+    turns[:, 0, 0] = np.linspace(0.0, 1.0, len(motion))
+    both = np.concatenate([motion.rotations, rotations.from_rotvec(turns)], axis=1)
+    return replace(motion, skeleton=skeleton, rotations=both)
+
+
+@pytest.mark.parametrize("names", ["known", "unknown"])
+def test_a_sword_stays_in_its_hand_as_it_was_held_and_the_body_is_mirrored(names):
+    armed = with_sword(WALK)
+    if names == "unknown":
+        armed = renamed(armed, {name: f"j{n}" for n, name in enumerate(armed.skeleton.names)})
+    mirrored = told("only one side has '(hilt|j38)', which stays there", mirror, armed)
+    assert np.abs(joint_positions(mirrored)[:, :-2] - joint_positions(mirror(WALK))).max() < 1e-9
+    assert (mirrored.rotations[:, -2:] == armed.rotations[:, -2:]).all()
+    again = told("which stays there", mirror, mirrored)
+    assert np.abs(joint_positions(again) - joint_positions(armed)).max() < 1e-9
+
+
 ARM = Skeleton(["root", "elbow", "hand"], [-1, 0, 1], np.eye(3))
 ODD = Skeleton(["root", "lhip", "rhip", "lknee", "rknee"], [-1, 0, 0, 1, 0], np.eye(5)[:, :3])
 
