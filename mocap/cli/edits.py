@@ -244,6 +244,7 @@ def retarget(
     out: Path,
     format: Literal["bvh", "glb"] = "bvh",
     to_scale: Annotated[float | None, options.LENGTH] = None,
+    to_up: options.Up = None,
     reading: Reading,
 ) -> int:
     """Retarget clips to another body.
@@ -261,6 +262,7 @@ def retarget(
     out (DIR) : folder to write to.
     format : format of the files to write.
     to_scale : metres per unit of length in FILE, as --scale for IN (default: as the frames show).
+    to_up : axis of FILE that points up, as --up for IN (default: as the frames show; y, for AMASS z).
 
     Notes
     -----
@@ -275,17 +277,18 @@ def retarget(
         pairs += plan(source, target, f".{format}")
     require_apart(pairs, [to])
     paths = [path for path, _ in pairs]
-    is_apart = reading.scale or reading.up or to_scale or _is_skeleton(to)  # --scale and --up are for IN
+    said = [reading.scale, reading.up, to_scale, to_up]  # for IN, or for FILE
+    is_apart = any(said) or _is_skeleton(to)
     spaces = reading.survey(paths if is_apart else [*paths, to])
-    wearer = _body(to, to_scale, reading.joints, spaces)
+    wearer = _body(to, BodyReading(scale=to_scale, up=to_up, joints=reading.joints), spaces)
     failed = convert(pairs, partial(_worn, reading, spaces, wearer, paths), progress=bar("retargeting"))
     return options.report_failures("retargeted", len(pairs), failed, f", in {out}")
 
 
 class BodyReading(Reading):
-    """The reading of the file to whose body clips are retargeted, for which --up is no option."""
+    """The reading of the file to whose body clips are retargeted."""
 
-    named: ClassVar[Mapping[str, str]] = {"scale": "--to-scale"}
+    named: ClassVar[Mapping[str, str]] = {"scale": "--to-scale", "up": "--to-up"}
 
 
 def _is_skeleton(path: Path) -> bool:
@@ -317,18 +320,17 @@ def _readable(
                 yield reading.load_body(source, spaces)
 
 
-def _body(
-    path: Path, scale: float | None, joints: Sequence[Path], spaces: Spaces
-) -> "Stance | body.Skeleton":
+def _body(path: Path, reading: BodyReading, spaces: Spaces) -> "Stance | body.Skeleton":
     """Read the body to which clips are retargeted, and its stance from a clip or pose in which it stands."""
     from mocap.editing.stances import stance_of_zero
     from mocap.files.asf import read_skeleton
 
     if _is_skeleton(path):
-        if scale:
-            raise MocapError(f"--to-scale is for clips; {path} says its unit of length itself.")
+        for option, value in (("--to-scale", reading.scale), ("--to-up", reading.up)):
+            if value:
+                raise MocapError(f"{option} is for clips; {path} says its unit and its axes itself.")
         return read_skeleton(path).skeleton
-    clip = BodyReading(scale=scale, joints=joints).load_body(path, spaces)
+    clip = reading.load_body(path, spaces)
     try:
         return editing.stance_of(clip)
     except MocapError as error:

@@ -17,7 +17,7 @@ from mocap.body.joint_trees import GlobalPoses, place_joints
 from mocap.body.limbs import SIDES, find_legs, has_named_legs, heading_by_hips, limb_partners, roles
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from mocap.errors import MocapError, warn
+from mocap.errors import MocapError, shortened, warn
 
 # Degrees by which a pose that stands may be off: the hips from level, a thigh or the trunk from vertical.
 LEVEL = 30.0
@@ -71,7 +71,7 @@ def with_standing_rest(motions: Sequence[Motion]) -> list[Motion]:
                 return list(motions)
             return [_rested(motion, world) for motion in motions]
     instead = ".glb files get the mean pose of their clips instead, one for all clips of a file"
-    warn(f"The rest pose of {skeleton!r} does not stand: {instead}.")
+    warn(f"The rest pose of '{shortened(motions[0].name, 40)}' does not stand: {instead}.")
     world = _symmetric(skeleton, _mean_pose(motions))
     return [_rested(motion, world) for motion in motions]
 

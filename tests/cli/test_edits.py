@@ -162,7 +162,20 @@ def test_the_unit_of_the_clips_is_not_that_of_the_body_and_each_is_stated_with_i
     err = run("retarget in_m.bvh --to clips/b.bvh --scale 1 -o out").err
     assert "is its scale right?" not in err
     err = run("retarget clips/a.bvh --to in_m.bvh --scale 0.01 -o back").err
-    assert "in_m.bvh: read as 1 m a unit, y up: 1.7" in err and "--to-scale overrules it." in err
+    assert "in_m.bvh: read as 1 m a unit, y up: 1.7" in err and "--to-scale and --to-up overrule it." in err
+
+
+def test_the_axis_of_the_body_is_said_by_an_option(child_s, run):
+    clip = load_save.load("clips/b.bvh")
+    lay = rotations.inverse(rotations.Z_UP)
+    body = replace(clip.skeleton, offsets=rotations.rotate(lay, clip.skeleton.offsets))
+    turned = rotations.multiply(rotations.multiply(lay, clip.rotations), rotations.inverse(lay))
+    places = rotations.rotate(lay, clip.root_positions)
+    load_save.save(Motion(body, places, turned, clip.fps), "z_up.bvh")
+    run("retarget clips/a.bvh --to clips/b.bvh -o by_y")
+    assert "--to-up" not in run("retarget clips/a.bvh --to z_up.bvh --to-up z -o by_z").err
+    by_y, by_z = (joint_positions(load_save.load(f"{folder}/a.bvh")) for folder in ("by_y", "by_z"))
+    assert np.abs(by_y - by_z).max() < 1e-4
 
 
 def test_a_skeleton_and_another_format_with_steps_as_long_as_the_legs(child_s, run):

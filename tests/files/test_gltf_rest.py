@@ -20,7 +20,7 @@ from tests.files.glb_reader import Glb
 from tests.strategies import random_motion, random_quaternions, seeds
 
 MIRROR = [-1.0, 1.0, 1.0]
-REPLACED = "The rest pose of Skeleton.* does not stand: .glb files get the mean pose of their clips"
+REPLACED = "The rest pose of '.*' does not stand: .glb files get the mean pose of their clips"
 
 
 def walk(name="walk_straight"):
