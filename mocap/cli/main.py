@@ -41,6 +41,8 @@ PIPE_CLOSED = 141
 
 SHARED_FLAGS = ("-q", "--quiet", "-v", "--verbose", "--debug")  # the options of `Verbosity`
 HELP_FLAGS = {"-h", "--help"}
+AXIS_OPTIONS = ("--up", "--to-up")
+AXES_DOWN = ("-x", "-y", "-z")
 ENDS_OF_OPTIONS = ("--", "--jupyter")
 RAISE: Any = {"exit_on_error": False, "print_error": False}
 BASH_FILES = 'COMPREPLY=( $(compgen -f -- "${cur}") )'  # the completion of files by `cyclopts`
@@ -111,7 +113,8 @@ def in_order(words: Sequence[str]) -> list[str]:
     """Put words in the order in which they are parsed.
 
     `-q`, `-v` and `--debug` may precede the name of a command. A group alone shows its help. The words after
-    the `--` of `mocap lab` are the value of an option. `mocap help` is `mocap --help`.
+    the `--` of `mocap lab` are the value of an option. `mocap help` is `mocap --help`. An axis such as `-z`
+    after `--up` is its value.
 
     Examples
     --------
@@ -122,6 +125,7 @@ def in_order(words: Sequence[str]) -> list[str]:
     >>> in_order(["lab", "mine", "--", "--no-browser"])
     ['lab', 'mine', '--jupyter', '--no-browser']
     """
+    words = _with_axes(words)
     leading = [*takewhile(lambda word: word in SHARED_FLAGS or not word.startswith("-"), words)]
     flags = [word for word in leading if word in SHARED_FLAGS]
     names = [word for word in leading if word not in SHARED_FLAGS]
@@ -136,6 +140,23 @@ def in_order(words: Sequence[str]) -> list[str]:
     if last and rest[0] == "lab":
         last = ["--jupyter", *last[1:]]
     return [*rest[:end], *flags, *last]
+
+
+def _with_axes(words: Sequence[str]) -> list[str]:
+    """Join `--up -z` to `--up=-z`, since an axis that points down looks like an option.
+
+    Examples
+    --------
+    >>> _with_axes(["walk.bvh", "--up", "-z", "--to-up", "y"])
+    ['walk.bvh', '--up=-z', '--to-up', 'y']
+    """
+    joined: list[str] = []
+    for word in words:
+        if joined and joined[-1] in AXIS_OPTIONS and word in AXES_DOWN:
+            joined[-1] = f"{joined[-1]}={word}"
+        else:
+            joined.append(word)
+    return joined
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
