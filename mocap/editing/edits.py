@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy import sparse
 
-from mocap._shared.arrays import Array, Indices, runs
+from mocap._shared.arrays import Array, Indices, Mask, runs
 from mocap._shared.records import NamedTuple
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import find_legs
@@ -28,6 +28,7 @@ EDIT = (Basis(knots=0.125, calm=0.25, weight=100.0, lead=0.25), CLOSE, CLOSE)
 SUNK = 0.003  # metres: cleaned feet that are lower by less are left alone
 UP = np.array([0.0, 1.0, 0.0])
 
+AROUND = 1.0  # seconds: frames farther from those for which pins ask stay as they are
 CLOSED = 1e-4  # metres: of pins that are missed by more a warning tells, and plants among them are let go
 
 
@@ -48,7 +49,7 @@ LEVELLED = 4.0, 8.0  # few passes get no further with more; with 1 necks bend by
 POSED = (16.0, 16.0)
 
 
-def edit(motion: Motion, pins: Pins, *, body: Body | None = None, frames: slice = EVERY_FRAME) -> Motion:
+def edit(motion: Motion, pins: Pins, *, body: Body | None = None, frames: slice | None = None) -> Motion:
     """Change a motion so that its joints are where pins ask, and its planted feet still stand.
 
     No joint is farther under the floor than it was, unless the pins ask for it.
@@ -60,8 +61,9 @@ def edit(motion: Motion, pins: Pins, *, body: Body | None = None, frames: slice 
     body : which joints turn, at what price; by default those above pinned ones, with root and trunk at 16 and
         the neck at 32 times the prices of `body_of`: a hand that reaches tips the trunk by some 10°, about as
         people do. A trunk that must not tip is pinned by `keep_turned`.
-    frames : those that may change, in a row, such as `slice(100, 200)`. All others stay the same to the last
-        bit, and a plant that is not completely inside stays where it was in each frame.
+    frames : those that may change, in a row, such as `slice(100, 200)`; by default those up to a second from
+        a frame for which the pins ask. All others stay the same to the last bit, and a plant that is not
+        completely inside stays where it was in each frame. With `slice(None)` all frames may change.
 
     Returns
     -------
@@ -90,7 +92,27 @@ def edit(motion: Motion, pins: Pins, *, body: Body | None = None, frames: slice 
     """
     if len(pins) == len(motion) and not pins.asked.any():
         return motion
-    return brought(motion, motion, pins, body, frames)
+    edited = motion
+    for window in [frames] if frames is not None else _windows(pins, motion.fps):
+        in_window = pins if frames is not None else pins.only(window)
+        edited = brought(edited, motion, in_window, body, window)
+    return edited
+
+
+def _windows(pins: Pins, fps: float) -> list[slice]:
+    """List the stretches of frames up to `AROUND` from a frame for which pins ask."""
+    margin = round(AROUND * fps)
+    is_near = np.zeros(len(pins), bool)
+    for start, stop in runs(np.asarray(pins.asked.any(axis=1))):
+        is_near[max(0, start - margin) : stop + margin] = True
+    return [slice(start, stop) for start, stop in runs(is_near)]
+
+
+def _with_margin(frames: slice, count: int, fps: float) -> slice:
+    """Return frames that may change, with those beside them on which the change depends."""
+    start, stop, _ = frames.indices(count)
+    margin = round(AROUND * fps)
+    return slice(max(0, start - margin), min(count, stop + margin))
 
 
 def brought(
@@ -101,19 +123,41 @@ def brought(
     If joints would sink, the pins are solved for again, together with a floor.
     """
     plants = plant_pins(source)
-    wishes = join_pins(plants_within(plants, source, frames), pins)
-    allowed = allowed_by(pins, source)
-    solved = solve(
-        motion, wishes, EDIT, body or priced(motion, wishes, *EDITED), quiet=True, frames=frames
-    ).motion
-    floor = floor_for(bend_toes(solved, allowed), plants.joints, allowed)
-    if pin_errors(solved, floor).max() > SLACK:
-        floored = join_pins(floor, wishes)
-        body = body or priced(motion, floored, *EDITED)
-        solved = solve(motion, floored, EDIT, body, quiet=True, frames=frames).motion
     stays = np.ones(len(motion), bool)
     stays[frames] = False
-    return with_frames_of(mark_met(bend_toes(solved, allowed), wishes, plants), motion, stays)
+    wishes = join_pins(plants_within(plants, with_frames_of(source, motion, stays), frames), pins)
+    allowed = allowed_by(pins, source)
+    nearby = _with_margin(frames, len(motion), motion.fps)
+    first, stop, _ = frames.indices(len(motion))
+    inside = slice(first - nearby.start, stop - nearby.start)
+
+    def solved_for(constraints: Pins) -> Motion:
+        turning = body or priced(
+            motion, constraints, *EDITED
+        )  # the whole motion shows which joints are hinges
+        return solve(motion[nearby], constraints, EDIT, turning, quiet=True, frames=inside).motion
+
+    solved = solved_for(wishes.at(nearby))
+    floor = floor_for(bend_toes(solved, allowed[nearby]), plants.joints, allowed[nearby])
+    if pin_errors(solved, floor).max() > SLACK:
+        solved = solved_for(join_pins(floor, wishes.at(nearby)))
+    bent = mark_met(bend_toes(solved, allowed[nearby]), wishes.at(nearby), plants.at(nearby))
+    return _with_piece(motion, bent, nearby, stays)
+
+
+def _with_piece(motion: Motion, piece: Motion, nearby: slice, stays: Mask) -> Motion:
+    """Put a changed piece of a motion in its place, but for frames that stay, (F,)."""
+    if len(piece) == len(motion):
+        return with_frames_of(piece, motion, stays)
+    changes = np.flatnonzero(~stays)
+    roots = motion.root_positions.copy()
+    turned = motion.rotations.copy()
+    roots[changes] = piece.root_positions[changes - nearby.start]
+    turned[changes] = piece.rotations[changes - nearby.start]
+    contacts = {name: mark.copy() for name, mark in motion.contacts.items()}
+    for name, mark in piece.contacts.items():
+        contacts.setdefault(name, np.zeros(len(motion), bool))[changes] = mark[changes - nearby.start]
+    return replace(motion, root_positions=roots, rotations=turned, contacts=contacts)
 
 
 def plants_within(plants: Pins, motion: Motion, frames: slice) -> Pins:

@@ -68,8 +68,9 @@ def lowest_allowed(motion: Motion, lowest: Array | None = None) -> Array:
     >>> bool(np.ptp(allowed) == 0), round(float(allowed[0]), 3)  # this tip is never under the floor
     (True, 0.017)
     """
-    lowest = lowest_heights([motion]) if lowest is None else lowest
-    allowed = np.minimum(joint_positions(motion)[..., 1], 0.0)
+    heights = joint_positions(motion)[..., 1]
+    lowest = heights.min(axis=0) if lowest is None else lowest
+    allowed = np.minimum(heights, 0.0)
     skeleton = motion.skeleton
     ankles = [leg.ankle for leg in _legs(motion)]
     feet = [joint for joint in range(len(skeleton)) if {*ankles} & {*skeleton.path_to_root(joint)}]

@@ -28,7 +28,7 @@ def all_stand(motion, base):
 
 
 def check(motion, base, pins, most):
-    assert pin_errors(motion, pins).max() < 1e-9
+    assert pin_errors(motion, pins).max() < 1e-8
     assert all_stand(motion, base)
     assert smoothness(motion, base) <= most
     assert wishes.bones(motion) < 1e-12
@@ -80,6 +80,30 @@ def test_a_hand_on_a_rail_slides_along_it(real_data):
     assert 0.1 < pin_errors(clip, rail).max() < 0.3
     check(edited := edit(clip, rail), clip, join_pins(plant_pins(clip), rail), 1.1)
     assert np.ptp(joint_positions(edited)[frames, wrist, 2]) > 0.5
+
+
+def test_frames_more_than_a_second_from_a_pin_stay_the_same_to_the_last_bit():
+    clip = walk()  # at 120 Hz
+    places = joint_positions(clip)[:, clip.skeleton.index("lwrist")] + [0.0, 0.1, 0.05]
+    pins = pin(clip, "lwrist", [200, 201], places[200:202])
+    edited = edit(clip, pins)
+    stays = np.r_[0:80, 322 : len(clip)]
+    assert (edited.rotations[stays] == clip.rotations[stays]).all()
+    assert (edited.root_positions[stays] == clip.root_positions[stays]).all()
+    assert pin_errors(edited, pins).max() < 1e-9
+    assert all_stand(edited, clip)
+    whole = edit(clip, pins, frames=slice(None))
+    assert (whole.rotations[0:80] != clip.rotations[0:80]).any()
+
+
+def test_two_hands_far_apart_are_edited_each_by_itself():
+    clip = walk()
+    places = joint_positions(clip)[:, clip.skeleton.index("lwrist")] + [0.0, 0.1, 0.05]
+    first, second = (pin(clip, "lwrist", [frame], places[[frame]]) for frame in (100, 400))
+    both = edit(clip, join_pins(first, second))
+    assert (both.rotations[:250] == edit(clip, first).rotations[:250]).all()
+    alone = joint_positions(edit(clip, second))
+    assert np.abs(joint_positions(both) - alone)[250:].max() < 1e-3  # prices follow the first edit
 
 
 def test_nothing_asked_changes_nothing():
