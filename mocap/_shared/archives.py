@@ -330,7 +330,7 @@ def read_archive(path: str | Path, kind: Kind, room: int = ROOM) -> Arrays:
 
 def kind_of(members: Mapping[str, Member]) -> str:
     """Return the kind of a file by its array `format`, or by the names of its arrays; "" if unknown."""
-    if "format" in members:
+    if "format" in members and members["format"].shape == ():
         head = str(members["format"].read())
         return FORMER_HEADS.get(head, head).removeprefix("mocap: ")
     return AMASS if {"poses", "trans"} <= set(members) else ""
