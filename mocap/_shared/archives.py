@@ -318,6 +318,8 @@ def read_archive(path: str | Path, kind: Kind, room: int = ROOM) -> Arrays:
     with open_archive(path, kind.wanted, room) as members:
         if kind_of(members) != kind.name:
             raise other_kind(path, kind.wanted, members)
+        if members["version"].shape != ():
+            raise FormatError(path, None, "a version that is one number", "several")
         version = int(members["version"].read())
         if version > kind.version:
             raise FormatError(path, None, kind.wanted, f"version {version}, which a newer mocap wrote")
