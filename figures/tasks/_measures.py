@@ -6,7 +6,8 @@ import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap.body import Motion, find_legs, joint_positions
-from mocap.files.gltf_capsules import THICK, reaches
+from mocap.body.skeleton import reaches
+from mocap.files.gltf_capsules import THICK
 from mocap.quality import jumps, spread
 
 LOW = 0.025  # metres: a foot joint this much over its lowest place slides as little as it likes

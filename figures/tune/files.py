@@ -25,9 +25,9 @@ from _trials import WALKS, Clips, Collection, Row, Study, Trial, cmu
 import mocap
 from mocap.body import Motion, find_legs, rotations
 from mocap.body.kinematics import joint_positions
+from mocap.body.skeleton import reaches
 from mocap.files import tuned
 from mocap.files.gltf import LARGEST_INT16
-from mocap.files.gltf_capsules import reaches
 from mocap.files.rigid_bones import fit
 from mocap.files.space_evidence import frames_to_look_at, gather
 from mocap.files.spaces import UPRIGHT, decide

@@ -256,3 +256,20 @@ class Skeleton:
         keep = [joint for joint, end in enumerate(ends) if joint in self.parents or not end]
         parents = [keep.index(self.parents[joint]) if joint else -1 for joint in keep]
         return Skeleton([self.names[joint] for joint in keep], np.array(parents), self.offsets[keep])
+
+
+def reaches(skeleton: Skeleton) -> Array:
+    """Compute the length of the longest chain of bones below each joint, shape (J,), metres.
+
+    Examples
+    --------
+    >>> leg = Skeleton(["hip", "knee", "ankle"], [-1, 0, 1], [[0, 0, 0], [0, -0.4, 0], [0, -0.5, 0]])
+    >>> reaches(leg)
+    array([0.9, 0.5, 0. ])
+    """
+    lengths = np.linalg.norm(skeleton.offsets, axis=-1)
+    reach = np.zeros(len(skeleton))
+    for joint in range(len(skeleton) - 1, 0, -1):
+        parent = skeleton.parents[joint]
+        reach[parent] = max(reach[parent], reach[joint] + lengths[joint])
+    return reach

@@ -285,7 +285,8 @@ def raised(motion: Motion, allowed: Array) -> Motion:
     if pin_errors(bent, floor).max() <= SUNK:
         return bent
     rise = np.zeros((*plants.low.shape[:2], 1))
-    short = np.where(plants.held[..., 1], under_floor[:, list(plants.joints)] - plants.low[..., 1], 0.0)
+    floor_of_plants = under_floor[:, list(plants.joints)]
+    short = np.where(plants.held[..., 1], floor_of_plants - plants.low[..., 1], 0.0)
     for leg in find_legs(motion.skeleton):  # a rigid foot: both of its joints rise by as much
         foot = np.isin(plants.joints, leg)
         rise[:, foot, 0] = np.maximum(short[:, foot].max(axis=1, keepdims=True), 0.0)

@@ -21,10 +21,10 @@ from mocap._shared.arrays import Array, Mask
 from mocap.body import rotations
 from mocap.body.motion import Motion, require_compatible, rotating_joints
 from mocap.body.planar import PlanarTransform, heading
-from mocap.body.skeleton import Skeleton
+from mocap.body.skeleton import Skeleton, reaches
 from mocap.errors import MocapError, shortened
 from mocap.files.gltf_bones import bone_axes
-from mocap.files.gltf_capsules import body, reaches
+from mocap.files.gltf_capsules import body
 from mocap.files.gltf_rest import with_standing_rest
 from mocap.files.plain_names import plain_name
 from mocap.files.tuned import TUNED

@@ -13,7 +13,7 @@ import numpy as np
 from mocap._shared.arrays import Array, Indices
 from mocap._shared.records import NamedTuple
 from mocap.body import rotations
-from mocap.body.skeleton import Skeleton
+from mocap.body.skeleton import Skeleton, reaches
 
 AROUND = 10  # vertices of a ring
 RINGS = (-90, -50, -15, 15, 50, 90)  # degrees: the latitudes of the rings of a ball
@@ -32,23 +32,6 @@ class Capsule(NamedTuple):
     start: Array
     vector: Array
     radius: float
-
-
-def reaches(skeleton: Skeleton) -> Array:
-    """Compute the length of the longest limb below each joint, along the bones, (J,), metres.
-
-    Examples
-    --------
-    >>> leg = Skeleton(["hip", "knee", "ankle"], [-1, 0, 1], [[0, 0, 0], [0, -0.4, 0], [0, -0.5, 0]])
-    >>> reaches(leg)
-    array([0.9, 0.5, 0. ])
-    """
-    lengths = np.linalg.norm(skeleton.offsets, axis=-1)
-    limbs = np.zeros(len(skeleton))
-    for joint in range(len(skeleton) - 1, 0, -1):
-        parent = skeleton.parents[joint]
-        limbs[parent] = max(limbs[parent], lengths[joint] + limbs[joint])
-    return limbs
 
 
 def body(skeleton: Skeleton) -> tuple[Array, Array, Indices, Indices]:

@@ -17,7 +17,7 @@ from mocap._shared.records import NamedTuple
 from mocap.body.kinematics import GlobalPoses, forward_kinematics
 from mocap.body.limbs import Leg
 from mocap.body.motion import Motion
-from mocap.body.skeleton import Skeleton
+from mocap.body.skeleton import Skeleton, reaches
 
 STEP = 1 / 30  # seconds over which speeds and their changes are measured
 
@@ -96,23 +96,6 @@ def see(motion: Motion, legs: tuple[Leg, ...]) -> Seen:
     longest = (len(motion) - 1) // 3  # of which two make a second difference, and three a third one
     step = max(1, min(longest, round(STEP * motion.fps)))
     return Seen(motion, forward_kinematics(motion), legs, step)
-
-
-def reaches(skeleton: Skeleton) -> Array:
-    """Compute the length of the longest chain of bones below each joint, shape (J,), metres.
-
-    Examples
-    --------
-    >>> finger = Skeleton(["hand", "finger", "tip"], [-1, 0, 1], [[0, 0, 0], [0, 3, 0], [0, 1, 0]])
-    >>> reaches(finger)
-    array([4., 1., 0.])
-    """
-    lengths = np.linalg.norm(skeleton.offsets, axis=-1)
-    reach = np.zeros(len(skeleton))
-    for joint in range(len(skeleton) - 1, 0, -1):
-        parent = skeleton.parents[joint]
-        reach[parent] = max(reach[parent], reach[joint] + lengths[joint])
-    return reach
 
 
 def main_joints(skeleton: Skeleton) -> Indices:

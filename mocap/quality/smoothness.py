@@ -17,8 +17,9 @@ from scipy.signal import butter, sosfiltfilt
 from mocap._shared.arrays import Array, Indices, runs
 from mocap._shared.records import NamedTuple
 from mocap.body.motion import Motion, resample
+from mocap.body.skeleton import reaches
 from mocap.quality.limits import LIMITS
-from mocap.quality.measures import Measure, Seen, main_points, reaches
+from mocap.quality.measures import Measure, Seen, main_points
 from mocap.quality.seam_measures import USUAL, Spread, jumps
 
 WINDOW = 1 / 3  # seconds: a jump in a window is compared with those in windows of the clips

@@ -11,9 +11,9 @@ from mocap._shared.arrays import Array, Indices
 from mocap._shared.records import NamedTuple
 from mocap.body.body_sides import sides
 from mocap.body.limbs import roles
-from mocap.body.skeleton import Skeleton
+from mocap.body.skeleton import Skeleton, reaches
 from mocap.errors import MocapError
-from mocap.files.gltf_capsules import THICK, reaches
+from mocap.files.gltf_capsules import THICK
 
 LEG = 0.86  # metres from hip to ankle of the person to whom the radii below apply
 LEG_PARTS = ("left hip", "left knee", "left ankle")
