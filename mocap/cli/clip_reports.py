@@ -5,7 +5,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mocap import quality
-from mocap.cli.options import READING, FileReading, bar
+from mocap.cli.options import READING, FileReading
+from mocap.cli.stages import bar
 from mocap.errors import MocapError
 
 if TYPE_CHECKING:

@@ -14,21 +14,10 @@ from mocap import files, quality, widgets
 from mocap._shared.atomic import make_folder, require_folder
 from mocap.cli.clip_reports import describe_clips
 from mocap.cli.clip_sets import Spaces, read_found
-from mocap.cli.options import (
-    CM,
-    READING,
-    FileReading,
-    PathReading,
-    PlainNames,
-    Reading,
-    Sources,
-    bar,
-    print_rows,
-    report_failures,
-    require_file,
-    require_output,
-    timed_stage,
-)
+from mocap.cli.option_types import CM, PlainNames
+from mocap.cli.options import READING, FileReading, PathReading, Reading, Sources, require_file
+from mocap.cli.outputs import print_rows, report_failures, require_output
+from mocap.cli.stages import bar, timed_stage
 from mocap.cli.tuned import TUNED
 from mocap.errors import MocapError, printable
 from mocap.files import conversion

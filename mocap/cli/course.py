@@ -10,7 +10,8 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from mocap._shared.atomic import require_writable, write_file
-from mocap.cli.options import bar, number
+from mocap.cli.option_types import number
+from mocap.cli.stages import bar
 from mocap.cli.typed_commands import Group
 from mocap.course import marking
 from mocap.course.handout import hand_out

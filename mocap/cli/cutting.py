@@ -6,18 +6,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from mocap import body, editing, files
-from mocap.cli.options import (
-    RATE,
-    PlainNames,
-    ReadingAtRate,
-    check_out,
-    frame_at,
-    moment,
-    number,
-    print_rows,
-    timed_stage,
-    warn_of_lost_roles,
-)
+from mocap.cli.option_types import RATE, PlainNames, frame_at, moment, number
+from mocap.cli.options import ReadingAtRate
+from mocap.cli.outputs import check_out, print_rows, warn_of_lost_roles
+from mocap.cli.stages import timed_stage
 from mocap.cli.tuned import TUNED
 from mocap.errors import MocapError, printable, shortened, warn
 from mocap.files.conversion import find_files

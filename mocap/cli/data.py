@@ -3,7 +3,8 @@
 from typing import Annotated, Literal
 
 from mocap import datasets
-from mocap.cli.options import bar, number
+from mocap.cli.option_types import number
+from mocap.cli.stages import bar
 from mocap.cli.typed_commands import Group
 from mocap.errors import MocapError
 

@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from mocap import blending, body, editing, feet, quality
 from mocap._shared.atomic import require_folder
-from mocap.cli import options
 from mocap.cli.clip_sets import Spaces
-from mocap.cli.options import TURN, Clean, PathReading, Reading, bar, check_out, number, print_rows, write_out
+from mocap.cli.option_types import LENGTH, TURN, Clean, Up, number
+from mocap.cli.options import PathReading, Reading
+from mocap.cli.outputs import check_out, print_rows, report_failures, write_out
+from mocap.cli.stages import bar
 from mocap.cli.tuned import TUNED
 from mocap.errors import MocapError, Remedy, warn
 from mocap.files.conversion import convert, plan, require_apart
@@ -243,8 +245,8 @@ def retarget(
     to: Path,
     out: Path,
     format: Literal["bvh", "glb"] = "bvh",
-    to_scale: Annotated[float | None, options.LENGTH] = None,
-    to_up: options.Up = None,
+    to_scale: Annotated[float | None, LENGTH] = None,
+    to_up: Up = None,
     reading: Reading,
 ) -> int:
     """Retarget clips to another body.
@@ -282,7 +284,7 @@ def retarget(
     spaces = reading.survey(paths if is_apart else [*paths, to])
     wearer = _body(to, BodyReading(scale=to_scale, up=to_up, joints=reading.joints), spaces)
     failed = convert(pairs, partial(_worn, reading, spaces, wearer, paths), progress=bar("retargeting"))
-    return options.report_failures("retargeted", len(pairs), failed, f", in {out}")
+    return report_failures("retargeted", len(pairs), failed, f", in {out}")
 
 
 class BodyReading(Reading):

@@ -10,17 +10,10 @@ from typing import TYPE_CHECKING, Annotated
 from mocap import datasets, editing, graphs, quality, synthesis, widgets
 from mocap._shared.atomic import make_folder, require_folder
 from mocap.cli.clusters import connect
-from mocap.cli.options import (
-    Building,
-    Seed,
-    bar,
-    check_out,
-    number,
-    print_rows,
-    require_other,
-    timed_stage,
-    write_out,
-)
+from mocap.cli.option_types import Seed, number
+from mocap.cli.options import Building
+from mocap.cli.outputs import check_out, print_rows, require_other, write_out
+from mocap.cli.stages import bar, timed_stage
 from mocap.cli.typed_commands import Group
 from mocap.datasets.clip_origins import Origin
 from mocap.errors import MocapError, MocapWarning, NoWalk, SkeletonMismatch, warn

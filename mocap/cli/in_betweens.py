@@ -8,17 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from mocap import body, graphs
-from mocap.cli.options import (
-    MOMENT,
-    Building,
-    check_out,
-    frame_at,
-    load_graph,
-    number,
-    print_rows,
-    require_other,
-    write_out,
-)
+from mocap.cli.option_types import MOMENT, frame_at, number
+from mocap.cli.options import Building, load_graph
+from mocap.cli.outputs import check_out, print_rows, require_other, write_out
 from mocap.errors import MocapError
 from mocap.files.conversion import find_files
 from mocap.methods import in_betweening

@@ -1,27 +1,19 @@
-"""Shared parts of the commands: options, a progress bar, reading of clips, and checks of output files."""
+"""Groups of options by which commands read clips, paths and graphs, and the reading itself."""
 
-import math
-import os
-import re
-import time
-import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
-from mocap import body, files, graphs
-from mocap._shared.atomic import require_writable
+from mocap import body, graphs
 from mocap._shared.deprecation import DEPRECATED, Deprecation
 from mocap._shared.progress import Progress
 from mocap.cli.clip_sets import named_apart, read_set, surveyed_spaces, warn_of_bodies, warn_of_space
-from mocap.cli.messages import VERBOSITY, note
-from mocap.cli.typed_commands import ONE_EACH
+from mocap.cli.option_types import CM, LENGTH, RATE, Joints, RootOffset, Skeleton, Up, number
+from mocap.cli.stages import bar, timed_reading, timed_stage
 from mocap.datasets.clip_origins import Origin
-from mocap.errors import MocapError, MocapWarning, SkeletonMismatch, printable, warn
-from mocap.files.formats import WRITTEN, enumerated
+from mocap.errors import MocapError, SkeletonMismatch, warn
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -33,87 +25,7 @@ if TYPE_CHECKING:
     from mocap.files.spaces import Space
     from mocap.graphs.motion_graph import MotionGraph
 
-
-def number(low: float, high: float, kind: Callable[[str], float] = float) -> Callable[[str], float]:
-    """Return a converter for an option whose value is a number, or with `int` an integer, within bounds.
-
-    Examples
-    --------
-    >>> number(0, 10)("4.5")
-    4.5
-    >>> number(0, 10, int)("nan")
-    Traceback (most recent call last):
-    mocap.errors.MocapError: 'nan' is not a whole number from 0 to 10
-    """
-    expected = f"a whole number from {low} to {high}" if kind is int else f"a number from {low:g} to {high:g}"
-
-    def read(text: str) -> float:
-        try:
-            value = kind(text)
-        except ValueError:
-            value = math.nan
-        if not low <= value <= high:
-            raise MocapError(f"{text[:40]!r} is not {expected}")
-        return value
-
-    return read
-
-
-# A time in a clip: "1.5s" is in seconds, and "45" is a frame, as in the keys of `mocap warp`.
-MOMENT = r"(\d{1,9}|\d{1,9}(?:\.\d{1,9})?s)"
-
-
-def moment(text: str) -> str:
-    """Check the form of a time in a clip, a frame or seconds, for an option.
-
-    Examples
-    --------
-    >>> moment("90"), moment("1.5s")
-    ('90', '1.5s')
-    """
-    if not re.fullmatch(MOMENT, text):
-        raise MocapError(f"{text[:40]!r} is no time in a clip: write a frame as in 90, or seconds as in 1.5s")
-    return text
-
-
-def frame_at(time_in_clip: str, fps: float) -> int:
-    """Convert a time in a clip to the nearest frame.
-
-    Examples
-    --------
-    >>> frame_at("90", fps=120.0), frame_at("1.5s", fps=120.0)
-    (90, 180)
-    """
-    return round(float(time_in_clip.removesuffix("s")) * (fps if time_in_clip.endswith("s") else 1.0))
-
-
-SHORTEST_STAGE = 0.05  # seconds: a shorter stage would be shown as 0.0 s
 SHORTEST_LINE = 0.5  # metres: a shorter path is doubted
-LENGTH = number(1e-6, 1e6)  # metres per unit
-CM = number(0.001, 1000)  # centimetres
-RATE = number(1, 1000)  # frames per second
-TURN = number(1, 2800)  # degrees per second. `editing.bend` accepts 50 radians per second, 2865 degrees
-Skeleton = Annotated[Path | None, "the .asf file of .amc clips (default: a matching one in their folder)"]
-Joints = Annotated[
-    Sequence[Path],
-    ONE_EACH,
-    "a .toml of the roles of joints, from mocap info CLIP --joints; may be repeated for several bodies",
-]
-Up = Annotated[
-    Literal["y", "z", "-y", "-z", "x", "-x"] | None,
-    "axis of the file that points up (default: as the frames show; y, for AMASS z)",
-]
-RootOffset = Annotated[
-    Literal["add", "ignore"] | None,
-    "whether the positions of the root in a .bvh are relative to its OFFSET (default: as the frames show)",
-]
-Clean = Annotated[bool, "remove foot sliding"]
-PlainNames = Annotated[
-    bool,
-    "drop the characters [ ] . : / from the names of joints, and replace blanks by _, as three.js does",
-]
-Seed = Annotated[int, number(0, 2**32 - 1, int), "seed of the random numbers"]
-
 
 # The options for the parameters of `files.load_path`.
 PATH_READING = {"id": "--id", "length": "--length"}
@@ -169,29 +81,6 @@ def retargeting_advised() -> Iterator[None]:
     except SkeletonMismatch as error:
         problem = error.problem().removesuffix(" Retarget one first.")
         raise SkeletonMismatch(f"{problem} mocap retarget lets one body wear both.") from error
-
-
-@contextmanager
-def timed_reading(path: Path) -> Iterator[None]:
-    """Print, with `-v`, the file that is read and the duration."""
-    start = time.perf_counter()
-    yield
-    note(f"read {path} in {time.perf_counter() - start:.2f} s")
-
-
-@contextmanager
-def timed_stage(name: str) -> Iterator[None]:
-    """Print, with `-v`, the duration of a stage of the work, unless it is very short.
-
-    Parameters
-    ----------
-    name : the name of the stage, such as "measuring".
-    """
-    start = time.perf_counter()
-    yield
-    seconds = time.perf_counter() - start
-    if seconds >= SHORTEST_STAGE:
-        note(f"{name}: {seconds:.1f} s")
 
 
 def require_file(path: Path, advice: str) -> None:
@@ -477,124 +366,3 @@ def with_joints(motion_graph: "MotionGraph", joints: Sequence[Path]) -> "MotionG
         return motion_graph
     clips = tuple(with_chosen_roles(clip, joints) for clip in motion_graph.clips)
     return replace(motion_graph, clips=clips)
-
-
-def bar(label: str) -> Progress:
-    """Return a progress bar for work on a terminal that takes longer than a second.
-
-    The bar is erased at the end. With `-v`, the duration is printed.
-
-    Examples
-    --------
-    >>> list(bar("counting")([1, 2, 3]))
-    [1, 2, 3]
-    """
-    from tqdm import tqdm  # imported here, so that `mocap --help` stays quick
-
-    verbosity = VERBOSITY.get()
-    show = partial(tqdm, desc=label, delay=1.0, leave=False, disable=verbosity.quiet or None)
-    return partial(_timed, label, show) if verbosity.verbose else show
-
-
-def _timed(label: str, show: Progress, items: Sequence[Any]) -> Iterator[Any]:
-    """Yield the items, and print their number and the duration."""
-    start = time.perf_counter()
-    count = 0
-    for item in show(items):
-        yield item
-        count += 1
-    note(f"{label}: {count} in {time.perf_counter() - start:.1f} s")
-
-
-def print_rows(**rows: object) -> None:
-    """Print results, each in a line with its name.
-
-    Examples
-    --------
-    >>> print_rows(wrote="walk.bvh")
-    wrote        walk.bvh
-    """
-    print("\n".join(f"{name:<12} {printable(text)}" for name, text in rows.items()))
-
-
-def check_out(thing: str, out: Path, read: Iterable[Path] = (), formats: Sequence[str] = WRITTEN) -> None:
-    """Raise, before any work is done, if a file cannot be written or is one of the input files.
-
-    Examples
-    --------
-    >>> check_out("walk", Path("walk.fbx"))
-    Traceback (most recent call last):
-    mocap.errors.MocapError: A walk is written as .bvh, .glb, .npz or .csv, got 'walk.fbx'.
-    """
-    if out.suffix.lower() not in formats:
-        raise MocapError(f"A {thing} is written as {enumerated(formats)}, got '{out}'.")
-    require_other(out, read)
-    require_output(out)
-
-
-def require_output(out: Path) -> None:
-    """Raise, before any work is done, if a file cannot be written.
-
-    Examples
-    --------
-    >>> require_output(Path("nowhere/walk.bvh"))
-    Traceback (most recent call last):
-    mocap.errors.MocapError: Cannot write nowhere/walk.bvh: there is no folder nowhere.
-    """
-    if not out.parent.is_dir():
-        raise MocapError(f"Cannot write {out}: there is no folder {out.parent}.")
-    require_writable(out)
-
-
-def require_other(out: Path, read: Iterable[Path]) -> None:
-    """Raise if the output file is one of the input files.
-
-    Examples
-    --------
-    >>> require_other(Path("clips/walk.bvh"), [Path("clips/run.bvh"), Path("./clips/walk.bvh")])
-    Traceback (most recent call last):
-    mocap.errors.MocapError: clips/walk.bvh is one of the files to read: choose another name with -o.
-    """
-    if os.path.realpath(out) in map(os.path.realpath, read):
-        raise MocapError(f"{out} is one of the files to read: choose another name with -o.")
-
-
-def write_out(motion: "Motion", out: Path, *, details: str = "") -> None:
-    """Write a motion, and print the name of its file with `details`."""
-    with timed_stage("writing"):
-        files.save(motion, out)
-    print_rows(wrote=f"{out}{details}")
-    warn_of_lost_roles(motion, out)
-
-
-def warn_of_lost_roles(motion: "Motion", out: Path) -> None:
-    """Warn if a motion has roles that are not found in its file, which cannot store them.
-
-    A .glb file cannot be read by a command, so that no role is missed.
-    """
-    if out.suffix.lower() != ".bvh" or not motion.skeleton.roles:
-        return
-    stripped = replace(motion, skeleton=replace(motion.skeleton, roles={}))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", MocapWarning)  # they are shown when the file is read
-        is_found = _roles_of(body.with_roles(stripped)) == _roles_of(motion)
-    if not is_found:
-        warn(f"{out}: a .bvh cannot store the roles of joints: commands that read it need --joints again.")
-
-
-def _roles_of(motion: "Motion") -> dict[str, int]:
-    """Return the roles of a motion's joints, {} without legs."""
-    from mocap.body.limbs import roles  # the help needs no NumPy
-
-    try:
-        return roles(motion.skeleton)
-    except MocapError:
-        return {}
-
-
-def report_failures(verb: str, count: int, problems: Sequence[str], where_to: str = "") -> int:
-    """Print the number of files that succeeded and each problem, and return the exit status."""
-    print_rows(**{verb: f"{count - len(problems)} of {count}{where_to}"})
-    for problem in problems:
-        print_rows(failed=problem)
-    return 2 if problems else 0

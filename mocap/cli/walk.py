@@ -13,20 +13,10 @@ from mocap import body, datasets, editing, files, graphs, plotting, steering, wi
 from mocap._shared.atomic import make_folder, replacing, require_folder, write_file
 from mocap._shared.deadlines import OUT_OF_TIME
 from mocap.cli import options
-from mocap.cli.options import (
-    TURN,
-    Building,
-    Clean,
-    Joints,
-    PathReading,
-    Seed,
-    Skeleton,
-    Sources,
-    bar,
-    number,
-    print_rows,
-    timed_stage,
-)
+from mocap.cli.option_types import TURN, Clean, Joints, Seed, Skeleton, number
+from mocap.cli.options import Building, PathReading, Sources
+from mocap.cli.outputs import check_out, print_rows, require_other, write_out
+from mocap.cli.stages import bar, timed_stage
 from mocap.cli.tuned import TUNED
 from mocap.cli.typed_commands import ONE_EACH, OptionalValue
 from mocap.errors import MocapError, MocapWarning, NoWalk
@@ -85,7 +75,7 @@ def walk(
     if random is not None and any((label, width, drawn.is_given(), bend, deadline)):
         options_of_paths = "--label, --bend, --width, --unit, --length, --id and --deadline"
         raise MocapError(f"{options_of_paths} belong to --path, not to --random.")
-    options.check_out("walk", out, [graph, *([path] if path else [])])
+    check_out("walk", out, [graph, *([path] if path else [])])
     with timed_stage("loading packages"):
         from mocap.synthesis.random_walks import dump  # the help needs no NumPy
 
@@ -107,7 +97,7 @@ def walk(
     print_rows(walked=followed.report())
     with timed_stage("making the motion"):
         motion = followed.motion(clean=clean or bool(bend))
-    options.write_out(motion, out)
+    write_out(motion, out)
     return 0 if followed.found.stopped in ("", OUT_OF_TIME) else 130
 
 
@@ -136,7 +126,7 @@ def page(
     -----
     Example: mocap page graph.npz -o walk.html
     """
-    options.check_out("page", out, formats=[".html"])
+    check_out("page", out, formats=[".html"])
     options.require_file(graph, BUILD_FIRST.format(graph))
     with timed_stage("loading packages"):
         from mocap.widgets.walking_page import walk_page  # the help needs no NumPy
@@ -185,7 +175,7 @@ def _graph(path: Path, clips: Sequence[Path], sources: Sources, out: Path) -> "g
         )
     content = read(path)
     files_read = find_files(clips) if clips else [origin.path for origin in find_origins(path)]
-    options.require_other(out, files_read)
+    require_other(out, files_read)
     with warnings.catch_warnings():
         lopsided = ".* so its mirror image does not"  # `mocap graph` has already warned
         warnings.filterwarnings("ignore", lopsided, MocapWarning)

@@ -20,7 +20,7 @@ import mocap
 from mocap.body.motion import resample
 from mocap.cli import help_pages
 from mocap.cli.main import main
-from mocap.cli.options import bar
+from mocap.cli.stages import bar
 from mocap.course import opening
 from mocap.datasets import samples
 from mocap.files import load_save
