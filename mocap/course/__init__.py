@@ -7,22 +7,23 @@ what it asks for, the right answer, and the hints for typical mistakes.
 
 Reading order
 -------------
-1. `check`: how an exercise is checked
-2. `checks`: the exercises, a table for each notebook
-3. `real_clips`: captured clips for notebooks that can do without, and the four collections of claims
-4. `seam_trials`: walks by a matrix, and blends of matches drawn at random, measured
-5. `marked_values`: numbers in prose, and the expressions that compute them
-6. `notebooks`: read a notebook, find its cells by their tags and the names that they use, run it
-7. `handout`: copies without solutions
-8. `formulas`: formulas as MathML
-9. `recording`: positions of an experiment, as pictures for pages without Python
-10. `site`: the course as HTML pages, beside the reference pages of the package
-11. `conf`: how Sphinx makes these pages
-12. `opening`: the course in JupyterLab, and in JupyterLite
-13. `diagrams`: ideas drawn step by step
-14. `lab`: what students wrote is used, and what they thought is kept
-15. `marking`: marks for notebooks handed in, whose code runs sealed
-16. `teaching`: slides and films that are made from the notebooks
+1. `guarded_calls`: calls of a student's function that cannot stop or freeze the notebook
+2. `check`: how an exercise is checked
+3. `checks`: the exercises, a table for each notebook
+4. `real_clips`: captured clips for notebooks that can do without, and the four collections of claims
+5. `seam_trials`: walks by a matrix, and blends of matches drawn at random, measured
+6. `marked_values`: numbers in prose, and the expressions that compute them
+7. `notebooks`: read a notebook, find its cells by their tags and the names that they use, run it
+8. `handout`: copies without solutions
+9. `formulas`: formulas as MathML
+10. `recording`: positions of an experiment, as pictures for pages without Python
+11. `site`: the course as HTML pages, beside the reference pages of the package
+12. `conf`: how Sphinx makes these pages
+13. `opening`: the course in JupyterLab, and in JupyterLite
+14. `diagrams`: ideas drawn step by step
+15. `lab`: what students wrote is used, and what they thought is kept
+16. `marking`: marks for notebooks handed in, whose code runs sealed
+17. `teaching`: slides and films that are made from the notebooks
 
 References
 ----------

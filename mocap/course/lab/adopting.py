@@ -1,31 +1,21 @@
-"""A student's function drives the course from the exercise on; until then the package's stands in.
-
-A student's function that passed its check may still fail on other input. So each call is guarded: where the
-function raises an error, gives another form of answer than the package's (a NaN, say), or takes longer than
-`SECONDS`, one sentence says so, and the package's stands in from then on. What it prints is dropped: a line
-for each of some thousand calls would hide the page.
-"""
+"""A student's function drives the course from the exercise on; until then the package's stands in."""
 
 from __future__ import annotations
 
 import io
 from collections.abc import Callable
 from contextlib import redirect_stdout
+from dataclasses import dataclass
 from functools import cache
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-import numpy as np
-
-from mocap._shared.limits import Overdue, time_limit
-from mocap.course.check import Check, as_numbers
 from mocap.course.checks import all_checks, nearest
-from mocap.course.lab.kept_functions import keep, place, plain_source, read_text, run_sections
+from mocap.course.guarded_calls import read_report, write_report_to
+from mocap.course.lab.kept_functions import is_stub, keep, place, plain_source, read_text, run_sections
+from mocap.course.lab.slots import AsWritten, Slot, whose_run
 from mocap.errors import MocapError
-
-SECONDS = 30.0  # of one call; what the course asks for takes a thousandth of it
-SHAPES: dict[str, tuple[int, ...]] = {"climb": (3,), "edge_cost": (2,), "hamilton": (4,)}
-"""The answers of functions that are called thousands of times; others are compared with the package's."""
 
 NAMES = (
     *("climb", "window_sums", "inner_minima", "best_angle", "best_shift", "undo", "choice_points"),
@@ -37,108 +27,8 @@ NAMES = (
 Tools = SimpleNamespace  # a function for each of `NAMES`, as `tools.climb`
 
 
-class Slot:
-    """The place of an exercise in the course; call it like the function that the exercise asks for.
-
-    Parameters
-    ----------
-    check : the exercise's check, whose oracle stands in for a function that is missing.
-
-    Attributes
-    ----------
-    own : the student's function, once it has passed the check; else None.
-    written : what the student wrote last, right or wrong: this is what a check judges.
-    kept : whether the file beside the notebooks holds it.
-    stopped : why the package's stands in again, or "".
-
-    Examples
-    --------
-    >>> from mocap.course import checks
-    >>> slot = Slot(checks.hamilton)
-    >>> slot
-    hamilton: the package's
-    >>> slot(np.array([0.0, 1, 0, 0]), np.array([0.0, 0, 1, 0]))
-    array([0., 0., 0., 1.])
-    """
-
-    def __init__(self, check: Check) -> None:
-        self.name, self.stand_in, self.check = check.name, check.truth, check
-        self.own: Callable[..., Any] | None = None
-        self.written: Callable[..., Any] = check.truth
-        self.kept, self.stopped, self._prints = False, "", False
-
-    def adopt(self, own: Callable[..., Any] | None, *, kept: bool) -> None:
-        """Put a function that has passed its check here, or take it away."""
-        self.own, self.stopped, self.kept = own, "", kept
-
-    @property
-    def yours(self) -> bool:
-        """Whether the student's function runs here."""
-        return self.own is not None and not self.stopped
-
-    def __repr__(self) -> str:
-        return f"{self.name}: " + ("yours" if self.yours else "the package's")
-
-    def __call__(self, *arguments: Any) -> Any:  # noqa: ANN401 (as the exercise asks)
-        """Give the student's answer, or the package's where there is none or it will not do."""
-        if self.own is None or self.stopped:
-            return self.stand_in(*arguments)
-        try:
-            with time_limit(SECONDS), redirect_stdout(io.StringIO()) as unseen:
-                given = self.own(*arguments)
-        except Overdue:
-            self.stopped = f"did not end within {SECONDS:g} s"
-        except (Exception, SystemExit) as error:  # a student's function may raise anything
-            self.stopped = f"raised {type(error).__name__}: {error}".removesuffix(": ")[:110]
-        else:
-            if unseen.getvalue() and not self._prints:
-                self._prints = True
-                print(f"{self.name}: yours prints; it is shown where the check runs, and not here.")
-            shape = SHAPES.get(self.name)
-            try:
-                return in_form(given, np.zeros(shape) if shape else self.stand_in(*arguments))
-            except (TypeError, ValueError) as error:
-                self.stopped = str(error)
-        print(f"{self.name}: yours {self.stopped}; the package's stands in from here on.")
-        return self.stand_in(*arguments)
-
-
-def in_form(given: Any, wanted: Any) -> Any:  # noqa: ANN401
-    """Give an answer the types of another of the same form, as what follows may need an array or a set.
-
-    Raises
-    ------
-    ValueError, TypeError : where the form is another one: another shape, or NaN where that has none.
-
-    Examples
-    --------
-    >>> in_form([[1, 2], (3,)], ({0}, np.zeros(1)))
-    ({1, 2}, array([3.]))
-    >>> in_form([1.0], (3, 4))
-    Traceback (most recent call last):
-    ValueError: gave an answer of the shape (1,)
-    """
-    listed, kind = isinstance(given, list | tuple | np.ndarray), type(wanted)
-    here, there = as_numbers(given), as_numbers(wanted)
-    if isinstance(wanted, set | frozenset) and (listed or isinstance(given, set | frozenset)):
-        return kind(tuple(item) if np.ndim(item) else item for item in given)
-    if isinstance(wanted, dict | str) or wanted is None:
-        if isinstance(given, kind):
-            return given
-    elif there is None:  # items of different kinds
-        if listed and len(given) == len(wanted):
-            return (list if kind is list else tuple)(map(in_form, given, wanted))
-    elif here is not None:
-        if here.shape == there.shape and not (np.isnan(here) & ~np.isnan(there)).any():
-            if isinstance(wanted, list | tuple):
-                return (list if kind is list else tuple)(map(in_form, given, wanted))
-            return np.asarray(given, wanted.dtype) if kind is np.ndarray else kind(given)
-        raise ValueError("gave NaN" if np.isnan(here).any() else f"gave an answer of the shape {here.shape}")
-    raise ValueError(f"gave an answer of the type {type(given).__name__} that does not fit")
-
-
-def mine(what: str | Callable[..., Any] | Slot) -> Slot:
-    """Put a student's function in its place, or give what stands there: theirs, or the package's.
+def mine(exercise: str | Callable[..., Any] | Slot) -> Slot:
+    """Put a student's function in its place, or return what stands there: theirs, or the package's.
 
     A function that passes its check is adopted: it is written into `my_graph.py` beside the notebook, and
     from then on it is what all notebooks get by its name. One that does not pass leaves its place as it was.
@@ -147,7 +37,7 @@ def mine(what: str | Callable[..., Any] | Slot) -> Slot:
 
     Parameters
     ----------
-    what : the function that an exercise asks for, or its name.
+    exercise : the function that an exercise asks for, or its name.
 
     Returns
     -------
@@ -155,7 +45,8 @@ def mine(what: str | Callable[..., Any] | Slot) -> Slot:
 
     Raises
     ------
-    MocapError : for a name that no exercise has.
+    MocapError
+        For a name that no exercise has.
 
     Examples
     --------
@@ -168,42 +59,67 @@ def mine(what: str | Callable[..., Any] | Slot) -> Slot:
 
     Notebook: 08-path-synthesis
     """
-    if isinstance(what, Slot):
-        what = what.written if what.written is not what.stand_in else what.name
-    slot = slots(what if isinstance(what, str) else what.__name__)[0]
-    failed = callable(what) and not _take(slot, what)
-    if slot.yours:
-        kept = f", kept in {place()}" if slot.kept else ""
-        print(f"{slot.name}: yours{kept}{'; it is the one that passed, not this one' if failed else ''}.")
+    if isinstance(exercise, Slot):
+        has_own = exercise.written is not exercise.stand_in
+        exercise = exercise.written if has_own else exercise.name
+    if isinstance(exercise, str):
+        slot = slots(exercise)[0]
+        has_failed = False
     else:
-        why = f"; yours {slot.stopped}." if slot.stopped else " until yours passes its check."
-        print(f"{slot.name}: the package's stands in{why}")
+        slot = slots(exercise.__name__)[0]
+        has_failed = not _take(slot, exercise)
+    print(_standing(slot, has_failed))
     return slot
 
 
+def _standing(slot: Slot, has_failed: bool) -> str:
+    """State whose function stands in a place, after another one failed or not."""
+    if slot.yours:
+        kept = f", kept in {place()}" if slot.kept else ""
+        earlier = "; it is the one that passed, not this one" if has_failed else ""
+        return f"{slot.name}: yours{kept}{earlier}."
+    reason = f"; yours {slot.stopped}." if slot.stopped else " until yours passes its check."
+    return f"{slot.name}: the package's stands in{reason}"
+
+
 def slots(*names: str) -> list[Slot]:
-    """Give the places of some exercises, with what the file beside the notebook holds, and print nothing new.
+    """Return the places of some exercises, with what the file beside the notebook holds; print what is new.
 
     Raises
     ------
-    MocapError : for a name that no exercise has.
+    MocapError
+        For a name that no exercise has.
     """
-    if unknown := [name for name in names if name not in all_checks()]:
+    unknown = [name for name in names if name not in all_checks()]
+    if unknown:
         raise MocapError(f"The course has no exercise '{unknown[0][:40]}'; {nearest(unknown[0])}.")
     _refresh()
     return [_slots()[name] for name in names]
 
 
 def tools() -> Tools:
-    """Take the student's functions, where they passed their checks, and the package's for the rest.
+    """Return the student's functions, where they passed their checks, and the package's for the rest.
 
     Notebook: 07-walks-and-search
     """
     return Tools(**{slot.name: slot for slot in slots(*NAMES)})
 
 
+def as_written() -> Tools:
+    """Return the student's functions as they stand, right or wrong, and the package's for the rest.
+
+    Notebook: 08-path-synthesis
+    """
+    _refresh("so that it runs as you wrote it")
+    chosen = {}
+    for slot in slots(*NAMES):
+        is_begun = slot.written is not slot.stand_in and not is_stub(slot.written)
+        chosen[slot.name] = AsWritten(slot) if is_begun else slot
+    return Tools(**chosen)
+
+
 def whose(*names: str) -> str:
-    """Say whose functions run in some places, as a line for a caption.
+    """State whose functions run in some places, as a line for a caption.
 
     Examples
     --------
@@ -212,56 +128,106 @@ def whose(*names: str) -> str:
 
     Notebook: 00-quickstart
     """
-    found = slots(*names)
-    groups = {"yours": [slot.name for slot in found if slot.yours]}
-    groups["the package's"] = [slot.name for slot in found if not slot.yours]
-    return " · ".join(f"{', '.join(some)}: {of}" for of, some in groups.items() if some)
+    return whose_run(slots(*names))
 
 
-def _take(slot: Slot, written: Callable[..., Any]) -> bool:
-    """Adopt a function if it is right, and write it into the file; say whether it is right."""
-    slot.written = written
-    if not slot.check.verdict(written).right:
+def _take(slot: Slot, function: Callable[..., Any]) -> bool:
+    """Adopt a function if it is right, and write it into the file; return whether it is right."""
+    slot.written = function
+    if not slot.check.verdict(function).right:
         return False
-    slot.adopt(written, kept=False)
+    slot.adopt(function, kept=False)
     try:
-        if file := place():
-            plain = plain_source(written, all_checks())  # type: ignore[arg-type]
-            _read[0] = keep(file, slot.name, slot.check.notebook, plain)
+        file = place()
+        if file:
+            source = plain_source(function, all_checks())  # type: ignore[arg-type]
+            _kernel.text = keep(file, slot.name, slot.check.notebook, source)
             slot.kept = True
     except MocapError as error:
         print(f"{slot.name}: adopted until this kernel ends, but not kept. {error}"[:200])
     return True
 
 
-_read = [""]  # what the file held when it was read last
+@dataclass
+class _Kernel:
+    """What this kernel has read from the files beside the notebook."""
+
+    text: str = ""  # of the file with the student's functions
+    report: Path | None = None  # the file that tells at which function a kernel was ended
+    ended: tuple[str, ...] = ()  # the functions that ran when the last kernel was ended
 
 
-def _refresh() -> None:
-    """Read the file anew if it has changed: what was deleted from it goes, what passes its check comes."""
-    file, text = place(), ""
+_kernel = _Kernel()
+
+
+def _refresh(consequence: str = "so the package's stands in") -> None:
+    """Read the file anew if it has changed: what was deleted from it goes, what passes its check comes.
+
+    Parameters
+    ----------
+    consequence : what follows for a function that does not pass its check, as the end of a sentence.
+    """
+    file = place()
+    text = ""
     try:
         text = read_text(file)
     except MocapError as error:
         print(error)
-    if text == _read[0]:
+    if file is not None and _kernel.report is None:
+        _tell_of_last_kernel(file)
+    if text == _kernel.text:
         return
-    _read[0] = text
-    found, said = run_sections(file, text, _slots()) if file else ({}, [])
+    _kernel.text = text
+    for message in _read_functions(file, text, consequence):
+        print(message)
+
+
+def _read_functions(file: Path | None, text: str, consequence: str) -> list[str]:
+    """Put the functions of the file into their places; return a message for each that is not used."""
+    functions, messages = run_sections(file, text, _slots()) if file else ({}, [])
     for slot in _slots().values():
-        if slot.kept and slot.name not in found:
+        if slot.kept and slot.name not in functions:
             slot.adopt(None, kept=False)
-    for name in found.keys() - all_checks().keys():
-        said.append(f"{file}: the course has no exercise '{name}'; it is not used."[:200])
-    for slot in (_slots()[name] for name in found if name in all_checks()):
-        slot.written = found[slot.name]
-        with redirect_stdout(io.StringIO()):
-            verdict = slot.check.verdict(slot.written)
-        slot.adopt(slot.written if verdict.right else None, kept=verdict.right)
-        if not verdict.right:
-            why = "does not pass its check any more, so the package's stands in."
-            said.append(f"{file}: {slot.name} {why}\n{verdict}")
-    print(*said, sep="\n", end="\n" * bool(said))
+    for name, function in functions.items():
+        if name not in all_checks():
+            messages.append(f"{file}: the course has no exercise '{name}'; it is not used."[:200])
+        elif name not in _kernel.ended:
+            messages += _read_function(_slots()[name], function, f"{file}: {name}", consequence)
+    return messages
+
+
+def _read_function(
+    slot: Slot, function: Callable[..., Any], place_in_file: str, consequence: str
+) -> list[str]:
+    """Adopt a function of the file if it passes its check; return a message if it does not."""
+    slot.written = function
+    with redirect_stdout(io.StringIO()):
+        verdict = slot.check.verdict(function)
+    slot.adopt(function if verdict.right else None, kept=verdict.right)
+    if verdict.right:
+        return []
+    return [f"{place_in_file} does not pass its check any more, {consequence}.\n{verdict}"]
+
+
+def _tell_of_last_kernel(file: Path) -> None:
+    """Say which function ended the last kernel, and leave it out until it is handed in again.
+
+    Parameters
+    ----------
+    file : that of the student's functions. A report that is older than it is about an earlier version.
+    """
+    report = file.with_name(f".{file.stem}.stopped")
+    _kernel.report = report
+    stopped = read_report(report)
+    if stopped and file.exists() and report.stat().st_mtime < file.stat().st_mtime:
+        stopped = None
+    if stopped:
+        _kernel.ended = stopped.functions
+        line = f"line {stopped.line} of `{stopped.function}`" if stopped.function else "a function"
+        print(
+            f"The last kernel was ended: {line} ran compiled code without an end. Change it and run it again."
+        )
+    write_report_to(report, anew=stopped is None)
 
 
 @cache

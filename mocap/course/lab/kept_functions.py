@@ -11,7 +11,7 @@ import inspect
 import os
 import re
 import textwrap
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
 from pathlib import Path
 from types import FunctionType, ModuleType
@@ -24,7 +24,7 @@ from mocap.errors import MocapError
 HEAD = '''"""My motion graph: what I wrote in the course, and what passed its check.
 
 The notebooks run these functions in place of the package's. Delete one of them, or this file, to start anew.
-By itself it walks along a line: python my_graph.py clips/ path.csv -o walk.bvh
+By itself it walks along a line, as it stands, right or wrong: python my_graph.py clips/ path.csv -o walk.bvh
 """
 '''
 FOOT = """
@@ -38,7 +38,7 @@ HEADING = re.compile(r"^(# -+ (\w+)(?: \(.*\))? -+\n)", re.MULTILINE)
 
 
 def place() -> Path | None:
-    """Say where the file is: `my_graph.py` beside the notebook, or what MOCAP_MINE names; None if empty."""
+    """Return the path of the file: `my_graph.py`, or what MOCAP_MINE names; None if that is empty."""
     named = os.environ.get("MOCAP_MINE", "my_graph.py")
     return Path(named) if named else None
 
@@ -66,22 +66,24 @@ def split(text: str) -> tuple[str, list[tuple[str, str, str]]]:
     return head, list(zip(rest[1::3], rest[::3], rest[2::3], strict=True))
 
 
-def run_sections(file: Path, text: str, known: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
+def run_sections(file: Path, text: str, names: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
     """Run the file section by section; a section that fails is left out.
 
     Parameters
     ----------
     file : its path, for tracebacks.
     text : what it holds.
-    known : names that all functions may use: the other exercises'.
+    names : what all functions may use: the other exercises'.
 
     Returns
     -------
     The functions by their names, and a sentence for each section that fails.
     """
     head, sections = split(text)
-    shared: dict[str, Any] = {"__name__": "my_graph", **known}
-    found, said, line = dict[str, Any](), list[str](), 0
+    shared: dict[str, Any] = {"__name__": "my_graph", **names}
+    functions: dict[str, Any] = {}
+    problems: list[str] = []
+    line = 0
     for name, heading, body in [("", "", head), *sections]:
         space = {**shared} if name else shared  # a helper of one function does not replace that of another
         space.pop(name, None)
@@ -89,25 +91,32 @@ def run_sections(file: Path, text: str, known: Mapping[str, Any]) -> tuple[dict[
         try:
             exec(compile("\n" * line + body, str(file.resolve()), "exec"), space)
         except (Exception, SystemExit) as error:  # students edit the file, and it may hold anything
-            at, why = getattr(error, "lineno", None) or line + 1, getattr(error, "msg", str(error))
-            said.append(f"{file}, line {at}: {type(error).__name__}, {why}; this section is not used."[:200])
+            problems.append(_section_problem(file, line + 1, error))
         line += body.count("\n")
-        if callable(made := space.get(name)):
-            found[name] = made
-    return found, said
+        if callable(space.get(name)):
+            functions[name] = space[name]
+    return functions, problems
 
 
-def plain_source(function: FunctionType, known: Collection[str] = ()) -> str:
+def _section_problem(file: Path, first_line: int, error: BaseException) -> str:
+    """Return the sentence for a section that fails, with the line of the error or of the section."""
+    line = getattr(error, "lineno", None) or first_line
+    reason = getattr(error, "msg", str(error))
+    return f"{file}, line {line}: {type(error).__name__}, {reason}; this section is not used."[:200]
+
+
+def plain_source(function: FunctionType, provided: Collection[str] = ()) -> str:
     """Write down a function so that a new Python can run it: imports, helpers, and its source.
 
     Parameters
     ----------
     function : made in a notebook or a file.
-    known : names that are there wherever it runs, as those of the course's exercises.
+    provided : names that are there wherever it runs, as those of the course's exercises.
 
     Raises
     ------
-    MocapError : where its source cannot be found, or it uses an object that has no short text.
+    MocapError
+        If its source cannot be found, or it uses an object that has no short text.
 
     Examples
     --------
@@ -116,39 +125,58 @@ def plain_source(function: FunctionType, known: Collection[str] = ()) -> str:
     """
     imports: set[str] = set()
     helpers: dict[str, str] = {}
-    _gather(inspect.unwrap(function), {*known, function.__name__}, imports, helpers)
-    return "\n\n".join(["".join(sorted(imports))] * bool(imports) + [*helpers.values(), _source(function)])
+    _gather(inspect.unwrap(function), {*provided, function.__name__}, imports, helpers)
+    parts = [*helpers.values(), _source(function)]
+    if imports:
+        parts.insert(0, "".join(sorted(imports)))
+    return "\n\n".join(parts)
 
 
-def _gather(function: FunctionType, known: set[str], imports: set[str], helpers: dict[str, str]) -> None:
-    """Collect what a function uses, its helpers' helpers first."""
+def _gather(function: FunctionType, collected: set[str], imports: set[str], helpers: dict[str, str]) -> None:
+    """Collect what a function uses, its helpers' helpers first.
+
+    Parameters
+    ----------
+    function : the function.
+    collected : names that are provided or collected; grows.
+    imports, helpers : lines of imports, and sources by name; both grow.
+    """
     for name in sorted(names_of(_source(function))[1]):
-        if name in known or name not in function.__globals__:
+        if name in collected or name not in function.__globals__:
             continue
-        known.add(name)
+        collected.add(name)
         value = function.__globals__[name]
-        own = inspect.unwrap(value) if callable(value) else None  # as it stands below its decorators
-        if isinstance(own, FunctionType) and own.__globals__ is function.__globals__:
-            _gather(own, known, imports, helpers)
-            helpers[name] = _source(own)
-        elif line := _import(name, value):
-            imports.add(f"{line}\n")
-        elif _is_plain(value):
-            helpers[name] = f"{name} = {value!r}\n"
+        helper = inspect.unwrap(value) if callable(value) else None  # as it stands below its decorators
+        if isinstance(helper, FunctionType) and helper.__globals__ is function.__globals__:
+            _gather(helper, collected, imports, helpers)
+            helpers[name] = _source(helper)
+        elif _import(name, value):
+            imports.add(f"{_import(name, value)}\n")
         else:
-            raise MocapError(f"It uses `{name}`, a {type(value).__name__} that no short text can make.")
+            helpers[name] = _assignment(name, value)
 
 
 def _import(name: str, value: Any) -> str:  # noqa: ANN401
     """Write the import that gives a name its value, or "" where none does."""
-    module, own = getattr(value, "__module__", None), getattr(value, "__name__", None)
+    module = getattr(value, "__module__", None)
+    original_name = getattr(value, "__name__", None)
     if isinstance(value, ModuleType):
-        module, _, own = value.__name__.rpartition(".")
-    line = f"from {module} import {own}" if module else f"import {own}"
-    line, space = line if own == name else f"{line} as {name}", dict[str, Any]()
+        module, _, original_name = value.__name__.rpartition(".")
+    line = f"from {module} import {original_name}" if module else f"import {original_name}"
+    if original_name != name:
+        line = f"{line} as {name}"
+    space: dict[str, Any] = {}
     with suppress(ImportError, SyntaxError):  # there is no such module, or no such name to import
         exec(line, space)
-    return line if module != "__main__" and name in space and space[name] is value else ""
+    gives_value = name in space and space[name] is value
+    return line if gives_value and module != "__main__" else ""
+
+
+def _assignment(name: str, value: Any) -> str:  # noqa: ANN401
+    """Write the assignment that gives a name its value; raise if no short text can."""
+    if not _is_plain(value):
+        raise MocapError(f"It uses `{name}`, a {type(value).__name__} that no short text can make.")
+    return f"{name} = {value!r}\n"
 
 
 def _is_plain(value: Any) -> bool:  # noqa: ANN401
@@ -166,6 +194,22 @@ def _source(function: FunctionType) -> str:
     if not source.lstrip().startswith(("def ", "@")):
         raise MocapError("It is no `def` with a name of its own.")
     return source.rstrip() + "\n"
+
+
+def is_stub(function: Callable[..., Any]) -> bool:
+    """Return whether a function still returns `...`, as the cell of an exercise does at first.
+
+    Examples
+    --------
+    >>> is_stub(textwrap.shorten)
+    False
+    """
+    try:
+        tree = ast.parse(textwrap.dedent(inspect.getsource(function)))
+    except (OSError, TypeError, SyntaxError):
+        return False
+    returned = [node.value for node in ast.walk(tree) if isinstance(node, ast.Return)]
+    return any(isinstance(value, ast.Constant) and value.value is ... for value in returned)
 
 
 def keep(file: Path, name: str, notebook: str, source: str) -> str:
@@ -191,6 +235,9 @@ def keep(file: Path, name: str, notebook: str, source: str) -> str:
     kept = [*(part for part in sections if part[0] != name), new]
     kept.sort(key=lambda part: part[1].partition("(")[2])  # by notebook
     start = head.rstrip() + "\n" if head.strip() else HEAD
-    text = "\n\n".join([start, *(heading + body.rstrip() + "\n" for _, heading, body in kept)]) + FOOT
+    parts = [start]
+    for _, heading, body in kept:
+        parts.append(heading + body.rstrip() + "\n")
+    text = "\n\n".join(parts) + FOOT
     write_file(file, text)
     return text

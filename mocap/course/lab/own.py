@@ -12,6 +12,7 @@ import os
 import sys
 from collections.abc import Callable, Sequence
 from itertools import pairwise
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -25,8 +26,10 @@ from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion, require_compatible
 from mocap.body.skeleton import Skeleton
 from mocap.course.lab.adopting import NAMES as NAMES
-from mocap.course.lab.adopting import Tools, whose
+from mocap.course.lab.adopting import Tools
+from mocap.course.lab.adopting import as_written as as_written
 from mocap.course.lab.adopting import tools as tools
+from mocap.course.lab.slots import whose_run
 from mocap.errors import MocapError
 from mocap.plain import Edge, Ground, Node, Transform, Transitions, Walk
 
@@ -107,7 +110,7 @@ class Places:
         roots, rotations = plain.transform_clip(clip, frames, rotation, translation)
         half = np.angle(rotation) / 2
         about_y = np.array([np.cos(half), 0, np.sin(half), 0])
-        rotations[:, 0] = [self._by.hamilton(about_y, root) for root in clip.rotations[frames, 0]]
+        rotations[:, 0] = [_to_unit(self._by.hamilton(about_y, root)) for root in clip.rotations[frames, 0]]
         return roots, rotations
 
     def cubic_weights(self) -> Array:
@@ -251,6 +254,12 @@ def _to_transform(angle: float, x: float, z: float) -> Transform:
     return rotation, np.complex128(complex(z, x))
 
 
+def _to_unit(quaternion: Array) -> Array:
+    """Return a quaternion of length 1, since a wrong product may have another length; 0 becomes 1."""
+    length = np.linalg.norm(quaternion)
+    return quaternion / length if length > 0 else np.array([1.0, 0.0, 0.0, 0.0])
+
+
 def _to_angle(rotation: complex, translation: complex) -> tuple[float, float, float]:
     return float(np.angle(rotation)), translation.imag, translation.real
 
@@ -344,8 +353,88 @@ class OwnGraph:
         return Motion(self.clips[0].skeleton, roots, rotations, self.clips[0].fps, "my walk")
 
 
+def walk_along(
+    clips: Sequence[Motion], window: int, threshold: float, path: ArrayLike, by: Tools | None
+) -> tuple[Motion, int]:
+    """Build a graph of clips, and walk along a path.
+
+    Parameters
+    ----------
+    clips, window, threshold, by : as for `OwnGraph`.
+    path : corners on the ground (x, z), shape (N, 2), metres.
+
+    Returns
+    -------
+    The motion, and its number of transitions.
+
+    Notebook: 08-path-synthesis
+    """
+    graph = OwnGraph(clips, window, threshold, by)
+    walk = graph.follow(path)
+    seams = sum(graph.graph.edges[edge]["kind"] == "transition" for edge in walk[0])
+    return graph.play(walk), seams
+
+
+def my_walk(clips: Sequence[Motion], window: int, threshold: float, path: ArrayLike) -> tuple[Motion, int]:
+    """Walk along a path by the student's functions as they stand, right or wrong, and print whose they are.
+
+    If functions that do not pass do not fit together, which is printed, those that pass walk without them.
+
+    Parameters
+    ----------
+    clips, window, threshold, path : as for `walk_along`.
+
+    Returns
+    -------
+    The motion, and its number of transitions.
+
+    Notebook: 08-path-synthesis
+    """
+    by = as_written()
+    try:
+        walk = walk_along(clips, window, threshold, path, by)
+    except Exception as error:  # whatever functions that do not pass lead to
+        by = tools()
+        problem = f"{type(error).__name__}: {error}"
+        print(f"As you wrote them, your functions do not fit together. {problem}"[:200])
+        walk = walk_along(clips, window, threshold, path, by)
+    print(whose_run(vars(by)[name] for name in NAMES[:-1]))  # the last one steers, in 08b
+    return walk
+
+
 def main(file: str) -> int:
-    """Walk along a line by the functions in a file, as `python -m mocap.plain` does: clips, a path, -o."""
+    """Walk along a line by the functions in a file as they stand, right or wrong.
+
+    The arguments on the command line are those of `python -m mocap.plain`: clips, a path, and -o.
+
+    Returns
+    -------
+    The exit status: 0, or 2 if there is no walk.
+    """
     os.environ["MOCAP_MINE"] = file
-    print(f"{whose(*NAMES[:-1])}.")
-    return int(pages_of(tools(), WINDOW, BELOW).main())
+    by = as_written()
+    print(f"{whose_run(vars(by)[name] for name in NAMES[:-1])}.")
+    pages = pages_of(by, WINDOW, BELOW)
+    pages.joint_positions = _counted(pages.joint_positions, "clips measured")
+    pages.distance_grid = _counted(pages.distance_grid, "pairs of clips compared")
+    pages.Search.best_of = _counted(pages.Search.best_of, "layers searched")
+    try:
+        return int(pages.main())
+    except Exception as error:  # functions that do not pass may not fit together
+        problem = f"{type(error).__name__}: {error}"
+        print(f"{Path(file).name}: its functions do not fit together. {problem}"[:200], file=sys.stderr)
+        return 2
+
+
+def _counted(function: Callable[..., Any], label: str) -> Callable[..., Any]:
+    """Return a function that also shows on a terminal how often it has been called."""
+    from tqdm import tqdm  # no notebook needs it
+
+    bar = tqdm(bar_format="{n} {desc}, {elapsed}", desc=label, delay=1.0, leave=False, disable=None)
+
+    def call(*arguments: Any) -> Any:  # noqa: ANN401 (as the function has it)
+        result = function(*arguments)
+        bar.update()
+        return result
+
+    return call

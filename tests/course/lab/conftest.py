@@ -17,4 +17,4 @@ def fresh(tmp_path, monkeypatch):
 
 def new_kernel():
     adopting._slots.cache_clear()
-    adopting._read[0] = ""
+    adopting._kernel = adopting._Kernel()

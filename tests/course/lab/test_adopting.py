@@ -2,6 +2,8 @@
 
 import functools
 import math
+import os
+import time
 
 import numpy as np
 import pytest
@@ -9,6 +11,7 @@ import pytest
 from mocap.body import rotations
 from mocap.body.rotations import slerp as between
 from mocap.course import checks, lab
+from mocap.course.lab import adopting
 from mocap.course.lab.kept_functions import keep, plain_source, run_sections, split
 from tests.course.lab.conftest import new_kernel
 from tests.course.lab.students import solutions, written
@@ -28,7 +31,7 @@ def test_a_function_that_passes_is_used_from_then_on_and_kept_in_a_readable_file
     own = written("hamilton")
     hamilton = lab.mine(own)
     assert capsys.readouterr().out == "hamilton: yours, kept in my_graph.py.\n"
-    assert hamilton.own is own
+    assert hamilton.adopted is own
     assert lab.mine("hamilton") is hamilton
     assert hamilton(X, Y).tolist() == Z.tolist()
     text = fresh.read_text()
@@ -55,7 +58,7 @@ def test_it_survives_a_restart_and_goes_when_it_is_deleted(capsys, fresh):
 def test_a_wrong_version_leaves_the_place_as_it_was_and_is_not_called_the_readers(capsys, fresh):
     lab.mine(written("hamilton"))
     wrong = written("hamilton", "def hamilton(a, b):\n    return a * b\n")
-    assert lab.mine(wrong).own is not wrong
+    assert lab.mine(wrong).adopted is not wrong
     assert lab.mine("hamilton").yours
     assert "a * b" not in fresh.read_text()
     assert capsys.readouterr().out.splitlines()[1:] == [
@@ -83,8 +86,8 @@ def undo(angle, x, z):
     assert lab.mine("undo").yours
     arguments = checks.undo.draw(np.random.default_rng(1))
     best_shift = lab.mine("best_shift")
-    called, right = [], best_shift.own
-    best_shift.own = lambda *given: called.append(given) or right(*given)
+    called, right = [], best_shift.adopted
+    best_shift.adopted = lambda *given: called.append(given) or right(*given)
     lab.mine("undo")(*arguments)
     assert called
     assert "best_shift" not in fresh.read_text().partition("# ----")[0]
@@ -301,3 +304,41 @@ made = functools.partial(helper)
 )
 def test_what_cannot_be_written_down_is_said(function, why):
     refused(why, plain_source, function)
+
+
+def test_what_ended_the_last_kernel_is_told_and_not_tried_again(capsys, fresh):
+    lab.mine(written("hamilton"))
+    file = fresh
+    report = file.with_name(".my_graph.stopped")
+    report.write_text('Timeout (0:00:08)!\n  File "my_graph.py", line 12 in hamilton\n')
+    os.utime(report, (time.time() + 10, time.time() + 10))
+    new_kernel()
+    capsys.readouterr()
+    assert not lab.mine("hamilton").yours
+    told = capsys.readouterr().out
+    assert told.startswith(
+        "The last kernel was ended: line 12 of `hamilton` ran compiled code without an end."
+    )
+    assert lab.mine(written("hamilton")).yours  # handed in again
+    os.utime(report, (0, 0))  # a report that is older than the file is about an earlier version
+    new_kernel()
+    assert lab.mine("hamilton").yours and not report.exists()
+
+
+def test_a_function_runs_as_it_stands_though_it_does_not_pass(capsys, fresh):
+    wrong = written("hamilton", "def hamilton(a, b):\n    return a[0] * b\n")
+    lab.mine(wrong)
+    by = adopting.as_written()
+    i, j = np.eye(4)[1:3]
+    assert by.hamilton(i, j).tolist() == [0, 0, 0, 0]
+    assert repr(by.hamilton) == "hamilton: yours, which does not pass"
+    assert repr(by.climb) == "climb: the package's"
+    lab.mine(written("survivors", "def survivors(cells, costs, width):\n    return [0]\n"))
+    by = adopting.as_written()
+    assert by.survivors(np.zeros((3, 4)), np.arange(3.0), 2) == [0]
+    lab.mine(written("hamilton", "def hamilton(a, b):\n    return 1\n"))
+    capsys.readouterr()
+    assert adopting.as_written().hamilton(i, j).tolist() == [0, 0, 0, 1]
+    assert "the package's stands in from here on" in capsys.readouterr().out
+    lab.mine(written("climb", "def climb(body, rotations, joint):\n    return ...\n"))
+    assert repr(adopting.as_written().climb) == "climb: the package's"  # not begun

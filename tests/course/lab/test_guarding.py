@@ -5,13 +5,13 @@ import numpy as np
 import pytest
 
 from mocap.course import checks
-from mocap.course.lab import adopting
-from mocap.course.lab.adopting import Slot, in_form
+from mocap.course.lab import slots
+from mocap.course.lab.slots import Slot, in_form
 
 
 def slot(name, own):
     place = Slot(getattr(checks, name))
-    place.own = own
+    place.adopted = own
     return place
 
 
@@ -78,7 +78,7 @@ def test_what_a_function_prints_is_dropped_with_one_sentence(capsys):
 
 
 def test_a_function_that_never_ends_is_stopped_though_it_catches_exceptions(monkeypatch, capsys):
-    monkeypatch.setattr(adopting, "SECONDS", 0.05)
+    monkeypatch.setattr(slots, "SECONDS", 0.05)
 
     def forever(a, b):
         end = time.monotonic() + 5  # or this test would never end where it fails

@@ -4,6 +4,7 @@ import copy
 import subprocess
 import sys
 from itertools import pairwise
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -12,6 +13,7 @@ import pytest
 import mocap
 from mocap import body, datasets, graphs, matching, synthesis
 from mocap.blending.weights import cubic_weights
+from mocap.body import rotations
 from mocap.course import checks, lab
 from mocap.course.lab import own
 from mocap.course.lab.adopting import NAMES
@@ -226,3 +228,74 @@ def test_the_kept_file_walks_by_itself(capsys, fresh, tmp_path):
     assert "look_ahead, quintic: yours" in done.stdout
     walk = mocap.load(tmp_path / "mine.bvh")
     assert np.linalg.norm(walk.root_positions[-1, [0, 2]] - [0, 3]) < 1
+
+
+CHANGES = {
+    "survivors": ("[:width]", "[:9]"),
+    "mix": ("weight * a.root_positions + (1 - weight) * b.root_positions", "a.root_positions"),
+    "hamilton": ("[w, *vector]", "[*vector, w]"),
+}
+
+
+@pytest.fixture
+def walk_of(capsys, fresh, tmp_path, monkeypatch):
+    """Return a function that walks by the text of a file: the status, what is printed, and the walk."""
+    clips = tmp_path / "clips"
+    clips.mkdir()
+    for name in ("walk_circle", "walk_curve_1"):
+        mocap.save(mocap.resample(datasets.sample(name), 30)[:200], clips / f"{name}.bvh")
+    (tmp_path / "line.csv").write_text("x,z\n0,0\n0,2\n")
+    monkeypatch.setattr(sys, "argv", ["my_graph.py", "clips", "line.csv", "-o", "mine.bvh"])
+
+    def walk(text):
+        fresh.write_text(text)
+        new_kernel()
+        capsys.readouterr()
+        return own.main("my_graph.py"), capsys.readouterr()
+
+    return walk
+
+
+@pytest.mark.sweep
+def test_the_kept_file_runs_as_it_stands_and_each_change_is_seen(walk_of, fresh):
+    for name in CHANGES:
+        lab.mine(written(name))
+    right = fresh.read_text()
+    status, said = walk_of(right)
+    checked = mocap.load("mine.bvh")
+    assert status == 0 and "survivors, hamilton, mix: yours · " in said.out and said.err == ""
+    walks = {}
+    for name, change in CHANGES.items():
+        assert right.count(change[0]) == 1
+        status, said = walk_of(right.replace(*change))
+        walks[name] = mocap.load("mine.bvh")
+        assert status == 0, said.err
+        assert f"{name}: yours, which does not pass · " in said.out
+        assert f"{name} does not pass its check any more, so that it runs as you wrote it.\n✗" in said.out
+        assert _differs(walks[name], checked)
+    assert _smallest_height_of_up(checked) > 0.9
+    assert _smallest_height_of_up(walks["hamilton"]) < 0.8  # a wrong product tips the body over
+
+
+@pytest.mark.sweep
+def test_functions_that_do_not_fit_together_end_in_a_sentence(walk_of, fresh):
+    lab.mine(written("survivors"))
+    text = fresh.read_text().replace("return order[np.sort(first)[:width]]", "return [10**6]")
+    status, said = walk_of(text)
+    assert status == 2 and not Path("mine.bvh").exists()
+    assert said.err.startswith("my_graph.py: its functions do not fit together. IndexError")
+    assert len(said.err) <= 201
+
+
+def _differs(walk, other):
+    """Return whether two walks differ by a millimetre or some hundredths of a radian."""
+    if len(walk) != len(other):
+        return True
+    farthest = abs(walk.root_positions - other.root_positions).max()
+    cosine = abs((walk.rotations * other.rotations).sum(-1)).min()
+    return farthest > 1e-3 or cosine < 1 - 1e-3
+
+
+def _smallest_height_of_up(walk):
+    """Return how far the root's vertical axis still points up where the body leans most."""
+    return rotations.rotate(walk.rotations[:, 0], np.array([0.0, 1.0, 0.0]))[:, 1].min()

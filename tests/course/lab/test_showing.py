@@ -54,7 +54,7 @@ def test_the_readers_functions_make_the_grid_and_its_minima_and_it_is_said():
 
 
 def test_where_the_readers_function_fails_the_packages_makes_the_grid(capsys):
-    lab.mine(written("window_sums")).own = lambda numbers, window: 1 / 0
+    lab.mine(written("window_sums")).adopted = lambda numbers, window: 1 / 0
     assert np.allclose(of_clips(WALKS, 10, None).grid, distance_grid(*WALKS, window=10), atol=1e-6)
     assert "window_sums: yours raised ZeroDivisionError" in capsys.readouterr().out
     assert of_clips(WALKS, 10, None).by == ""
