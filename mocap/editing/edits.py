@@ -77,7 +77,7 @@ def _windows(pins: Pins, fps: float) -> list[slice]:
     """List the ranges of frames up to `TUNED.margin` from a constrained frame."""
     margin = round(TUNED.margin * fps)
     is_near = np.zeros(len(pins), bool)
-    for start, stop in runs(pins.constrained.any(axis=1)):
+    for start, stop in runs(np.asarray(pins.constrained.any(axis=1))):
         is_near[max(0, start - margin) : stop + margin] = True
     return [slice(start, stop) for start, stop in runs(is_near)]
 
@@ -256,7 +256,8 @@ def clean_feet(motion: Motion, lowest: Array | None = None) -> Motion:
     >>> bool(np.ptp(heights) < 1e-9)
     True
     """
-    return raised(clean_up(motion), lowest_allowed(motion, lowest))
+    poses = poses_of(motion)
+    return raised(clean_up(motion, poses=poses.world), lowest_allowed(poses, lowest))
 
 
 def raised(motion: Motion, allowed: Array) -> Motion:
@@ -291,4 +292,4 @@ def _rise_of_plants(plants: Pins, motion: Motion, floor: Array) -> Array:
     for leg in find_legs(motion.skeleton):  # a rigid foot: both of its joints rise by as much
         foot = np.isin(plants.joints, leg)
         rise[:, foot] = np.maximum(depth[:, foot].max(axis=1, keepdims=True), 0.0)
-    return rise[..., None] * UP
+    return np.asarray(rise[..., None] * UP)
