@@ -1,4 +1,4 @@
-"""The motion itself, edited: displacement maps, pins, and the four papers that build on them.
+"""The motion itself, edited: displacement maps, constraints, and the four papers that build on them.
 
 A motion graph can only turn where its clips turn. Here a captured motion is changed: a pose is moved at a key
 [WP95], a walk is laid on another path [Gle01], a motion is worn by another body [Gle98], a foot steps on a
@@ -6,25 +6,29 @@ stone [LS99]. All four add a displacement map to a motion: a smooth curve for th
 
 Reading order (notebooks 10 to 14)
 ---------------------------------
- 1. `displacements`: what an edit adds to a motion, and the splines that keep it smooth
- 2. `turns`: how a joint is turned, as a position in metres
- 3. `pins`: where joints shall be, and for how long
- 4. `bodies`: which joints may turn, about which axes, at what price; limits, and orientations that are kept
- 5. `toes`: toes that bend so that their tips stay above the floor
- 6. `solver`: how a change may run over time; the smallest smooth one, for each frame by itself or for all
- 7. `edits`: a calm change, to the last digit; one pose, made by dragging joints; levels, from coarse to fine
- 8. `path_editing`: the path taken off a motion, changed, and the motion put back on it
- 9. `turning`: slower in bends, and leaning in, as people take them
-10. `line_rounding`: a line rounded where a walk would turn too fast on it
-11. `bending`: a walk laid on any line, with feet that stand
-12. `keys`: keys, the curve through them, and warps by offsets and by scale
-13. `retiming`: time keys, and motions at moments between their frames
-14. `warp_plans`: a whole warp out of a small text file
-15. `stances`: how a body stands, as a value; find it, whatever the rest pose is; change its proportions
-16. `retargeting`: every joint looks where that of the other body looks; where the new feet may be
-17. `mirroring`: left and right swapped, by names and geometry
-18. `cycles`: the stretch of a clip that makes the best cycle, closed by a blend or by a warp
-19. `travel`: the travel over the ground, removed
+ 1. `displacements`: displacement maps, which an edit adds to a motion, and the splines that keep them smooth
+ 2. `poses`: a motion with its joints in the world, computed once and handed on
+ 3. `boxes`: the two kinds of constraint, on positions and on rotations, with their values and Jacobians
+ 4. `pins`: constraints of both kinds together: footplants, rails, floors, limits, orientations
+ 5. `bodies`: which joints may rotate, about which axes, at what price
+ 6. `solver`: its stages; the smallest smooth change that meets constraints, for single frames or all together
+ 7. `toes`: toes that bend so that their tips stay above the floor
+ 8. `edits`: a smooth change that meets constraints exactly, with feet that stand
+ 9. `posing`: a single pose, made by dragging joints
+10. `levels`: constraints met level by level, from coarse to fine
+11. `path_editing`: the path taken off a motion, changed, and the motion put back on it
+12. `turning`: slower in bends, and leaning in, as people take them
+13. `line_rounding`: a line rounded where a walk would turn too fast on it
+14. `bending`: a walk laid on any line, with feet that stand
+15. `keys`: keys, the curve through them, and warps by offsets and by scale
+16. `retiming`: time keys, and motions at moments between their frames
+17. `warp_plans`: a whole warp out of a small text file
+18. `stances`: how a body stands, as a value; find it, whatever the rest pose is; change its proportions
+19. `retargeting`: every joint looks where that of the other body looks; where the new feet may be
+20. `mirroring`: left and right swapped, by names and geometry
+21. `cycles`: the stretch of a clip that makes the best cycle, closed by a blend or by a warp
+22. `travel`: the travel over the ground, removed
+23. `tuned`: the constants that trials chose
 
 References
 ----------

@@ -17,14 +17,15 @@ from mocap._shared.arguments import checked_by
 from mocap._shared.arrays import Array
 from mocap._shared.quantities import described
 from mocap.body import rotations
-from mocap.body.kinematics import GlobalPoses, forward_kinematics, joint_positions
+from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import FEET, SIDES, heading_by_hips
 from mocap.body.motion import Motion, require_motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.bodies import body_of
 from mocap.editing.edits import floor_for, mark_met
-from mocap.editing.pins import Pins, join_pins, pin_errors, plant_pins, with_plants
-from mocap.editing.solver import CLOSE, Basis, solve
+from mocap.editing.pins import Pins, join_pins, plant_pins, with_plants
+from mocap.editing.poses import MotionOrPoses, Poses, poses_of
+from mocap.editing.solver import Stage, closing_stages, solve
 from mocap.editing.stances import Stance, stance_of, stance_of_zero
 from mocap.editing.toes import bend_toes
 from mocap.errors import MocapError, shortened, warn
@@ -43,7 +44,7 @@ SHORT = 1e-6  # metres: a shorter bone points nowhere
 SMALL = 1e-9
 
 
-def copied(motion: Motion, source: Stance, target: Stance, *, scale: float | None = None) -> Motion:
+def copied(motion: MotionOrPoses, source: Stance, target: Stance, *, scale: float | None = None) -> Motion:
     """Copy a motion onto another body: its turns, and the way of its hips, scaled [Gle98, scaled start].
 
     R_t(f) = R_s(f) C with C = R_s(stance)⁻¹ A R_t(stance). A is the smallest turn that lays the target's
@@ -82,12 +83,13 @@ def copied(motion: Motion, source: Stance, target: Stance, *, scale: float | Non
 
     Notebook: 13-retargeting
     """
+    poses = poses_of(motion)
+    motion = poses.motion
     source.skeleton.require_same(motion.skeleton)
     ratio = target.leg / source.leg
     scale = ratio if scale is None else scale
     if not (np.isfinite(scale) and scale > 0):
         raise MocapError(f"A way over the ground needs a scale above 0, got {scale}.")
-    poses = forward_kinematics(motion)
     world = _copied_rotations(poses, source, target)
     parents = target.skeleton.parents
     local = rotations.multiply(rotations.inverse(world[:, parents]), world)
@@ -103,7 +105,7 @@ def copied(motion: Motion, source: Stance, target: Stance, *, scale: float | Non
     return replace(start, root_positions=roots, contacts=contacts)
 
 
-def _copied_rotations(poses: GlobalPoses, source: Stance, target: Stance) -> Array:
+def _copied_rotations(poses: Poses, source: Stance, target: Stance) -> Array:
     """Copy the global rotations of the source's joints, (F, J, 4), J joints of the target."""
     seen = rotations.from_matrix(poses.matrices)
     parents = target.skeleton.parents
@@ -185,7 +187,7 @@ def _laid(role: str | None, source: Stance, target: Stance) -> Array:
 
 # Less calm than an edit: with 0.2 the knees of a child with long steps straighten to 4°. Few passes are
 # enough for plants.
-RETARGET = (Basis(knots=0.125, calm=0.1, passes=5), CLOSE, CLOSE)
+RETARGET = (Stage(knots=0.125, decay=0.1, passes=5), *closing_stages())
 
 # What turns of knees and of the trunk cost, as a share of what they move. With 1 the knees of a child that
 # takes long steps straighten. A hand that reaches for a rail leans the body by 17° with 1, and by 12° with 4.
@@ -253,27 +255,29 @@ def retarget(motion: Motion, body: Stance, source: Stance, *, scale: float | Non
 
     Notebook: 13-retargeting
     """
-    planted = motion
-    if pin_errors(motion, plant_pins(motion, source.legs)).max() > STILL:
-        planted = clean_up(motion, source.legs)
-    base = copied(planted, source, body, scale=scale)
-    positions = joint_positions(motion)
+    poses = poses_of(motion)
+    planted = poses
+    if plant_pins(poses, source.legs).errors(poses).max() > STILL:
+        planted = poses_of(clean_up(motion, source.legs, poses=poses.world))
+    base = poses_of(copied(planted, source, body, scale=scale))
+    positions = poses.positions
     plants = floor_pins(base, body)
     wishes = join_pins(floor_under(positions, source, body), plants)
     prices = dict.fromkeys(_stiff_joints(body), STIFF)
-    worn = solve(base, wishes, RETARGET, body_of(base, wishes, prices=prices), quiet=True).motion
+    worn = solve(base, wishes, RETARGET, body_of(base, wishes, prices=prices), quiet=True).poses
     allowed = lowest_worn(positions, body.leg / source.leg, len(body.skeleton))
-    floor = floor_for(bend_toes(worn, allowed), (), allowed)
+    bent = worn.updated(bend_toes(worn, allowed))
+    floor = floor_for(bent, (), allowed)
     if floor.joints:
         floored = join_pins(floor, wishes)
-        worn = solve(base, floored, RETARGET, body_of(base, floored, prices=prices), quiet=True).motion
-    worn = bend_toes(worn, allowed)
-    moved = np.abs(worn.root_positions - base.root_positions).max()
+        worn = solve(base, floored, RETARGET, body_of(base, floored, prices=prices), quiet=True).poses
+        bent = worn.updated(bend_toes(worn, allowed))
+    moved = np.abs(bent.motion.root_positions - base.motion.root_positions).max()
     if moved > MOST * body.leg:
         hips = f"the hips move by {100 * moved:.0f} cm to take these steps"
         legs = f"with legs of {100 * body.leg:.0f} cm: no leg takes them at ease"
         warn(f"'{shortened(motion.name)}': {hips}, {legs}.")
-    return mark_met(worn, wishes, plants)
+    return mark_met(bent, wishes, plants).motion
 
 
 def _stiff_joints(body: Stance) -> list[str]:
@@ -327,7 +331,7 @@ def wear(motion: Motion, body: Skeleton | Stance, *, clips: Iterable[Motion] = (
     return retarget(motion, body, source)
 
 
-def floor_pins(motion: Motion, stance: Stance) -> Pins:
+def floor_pins(motion: MotionOrPoses, stance: Stance) -> Pins:
     """Hold each plant at the height that its joint stands at.
 
     Feet differ: an ankle stands 4 cm over the ball in one body and 8 cm in another. So plants take their

@@ -14,11 +14,12 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.planar import heading
 from mocap.editing.displacements import displaced
-from mocap.editing.edits import brought, clean_feet, plants_within, posed_with
+from mocap.editing.edits import brought, clean_feet, plants_within
 from mocap.editing.keys import HALF_SECOND, Key, keys_around, offsets
 from mocap.editing.pins import Pins, join_pins, pin, plant_pins
+from mocap.editing.poses import poses_of, with_frames_of
+from mocap.editing.posing import posed_with
 from mocap.editing.retiming import retime
-from mocap.editing.solver import with_frames_of
 from mocap.errors import FormatError, MocapError
 from mocap.files.text import lines, read_text, to_numbers
 
@@ -184,13 +185,14 @@ def _warp_poses(motion: Motion, plan: WarpPlan, window: float, feet: bool) -> Mo
     """Carry out what a plan asks of poses. Frames before and after those of the keys stay the same."""
     frames = _frames_between_keys(motion, plan, window)
     no_pins = Pins((), *np.zeros((2, len(motion), 0, 3)))
-    plants = plants_within(plant_pins(motion), motion, frames) if feet else no_pins
+    poses = poses_of(motion)
+    plants = plants_within(plant_pins(poses), poses, frames) if feet else no_pins
     keys: list[Key] = []
     pins: list[Pins] = []
     for frame, wishes in sorted(plan.wishes.items()):
         places = {wish.joint: wish.place for wish in wishes if wish.place is not None}
         try:
-            pose = posed_with(motion, frame, places, plants) if places else None
+            pose = posed_with(poses, frame, places, plants) if places else None
         except MocapError as error:
             raise MocapError(f"{plan.path}, line {wishes[0].line}: {error}") from None
         keys.append(Key(frame, pose, any(wish.level for wish in wishes)))
@@ -199,7 +201,7 @@ def _warp_poses(motion: Motion, plan: WarpPlan, window: float, feet: bool) -> Mo
         return motion
     warped = displaced(motion, offsets(motion, keys_around(motion, keys, window)))
     if feet:
-        return brought(warped, motion, join_pins(*pins), frames=frames)
+        return brought(poses_of(warped), poses, join_pins(*pins), frames=frames).motion
     stays = np.ones(len(motion), bool)
     stays[frames] = False
     return with_frames_of(warped, motion, stays)
