@@ -15,7 +15,7 @@ from mocap.body.motion import Motion
 from mocap.body.planar import heading
 from mocap.editing.displacements import displaced
 from mocap.editing.edits import brought, clean_feet, plants_within, posed_with
-from mocap.editing.keys import HALF_SECOND, Key, keys_around, offsets
+from mocap.editing.keys import MARGIN, Key, keys_around, offsets
 from mocap.editing.pins import Pins, join_pins, pin, plant_pins
 from mocap.editing.retiming import retime
 from mocap.editing.solver import with_frames_of
@@ -141,7 +141,7 @@ def _add_wish(plan: WarpPlan, motion: Motion, line: int, pose: re.Match[str]) ->
     plan.wishes[frame].append(Wish(line, joint, place, level))
 
 
-def warp(motion: Motion, plan: WarpPlan, *, window: float = HALF_SECOND, feet: bool = True) -> Motion:
+def warp(motion: Motion, plan: WarpPlan, *, window: float = MARGIN, feet: bool = True) -> Motion:
     """Carry out a plan: poses by `posed`, the curves between them by `offsets`, then the times by `retime`.
 
     Where the plan does not say from when on the motion is as it was, it is so `window` seconds before the
