@@ -16,8 +16,8 @@ from mocap._shared.arrays import Array, runs
 from mocap.body import Motion, heading, joint_positions, rotations
 from mocap.editing import (
     REACH,
-    Basis,
     Pins,
+    Stage,
     difference,
     displaced,
     edit,
@@ -108,7 +108,7 @@ def in_between(case: Case) -> Motion:
 
 METHODS = {
     "edit": lambda case: edit(case.given["motion"], pins_of(case)),
-    "spacetime": lambda case: solve(case.given["motion"], pins_of(case), [Basis(knots=0.125)]).motion,
+    "spacetime": lambda case: solve(case.given["motion"], pins_of(case), [Stage(knots=0.125)]).motion,
     "five levels": lambda case: hierarchy(case.given["motion"], pins_of(case))[0],
     "each frame by itself": lambda case: solve(case.given["motion"], pins_of(case), [REACH]).motion,
     "linear in-betweening": in_between,

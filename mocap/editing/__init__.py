@@ -25,6 +25,7 @@ Reading order (notebooks 10 to 14)
 17. `mirroring`: left and right swapped, by names and geometry
 18. `cycles`: the stretch of a clip that makes the best cycle, closed by a blend or by a warp
 19. `travel`: the travel over the ground, removed
+20. `tuned`: the constants that trials chose
 
 References
 ----------

@@ -40,7 +40,7 @@ from .retargeting import retarget as retarget
 from .retargeting import wear as wear
 from .retiming import retime as retime
 from .solver import REACH as REACH
-from .solver import Basis as Basis
+from .solver import Stage as Stage
 from .solver import solve as solve
 from .stances import proportioned as proportioned
 from .stances import stance_of as stance_of

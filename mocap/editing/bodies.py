@@ -15,13 +15,9 @@ from mocap.body.kinematics import forward_kinematics, hinge_of, joint_positions
 from mocap.body.motion import Motion, rotating_joints
 from mocap.editing.displacements import Displacement
 from mocap.editing.pins import Pins, Rows, pin_errors
-from mocap.editing.turns import ARM, Turn
+from mocap.editing.tuned import TUNED
+from mocap.editing.turns import Turn
 from mocap.errors import MocapError, warn
-
-# Square metres per radian²: what a turn costs beyond what it moves. An ankle moves little: with 0.02 it turns
-# by 84° when a foot steps on a stone of 20 cm, with 0.3, 1 and 2 by 63, 45 and 34°, and the root moves by 9,
-# 11, 15 and 17 cm.
-EFFORT = 1.0
 
 TOLERANCE = 0.005  # metres: what pins may be missed by without a warning
 SLACK = 1e-6  # metres by which pins may be farther apart than the bones between them: rounding
@@ -63,8 +59,8 @@ def body_of(motion: Motion, pins: Pins, *, prices: Mapping[str, float] | None = 
     """Choose which joints may turn to bring pinned ones to their places, and price them.
 
     All joints above a pinned one that ever turn may turn. The price of a radian is what it moves: the squared
-    distances of all joints below, added up (means over the clip), and `EFFORT`. A metre of the root's moves
-    all J joints, and costs J.
+    distances of all joints below, added up (means over the clip), and `TUNED.effort`. A metre of the root's
+    moves all J joints, and costs J.
 
     Parameters
     ----------
@@ -106,7 +102,7 @@ def body_of(motion: Motion, pins: Pins, *, prices: Mapping[str, float] | None = 
         hinge = hinge_of(motion, joint) if joint else None  # a root that only turns on a circle can also tip
         axes.append(np.eye(3) if hinge is None else hinge[None])
         joints += [joint] * len(axes[-1])
-        price += [factors.get(joint, 1.0) * (moved + EFFORT)] * len(axes[-1])
+        price += [factors.get(joint, 1.0) * (moved + TUNED.effort)] * len(axes[-1])
     return Body(np.array(joints, int), np.vstack(axes), np.array(price))
 
 
@@ -197,9 +193,9 @@ def limit_turns(motion: Motion, joints: Sequence[str], *, more: float = 10.0) ->
     --------
     >>> from mocap.datasets import sample
     >>> neck = limit_turns(sample("walk_straight")[:60], ["lowerneck", "upperneck"])
-    >>> (neck.high[0] / ARM).round(2).tolist()  # radians
+    >>> (neck.high[0] / TUNED.arm).round(2).tolist()  # radians
     [[0.18, 0.19, 0.18], [0.18, 0.19, 0.18]]
-    >>> (neck.low[0] / ARM).round(2).tolist()
+    >>> (neck.low[0] / TUNED.arm).round(2).tolist()
     [[-0.18, -0.19, -0.19], [-0.18, -0.19, -0.19]]
 
     Notebook: 14-levels
@@ -209,7 +205,7 @@ def limit_turns(motion: Motion, joints: Sequence[str], *, more: float = 10.0) ->
     turns = tuple(_turn_from_mean(motion, motion.skeleton.index(name)) for name in joints)
     zero = np.zeros((len(motion), len(turns), 3))
     arms = Pins((), zero, zero, turns).places(motion, forward_kinematics(motion))
-    reach = ARM * np.radians(more)
+    reach = TUNED.arm * np.radians(more)
     return Pins((), zero + arms.min(axis=0) - reach, zero + arms.max(axis=0) + reach, turns)
 
 

@@ -16,37 +16,21 @@ from mocap.body.motion import Motion
 from mocap.editing.bodies import Body, body_of, require_reachable, warn_of_gaps
 from mocap.editing.displacements import displaced, spline_basis
 from mocap.editing.pins import Pins, join_pins, pin, pin_errors, plant_pins
-from mocap.editing.solver import CLOSE, EVERY_FRAME, REACH, Basis, solve, with_frames_of
+from mocap.editing.solver import EVERY_FRAME, REACH, Stage, closing_stages, solve, with_frames_of
 from mocap.editing.toes import SLACK, bend_toes, lowest_allowed
+from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError
 from mocap.feet.footskate import clean_up
 
-# The splines make the change, and what they leave is closed frame by frame. Around stones of 10 to 50 cm on
-# eleven walks accelerations grow by 3 % in the median, 12 % at worst; if joints are not led, by 6 and 22 %.
-EDIT = (Basis(knots=0.125, calm=0.25, weight=100.0, lead=0.25), CLOSE, CLOSE)
-
-SUNK = 0.003  # metres: cleaned feet that are lower by less are left alone
 UP = np.array([0.0, 1.0, 0.0])
 
-AROUND = 1.0  # seconds: frames farther from those for which pins ask stay as they are
 CLOSED = 1e-4  # metres: of pins that are missed by more a warning tells, and plants among them are let go
 
 
-# With this weight a key is met to a hundredth of a millimetre, in about 7 passes.
-POSE = Basis(weight=3000.0, damping=1e-3, passes=60)
-
-# How many times their prices root and trunk, and the neck, cost. Captured people whose feet stand, and who
-# move a hand by 30 cm and more (92 times in eight clips), tip the trunk by 7° to places within 0.9 of an
-# arm's length, and by 23° to those beyond it. With these prices it tips by 4° and 15°, with 1 by 13° and 23°;
-# joints of trunk and arm are 11 cm from theirs, with 1 they are 13. Under 16 bars the neck bends by 31° more
-# than in the clip; where it costs no more than the trunk, by 40°. A captured knee jumps where the leg is
-# straight; bent on a stone, a root as cheap as 1 jumps with it, by × 1.3. `keep_turned` pins a trunk.
-EDITED = (16.0, 32.0)
-LEVELLED = 4.0, 8.0  # few passes get no further with more; with 1 necks bend by 46° under bars, so by 34
-
-# The same for a pose. With 1 the trunk leans by 30° so that a hand moves by 30 cm, and the arm hardly turns;
-# people move the arm first.
-POSED = (16.0, 16.0)
+def edit_stages() -> tuple[Stage, ...]:
+    """Return the stages of an edit: splines make the change, then each frame closes what they leave."""
+    splines = Stage(knots=TUNED.knots, decay=TUNED.decay, weight=TUNED.weight, lead=TUNED.lead)
+    return splines, *closing_stages()
 
 
 def edit(motion: Motion, pins: Pins, *, body: Body | None = None, frames: slice | None = None) -> Motion:
@@ -100,8 +84,8 @@ def edit(motion: Motion, pins: Pins, *, body: Body | None = None, frames: slice 
 
 
 def _windows(pins: Pins, fps: float) -> list[slice]:
-    """List the stretches of frames up to `AROUND` from a frame for which pins ask."""
-    margin = round(AROUND * fps)
+    """List the stretches of frames up to `TUNED.margin` from a frame for which pins ask."""
+    margin = round(TUNED.margin * fps)
     is_near = np.zeros(len(pins), bool)
     for start, stop in runs(np.asarray(pins.asked.any(axis=1))):
         is_near[max(0, start - margin) : stop + margin] = True
@@ -111,7 +95,7 @@ def _windows(pins: Pins, fps: float) -> list[slice]:
 def _with_margin(frames: slice, count: int, fps: float) -> slice:
     """Return frames that may change, with those beside them on which the change depends."""
     start, stop, _ = frames.indices(count)
-    margin = round(AROUND * fps)
+    margin = round(TUNED.margin * fps)
     return slice(max(0, start - margin), min(count, stop + margin))
 
 
@@ -133,9 +117,9 @@ def brought(
 
     def solved_for(constraints: Pins) -> Motion:
         turning = body or priced(
-            motion, constraints, *EDITED
+            motion, constraints, TUNED.trunk, TUNED.neck
         )  # the whole motion shows which joints are hinges
-        return solve(motion[nearby], constraints, EDIT, turning, quiet=True, frames=inside).motion
+        return solve(motion[nearby], constraints, edit_stages(), turning, quiet=True, frames=inside).motion
 
     solved = solved_for(wishes.at(nearby))
     floor = floor_for(bend_toes(solved, allowed[nearby]), plants.joints, allowed[nearby])
@@ -282,7 +266,7 @@ def raised(motion: Motion, allowed: Array) -> Motion:
     plants = plant_pins(motion)
     under_floor = np.minimum(allowed, 0.0)
     floor = floor_for(bent, plants.joints, under_floor)
-    if pin_errors(bent, floor).max() <= SUNK:
+    if pin_errors(bent, floor).max() <= TUNED.sunk:
         return bent
     rise = np.zeros((*plants.low.shape[:2], 1))
     floor_of_plants = under_floor[:, list(plants.joints)]
@@ -291,7 +275,9 @@ def raised(motion: Motion, allowed: Array) -> Motion:
         foot = np.isin(plants.joints, leg)
         rise[:, foot, 0] = np.maximum(short[:, foot].max(axis=1, keepdims=True), 0.0)
     wishes = join_pins(floor, Pins(plants.joints, plants.low + rise * UP, plants.high + rise * UP))
-    solved = solve(motion, wishes, EDIT, priced(motion, wishes, *EDITED), quiet=True).motion
+    solved = solve(
+        motion, wishes, edit_stages(), priced(motion, wishes, TUNED.trunk, TUNED.neck), quiet=True
+    ).motion
     return bend_toes(solved, allowed)
 
 
@@ -346,9 +332,10 @@ def posed_with(motion: Motion, frame: int, places: Mapping[str, ArrayLike], plan
         box = (np.where(free, end, place) for end in (-np.inf, np.inf))
         pins = join_pins(pins, pin(motion, joint, [frame], *box))
     require_reachable(motion, pins)
-    body = priced(motion, pins, *POSED)
+    body = priced(motion, pins, TUNED.pose_trunk, TUNED.pose_neck)
+    stage = Stage(weight=TUNED.pose_weight, damping=TUNED.pose_damping, passes=TUNED.pose_passes)
     pose = replace(motion[frame : frame + 1], name=f"{motion.name}[{frame}]")
-    return replace(solve(pose, pins.at([frame]), [POSE], body).motion, name=motion.name)
+    return replace(solve(pose, pins.at([frame]), [stage], body).motion, name=motion.name)
 
 
 def priced(motion: Motion, pins: Pins, trunk: float, neck: float) -> Body:
@@ -373,9 +360,6 @@ def priced(motion: Motion, pins: Pins, trunk: float, neck: float) -> Body:
     body = body_of(motion, pins, prices=dict(zip(skeleton.names, factors, strict=True)))
     return body._replace(price=np.append(trunk * body.price[:3], body.price[3:]))
 
-
-# Few passes of inverse kinematics at each level: what is left the next level asks again.
-ASK = REACH._replace(passes=4)
 
 TOLERANCE = 1e-3  # metres: a level is the last if no pin is missed by more
 
@@ -481,14 +465,16 @@ def hierarchy(
     motion = base
     levels: list[Level] = []
     errors = pin_errors(base, pins)
-    body = priced(base, pins, *LEVELLED)
+    body = priced(base, pins, TUNED.level_trunk, TUNED.level_neck)
     for seconds in knots:
         if errors.max(initial=0.0) <= TOLERANCE:
             break
         requested = np.asarray(pins.held.any(axis=-1) | (errors > 0))  # (F, P + T)
         frames = np.asarray(requested.any(axis=1))
         missed = errors.max(axis=1) > TOLERANCE  # in all other frames the spline shall stay where it is
-        change = solve(motion, pins.only(missed), [ASK], body, quiet=True).change
+        change = solve(
+            motion, pins.only(missed), [REACH._replace(passes=TUNED.level_passes)], body, quiet=True
+        ).change
         # The root's place listens to all frames, a joint's turns to those in which a joint below is pinned.
         below = [np.isin(body.joints, movers) for movers in pins.movers(base.skeleton)]
         listening = np.hstack([np.repeat(frames[:, None], 3, axis=1), requested @ np.array(below)])  # (F, n)

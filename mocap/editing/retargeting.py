@@ -24,7 +24,7 @@ from mocap.body.skeleton import Skeleton
 from mocap.editing.bodies import body_of
 from mocap.editing.edits import floor_for, mark_met
 from mocap.editing.pins import Pins, join_pins, pin_errors, plant_pins, with_plants
-from mocap.editing.solver import CLOSE, Basis, solve
+from mocap.editing.solver import Stage, closing_stages, solve
 from mocap.editing.stances import Stance, stance_of, stance_of_zero
 from mocap.editing.toes import bend_toes
 from mocap.errors import MocapError, shortened, warn
@@ -185,7 +185,7 @@ def _laid(role: str | None, source: Stance, target: Stance) -> Array:
 
 # Less calm than an edit: with 0.2 the knees of a child with long steps straighten to 4°. Few passes are
 # enough for plants.
-RETARGET = (Basis(knots=0.125, calm=0.1, passes=5), CLOSE, CLOSE)
+RETARGET = (Stage(knots=0.125, decay=0.1, passes=5), *closing_stages())
 
 # What turns of knees and of the trunk cost, as a share of what they move. With 1 the knees of a child that
 # takes long steps straighten. A hand that reaches for a rail leans the body by 17° with 1, and by 12° with 4.

@@ -7,7 +7,7 @@ x = B c, and
 
 is least: M holds the body's prices, τ says what a bend costs, w is a weight. With B = 1 and τ = 0 each frame
 is by itself: inverse kinematics. With splines for B all frames hang together: spacetime [Gle98]. Several such
-`Basis` are solved one after the other, each from where the one before ended [Gle98, finer knots]. Prices, τ,
+`Stage` are solved one after the other, each from where the one before ended [Gle98, finer knots]. Prices, τ,
 and the weight in place of [Gle98]'s Lagrange multipliers are ours.
 """
 
@@ -25,30 +25,26 @@ from mocap.body.motion import Motion
 from mocap.editing.bodies import Body, body_of, require_reachable, warn_of_gaps
 from mocap.editing.displacements import displaced, right_jacobian, spline_basis
 from mocap.editing.pins import Pins, require_pins_of
-from mocap.editing.turns import ARM
+from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError
 from mocap.feet.ankle_targets import smooth_fill
 
 MET = 5e-10  # metres: pins that are so near are met
 
-GAIN = 3e-5  # share of the cost: what a pass must gain, or it is the last; a hundredth where it does not help
-FALL, RISE = 3.0, 10.0  # the damping falls so where a pass helps, and rises so where it does not
-LEAP = 0.3  # radians: no joint turns further in a pass; else 46 of 216 elbows that reach fold backwards
-CEILING = 1000.0  # damping at first where pins hold one: the body bows. Else levels bend necks further
 NEAR = 1e-4  # metres: so near to the end of its box a joint keeps to it in the next step; with 0 it leaves
 RIDGE = 1e-13  # of the largest entry: a clip of fewer frames than splines leaves some of them unseen
 KEPT = 2  # frames on either side of those that may change: beside them a change and its rate are 0
 EVERY_FRAME = slice(None)
 
 
-class Basis(NamedTuple):
+class Stage(NamedTuple):
     """How a change may run over time, and how it is solved for.
 
     Parameters
     ----------
     knots : seconds between the knots of its splines: 0.5 leaves centimetres, 0.125 millimetres, and below
         accelerations grow. With 0 each frame has its own numbers.
-    calm : τ, seconds: a change dies away within about τ of a pin. With 0 bends cost nothing.
+    decay : τ, seconds: a change dies away within about τ of a pin. With 0 bends cost nothing.
     weight : w, per metre. On splines 100 leaves 10 mm on a stone of 20 cm, 300 leaves 3 mm, 1000 no less.
     damping : λ at first, as a share of the prices: a step is one of the weight w / √(1 + λ).
     passes : at most.
@@ -56,32 +52,45 @@ class Basis(NamedTuple):
 
     Examples
     --------
-    >>> Basis(), [way.alone for way in (Basis(), Basis(knots=0.125), CLOSE)]
-    (Basis(knots=0.0, calm=0.0, weight=300.0, damping=1.0, passes=30, lead=0.0), [True, False, False])
-    >>> [*REACH], [*CLOSE]
-    ([0.0, 0.0, 100.0, 0.001, 16, 0.0], [0.0, 0.06, 1000000.0, 0.1, 30, 0.0])
+    >>> Stage()
+    Stage(knots=0.0, decay=0.0, weight=300.0, damping=1.0, passes=30, lead=0.0)
+    >>> [stage.is_framewise for stage in (Stage(), Stage(knots=0.125), Stage(decay=0.1))]
+    [True, False, False]
 
     Notebook: 14-levels
     """
 
     knots: float = 0.0
-    calm: float = 0.0
+    decay: float = 0.0
     weight: float = 300.0
     damping: float = 1.0
     passes: int = 30
     lead: float = 0.0
 
     @property
-    def alone(self) -> bool:
+    def is_framewise(self) -> bool:
         """Whether each frame is by itself."""
-        return self.knots == self.calm == 0
+        return self.knots == self.decay == 0
 
 
-REACH = Basis(weight=100.0, damping=1e-3, passes=16)
+REACH = Stage(weight=TUNED.reach_weight, damping=TUNED.reach_damping, passes=TUNED.reach_passes)
 """Each frame by itself: inverse kinematics, as [LS99] need it."""
 
-CLOSE = Basis(calm=0.06, weight=1e6, damping=0.1)
-"""What splines leave, closed to the last digit."""
+
+def closing_stages() -> tuple["Stage", "Stage"]:
+    """Return the stages that close what splines leave, to the last digit.
+
+    Examples
+    --------
+    >>> [stage.is_framewise for stage in closing_stages()]
+    [False, False]
+    """
+    stage = Stage(
+        decay=TUNED.close_decay,
+        weight=TUNED.close_weight,
+        damping=TUNED.close_damping,
+    )
+    return stage, stage
 
 
 class Solved(NamedTuple):
@@ -105,7 +114,7 @@ class Solved(NamedTuple):
 def solve(  # noqa: PLR0913 (a motion, constraints, how to solve, and two options)
     base: Motion,
     pins: Pins,
-    bases: Sequence[Basis],
+    bases: Sequence[Stage],
     body: Body | None = None,
     *,
     quiet: bool = False,
@@ -149,7 +158,7 @@ def solve(  # noqa: PLR0913 (a motion, constraints, how to solve, and two option
     >>> walk = sample("walk_straight")[:120]
     >>> hand = joint_positions(walk)[60, walk.skeleton.index("lwrist")]
     >>> wishes = join_pins(plant_pins(walk), pin(walk, "lwrist", [60], hand + [0, 0.2, 0]))
-    >>> solve(walk, wishes, [Basis(knots=0.125)]).worst[-1] < 0.005
+    >>> solve(walk, wishes, [Stage(knots=0.125)]).worst[-1] < 0.005
     True
 
     Notebook: 13-retargeting
@@ -167,13 +176,13 @@ def solve(  # noqa: PLR0913 (a motion, constraints, how to solve, and two option
     before = base
     for number, way in enumerate(bases):
         if number == 0 and (np.isfinite(pins.high) & ~pins.held)[:, : len(pins.joints)].any():
-            way = way._replace(damping=CEILING)
-        if not (way.knots >= 0 <= way.calm and way.weight > 0 <= way.damping and way.lead >= 0 < way.passes):
+            way = way._replace(damping=TUNED.bar_damping)
+        if not (way.knots >= 0 <= way.decay and way.weight > 0 <= way.damping and way.lead >= 0 < way.passes):
             raise MocapError(f"A basis needs a weight and a pass above 0, and no number below 0; got {way}.")
         poses = forward_kinematics(base)
         places = pins.places(base, poses)
         missed = np.linalg.norm(pins.gap(places), axis=-1).max(axis=1, initial=0.0)
-        rows = np.flatnonzero((missed > MET) & ~stays) if way.alone else window
+        rows = np.flatnonzero((missed > MET) & ~stays) if way.is_framewise else window
         worst, change = worst or [float(missed.max(initial=0.0))], np.zeros_like(change)
         if (missed > MET).any():
             wanted = led(places, pins, base.fps, way.lead) if way.lead else pins
@@ -198,29 +207,29 @@ def with_frames_of(motion: Motion, source: Motion, chosen: Mask) -> Motion:
     return replace(motion, root_positions=roots, rotations=turned, contacts=contacts)
 
 
-def _descend(base: Motion, pins: Pins, body: Body, way: Basis, stays: Mask) -> tuple[Array, list[float]]:
+def _descend(base: Motion, pins: Pins, body: Body, way: Stage, stays: Mask) -> tuple[Array, list[float]]:
     """Improve the change (F, n) pass by pass; also give the worst gap after each pass, metres."""
     curve = Curve(way, base, body.price, stays)
     if not curve.basis.shape[1]:  # no curve of this basis leaves in place the frames that stay
         return np.zeros((len(base), len(body.price))), []
     worst: list[float] = []
     c = np.zeros((curve.basis.shape[1], len(body.price)))
-    damping = np.full((len(base) if way.alone else 1, 1), way.damping)
+    damping = np.full((len(base) if way.is_framewise else 1, 1), way.damping)
     gap, slopes = linear(base, body, curve.basis @ c, pins)
     while len(worst) < way.passes:
         step = curve.step(c, gap, slopes, damping) - c
         turned = np.abs(curve.basis @ step)[:, 3:].max(
-            axis=1 if way.alone else None, keepdims=True, initial=0
+            axis=1 if way.is_framewise else None, keepdims=True, initial=0
         )
-        new = c + step / np.maximum(1, turned / LEAP)
+        new = c + step / np.maximum(1, turned / TUNED.leap)
         left, then = linear(base, body, curve.basis @ new, pins)
         before = curve.cost(c, gap)
         gain = before - curve.cost(new, left)  # of each frame by itself, or of all together
         helps = gain > 0
         c = np.where(helps, new, c)
         gap, slopes = np.where(helps, left, gap), np.where(helps[..., None], then, slopes)
-        more = (np.abs(gain) > np.where(helps, GAIN, GAIN / 100) * before) | (helps & (damping > 1))
-        damping = np.where(helps, damping / FALL, damping * RISE)
+        more = (np.abs(gain) > np.where(helps, TUNED.gain, TUNED.loss) * before) | (helps & (damping > 1))
+        damping = np.where(helps, damping / TUNED.fall, damping * TUNED.rise)
         worst.append(float(np.linalg.norm(gap.reshape(-1, 3), axis=-1).max()))
         if not more.any() or worst[-1] < MET:
             break
@@ -250,8 +259,8 @@ def linear(base: Motion, body: Body, x: Array, pins: Pins) -> tuple[Array, Array
 
     A joint at p_j, turned in the world by R_j and by d_j already, turns about its own axis a: a joint e below
     moves by ∂p_e = (R_j J(d_j) a) × (p_e - p_j), with J the right Jacobian. The root's place moves all by 1.
-    How joint i is turned, v = log(r⁻¹ R_i), changes by ∂v = J(v)⁻¹ R_iᵀ R_j J(d_j) a: `ARM` times this are
-    more rows.
+    How joint i is turned, v = log(r⁻¹ R_i), changes by ∂v = J(v)⁻¹ R_iᵀ R_j J(d_j) a: `TUNED.arm` times this
+    are more rows.
     """
     change = body.displacement(x, len(base.skeleton))
     moved = displaced(base, change)
@@ -266,7 +275,9 @@ def linear(base: Motion, body: Body, x: Array, pins: Pins) -> tuple[Array, Array
     arms = poses.positions[:, pins.ends[:held], None] - poses.positions[:, None, body.joints]
     slopes[:, :held, :, 3:] = np.swapaxes(np.cross(axes[:, None], arms), 2, 3)
     inside = np.einsum("fpji,ftj->fpit", poses.matrices[:, pins.ends[held:]], axes)
-    slopes[:, held:, :, 3:] = ARM * np.linalg.solve(right_jacobian(places[:, held:] / ARM), inside)
+    slopes[:, held:, :, 3:] = TUNED.arm * np.linalg.solve(
+        right_jacobian(places[:, held:] / TUNED.arm), inside
+    )
     slopes[..., 3:] *= moves[:, None]
     slopes *= (places != np.clip(places, pins.low + NEAR, pins.high - NEAR))[..., None]
     return pins.gap(places).reshape(len(base), -1), slopes.reshape(len(base), -1, x.shape[1])
@@ -280,15 +291,15 @@ class Curve:
     change a frame that `stays` (F,), at the beginning or the end, are left out.
     """
 
-    def __init__(self, way: Basis, base: Motion, price: Array, stays: Mask | None = None) -> None:
+    def __init__(self, way: Stage, base: Motion, price: Array, stays: Mask | None = None) -> None:
         frames, identity = len(base), sparse.eye_array(len(base), format="csr")
-        self.weight, self.price, self.alone = way.weight, price, way.alone
+        self.weight, self.price, self.is_framewise = way.weight, price, way.is_framewise
         self.basis = spline_basis(frames, way.knots * base.fps) if way.knots else identity
         if stays is not None and stays.any():
             self.basis = self.basis[:, np.flatnonzero(self.basis[stays].sum(axis=0) == 0)]
         knots, ends = self.basis.shape[1], max(frames - 2, 0)
         second = self.basis[:ends] - 2 * self.basis[1 : ends + 1] + self.basis[2 : ends + 2]
-        self.bends = (way.calm * base.fps) ** 2 * second
+        self.bends = (way.decay * base.fps) ** 2 * second
         near = (self.basis.T @ self.basis + abs(self.bends.T) @ abs(self.bends)).tocoo()
         apart = range(1 + int((near.col - near.row).max(initial=0)))
         both = (self.basis.tocsc(), self.bends.tocsc())
@@ -327,6 +338,6 @@ class Curve:
     def cost(self, c: Array, gap: Array) -> Array:
         """Add up what is to be least, for each frame by itself (F, 1), or for all together (1, 1)."""
         each = ((self.basis @ c) ** 2) @ self.price + self.weight**2 * (gap**2).sum(axis=1)
-        if self.alone:
+        if self.is_framewise:
             return np.asarray(each[:, None])
         return np.array([[each.sum() + (((self.bends @ c) ** 2) @ self.price).sum()]])

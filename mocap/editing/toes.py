@@ -17,14 +17,10 @@ from mocap.body.kinematics import GlobalPoses, forward_kinematics, hinge_of, joi
 from mocap.body.limbs import Leg, find_legs, with_roles
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
+from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError
 
 SLACK = 0.001  # metres: a tip that is lower by less is left alone
-
-# Seconds before and after a bend over which it begins and ends. With 0 toes start to bend with a jolt.
-EASE = 0.05
-FURTHEST = np.radians(80.0)  # radians: toes bend no further
-LEVEL = 0.5  # radians: toes within this angle of the floor show where their lateral axis is
 SHORT = 1e-9  # metres: toes that point straight down in every frame have no lateral axis, and stay
 
 
@@ -130,13 +126,13 @@ def _lateral_axis(motion: Motion, poses: GlobalPoses, leg: Leg, tips: Sequence[i
     toes = poses.positions[:, tips].mean(axis=1) - poses.positions[:, leg.ball]
     level_lengths = np.hypot(toes[:, 0], toes[:, 2])
     slopes = np.arctan2(np.abs(toes[:, 1]), level_lengths)
-    frames = slopes <= max(LEVEL, float(slopes.min()))
+    frames = slopes <= max(TUNED.toe_level, float(slopes.min()))
     lateral = np.cross(toes[frames], [0.0, 1.0, 0.0])
     lateral /= np.maximum(np.linalg.norm(lateral, axis=1, keepdims=True), SHORT)
     axis = np.einsum("fji,fj->i", poses.matrices[frames, leg.ball], lateral)
     axis /= max(float(np.linalg.norm(axis)), SHORT)
     hinge = hinge_of(motion, leg.ball)
-    if hinge is None or abs(hinge @ axis) < np.cos(LEVEL):
+    if hinge is None or abs(hinge @ axis) < np.cos(TUNED.toe_level):
         return np.asarray(axis)
     return np.asarray(hinge * np.sign(hinge @ axis))
 
@@ -157,12 +153,12 @@ def _angles(poses: GlobalPoses, ball: int, tip: int, axis: Array, lowest: Array)
     highest = np.arctan2(upright[:, 1], level[:, 1])
     angles = highest - np.arccos(np.clip(rise / radius, -1.0, 1.0))
     angles[poses.positions[:, tip, 1] >= lowest] = 0.0
-    return np.asarray(np.clip(angles, 0.0, FURTHEST))
+    return np.asarray(np.clip(angles, 0.0, TUNED.toe_bend))
 
 
 def _eased(angles: Array, fps: float) -> Array:
     """Compute a smooth curve that is nowhere below the angles, (F,)."""
-    reach = max(1, round(EASE * fps))
+    reach = max(1, round(TUNED.toe_ease * fps))
     window = np.hanning(2 * reach + 3)[1:-1]
     wide = maximum_filter1d(angles, 2 * reach + 1, mode="nearest")
     return np.asarray(convolve1d(wide, window / window.sum(), mode="nearest"))

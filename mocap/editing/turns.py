@@ -10,12 +10,11 @@ from mocap._shared.arrays import Array
 from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.motion import Motion
-
-ARM = 0.3  # metres: a rotation that is missed by an angle counts as a position missed by ARM times the angle
+from mocap.editing.tuned import TUNED
 
 
 class Turn(NamedTuple):
-    """How one joint is turned, q, as a position for which `Pins` have a box: ARM log(r⁻¹ q).
+    """How one joint is turned, q, as a position for which `Pins` have a box: `TUNED.arm` log(r⁻¹ q).
 
     Parameters
     ----------
@@ -39,9 +38,9 @@ class Turn(NamedTuple):
     world: bool
 
     def arm(self, motion: Motion, matrices: Array) -> Array:
-        """Compute ARM log(r⁻¹ q), (F, 3), metres; `matrices` (F, J, 3, 3) are the joints' in the world."""
+        """Compute `TUNED.arm` log(r⁻¹ q), (F, 3), metres, by the world `matrices` (F, J, 3, 3)."""
         if self.world:
             turned = rotations.from_matrix(matrices[:, self.joint])
         else:
             turned = motion.rotations[:, self.joint]
-        return np.asarray(ARM * rotations.difference(self.reference, turned))
+        return np.asarray(TUNED.arm * rotations.difference(self.reference, turned))

@@ -273,7 +273,7 @@ def grow_curve(data):
 
 
 def grow_spacetime(data):
-    splines = [editing.Basis(knots=0.125)]
+    splines = [editing.Stage(knots=0.125)]
     return lambda pair: editing.solve(*pair, splines), raised("walk_straight"), raised("walk_circle")
 
 

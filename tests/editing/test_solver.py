@@ -10,15 +10,17 @@ from scipy import sparse
 from scipy.linalg import block_diag
 from scipy.optimize import least_squares
 
+from mocap.editing import solver
 from mocap.editing.bodies import body_of, keep_turned, limit_turns
 from mocap.editing.displacements import displaced, spline_basis
 from mocap.editing.pins import join_pins, pin, pin_errors, plant_pins
-from mocap.editing.solver import CLOSE, REACH, Basis, Curve, linear, solve
+from mocap.editing.solver import REACH, Curve, Stage, closing_stages, linear, solve
 from tests.editing.wishes import bar, bones, captured, smoothness, stone, walk
 from tests.refusals import refusals, told
 from tests.strategies import seeds
+from tests.tuning import tune
 
-SPLINES = Basis(knots=0.125)
+SPLINES = Stage(knots=0.125)
 
 
 def worst(gap):
@@ -63,7 +65,7 @@ def test_the_banded_step_is_the_plain_one(seed, frames, knots, calm, damping):
     """As in [Gle98, objective]."""
     random = np.random.default_rng(seed)
     price = random.uniform(1, 9, 3)
-    curve = Curve(Basis(knots, calm, weight=30.0), replace(walk()[:frames], fps=1.0), price)
+    curve = Curve(Stage(knots, calm, weight=30.0), replace(walk()[:frames], fps=1.0), price)
     c = random.normal(size=(curve.basis.shape[1], 3))
     gap, slopes = random.normal(size=(frames, 6)), random.normal(size=(frames, 6, 3))
     if c.shape[0] > frames:
@@ -75,7 +77,7 @@ def test_the_banded_step_is_the_plain_one(seed, frames, knots, calm, damping):
     plain = np.linalg.solve(J.T @ J + (1 + damping) * P, pull).reshape(c.shape)
     np.testing.assert_allclose(curve.step(c, gap, slopes, np.array([[damping]])), plain, atol=1e-6)
     cost = curve.cost(c, gap)
-    assert cost.shape == ((frames, 1) if curve.alone else (1, 1))
+    assert cost.shape == ((frames, 1) if curve.is_framewise else (1, 1))
 
 
 def by_scipy(clip, pins, body, basis, weight):
@@ -138,12 +140,12 @@ def test_few_knots_leave_centimetres_and_many_jolt(real_data):
     pins = stone(clip, 0.2)
     solved = {}
     for knots in (0.5, 0.125, 0.03):
-        motion = solve(clip, pins, [Basis(knots)], quiet=True).motion
+        motion = solve(clip, pins, [Stage(knots)], quiet=True).motion
         solved[knots] = (pin_errors(motion, pins).max(), smoothness(motion, clip))
     assert solved[0.5][0] > 1.5 * solved[0.125][0] > 1.5 * solved[0.03][0]
     assert solved[0.125][0] < 0.0035 and solved[0.125][1] < 1.06
     assert solved[0.03][1] > 3
-    motion = solve(clip, pins, [Basis(knots) for knots in (0.5, 0.25, 0.125)]).motion
+    motion = solve(clip, pins, [Stage(knots) for knots in (0.5, 0.25, 0.125)]).motion
     assert pin_errors(motion, pins).max() < 0.0016
     assert smoothness(motion, clip) < 1.07
 
@@ -154,14 +156,14 @@ def test_a_bar_needs_a_weight_that_rises(real_data, monkeypatch):
     solved = solve(clip, pins, [SPLINES])
     assert solved.worst[-1] < 0.0025
     assert smoothness(solved.motion, clip) < 1.05
-    monkeypatch.setattr("mocap.editing.solver.CEILING", 0.0)
+    tune(monkeypatch, solver, bar_damping=0.0)
     assert told("mm off its pin", solve, clip, pins, [SPLINES._replace(passes=4)]).worst[-1] > 0.05
 
 
 def test_nothing_asked_and_nothing_missed_change_nothing():
     clip = walk()
     empty = pin(clip, "lwrist", [], [0, 0, 0])
-    for way in (SPLINES, REACH, CLOSE, REACH._replace(damping=0.0)):
+    for way in (SPLINES, REACH, closing_stages()[0], REACH._replace(damping=0.0)):
         solved = solve(clip, empty, [way])
         assert np.array_equal(solved.motion.rotations, clip.rotations)
         assert np.array_equal(solved.motion.root_positions, clip.root_positions)
@@ -175,10 +177,10 @@ test_what_cannot_be_solved_is_refused = refusals(
         for bases, words in (
             ([], "a basis or more, got none"),
             ([REACH._replace(passes=0)], "a pass above 0"),
-            ([Basis(damping=-1.0)], "no number below 0"),
-            ([Basis(weight=0.0)], "a weight and"),
-            ([Basis(knots=np.nan)], "no number below 0"),
-            ([SPLINES, Basis(calm=-1.0)], "no number below 0"),
+            ([Stage(damping=-1.0)], "no number below 0"),
+            ([Stage(weight=0.0)], "a weight and"),
+            ([Stage(knots=np.nan)], "no number below 0"),
+            ([SPLINES, Stage(decay=-1.0)], "no number below 0"),
         )
     ),
     ("has 9 frames, its pins have 500", solve, walk()[:9], plant_pins(walk()), [SPLINES]),

@@ -11,7 +11,7 @@ from mocap.body.limbs import find_legs
 from mocap.datasets.samples import SKELETON, sample
 from mocap.editing import bend, edit, pin, pin_errors, plant_pins, retarget, solve
 from mocap.editing.edits import clean_feet
-from mocap.editing.solver import CLOSE
+from mocap.editing.solver import closing_stages
 from mocap.editing.stances import Stance
 from mocap.editing.toes import bend_toes, lowest_allowed, lowest_heights, toe_tips
 from mocap.editing.warp_plans import load_plan, warp
@@ -147,8 +147,10 @@ def test_an_edit_of_some_frames_meets_its_constraints_and_leaves_the_others():
 def test_too_few_frames_for_a_curve_stay_as_they_are():
     hand = joint_positions(walk())[240, SKELETON.index("lwrist")]
     wish = pin(walk(), "lwrist", [240], hand + 0.01)
-    assert unchanged(solve(walk(), wish, [CLOSE], quiet=True, frames=slice(240, 240)).motion, walk()).all()
-    one = solve(walk(), wish, [CLOSE], frames=slice(240, 241)).motion
+    assert unchanged(
+        solve(walk(), wish, closing_stages()[:1], quiet=True, frames=slice(240, 240)).motion, walk()
+    ).all()
+    one = solve(walk(), wish, closing_stages()[:1], frames=slice(240, 241)).motion
     assert np.flatnonzero(~unchanged(one, walk())).tolist() == [240]
     assert pin_errors(one, wish).max() < 1e-8
 

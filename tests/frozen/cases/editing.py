@@ -24,7 +24,7 @@ from tests.frozen.quantities import (
     rotations,
 )
 
-SHORTLY = [editing.Basis(0.125, 0.1, passes=4, lead=0.2), editing.REACH._replace(passes=2)]
+SHORTLY = [editing.Stage(0.125, 0.1, passes=4, lead=0.2), editing.REACH._replace(passes=2)]
 PLAN = "at 100 lhand 0.1 0.2 0\nat 1.5s level\ntime 0 0\ntime 1 1.5\ntime 2 2.4"
 JOINTS = joint_axis(WALK.skeleton)
 
