@@ -13,19 +13,21 @@ Reading order (notebooks 10 to 14)
  5. `toes`: toes that bend so that their tips stay above the floor
  6. `solver`: how a change may run over time; the smallest smooth one, for each frame by itself or for all
  7. `edits`: a calm change, to the last digit; one pose, made by dragging joints; levels, from coarse to fine
- 8. `path_editing`: the path taken off a motion, changed, and the motion put back on it
+ 8. `path_editing`: the path of a motion, and the motion on another path
  9. `turning`: slower in bends, and leaning in, as people take them
-10. `line_rounding`: a line rounded where a walk would turn too fast on it
-11. `bending`: a walk laid on any line, with feet that stand
+10. `line_rounding`: lines rounded where a walk would turn too fast
+11. `bending`: a walk bent to any line, with feet that stand
 12. `keys`: keys, the curve through them, and warps by offsets and by scale
 13. `retiming`: time keys, and motions at moments between their frames
-14. `warp_plans`: a whole warp out of a small text file
-15. `stances`: how a body stands, as a value; find it, whatever the rest pose is; change its proportions
-16. `retargeting`: every joint looks where that of the other body looks; where the new feet may be
-17. `mirroring`: left and right swapped, by names and geometry
-18. `cycles`: the stretch of a clip that makes the best cycle, closed by a blend or by a warp
-19. `travel`: the travel over the ground, removed
-20. `tuned`: the constants that trials chose
+14. `warp_plans`: a whole warp from a small text file
+15. `foot_heights`: heights of ankles and balls that stand
+16. `stances`: the stance of a body, from its rest pose, a pose, or a walk
+17. `proportions`: bodies with longer or shorter limbs
+18. `retargeting`: global rotations copied to another body, and constraints for its feet
+19. `mirroring`: left and right exchanged, by names and geometry
+20. `cycles`: the best cycle of a clip, closed by a blend
+21. `travel`: the travel on the ground, removed
+22. `tuned`: the constants that trials chose
 
 References
 ----------

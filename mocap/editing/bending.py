@@ -16,14 +16,17 @@ from mocap.editing.line_rounding import RoundedLine, round_line
 from mocap.editing.path_editing import Ride, moving_frames, plants_kept, ride_of
 from mocap.editing.pins import with_plants
 from mocap.editing.toes import lowest_allowed
+from mocap.editing.tuned import TUNED
 from mocap.editing.turning import SlowedWalk, lean, slow_down
 from mocap.errors import MocapError, shortened, warn
 from mocap.feet.footskate import clean_up
 
-LIMIT = float(np.radians(100))  # per second: the fastest that a walk is turned; people reach 90° to 110°
+LIMIT = TUNED.turning_limit  # radians per second
 WARNED = 2 * np.pi  # radians per second: no walk turns faster; on lines that turn fast, walks reach 1.7
 LARGEST = 50.0  # radians per second: a larger `limit` is meant in degrees
 FINE = 0.01  # metres between the points of a line from which distances are computed
+LONGEST_CUT = 3.0  # times the path of a walk, and `SLACK` more: no rounding makes a line so much shorter
+SLACK = 10.0  # metres
 LISTED = 3  # rounded intervals that a report lists
 TOLERANCE = 1e-6  # metres, for the end of a line
 
@@ -183,7 +186,7 @@ def _reached(path: GroundPath, ride: Ride) -> GroundPath:
     >>> [_reached(GroundPath([[0, 0], [0, metres]]), ride) for metres in (15, 99)]
     [GroundPath(2 points, 15.0 m), GroundPath(2 points, 16.0 m)]
     """
-    longest = 3 * ride.path.length + 10.0
+    longest = LONGEST_CUT * ride.path.length + SLACK
     if path.length <= longest:
         return path
     return GroundPath(np.vstack([path.points[path.along < longest], path.at(longest)]))

@@ -13,9 +13,8 @@ from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.editing.displacements import Displacement, difference
+from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError
-
-MARGIN = 0.5  # seconds on each side of a key; the accelerations of captured walks then stay what they were
 
 
 class Key(NamedTuple):
@@ -100,7 +99,7 @@ def _require_rising(times: Array, values: Array) -> None:
         raise MocapError(f"{problem}, got {times[:6]}.")
 
 
-def keys_around(motion: Motion, keys: Sequence[Key], seconds: float = MARGIN) -> list[Key]:
+def keys_around(motion: Motion, keys: Sequence[Key], seconds: float = TUNED.key_margin) -> list[Key]:
     """Add keys with the pose of the motion before the first key and after the last one.
 
     Parameters

@@ -10,26 +10,12 @@ from scipy.spatial import cKDTree
 from mocap._shared.arrays import Array, Indices
 from mocap._shared.records import NamedTuple, dataclass
 from mocap.body.ground_path import GroundPath
-from mocap.editing.path_editing import CHORD, Ride, moving_frames
-from mocap.editing.turning import RADIUS, SLOWER, places_on
+from mocap.editing.path_editing import Ride, moving_frames
+from mocap.editing.tuned import TUNED
+from mocap.editing.turning import places_on
 from mocap.feet.ankle_targets import bending_bands
 
-SPACING = 0.05  # metres between the points of a rounded line
-SMOOTH = 0.1  # metres, the reach of smoothing everywhere; it moves a circle of 1 m by 0.1 mm
-GROW = 1.15  # factor by which a reach grows at a time. With 1.4, a corner is cut by up to a third more
-
-# Decrease of a reach per distance from the place that needs it. With 0 it falls at once, and a line swings
-# out in a hook before a corner; with 0.1 it falls so slowly that 7 m of line move for a corner, not 4.
-FALL = 0.6
-
-WIDEST = 2.5  # times the radius at which a walk turns by the limit: the largest reach
-CUT = 1.75  # times that radius: a line that is cut by more comes back on itself, or nearly so
-SHORTER = 0.6  # of the line's length: the least length after rounding
-LOOP = 1.15  # times that radius, for loops: where a bend begins, a walk is faster than later in it
-AHEAD = 0.6  # times that radius: the distance on the line to the point that a pursuit goes to
-TIGHTEST = 0.2  # metres: the least radius
-SLOWEST = 0.5  # points, the least progress on the line at each step of a pursuit, or it might circle a point
-
+FINE = 10  # times as many points as in a rounded line, for distances from it
 SEEN = 0.01  # metres: a line that is moved by less is not reported as rounded
 JOINED = 0.5  # metres: rounded intervals nearer to each other are reported as one
 
@@ -87,9 +73,10 @@ class _Walk:
         """The radius at which the walk turns by the limit, at its slowest, metres."""
         # v₀ q(1/r) / r = limit, with q of `turning`, solved for r.
         longest_step = np.diff(self.ride.along).max(initial=0.0)
-        straight = SLOWER * longest_step * self.fps / self.limit
-        squared = (np.sqrt(RADIUS**4 + 4 * straight**4) - RADIUS**2) / 2
-        return float(max(TIGHTEST, np.sqrt(squared)))
+        straight = TUNED.corner_ratio * longest_step * self.fps / self.limit
+        law = TUNED.bend_radius  # R of the law
+        squared = (np.sqrt(law**4 + 4 * straight**4) - law**2) / 2
+        return float(max(TUNED.tightest_radius, np.sqrt(squared)))
 
     def too_fast(self, line: GroundPath, metres: Array) -> Indices:
         """Find the points of a line, at `metres` along it, where the walk would turn too fast."""
@@ -131,18 +118,18 @@ def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> Rounde
     >>> round(start), round(end), round(worst, 1)
     (5, 6, 0.5)
     """
-    even = path.resampled(SPACING)
+    even = path.resampled(TUNED.line_spacing)
     walk = _Walk(ride, fps, limit)
     if not len(walk.too_fast(path, even.along)):
         return RoundedLine(path, even.along, even.along, np.zeros(len(even.points)))
     spacing = path.length / (len(even.points) - 1)
     points, is_slow_enough = _widened(even.points, spacing, walk)
     rounded = _compared(path, even, points, even.along)
-    is_cut = rounded.moved.max() > max(CUT * walk.radius, CHORD)
-    if is_slow_enough and not is_cut and rounded.path.length > SHORTER * path.length:
+    is_cut = rounded.moved.max() > max(TUNED.largest_cut * walk.radius, TUNED.chord)
+    if is_slow_enough and not is_cut and rounded.path.length > TUNED.least_length * path.length:
         return rounded
-    positions, points = _pursued(even.points, spacing, LOOP * (walk.radius / spacing))
-    smooth = _smoothed(points, np.full(len(points), (SMOOTH / spacing) ** 4))
+    positions, points = _pursued(even.points, spacing, TUNED.loop_radius * (walk.radius / spacing))
+    smooth = _smoothed(points, np.full(len(points), (TUNED.line_reach / spacing) ** 4))
     return _compared(path, even, smooth, spacing * positions)
 
 
@@ -161,9 +148,9 @@ def _widened(requested: Array, spacing: float, walk: _Walk) -> tuple[Array, bool
     -------
     The smooth line, (n, 2), and whether the walk turns slowly enough on it.
     """
-    reach = np.full(len(requested), SMOOTH / spacing)  # in points
-    largest = WIDEST * walk.radius / spacing
-    slope = FALL * np.arange(len(requested))
+    reach = np.full(len(requested), TUNED.line_reach / spacing)  # in points
+    largest = TUNED.widest_reach * walk.radius / spacing
+    slope = TUNED.reach_slope * np.arange(len(requested))
     while True:
         line = _smoothed(requested, reach**4)
         too_fast = walk.too_fast(GroundPath(line), _metres_along(line))
@@ -171,8 +158,8 @@ def _widened(requested: Array, spacing: float, walk: _Walk) -> tuple[Array, bool
         if not len(growing):
             return line, not len(too_fast)
         grown = np.zeros(len(reach))
-        grown[growing] = GROW * reach[growing]
-        grown = maximum_filter1d(grown, 2 * round(CHORD / SPACING) + 1)
+        grown[growing] = TUNED.reach_growth * reach[growing]
+        grown = maximum_filter1d(grown, 2 * round(TUNED.chord / TUNED.line_spacing) + 1)
         from_behind = np.maximum.accumulate(grown + slope) - slope
         from_ahead = np.maximum.accumulate((grown - slope)[::-1])[::-1] + slope
         reach = np.maximum(reach, np.maximum(from_ahead, from_behind))
@@ -188,7 +175,7 @@ def _compared(path: GroundPath, even: GroundPath, line: Array, positions: Array)
 
 def _distances(points: Array, path: GroundPath) -> Array:
     """Compute the distances of points (n, 2) from a path, (n,), metres."""
-    tree = cKDTree(path.resampled(SPACING / 10).points)
+    tree = cKDTree(path.resampled(TUNED.line_spacing / FINE).points)
     return np.asarray(tree.query(points)[0])
 
 
@@ -221,7 +208,7 @@ def _pursued(points: Array, step: float, radius: float) -> tuple[Array, Array]:
     ([0.0, 0.5, 1.0, 2.0, 3.0, 3.5, 4.0, 4.5, 5.0], [3.0, 3.5, 3.1, 2.1, 1.5, 1.2])
     """
     last = len(points) - 1
-    ahead = max(1, round(AHEAD * radius))
+    ahead = max(1, round(TUNED.pursuit_distance * radius))
     point = points[0]
     position = 0.0
     heading = np.arctan2(*(points[1] - point))
@@ -231,7 +218,7 @@ def _pursued(points: Array, step: float, radius: float) -> tuple[Array, Array]:
         start = int(position)
         distances = np.hypot(*(points[start : start + ahead + 1] - point).T)
         nearest = start + float(distances.argmin())
-        position = min(max(position + SLOWEST, nearest), last)
+        position = min(max(position + TUNED.pursuit_step, nearest), last)
         to_goal = points[min(int(position) + ahead, last)] - point
         deviation = np.pi - (np.pi + heading - np.arctan2(*to_goal)) % (2 * np.pi)  # in (-π, π]
         rotation = 2 * deviation * step / max(np.hypot(*to_goal), step)

@@ -27,23 +27,11 @@ from mocap.body.skeleton import Skeleton
 from mocap.editing.path_editing import Ride, moving_frames
 from mocap.editing.pins import plant_pins
 from mocap.editing.retiming import at_frames
+from mocap.editing.tuned import TUNED
 
 GRAVITY = 9.81  # metres per second squared
 CELL = 0.02  # metres between the points at which the curvature of a line is computed
 TOLERANCE = 1e-6  # frames, for times that were rounded
-
-RADIUS = 1.2  # metres; R above. People who run slow down more, R of about 2 m at 2.5 to 3 m/s
-SOFT = 0.2  # metres: the standard deviation of the Gaussian that smooths curvature
-SMOOTH = 0.3  # seconds: the standard deviation of the Gaussian that smooths speeds
-STANDS = 0.2  # metres per second: below, a body stands, and its path curls
-WALKS = 0.5  # metres per second: above, a body walks
-SLOWER = 0.45  # of the speed of the law, at a corner. With 0.6 walks are 18 cm off at 135°, not 9
-LEAST = 0.3  # metres per second, the least at a corner
-WITHIN = 0.95  # of the limit, to which a walk keeps, because its speed varies
-SLOWEST = 0.3  # the least ratio of speeds
-FASTEST = 1.25  # the largest ratio of speeds: a turn that is made straight speeds up a little
-PELVIS = 0.5  # of the lean of the legs
-TRUNK = 0.25  # of the lean of the legs
 
 
 class Bends(NamedTuple):
@@ -94,10 +82,10 @@ def bends_of(path: GroundPath) -> Bends:
     """
     along = np.arange(0.0, path.length + CELL, CELL)
     unsmoothed = np.gradient(np.asarray(moving_frames(path, along).angle), CELL)
-    curvature = gaussian_filter1d(unsmoothed, SOFT / CELL, mode="nearest")
-    sharpest = maximum_filter1d(abs(unsmoothed), 2 * round(SOFT / CELL) + 1)
-    sharpest = gaussian_filter1d(sharpest, SOFT / CELL / 2, mode="nearest", truncate=2.0)
-    return Bends(along, curvature, (1 + (RADIUS * curvature) ** 2) ** -0.25, sharpest)
+    curvature = gaussian_filter1d(unsmoothed, TUNED.bend_blur / CELL, mode="nearest")
+    sharpest = maximum_filter1d(abs(unsmoothed), 2 * round(TUNED.bend_blur / CELL) + 1)
+    sharpest = gaussian_filter1d(sharpest, TUNED.bend_blur / CELL / 2, mode="nearest", truncate=2.0)
+    return Bends(along, curvature, (1 + (TUNED.bend_radius * curvature) ** 2) ** -0.25, sharpest)
 
 
 def places_on(path: GroundPath, ride: Ride, fps: float, limit: float = np.inf) -> tuple[Array, Array]:
@@ -135,9 +123,9 @@ def places_on(path: GroundPath, ride: Ride, fps: float, limit: float = np.inf) -
     for step, pace, walking, speed, bend in _paces(ride, fps).tolist():
         metres += ratio**0.5 * step
         line_pace, line_bend, side = cells[min(round(metres / CELL), len(cells) - 1)]
-        ratio = min(max(line_pace / pace, SLOWEST), FASTEST) ** walking
+        ratio = min(max(line_pace / pace, TUNED.lowest_ratio), TUNED.highest_ratio) ** walking
         extra_bend = line_bend - max(side * bend, 0.0)
-        ratio = _ratio_within(WITHIN * limit, extra_bend * speed, speed, ratio)
+        ratio = _ratio_within(TUNED.rate_margin * limit, extra_bend * speed, speed, ratio)
         places.append((metres, ratio))
     along, ratios = np.array(places).T
     return along, ratios
@@ -154,7 +142,8 @@ def _paces(ride: Ride, fps: float) -> Array:
     cell = np.clip(np.round(ride.along / CELL).astype(int), 0, len(bends.pace) - 1)
     signed_bend = np.sign(bends.curvature) * bends.sharpest
     steps = np.diff(ride.along, prepend=ride.along[:1])
-    walking = np.clip((_speed(ride.along, fps) - STANDS) / (WALKS - STANDS), 0, 1)
+    over_standing = _speed(ride.along, fps) - TUNED.standing_speed
+    walking = np.clip(over_standing / (TUNED.walking_speed - TUNED.standing_speed), 0, 1)
     speeds = np.gradient(ride.along) * fps
     return np.stack([steps, bends.pace[cell], walking, speeds, signed_bend[cell]], axis=1)
 
@@ -170,7 +159,7 @@ def _ratio_within(limit: float, rate: float, speed: float, ratio: float) -> floa
     ratio : the ratio of speeds by the law.
     """
     if rate * ratio > limit:
-        return max(limit / rate, SLOWER * ratio, min(LEAST / speed, ratio))
+        return max(limit / rate, TUNED.corner_ratio * ratio, min(TUNED.corner_speed / speed, ratio))
     return ratio
 
 
@@ -276,9 +265,9 @@ def lean(motion: Motion, heading: Array, angle: Array) -> tuple[Motion, dict[int
 def _lean_fractions(skeleton: Skeleton) -> Mapping[int, float]:
     """Return the joints that lean by another fraction of the lean than the joint above: {joint: fraction}."""
     legs = find_legs(skeleton)
-    fractions = {0: PELVIS, **dict.fromkeys(skeleton.children(0), TRUNK)}
+    fractions = {0: TUNED.pelvis_lean, **dict.fromkeys(skeleton.children(0), TUNED.trunk_lean)}
     for leg in legs:
-        fractions[skeleton.path_to_root(leg.hip)[-2]] = PELVIS
+        fractions[skeleton.path_to_root(leg.hip)[-2]] = TUNED.pelvis_lean
     fractions |= {leg.hip: 1.0 for leg in legs}
     fractions |= {leg.ankle: 0.0 for leg in legs}
     return fractions
@@ -291,4 +280,4 @@ def _rotations_about(axis: Array, angle: Array) -> Array:
 
 def _speed(along: Array, fps: float) -> Array:
     """Return the smoothed speed of a walk, (F,), metres per second, from the metres along its path."""
-    return np.asarray(gaussian_filter1d(np.gradient(along) * fps, SMOOTH * fps, mode="nearest"))
+    return np.asarray(gaussian_filter1d(np.gradient(along) * fps, TUNED.speed_blur * fps, mode="nearest"))
