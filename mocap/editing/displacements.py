@@ -1,8 +1,9 @@
-"""What an edit adds to a motion: a place for the root, a turn for each joint, and splines for both.
+"""Displacement maps, which an edit adds to a motion, and the splines that make them smooth.
 
-The idea is [WP95]'s, the turns in each joint's own frame are [LS99]'s: m = m₀ ⊕ d, and d = m ⊖ m₀. The fine
-structure of the captured motion stays, because d is smooth: a B-spline with a knot every h seconds cannot
-answer faster than in about 2 h.
+A displacement map is a translation of the root and a rotation of each joint, in every frame. The idea is
+[WP95]'s, rotations in each joint's own frame are [LS99]'s: m = m₀ ⊕ d, and d = m ⊖ m₀. The fine structure of
+the captured motion stays, because d is smooth: a B-spline with a knot every h seconds has no detail shorter
+than about 2 h.
 """
 
 from dataclasses import replace
@@ -19,9 +20,9 @@ from mocap.errors import MocapError
 
 
 class Displacement(NamedTuple):
-    """How far a motion is from another: `root` (F, 3), metres, and `turns` (F, J, 3), rotation vectors.
+    """The difference of two motions: `root` (F, 3), metres, and `turns` (F, J, 3), rotation vectors.
 
-    A joint's turn is in its own frame, radians.
+    A rotation vector is in the joint's own frame, radians.
 
     Examples
     --------
@@ -35,7 +36,7 @@ class Displacement(NamedTuple):
 
 
 def difference(motion: Motion, base: Motion) -> Displacement:
-    """Measure m ⊖ m₀: p - p₀ for the root, and log(q₀⁻¹ q) for each joint, in its own frame.
+    """Compute m ⊖ m₀: p - p₀ for the root, and log(q₀⁻¹ q) for each joint, in its own frame.
 
     Parameters
     ----------
@@ -43,12 +44,12 @@ def difference(motion: Motion, base: Motion) -> Displacement:
 
     Returns
     -------
-    The displacement that `displaced` adds to `base` to give `motion`; turns are at most π.
+    The displacement that `displaced` adds to `base` to give `motion`; angles are at most π.
 
     Raises
     ------
-    SkeletonMismatch : for two skeletons.
-    MocapError : for two numbers of frames.
+    SkeletonMismatch : for different skeletons.
+    MocapError : for different numbers of frames.
 
     Examples
     --------
@@ -69,9 +70,9 @@ def difference(motion: Motion, base: Motion) -> Displacement:
 def displaced(base: Motion, change: Displacement) -> Motion:
     """Add a displacement, m₀ ⊕ d: p = p₀ + d_root, q = q₀ exp(d) [LS99, displacement map].
 
-    ⊕ does not commute: (m₀ ⊕ a) ⊕ b is m₀ ⊕ (a + b) only where the axes of a and b agree. So several
-    displacements are added one after the other. The turn stands on the right, in the joint's own frame;
-    exp(d) q₀ would turn about the parent's axes.
+    ⊕ does not commute: (m₀ ⊕ a) ⊕ b is m₀ ⊕ (a + b) only if the axes of a and b agree. Therefore several
+    displacements are added one after the other. The rotation is applied on the right, in the joint's own
+    frame; exp(d) q₀ would rotate about the parent's axes.
 
     Parameters
     ----------
@@ -80,7 +81,7 @@ def displaced(base: Motion, change: Displacement) -> Motion:
 
     Returns
     -------
-    The same frames, labels and contacts; a joint that never turns keeps its numbers to the last bit.
+    The same frames, labels and contacts; a joint that never rotates keeps its numbers to the last bit.
 
     Raises
     ------
@@ -98,10 +99,10 @@ def displaced(base: Motion, change: Displacement) -> Motion:
     """
     if len(change.root) != len(base):
         raise MocapError(f"'{base.name}' has {len(base)} frames, its displacement {len(change.root)}.")
-    turned = base.rotations.copy()
-    moved = np.flatnonzero(np.any(change.turns, axis=(0, 2)))
-    turned[:, moved] = rotations.multiply(turned[:, moved], rotations.from_rotvec(change.turns[:, moved]))
-    return replace(base, root_positions=base.root_positions + change.root, rotations=turned)
+    local = base.rotations.copy()
+    joints = np.flatnonzero(np.any(change.turns, axis=(0, 2)))
+    local[:, joints] = rotations.multiply(local[:, joints], rotations.from_rotvec(change.turns[:, joints]))
+    return replace(base, root_positions=base.root_positions + change.root, rotations=local)
 
 
 def spline_basis(frames: int, spacing: float) -> sparse.csr_array:
@@ -109,12 +110,12 @@ def spline_basis(frames: int, spacing: float) -> sparse.csr_array:
 
     In the paper: [Gle98, smooth change].
 
-    With n = max(1, round((F - 1) / spacing)) spans, frame f lies at u = f n / (F - 1), and the knots lie at
+    With n = max(1, round((F - 1) / spacing)) spans, frame f is at u = f n / (F - 1), and the knots are at
     -3 … n + 3. A curve is B c, where c holds a control point for each of the n + 3 splines.
 
     Parameters
     ----------
-    frames : how many, F ≥ 1.
+    frames : their number F, at least 1.
     spacing : between knots, in frames, above 0; `seconds * fps`, so that it does not depend on the rate.
 
     Returns
@@ -136,8 +137,9 @@ def spline_basis(frames: int, spacing: float) -> sparse.csr_array:
     if not (frames >= 1 and spacing > 0):
         raise MocapError(f"A basis needs a frame and knots above 0 apart, got {frames} and {spacing}.")
     spans = max(1, round((frames - 1) / spacing))
-    at = np.minimum(np.arange(frames) * (spans / max(frames - 1, 1)), spans)
-    return sparse.csr_array(BSpline.design_matrix(at, np.arange(-3.0, spans + 4), 3))
+    positions = np.minimum(np.arange(frames) * (spans / max(frames - 1, 1)), spans)
+    knots = np.arange(-3.0, spans + 4)
+    return sparse.csr_array(BSpline.design_matrix(positions, knots, k=3))
 
 
 def right_jacobian(turns: Array) -> Array:
@@ -162,8 +164,15 @@ def right_jacobian(turns: Array) -> Array:
     size = np.maximum(angle, 1e-4)  # below, both quotients are at their limits to 1e-9
     first = np.where(angle < size, 0.5, (1 - np.cos(size)) / size**2)
     second = np.where(angle < size, 1 / 6, (size - np.sin(size)) / size**3)
-    x, y, z = np.moveaxis(turns, -1, 0)
-    cross = np.zeros((*turns.shape, 3))  # [v]×, with [v]× u = v × u
-    cross[..., 0, 1], cross[..., 0, 2], cross[..., 1, 2] = -z, y, -x
-    cross -= np.swapaxes(cross, -1, -2)
+    cross = _cross_matrices(turns)
     return np.asarray(np.eye(3) - first * cross + second * cross @ cross)
+
+
+def _cross_matrices(vectors: Array) -> Array:
+    """Build [v]×, shape (..., 3, 3), with [v]× u = v × u."""
+    x, y, z = np.moveaxis(vectors, -1, 0)
+    upper = np.zeros((*vectors.shape, 3))
+    upper[..., 0, 1] = -z
+    upper[..., 0, 2] = y
+    upper[..., 1, 2] = -x
+    return np.asarray(upper - np.swapaxes(upper, -1, -2))

@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array
 from mocap.body import body_sides, rotations
-from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import limb_partners, roles, with_roles
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
+from mocap.editing.poses import poses_of
 from mocap.editing.toes import SLACK, bend_toes, lowest_allowed
 from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError, shortened, warn
@@ -235,12 +235,14 @@ def mirror_above_floor(motion: Motion) -> Motion:
     True
     """
     partners, *_ = symmetry(with_roles(motion).skeleton)
-    mirrored = bend_toes(mirror(motion), lowest_allowed(motion)[:, partners])
-    lowest = min(0.0, float(joint_positions(motion)[..., 1].min()))
-    rise = lowest - float(joint_positions(mirrored)[..., 1].min())
+    poses = poses_of(motion)
+    mirrored = poses_of(mirror(motion))
+    bent = mirrored.updated(bend_toes(mirrored, lowest_allowed(poses)[:, partners]))
+    lowest = min(0.0, float(poses.positions[..., 1].min()))
+    rise = lowest - float(bent.positions[..., 1].min())
     if rise <= SLACK:
-        return mirrored
-    return replace(mirrored, root_positions=mirrored.root_positions + rise * UP)
+        return bent.motion
+    return replace(bent.motion, root_positions=bent.motion.root_positions + rise * UP)
 
 
 def _reflection(across: Array) -> Array:

@@ -1,52 +1,55 @@
-"""Where joints shall be, and how they are turned: one value for plants, rails, floors, bars and limits.
+"""Constraints on a motion: positions and rotations that its joints must reach or keep to.
 
-A pin is a box for a joint in a frame: `low` ≤ p ≤ `high` on each axis. The same number twice holds an axis,
--∞ and ∞ leave it free, and one of the two is a floor or a ceiling. For all of these one formula gives the gap
-to close, clip(p, low, high) - p. How a joint is turned is such a p as well: a rotation vector times 0.3 m.
-[Gle98] and [LS99] list their constraints kind by kind; the box is ours.
+One value, `Pins`, holds the boxes of both kinds in all frames: footplants, rails, floors, bars, limits of
+joints, and orientations.
 """
 
 from collections.abc import Sequence
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from mocap._shared.arrays import Array, Mask, frozen
+from mocap._shared.arrays import Array, Mask
 from mocap._shared.records import dataclass
-from mocap.body.kinematics import GlobalPoses, forward_kinematics, joint_positions
+from mocap.body import rotations
 from mocap.body.limbs import Leg, find_legs, with_roles
 from mocap.body.motion import Motion, require_motion
 from mocap.body.skeleton import Skeleton
-from mocap.editing.turns import Turn
+from mocap.editing.boxes import Boxes, PositionBoxes, RelativeRotation, RotationBoxes, merged_ends
+from mocap.editing.poses import Frames, MotionOrPoses, Poses, poses_of
+from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError
 from mocap.feet.ankle_targets import place_plants
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import settled_marks
 
-Rows = slice | Sequence[int] | NDArray[np.intp] | Mask
+NO_ROTATIONS = RotationBoxes((), np.zeros((0, 0, 3)), np.zeros((0, 0, 3)))
 
 
 @dataclass(frozen=True, eq=False)
 class Pins:
-    """Boxes for P joints' places and for T turns in F frames [Gle98, constraints].
+    """Constraints on the positions of P joints, and on R rotations, in F frames [Gle98, constraints].
 
     Parameters
     ----------
     joints : P different joints, as indices.
-    low, high : shape (F, P + T, 3), metres; an axis is held where they are equal, and free from -∞ to ∞.
-    turns : T turns that are in a box too, from `limit_turns` and `keep_turned`.
+    low, high : shape (F, P, 3), metres: boxes for their positions. An axis is held where they are equal, and
+        free from -∞ to ∞.
+    rotations : boxes for R rotations, from `limit_turns` and `keep_turned`; by default none.
 
     Raises
     ------
-    MocapError : for a low above its high, a number that is none, and a joint that is given twice.
+    MocapError : for a low above its high, a number that is none, a joint that is given twice, and boxes for
+        rotations in another number of frames.
 
     Examples
     --------
     >>> rail = Pins((4,), [[[0.3, 0.9, -np.inf]]], [[[0.3, 0.9, np.inf]]])
     >>> rail.held
     array([[[ True,  True, False]]])
-    >>> rail.gap(np.zeros((1, 1, 3)))
+    >>> rail.positions.residual(np.zeros((1, 1, 3)))
     array([[[0.3, 0.9, 0. ]]])
 
     Notebook: 14-levels
@@ -55,88 +58,75 @@ class Pins:
     joints: tuple[int, ...]
     low: Array
     high: Array
-    turns: tuple[Turn, ...] = ()
+    rotations: RotationBoxes = NO_ROTATIONS
 
     if TYPE_CHECKING:  # what a caller may pass: `__post_init__` makes arrays of it
 
         def __init__(
-            self, joints: Sequence[int], low: ArrayLike, high: ArrayLike, turns: tuple[Turn, ...] = ...
+            self, joints: Sequence[int], low: ArrayLike, high: ArrayLike, rotations: RotationBoxes = ...
         ) -> None: ...
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "joints", tuple(int(joint) for joint in self.joints))
-        for key in ("low", "high"):
-            object.__setattr__(self, key, frozen(getattr(self, key), np.float64))
-        shape = (len(self.low), len(self.ends), 3)
-        are_different = len(set(self.joints)) == len(self.joints)
-        if not are_different or self.low.shape != shape or self.high.shape != shape:
-            raise MocapError(f"{len(self.joints)} different joints need boxes {shape}, got {self.low.shape}.")
-        is_ordered = self.low <= self.high  # False for what is no number
-        is_finite = (self.low < np.inf) & (self.high > -np.inf)
-        wrong = np.argwhere(~(is_ordered & is_finite))
-        if len(wrong):
-            frame, pin, axis = wrong[0]
-            low = self.low[frame, pin, axis]
-            high = self.high[frame, pin, axis]
-            got = f"{low:.4g} and {high:.4g} for {'xyz'[axis]}"
-            needs = f"a pin needs low ≤ high, got {got}; from -inf to inf an axis is free"
-            raise MocapError(f"Frame {frame}, joint {self.ends[pin]}: {needs}.")
+        positions = PositionBoxes(self.joints, self.low, self.high)
+        for key in ("joints", "low", "high"):
+            object.__setattr__(self, key, getattr(positions, key))
+        if not self.rotations.indices:
+            no_boxes = np.zeros((len(positions), 0, 3))
+            object.__setattr__(self, "rotations", RotationBoxes((), no_boxes, no_boxes))
+        if len(self.rotations) != len(self):
+            counts = f"{len(self)} and {len(self.rotations)}"
+            raise MocapError(f"Positions and rotations need boxes in the same frames, got {counts} frames.")
 
     def __len__(self) -> int:
         return len(self.low)
 
+    @cached_property
+    def positions(self) -> PositionBoxes:
+        """The boxes for positions."""
+        return PositionBoxes(self.joints, self.low, self.high)
+
     @property
-    def ends(self) -> list[int]:
-        """The joints of all boxes, those of the turns behind those of the places."""
-        return [*self.joints, *(turn.joint for turn in self.turns)]
+    def kinds(self) -> tuple[Boxes, Boxes]:
+        """Both kinds of constraint: on positions, and on rotations."""
+        return self.positions, self.rotations
+
+    @property
+    def indices(self) -> list[int]:
+        """The joint of each of the P + R boxes, those of positions first."""
+        return [joint for boxes in self.kinds for joint in boxes.indices]
 
     @property
     def held(self) -> Mask:
-        """The axes that are held, (F, P + T, 3)."""
-        return np.asarray(self.low == self.high)
+        """The axes that are held, (F, P + R, 3)."""
+        return np.hstack([boxes.held for boxes in self.kinds])
 
-    # reads: name: public, and goes when the pins are split into boxes
     @property
-    def asked(self) -> Mask:
-        """Where anything is asked of a joint, (F, P + T)."""
-        return np.asarray((np.isfinite(self.low) | np.isfinite(self.high)).any(axis=-1))
+    def constrained(self) -> Mask:
+        """Whether a joint is constrained on any axis, (F, P + R)."""
+        return np.hstack([boxes.constrained for boxes in self.kinds])
 
-    # reads: name: public, and goes when the pins are split into boxes
-    def at(self, rows: Rows) -> "Pins":
-        """Take some frames."""
-        turns = (turn._replace(reference=turn.reference[rows]) for turn in self.turns)
-        return Pins(self.joints, self.low[rows], self.high[rows], tuple(turns))
+    def __getitem__(self, frames: Frames) -> "Pins":
+        """Select frames."""
+        return Pins(self.joints, self.low[frames], self.high[frames], self.rotations[frames])
 
-    # reads: name: public, and goes when the pins are split into boxes
-    def only(self, rows: Rows) -> "Pins":
-        """Free all other frames."""
-        keep = np.zeros((len(self), 1, 1), bool)
-        keep[rows] = True
-        low = np.where(keep, self.low, -np.inf)
-        high = np.where(keep, self.high, np.inf)
-        return Pins(self.joints, low, high, self.turns)
-
-    def places(self, motion: Motion, poses: GlobalPoses) -> Array:
-        """Give what the boxes are for, (F, P + T, 3), metres, from a motion and its joints in the world."""
-        arms = (turn.arm(motion, poses.matrices)[:, None] for turn in self.turns)
-        return np.hstack([poses.positions[:, list(self.joints)], *arms])
-
-    def gap(self, places: Array) -> Array:
-        """Measure clip(p, low, high) - p, (F, P + T, 3), metres."""
-        return np.asarray(np.clip(places, self.low, self.high) - places)
+    def limited_to(self, frames: Frames) -> "Pins":
+        """Free the joints in all other frames."""
+        positions = self.positions.limited_to(frames)
+        return Pins(self.joints, positions.low, positions.high, self.rotations.limited_to(frames))
 
     def movers(self, skeleton: Skeleton) -> list[list[int]]:
-        """Find the joints whose turns move what each box is for."""
-        movers = [skeleton.path_to_root(joint)[1:] for joint in self.joints]
-        for turn in self.turns:
-            movers.append(skeleton.path_to_root(turn.joint) if turn.world else [turn.joint])
-        return movers
+        """List for each box the joints whose rotations change its value."""
+        return [joints for boxes in self.kinds for joints in boxes.movers(skeleton)]
+
+    def errors(self, poses: Poses) -> Array:
+        """Compute the distances from the boxes, (F, P + R), metres."""
+        return np.hstack([boxes.errors(poses) for boxes in self.kinds])
 
 
 def pin(
-    motion: Motion, joint: str | int, frames: Rows, low: ArrayLike, high: ArrayLike | None = None
+    motion: Motion, joint: str | int, frames: Frames, low: ArrayLike, high: ArrayLike | None = None
 ) -> Pins:
-    """Ask that a joint be at a place, or within a box, in some frames.
+    """Constrain a joint to a position, or to a box, in some frames.
 
     Parameters
     ----------
@@ -144,25 +134,24 @@ def pin(
     joint : its name or its index.
     frames : a slice, the frames' numbers, or marks (F,).
     low : shape (3,), or one row for each of the frames, metres.
-    high : the box's other corner; without it the joint is held at `low`. Of an axis from -∞ to ∞ nothing is
-        asked.
+    high : the box's other corner. Without it the joint is held at `low`. An axis from -∞ to ∞ is free.
 
     Returns
     -------
-    The pins of this joint; `join_pins` joins several.
+    The constraints of this joint; `join_pins` joins several.
 
     Raises
     ------
-    MocapError : for a joint or a frame that is not there, a low above its high, a place that is no number.
+    MocapError : for a joint or a frame that is not there, a low above its high, a position that is no number.
 
     Examples
     --------
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_straight")[:60]
     >>> bar = pin(walk, "head", slice(20, 40), [-np.inf] * 3, [np.inf, 1.3, np.inf])
-    >>> int(bar.asked.sum())
+    >>> int(bar.constrained.sum())
     20
-    >>> pin(walk, 0, [40], [0, 1, 0]).low[40].tolist()  # the root, at one place
+    >>> pin(walk, 0, [40], [0, 1, 0]).low[40].tolist()  # the root, at one position
     [[0.0, 1.0, 0.0]]
 
     Notebook: 14-levels
@@ -191,10 +180,10 @@ def pin(
 
 
 def join_pins(*parts: Pins) -> Pins:
-    """Join pins into one value: all of them hold together.
+    """Join constraints, so that all of them apply.
 
-    Of two that hold one axis of a joint the later goes before; a held axis goes before a box; of two boxes
-    the common part is taken, and the later one where they have none.
+    If two hold the same axis of a joint, the later one applies. A held axis takes precedence over a box. Of
+    two boxes the common part is taken, and the later one if they have none.
 
     Parameters
     ----------
@@ -202,7 +191,7 @@ def join_pins(*parts: Pins) -> Pins:
 
     Raises
     ------
-    MocapError : for no pins, and for two numbers of frames.
+    MocapError : for no constraints, and for different numbers of frames.
 
     Examples
     --------
@@ -218,46 +207,35 @@ def join_pins(*parts: Pins) -> Pins:
         counts = ", ".join(str(len(part)) for part in parts) or "none"
         raise MocapError(f"Pins that are joined need the same number of frames, got {counts}.")
     joints = tuple(dict.fromkeys(joint for part in parts for joint in part.joints))
-    turns = tuple(turn for part in parts for turn in part.turns)
-    shape = (len(parts[0]), len(joints) + len(turns), 3)
+    shape = (len(parts[0]), len(joints), 3)
     low = np.full(shape, -np.inf)
     high = np.full(shape, np.inf)
-    first_turn = len(joints)
     for part in parts:
-        next_turn = first_turn + len(part.turns)
-        columns = [*map(joints.index, part.joints), *range(first_turn, next_turn)]
-        merged = _merged_boxes(low[:, columns], high[:, columns], part)
+        columns = [joints.index(joint) for joint in part.joints]
+        merged = merged_ends(low[:, columns], high[:, columns], part.positions)
         low[:, columns], high[:, columns] = merged
-        first_turn = next_turn
-    return Pins(joints, low, high, turns)
+    relative = tuple(rotation for part in parts for rotation in part.rotations.rotations)
+    rotations_low = np.hstack([part.rotations.low for part in parts])
+    rotations_high = np.hstack([part.rotations.high for part in parts])
+    return Pins(joints, low, high, RotationBoxes(relative, rotations_low, rotations_high))
 
 
-def _merged_boxes(low: Array, high: Array, later: Pins) -> tuple[Array, Array]:
-    """Merge boxes with those of later pins, in the same columns, by the order of `join_pins`."""
-    common_low = np.maximum(low, later.low)
-    common_high = np.minimum(high, later.high)
-    is_disjoint = common_low > common_high
-    is_held = low == high
-    is_later = later.held | (is_disjoint & ~is_held)
-    choices = [is_later, is_disjoint]  # the first that is true counts
-    merged_low = np.select(choices, [later.low, low], common_low)
-    merged_high = np.select(choices, [later.high, high], common_high)
-    return merged_low, merged_high
-
-
-def plant_pins(motion: Motion, legs: Sequence[Leg] | None = None, heights: ArrayLike | None = None) -> Pins:
-    """Hold each planted ankle and ball at one place for as long as it stands: where it is on average.
+def plant_pins(
+    motion: MotionOrPoses, legs: Sequence[Leg] | None = None, heights: ArrayLike | None = None
+) -> Pins:
+    """Hold each planted ankle and ball at its mean position as long as it stands.
 
     In the paper: [Gle98, constraints].
 
-    [Gle98] and [LS99] also let the place of a plant be unknown; in our trials that saved 0.4 % of the cost.
+    [Gle98] and [LS99] also let the position of a plant be unknown. In our trials that saved 0.4 % of the
+    cost.
 
     Parameters
     ----------
     motion : its `contacts` say when ankles and balls stand.
     legs : by default those of `body.find_legs`.
-    heights : shape (legs, 2), metres: how high ankle and ball stand, if not where they are. An ankle and a
-        ball that stand together are then as far apart as the flat foot is long.
+    heights : shape (legs, 2), metres: the heights at which ankle and ball stand, if these change. An ankle
+        and a ball that stand together are then as far apart as the flat foot is long.
 
     Raises
     ------
@@ -272,12 +250,13 @@ def plant_pins(motion: Motion, legs: Sequence[Leg] | None = None, heights: Array
 
     Notebook: 12-path-editing
     """
-    legs = find_legs(motion.skeleton) if legs is None else legs
-    positions = joint_positions(motion)
+    poses = poses_of(motion)
+    skeleton = poses.motion.skeleton
+    legs = find_legs(skeleton) if legs is None else legs
     parts = []
-    for number, (leg, marks) in enumerate(zip(legs, settled_marks(motion, legs), strict=True)):
-        tracks = np.swapaxes(positions[:, [leg.ankle, leg.ball]], 0, 1)  # (2, F, 3)
-        length = float(leg.lengths(motion.skeleton)[2])
+    for number, (leg, marks) in enumerate(zip(legs, settled_marks(poses.motion, legs), strict=True)):
+        tracks = np.swapaxes(poses.positions[:, [leg.ankle, leg.ball]], 0, 1)  # (2, F, 3)
+        length = float(leg.lengths(skeleton)[2])
         if heights is None:
             places = place_plants((tracks[0], tracks[1]), (marks[0], marks[1]), length)
         else:
@@ -301,16 +280,99 @@ def _places_at_heights(tracks: Array, marks: Mask, length: float, heights: Array
     return places
 
 
-def pin_errors(motion: Motion, pins: Pins) -> Array:
-    """Measure how far each pinned joint is from its box, (F, P + T), metres; 0 where nothing is asked.
+def limit_turns(motion: MotionOrPoses, joints: Sequence[str], *, margin: float = 10.0) -> Pins:
+    """Limit the rotations of joints to their range in a clip, with a margin.
+
+    In the paper: [Gle98, joint limits], [LS99, joint limits].
+
+    The paper's limits are angles from a table. Here the clip gives them [ours]: the range of each joint's
+    rotation vectors about their mean.
 
     Parameters
     ----------
-    motion, pins : F frames. A turn is missed by 0.3 m times the angle.
+    motion : F frames.
+    joints : their names.
+    margin : degrees beyond the clip's range, about each axis, 0 or more.
 
     Raises
     ------
-    MocapError : for pins of other frames or joints than the motion's.
+    MocapError : for a joint that is not there, and degrees below 0.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> neck = limit_turns(sample("walk_straight")[:60], ["lowerneck", "upperneck"]).rotations
+    >>> (neck.high[0] / TUNED.arm).round(2).tolist()  # radians
+    [[0.18, 0.19, 0.18], [0.18, 0.19, 0.18]]
+    >>> (neck.low[0] / TUNED.arm).round(2).tolist()
+    [[-0.18, -0.19, -0.19], [-0.18, -0.19, -0.19]]
+
+    Notebook: 14-levels
+    """
+    if not 0 <= margin < np.inf:
+        raise MocapError(f"Limits lie 0 degrees or more beyond what a clip does, got {margin}.")
+    poses = poses_of(motion)
+    relative = []
+    for name in joints:
+        joint = poses.motion.skeleton.index(name)
+        mean = rotations.mean(poses.motion.rotations[:, joint])
+        relative.append(RelativeRotation(joint, np.tile(mean, (len(poses), 1)), is_global=False))
+    zero = np.zeros((len(poses), len(relative), 3))
+    values = RotationBoxes(tuple(relative), zero, zero).values(poses)
+    reach = TUNED.arm * np.radians(margin)
+    low = zero + values.min(axis=0) - reach
+    high = zero + values.max(axis=0) + reach
+    return _rotation_pins(RotationBoxes(tuple(relative), low, high))
+
+
+def keep_turned(motion: MotionOrPoses, joint: str, frames: Frames) -> Pins:
+    """Keep the rotation of a joint in the world in some frames.
+
+    In the paper: [Gle98, orientations], [LS99, orientations].
+
+    Parameters
+    ----------
+    motion : F frames.
+    joint : its name.
+    frames : a slice, the frames' numbers, or marks (F,).
+
+    Raises
+    ------
+    MocapError : for a joint or a frame that is not there.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> upright = keep_turned(sample("walk_straight")[:60], "thorax", slice(20, 40))
+    >>> int(upright.constrained.sum())
+    20
+
+    Notebook: 14-levels
+    """
+    poses = poses_of(motion)
+    number = poses.motion.skeleton.index(joint)
+    reference = rotations.from_matrix(poses.matrices[:, number])
+    kept = RelativeRotation(number, reference, is_global=True)
+    zero = np.zeros((len(poses), 1, 3))
+    return _rotation_pins(RotationBoxes((kept,), zero, zero).limited_to(frames))
+
+
+def _rotation_pins(boxes: RotationBoxes) -> Pins:
+    """Return constraints on rotations alone."""
+    no_positions = np.zeros((len(boxes), 0, 3))
+    return Pins((), no_positions, no_positions, boxes)
+
+
+def pin_errors(motion: MotionOrPoses, pins: Pins) -> Array:
+    """Compute the distance of each constrained joint from its box, (F, P + R), metres; 0 if it is free.
+
+    Parameters
+    ----------
+    motion, pins : F frames. The error of a rotation is 0.3 m times the angle.
+
+    Raises
+    ------
+    MocapError : for constraints of other frames or joints than the motion's.
 
     Examples
     --------
@@ -321,13 +383,12 @@ def pin_errors(motion: Motion, pins: Pins) -> Array:
 
     Notebook: 12-path-editing
     """
-    require_pins_of(motion, pins)
-    places = pins.places(motion, forward_kinematics(motion))
-    return np.asarray(np.linalg.norm(pins.gap(places), axis=-1))
+    require_pins_of(motion.motion if isinstance(motion, Poses) else motion, pins)
+    return pins.errors(poses_of(motion))
 
 
 def require_pins_of(motion: Motion, pins: Pins) -> None:
-    """Raise `MocapError` unless the pins have the motion's frames and joints of its skeleton."""
+    """Raise `MocapError` unless the constraints have the motion's frames and joints of its skeleton."""
     if len(pins) != len(motion):
         raise MocapError(f"'{motion.name}' has {len(motion)} frames, its pins have {len(pins)}.")
     if unknown := [joint for joint in pins.joints if not 0 <= joint < len(motion.skeleton)]:

@@ -17,13 +17,14 @@ from mocap._shared.arguments import checked_by
 from mocap._shared.arrays import Array
 from mocap._shared.quantities import described
 from mocap.body import rotations
-from mocap.body.kinematics import GlobalPoses, forward_kinematics, joint_positions
+from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import FEET, SIDES, heading_by_hips
 from mocap.body.motion import Motion, require_motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.bodies import body_of
 from mocap.editing.edits import floor_for, mark_met
-from mocap.editing.pins import Pins, join_pins, pin_errors, plant_pins, with_plants
+from mocap.editing.pins import Pins, join_pins, plant_pins, with_plants
+from mocap.editing.poses import MotionOrPoses, Poses, poses_of
 from mocap.editing.solver import Stage, closing_stages, solve
 from mocap.editing.stances import Stance, stance_of, stance_of_zero
 from mocap.editing.toes import bend_toes
@@ -44,7 +45,7 @@ SHORT = 1e-6  # metres: a shorter bone has no direction
 SMALL = 1e-9  # weight of each axis, next to 1 for bones
 
 
-def copied(motion: Motion, source: Stance, target: Stance, *, scale: float | None = None) -> Motion:
+def copied(motion: MotionOrPoses, source: Stance, target: Stance, *, scale: float | None = None) -> Motion:
     """Copy global rotations to another body, and the scaled path of the hips [Gle98, scaled start].
 
     R_t(f) = R_s(f) C with C = R_s(stance)⁻¹ A R_t(stance). A is the smallest rotation that aligns the bones
@@ -83,12 +84,13 @@ def copied(motion: Motion, source: Stance, target: Stance, *, scale: float | Non
 
     Notebook: 13-retargeting
     """
+    poses = poses_of(motion)
+    motion = poses.motion
     source.skeleton.require_same(motion.skeleton)
     ratio = target.leg / source.leg
     scale = ratio if scale is None else scale
     if not (np.isfinite(scale) and scale > 0):
         raise MocapError(f"The scale of a path must be above 0, got {scale}.")
-    poses = forward_kinematics(motion)
     world = _copied_rotations(poses, source, target)
     parents = target.skeleton.parents
     local = rotations.multiply(rotations.inverse(world[:, parents]), world)
@@ -104,7 +106,7 @@ def copied(motion: Motion, source: Stance, target: Stance, *, scale: float | Non
     return replace(start, root_positions=roots, contacts=contacts)
 
 
-def _copied_rotations(poses: GlobalPoses, source: Stance, target: Stance) -> Array:
+def _copied_rotations(poses: Poses, source: Stance, target: Stance) -> Array:
     """Copy the global rotations of the source's joints, (F, J, 4), J joints of the target."""
     seen = rotations.from_matrix(poses.matrices)
     parents = target.skeleton.parents
@@ -239,33 +241,35 @@ def retarget(motion: Motion, body: Stance, source: Stance, *, scale: float | Non
 
     Notebook: 13-retargeting
     """
-    planted = motion
-    if pin_errors(motion, plant_pins(motion, source.legs)).max() > TUNED.worn_slide:
-        planted = clean_up(motion, source.legs)
-    base = copied(planted, source, body, scale=scale)
-    positions = joint_positions(motion)
+    poses = poses_of(motion)
+    planted = poses
+    if plant_pins(poses, source.legs).errors(poses).max() > TUNED.worn_slide:
+        planted = poses_of(clean_up(motion, source.legs))
+    base = poses_of(copied(planted, source, body, scale=scale))
+    positions = poses.positions
     plants = floor_pins(base, body)
     pins = join_pins(floor_under(positions, source, body), plants)
     worn = _solved(base, pins, body)
     allowed = lowest_worn(positions, body.leg / source.leg, len(body.skeleton))
-    floor = floor_for(bend_toes(worn, allowed), (), allowed)
+    bent = worn.updated(bend_toes(worn, allowed))
+    floor = floor_for(bent, (), allowed)
     if floor.joints:
         worn = _solved(base, join_pins(floor, pins), body)
-    worn = bend_toes(worn, allowed)
-    moved = np.abs(worn.root_positions - base.root_positions).max()
+        bent = worn.updated(bend_toes(worn, allowed))
+    moved = np.abs(bent.motion.root_positions - base.motion.root_positions).max()
     if moved > TUNED.worn_hips * body.leg:
         hips = f"the hips move by {100 * moved:.0f} cm to take these steps"
         legs = f"with legs of {100 * body.leg:.0f} cm: no leg takes them at ease"
         warn(f"'{shortened(motion.name)}': {hips}, {legs}.")
-    return mark_met(worn, pins, plants)
+    return mark_met(bent, pins, plants).motion
 
 
-def _solved(base: Motion, pins: Pins, body: Stance) -> Motion:
+def _solved(base: Poses, pins: Pins, body: Stance) -> Poses:
     """Change a copied motion until its constraints are met, at a higher cost of knees and trunk."""
     smooth = Stage(knots=TUNED.worn_knots, decay=TUNED.worn_decay, passes=TUNED.worn_passes)
     costs = dict.fromkeys(_stiff_joints(body), TUNED.worn_stiffness)
     stages = (smooth, *closing_stages())
-    return solve(base, pins, stages, body_of(base, pins, prices=costs), quiet=True).motion
+    return solve(base, pins, stages, body_of(base, pins, prices=costs), quiet=True).poses
 
 
 def _stiff_joints(body: Stance) -> list[str]:
@@ -323,7 +327,7 @@ def wear(motion: Motion, body: Skeleton | Stance, *, clips: Iterable[Motion] = (
     return retarget(motion, body, source)
 
 
-def floor_pins(motion: Motion, stance: Stance) -> Pins:
+def floor_pins(motion: MotionOrPoses, stance: Stance) -> Pins:
     """Return constraints that hold each footplant at the height of its joint in a stance.
 
     The ankle of one body stands 4 cm above the ball, that of another 8 cm. Therefore the heights are those of

@@ -1,17 +1,18 @@
-"""One solver for all edits: the smallest smooth change of a motion that brings its joints to their pins.
+"""One solver for all edits: the smallest smooth change of a motion that meets its constraints.
 
-The change x (F, n) holds the root's place and the turns of a body's joints, and m = m₀ ⊕ x. It is a curve
-x = B c, and
+The change x (F, n) holds translations of the root and rotations of a body's joints, and m = m₀ ⊕ x. It is a
+curve x = B c, and
 
-    Σ_f x_fᵀ M x_f  +  Σ_f τ⁴ ẍ_fᵀ M ẍ_f  +  w² Σ ‖gap‖²
+    Σ_f x_fᵀ M x_f  +  Σ_f τ⁴ ẍ_fᵀ M ẍ_f  +  w² Σ ‖r‖²
 
-is least: M holds the body's prices, τ says what a bend costs, w is a weight. With B = 1 and τ = 0 each frame
-is by itself: inverse kinematics. With splines for B all frames hang together: spacetime [Gle98]. Several such
-`Stage` are solved one after the other, each from where the one before ended [Gle98, finer knots]. Prices, τ,
-and the weight in place of [Gle98]'s Lagrange multipliers are ours.
+is minimised. M holds the body's prices, τ is the price of bends, w is a weight, and r are the residuals of
+all constraints, of both kinds. With B = 1 and τ = 0 each frame is solved by itself: inverse kinematics. With
+splines for B all frames are solved together: spacetime constraints [Gle98]. Several `Stage`s are solved one
+after the other, each from the result of the one before [Gle98, finer knots]. Prices, τ, and the weight in
+place of [Gle98]'s Lagrange multipliers are ours.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -19,36 +20,40 @@ from scipy import sparse
 from scipy.linalg import solveh_banded
 
 from mocap._shared.arrays import Array, Mask
-from mocap._shared.records import NamedTuple
-from mocap.body.kinematics import forward_kinematics
+from mocap._shared.records import NamedTuple, dataclass
 from mocap.body.motion import Motion
-from mocap.editing.bodies import Body, body_of, require_reachable, warn_of_gaps
-from mocap.editing.displacements import displaced, right_jacobian, spline_basis
+from mocap.editing.bodies import Body, body_of, require_reachable, warn_of_errors
+from mocap.editing.displacements import displaced, spline_basis
 from mocap.editing.pins import Pins, require_pins_of
+from mocap.editing.poses import ROTATIONS, MotionOrPoses, Poses, poses_of
 from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError
 from mocap.feet.ankle_targets import smooth_fill
 
-MET = 5e-10  # metres: pins that are so near are met
-
-NEAR = 1e-4  # metres: so near to the end of its box a joint keeps to it in the next step; with 0 it leaves
+MET = 5e-10  # metres: constraints with a smaller error are met
 RIDGE = 1e-13  # of the largest entry: a clip of fewer frames than splines leaves some of them unseen
-KEPT = 2  # frames on either side of those that may change: beside them a change and its rate are 0
+KEPT = 2  # frames on either side of those that may change: there a change and its rate are 0
 EVERY_FRAME = slice(None)
 
 
-class Stage(NamedTuple):
-    """How a change may run over time, and how it is solved for.
+@dataclass(frozen=True)
+class Stage:
+    """A stage of the solver: how a change may vary over time, and how it is solved for.
 
     Parameters
     ----------
     knots : seconds between the knots of its splines: 0.5 leaves centimetres, 0.125 millimetres, and below
         accelerations grow. With 0 each frame has its own numbers.
-    decay : τ, seconds: a change dies away within about τ of a pin. With 0 bends cost nothing.
+    decay : τ, seconds: a change decays within about τ of a constraint. With 0 bends cost nothing.
     weight : w, per metre. On splines 100 leaves 10 mm on a stone of 20 cm, 300 leaves 3 mm, 1000 no less.
-    damping : λ at first, as a share of the prices: a step is one of the weight w / √(1 + λ).
-    passes : at most.
-    lead : seconds: above 0 joints are led from pin to pin, and to the first and from the last in this time.
+    damping : λ at first, as a fraction of the prices: a step is one of the weight w / √(1 + λ).
+    passes : iterations at most.
+    lead : seconds: above 0 joints are led from constraint to constraint, and to the first and from the last
+        in this time.
+
+    Raises
+    ------
+    MocapError : for a number below 0, and a weight or passes that are not above 0.
 
     Examples
     --------
@@ -67,9 +72,17 @@ class Stage(NamedTuple):
     passes: int = 30
     lead: float = 0.0
 
+    def __post_init__(self) -> None:
+        for name in ("weight", "passes"):
+            if not getattr(self, name) > 0:
+                raise MocapError(f"A stage needs a number above 0, got {name}={getattr(self, name)}.")
+        for name in ("knots", "decay", "damping", "lead"):
+            if not getattr(self, name) >= 0:
+                raise MocapError(f"A stage needs numbers of 0 or more, got {name}={getattr(self, name)}.")
+
     @property
     def is_framewise(self) -> bool:
-        """Whether each frame is by itself."""
+        """Whether each frame is solved by itself."""
         return self.knots == self.decay == 0
 
 
@@ -77,8 +90,8 @@ REACH = Stage(weight=TUNED.reach_weight, damping=TUNED.reach_damping, passes=TUN
 """Each frame by itself: inverse kinematics, as [LS99] need it."""
 
 
-def closing_stages() -> tuple["Stage", "Stage"]:
-    """Return the stages that close what splines leave, to the last digit.
+def closing_stages() -> tuple[Stage, Stage]:
+    """Return the stages that meet constraints exactly, after a stage of splines.
 
     Examples
     --------
@@ -94,33 +107,42 @@ def closing_stages() -> tuple["Stage", "Stage"]:
 
 
 class Solved(NamedTuple):
-    """The solver's answer: the `motion`, and the worst gap at first and after each pass, metres.
+    """The result of the solver.
 
-    `change` (F, n) holds the numbers of the body that the last basis added.
+    Parameters
+    ----------
+    poses : the new motion, with its joints in the world.
+    worst : the largest error at first and after each iteration, metres.
+    change : shape (F, n), the numbers of the body that the last stage added.
 
     Examples
     --------
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_straight")[:9]
-    >>> Solved(walk, [0.02, 0.001], np.zeros((9, 13))).worst[-1]
-    0.001
+    >>> Solved(poses_of(walk), [0.02, 0.001], np.zeros((9, 13))).motion is walk
+    True
     """
 
-    motion: Motion
+    poses: Poses
     worst: list[float]
     change: Array
 
+    @property
+    def motion(self) -> Motion:
+        """The new motion."""
+        return self.poses.motion
+
 
 def solve(  # noqa: PLR0913 (a motion, constraints, how to solve, and two options)
-    base: Motion,
+    base: MotionOrPoses,
     pins: Pins,
-    bases: Sequence[Stage],
+    stages: Sequence[Stage],
     body: Body | None = None,
     *,
     quiet: bool = False,
     frames: slice = EVERY_FRAME,
 ) -> Solved:
-    """Bring joints to their pins by the smallest smooth change, in one basis after the other.
+    """Meet constraints by the smallest smooth change, in one stage after the other.
 
     In the paper: [Gle98, objective; finer knots], [LS99, inverse kinematics].
 
@@ -129,26 +151,26 @@ def solve(  # noqa: PLR0913 (a motion, constraints, how to solve, and two option
     Parameters
     ----------
     base : F frames.
-    pins : of F frames.
-    bases : one or more. `REACH` brings each frame by itself to its pins; those without pins stay as they are.
-    body : which joints turn, at what price; `body_of(base, pins)` by default. For a single frame, make
-        it from the whole clip, which shows the hinges.
-    quiet : whether to say nothing of pins that are missed.
-    frames : those that may change, in a row. All others stay the same to the last bit, and the change begins
-        and ends smoothly.
+    pins : constraints of F frames.
+    stages : one or more. `REACH` solves each frame by itself; those that meet their constraints stay as they
+        are.
+    body : the joints that may rotate, and the prices; `body_of(base, pins)` by default. For a single frame,
+        make it from the whole clip, which shows the hinges.
+    quiet : whether to omit the warning of constraints that are missed.
+    frames : those that may change, a single range. All others stay the same to the last bit, and the change
+        begins and ends smoothly.
 
     Returns
     -------
-    The new motion, and how near it comes; without pins the motion as it is.
+    The new motion, and its errors; the motion as it is if all constraints are met.
 
     Raises
     ------
-    MocapError : for pins of another motion, pins that no pose can meet, no basis, and numbers of a basis that
-        are not above 0.
+    MocapError : for constraints of another motion, constraints that no pose can meet, and no stage.
 
     Warns
     -----
-    MocapWarning : for pins that are missed by more than 5 mm.
+    MocapWarning : for constraints that are missed by more than 5 mm.
 
     Examples
     --------
@@ -157,187 +179,322 @@ def solve(  # noqa: PLR0913 (a motion, constraints, how to solve, and two option
     >>> from mocap.editing.pins import join_pins, pin, plant_pins
     >>> walk = sample("walk_straight")[:120]
     >>> hand = joint_positions(walk)[60, walk.skeleton.index("lwrist")]
-    >>> wishes = join_pins(plant_pins(walk), pin(walk, "lwrist", [60], hand + [0, 0.2, 0]))
-    >>> solve(walk, wishes, [Stage(knots=0.125)]).worst[-1] < 0.005
+    >>> requests = join_pins(plant_pins(walk), pin(walk, "lwrist", [60], hand + [0, 0.2, 0]))
+    >>> solve(walk, requests, [Stage(knots=0.125)]).worst[-1] < 0.005
     True
 
     Notebook: 13-retargeting
     """
-    require_pins_of(base, pins)
-    require_reachable(base, pins)
-    if not len(bases):
-        raise MocapError("To solve takes a basis or more, got none.")
-    body = body or body_of(base, pins)
-    change, worst = np.zeros((len(base), len(body.price))), list[float]()
-    first, stop, _ = frames.indices(len(base))
-    window = slice(max(first - KEPT, 0), stop + KEPT)
-    stays = np.ones(len(base), bool)
-    stays[first:stop] = False
-    before = base
-    for number, way in enumerate(bases):
-        if number == 0 and (np.isfinite(pins.high) & ~pins.held)[:, : len(pins.joints)].any():
-            way = way._replace(damping=TUNED.bar_damping)
-        if not (way.knots >= 0 <= way.decay and way.weight > 0 <= way.damping and way.lead >= 0 < way.passes):
-            raise MocapError(f"A basis needs a weight and a pass above 0, and no number below 0; got {way}.")
-        poses = forward_kinematics(base)
-        places = pins.places(base, poses)
-        missed = np.linalg.norm(pins.gap(places), axis=-1).max(axis=1, initial=0.0)
-        rows = np.flatnonzero((missed > MET) & ~stays) if way.is_framewise else window
-        worst, change = worst or [float(missed.max(initial=0.0))], np.zeros_like(change)
-        if (missed > MET).any():
-            wanted = led(places, pins, base.fps, way.lead) if way.lead else pins
-            change[rows], left = _descend(base[rows], wanted.at(rows), body, way, stays[rows])
-            base = displaced(base, body.displacement(change, len(base.skeleton)))
-            worst += left
-    base = with_frames_of(base, before, stays)
+    motion = base.motion if isinstance(base, Poses) else base
+    require_pins_of(motion, pins)
+    require_reachable(motion, pins)
+    if not len(stages):
+        raise MocapError("To solve takes a stage or more, got none.")
+    start = poses_of(base)
+    body = body or body_of(start, pins)
+    stays = np.ones(len(start), bool)
+    stays[frames] = False
+    solved = Solved(start, [float(pins.errors(start).max(initial=0.0))], np.zeros((len(start), 0)))
+    for stage in _with_damping_under_bars(stages, pins):
+        poses, worst, change = _solve_stage(stage, solved.poses, pins, body, stays)
+        solved = Solved(poses, solved.worst + worst, change)
+    poses = solved.poses.with_frames_of(start, stays)
     if not quiet:
-        warn_of_gaps(base, pins)
-    return Solved(base, worst, change)
+        warn_of_errors(poses.motion, pins, pins.errors(poses))
+    return solved._replace(poses=poses)
 
 
-def with_frames_of(motion: Motion, source: Motion, chosen: Mask) -> Motion:
-    """Replace the chosen frames (F,) by those of the source: poses and contacts, to the last bit."""
-    if not chosen.any():
-        return motion
-    roots = np.where(chosen[:, None], source.root_positions, motion.root_positions)
-    turned = np.where(chosen[:, None, None], source.rotations, motion.rotations)
-    contacts = dict(motion.contacts)
-    for name, mark in source.contacts.items():
-        contacts[name] = np.where(chosen, mark, contacts.get(name, mark))
-    return replace(motion, root_positions=roots, rotations=turned, contacts=contacts)
+def _solve_stage(stage: Stage, poses: Poses, pins: Pins, body: Body, stays: Mask) -> Solved:
+    """Solve one stage, with all frames near enough to those that change."""
+    change = np.zeros((len(poses), len(body.price)))
+    is_missed = pins.errors(poses).max(axis=1, initial=0.0) > MET
+    rows = np.flatnonzero(is_missed & ~stays) if stage.is_framewise else _window(stays)
+    if not is_missed.any() or stays.all():
+        return Solved(poses, [], change)
+    constraints = led(pins, poses, stage.lead) if stage.lead else pins
+    part = poses[rows]
+    curve = Curve(stage, len(part), part.motion.fps, body.price, stays[rows])
+    if not curve.basis.shape[1]:  # no curve of this stage leaves the frames unchanged that must stay
+        return Solved(poses, [], change)
+    last, worst = _descend(_Problem(part, constraints[rows], body, curve), stage)
+    change[rows] = last.change
+    return Solved(poses.with_part(last.poses, rows), worst, change)
 
 
-def _descend(base: Motion, pins: Pins, body: Body, way: Stage, stays: Mask) -> tuple[Array, list[float]]:
-    """Improve the change (F, n) pass by pass; also give the worst gap after each pass, metres."""
-    curve = Curve(way, base, body.price, stays)
-    if not curve.basis.shape[1]:  # no curve of this basis leaves in place the frames that stay
-        return np.zeros((len(base), len(body.price))), []
-    worst: list[float] = []
-    c = np.zeros((curve.basis.shape[1], len(body.price)))
-    damping = np.full((len(base) if way.is_framewise else 1, 1), way.damping)
-    gap, slopes = linear(base, body, curve.basis @ c, pins)
-    while len(worst) < way.passes:
-        step = curve.step(c, gap, slopes, damping) - c
-        turned = np.abs(curve.basis @ step)[:, 3:].max(
-            axis=1 if way.is_framewise else None, keepdims=True, initial=0
-        )
-        new = c + step / np.maximum(1, turned / TUNED.leap)
-        left, then = linear(base, body, curve.basis @ new, pins)
-        before = curve.cost(c, gap)
-        gain = before - curve.cost(new, left)  # of each frame by itself, or of all together
-        helps = gain > 0
-        c = np.where(helps, new, c)
-        gap, slopes = np.where(helps, left, gap), np.where(helps[..., None], then, slopes)
-        more = (np.abs(gain) > np.where(helps, TUNED.gain, TUNED.loss) * before) | (helps & (damping > 1))
-        damping = np.where(helps, damping / TUNED.fall, damping * TUNED.rise)
-        worst.append(float(np.linalg.norm(gap.reshape(-1, 3), axis=-1).max()))
-        if not more.any() or worst[-1] < MET:
+def _window(stays: Mask) -> slice:
+    """Return the frames that may change, with `KEPT` frames on either side."""
+    changes = np.flatnonzero(~stays)
+    if not len(changes):
+        return slice(0, 0)
+    return slice(max(int(changes[0]) - KEPT, 0), int(changes[-1]) + 1 + KEPT)
+
+
+def _with_damping_under_bars(stages: Sequence[Stage], pins: Pins) -> Iterator[Stage]:
+    """Yield the stages; the first one has more damping if positions have a ceiling."""
+    has_ceiling = bool((np.isfinite(pins.high) & ~pins.positions.held).any())
+    for number, stage in enumerate(stages):
+        is_damped = number == 0 and has_ceiling
+        yield replace(stage, damping=TUNED.bar_damping) if is_damped else stage
+
+
+def led(pins: Pins, poses: Poses, seconds: float) -> Pins:
+    """Hold constrained joints also between their constraints: on a smooth path next to their own [ours].
+
+    A joint's own path is moved by the curve through the residuals that bends least. Without it angles change
+    smoothly, but a foot at the end of a chain of them accelerates.
+
+    Parameters
+    ----------
+    pins, poses : F frames.
+    seconds : over which the curve begins before the first constraint and ends after the last one.
+    """
+    positions = pins.positions.values(poses)
+    held = pins.positions.held
+    low = pins.low.copy()
+    high = pins.high.copy()
+    for number, axis in np.argwhere(held.any(axis=0)):
+        column = np.s_[:, number, axis]
+        residual = np.where(held[column], low[column] - positions[column], 0.0)
+        curve = smooth_fill(residual[:, None], held[column], poses.motion.fps, seconds)
+        path = positions[column] + curve[:, 0]
+        is_free = np.isinf(low[column]) & np.isinf(high[column])
+        low[column] = np.where(is_free, path, low[column])
+        high[column] = np.where(is_free, path, high[column])
+    return Pins(pins.joints, low, high, pins.rotations)
+
+
+class _Iterate(NamedTuple):
+    """Control points c (K, n), the change B c (F, n), and what m₀ ⊕ B c leads to."""
+
+    c: Array
+    change: Array
+    poses: Poses
+    residual: Array
+    jacobian: Array
+    cost: Array
+
+    def or_where(self, is_better: Mask, trial: "_Iterate") -> "_Iterate":
+        """Take the trial where it is better: in frames (F, 1), or as a whole (1, 1)."""
+        if is_better.all():
+            return trial
+        if not is_better.any():
+            return self
+        c = _merged(is_better, trial.c, self.c)
+        change = _merged(is_better, trial.change, self.change)
+        poses = self.poses.with_frames_of(trial.poses, is_better[:, 0])
+        residual = _merged(is_better, trial.residual, self.residual)
+        jacobian = _merged(is_better, trial.jacobian, self.jacobian)
+        return _Iterate(c, change, poses, residual, jacobian, np.where(is_better, trial.cost, self.cost))
+
+
+def _merged(is_better: Mask, trial: Array, last: Array) -> Array:
+    """Take the frames of a trial that are better, (F, 1), of arrays (F, ...)."""
+    axes = tuple(range(1, trial.ndim - 1))
+    return np.where(np.expand_dims(is_better, axes), trial, last)
+
+
+class _Problem(NamedTuple):
+    """What a stage minimises: F frames, their constraints, and the curves that are allowed."""
+
+    base: Poses
+    pins: Pins
+    body: Body
+    curve: "Curve"
+
+    def start(self) -> _Iterate:
+        """Return the iterate that changes nothing."""
+        c = np.zeros((self.curve.basis.shape[1], len(self.body.price)))
+        return self._evaluated(c, self.base)
+
+    def evaluate(self, c: Array) -> _Iterate:
+        """Compute the iterate of control points c (K, n)."""
+        motion = self.base.motion
+        displacement = self.body.displacement(self.curve.basis @ c, len(motion.skeleton))
+        return self._evaluated(c, poses_of(displaced(motion, displacement)))
+
+    def _evaluated(self, c: Array, poses: Poses) -> _Iterate:
+        change = self.curve.basis @ c
+        residual, jacobian = linearised(poses, self.body, change, self.pins)
+        return _Iterate(c, change, poses, residual, jacobian, self.curve.cost(c, residual))
+
+
+def _descend(problem: _Problem, stage: Stage) -> tuple[_Iterate, list[float]]:
+    """Minimise the cost by steps of Levenberg and Marquardt.
+
+    Returns
+    -------
+    The last iterate, and the largest error after each iteration, metres.
+    """
+    iterate = problem.start()
+    errors: list[float] = []
+    damping = np.full(iterate.cost.shape, stage.damping)
+    while len(errors) < stage.passes:
+        trial = problem.evaluate(_shortened_step(iterate, problem.curve, damping))
+        gain = iterate.cost - trial.cost  # of each frame by itself, or of all together
+        is_better = gain > 0
+        is_large = np.abs(gain) > np.where(is_better, TUNED.gain, TUNED.loss) * iterate.cost
+        goes_on = is_large | (is_better & (damping > 1))
+        iterate = iterate.or_where(is_better, trial)
+        damping = np.where(is_better, damping / TUNED.fall, damping * TUNED.rise)
+        errors.append(_largest_error(iterate.residual))
+        if not goes_on.any() or errors[-1] < MET:
             break
-    return curve.basis @ c, worst
+    return iterate, errors
 
 
-def led(places: Array, pins: Pins, fps: float, seconds: float) -> Pins:
-    """Pin joints between their pins, too: to their own places, moved by the curve that bends least [ours].
+def _shortened_step(iterate: _Iterate, curve: "Curve", damping: Array) -> Array:
+    """Compute the next control points c (K, n), so that no joint rotates by more than `TUNED.leap`."""
+    step = curve.step(iterate.c, iterate.residual, iterate.jacobian, damping) - iterate.c
+    angles = np.abs(curve.basis @ step)[:, ROTATIONS]
+    if curve.is_framewise:
+        largest = angles.max(axis=1, keepdims=True, initial=0)
+    else:
+        largest = angles.max(keepdims=True, initial=0)
+    return np.asarray(iterate.c + step / np.maximum(1, largest / TUNED.leap))
 
-    Without it angles change smoothly, but a foot at the end of a chain of them accelerates.
+
+def _largest_error(residual: Array) -> float:
+    """Return the largest of errors whose components are residuals (F, m), metres."""
+    return float(np.linalg.norm(residual.reshape(-1, 3), axis=-1).max())
+
+
+def linearised(poses: Poses, body: Body, change: Array, pins: Pins) -> tuple[Array, Array]:
+    """Compute the residuals of all constraints, and their Jacobian, in all frames at once.
+
+    Rows of axes for which nothing is to do are 0 in the Jacobian: free ones, and those within their box.
+
+    Parameters
+    ----------
+    poses : m₀ ⊕ x, F frames.
+    body : n numbers that may change.
+    change : x, shape (F, n).
+    pins : F frames.
+
+    Returns
+    -------
+    residual : shape (F, m), metres, three rows for each box.
+    jacobian : shape (F, m, n): the derivatives of the values, which are those of -residual.
     """
-    low, high = pins.low.copy(), pins.high.copy()
-    for joint, axis in np.argwhere(pins.held[:, : len(pins.joints)].any(axis=0)):
-        at, held = np.s_[:, joint, axis], pins.held[:, joint, axis]
-        away = np.where(held, low[at] - places[at], 0.0)[:, None]
-        way = places[at] + smooth_fill(away, held, fps, seconds)[:, 0]
-        free = np.isinf(low[at]) & np.isinf(high[at])
-        low[at], high[at] = np.where(free, way, low[at]), np.where(free, way, high[at])
-    return Pins(pins.joints, low, high, pins.turns)
-
-
-def linear(base: Motion, body: Body, x: Array, pins: Pins) -> tuple[Array, Array]:
-    """Measure what is left to do at m₀ ⊕ x, and how it closes with x (F, n), in all frames at once.
-
-    Gives the gaps (F, m), metres, and the slopes (F, m, n), three rows for each box. Rows of axes for which
-    nothing is to do are 0: free ones, and boxes that the joint is in.
-
-    A joint at p_j, turned in the world by R_j and by d_j already, turns about its own axis a: a joint e below
-    moves by ∂p_e = (R_j J(d_j) a) × (p_e - p_j), with J the right Jacobian. The root's place moves all by 1.
-    How joint i is turned, v = log(r⁻¹ R_i), changes by ∂v = J(v)⁻¹ R_iᵀ R_j J(d_j) a: `TUNED.arm` times this
-    are more rows.
-    """
-    change = body.displacement(x, len(base.skeleton))
-    moved = displaced(base, change)
-    poses = forward_kinematics(moved)
-    joints, which = np.unique(body.joints, return_inverse=True)
-    spins = poses.matrices[:, joints] @ right_jacobian(change.turns[:, joints])
-    axes = np.einsum("ftij,tj->fti", spins[:, which], body.axes)  # in the world, (F, T, 3)
-    places, held = pins.places(moved, poses), len(pins.joints)
-    moves = np.array([np.isin(body.joints, movers) for movers in pins.movers(base.skeleton)])  # (P + T, T')
-    slopes = np.zeros((*places.shape, x.shape[1]))
-    slopes[:, :held, :, :3] = np.eye(3)
-    arms = poses.positions[:, pins.ends[:held], None] - poses.positions[:, None, body.joints]
-    slopes[:, :held, :, 3:] = np.swapaxes(np.cross(axes[:, None], arms), 2, 3)
-    inside = np.einsum("fpji,ftj->fpit", poses.matrices[:, pins.ends[held:]], axes)
-    slopes[:, held:, :, 3:] = TUNED.arm * np.linalg.solve(
-        right_jacobian(places[:, held:] / TUNED.arm), inside
-    )
-    slopes[..., 3:] *= moves[:, None]
-    slopes *= (places != np.clip(places, pins.low + NEAR, pins.high - NEAR))[..., None]
-    return pins.gap(places).reshape(len(base), -1), slopes.reshape(len(base), -1, x.shape[1])
+    displacement = body.displacement(change, len(poses.motion.skeleton))
+    axes = body.world_axes(poses, displacement)
+    residuals = []
+    jacobians = []
+    for boxes in pins.kinds:
+        if not boxes.indices:
+            continue
+        values = boxes.values(poses)
+        jacobian = boxes.jacobian(poses, axes)
+        jacobian[~boxes.active(values)] = 0.0
+        residuals.append(boxes.residual(values).reshape(len(poses), -1))
+        jacobians.append(jacobian.reshape(len(poses), -1, change.shape[1]))
+    return np.concatenate(residuals, axis=1), np.concatenate(jacobians, axis=1)
 
 
 class Curve:
-    """How a change x = B c may run over F frames, and the least squares of its control points c (K, n).
+    """The curves x = B c over F frames that a stage allows, and the least squares of control points c (K, n).
 
     `basis` is B (F, K), `bends` are τ² times its second differences (F - 2, K). Splines that are far apart
-    share no frame and no bend. So the equations are banded, and the time is linear in F. Those that would
-    change a frame that `stays` (F,), at the beginning or the end, are left out.
+    share no frame and no bend. Therefore the equations are banded, and the time is linear in F. Splines that
+    would change a frame that stays are left out.
+
+    Parameters
+    ----------
+    stage : of the solver.
+    frames : their number F.
+    fps : frames per second.
+    price : shape (n,).
+    stays : shape (F,), frames at the beginning and the end that do not change; by default none.
     """
 
-    def __init__(self, way: Stage, base: Motion, price: Array, stays: Mask | None = None) -> None:
-        frames, identity = len(base), sparse.eye_array(len(base), format="csr")
-        self.weight, self.price, self.is_framewise = way.weight, price, way.is_framewise
-        self.basis = spline_basis(frames, way.knots * base.fps) if way.knots else identity
+    def __init__(
+        self, stage: Stage, frames: int, fps: float, price: Array, stays: Mask | None = None
+    ) -> None:
+        self.weight = stage.weight
+        self.price = price
+        self.is_framewise = stage.is_framewise
+        if stage.knots:
+            self.basis = spline_basis(frames, stage.knots * fps)
+        else:
+            self.basis = sparse.eye_array(frames, format="csr")
         if stays is not None and stays.any():
-            self.basis = self.basis[:, np.flatnonzero(self.basis[stays].sum(axis=0) == 0)]
-        knots, ends = self.basis.shape[1], max(frames - 2, 0)
-        second = self.basis[:ends] - 2 * self.basis[1 : ends + 1] + self.basis[2 : ends + 2]
-        self.bends = (way.decay * base.fps) ** 2 * second
-        near = (self.basis.T @ self.basis + abs(self.bends.T) @ abs(self.bends)).tocoo()
-        apart = range(1 + int((near.col - near.row).max(initial=0)))
-        both = (self.basis.tocsc(), self.bends.tocsc())
-        # b_k b_{k+d} in each frame, (K - d, F), and the same of the bends, added up.
-        self.pairs, bent = ([(b[:, : knots - d] * b[:, d:]).T.tocsr() for d in apart] for b in both)
-        self.bent = [pair.sum(axis=1) for pair in bent]
+            is_still = self.basis[stays].sum(axis=0) == 0
+            self.basis = self.basis[:, np.flatnonzero(is_still)]
+        inner = max(frames - 2, 0)
+        following = self.basis[1 : inner + 1]
+        second = self.basis[:inner] - 2 * following + self.basis[2 : inner + 2]
+        self.bends = (stage.decay * fps) ** 2 * second
+        width = 1 + self._largest_distance()
+        self.products = _products(self.basis, width)
+        self.bend_products = [product.sum(axis=1) for product in _products(self.bends, width)]
 
-    def step(self, c: Array, gap: Array, slopes: Array, damping: Array) -> Array:
-        """Take one step of Levenberg and Marquardt: the next control points c (K, n).
+    def _largest_distance(self) -> int:
+        """Return the largest k - l for splines k and l that share a frame or a bend."""
+        overlap = self.basis.T @ self.basis + abs(self.bends.T) @ abs(self.bends)
+        pairs = overlap.tocoo()
+        return int((pairs.col - pairs.row).max(initial=0))
 
-        With the gap and the slopes J that `linear` gives, and the price P of c,
-        ‖c'‖²_P + w² ‖gap - J (c' - c)‖² + λ ‖c' - c‖²_P is least where
+    def step(self, c: Array, residual: Array, jacobian: Array, damping: Array) -> Array:
+        """Compute one step of Levenberg and Marquardt: the next control points c (K, n).
 
-            (w² JᵀJ + (1 + λ) P) c' = w² Jᵀ (gap + J c) + λ P c;
+        With the residual r, the Jacobian J that `linearised` returns, and the price P of c,
+        ‖c'‖²_P + w² ‖r - J (c' - c)‖² + λ ‖c' - c‖²_P is least if
+
+            (w² JᵀJ + (1 + λ) P) c' = w² Jᵀ (r + J c) + λ P c;
 
         λ is (1, 1), or (F, 1) by frame. These large matrices are banded.
         """
-        (knots, n), diagonal = c.shape, np.arange(c.shape[1])
-        x, upward = self.basis @ c, self.weight**2 * np.swapaxes(slopes, 1, 2)
-        matrix = upward @ slopes
+        spans, n = c.shape
+        x = self.basis @ c
+        weighted = self.weight**2 * np.swapaxes(jacobian, 1, 2)
+        matrix = weighted @ jacobian
+        diagonal = np.arange(n)
         matrix[:, diagonal, diagonal] += (1 + damping) * self.price
-        wanted = gap + np.einsum("fmn,fn->fm", slopes, x)
-        pull = np.einsum("fnm,fm->fn", upward, wanted) + damping * self.price * x
-        right = self.basis.T @ pull + damping * self.price * (self.bends.T @ (self.bends @ c))
-        band = np.zeros((len(self.pairs) * n, knots * n))  # lower form: entry (i, j) stands at (i - j, j)
-        for d, (pair, bent) in enumerate(zip(self.pairs, self.bent, strict=True)):
-            blocks = (pair @ matrix.reshape(len(matrix), -1)).reshape(-1, n, n)  # of splines k and k + d
-            blocks[:, diagonal, diagonal] += (1 + damping) * bent[:, None] * self.price
-            for j in range(n):
-                top = max(d * n - j, 0)
-                band[top : (d + 1) * n - j, j : (knots - d) * n : n] = blocks[:, j, top + j - d * n :].T
+        target = residual + np.einsum("fmn,fn->fm", jacobian, x)
+        pull = np.einsum("fnm,fm->fn", weighted, target) + damping * self.price * x
+        bend_pull = damping * self.price * (self.bends.T @ (self.bends @ c))
+        right_side = self.basis.T @ pull + bend_pull
+        band = self._band(matrix, damping)
         band[0] += RIDGE * band[0].max()
-        solved = solveh_banded(band, right.ravel(), lower=True, check_finite=False)
-        return np.asarray(solved.reshape(knots, n))
+        solution = solveh_banded(band, right_side.ravel(), lower=True, check_finite=False)
+        return np.asarray(solution.reshape(spans, n))
 
-    def cost(self, c: Array, gap: Array) -> Array:
-        """Add up what is to be least, for each frame by itself (F, 1), or for all together (1, 1)."""
-        each = ((self.basis @ c) ** 2) @ self.price + self.weight**2 * (gap**2).sum(axis=1)
+    def _band(self, matrix: Array, damping: Array) -> Array:
+        """Build the banded matrix Bᵀ G B + (1 + λ) P of bends, of matrices G (F, n, n) in single frames.
+
+        In the lower form of `solveh_banded`, the entry (i, j) is at (i - j, j).
+        """
+        spans = self.basis.shape[1]
+        n = matrix.shape[-1]
+        diagonal = np.arange(n)
+        band = np.zeros((len(self.products) * n, spans * n))
+        flat = matrix.reshape(len(matrix), -1)
+        for distance, (product, bent) in enumerate(zip(self.products, self.bend_products, strict=True)):
+            blocks = (product @ flat).reshape(-1, n, n)  # (K - d, n, n), of splines k and k + d
+            blocks[:, diagonal, diagonal] += (1 + damping) * bent[:, None] * self.price
+            stop = (spans - distance) * n
+            for column in range(n):
+                top = max(distance * n - column, 0)
+                bottom = (distance + 1) * n - column
+                first = top - distance * n + column  # of the block's column: the part below the diagonal
+                band[top:bottom, column:stop:n] = blocks[:, column, first:].T
+        return band
+
+    def cost(self, c: Array, residual: Array) -> Array:
+        """Compute the cost to be minimised, of each frame by itself (F, 1), or of all together (1, 1)."""
+        of_change = ((self.basis @ c) ** 2) @ self.price
+        of_frames = of_change + self.weight**2 * (residual**2).sum(axis=1)
         if self.is_framewise:
-            return np.asarray(each[:, None])
-        return np.array([[each.sum() + (((self.bends @ c) ** 2) @ self.price).sum()]])
+            return np.asarray(of_frames[:, None])
+        of_bends = ((self.bends @ c) ** 2) @ self.price
+        return np.array([[of_frames.sum() + of_bends.sum()]])
+
+
+def _products(splines: sparse.csr_array, width: int) -> list[sparse.csr_array]:
+    """Compute b_k b_{k+d} in each frame, (K - d, F), of the columns of splines, for d from 0 to width - 1."""
+    columns = splines.tocsc()
+    count = columns.shape[1]
+    products = []
+    for distance in range(width):
+        product = columns[:, : count - distance] * columns[:, distance:]
+        products.append(product.T.tocsr())
+    return products

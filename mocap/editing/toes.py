@@ -13,10 +13,11 @@ from scipy.ndimage import convolve1d, maximum_filter1d
 
 from mocap._shared.arrays import Array
 from mocap.body import rotations
-from mocap.body.kinematics import GlobalPoses, forward_kinematics, hinge_of, joint_positions
+from mocap.body.kinematics import hinge_of, joint_positions
 from mocap.body.limbs import Leg, find_legs, with_roles
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
+from mocap.editing.poses import MotionOrPoses, Poses, poses_of
 from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError
 
@@ -44,8 +45,8 @@ def lowest_heights(clips: Sequence[Motion]) -> Array:
     return np.asarray(np.min([joint_positions(clip)[..., 1].min(axis=0) for clip in clips], axis=0))
 
 
-def lowest_allowed(motion: Motion, lowest: Array | None = None) -> Array:
-    """Compute how low each joint may be after an edit, (F, J), metres.
+def lowest_allowed(motion: MotionOrPoses, lowest: Array | None = None) -> Array:
+    """Compute the lowest height of each joint that is allowed after an edit, (F, J), metres.
 
     A joint may be on the floor, y = 0, or as far under it as it was in the same frame. An ankle, and what is
     below it, may nowhere be lower than the lowest of its positions.
@@ -64,17 +65,18 @@ def lowest_allowed(motion: Motion, lowest: Array | None = None) -> Array:
     >>> bool(np.ptp(allowed) == 0), round(float(allowed[0]), 3)  # this tip is never under the floor
     (True, 0.017)
     """
-    heights = joint_positions(motion)[..., 1]
+    poses = poses_of(motion)
+    heights = poses.positions[..., 1]
     lowest = heights.min(axis=0) if lowest is None else lowest
     allowed = np.minimum(heights, 0.0)
-    skeleton = motion.skeleton
-    ankles = [leg.ankle for leg in _legs(motion)]
+    skeleton = poses.motion.skeleton
+    ankles = [leg.ankle for leg in _legs(poses.motion)]
     feet = [joint for joint in range(len(skeleton)) if {*ankles} & {*skeleton.path_to_root(joint)}]
     allowed[:, feet] = np.maximum(lowest[feet], allowed[:, feet])
     return allowed
 
 
-def bend_toes(motion: Motion, allowed: Array) -> Motion:
+def bend_toes(motion: MotionOrPoses, allowed: Array) -> Motion:
     """Bend toes so that their tips are no lower than allowed.
 
     Only the rotations of the balls change. A bend begins and ends smoothly within 0.05 s.
@@ -98,19 +100,20 @@ def bend_toes(motion: Motion, allowed: Array) -> Motion:
     >>> [round(float(joint_positions(clip)[:, tip, 1].min()), 3) for clip in (walk, raised)]
     [0.017, 0.036]
     """
-    poses = forward_kinematics(motion)
-    turned = motion.rotations.copy()
-    for leg in _legs(motion):
-        tips = toe_tips(motion.skeleton, leg)
+    poses = poses_of(motion)
+    source = poses.motion
+    local = source.rotations.copy()
+    for leg in _legs(source):
+        tips = toe_tips(source.skeleton, leg)
         if not tips or (poses.positions[:, tips, 1] >= allowed[:, tips] - SLACK).all():
             continue
-        axis = _lateral_axis(motion, poses, leg, tips)
+        axis = _lateral_axis(poses, leg, tips)
         angles = [_angles(poses, leg.ball, tip, axis, allowed[:, tip] - SLACK) for tip in tips]
-        bends = _eased(np.max(angles, axis=0), motion.fps)[:, None] * axis
-        turned[:, leg.ball] = rotations.multiply(turned[:, leg.ball], rotations.from_rotvec(bends))
-    if np.array_equal(turned, motion.rotations):
-        return motion
-    return replace(motion, rotations=turned)
+        bends = _eased(np.max(angles, axis=0), source.fps)[:, None] * axis
+        local[:, leg.ball] = rotations.multiply(local[:, leg.ball], rotations.from_rotvec(bends))
+    if np.array_equal(local, source.rotations):
+        return source
+    return replace(source, rotations=local)
 
 
 def _legs(motion: Motion) -> tuple[Leg, ...]:
@@ -121,7 +124,7 @@ def _legs(motion: Motion) -> tuple[Leg, ...]:
         return ()
 
 
-def _lateral_axis(motion: Motion, poses: GlobalPoses, leg: Leg, tips: Sequence[int]) -> Array:
+def _lateral_axis(poses: Poses, leg: Leg, tips: Sequence[int]) -> Array:
     """Find the axis about which toes bend upwards, a unit vector in the frame of the ball, (3,)."""
     toes = poses.positions[:, tips].mean(axis=1) - poses.positions[:, leg.ball]
     level_lengths = np.hypot(toes[:, 0], toes[:, 2])
@@ -131,13 +134,13 @@ def _lateral_axis(motion: Motion, poses: GlobalPoses, leg: Leg, tips: Sequence[i
     lateral /= np.maximum(np.linalg.norm(lateral, axis=1, keepdims=True), SHORT)
     axis = np.einsum("fji,fj->i", poses.matrices[frames, leg.ball], lateral)
     axis /= max(float(np.linalg.norm(axis)), SHORT)
-    hinge = hinge_of(motion, leg.ball)
+    hinge = hinge_of(poses.motion, leg.ball)
     if hinge is None or abs(hinge @ axis) < np.cos(TUNED.toe_level):
         return np.asarray(axis)
     return np.asarray(hinge * np.sign(hinge @ axis))
 
 
-def _angles(poses: GlobalPoses, ball: int, tip: int, axis: Array, lowest: Array) -> Array:
+def _angles(poses: Poses, ball: int, tip: int, axis: Array, lowest: Array) -> Array:
     """Compute the smallest bends, radians, that raise a tip to the lowest heights allowed, (F,).
 
     Bent by θ, the tip is at the height c + r cos(θ - φ): c is the part along the axis, φ the bend at which it

@@ -14,11 +14,12 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.planar import heading
 from mocap.editing.displacements import displaced
-from mocap.editing.edits import brought, clean_feet, plants_within, posed_with
+from mocap.editing.edits import brought, clean_feet, plants_within
 from mocap.editing.keys import Key, keys_around, offsets
 from mocap.editing.pins import Pins, join_pins, pin, plant_pins
+from mocap.editing.poses import poses_of, with_frames_of
+from mocap.editing.posing import posed_with
 from mocap.editing.retiming import retime
-from mocap.editing.solver import with_frames_of
 from mocap.editing.tuned import TUNED
 from mocap.errors import FormatError, MocapError
 from mocap.files.text import lines, read_text, to_numbers
@@ -200,13 +201,14 @@ def _warp_poses(motion: Motion, plan: WarpPlan, window: float, feet: bool) -> Mo
     """Warp the poses of a motion by a plan. Frames outside its keys stay the same."""
     frames = _frames_between_keys(motion, plan, window)
     no_pins = Pins((), *np.zeros((2, len(motion), 0, 3)))
-    plants = plants_within(plant_pins(motion), motion, frames) if feet else no_pins
+    poses = poses_of(motion)
+    plants = plants_within(plant_pins(poses), poses, frames) if feet else no_pins
     keys: list[Key] = []
     pins: list[Pins] = []
     for frame, targets in sorted(plan.targets.items()):
         positions = {target.joint: target.position for target in targets if target.position is not None}
         try:
-            pose = posed_with(motion, frame, positions, plants) if positions else None
+            pose = posed_with(poses, frame, positions, plants) if positions else None
         except MocapError as error:
             raise MocapError(f"{plan.path}, line {targets[0].line}: {error}") from None
         keys.append(Key(frame, pose, any(target.level for target in targets)))
@@ -215,7 +217,7 @@ def _warp_poses(motion: Motion, plan: WarpPlan, window: float, feet: bool) -> Mo
         return motion
     warped = displaced(motion, offsets(motion, keys_around(motion, keys, window)))
     if feet:
-        return brought(warped, motion, join_pins(*pins), frames=frames)
+        return brought(poses_of(warped), poses, join_pins(*pins), frames=frames).motion
     is_outside = np.ones(len(motion), bool)
     is_outside[frames] = False
     return with_frames_of(warped, motion, is_outside)

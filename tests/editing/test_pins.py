@@ -10,8 +10,8 @@ from mocap.body import find_legs, rotations
 from mocap.body.kinematics import forward_kinematics, hinge_of, joint_positions
 from mocap.datasets.samples import sample
 from mocap.editing import Pins, body_of, difference, edit, hierarchy, join_pins, pin, pin_errors, plant_pins
-from mocap.editing.bodies import keep_turned, limit_turns, require_reachable
-from mocap.editing.pins import with_plants
+from mocap.editing.bodies import require_reachable
+from mocap.editing.pins import keep_turned, limit_turns, with_plants
 from mocap.files.load_save import load
 from tests.editing.wishes import bar, captured, far_hand, hand, shakes, smoothness, walk
 from tests.refusals import refusals, refused
@@ -38,10 +38,10 @@ BOXES = [
 def test_the_gap_is_the_way_into_the_box(low, high, gap):
     """As in [Gle98, constraints]."""
     pins = box(low, high)
-    assert pins.gap(np.zeros((1, 1, 3)))[0, 0].tolist() == gap
+    assert pins.positions.residual(np.zeros((1, 1, 3)))[0, 0].tolist() == gap
     assert pins.held[0, 0].tolist() == [a == b for a, b in zip(low, high, strict=True)]
-    assert pins.asked.all()
-    assert not box([-INF] * 3, [INF] * 3).asked.any()
+    assert pins.constrained.all()
+    assert not box([-INF] * 3, [INF] * 3).constrained.any()
 
 
 def test_a_pin_asks_in_its_frames_only():
@@ -49,12 +49,12 @@ def test_a_pin_asks_in_its_frames_only():
     for frames in (slice(3, 5), [3, 4], np.arange(9) // 2 == 2, np.array([4, 3])):
         pins = pin(clip, "joint2", frames, [0, 1, 2])
         rows = [4, 5] if np.asarray(frames).dtype == bool else [3, 4]
-        assert np.flatnonzero(pins.asked).tolist() == rows
+        assert np.flatnonzero(pins.constrained).tolist() == rows
         assert pins.joints == (2,) and pins.low[4, 0].tolist() == [0, 1, 2]
     path = np.arange(6.0).reshape(2, 3)
     assert pin(clip, 2, [3, 4], path).low[[3, 4], 0].tolist() == path.tolist()
-    assert np.flatnonzero(pin(clip, 2, slice(0, 9), [0, 0, 0]).only([2]).asked).tolist() == [2]
-    assert len(pin(clip, 2, slice(0, 9), [0, 0, 0]).at(slice(2, 4))) == 2
+    assert np.flatnonzero(pin(clip, 2, slice(0, 9), [0, 0, 0]).limited_to([2]).constrained).tolist() == [2]
+    assert len(pin(clip, 2, slice(0, 9), [0, 0, 0])[2:4]) == 2
 
 
 def test_pins_that_are_joined_with_no_others_stay_as_they_are():
@@ -105,6 +105,7 @@ def test_plants_are_held_at_one_place_each():
 
 
 CLIP = random_motion(0, frames=9)
+ONE = np.ones((1, 1, 3))
 
 test_bad_pins_are_named = refusals(
     ("No joint 'hand'", pin, CLIP, "hand", [0], [0, 0, 0]),
@@ -120,6 +121,7 @@ test_bad_pins_are_named = refusals(
     ("2 different joints need", lambda: Pins((2, 2), np.ones((4, 2, 3)), np.ones((4, 2, 3)))),
     ("1 different joints need", lambda: Pins((2,), np.ones((4, 3)), np.ones((4, 3)))),
     ("same number of frames, got none", join_pins),
+    ("same frames, got 1 and 9", lambda: Pins((2,), ONE, ONE, limit_turns(CLIP, ["joint2"]).rotations)),
     ("got 1, 9", join_pins, box([0, 0, 0]), pin(CLIP, 2, [3], [0, 0, 0])),
     ("'random0' has 9 frames, its pins have 1", pin_errors, CLIP, box([0, 0, 0])),
     ("No joint 8", pin_errors, CLIP[:1], box([0, 0, 0], joint=8)),
@@ -153,10 +155,10 @@ def test_a_neck_stays_within_its_limits_under_a_bar(real_data):
     """Joints bend as far as they may [Gle98, joint limits], [LS99, joint limits]."""
     clip = captured(real_data)
     low, free = bar(clip, 1.35, 230), keep_turned(clip, "thorax", slice(None))
-    limits = limit_turns(clip, NECK, more=5.0)
+    limits = limit_turns(clip, NECK, margin=5.0)
     folded, kept = (edit(clip, join_pins(low, free, *more)) for more in ((), (limits,)))
     assert pin_errors(folded, limits).max() > 0.05 and pin_errors(kept, limits).max() < 1e-5
-    assert pin_errors(clip, limit_turns(clip, NECK, more=0.0)).max() < 1e-12  # as far as the clip itself
+    assert pin_errors(clip, limit_turns(clip, NECK, margin=0.0)).max() < 1e-12  # as far as the clip itself
     turns = np.linalg.norm(difference(kept, clip).turns, axis=-1).max(axis=0)
     assert np.degrees(turns[[clip.skeleton.index(name) for name in NECK]]).max() < 25
     assert pin_errors(kept, low)[:, :4].max() < 1e-9
@@ -165,11 +167,11 @@ def test_a_neck_stays_within_its_limits_under_a_bar(real_data):
 def test_turns_are_pinned_in_some_frames_and_joined():
     clip = walk()[:60]
     pins = join_pins(plant_pins(clip), keep_turned(clip, "head", [1, 2]), limit_turns(clip, NECK))
-    assert [turn.joint for turn in pins.turns] == [clip.skeleton.index(n) for n in ("head", *NECK)]
+    assert pins.rotations.indices == [clip.skeleton.index(n) for n in ("head", *NECK)]
     assert pin_errors(clip, pins).shape == (60, 4 + 4) and not pin_errors(clip, pins)[:, 4:].any()
-    assert pins.asked[:, 4].sum() == 2
-    some = pins.only([2, 3]).at([1, 2, 3])
-    assert some.asked[:, 4:].sum(axis=0).tolist() == [1, 2, 2, 2]
+    assert pins.constrained[:, 4].sum() == 2
+    some = pins.limited_to([2, 3])[[1, 2, 3]]
+    assert some.constrained[:, 4:].sum(axis=0).tolist() == [1, 2, 2, 2]
 
 
 def test_levels_keep_a_trunk_upright():
@@ -184,7 +186,7 @@ test_limits_that_are_none_are_refused = refusals(
     ("neck", limit_turns, walk()[:9], ["neck"]),
     ("above 0, got {'root': 0}", lambda: body_of(walk(), plant_pins(walk()), prices={"root": 0})),
     ("above 0, got {'root': inf}", lambda: body_of(walk(), plant_pins(walk()), prices={"root": INF})),
-    ("0 degrees or more .* got -1", lambda: limit_turns(walk()[:9], NECK, more=-1.0)),
+    ("0 degrees or more .* got -1", lambda: limit_turns(walk()[:9], NECK, margin=-1.0)),
 )
 
 

@@ -271,9 +271,9 @@ def test_plants_are_held_at_the_heights_of_the_stance_a_flat_foot_apart():
 
 def test_a_floor_bounds_feet_in_all_other_frames():
     plants = floor_pins(walk(), adult())
-    assert not plants.asked.all()
+    assert not plants.constrained.all()
     floor = join_pins(floor_under(joint_positions(walk()), adult(), adult()), plants)
-    assert floor.asked.all()
+    assert floor.constrained.all()
     swings = ~floor.held[:, 0, 1]
     lowest = joint_positions(walk())[:, adult().roles["left ankle"], 1].min()
     assert np.allclose(floor.low[swings, 0, 1], min(lowest, adult().heights["left ankle"]))

@@ -72,7 +72,7 @@ def far_hand(clip: Motion) -> Pins:
 
 def rms(errors: np.ndarray, pins: Pins) -> float:
     """Return the rms error in frames in which something is asked, metres."""
-    return float(np.sqrt((errors[pins.asked.any(axis=1)] ** 2).mean()))
+    return float(np.sqrt((errors[pins.constrained.any(axis=1)] ** 2).mean()))
 
 
 def body(motion: Motion) -> list[int]:

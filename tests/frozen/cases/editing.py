@@ -1,5 +1,6 @@
 """Edits, constraints, warps, bent paths, other bodies."""
 
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -24,7 +25,7 @@ from tests.frozen.quantities import (
     rotations,
 )
 
-SHORTLY = [editing.Stage(0.125, 0.1, passes=4, lead=0.2), editing.REACH._replace(passes=2)]
+SHORTLY = [editing.Stage(0.125, 0.1, passes=4, lead=0.2), replace(editing.REACH, passes=2)]
 PLAN = "at 100 lhand 0.1 0.2 0\nat 1.5s level\ntime 0 0\ntime 1 1.5\ntime 2 2.4"
 JOINTS = joint_axis(WALK.skeleton)
 
@@ -154,5 +155,5 @@ def stance():
 @case("limits")
 def limits():
     joints = ("ltibia", "lowerneck")
-    high = editing.limit_turns(WALK, list(joints)).high
+    high = editing.limit_turns(WALK, list(joints)).rotations.high
     return {"upper limits": numbers(high, FRAME, Axis("joint", joints), DIRECTION)}
