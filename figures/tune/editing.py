@@ -6,7 +6,8 @@ constraint, mm. Shakes: the 95th percentile of accelerations within half a secon
 the clip's own. Tips: the largest change of the trunk's direction for the hand, degrees. Neck: the largest
 angle by which the head bends further against the trunk under the bar. Hips: how far the root moves for the
 stone, cm. Sunk: how far a joint is lower than it may be, mm. Jolts: the largest second difference of the
-toes' angle, degrees per frame².
+toes' angle, degrees per frame². The trials of paths, cycles, stances and retargeting are in
+`_editing_paths.py`.
 """
 
 from collections.abc import Callable
@@ -14,6 +15,8 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
+from _editing_paths import FIXED
+from _editing_paths import TRIALS as PATH_TRIALS
 from _trials import Clips, Collection, Row, Study, Trial, cmu
 
 from mocap._shared.arrays import Array, runs
@@ -236,7 +239,7 @@ TRIALS = {
     "toe_bend": Trial(toes, (0.35, 1.0)),
     "toe_level": Trial(toes, (0.1, 1.2)),
 }
-STUDY = Study(tuned, TRIALS, {}, (BUNDLED, CAPTURED), 60.0)
+STUDY = Study(tuned, TRIALS | PATH_TRIALS, FIXED, (BUNDLED, CAPTURED), 60.0)
 
 if __name__ == "__main__":
     STUDY.main(__doc__)

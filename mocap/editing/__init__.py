@@ -16,19 +16,21 @@ Reading order (notebooks 10 to 14)
  8. `edits`: a smooth change that meets constraints exactly, with feet that stand
  9. `posing`: a single pose, made by dragging joints
 10. `levels`: constraints met level by level, from coarse to fine
-11. `path_editing`: the path taken off a motion, changed, and the motion put back on it
+11. `path_editing`: the path of a motion, and the motion on another path
 12. `turning`: slower in bends, and leaning in, as people take them
-13. `line_rounding`: a line rounded where a walk would turn too fast on it
-14. `bending`: a walk laid on any line, with feet that stand
+13. `line_rounding`: lines rounded where a walk would turn too fast
+14. `bending`: a walk bent to any line, with feet that stand
 15. `keys`: keys, the curve through them, and warps by offsets and by scale
 16. `retiming`: time keys, and motions at moments between their frames
-17. `warp_plans`: a whole warp out of a small text file
-18. `stances`: how a body stands, as a value; find it, whatever the rest pose is; change its proportions
-19. `retargeting`: every joint looks where that of the other body looks; where the new feet may be
-20. `mirroring`: left and right swapped, by names and geometry
-21. `cycles`: the stretch of a clip that makes the best cycle, closed by a blend or by a warp
-22. `travel`: the travel over the ground, removed
-23. `tuned`: the constants that trials chose
+17. `warp_plans`: a whole warp from a small text file
+18. `foot_heights`: heights of ankles and balls that stand
+19. `stances`: the stance of a body, from its rest pose, a pose, or a walk
+20. `proportions`: bodies with longer or shorter limbs
+21. `retargeting`: global rotations copied to another body, and constraints for its feet
+22. `mirroring`: left and right exchanged, by names and geometry
+23. `cycles`: the best cycle of a clip, closed by a blend
+24. `travel`: the travel on the ground, removed
+25. `tuned`: the constants that trials chose
 
 References
 ----------

@@ -34,6 +34,7 @@ from .pins import pin as pin
 from .pins import pin_errors as pin_errors
 from .pins import plant_pins as plant_pins
 from .posing import posed as posed
+from .proportions import proportioned as proportioned
 from .retargeting import copied as copied
 from .retargeting import floor_pins as floor_pins
 from .retargeting import retarget as retarget
@@ -42,6 +43,5 @@ from .retiming import retime as retime
 from .solver import REACH as REACH
 from .solver import Stage as Stage
 from .solver import solve as solve
-from .stances import proportioned as proportioned
 from .stances import stance_of as stance_of
 from .travel import in_place as in_place

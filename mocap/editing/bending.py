@@ -1,4 +1,4 @@
-"""Lay a walk on a line: any line, rounded where it turns faster than a walk should, with feet that stand."""
+"""Bend a walk to any line, rounded where a walk would turn too fast on it, with feet that stand."""
 
 from dataclasses import replace
 from functools import cached_property
@@ -16,28 +16,32 @@ from mocap.editing.line_rounding import RoundedLine, round_line
 from mocap.editing.path_editing import Ride, moving_frames, plants_kept, ride_of
 from mocap.editing.pins import with_plants
 from mocap.editing.toes import lowest_allowed
-from mocap.editing.turning import lean, slow_down
+from mocap.editing.tuned import TUNED
+from mocap.editing.turning import SlowedWalk, lean, slow_down
 from mocap.errors import MocapError, shortened, warn
 from mocap.feet.footskate import clean_up
 
-LIMIT = float(np.radians(100))  # per second: the fastest that a walk is turned; people reach 90° to 110°
-WILD = 2 * np.pi  # per second: faster than anybody who walks turns; walks on lines that turn fast reach 100°
-FASTEST = 50.0  # radians per second: a larger `limit` is meant in degrees
-FINE = 0.01  # metres between the points of a line from which distances are measured
-MOST = 3  # stretches that a report lists
+LIMIT = TUNED.turning_limit  # radians per second
+WARNED = 2 * np.pi  # radians per second: no walk turns faster; on lines that turn fast, walks reach 1.7
+LARGEST = 50.0  # radians per second: a larger `limit` is meant in degrees
+FINE = 0.01  # metres between the points of a line from which distances are computed
+LONGEST_CUT = 3.0  # times the path of a walk, and `SLACK` more: no rounding makes a line so much shorter
+SLACK = 10.0  # metres
+LISTED = 3  # rounded intervals that a report lists
+TOLERANCE = 1e-6  # metres, for the end of a line
 
 
 @dataclass(frozen=True, eq=False)
 class Bent:
-    """A walk laid on a line, and how well it keeps to it; `bend` shows an example.
+    """A walk bent to a line, and its distances from the line; `bend` shows an example.
 
     Parameters
     ----------
-    motion : F frames, with clean feet.
+    motion : F frames, after the clean-up.
     laid : the same before the clean-up.
-    path : the line asked for.
-    line : the line that is walked: rounded where needed.
-    ride : of the walk, slowed, before it was laid there.
+    path : the requested line.
+    line : the line that is walked, rounded where needed.
+    ride : the path of the slowed walk before it was bent, and the metres along it in each frame.
     walked : shape (F,), metres along the line that is walked.
     """
 
@@ -55,32 +59,36 @@ class Bent:
     # reads: name: public, as `Followed.off`
     @cached_property
     def off(self) -> Array:
-        """Metres of the root from the line asked for, shape (F,); the sway alone is 1 to 2 cm on average."""
+        """Distances of the root from the requested line, (F,), metres; sway alone makes 1 to 2 cm."""
         line = cKDTree(_reached(self.path, self.ride).resampled(FINE).points)
         return np.asarray(line.query(self.motion.root_positions[:, [0, 2]])[0])
 
     @cached_property
     def along(self) -> Array:
-        """Metres along the line asked for in each frame, shape (F,)."""
-        return np.interp(self.walked, self.line.along, self.line.asked)
+        """Metres along the requested line in each frame, shape (F,)."""
+        return np.interp(self.walked, self.line.along, self.line.requested)
 
     @cached_property
     def rounded(self) -> Mask:
-        """Whether the line is rounded where the walk is in each frame, shape (F,)."""
+        """Whether the line is rounded at the position of each frame, shape (F,)."""
         parts = [(start <= self.along) & (self.along <= end) for start, end, _ in self.line.roundings]
         return np.asarray(np.any([np.zeros(len(self.along), bool), *parts], axis=0))
 
     @cached_property
     def turned(self) -> Array:
-        """How fast the walk is turned beyond what it turns by itself, shape (F - 1,), radians per second."""
+        """Turning rate of the line minus that of the walk by itself, shape (F - 1,), radians per second.
+
+        The limit of `bend` is for the turning rate of the line, so that a walk that turns by itself to the
+        other side is turned by more.
+        """
         source = moving_frames(self.ride.path, self.ride.along)
         target = moving_frames(self.line.path, self.walked)
         return np.diff(np.asarray(target.angle) - source.angle) * self.motion.fps
 
     def report(self) -> str:
-        """Say how well the walk keeps to the line, and where the line was rounded and by how much."""
-        as_asked = ~self.rounded if not self.rounded.all() else self.rounded
-        distances = 100 * self.off[as_asked]
+        """Describe in a sentence the distances from the line, its rounded intervals, and the turning rate."""
+        counted = ~self.rounded if not self.rounded.all() else self.rounded
+        distances = 100 * self.off[counted]
         fastest = np.degrees(np.abs(self.turned).max(initial=0.0))
         reached = f"{self.along[-1] / self.path.length:.0%} of {self.path.length:.1f} m"
         length = f"{self.motion.duration:.1f} s along {reached}"
@@ -90,45 +98,46 @@ class Bent:
         return f"{length}, {deviation}{self._rounded_places()}; {turned}, {plants}"
 
     def _rounded_places(self) -> str:
-        """Say where the line was rounded, and by how much; nothing if it was not."""
+        """List the rounded intervals, and the distances between both lines; "" if there are none."""
         roundings = self.line.roundings
         if not roundings:
             return ""
-        parts = [f"{a:.1f} to {b:.1f} m by up to {100 * gap:.0f} cm" for a, b, gap in roundings]
-        rest = f" and {len(roundings) - MOST} more" if len(roundings) > MOST else ""
+        parts = [f"{a:.1f} to {b:.1f} m by up to {100 * distance:.0f} cm" for a, b, distance in roundings]
+        rest = f" and {len(roundings) - LISTED} more" if len(roundings) > LISTED else ""
         elsewhere = "" if self.rounded.all() else " elsewhere"
-        return f"{elsewhere}, rounded at {', '.join(parts[:MOST])}{rest}"
+        return f"{elsewhere}, rounded at {', '.join(parts[:LISTED])}{rest}"
 
 
 def bend(
     motion: Motion, path: GroundPath | VectorsLike, *, limit: float = LIMIT, ride: Ride | None = None
 ) -> Bent:
-    """Lay a walk on a line, and clean up its feet [Gle01, 5].
+    """Bend a walk to a line, and clean up its feet [Gle01, 5].
 
-    Its own path is taken off and the line put in its place [Gle01]. Ours is that it slows down and leans in
-    where the line bends more than its own path, as people do, goes more slowly yet at corners, and that the
-    line is rounded where it would still turn too fast. So a captured turn on its own way stays as it is. The
-    walk starts where the line starts.
+    The walk is taken relative to its own path, and put on the line [Gle01]. Ours is that it slows down and
+    leans in where the line bends more than its own path, as people do, and more at corners, and that the line
+    is rounded where the walk would still turn too fast. So a captured turn on its own path is not changed.
+    The walk starts where the line starts.
 
     Parameters
     ----------
-    motion : its plants are marked where it has none.
-    path : the line, where on the ground it shall be walked, or its points (x, z), metres.
-    limit : the fastest that the walk is turned, radians per second; faster only where it turns by itself.
-    ride : of the motion, where its path is known better than by `ride_of(motion)`.
+    motion : F frames; its footplants are marked where it has none.
+    path : the line on the ground, or its points (x, z), metres.
+    limit : the largest turning rate on the line, radians per second; a walk that turns by itself may add as
+        much to the same side.
+    ride : the path of the motion, if it is known better than by `ride_of(motion)`.
 
     Returns
     -------
-    The new motion, as far along the line as the walk is long, and what was measured.
+    The new motion, as far along the line as the walk is long, and its distances from the line.
 
     Raises
     ------
-    MocapError : for a motion that goes nowhere, legs that cannot be found, and a limit that is not above 0.
+    MocapError : for a motion that does not travel, legs that are not found, and a limit that is not above 0.
 
     Warns
     -----
-    MocapWarning : for plants that are let go, as by `feet.clean_up`, and for a motion that hardly goes on, so
-        that it is turned by more than 360° per second.
+    MocapWarning : for footplants that are released, as by `feet.clean_up`, and for a motion that hardly
+        travels, so that it turns by more than 360° per second.
 
     Examples
     --------
@@ -146,39 +155,38 @@ def bend(
     Notebook: 12-path-editing
     """
     path = as_path(path)
-    check_radians(limit, "limit", largest=FASTEST)
+    check_radians(limit, "limit", largest=LARGEST)
     if not limit > 0:
         raise MocapError(f"A walk is turned by more than 0 radians per second, got limit={limit}.")
     motion = with_plants(motion)
     ride = ride or ride_of(motion)
     line = round_line(_reached(path, ride), ride, motion.fps, limit)
-    slowed, *timing = slow_down(motion, ride, line.path, limit)
-    walked = timing[1]
-    frames = max(2, int(np.searchsorted(walked, line.path.length + 1e-6)))
-    slowed = slowed[:frames]
-    ridden, walked, angle = (values[:frames] for values in timing)
-    target = moving_frames(line.path, walked)
-    flat = (target @ moving_frames(ride.path, ridden).inverse()).apply_motion(slowed)
-    laid, held = lean(flat, np.asarray(target.angle), angle)
-    cleaned = raised(clean_up(laid, held=held), lowest_allowed(slowed))
-    bent = Bent(cleaned, laid, path, line, replace(ride, along=ridden), walked)
+    slowed = slow_down(motion, ride, line.path, limit)
+    frames = max(2, int(np.searchsorted(slowed.along, line.path.length + TOLERANCE)))
+    slowed = SlowedWalk._make(values[:frames] for values in slowed)
+    target = moving_frames(line.path, slowed.along)
+    source = moving_frames(ride.path, slowed.source_along)
+    upright = (target @ source.inverse()).apply_motion(slowed.motion)
+    laid, held = lean(upright, np.asarray(target.angle), slowed.lean)
+    cleaned = raised(clean_up(laid, held=held), lowest_allowed(slowed.motion))
+    bent = Bent(cleaned, laid, path, line, replace(ride, along=slowed.source_along), slowed.along)
     fastest = np.abs(bent.turned).max(initial=0.0)
-    if fastest > max(WILD, 2 * limit):
+    if fastest > max(WARNED, 2 * limit):
         cause = "where it stands, or goes to and fro, its way turns at once; bend a walk that goes on"
         warn(f"'{shortened(motion.name)}' is turned by up to {np.degrees(fastest):.0f}° per second: {cause}.")
     return bent
 
 
 def _reached(path: GroundPath, ride: Ride) -> GroundPath:
-    """Leave out what lies so far along a line that the walk does not come there, however it is rounded.
+    """Cut a line behind the part that a walk reaches, even after rounding.
 
     Examples
     --------
-    >>> [_reached(GroundPath([[0, 0], [0, far]]), Ride(GroundPath([[0, 0], [0, 2]]), np.arange(3.0)))
-    ...  for far in (15, 99)]
+    >>> ride = Ride(GroundPath([[0, 0], [0, 2]]), np.arange(3.0))
+    >>> [_reached(GroundPath([[0, 0], [0, metres]]), ride) for metres in (15, 99)]
     [GroundPath(2 points, 15.0 m), GroundPath(2 points, 16.0 m)]
     """
-    longest = 3 * ride.path.length + 10.0
+    longest = LONGEST_CUT * ride.path.length + SLACK
     if path.length <= longest:
         return path
     return GroundPath(np.vstack([path.points[path.along < longest], path.at(longest)]))

@@ -1,10 +1,10 @@
-"""The best cycle in a clip, closed: a stride that walks for ever.
+"""The best cycle in a clip, closed for repetition.
 
-The pair of frames with the smallest seam is the wrong one: it lies where the body hardly moves, and the cycle
-is a held pose. So a cycle is judged by two lengths in metres: how far apart its ends are, and how far the
-other frames of the clip are from the nearest of its own, on average. The average counts a frame by how far
-the body moves there, so that a clip of somebody who mostly stands still gives a step, too. The second length
-is large for a held pose, and for half a stride. Method and measure are ours.
+The pair of most similar frames is not a cycle: it is in a part of the clip in which the body hardly moves.
+Therefore the cost of a cycle has two terms, in metres: the distance between its ends, and the mean distance
+of the other frames of the clip from the nearest frame of the cycle. The weight of a frame in the mean is the
+displacement of the body to the next frame, so that the cycle of a clip in which somebody mostly stands is a
+step. The second term is large for a held pose, and for half a stride. Method and cost are ours.
 """
 
 import warnings
@@ -23,6 +23,7 @@ from mocap.body.planar import PlanarTransform, align_frames, heading
 from mocap.editing.edits import raised
 from mocap.editing.path_editing import plants_kept
 from mocap.editing.toes import lowest_allowed, lowest_heights
+from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError, MocapWarning, shortened, warn
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
@@ -30,20 +31,14 @@ from mocap.matching import distance_grids
 from mocap.matching.distance_grids import Floats, distance_grid
 from mocap.matching.point_clouds import point_cloud
 
-COARSE = 30.0  # frames per second at which the whole clip is searched
-LONGEST = 300.0  # seconds of a clip: the grid of all its windows takes 0.3 GB
-ROWS = 600  # frames of the clip, evenly chosen, that a cycle may cover
-MOSTLY = 90  # percent of the frames: where the data leap, a frame counts no more than these
-ENOUGH = 1.1  # times the least cost: two strides are hardly better than one
+SHORTEST = 0.4  # seconds, the shortest cycle that is searched for by default
+LONGEST = 3.0  # seconds, the longest one
 TINY = 1e-9  # metres, and of the clip's motion: no weight is 0, and no average of nothing is 0 / 0
 
-# m² and metres. In 32 bits D is right to some 4e-7 m², so a D of less than `NOTHING` is 0. Costs are then
-# right to some 1e-5 m, and the first of equal cycles is taken: a clip that repeats itself has one a round.
+# m² and metres. In 32 bits D is exact to some 4e-7 m², so a D of less than `NOTHING` is 0. Costs are then
+# exact to some 1e-5 m, and the first of equal cycles is taken: a clip that repeats itself has one a round.
 NOTHING = 1e-6
 EQUAL = 2e-5
-
-MARGIN = 3.0  # seconds: longer than any footplant of a walk, and than the reach of any correction
-SEAM = 0.2  # seconds: the window in which two moments are compared, and in which the cycle is closed
 
 
 class Loop(NamedTuple):
@@ -51,10 +46,10 @@ class Loop(NamedTuple):
 
     Parameters
     ----------
-    first, last : its frames in the clip; the pose at `last` is nearly that at `first`.
-    seam : how far apart they are, RMS over the points of a window, metres.
-    missed : how far another frame of the clip is from the nearest one of the cycle, on average over the
-        motion of the clip, metres.
+    first, last : its frames in the clip; the pose at `last` is similar to that at `first`.
+    seam : the distance between them, RMS over the points of a window, metres.
+    missed : the mean distance of the other frames of the clip from the nearest one of the cycle, weighted by
+        the displacements of the body, metres.
     """
 
     first: int
@@ -63,8 +58,8 @@ class Loop(NamedTuple):
     missed: float
 
 
-def find_loop(motion: Motion, *, seconds: tuple[float, float] = (0.4, 3.0)) -> Loop:
-    """Find the cycle with the smallest sum of `seam` and `missed`; of all within a tenth of it, the shortest.
+def find_loop(motion: Motion, *, seconds: tuple[float, float] = (SHORTEST, LONGEST)) -> Loop:
+    """Find the shortest cycle whose sum of `seam` and `missed` is within a tenth of the least one.
 
     Parameters
     ----------
@@ -73,8 +68,8 @@ def find_loop(motion: Motion, *, seconds: tuple[float, float] = (0.4, 3.0)) -> L
 
     Raises
     ------
-    MocapError : for a clip that has no room for such a cycle and its seam, or lasts more than five minutes,
-        and for bounds in a wrong order.
+    MocapError : for a clip that is too short for such a cycle and its seam, or longer than five minutes, and
+        for bounds in a wrong order.
 
     Examples
     --------
@@ -89,14 +84,17 @@ def find_loop(motion: Motion, *, seconds: tuple[float, float] = (0.4, 3.0)) -> L
     [(872, 1133), (820, 844)]
     """
     require_motion(motion)
-    slow = resample(motion, COARSE) if motion.fps > COARSE else motion
-    if not SEAM <= seconds[0] <= seconds[1] < np.inf:
-        raise MocapError(f"A cycle lasts {SEAM:g} s or more, from one bound to a larger one; got {seconds}.")
-    window, shortest = (max(2, round(length * slow.fps)) for length in (SEAM, seconds[0]))
+    slow = resample(motion, TUNED.loop_rate) if motion.fps > TUNED.loop_rate else motion
+    seam = TUNED.loop_seam
+    if not seam <= seconds[0] <= seconds[1] < np.inf:
+        raise MocapError(f"A cycle lasts {seam:g} s or more, from one bound to a larger one; got {seconds}.")
+    window = max(2, round(seam * slow.fps))
+    shortest = max(2, round(seconds[0] * slow.fps))
     longest = min(round(seconds[1] * slow.fps), len(slow) - window)
-    if shortest > longest or slow.duration > LONGEST:
+    if shortest > longest or slow.duration > TUNED.loop_longest:
         lasts = f"'{shortened(motion.name)}' lasts {motion.duration:.3g} s"
-        raise MocapError(f"{lasts}: to find a cycle takes {seconds[0] + SEAM:g} to {LONGEST:g} s.")
+        bounds = f"{seconds[0] + seam:g} to {TUNED.loop_longest:g} s"
+        raise MocapError(f"{lasts}: to find a cycle takes {bounds}.")
     points = point_cloud(slow)
     points = (points - points.mean(axis=(0, 1))).astype(np.float32)  # kilometres away 32 bits are too few
     grid = distance_grid(points, points, window=window)
@@ -107,7 +105,7 @@ def find_loop(motion: Motion, *, seconds: tuple[float, float] = (0.4, 3.0)) -> L
 
 
 def _best(grid: Floats, shortest: int, longest: int) -> tuple[int, int, float]:
-    """Find the first frame and the length of the best cycle, and its `missed`.
+    """Find the first frame, the length and `missed` of the best cycle.
 
     Examples
     --------
@@ -117,9 +115,9 @@ def _best(grid: Floats, shortest: int, longest: int) -> tuple[int, int, float]:
     ((0, 4, 0.0), [1, 2, 0.333])
     """
     count = len(grid)
-    chosen = np.unique(np.linspace(0, count - 1, min(count, ROWS)).astype(int))
+    chosen = np.unique(np.linspace(0, count - 1, min(count, TUNED.loop_rows)).astype(int))
     displacements = np.append(np.diagonal(grid, 1), 0.0)[chosen]  # of the body, to the next frame
-    displacements = np.minimum(displacements, np.percentile(displacements, MOSTLY)) + TINY
+    displacements = np.minimum(displacements, np.percentile(displacements, TUNED.loop_percentile)) + TINY
     weights = displacements / displacements.sum()
     cumulated = np.concatenate([[0.0], np.cumsum(np.bincount(chosen, weights, count))])
     rows = grid[chosen]
@@ -134,14 +132,14 @@ def _best(grid: Floats, shortest: int, longest: int) -> tuple[int, int, float]:
             start = int(first_least(costs, EQUAL))
             cycles.append((float(costs[start]), start, length, float(missed[start])))
         np.minimum(nearest[:, :starts], rows[:, length:], out=nearest[:, :starts])
-    largest_cost = ENOUGH * min(cost for cost, *_ in cycles) + EQUAL
+    largest_cost = TUNED.loop_slack * min(cost for cost, *_ in cycles) + EQUAL
     return next((start, length, missed) for cost, start, length, missed in cycles if cost <= largest_cost)
 
 
 def _refined(motion: Motion, ends: tuple[float, float], shortest: float, missed: float) -> Loop:
-    """Move both ends by less than a coarse frame to where they are closest."""
-    window = max(2, round(SEAM * motion.fps))
-    reach = int(np.ceil(motion.fps / COARSE))  # frames
+    """Search for the most similar frames within one frame of the coarse search around both ends."""
+    window = max(2, round(TUNED.loop_seam * motion.fps))
+    reach = int(np.ceil(motion.fps / TUNED.loop_rate))  # frames
     latest = len(motion) - window - 1  # a frame must follow the window
     candidates = []
     for time in ends:
@@ -162,30 +160,31 @@ def loop(  # reads: name: `found` is a parameter that users may give by its name
 ) -> Motion:
     """Cut a cycle out of a clip and close it.
 
-    What follows the cycle in the clip passes into its beginning, within 0.2 s, as a transition of a motion
-    graph does. So the cycle starts that much later than `found.first`, and no frame is invented.
+    The frames after the cycle in the clip are blended into its beginning, within 0.2 s, as in a transition of
+    a motion graph. Therefore the cycle starts that much later than `found.first`, and all its frames are of
+    the clip.
 
     Parameters
     ----------
     motion : F frames.
-    found : from `find_loop`, which is the default, or frames of your own choice.
-    straight : whether to take out the turn of one round, evenly, so that the cycle goes on straight ahead.
-        Feet that stand are then turned with the body.
-    clean : whether to mark the plants anew and remove footskate, as it would be in the midst of many rounds.
+    found : the cycle, by default that of `find_loop(motion)`.
+    straight : whether to remove the rotation of one round, evenly, so that the rounds go straight ahead.
+        Standing feet then rotate with the body.
+    clean : whether to mark footplants again and remove footskate, as in the middle of many rounds.
 
     Returns
     -------
-    last - first + 1 frames. The last one is the first one, moved over the ground; `repeated` lays one round
-    behind the other.
+    last - first + 1 frames. The last one is the first one, moved on the ground; `repeated` concatenates
+    rounds.
 
     Raises
     ------
-    MocapError : for frames that leave no room for the seam, what is no motion or no cycle, and with `clean`
-        for legs that are not found.
+    MocapError : for frames that are too near for the seam, a value that is no motion or no cycle, and with
+        `clean` for legs that are not found.
 
     Warns
     -----
-    MocapWarning : for plants of the cycle that are let go.
+    MocapWarning : for footplants of the cycle that are released.
 
     Examples
     --------
@@ -205,7 +204,7 @@ def loop(  # reads: name: `found` is a parameter that users may give by its name
             f"found is a cycle from editing.find_loop(motion), got {described(found)}: {remedy}."
         )
     first, last, *_ = found or find_loop(motion)
-    window = max(2, round(SEAM * motion.fps))
+    window = max(2, round(TUNED.loop_seam * motion.fps))
     if not 0 <= first < last < len(motion) - window or last - first < window:
         frames = f"from frame {first} to {last} of {len(motion)}"
         raise MocapError(f"A cycle {frames} leaves no room for a seam of {window} frames.")
@@ -220,7 +219,7 @@ def loop(  # reads: name: `found` is a parameter that users may give by its name
 
 
 def _straightened(cycle: Motion) -> Motion:
-    """Turn each step a little more than the previous one, until both ends have the same heading."""
+    """Rotate the frames by angles that increase evenly, until both ends have the same heading."""
     headings = np.unwrap(heading(cycle.rotations[:, 0]))
     corrections = -(headings[-1] - headings[0]) * np.linspace(0, 1, len(cycle))
     between_frames = (corrections[1:] + corrections[:-1]) / 2
@@ -232,8 +231,8 @@ def _straightened(cycle: Motion) -> Motion:
 
 
 def _cleaned(cycle: Motion, lowest: Array) -> Motion:
-    """Clean up many rounds, of which the middle one has neighbours as far as any correction reaches."""
-    neighbours = int(np.ceil(MARGIN / cycle.duration))  # rounds on each side
+    """Clean up many rounds, and return the middle one, which no correction at the ends reaches."""
+    neighbours = int(np.ceil(TUNED.loop_margin / cycle.duration))  # rounds on each side
     rounds = mark_plants(repeated(replace(cycle, contacts={}), 2 * neighbours + 1))
     start = neighbours * (len(cycle) - 1)
     middle = slice(start, start + len(cycle))
@@ -247,12 +246,12 @@ def _cleaned(cycle: Motion, lowest: Array) -> Motion:
 
 
 def repeated(cycle: Motion, times: int) -> Motion:
-    """Lay a cycle behind itself, so many times.
+    """Concatenate rounds of a cycle.
 
     Parameters
     ----------
-    cycle : its last frame is its first one, farther on, as `loop` makes it; that frame is counted once.
-    times : 1 or more.
+    cycle : its last frame is its first one, moved on the ground, as from `loop`; it is not repeated.
+    times : the number of rounds, 1 or more.
 
     Raises
     ------

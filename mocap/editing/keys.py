@@ -13,20 +13,19 @@ from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.editing.displacements import Displacement, difference
+from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError
-
-HALF_SECOND = 0.5  # either side of a key; the accelerations of captured walks then stay what they were
 
 
 class Key(NamedTuple):
-    """One moment that a warp keeps to.
+    """A frame at which a warp has a given pose.
 
     Parameters
     ----------
-    frame : a number of the motion's frames.
-    pose : a motion of one frame, which the warp meets there; None for the pose as it was.
-    flat : let the curve run level through this key, as at take-off and landing, between which and the ground
-        it must not swing.
+    frame : the index of a frame of the motion.
+    pose : a motion of one frame, which the warp meets there; None for the pose of the motion.
+    flat : whether the derivative of the curve is 0 at this key, as at take-off and landing, where the curve
+        must not overshoot towards the ground.
 
     Examples
     --------
@@ -42,20 +41,21 @@ class Key(NamedTuple):
 
 
 def cardinal(
-    at: ArrayLike, values: ArrayLike, frames: ArrayLike, *, tension: float = 0.0, flat: Sequence[int] = ()
+    times: ArrayLike, values: ArrayLike, frames: ArrayLike, *, tension: float = 0.0, flat: Sequence[int] = ()
 ) -> Array:
-    """Run a cardinal spline through keys: smooth, constant outside [WP95, splines].
+    """Evaluate a cardinal spline through keys; it is constant outside them [WP95, splines].
 
-    A cubic Hermite spline whose slope at key i is (1 - c)(v_{i+1} - v_{i-1}) / (t_{i+1} - t_{i-1}). Ours: it
-    is level at both ends, so that it joins the constants outside smoothly, and at the keys in `flat`.
+    A cubic Hermite spline whose derivative at key i is (1 - c)(v_{i+1} - v_{i-1}) / (t_{i+1} - t_{i-1}).
+    Ours: the derivative is 0 at both ends, for a smooth transition to the constants outside, and at the keys
+    in `flat`.
 
     Parameters
     ----------
-    at : shape (K,), rising: the keys' times.
-    values : shape (K, ...): the keys' values.
-    frames : shape (N,): where to evaluate, in the unit of `at`.
-    tension : c, from 0 to 1; 1 is level at every key.
-    flat : numbers of keys, counted from 0, at which the curve is level.
+    times : shape (K,), rising: the times of the keys.
+    values : shape (K, ...): the values of the keys.
+    frames : shape (N,): where to evaluate the spline, in the unit of `times`.
+    tension : c, from 0 to 1; with 1 the derivative is 0 at every key.
+    flat : indices of keys, from 0, at which the derivative is 0.
 
     Returns
     -------
@@ -72,33 +72,42 @@ def cardinal(
 
     Notebook: 11-warping
     """
-    at, values = np.asarray(at, float), np.asarray(values, float)
-    if at.ndim != 1 or len(at) != len(values) or not np.isfinite(values).all() or not (np.diff(at) > 0).all():
-        raise MocapError(f"Keys need finite values {values.shape} at as many times that rise, got {at[:6]}.")
+    times = np.asarray(times, float)
+    values = np.asarray(values, float)
+    _require_rising(times, values)
     if not 0 <= tension <= 1:
         raise MocapError(f"A tension lies between 0 and 1, got {tension}.")
-    if len(at) == 1:
+    if len(times) == 1:
         return np.repeat(values, np.size(frames), axis=0)
-    slopes = np.zeros_like(values)
-    run = (at[2:] - at[:-2]).reshape(-1, *[1] * (values.ndim - 1))
-    slopes[1:-1] = (1 - tension) * (values[2:] - values[:-2]) / run
-    slopes[list(flat)] = 0
+    durations = (times[2:] - times[:-2]).reshape(-1, *[1] * (values.ndim - 1))
+    derivatives = np.zeros_like(values)
+    derivatives[1:-1] = (1 - tension) * (values[2:] - values[:-2]) / durations
+    derivatives[list(flat)] = 0
     frames = np.asarray(frames, float)
-    curve = CubicHermiteSpline(at, values, slopes)(frames)
-    curve[frames <= at[0]], curve[frames >= at[-1]] = values[0], values[-1]  # to the last bit
-    return np.asarray(curve)
+    curve = np.asarray(CubicHermiteSpline(times, values, derivatives)(frames))
+    # Exactly the values of the first and the last key outside them.
+    curve[frames <= times[0]] = values[0]
+    curve[frames >= times[-1]] = values[-1]
+    return curve
 
 
-def keys_around(motion: Motion, keys: Sequence[Key], seconds: float = HALF_SECOND) -> list[Key]:
-    """Add two keys to some, which say "as it was", some time before the first and after the last of them.
+def _require_rising(times: Array, values: Array) -> None:
+    """Raise unless there is a finite value for each of the times, which rise."""
+    has_times = times.ndim == 1 and len(times) == len(values)
+    if not has_times or not np.isfinite(values).all() or not (np.diff(times) > 0).all():
+        problem = f"Keys need finite values {values.shape} at as many times that rise"
+        raise MocapError(f"{problem}, got {times[:6]}.")
+
+
+def keys_around(motion: Motion, keys: Sequence[Key], seconds: float = TUNED.key_margin) -> list[Key]:
+    """Add keys with the pose of the motion before the first key and after the last one.
 
     Parameters
     ----------
     motion : F frames.
     keys : one or more, in order of time.
-    seconds : how long before the first key the change begins, and how long after the last one it ends. Where
-        the clip begins or ends sooner, that key is left out, and the change holds to the clip's end; and
-        where that of `keys` says "as it was" already.
+    seconds : the time from the added key to the first one, and from the last one to the added key. No key is
+        added outside the clip, where the change holds to the clip's end, nor beside a key without a pose.
 
     Returns
     -------
@@ -126,21 +135,27 @@ def keys_around(motion: Motion, keys: Sequence[Key], seconds: float = HALF_SECON
     if not (np.isfinite(seconds) and seconds * motion.fps >= 1):
         raise MocapError(f"A change takes a frame or more to come and go, got {seconds} s.")
     half = round(seconds * motion.fps)
-    before, after = (
-        [Key(key.frame + way)] if key.pose is not None and 0 <= key.frame + way < len(motion) else []
-        for key, way in ((keys[0], -half), (keys[-1], half))
-    )
-    return [*before, *keys, *after]
+    first = _unchanged(motion, keys[0], -half)
+    last = _unchanged(motion, keys[-1], half)
+    return [*first, *keys, *last]
+
+
+def _unchanged(motion: Motion, key: Key, offset: int) -> list[Key]:
+    """Return a key without a pose, `offset` frames from a key with one, if that frame is in the clip."""
+    frame = key.frame + offset
+    is_needed = key.pose is not None and 0 <= frame < len(motion)
+    return [Key(frame)] if is_needed else []
 
 
 def offsets(motion: Motion, keys: Sequence[Key]) -> Displacement:
-    """Warp by offsets: the displacement that meets every key's pose, and is smooth between them [WP95].
+    """Compute the smooth displacement that meets the poses of all keys: a warp by offsets [WP95].
 
     In the paper: [WP95, offset].
 
-    At key i, b_i = pose ⊖ motion: the root's gap, and log(q⁻¹ q_i) for each joint. The curves through the b_i
-    are `cardinal`; outside the keys they are constant. `displaced(motion, offsets(motion, keys))` is the
-    warped motion. Feet that stand slide a little between the keys; `feet.clean_up` puts them back.
+    At key i, b_i = pose ⊖ motion: the difference of root positions, and log(q⁻¹ q_i) for each joint. The
+    curves through the b_i are `cardinal`; outside the keys they are constant. The warped motion is
+    `displaced(motion, offsets(motion, keys))`. Standing feet slide a little between the keys; `feet.clean_up`
+    removes that.
 
     Parameters
     ----------
@@ -167,22 +182,22 @@ def offsets(motion: Motion, keys: Sequence[Key]) -> Displacement:
     """
     check_keys(motion, keys)
     frames = [key.frame for key in keys]
-    now = [motion[frame : frame + 1] for frame in frames]
-    changes = [difference(key.pose or pose, pose) for key, pose in zip(keys, now, strict=True)]
+    poses = [motion[frame : frame + 1] for frame in frames]
+    changes = [difference(key.pose or pose, pose) for key, pose in zip(keys, poses, strict=True)]
     flat = [number for number, key in enumerate(keys) if key.flat]
     values = (np.concatenate(part) for part in zip(*changes, strict=True))
     return Displacement(*(cardinal(frames, part, np.arange(len(motion)), flat=flat) for part in values))
 
 
 def check_keys(motion: Motion, keys: Sequence[Key]) -> None:
-    """Raise unless the keys lie on the clip, in order, with poses of one frame and of its skeleton.
+    """Raise unless keys are on the clip, in order of time, with poses of one frame and of its skeleton.
 
     Notebook: 11-warping
     """
     frames = [key.frame for key in keys]
     if not keys or any(not isinstance(frame, int | np.integer) for frame in frames):
         raise MocapError(f"A warp needs one key or more, at numbers of frames, got {frames[:6]}.")
-    if not all(before < after for before, after in pairwise([-1, *frames, len(motion)])):
+    if not all(first < second for first, second in pairwise([-1, *frames, len(motion)])):
         clip = f"frames of '{motion.name}', 0 to {len(motion) - 1}"
         raise MocapError(f"Keys stand in order of time, once each, at {clip}; got {frames[:6]}.")
     for pose in (key.pose for key in keys if key.pose is not None):
@@ -192,20 +207,20 @@ def check_keys(motion: Motion, keys: Sequence[Key]) -> None:
 
 
 def scaled(motion: Motion, joint: str | int, gain: ArrayLike) -> Motion:
-    """Scale how far a joint turns from a reference: q' = r exp(a log(r⁻¹ q)) [WP95, scale].
+    """Scale the rotation of a joint relative to its mean: q' = r exp(a log(r⁻¹ q)) [WP95, scale].
 
-    The paper scales an angle about its zero, which a file puts anywhere; here it is a rotation vector about
-    the joint's mean rotation over the clip, r [ours]. Noise is scaled as well.
+    The paper scales an angle relative to its zero, which depends on the file. Here a rotation vector is
+    scaled, relative to the joint's mean rotation over the clip, r [ours]. Noise is also scaled.
 
     Parameters
     ----------
     motion : F frames.
-    joint : its name or number.
+    joint : its name or index.
     gain : a, a number or shape (F,).
 
     Raises
     ------
-    MocapError : for a gain that turns the joint beyond half a turn, or is not finite.
+    MocapError : for a gain that is not finite, or that rotates the joint by more than 180°.
 
     Examples
     --------
@@ -217,15 +232,16 @@ def scaled(motion: Motion, joint: str | int, gain: ArrayLike) -> Motion:
     Notebook: 11-warping
     """
     number = motion.skeleton.index(joint) if isinstance(joint, str) else joint
-    turns, amount = motion.rotations[:, number], np.asarray(gain, float)
-    if amount.shape not in ((), (len(motion),)) or not np.isfinite(amount).all():
-        raise MocapError(f"A gain is one finite number, or {len(motion)}, got shape {amount.shape}.")
-    away = rotations.difference(rotations.mean(turns), turns)
-    angles = np.abs(amount) * np.linalg.norm(away, axis=-1)
+    local = motion.rotations[:, number]
+    factor = np.asarray(gain, float)
+    if factor.shape not in ((), (len(motion),)) or not np.isfinite(factor).all():
+        raise MocapError(f"A gain is one finite number, or {len(motion)}, got shape {factor.shape}.")
+    vectors = rotations.difference(rotations.mean(local), local)
+    angles = np.abs(factor) * np.linalg.norm(vectors, axis=-1)
     if angles.max() > np.pi:
-        name, far = motion.skeleton.names[number], f"{np.degrees(angles.max()):.0f}° from its reference"
-        raise MocapError(f"Frame {angles.argmax()}: such a gain turns '{name}' by {far}, beyond half a turn.")
-    turned = motion.rotations.copy()
-    turn = rotations.from_rotvec((amount - 1).reshape(-1, 1) * away)  # r exp(a v) = q exp((a - 1) v)
-    turned[:, number] = rotations.multiply(turned[:, number], turn)
-    return replace(motion, rotations=turned)
+        turn = f"'{motion.skeleton.names[number]}' by {np.degrees(angles.max()):.0f}° from its reference"
+        raise MocapError(f"Frame {angles.argmax()}: such a gain turns {turn}, beyond half a turn.")
+    change = rotations.from_rotvec((factor - 1).reshape(-1, 1) * vectors)  # r exp(a v) = q exp((a - 1) v)
+    scaled_rotations = motion.rotations.copy()
+    scaled_rotations[:, number] = rotations.multiply(local, change)
+    return replace(motion, rotations=scaled_rotations)

@@ -1,6 +1,6 @@
-"""Round a line where a walk would have to turn too fast on it: at a corner, or at the cusp of a heart."""
+"""Round a line where a walk would turn too fast on it, such as a corner, or the cusp of a heart."""
 
-from collections.abc import Callable
+from functools import cached_property
 
 import numpy as np
 from scipy.linalg import solveh_banded
@@ -8,38 +8,27 @@ from scipy.ndimage import maximum_filter1d
 from scipy.spatial import cKDTree
 
 from mocap._shared.arrays import Array, Indices
-from mocap._shared.records import NamedTuple
+from mocap._shared.records import NamedTuple, dataclass
 from mocap.body.ground_path import GroundPath
-from mocap.editing.path_editing import CHORD, Ride, moving_frames
-from mocap.editing.turning import RADIUS, SLOWER, places_on
+from mocap.editing.path_editing import Ride, moving_frames
+from mocap.editing.tuned import TUNED
+from mocap.editing.turning import places_on
 from mocap.feet.ankle_targets import bending_bands
 
-SPACING = 0.05  # metres between the points of a rounded line
-SMOOTH = 0.1  # metres that smoothing reaches everywhere; it moves a circle of 1 m by 0.1 mm
-
-# How a reach grows at a time. With 1.4, a corner is cut by up to a third more than it need be.
-GROW = 1.15
-
-# How fast a reach falls with the distance from where it is needed. With 0 it falls at once, and a line swings
-# out in a hook before a corner; with 0.1 it falls so slowly that 7 m of line move for a corner, not 4.
-FALL = 0.6
-
-WIDEST = 2.5  # times the radius that the limit asks for: no reach is wider
-CUT = 1.75  # times that radius: a line that is cut by more goes back on itself, or nearly so
-SHORTER = 0.6  # of its length: so much stays at least of a line that is not cut by much more than it need be
-LOOP = 1.15  # times the radius: where a bend begins, a walk is faster than further on
-AHEAD = 0.6  # times the radius: how far ahead on a line a walk looks that is steered along it
-TIGHTEST = 0.2  # metres: no loop is tighter
-SLOWEST = 0.5  # of its own pace: at least so fast the point on the line moves on, or the walk might circle it
-SEEN = 0.01  # metres: a line that is moved by less is not called rounded
-JOINED = 0.5  # metres: rounded stretches nearer to each other count as one
+FINE = 10  # times as many points as in a rounded line, for distances from it
+SEEN = 0.01  # metres: a line that is moved by less is not reported as rounded
+JOINED = 0.5  # metres: rounded intervals nearer to each other are reported as one
 
 
 class RoundedLine(NamedTuple):
-    """A line that is rounded where needed, at n points that lie evenly on the line asked for.
+    """A line that is rounded where needed, at n points at even distances on the requested line.
 
-    `path` is the new line, `along` (n,) the metres along it, `asked` (n,) those along the line asked for, and
-    `moved` (n,) how far the one is from the other, metres: the larger of both ways.
+    Parameters
+    ----------
+    path : the rounded line.
+    along : shape (n,), metres along the rounded line.
+    requested : shape (n,), metres along the requested line.
+    moved : shape (n,), metres between the two lines: the larger of the distances from each to the other.
 
     Examples
     --------
@@ -51,36 +40,72 @@ class RoundedLine(NamedTuple):
 
     path: GroundPath
     along: Array
-    asked: Array
+    requested: Array
     moved: Array
 
     @property
     def roundings(self) -> list[tuple[float, float, float]]:
-        """The stretches moved by more than 1 cm: start, end, metres along the line, and how far at most."""
-        far = np.flatnonzero(self.moved > SEEN)
-        new = (np.diff(far) > 1) & (np.diff(self.asked[far]) >= JOINED)
-        parts = [part for part in np.split(far, np.flatnonzero(new) + 1) if len(part)]
-        asked = self.asked.tolist()
-        return [(asked[part[0]], asked[part[-1]], float(self.moved[part].max())) for part in parts]
+        """The intervals moved by more than 1 cm: start and end, metres along the line, and the distance."""
+        rounded = np.flatnonzero(self.moved > SEEN)
+        is_gap = (np.diff(rounded) > 1) & (np.diff(self.requested[rounded]) >= JOINED)
+        intervals = [part for part in np.split(rounded, np.flatnonzero(is_gap) + 1) if len(part)]
+        starts = [float(self.requested[interval[0]]) for interval in intervals]
+        ends = [float(self.requested[interval[-1]]) for interval in intervals]
+        distances = [float(self.moved[interval].max()) for interval in intervals]
+        return list(zip(starts, ends, distances, strict=True))
+
+
+@dataclass(frozen=True, eq=False)
+class _Walk:
+    """A walk whose turning rate is limited: its ride, frames per second, and radians per second."""
+
+    ride: Ride
+    fps: float
+    limit: float
+
+    @cached_property
+    def turning_rates(self) -> Array:
+        """How fast the walk turns by itself, (F - 1,), radians per second."""
+        return np.diff(moving_frames(self.ride.path, self.ride.along).angle) * self.fps
+
+    @cached_property
+    def radius(self) -> float:
+        """The radius at which the walk turns by the limit, at its slowest, metres."""
+        # v₀ q(1/r) / r = limit, with q of `turning`, solved for r.
+        longest_step = np.diff(self.ride.along).max(initial=0.0)
+        straight = TUNED.corner_ratio * longest_step * self.fps / self.limit
+        law = TUNED.bend_radius  # R of the law
+        squared = (np.sqrt(law**4 + 4 * straight**4) - law**2) / 2
+        return float(max(TUNED.tightest_radius, np.sqrt(squared)))
+
+    def too_fast(self, line: GroundPath, metres: Array) -> Indices:
+        """Find the points of a line, at `metres` along it, where the walk would turn too fast."""
+        along, ratio = places_on(line, self.ride, self.fps, self.limit)
+        along = along[along <= metres[-1]]  # a rounded line is shorter
+        clock = np.sqrt(ratio[1 : len(along)])
+        rates = np.diff(moving_frames(line, along).angle) * self.fps * clock
+        same_side = np.sign(rates) * self.turning_rates[: len(rates)] * clock
+        is_too_fast = np.abs(rates) > self.limit + np.maximum(same_side, 0)
+        return np.unique(np.searchsorted(metres, along[1:][is_too_fast]))
 
 
 def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> RoundedLine:
-    """Round a line where a walk on it would turn faster than it may.
+    """Round a line where a walk on it would turn faster than a limit.
 
-    The line is the one nearest to the points p_k asked for, among those that bend little:
+    The line is the smoothest of those near the requested points p_k, a Whittaker-Henderson smoother:
     min Σ |x_k - p_k|² + Σ λ_k |x_{k-1} - 2 x_k + x_{k+1}|², a linear system with five diagonals. λ_k = r_k⁴
-    is small at first. Where a frame of the walk turns too fast, the reach r grows around it, and the line is
-    laid anew. The walk slows down in bends, and more at corners, as `turning` says; it may turn by the limit,
-    and by as much more as it turns there by itself to the same side. Else the line stays as it is.
-    Where all this is not enough, at one corner upon another, or cuts off too much, where the line comes back
-    on itself, a walk is steered along the line, which turns as fast as it may and makes loops.
+    is small at first. Where a frame of the walk turns too fast, the reach r grows, and the line is computed
+    again. The walk slows down in bends, and more at corners, as in `turning`. It may turn by the limit, and
+    by as much more as it turns there by itself to the same side. A line on which it does is not changed.
+    If that is not enough, at corners near each other, or cuts off too much, where the line comes back on
+    itself, the line is pursued by a walk that turns by the limit at most, which makes loops.
 
     Parameters
     ----------
-    path : the line asked for.
-    ride : of the walk: which way it goes in each frame, and how far.
-    fps : its frames per second.
-    limit : how fast it may be turned, radians per second, above 0.
+    path : the requested line.
+    ride : the path of the walk, and the metres along it in each frame.
+    fps : frames per second of the walk.
+    limit : the largest turning rate, radians per second, above 0.
 
     Examples
     --------
@@ -93,98 +118,115 @@ def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> Rounde
     >>> round(start), round(end), round(worst, 1)
     (5, 6, 0.5)
     """
-    even = path.resampled(SPACING)
-    asked, spacing = even.points, path.length / (len(even.points) - 1)
-    straight = SLOWER * np.diff(ride.along).max(initial=0.0) * fps / limit  # v₀ / limit at its slowest
-    # The radius r at which v₀ q(1/r) / r is the limit, in cells.
-    radius = max(TIGHTEST, np.sqrt((np.sqrt(RADIUS**4 + 4 * straight**4) - RADIUS**2) / 2)) / spacing
-    own = np.diff(moving_frames(ride.path, ride.along).angle) * fps
-
-    def too_fast(line: GroundPath, metres: Array) -> Indices:
-        """Find the points of a line where the walk would turn too fast."""
-        along, ratio = places_on(line, ride, fps, limit)
-        along = along[along <= metres[-1]]  # to round a line makes it shorter
-        slower = np.sqrt(ratio[1 : len(along)])
-        rate = np.diff(moving_frames(line, along).angle) * fps * slower
-        most = limit + np.maximum(np.sign(rate) * own[: len(rate)] * slower, 0)  # to the same side
-        return np.unique(np.searchsorted(metres, along[1:][np.abs(rate) > most]))
-
-    if not len(too_fast(path, even.along)):
-        return RoundedLine(path, even.along, even.along, np.zeros(len(asked)))
-    least = SMOOTH / spacing
-    line, slow = _widened(asked, least, WIDEST * radius, too_fast)
-    rounded = _measured(path, even, line, even.along)
-    cut = rounded.moved.max() > max(CUT * radius * spacing, CHORD)
-    if slow and not cut and rounded.path.length > SHORTER * path.length:
+    even = path.resampled(TUNED.line_spacing)
+    walk = _Walk(ride, fps, limit)
+    if not len(walk.too_fast(path, even.along)):
+        return RoundedLine(path, even.along, even.along, np.zeros(len(even.points)))
+    spacing = path.length / (len(even.points) - 1)
+    points, is_slow_enough = _widened(even.points, spacing, walk)
+    rounded = _compared(path, even, points, even.along)
+    is_cut = rounded.moved.max() > max(TUNED.largest_cut * walk.radius, TUNED.chord)
+    if is_slow_enough and not is_cut and rounded.path.length > TUNED.least_length * path.length:
         return rounded
-    places, points = _steered(asked, spacing, LOOP * radius)
-    return _measured(path, even, _smoothed(points, np.full(len(points), least**4)), spacing * places)
+    positions, points = _pursued(even.points, spacing, TUNED.loop_radius * (walk.radius / spacing))
+    smooth = _smoothed(points, np.full(len(points), (TUNED.line_reach / spacing) ** 4))
+    return _compared(path, even, smooth, spacing * positions)
 
 
-def _widened(
-    asked: Array, least: float, most: float, too_fast: Callable[[GroundPath, Array], Indices]
-) -> tuple[Array, bool]:
-    """Lay the line anew with a wider reach where it is too fast; say whether it is slow enough at the end.
+def _widened(requested: Array, spacing: float, walk: _Walk) -> tuple[Array, bool]:
+    """Smooth a line with a wider and wider reach where a walk turns too fast on it.
 
-    A reach grows within a chord of such a place; further away it falls with a slope.
+    Around such a place the reach grows within a chord. With the distance from there it decreases linearly.
+
+    Parameters
+    ----------
+    requested : points (n, 2), metres.
+    spacing : metres between them.
+    walk : the walk.
+
+    Returns
+    -------
+    The smooth line, (n, 2), and whether the walk turns slowly enough on it.
     """
-    reach, fall = np.full(len(asked), least), FALL * np.arange(len(asked))
+    reach = np.full(len(requested), TUNED.line_reach / spacing)  # in points
+    largest = TUNED.widest_reach * walk.radius / spacing
+    slope = TUNED.reach_slope * np.arange(len(requested))
     while True:
-        line = _smoothed(asked, reach**4)
-        near = too_fast(GroundPath(line), _metres(line))
-        grows = near[reach[near] < most]
-        if not len(grows):
-            return line, not len(near)
+        line = _smoothed(requested, reach**4)
+        too_fast = walk.too_fast(GroundPath(line), _metres_along(line))
+        growing = too_fast[reach[too_fast] < largest]
+        if not len(growing):
+            return line, not len(too_fast)
         grown = np.zeros(len(reach))
-        grown[grows] = GROW * reach[grows]
-        grown = maximum_filter1d(grown, 2 * round(CHORD / SPACING) + 1)
-        after = np.maximum.accumulate(grown + fall) - fall
-        before = np.maximum.accumulate((grown - fall)[::-1])[::-1] + fall
-        reach = np.maximum(reach, np.maximum(after, before))
+        grown[growing] = TUNED.reach_growth * reach[growing]
+        grown = maximum_filter1d(grown, 2 * round(TUNED.chord / TUNED.line_spacing) + 1)
+        from_behind = np.maximum.accumulate(grown + slope) - slope
+        from_ahead = np.maximum.accumulate((grown - slope)[::-1])[::-1] + slope
+        reach = np.maximum(reach, np.maximum(from_ahead, from_behind))
 
 
-def _measured(path: GroundPath, even: GroundPath, line: Array, places: Array) -> RoundedLine:
-    """Measure how far a line is from the one asked for, and that from the line."""
-
-    def far(points: Array, goal: GroundPath) -> Array:
-        return np.asarray(cKDTree(goal.resampled(SPACING / 10).points).query(points)[0])
-
+def _compared(path: GroundPath, even: GroundPath, line: Array, positions: Array) -> RoundedLine:
+    """Compute the distances between a rounded line and the requested one, at metres along the latter."""
     rounded = GroundPath(line)
-    missed = np.interp(places, even.along, far(even.points, rounded))
-    return RoundedLine(rounded, _metres(line), places, np.maximum(far(line, path), missed))
+    missed = np.interp(positions, even.along, _distances(even.points, rounded))
+    moved = np.maximum(_distances(line, path), missed)
+    return RoundedLine(rounded, _metres_along(line), positions, moved)
 
 
-def _metres(line: Array) -> Array:
-    return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
+def _distances(points: Array, path: GroundPath) -> Array:
+    """Compute the distances of points (n, 2) from a path, (n,), metres."""
+    tree = cKDTree(path.resampled(TUNED.line_spacing / FINE).points)
+    return np.asarray(tree.query(points)[0])
 
 
-def _steered(points: Array, step: float, radius: float) -> tuple[Array, Array]:
-    """Walk along a line, always towards a point ahead on it, and never in a tighter bend than `radius` cells.
+def _metres_along(points: Array) -> Array:
+    """Compute the arc length up to each of n points, (n,), metres."""
+    return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
 
-    Gives where on the line each point of the walk belongs, in cells of `step` metres, and the points.
+
+def _pursued(points: Array, step: float, radius: float) -> tuple[Array, Array]:
+    """Pursue a line: walk towards a point ahead on it, in bends no tighter than a radius.
+
+    The curvature towards the goal is that of pure pursuit for small angles (R. C. Coulter, *Implementation of
+    the Pure Pursuit Path Tracking Algorithm*, 1992), clipped to the least radius.
+
+    Parameters
+    ----------
+    points : shape (n, 2), the points of the line.
+    step : metres between them, and between two points of the walk.
+    radius : the least radius, in steps.
+
+    Returns
+    -------
+    The position on the line that belongs to each point of the walk, in steps, and these points, metres.
 
     Examples
     --------
     >>> there_and_back = np.array([[0, 0], [0, 1], [0, 2], [0, 3], [0.1, 2], [0.2, 1]])
-    >>> places, points = _steered(there_and_back, step=1.0, radius=1.0)
-    >>> places.tolist(), points[3:, 1].round(1).tolist()
+    >>> positions, walk = _pursued(there_and_back, step=1.0, radius=1.0)
+    >>> positions.tolist(), walk[3:, 1].round(1).tolist()
     ([0.0, 0.5, 1.0, 2.0, 3.0, 3.5, 4.0, 4.5, 5.0], [3.0, 3.5, 3.1, 2.1, 1.5, 1.2])
     """
-    last, ahead = len(points) - 1, max(1, round(AHEAD * radius))
-    here, at = points[0], 0.0
-    heading = np.arctan2(*(points[1] - here))
-    places, found = [at], [here]
-    while at < last:
-        window = points[int(at) : int(at) + ahead + 1]
-        at = min(max(at + SLOWEST, int(at) + float(np.hypot(*(window - here).T).argmin())), last)
-        goal = points[min(int(at) + ahead, last)] - here
-        off = np.pi - (np.pi + heading - np.arctan2(*goal)) % (2 * np.pi)  # in (-π, π]
-        turn = 2 * off * step / max(np.hypot(*goal), step)
-        heading += np.clip(turn, -1 / radius, 1 / radius)
-        here = here + step * np.array([np.sin(heading), np.cos(heading)])
-        places.append(at)
-        found.append(here)
-    return np.array(places), np.array(found)
+    last = len(points) - 1
+    ahead = max(1, round(TUNED.pursuit_distance * radius))
+    point = points[0]
+    position = 0.0
+    heading = np.arctan2(*(points[1] - point))
+    positions = [position]
+    walk = [point]
+    while position < last:
+        start = int(position)
+        distances = np.hypot(*(points[start : start + ahead + 1] - point).T)
+        nearest = start + float(distances.argmin())
+        position = min(max(position + TUNED.pursuit_step, nearest), last)
+        to_goal = points[min(int(position) + ahead, last)] - point
+        deviation = np.pi - (np.pi + heading - np.arctan2(*to_goal)) % (2 * np.pi)  # in (-π, π]
+        rotation = 2 * deviation * step / max(np.hypot(*to_goal), step)
+        heading += np.clip(rotation, -1 / radius, 1 / radius)
+        point = point + step * np.array([np.sin(heading), np.cos(heading)])
+        positions.append(position)
+        walk.append(point)
+    return np.array(positions), np.array(walk)
 
 
 def _smoothed(points: Array, weight: Array) -> Array:

@@ -1,10 +1,10 @@
-"""A motion's mirror image: what the left side did, the right side does.
+"""Mirror images of motions, in which the left and the right side are exchanged.
 
-With the reflection H of the body at rest, a rotation L becomes H L H: the same angle about the mirrored axis,
-the other way round. That is enough for a symmetric skeleton with symmetric axes. In general a bone at rest is
-not the mirror image of its partner: captured bodies are lopsided, and some programs let all bones point along
-their own x. So each joint gets a fixed turn K besides, which lays the bones of its partner on the mirror
-images of its own. The method is ours.
+With the reflection H of the body at rest, a rotation L becomes H L H, by the opposite angle about the
+mirrored axis. That is enough for a symmetric skeleton with symmetric axes. In general a bone at rest is not
+the mirror image of its partner: captured bodies are lopsided, and in files of some programs all bones point
+along their own x. Therefore each joint also has a constant rotation K, which aligns the bones of its partner
+with the mirror images of its own. The method is ours.
 """
 
 import re
@@ -20,12 +20,13 @@ from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.poses import poses_of
 from mocap.editing.toes import SLACK, bend_toes, lowest_allowed
+from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError, shortened, warn
 
-LOPSIDED = 0.01  # metres: by how much a bone and its partner may differ without a warning
-NEAR = np.cos(np.radians(10))  # of a plane to one of the axes, to be taken for it
-CLEAR = 0.2  # of the square of the bones: how much better one way must fit than the other
-KEPT = 1e-6  # of the square of the bones: how much speaks for no turn, where bones leave it open
+PAIRED = 1e-3  # metres between a joint and its partner at rest, to show which way is left
+IN_PLANE = 0.1  # of the ridge, for a direction in the plane, if bones are opposite
+TINY = 1e-12  # square metres, for joints without bones
+ROUNDS = 2  # in which what bones determine becomes exact
 ACROSS = np.array([1.0, 0.0, 0.0])  # the world is mirrored in the plane x = 0
 UP = np.array([0.0, 1.0, 0.0])
 ENDING = "_mirrored"
@@ -33,15 +34,15 @@ OPPOSITE = {"left": "right", "right": "left", "Left": "Right", "Right": "Left"}
 
 
 def symmetry(skeleton: Skeleton) -> tuple[NDArray[np.intp], Array, Array]:
-    """Find the partners of all joints, and the plane between them by where they sit.
+    """Find the mirror symmetry of a skeleton: the partners of joints, and the plane between them.
 
-    Partners are found by the sides in names, or without these by the roles of limbs.
+    Partners are found by the sides in names, or else by the roles of limbs.
 
     Returns
     -------
-    The joints' mirror images (J,), a joint's own number in the middle; the unit vector from right to left in
-    the body at rest, (3,); quaternions K (J, 4), which lay the bones of a partner on the mirror images of a
-    joint's own.
+    The partner of each joint (J,), itself for a joint in the middle; the unit vector from right to left in
+    the body at rest, (3,); quaternions K (J, 4), which align the bones of the partner with the mirror images
+    of the bones of each joint.
 
     Raises
     ------
@@ -60,14 +61,14 @@ def symmetry(skeleton: Skeleton) -> tuple[NDArray[np.intp], Array, Array]:
     partners = np.array(images)
     for left, right in by_role.items():
         partners[[left, right]] = right, left
-    alike = partners[partners] == joints
-    alike[1:] &= partners[parents[1:]] == parents[partners[1:]]
-    alike |= props(skeleton, partners)
-    if not alike.all():
-        name = shortened(skeleton.names[int(alike.argmin())], 40)
+    is_symmetric = partners[partners] == joints
+    is_symmetric[1:] &= partners[parents[1:]] == parents[partners[1:]]
+    is_symmetric |= props(skeleton, partners)
+    if not is_symmetric.all():
+        name = shortened(skeleton.names[int(is_symmetric.argmin())], 40)
         raise MocapError(f"'{name}' has no mirror image: its side has other joints than the other.")
     distances = skeleton.rest - skeleton.rest[partners]
-    pairs = np.flatnonzero((partners < joints) & (np.linalg.norm(distances, axis=1) > 1e-3))
+    pairs = np.flatnonzero((partners < joints) & (np.linalg.norm(distances, axis=1) > PAIRED))
     if not len(pairs):
         raise MocapError(f"No left and right joints here: {shortened(', '.join(skeleton.names), 100)}.")
     across = distances[pairs[0]] / np.linalg.norm(distances[pairs[0]])
@@ -75,7 +76,7 @@ def symmetry(skeleton: Skeleton) -> tuple[NDArray[np.intp], Array, Array]:
     is_left = first in by_role if by_role else body_sides.sides(skeleton)[first] == "left"
     across *= 1 if is_left else -1
     axis = int(np.abs(across).argmax())
-    if abs(across[axis]) > NEAR:
+    if abs(across[axis]) > np.cos(TUNED.mirror_axis):
         across = np.sign(across[axis]) * np.eye(3)[axis] + 0.0
     return partners, across, _turns(skeleton, partners, across)
 
@@ -106,11 +107,11 @@ def props(skeleton: Skeleton, partners: NDArray[np.intp]) -> NDArray[np.bool_]:
 
 
 def _turns(skeleton: Skeleton, partners: NDArray[np.intp], across: Array) -> Array:
-    """Give K of each joint: the rotation that maximises Σ H o · K o', with bones o and the partner's o'.
+    """Compute K of each joint: the rotation that maximises Σ H o · K o', with bones o and the partner's o'.
 
-    A single bone leaves the turn about itself open. There K is near 1, for axes that are mirror images, or
-    near -H, for axes that all point the other way; where both fit, it is as in the joint above. Else a knee
-    would bend the same way by other angles, and a blend of both would turn it round.
+    A single bone does not determine the rotation about itself. Then K is near 1, for axes that are mirror
+    images, or near -H, for axes that are opposite; if both fit, it is as for the parent. Otherwise the same
+    bend of a knee would have other angles, and a blend of both would rotate it by a full turn.
     """
     mirror = _reflection(across)
     upward = np.cross(across, np.roll(across, 1))  # any direction in the plane, for bones that are opposite
@@ -120,16 +121,16 @@ def _turns(skeleton: Skeleton, partners: NDArray[np.intp], across: Array) -> Arr
         matrices[skeleton.parents[child]] += np.outer(bone, skeleton.offsets[partners[child]])
     usual = np.tile(np.eye(3), (len(skeleton), 1, 1))
     for joint, matrix in enumerate(matrices):
-        better = np.sum((np.eye(3) + mirror) * matrix)  # how much better 1 fits than -H
-        if abs(better) > CLEAR * np.linalg.norm(matrix):
-            usual[joint] = np.eye(3) if better > 0 else -mirror
+        advantage = np.sum((np.eye(3) + mirror) * matrix)  # of 1 over -H
+        if abs(advantage) > TUNED.mirror_margin * np.linalg.norm(matrix):
+            usual[joint] = np.eye(3) if advantage > 0 else -mirror
         elif joint:
             usual[joint] = usual[skeleton.parents[joint]]
-    small = KEPT * np.linalg.norm(matrices, axis=(-2, -1), keepdims=True) + 1e-12
-    turns = rotations.nearest(matrices + small * (usual + 0.1 * np.outer(upward, upward)))
-    for _ in range(2):  # what the bones leave open stays as it is, and what they fix becomes exact
-        turns = rotations.nearest(matrices + small * turns)
-    # A joint without bones has its parent's turn. Then an end that never turns does not turn in the mirror.
+    ridge = TUNED.mirror_ridge * np.linalg.norm(matrices, axis=(-2, -1), keepdims=True) + TINY
+    turns = rotations.nearest(matrices + ridge * (usual + IN_PLANE * np.outer(upward, upward)))
+    for _ in range(ROUNDS):
+        turns = rotations.nearest(matrices + ridge * turns)
+    # A joint without bones has K of its parent. Then an end that never rotates does not in the mirror image.
     for joint in range(1, len(skeleton)):
         if not skeleton.children(joint):
             turns[joint] = turns[skeleton.parents[joint]]
@@ -137,7 +138,7 @@ def _turns(skeleton: Skeleton, partners: NDArray[np.intp], across: Array) -> Arr
 
 
 def mirrored_name(name: str) -> str:
-    """Name the mirror image of a clip: that of the mirror image is the clip's own.
+    """Return the name of the mirror image of a clip; of a mirror image, the name of the clip.
 
     Examples
     --------
@@ -148,10 +149,10 @@ def mirrored_name(name: str) -> str:
 
 
 def mirror(motion: Motion) -> Motion:
-    """Swap left and right, in the body and over the ground: x becomes -x.
+    """Mirror a motion, in the body and on the ground: x becomes -x.
 
-    A rotation L of joint j becomes K_p⁻¹ (H L H) K_j of its partner, with p the joint above: a turn by θ
-    about the axis v becomes one by θ about -H v. Mirrored twice, a motion is what it was.
+    A rotation L of joint j becomes K_p⁻¹ (H L H) K_j of its partner, with p its parent: a rotation by θ about
+    the axis v becomes one by θ about -H v. The mirror image of the mirror image is the motion itself.
 
     Parameters
     ----------
@@ -168,23 +169,23 @@ def mirror(motion: Motion) -> Motion:
 
     Warns
     -----
-    MocapWarning : where a bone and its partner differ by more than 1 cm, with the bone and how much; for a
-        prop that only one side has. It stays on its side, and is held as it was.
+    MocapWarning : if a bone and its partner differ by more than 1 cm, with the bone and the difference; for a
+        prop that only one side has, which stays on its side, and is held as it was.
 
     Examples
     --------
     >>> from mocap.body import heading
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_curve_1")
-    >>> there, here = (heading(clip.rotations[600, 0]) for clip in (walk, mirror(walk)))
-    >>> bool(abs(there + here) < 1e-9), mirror(walk).name
+    >>> headings = [heading(clip.rotations[600, 0]) for clip in (walk, mirror(walk))]
+    >>> bool(abs(sum(headings)) < 1e-9), mirror(walk).name
     (True, 'walk_curve_1_mirrored')
     """
     skeleton = with_roles(motion).skeleton
     partners, across, turns = symmetry(skeleton)
     lengths = np.linalg.norm(skeleton.offsets, axis=1)
     gaps = np.abs(lengths - lengths[partners])
-    if gaps.max() > LOPSIDED:
+    if gaps.max() > TUNED.lopsided:
         difference = f"{1e3 * gaps.max():.0f} mm ({shortened(skeleton.names[gaps.argmax()], 40)})"
         differ = f"'{shortened(motion.name, 60)}': left and right bones differ by up to {difference}"
         warn(f"{differ}, so its mirror image does not reach as far.")
@@ -209,10 +210,10 @@ def mirror(motion: Motion) -> Motion:
 
 
 def mirror_above_floor(motion: Motion) -> Motion:
-    """Swap left and right, and keep a body with legs of two lengths above the floor.
+    """Mirror a motion, and keep a body whose legs differ in length above the floor.
 
     Toes bend as in `toes.bend_toes`. If that is not enough, the whole motion is raised, so that no joint is
-    farther under the floor, y = 0, than the lowest joint was.
+    farther below the floor, y = 0, than the lowest joint of the motion.
 
     Parameters
     ----------
@@ -245,4 +246,5 @@ def mirror_above_floor(motion: Motion) -> Motion:
 
 
 def _reflection(across: Array) -> Array:
+    """Return the reflection in the plane perpendicular to a unit vector, (3, 3)."""
     return np.eye(3) - 2 * np.outer(across, across)

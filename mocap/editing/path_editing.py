@@ -1,8 +1,8 @@
-"""Take the path off a motion, change it, and put the motion back on [Gle01].
+"""Edit the path of a motion [Gle01].
 
-A displacement of the root's curve alone leaves the body looking, and stepping, the old way. So the motion is
-held relative to a frame that moves along its path, and put into the frame that moves along another path. The
-feet slide where the path bends; `feet.clean_up` lets them stand again.
+A displacement of the root's curve alone leaves the heading and the steps as they were. Therefore the motion
+is taken relative to a frame that moves along its path, and put into the frame that moves along another path.
+The feet slide where the path bends; `feet.clean_up` removes that.
 """
 
 from dataclasses import field
@@ -19,37 +19,24 @@ from mocap.body.ground_path import CLOSEST, GroundPath
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform, from_ground, on_ground
 from mocap.editing.displacements import spline_basis
+from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError, warn
 
-# Seconds between knots: too slow for the sway, of which 5 cm stay in the motion, as with 1.2. But with 1.2
-# clips that turn as people do are up to 17 cm off their paths, and with 1.0 up to 9 cm. With 0.4 the path
-# takes half of the sway, and its heading wags by 13°; 0.9 aliases with some strides.
-STRIDE = 1.0
-
-# Metres before and after a place between which its heading is measured. With 0.02 the body turns at 3000° per
-# second at a corner, and by more than 100° while it stands; with 0.5 bends are cut.
-CHORD = 0.25
-
-# A frame's place is a weighted mean of nine points of its chord: where a body stood, its path curls within a
-# centimetre. These weights leave a parabola where it is, so that bends are not cut.
-AROUND = np.linspace(-1, 1, 9)
-WEIGHTS = np.exp(-0.5 * (AROUND / 0.6) ** 2)
-WEIGHTS *= 1 - AROUND**2 * (WEIGHTS @ AROUND**2) / (WEIGHTS @ AROUND**4)
-WEIGHTS /= WEIGHTS.sum()
-
-SHORTEST = 0.5  # metres: a shorter path is one of a body that stands
+CHORD_POINTS = np.linspace(-1, 1, 9)  # on the chord of a frame, times half its length
 RIDGE = 1e-12  # of the largest diagonal: for clips of fewer frames than control points
+SHORTER = 0.5  # times the length of the motion's own path: steps on a shorter path are doubted
+LONGER = 2.0  # times that length: steps on a longer path are doubted
 
 
 @dataclass(frozen=True, eq=False)
 class Ride:
-    """A motion's path, and where on it the motion is in each of its F frames; `ride_of` shows an example.
+    """The path of a motion, and the metres along it in each of F frames; `ride_of` shows an example.
 
     Parameters
     ----------
-    path : the path over the ground.
+    path : the path on the ground.
     along : shape (F,), metres along the path.
-    handles : shape (K, 2), the control points of the path, (x, z) in metres; none of a path that has none.
+    handles : shape (K, 2), the control points of the path, (x, z) in metres; (0, 2) if it has none.
 
     Examples
     --------
@@ -66,7 +53,7 @@ class Ride:
     handles: Array = field(default_factory=lambda: np.zeros((0, 2)))
 
     def with_handles(self, handles: ArrayLike) -> GroundPath:
-        """Draw the path that other handles (K, 2) give; a handle moves it within two knots to either side."""
+        """Return the path with other control points (K, 2); each moves it within two knots on both sides."""
         new = np.asarray(handles, float)
         if new.shape != self.handles.shape or not np.isfinite(new).all():
             raise MocapError(f"The path has {len(self.handles)} handles (x, z), got an array {new.shape}.")
@@ -74,11 +61,11 @@ class Ride:
         return GroundPath(spline_basis(frames, max(frames - 1, 1) / (len(new) - 3)) @ new)
 
 
-def ride_of(motion: Motion, *, stride: float = STRIDE) -> Ride:
+def ride_of(motion: Motion, *, stride: float = TUNED.path_knots) -> Ride:
     """Fit a path to a motion: a least-squares cubic B-spline through the root's ground track [Gle01, 3].
 
-    P(t) = B(t) c with c = argmin ‖B c - g‖², g the track; a frame's place on the path is its arc length. The
-    knots' distance in time is ours: the paper leaves it to the user.
+    P(t) = B(t) c with c = argmin ‖B c - g‖², g the track. The position of a frame on the path is an arc
+    length. The time between knots is ours: the paper leaves it to the user.
 
     Parameters
     ----------
@@ -87,11 +74,11 @@ def ride_of(motion: Motion, *, stride: float = STRIDE) -> Ride:
 
     Returns
     -------
-    The path, the metres along it in each frame, and its control points: the handles to drag.
+    The path, the metres along it in each frame, and its control points, which are handles to drag.
 
     Raises
     ------
-    MocapError : for a motion that goes nowhere, and a stride that is not above 0.
+    MocapError : for a motion that does not travel, and a stride that is not above 0.
 
     Examples
     --------
@@ -110,17 +97,17 @@ def ride_of(motion: Motion, *, stride: float = STRIDE) -> Ride:
     handles = spsolve(normal + ridge, basis.T @ (track - middle)) + middle
     smooth = basis @ handles
     along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(smooth, axis=0).T))])
-    if along[-1] < SHORTEST:
+    if along[-1] < TUNED.shortest_path:
         raise MocapError(f"'{motion.name}' goes {along[-1]:.2f} m only: it stands; there is no path to edit.")
     return Ride(GroundPath(smooth), along, handles)
 
 
-def moving_frames(path: GroundPath, along: ArrayLike, *, chord: float = CHORD) -> PlanarTransform:
-    """Give the frames N(s) that move along a path: each stands at P(s) and heads as the path does there.
+def moving_frames(path: GroundPath, along: ArrayLike, *, chord: float = TUNED.chord) -> PlanarTransform:
+    """Compute the frames N(s) that move along a path: their origin is P(s), their heading that of the path.
 
-    The heading is that of the chord from P(s - `chord`) to P(s + `chord`), unwrapped, and the place is a mean
-    over the same chord. Both are ours: [Gle01] takes the tangent, which jumps at a corner and spins where
-    the body stands. Beyond both ends the path goes straight on.
+    The heading is that of the chord from P(s - `chord`) to P(s + `chord`), unwrapped, and the position is a
+    mean over the same chord. Both are ours: [Gle01] takes the tangent, which jumps at a corner and spins
+    where the body stands. Beyond its ends the path is a straight line.
 
     Parameters
     ----------
@@ -130,7 +117,7 @@ def moving_frames(path: GroundPath, along: ArrayLike, *, chord: float = CHORD) -
 
     Returns
     -------
-    A transform of arrays (F,), which takes the origin to P(s) and +z to the heading.
+    A transform of arrays (F,), which maps the origin to P(s) and +z to the heading.
 
     Raises
     ------
@@ -156,24 +143,35 @@ def moving_frames(path: GroundPath, along: ArrayLike, *, chord: float = CHORD) -
         raise MocapError(f"A chord reaches more than 0 m before and after, got chord={chord}.")
     along = np.asarray(along, float)
     first, last = _end_directions(path, chord)
-    places = along + chord * AROUND[:, None]
-    before_start = np.minimum(places, 0)
-    after_end = np.maximum(places - path.length, 0)
-    points = on_ground(path.at(places)) + (before_start * first + after_end * last)
-    place = WEIGHTS @ points
+    metres = along + chord * CHORD_POINTS[:, None]
+    before_start = np.minimum(metres, 0)
+    after_end = np.maximum(metres - path.length, 0)
+    points = on_ground(path.at(metres)) + (before_start * first + after_end * last)
+    position = _position_weights() @ points
     across = points[-1] - points[0]
     defined = np.abs(across) > CLOSEST  # not where the path comes back on itself
     angle = np.zeros(len(along))
     if defined.any():
         frames = np.arange(len(along))
         angle = np.interp(frames, frames[defined], np.unwrap(np.angle(across[defined])))
-    return PlanarTransform(angle, place.imag, place.real)
+    return PlanarTransform(angle, position.imag, position.real)
+
+
+def _position_weights() -> Array:
+    """Compute the weights of the points on a chord, of which the position of a frame is the mean, (9,).
+
+    Where a body stood, its path curls within a centimetre, which the mean removes. The weights are those of a
+    Gaussian, corrected so that the mean of a parabola is on the parabola: bends are not cut.
+    """
+    weights = np.exp(-0.5 * (CHORD_POINTS / TUNED.chord_blur) ** 2)
+    weights *= 1 - CHORD_POINTS**2 * (weights @ CHORD_POINTS**2) / (weights @ CHORD_POINTS**4)
+    return np.asarray(weights / weights.sum())
 
 
 def _end_directions(path: GroundPath, chord: float) -> Points:
-    """Directions in which a path goes on before its start and beyond its end, on the unit circle (2,).
+    """Compute the directions of a path before its start and beyond its end, on the unit circle (2,).
 
-    They are those of the chords there, or of the first and the last step where a chord has no length.
+    They are those of the chords there, or of the first and the last step if a chord has no length.
     """
     chord_ends = np.clip([chord, path.length - chord], 0, path.length)
     after_start, before_end = on_ground(path.at(chord_ends))
@@ -185,7 +183,7 @@ def _end_directions(path: GroundPath, chord: float) -> Points:
 
 
 def start_at(path: GroundPath, ride: Ride) -> GroundPath:
-    """Move a path so that it starts where a motion's own path starts, and heads as that does.
+    """Move a path so that its start has the position and the heading of the start of a motion's own path.
 
     Parameters
     ----------
@@ -213,16 +211,16 @@ def on_path(
     """Put a motion on another path: m'_f = N'(s'_f) N(s_f)⁻¹ m_f [Gle01, 4; arc length].
 
     N moves along the motion's own path, N' along the new one. The feet slide by about 7 cm divided by the
-    radius of the bend in metres; `feet.clean_up` gives each plant one place, the mean of those that it was
-    carried to. The walk leans and walks as before; `bend` slows it down, and lets it lean in.
+    radius of the bend in metres; `feet.clean_up` gives each footplant the mean of its positions. Speed and
+    lean are not changed; `bend` also slows the walk down and leans it.
 
     Parameters
     ----------
-    motion : F frames; mark and clean its plants first, because bent feet do not look planted.
-    path : the new path; `start_at` moves it to where the motion starts.
+    motion : F frames; mark and clean its footplants first, because bent feet do not look planted.
+    path : the new path; `start_at` moves it to the start of the motion.
     ride : of the motion; `ride_of(motion)` by default.
-    keep : "speed" for s' = s: of a longer path the end stays unwalked, and past a shorter one the motion goes
-        straight on. "ends" for s' = s L'/L: the steps become longer or shorter.
+    keep : "speed" for s' = s: the end of a longer path is not walked, and beyond a shorter one the motion
+        continues straight ahead. "ends" for s' = s L'/L: the steps become longer or shorter.
 
     Returns
     -------
@@ -230,7 +228,7 @@ def on_path(
 
     Raises
     ------
-    MocapError : for a motion that goes nowhere, a ride of another motion, and another word to keep.
+    MocapError : for a motion that does not travel, a ride of another motion, and another value of `keep`.
 
     Warns
     -----
@@ -256,16 +254,16 @@ def on_path(
         raise MocapError(f"The ride has {len(ride.along)} frames, '{motion.name}' has {len(motion)}.")
     if keep not in ("speed", "ends"):
         raise MocapError(f"A motion keeps its 'speed' or the path's 'ends', got keep={keep!r}.")
-    longer = path.length / ride.path.length if keep == "ends" else 1.0
+    scale = path.length / ride.path.length if keep == "ends" else 1.0
     old = moving_frames(ride.path, ride.along)
-    new = moving_frames(path, longer * ride.along)
-    if not 0.5 <= longer <= 2:
-        warn(f"'{motion.name}' takes steps {longer:.2f} times as long on this path: plants are let go.")
+    new = moving_frames(path, scale * ride.along)
+    if not SHORTER <= scale <= LONGER:
+        warn(f"'{motion.name}' takes steps {scale:.2f} times as long on this path: plants are let go.")
     return (new @ old.inverse()).apply_motion(motion)
 
 
 def plants_kept(cleaned: Motion, bent: Motion) -> float:
-    """Give the share of planted frames, of all joints, that a clean-up kept; 1 where there are none.
+    """Compute the fraction of planted frames, of all joints, that a clean-up keeps; 1 if there are none.
 
     Examples
     --------

@@ -1,9 +1,9 @@
-"""A motion worn by another body: copied, then brought back to the floor by a smooth change [Gle98].
+"""Retargeting: the motion of one body for another one, by a copy and a smooth change of it [Gle98].
 
-The paper's steps: start from the old motion, scale the root's way, choose how far apart the knots are, solve
-for all frames at once, and solve again with more knots where something is not met. Here the start is a copy
-of global turns, not of those against the parent: a joint that one body lacks costs nothing, and rest poses do
-not matter. The last knots are the frames.
+The steps of the paper are: start from the old motion, scale the path of the root, choose the time between
+knots, solve for all frames at once, and solve again with more knots if a constraint is not met. Here the
+start is a copy of global rotations, not of those relative to the parent: a joint that one body lacks changes
+nothing, and rest poses do not matter. In the last stage every frame is a knot.
 """
 
 from collections.abc import Iterable, Iterator
@@ -28,10 +28,11 @@ from mocap.editing.poses import MotionOrPoses, Poses, poses_of
 from mocap.editing.solver import Stage, closing_stages, solve
 from mocap.editing.stances import Stance, stance_of, stance_of_zero
 from mocap.editing.toes import bend_toes
+from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError, shortened, warn
 from mocap.feet.footskate import clean_up
 
-# The roles that a joint's bones lead to. Head, ankles and balls lead to none; a hand goes with its forearm.
+# Roles at the far ends of a joint's bones. Head, ankles and balls have none; a hand moves with its forearm.
 BELOW = {
     "pelvis": ("waist", "chest", "left hip", "right hip"),
     "waist": ("chest",),
@@ -40,27 +41,27 @@ BELOW = {
 }
 BONES = (*pairwise(("clavicle", "shoulder", "elbow", "wrist")), *pairwise(("hip", "knee", "ankle")))
 BELOW |= {f"{side} {above}": (f"{side} {below}",) for side in SIDES for above, below in BONES}
-SHORT = 1e-6  # metres: a shorter bone points nowhere
-SMALL = 1e-9
+SHORT = 1e-6  # metres: a shorter bone has no direction
+SMALL = 1e-9  # weight of each axis, next to 1 for bones
 
 
 def copied(motion: MotionOrPoses, source: Stance, target: Stance, *, scale: float | None = None) -> Motion:
-    """Copy a motion onto another body: its turns, and the way of its hips, scaled [Gle98, scaled start].
+    """Copy global rotations to another body, and the scaled path of the hips [Gle98, scaled start].
 
-    R_t(f) = R_s(f) C with C = R_s(stance)⁻¹ A R_t(stance). A is the smallest turn that lays the target's
-    bones at that joint on the source's, both as they stand; hands go with their forearms, and there is none
-    for head and feet. Joints without a role, but with the same name in both, take A = 1; others stay as they
-    are to their parents. The middle of the hips goes `scale` times as far over the ground from where it
-    starts, and its height over the standing ankles is the legs' ratio times the source's.
+    R_t(f) = R_s(f) C with C = R_s(stance)⁻¹ A R_t(stance). A is the smallest rotation that aligns the bones
+    of the target at that joint with those of the source, in their stances; hands have that of their forearms,
+    head and feet have A = 1. So have joints without a role, but with the same name in both bodies. Others
+    stay as they are relative to their parents. The path of the middle of the hips on the ground is scaled by
+    `scale` about its start, and its height above the standing ankles by the ratio of the legs.
 
-    Scaling the way about a centre is [Gle98]'s. Roles, stances and C are ours: the paper's bodies have the
-    same tree and the same rest pose.
+    Scaling about a centre is [Gle98]'s. Roles, stances and C are ours: the bodies in the paper have the same
+    tree and the same rest pose.
 
     Parameters
     ----------
     motion : F frames of the source's skeleton.
-    source, target : how both bodies stand.
-    scale : of the way over the ground; by default the ratio of the legs, which keeps the steps in proportion.
+    source, target : the stances of both bodies.
+    scale : of the path on the ground; by default the ratio of the legs, for steps in proportion.
 
     Returns
     -------
@@ -89,7 +90,7 @@ def copied(motion: MotionOrPoses, source: Stance, target: Stance, *, scale: floa
     ratio = target.leg / source.leg
     scale = ratio if scale is None else scale
     if not (np.isfinite(scale) and scale > 0):
-        raise MocapError(f"A way over the ground needs a scale above 0, got {scale}.")
+        raise MocapError(f"The scale of a path must be above 0, got {scale}.")
     world = _copied_rotations(poses, source, target)
     parents = target.skeleton.parents
     local = rotations.multiply(rotations.inverse(world[:, parents]), world)
@@ -141,14 +142,14 @@ def _contact_names(motion: Motion, source: Stance, target: Stance) -> Iterator[t
 
 
 def _bone_turns(source: Stance, target: Stance) -> list[tuple[int | None, Array]]:
-    """Find for each of the target's joints the source's joint, and C (4,), the turn between how both look.
+    """Find for each joint of the target the joint of the source whose rotation it copies, and C (4,).
 
-    Joints belong together by role, or by name where they have none. A joint that has no other turns with the
-    one above it, as it stands, and a root above the pelvis with the heading.
+    Joints correspond by role, or by name if they have none. Without a corresponding joint (None), C is
+    relative to the parent, or for a root above the pelvis to the heading.
     """
     # Of a foot without toes, ankle and ball are one joint: it has the role of the ankle.
     role_of = {joint: role for role, joint in reversed([*target.roles.items()])}
-    looks: list[tuple[int | None, Array]] = []
+    copies: list[tuple[int | None, Array]] = []
     for joint, name in enumerate(target.skeleton.names):
         role = role_of.get(joint)
         image = source.roles.get(role or "")
@@ -159,16 +160,16 @@ def _bone_turns(source: Stance, target: Stance) -> list[tuple[int | None, Array]
         if image is not None:
             hands = (side for side in SIDES if target.roles.get(f"{side} wrist") in path)
             role = next((f"{side} elbow" for side in hands), role)
-            stands = rotations.multiply(_laid(role, source, target), stands)
+            stands = rotations.multiply(_alignment(role, source, target), stands)
             base = source.turns[image]
         else:
             base = target.turns[path[1]] if joint else rotations.IDENTITY
-        looks.append((image, rotations.multiply(rotations.inverse(base), stands)))
-    return looks
+        copies.append((image, rotations.multiply(rotations.inverse(base), stands)))
+    return copies
 
 
-def _laid(role: str | None, source: Stance, target: Stance) -> Array:
-    """Find A, the smallest turn that lays the target's bones at a joint on the source's, (4,)."""
+def _alignment(role: str | None, source: Stance, target: Stance) -> Array:
+    """Compute A, the smallest rotation that aligns the target's bones at a joint with the source's, (4,)."""
     shared = [end for end in BELOW.get(role or "", ()) if end in source.roles and end in target.roles]
     bones = np.array([[stance.bone(str(role), end) for end in shared] for stance in (target, source)])
     bones = bones.reshape(2, -1, 3)
@@ -178,26 +179,11 @@ def _laid(role: str | None, source: Stance, target: Stance) -> Array:
         return rotations.IDENTITY
     if bones.shape[1] == 1:
         return rotations.between(*bones[:, 0])
-    # The three axes, with next to no weight, choose the smallest turn where the bones lie on one line.
+    # The three axes, with small weights, select the smallest rotation if all bones are on one line.
     from_target, onto_source = (np.vstack([side, np.eye(3)]) for side in bones)
     weights = [1.0] * bones.shape[1] + [SMALL] * 3
     turn, _ = Rotation.align_vectors(onto_source, from_target, weights)
     return np.asarray(turn.as_quat(scalar_first=True))
-
-
-# Less calm than an edit: with 0.2 the knees of a child with long steps straighten to 4°. Few passes are
-# enough for plants.
-RETARGET = (Stage(knots=0.125, decay=0.1, passes=5), *closing_stages())
-
-# What turns of knees and of the trunk cost, as a share of what they move. With 1 the knees of a child that
-# takes long steps straighten. A hand that reaches for a rail leans the body by 17° with 1, and by 12° with 4.
-STIFF = 4.0
-
-# Metres. Feet that move more while they stand are cleaned up first. Without that, up to 6 % of the planted
-# frames of captured walks are let go on the new body; with it, none that stand on the old one.
-STILL = 0.001
-
-MOST = 0.5  # of a leg: hips that move by more to take the steps jump; a child's do at 3 times its own steps
 
 
 def _require_stances(
@@ -213,40 +199,40 @@ def _require_stances(
 
 @checked_by(_require_stances)
 def retarget(motion: Motion, body: Stance, source: Stance, *, scale: float | None = None) -> Motion:
-    """Let another body wear a motion, with its feet planted on the floor where the old feet were planted.
+    """Retarget a motion to another body, with its feet planted on the floor when the old feet were planted.
 
     In the paper: [Gle98, method].
 
-    The motion is copied; pins say where its feet must be; the smallest smooth change over all frames at once
-    brings them there [Gle98]. Copied angle by angle, feet would slide, float and sink, and bodies with other
+    The motion is copied. Then the smallest smooth change over all frames at once moves the feet to their
+    constraints [Gle98]. In a copy of joint angles, feet would slide, float and sink, and bodies with other
     rest poses would fold.
 
     Parameters
     ----------
-    motion : F frames; its `contacts` say when feet stand, the new body's as well. Feet that slide are cleaned
-        up first. Of a clip as it was read, `wear` finds out these and how its body stands.
-    body, source : how the new body stands, and how the old one does.
-    scale : of the way over the ground; by default the ratio of the legs. More makes the steps longer.
+    motion : F frames, with `contacts`, which are also those of the new body. Feet that slide are cleaned up
+        first. For a clip as it was read, `wear` finds contacts and stances.
+    body, source : the stances of the new and of the old body.
+    scale : of the path on the ground; by default the ratio of the legs. A larger one makes longer steps.
 
     Returns
     -------
-    F frames of the new skeleton, with the motion's name and labels. It falls as fast as the scale says: for a
-    child's jump `retime` by 1 / √scale.
+    F frames of the new skeleton, with the motion's name and labels. Accelerations are multiplied by the
+    scale: for a child's jump `retime` by 1 / √scale.
 
     Raises
     ------
-    MocapError : for what is no stance, contacts that are missing, and pins that no pose can meet.
+    MocapError : for a value that is no stance, missing contacts, and constraints that no pose can meet.
     SkeletonMismatch : for a motion of another skeleton than the source's.
 
     Warns
     -----
-    MocapWarning : for steps that no leg takes: hips that move by more than half a leg, and pins that are
-        missed by more than 0.1 mm; plants among them are let go.
+    MocapWarning : for steps that are too long: hips that move by more than half a leg, and constraints that
+        are missed by more than 0.1 mm; footplants among them are released.
 
     Examples
     --------
     >>> from mocap.datasets import sample
-    >>> from mocap.editing.stances import proportioned
+    >>> from mocap.editing import proportioned
     >>> walk = sample("walk_straight")[:240]
     >>> adult = stance_of(walk)
     >>> worn = retarget(walk, proportioned(adult, legs=0.55, trunk=0.62, arms=0.58, head=0.85), adult)
@@ -257,31 +243,37 @@ def retarget(motion: Motion, body: Stance, source: Stance, *, scale: float | Non
     """
     poses = poses_of(motion)
     planted = poses
-    if plant_pins(poses, source.legs).errors(poses).max() > STILL:
+    if plant_pins(poses, source.legs).errors(poses).max() > TUNED.worn_slide:
         planted = poses_of(clean_up(motion, source.legs, poses=poses.world))
     base = poses_of(copied(planted, source, body, scale=scale))
     positions = poses.positions
     plants = floor_pins(base, body)
-    wishes = join_pins(floor_under(positions, source, body), plants)
-    prices = dict.fromkeys(_stiff_joints(body), STIFF)
-    worn = solve(base, wishes, RETARGET, body_of(base, wishes, prices=prices), quiet=True).poses
+    pins = join_pins(floor_under(positions, source, body), plants)
+    worn = _solved(base, pins, body)
     allowed = lowest_worn(positions, body.leg / source.leg, len(body.skeleton))
     bent = worn.updated(bend_toes(worn, allowed))
     floor = floor_for(bent, (), allowed)
     if floor.joints:
-        floored = join_pins(floor, wishes)
-        worn = solve(base, floored, RETARGET, body_of(base, floored, prices=prices), quiet=True).poses
+        worn = _solved(base, join_pins(floor, pins), body)
         bent = worn.updated(bend_toes(worn, allowed))
     moved = np.abs(bent.motion.root_positions - base.motion.root_positions).max()
-    if moved > MOST * body.leg:
+    if moved > TUNED.worn_hips * body.leg:
         hips = f"the hips move by {100 * moved:.0f} cm to take these steps"
         legs = f"with legs of {100 * body.leg:.0f} cm: no leg takes them at ease"
         warn(f"'{shortened(motion.name)}': {hips}, {legs}.")
-    return mark_met(bent, wishes, plants).motion
+    return mark_met(bent, pins, plants).motion
+
+
+def _solved(base: Poses, pins: Pins, body: Stance) -> Poses:
+    """Change a copied motion until its constraints are met, at a higher cost of knees and trunk."""
+    smooth = Stage(knots=TUNED.worn_knots, decay=TUNED.worn_decay, passes=TUNED.worn_passes)
+    costs = dict.fromkeys(_stiff_joints(body), TUNED.worn_stiffness)
+    stages = (smooth, *closing_stages())
+    return solve(base, pins, stages, body_of(base, pins, prices=costs), quiet=True).poses
 
 
 def _stiff_joints(body: Stance) -> list[str]:
-    """Name the knees, and the joints of the trunk above the pelvis."""
+    """Return the names of the knees, and of the joints of the trunk above the pelvis."""
     trunk = body.skeleton.path_to_root(body.roles.get("chest", 0))
     stiff = [leg.knee for leg in body.legs]
     stiff += [joint for joint in trunk if joint > body.roles["pelvis"]]
@@ -289,14 +281,13 @@ def _stiff_joints(body: Stance) -> list[str]:
 
 
 def wear(motion: Motion, body: Skeleton | Stance, *, clips: Iterable[Motion] = ()) -> Motion:
-    """Retarget a motion as it was read: mark its footplants, find how both bodies stand, call `retarget`.
+    """Retarget a motion as it was read: mark its footplants, find both stances, and call `retarget`.
 
     Parameters
     ----------
-    motion : F frames; its footplants are marked where it has none.
-    body : the skeleton that takes over the motion, such as `mocap.load("child.bvh").skeleton`; or how it
-        stands, from `stance_of`. The balls of a skeleton alone stand as high as the clip's, times the ratio
-        of the legs.
+    motion : F frames; its footplants are marked if it has none.
+    body : the skeleton of the other body, such as `mocap.load("child.bvh").skeleton`, or its stance, from
+        `stance_of`. The balls of a skeleton stand as high as those of the clip, times the ratio of the legs.
     clips : other motions of the old body, for the heights of feet that never stand in this one.
 
     Returns
@@ -305,7 +296,8 @@ def wear(motion: Motion, body: Skeleton | Stance, *, clips: Iterable[Motion] = (
 
     Raises
     ------
-    MocapError : for legs that are not found, a clip in which no foot ever stands, and as for `retarget`.
+    MocapError : for another `body`, legs that are not found, a clip in which no foot ever stands, and as for
+        `retarget`.
 
     Warns
     -----
@@ -323,6 +315,10 @@ def wear(motion: Motion, body: Skeleton | Stance, *, clips: Iterable[Motion] = (
     >>> round(float(worn.root_positions[:, 1].mean() / walk.root_positions[:, 1].mean()), 1)
     0.7
     """
+    require_motion(motion)
+    if not isinstance(body, Skeleton | Stance):
+        remedy = "motion.skeleton, or editing.stance_of(motion), of a motion of that body"
+        raise MocapError(f"body is a skeleton or a stance, got {described(body)}: pass {remedy}.")
     motion = with_plants(motion)
     source = stance_of(motion, clips=clips)
     if isinstance(body, Skeleton):
@@ -332,20 +328,20 @@ def wear(motion: Motion, body: Skeleton | Stance, *, clips: Iterable[Motion] = (
 
 
 def floor_pins(motion: MotionOrPoses, stance: Stance) -> Pins:
-    """Hold each plant at the height that its joint stands at.
+    """Return constraints that hold each footplant at the height of its joint in a stance.
 
-    Feet differ: an ankle stands 4 cm over the ball in one body and 8 cm in another. So plants take their
-    heights from how the new body stands, not from the old feet. A plant's place over the ground is the mean
-    over its frames [Gle98]. The floor is level, at y = 0: a plant on a step comes down to it.
+    The ankle of one body stands 4 cm above the ball, that of another 8 cm. Therefore the heights are those of
+    the new body, not of the old feet. The position of a footplant on the ground is the mean over its frames
+    [Gle98]. The floor is level, at y = 0, also for a footplant that was on a step.
 
     Parameters
     ----------
-    motion : the copied motion; its `contacts` say when ankles and balls stand.
-    stance : how its body stands.
+    motion : the copied motion, with `contacts` of ankles and balls.
+    stance : of its body.
 
     Raises
     ------
-    MocapError : for marks that are missing.
+    MocapError : for missing contacts.
 
     Examples
     --------
@@ -362,16 +358,16 @@ def floor_pins(motion: MotionOrPoses, stance: Stance) -> Pins:
 
 
 def lowest_worn(positions: Array, ratio: float, joints: int) -> Array:
-    """Compute how low the joints of another body may be, (F, joints), metres.
+    """Compute the least heights of the joints of another body, (F, joints), metres.
 
-    They may be on the floor, y = 0, or as far under it as the lowest joint of the source is in that frame, in
-    proportion to the legs.
+    They are those of the floor, y = 0, or if the lowest joint of the source is below the floor in that frame,
+    its height, in proportion to the legs.
 
     Parameters
     ----------
     positions : of the source's joints, (F, J, 3), metres.
     ratio : of the length of the new legs to that of the old ones.
-    joints : how many joints the other body has.
+    joints : the number of joints of the other body.
 
     Examples
     --------
@@ -384,10 +380,15 @@ def lowest_worn(positions: Array, ratio: float, joints: int) -> Array:
 
 
 def floor_under(positions: Array, source: Stance, body: Stance) -> Pins:
-    """Keep ankles and balls above where they stand, or as far below as they ever were, for the body's size.
+    """Return constraints that keep ankles and balls above their least heights in the source's motion.
 
-    They are no farther under the floor at y = 0 than they ever were. `positions` (F, J, 3), metres, are those
-    of the source's joints.
+    The least height is relative to the height at which the joint stands, and to the floor, y = 0, and in
+    proportion to the legs.
+
+    Parameters
+    ----------
+    positions : of the source's joints, (F, J, 3), metres.
+    source, body : the stances of the old and of the new body.
     """
     lowest = positions[..., 1].min(axis=0)
     sides = [side for side, leg in zip(SIDES, body.legs, strict=True) if not leg.has_ball]

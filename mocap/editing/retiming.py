@@ -1,8 +1,8 @@
-"""Time warped: when each moment of a motion happens, t = g(t') [WP95].
+"""Time warps: the time at which each moment of a motion happens, t = g(t') [WP95].
 
-The paper runs a cardinal spline through the time keys. Where keys lie unevenly such a curve overshoots, and
-the motion runs backwards for a while. Here g is PCHIP [ours], the piecewise cubic of F. N. Fritsch and R. E.
-Carlson (1980), which rises wherever its keys rise.
+The paper takes a cardinal spline through the time keys. Between keys at uneven distances such a curve
+overshoots, and the motion runs backwards for a while. Here g is PCHIP [ours], the piecewise cubic of F. N.
+Fritsch and R. E. Carlson (1980), which rises wherever its keys rise.
 """
 
 from collections.abc import Sequence
@@ -12,29 +12,31 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import PchipInterpolator
 
+from mocap._shared.arrays import Array, Indices
 from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
 
-MOST = 1_000_000  # frames of a retimed clip; more is a slip in a key
+MAX_FRAMES = 1_000_000  # frames of a retimed clip; more come from a mistake in a key
+TOLERANCE = 1e-6  # frames, for seconds that were rounded
 
 
 def retime(motion: Motion, keys: Sequence[tuple[float, float]]) -> Motion:
-    """Let a motion's moments happen at other times, by PCHIP through the time keys [WP95, time warp].
+    """Warp the time of a motion, by PCHIP through time keys [WP95, time warp].
 
     Parameters
     ----------
     motion : F frames.
-    keys : two or more pairs (new second, old second); both rise, and the old ones lie on the clip.
+    keys : two or more pairs (new second, old second); both rise, and the old ones are in the clip.
 
     Returns
     -------
-    A motion at the same rate, from the first key's moment to the last one's. Feet that stand may slide by a
-    fraction of a millimetre between old frames; `feet.clean_up` puts them back.
+    A motion at the same rate, from the first key to the last one. Standing feet may slide by a fraction of a
+    millimetre between old frames; `feet.clean_up` removes that.
 
     Raises
     ------
-    MocapError : for fewer than two keys, seconds that do not rise, and old seconds off the clip.
+    MocapError : for fewer than two keys, seconds that do not rise, and old seconds outside the clip.
 
     Examples
     --------
@@ -47,32 +49,39 @@ def retime(motion: Motion, keys: Sequence[tuple[float, float]]) -> Motion:
 
     Notebook: 11-warping
     """
-    pairs, slack = np.asarray(keys, float), 1e-6 / motion.fps
-    if np.shape(pairs)[1:] != (2,) or len(pairs) < 2 or not (np.diff(pairs, axis=0) > 0).all():
-        raise MocapError(f"A retiming needs two or more pairs (new, old second) that rise, got {keys[:6]}.")
-    new, old = pairs.T
-    if old[0] < -slack or old[-1] > motion.duration + slack:
-        off = old[0] if old[0] < 0 else old[-1]
-        raise MocapError(f"Second {off:g} is not on '{motion.name}', which lasts {motion.duration:g} s.")
-    count = np.floor((new[-1] - new[0]) * motion.fps + 1e-6) + 1
-    if count > MOST:
-        raise MocapError(f"These time keys ask for {count:.3g} frames; at most {MOST} are made.")
+    new, old = _time_keys(keys).T
+    tolerance = TOLERANCE / motion.fps
+    if old[0] < -tolerance or old[-1] > motion.duration + tolerance:
+        outside = old[0] if old[0] < 0 else old[-1]
+        raise MocapError(f"Second {outside:g} is not on '{motion.name}', which lasts {motion.duration:g} s.")
+    count = np.floor((new[-1] - new[0]) * motion.fps + TOLERANCE) + 1
+    if count > MAX_FRAMES:
+        raise MocapError(f"These time keys ask for {count:.3g} frames; at most {MAX_FRAMES} are made.")
     times = new[0] + np.arange(int(count)) / motion.fps
     return at_frames(motion, PchipInterpolator(new, old)(times) * motion.fps)
 
 
-def at_frames(motion: Motion, frames: ArrayLike) -> Motion:
-    """Show a motion at moments between its frames.
+def _time_keys(keys: Sequence[tuple[float, float]]) -> Array:
+    """Return time keys as an array (K, 2); raise unless there are two or more, and both columns rise."""
+    pairs = np.asarray(keys, float)
+    are_pairs = pairs.shape[1:] == (2,) and len(pairs) >= 2
+    if not are_pairs or not (np.diff(pairs, axis=0) > 0).all():
+        raise MocapError(f"A retiming needs two or more pairs (new, old second) that rise, got {keys[:6]}.")
+    return pairs
 
-    Between frames i and i + 1 the root, and each joint's rotation vector log(q_i⁻¹ q), run along a cubic
-    Hermite curve whose slopes are the central differences at both frames (one-sided at the clip's ends)
-    [ours]. Straight lines and slerp, as in `Motion.at`, change speed at each old frame, which shows in slow
-    motion.
+
+def at_frames(motion: Motion, frames: ArrayLike) -> Motion:
+    """Interpolate a motion at moments between its frames, by cubic Hermite curves.
+
+    Between frames i and i + 1 the root, and each joint's rotation vector log(q_i⁻¹ q), follow a cubic Hermite
+    curve whose derivatives are the central differences at both frames (one-sided at the clip's ends) [ours].
+    With linear interpolation and slerp, as in `Motion.at`, the speed jumps at each old frame, which is
+    visible in slow motion.
 
     Parameters
     ----------
     motion : F frames.
-    frames : shape (N,), from 0 to F - 1; those outside show the first or the last frame.
+    frames : shape (N,), from 0 to F - 1; the first or the last frame is taken for those outside.
 
     Returns
     -------
@@ -91,16 +100,39 @@ def at_frames(motion: Motion, frames: ArrayLike) -> Motion:
     last = len(motion) - 1
     moments = np.clip(np.asarray(frames, float), 0, last)
     start = np.minimum(moments.astype(int), max(last - 1, 0))
-    u, base = moments - start, motion.rotations[start]
-    around = [np.clip(start + step, 0, last) for step in (-1, 0, 1, 2)]
-    before, here, there, after = around
-    first, second = (np.maximum(b - a, 1) for a, b in ((before, there), (here, after)))  # one or two frames
-    rise, fall, end = (u**3 - 2 * u**2 + u) / first, (u**3 - u**2) / second, 3 * u**2 - 2 * u**3
-    weights = (-rise, 1 - end - fall, end + rise, fall)  # of the four frames, for a cubic Hermite curve
-    root, turn = np.zeros((len(u), 3)), np.zeros((*base.shape[:2], 3))
-    for weight, frame in zip(weights, around, strict=True):
-        root += weight[:, None] * motion.root_positions[frame]
-        if frame is not here:  # from a frame to itself nothing turns
-            turn += weight[:, None, None] * rotations.difference(base, motion.rotations[frame])
-    turned, nearest = rotations.multiply(base, rotations.from_rotvec(turn)), np.round(moments).astype(int)
-    return replace(motion[nearest], root_positions=root, rotations=turned)
+    steps = (-1, 0, 1, 2)
+    neighbours = [np.clip(start + step, 0, last) for step in steps]
+    weights = _hermite_weights(moments - start, neighbours)
+    base = motion.rotations[start]
+    root_positions = np.zeros((len(moments), 3))
+    vectors = np.zeros((*base.shape[:2], 3))
+    for step, weight, frame in zip(steps, weights, neighbours, strict=True):
+        root_positions += weight[:, None] * motion.root_positions[frame]
+        if step != 0:  # the rotation from a frame to itself is 0
+            vectors += weight[:, None, None] * rotations.difference(base, motion.rotations[frame])
+    interpolated = rotations.multiply(base, rotations.from_rotvec(vectors))
+    nearest = motion[np.round(moments).astype(int)]
+    return replace(nearest, root_positions=root_positions, rotations=interpolated)
+
+
+def _hermite_weights(fraction: Array, neighbours: Sequence[Indices]) -> tuple[Array, ...]:
+    """Return the weights of frames i - 1 to i + 2 for a cubic Hermite curve from frame i to i + 1.
+
+    Parameters
+    ----------
+    fraction : shape (N,), the position between frames i and i + 1, from 0 to 1.
+    neighbours : the indices of the four frames, (N,) each, clipped to those of the clip.
+
+    Examples
+    --------
+    >>> halfway = _hermite_weights(np.array([0.5]), [np.array([frame]) for frame in (3, 4, 5, 6)])
+    >>> [float(weight[0]) for weight in halfway]
+    [-0.0625, 0.5625, 0.5625, -0.0625]
+    """
+    previous, start, end, following = neighbours
+    start_span = np.maximum(end - previous, 1)  # frames: two, and one at an end of the clip
+    end_span = np.maximum(following - start, 1)
+    start_slope = (fraction**3 - 2 * fraction**2 + fraction) / start_span
+    end_slope = (fraction**3 - fraction**2) / end_span
+    end_value = 3 * fraction**2 - 2 * fraction**3
+    return -start_slope, 1 - end_value - end_slope, end_value + start_slope, end_slope

@@ -1,4 +1,4 @@
-"""The travel of a motion over the ground, removed: a cycle on the spot, as game engines play it."""
+"""Removal of the travel of a motion, for cycles on the spot, as game engines play them."""
 
 from dataclasses import replace
 
@@ -12,10 +12,10 @@ GROUND = [0, 2]  # the axes x and z
 def in_place(motion: Motion) -> Motion:
     """Remove the travel over the ground, for cycles that are played on the spot.
 
-    The travel is the straight line from the first position of the root over the ground to the last, at
-    constant velocity. Sway and surge about this line remain, as do heights and rotations, and the root ends
-    over the point where it starts. A motion along a curve keeps the curve's distance from that line, so a
-    turning walk is cut to one stride first.
+    The travel is the straight line from the first position of the root on the ground to the last, at constant
+    velocity. Sway and surge about this line remain, as do heights and rotations, and the root ends above the
+    point at which it starts. For a motion along a curve the distance from that line remains; cut a turning
+    walk to one stride first.
 
     Parameters
     ----------

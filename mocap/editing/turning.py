@@ -1,74 +1,112 @@
-"""How people take a bend: slower, and leaning into it.
+"""How a walk turns: more slowly than straight on, and leaning to the inside of the turn.
 
-Who goes round a bend of curvature k (radians per metre) at speed v leans inwards by atan(v² k / g), measured
-from the feet to the centre of mass, or would fall outwards. People lean little, and so they slow down:
+On a path of curvature k (radians per metre) at speed v, a body leans inwards by atan(v² k / g), measured from
+the feet to the centre of mass, or would fall outwards. People lean little, and therefore slow down:
 
     v / v₀ = q(k) = (1 + (R k)²)^(-1/4),   R = 1.2 m,   v₀ the speed straight on
 
 In tight bends v² k then stays at v₀² / R, about a tenth of g for a walk. Half of it is shorter steps, half a
 slower clock: steps are √q times as long, and last 1/√q as long. The law and R are ours, from captured turns.
-At a corner, where v k is still more than a walk may turn, it goes more slowly yet, from a little before.
+At a corner, where v k is still more than a walk may turn, the walk slows down further, from a little before.
 """
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
 from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.ground_path import GroundPath
 from mocap.body.kinematics import forward_kinematics
 from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
+from mocap.body.skeleton import Skeleton
 from mocap.editing.path_editing import Ride, moving_frames
 from mocap.editing.pins import plant_pins
 from mocap.editing.retiming import at_frames
+from mocap.editing.tuned import TUNED
 
-RADIUS = 1.2  # metres; R above. People who run slow down more, R of about 2 m at 2.5 to 3 m/s
-GRAVITY = 9.81
-CELL, SOFT = 0.02, 0.2  # metres: a line's curvature is taken at such distances, and smoothed by so much
-SMOOTH = 0.3  # seconds by which speeds are smoothed
-STANDS, WALKS = 0.2, 0.5  # metres per second: below the first a body stands, and its path curls
-# Of the speed that the law gives, and metres per second: so slowly a walk goes at least where it would turn
-# faster than it may. With 0.6 a brisk walk is up to 18 cm off at a corner of 135°, not 9. A walk keeps to
-# `WITHIN` of the limit, because its speed varies.
-SLOWER, LEAST, WITHIN = 0.45, 0.3, 0.95
-RATIOS = (0.3, 1.25)  # of speeds, after and before: a turn that is made straight speeds up a little
-PELVIS, TRUNK = 0.5, 0.25  # of the lean; the legs take the whole of it, and the feet none
+GRAVITY = 9.81  # metres per second squared
+CELL = 0.02  # metres between the points at which the curvature of a line is computed
+TOLERANCE = 1e-6  # frames, for times that were rounded
 
 
-def bends_of(path: GroundPath) -> tuple[Array, Array, Array, Array]:
-    """Measure how a line bends, and how much slower than straight on people walk there.
+class Bends(NamedTuple):
+    """The bends of a line, at points 2 cm apart: arrays (n,).
 
-    Gives, for places along it, the metres, the curvature k (radians per metre), the pace q, and the largest
-    curvature nearby, unsmoothed.
+    Parameters
+    ----------
+    along : metres along the line.
+    curvature : k, radians per metre, positive to the left.
+    pace : q(k), the speed there over the speed straight on.
+    sharpest : the largest absolute curvature nearby, before smoothing, radians per metre.
+    """
+
+    along: Array
+    curvature: Array
+    pace: Array
+    sharpest: Array
+
+
+class SlowedWalk(NamedTuple):
+    """A walk, slowed down for the bends of a line.
+
+    Parameters
+    ----------
+    motion : F frames at the new times.
+    source_along : shape (F,), metres along the path of the walk itself.
+    along : shape (F,), metres along the line.
+    lean : shape (F,), the additional lean to the left, radians.
+    """
+
+    motion: Motion
+    source_along: Array
+    along: Array
+    lean: Array
+
+
+def bends_of(path: GroundPath) -> Bends:
+    """Compute the curvature of a line, and the pace of people who walk on it.
 
     Examples
     --------
     >>> from mocap.body import circle
-    >>> [round(float(some[100]), 2) for some in bends_of(circle(1.0))]  # 2 m along it
+    >>> [round(float(values[100]), 2) for values in bends_of(circle(1.0))]  # 2 m along it
     [2.0, 1.0, 0.8, 1.0]
-    >>> corner = GroundPath([[0, 0], [0, 2], [1, 2]])
-    >>> [some[[80, 90, 100]].round(2).tolist() for some in bends_of(corner)[1:]]  # 40 cm and 20 before, at it
+    >>> corner = bends_of(GroundPath([[0, 0], [0, 2], [1, 2]]))
+    >>> [values[[80, 90, 100]].round(2).tolist() for values in corner[1:]]  # 40 and 20 cm before it, at it
     [[0.66, 1.86, 2.58], [0.88, 0.64, 0.55], [2.01, 3.79, 3.99]]
     """
     along = np.arange(0.0, path.length + CELL, CELL)
-    turning = np.gradient(np.asarray(moving_frames(path, along).angle), CELL)
-    curvature = gaussian_filter1d(turning, SOFT / CELL, mode="nearest")
-    sharpest = maximum_filter1d(abs(turning), 2 * round(SOFT / CELL) + 1)
-    sharpest = gaussian_filter1d(sharpest, SOFT / CELL / 2, mode="nearest", truncate=2.0)
-    return along, curvature, (1 + (RADIUS * curvature) ** 2) ** -0.25, sharpest
+    unsmoothed = np.gradient(np.asarray(moving_frames(path, along).angle), CELL)
+    curvature = gaussian_filter1d(unsmoothed, TUNED.bend_blur / CELL, mode="nearest")
+    sharpest = maximum_filter1d(abs(unsmoothed), 2 * round(TUNED.bend_blur / CELL) + 1)
+    sharpest = gaussian_filter1d(sharpest, TUNED.bend_blur / CELL / 2, mode="nearest", truncate=2.0)
+    return Bends(along, curvature, (1 + (TUNED.bend_radius * curvature) ** 2) ** -0.25, sharpest)
 
 
 def places_on(path: GroundPath, ride: Ride, fps: float, limit: float = np.inf) -> tuple[Array, Array]:
-    """Say where on a line a walk is, slowed by as much as the line bends more than the walk's own path.
+    """Compute the positions of a walk on a line, for which it slows down as far as its own path bends less.
 
-    Gives for each of its F frames the metres along the line, and its speed there over its own: steps are
-    √ratio times as long, and a frame lasts 1/√ratio as long. The ratio is r = q(k) / q(k₀), with k₀ of its
-    own path: 1 for a captured turn on its own path. Where a body stands, its path curls, and that says
-    nothing: r = 1. Where it would turn faster than the limit, radians per second, and than by itself to the
-    same side, r is smaller, down to `SLOWER` or `LEAST`.
+    The ratio of the speeds on the line and on the walk's own path is r = q(k) / q(k₀), with the curvatures k
+    of the line and k₀ of the own path: 1 for a captured turn on its own path. Steps are √r times as long, and
+    a frame lasts 1/√r as long. While a body stands, its path curls without meaning, and r = 1. Where the walk
+    would turn faster than the limit, and faster than by itself to the same side, r is smaller, down to 0.45
+    times that, or to 0.3 m/s.
+
+    Parameters
+    ----------
+    path : the line.
+    ride : the walk's own path, and the metres along it in each of F frames.
+    fps : frames per second of the walk.
+    limit : the largest turning rate, radians per second.
+
+    Returns
+    -------
+    The metres along the line, and r, (F,) each.
 
     Examples
     --------
@@ -77,41 +115,67 @@ def places_on(path: GroundPath, ride: Ride, fps: float, limit: float = np.inf) -
     >>> [part[4:8].round(2).tolist() for part in places_on(corner, straight, 2.0)]
     [[2.0, 2.5, 2.99, 3.36], [1.0, 0.97, 0.55, 0.83]]
     """
-    (_, curvature, slower, sharpest), (_, bends, own, tightest) = bends_of(path), bends_of(ride.path)
-    walks = np.clip((_speed(ride.along, fps) - STANDS) / (WALKS - STANDS), 0, 1)
-    cells, speeds = np.round(ride.along / CELL).astype(int), np.gradient(ride.along) * fps
-    # How it turns by itself is measured as on the line, or it would be slowed on its own path, too.
-    paces, tight = (some[np.clip(cells, 0, len(own) - 1)] for some in (own, np.sign(bends) * tightest))
-    here, ratio, last, (low, high) = 0.0, 1.0, len(slower) - 1, RATIOS
-    places, there = [], np.stack([slower, sharpest, np.sign(curvature)], axis=1).tolist()
-    steps = np.diff(ride.along, prepend=ride.along[:1])
-    for step, pace, walk, speed, bend in np.stack([steps, paces, walks, speeds, tight], axis=1).tolist():
-        here += ratio**0.5 * step
-        q, k, side = there[min(round(here / CELL), last)]
-        ratio = min(max(q / pace, low), high) ** walk
-        more = (k - max(side * bend, 0.0)) * speed
-        if more * ratio > WITHIN * limit:
-            ratio = max(WITHIN * limit / more, SLOWER * ratio, min(LEAST / speed, ratio))
-        places.append((here, ratio))
+    line = bends_of(path)
+    cells = np.stack([line.pace, line.sharpest, np.sign(line.curvature)], axis=1).tolist()
+    metres = 0.0
+    ratio = 1.0
+    places = []
+    for step, pace, walking, speed, bend in _paces(ride, fps).tolist():
+        metres += ratio**0.5 * step
+        line_pace, line_bend, side = cells[min(round(metres / CELL), len(cells) - 1)]
+        ratio = min(max(line_pace / pace, TUNED.lowest_ratio), TUNED.highest_ratio) ** walking
+        extra_bend = line_bend - max(side * bend, 0.0)
+        ratio = _ratio_within(TUNED.rate_margin * limit, extra_bend * speed, speed, ratio)
+        places.append((metres, ratio))
     along, ratios = np.array(places).T
     return along, ratios
 
 
-def slow_down(
-    motion: Motion, ride: Ride, path: GroundPath, limit: float = np.inf
-) -> tuple[Motion, Array, Array, Array]:
-    """Slow a walk for the bends of a line.
+def _paces(ride: Ride, fps: float) -> Array:
+    """Compute for each frame of a walk what its ratio of speeds depends on, (F, 5).
+
+    The columns are the step from the previous frame (metres), the pace q(k₀), a weight from 0 for standing to
+    1 for walking, the speed (m/s), and the largest curvature nearby, with its sign (radians per metre).
+    """
+    # The curvatures of the walk's own path are computed as those of the line: on its own path r is 1.
+    bends = bends_of(ride.path)
+    cell = np.clip(np.round(ride.along / CELL).astype(int), 0, len(bends.pace) - 1)
+    signed_bend = np.sign(bends.curvature) * bends.sharpest
+    steps = np.diff(ride.along, prepend=ride.along[:1])
+    over_standing = _speed(ride.along, fps) - TUNED.standing_speed
+    walking = np.clip(over_standing / (TUNED.walking_speed - TUNED.standing_speed), 0, 1)
+    speeds = np.gradient(ride.along) * fps
+    return np.stack([steps, bends.pace[cell], walking, speeds, signed_bend[cell]], axis=1)
+
+
+def _ratio_within(limit: float, rate: float, speed: float, ratio: float) -> float:
+    """Lower a ratio of speeds until a walk turns within a limit, but not below the least speed at a corner.
 
     Parameters
     ----------
-    motion, ride : F frames, and where they are on their own path.
-    path : the line, which the walk starts at its start.
-    limit : how fast it may be turned, radians per second.
+    limit : the largest turning rate, radians per second.
+    rate : the turning rate beyond what the walk turns by itself, at its own speed, radians per second.
+    speed : its own speed, metres per second.
+    ratio : the ratio of speeds by the law.
+    """
+    if rate * ratio > limit:
+        return max(limit / rate, TUNED.corner_ratio * ratio, min(TUNED.corner_speed / speed, ratio))
+    return ratio
+
+
+def slow_down(motion: Motion, ride: Ride, path: GroundPath, limit: float = np.inf) -> SlowedWalk:
+    """Slow a walk down for the bends of a line.
+
+    Parameters
+    ----------
+    motion : F frames.
+    ride : its path, and the metres along it in each frame.
+    path : the line; the walk starts at its start.
+    limit : the largest turning rate, radians per second.
 
     Returns
     -------
-    The walk at its new times; in each of its frames the metres along its own path, those along the line, and
-    by how much more than by itself it must lean to the left, radians.
+    The walk at its new times, with its positions and its lean.
 
     Examples
     --------
@@ -119,46 +183,55 @@ def slow_down(
     >>> from mocap.datasets import sample
     >>> from mocap.editing import ride_of
     >>> walk = sample("walk_straight")[:480]
-    >>> slow, own, along, leaning = slow_down(walk, ride_of(walk), circle(1.0))
-    >>> round(slow.duration / walk.duration, 2), round(float(along[-1] / own[-1]), 2)
-    (1.11, 0.9)
-    >>> round(float(np.degrees(leaning[200])), 2)
+    >>> slowed = slow_down(walk, ride_of(walk), circle(1.0))
+    >>> round(slowed.motion.duration / walk.duration, 2)
+    1.11
+    >>> round(float(slowed.along[-1] / slowed.source_along[-1]), 2)
+    0.9
+    >>> round(float(np.degrees(slowed.lean[200])), 2)
     6.16
     """
-    (places, ratio), numbers = places_on(path, ride, motion.fps, limit), np.arange(len(motion))
-    clock = ratio**-0.5  # new frames per old frame
-    times = np.concatenate([[0.0], np.cumsum((clock[1:] + clock[:-1]) / 2)])
-    frames = np.interp(np.arange(int(times[-1] + 1e-6) + 1), times, numbers)
-    own, along = (np.interp(frames, numbers, some) for some in (ride.along, places))
-    speeds = np.interp(frames, numbers, _speed(ride.along, motion.fps)), _speed(along, motion.fps)
-    before, after = (
-        np.arctan(np.interp(where, *bends_of(line)[:2]) * speed**2 / GRAVITY)
-        for where, line, speed in zip((own, along), (ride.path, path), speeds, strict=True)
-    )
-    return at_frames(motion, frames), own, along, after - before
+    places, ratio = places_on(path, ride, motion.fps, limit)
+    numbers = np.arange(len(motion))
+    durations = ratio**-0.5  # new frames per old frame
+    times = np.concatenate([[0.0], np.cumsum((durations[1:] + durations[:-1]) / 2)])
+    frames = np.interp(np.arange(int(times[-1] + TOLERANCE) + 1), times, numbers)
+    source_along = np.interp(frames, numbers, ride.along)
+    along = np.interp(frames, numbers, places)
+    source_speed = np.interp(frames, numbers, _speed(ride.along, motion.fps))
+    source_lean = _balance(ride.path, source_along, source_speed)
+    lean_on_line = _balance(path, along, _speed(along, motion.fps))
+    return SlowedWalk(at_frames(motion, frames), source_along, along, lean_on_line - source_lean)
 
 
-def lean(motion: Motion, way: Array, angle: Array) -> tuple[Motion, dict[int, Array]]:
-    """Let a body lean, the root in its place, and its feet further out.
+def _balance(path: GroundPath, along: Array, speed: Array) -> Array:
+    """Compute the lean of a body in balance, atan(v² k / g), (F,), radians to the left."""
+    bends = bends_of(path)
+    curvature = np.interp(along, bends.along, bends.curvature)
+    return np.asarray(np.arctan(curvature * speed**2 / GRAVITY))
 
-    Captured people lean most in the legs: the pelvis by half as much, the trunk by a quarter. Feet keep their
-    slope on the ground.
+
+def lean(motion: Motion, heading: Array, angle: Array) -> tuple[Motion, dict[int, Array]]:
+    """Lean a body to the left, about its root: the feet move to the right.
+
+    Captured people lean most in the legs. The pelvis leans by half as much, the trunk by a quarter. Feet keep
+    their slope on the ground.
 
     Parameters
     ----------
-    motion : F frames, with plants.
-    way : shape (F,), which way it goes, radians.
-    angle : shape (F,), by how much it leans to the left, radians.
+    motion : F frames, with footplants.
+    heading : shape (F,), the direction of travel, radians.
+    angle : shape (F,), the lean to the left, radians.
 
     Returns
     -------
-    The motion, and where its plants shall be, as the `held` of `feet.clean_up`.
+    The motion, and the positions of its footplants, as the `held` of `feet.clean_up`.
 
     Examples
     --------
     >>> from mocap.body import joint_positions
     >>> from mocap.datasets import sample
-    >>> walk = sample("walk_straight")[:240]  # left is +x where it goes towards +z
+    >>> walk = sample("walk_straight")[:240]  # towards +z: left is +x
     >>> leaning, held = lean(walk, np.zeros(240), np.full(240, 0.1))
     >>> moved = dict(zip(walk.skeleton.names, (joint_positions(leaning) - joint_positions(walk))[0, :, 0]))
     >>> [round(float(moved[name]), 3) for name in ("head", "root", "ltibia", "lfoot")]  # metres
@@ -166,29 +239,45 @@ def lean(motion: Motion, way: Array, angle: Array) -> tuple[Motion, dict[int, Ar
     >>> round(float(np.nanmean(held[4] - joint_positions(walk)[:, 4], axis=0)[0]), 3)  # of the left ankle
     -0.1
     """
-    height, ahead = motion.root_positions[:, 1], np.stack([np.sin(way), 0 * way, np.cos(way)], axis=1)
-    left = np.stack([np.cos(way), 0 * way, -np.sin(way)], axis=1)
-    outer = replace(motion, root_positions=motion.root_positions - (height * np.tan(angle))[:, None] * left)
-    skeleton, legs = motion.skeleton, find_legs(motion.skeleton)
-    shares = {0: PELVIS, **dict.fromkeys(skeleton.children(0), TRUNK)}
-    shares |= {skeleton.path_to_root(leg.hip)[-2]: PELVIS for leg in legs}
-    shares |= {leg.hip: 1.0 for leg in legs} | {leg.ankle: 0.0 for leg in legs}
-    world, pose = forward_kinematics(motion).matrices, motion.rotations.copy()
-    for joint, share in shares.items():
-        above = skeleton.path_to_root(joint)[1:]
-        old = rotations.from_matrix(world[:, above[0]]) if joint else np.array([1.0, 0, 0, 0])
-        # W' = T W, where T tilts about the way ahead: of this joint, and of the nearest one above it.
-        tilted, before = (
-            rotations.multiply(rotations.from_rotvec(-ahead * (part * angle)[:, None]), old)
-            for part in (share, next((shares[other] for other in above if other in shares), 0.0))
-        )
-        pose[:, joint] = rotations.multiply(
-            rotations.inverse(before), rotations.multiply(tilted, motion.rotations[:, joint])
-        )
-    pins = plant_pins(outer)
+    zeros = np.zeros(len(motion))
+    leftward = np.stack([np.cos(heading), zeros, -np.sin(heading)], axis=1)
+    backward = -np.stack([np.sin(heading), zeros, np.cos(heading)], axis=1)
+    distance = motion.root_positions[:, 1] * np.tan(angle)
+    outside = replace(motion, root_positions=motion.root_positions - distance[:, None] * leftward)
+    fractions = _lean_fractions(motion.skeleton)
+    world = forward_kinematics(motion).matrices
+    local = motion.rotations.copy()
+    for joint, fraction in fractions.items():
+        ancestors = motion.skeleton.path_to_root(joint)[1:]
+        parent = rotations.from_matrix(world[:, ancestors[0]]) if joint else rotations.IDENTITY
+        parent_fraction = next((fractions[above] for above in ancestors if above in fractions), 0.0)
+        # W' = T W, where T leans by this joint's fraction; and so with the fraction of the joint above.
+        leaning = rotations.multiply(_rotations_about(backward, fraction * angle), parent)
+        leaning_parent = rotations.multiply(_rotations_about(backward, parent_fraction * angle), parent)
+        new_world = rotations.multiply(leaning, motion.rotations[:, joint])
+        local[:, joint] = rotations.multiply(rotations.inverse(leaning_parent), new_world)
+    pins = plant_pins(outside)
     held = np.where(np.isfinite(pins.low), pins.low, np.nan)
-    return replace(motion, rotations=pose), {joint: held[:, n] for n, joint in enumerate(pins.joints)}
+    places = {joint: held[:, column] for column, joint in enumerate(pins.joints)}
+    return replace(motion, rotations=local), places
+
+
+def _lean_fractions(skeleton: Skeleton) -> Mapping[int, float]:
+    """Return the joints that lean by another fraction of the lean than the joint above: {joint: fraction}."""
+    legs = find_legs(skeleton)
+    fractions = {0: TUNED.pelvis_lean, **dict.fromkeys(skeleton.children(0), TUNED.trunk_lean)}
+    for leg in legs:
+        fractions[skeleton.path_to_root(leg.hip)[-2]] = TUNED.pelvis_lean
+    fractions |= {leg.hip: 1.0 for leg in legs}
+    fractions |= {leg.ankle: 0.0 for leg in legs}
+    return fractions
+
+
+def _rotations_about(axis: Array, angle: Array) -> Array:
+    """Return rotations about axes (F, 3) by angles (F,), as quaternions (F, 4)."""
+    return rotations.from_rotvec(axis * angle[:, None])
 
 
 def _speed(along: Array, fps: float) -> Array:
-    return np.asarray(gaussian_filter1d(np.gradient(along) * fps, SMOOTH * fps, mode="nearest"))
+    """Return the smoothed speed of a walk, (F,), metres per second, from the metres along its path."""
+    return np.asarray(gaussian_filter1d(np.gradient(along) * fps, TUNED.speed_blur * fps, mode="nearest"))

@@ -1,4 +1,4 @@
-"""A warp written down in a small text file: which joints are moved when, and which moments happen when."""
+"""Warps from a text file: positions of joints at given frames, and time keys."""
 
 import math
 import re
@@ -15,11 +15,12 @@ from mocap.body.motion import Motion
 from mocap.body.planar import heading
 from mocap.editing.displacements import displaced
 from mocap.editing.edits import brought, clean_feet, plants_within
-from mocap.editing.keys import HALF_SECOND, Key, keys_around, offsets
+from mocap.editing.keys import Key, keys_around, offsets
 from mocap.editing.pins import Pins, join_pins, pin, plant_pins
 from mocap.editing.poses import poses_of, with_frames_of
 from mocap.editing.posing import posed_with
 from mocap.editing.retiming import retime
+from mocap.editing.tuned import TUNED
 from mocap.errors import FormatError, MocapError
 from mocap.files.text import lines, read_text, to_numbers
 
@@ -32,35 +33,46 @@ POSE = re.compile(
 )
 
 
-class Wish(NamedTuple):
-    """What one line, number `line`, asks of a frame: that a joint be at a place (3,).
+class Target(NamedTuple):
+    """The position of a joint at a frame, from a line of a plan.
 
-    For the pose as it was the `joint` is "same" or "level", and the place None. With `level` the change
-    stands still there.
+    Parameters
+    ----------
+    line : the number of the line.
+    joint : the name of the joint; "same" or "level" for the pose of the motion.
+    position : shape (3,), metres; None for the pose of the motion.
+    level : whether the derivative of the change is 0 at the frame.
     """
 
     line: int
     joint: str
-    place: Array | None
+    position: Array | None
     level: bool
 
 
 class WarpPlan(NamedTuple):
-    """What a file of keys says: `wishes` of poses, by frame, and `times`: (line, new second, old second)."""
+    """The keys of a file.
+
+    Parameters
+    ----------
+    path : the file.
+    targets : the targets of joints, by frame.
+    times : the time keys: (line, new second, old second).
+    """
 
     path: str
-    wishes: dict[int, list[Wish]]
+    targets: dict[int, list[Target]]
     times: list[tuple[int, float, float]]
 
 
 def load_plan(path: str | Path, motion: Motion) -> WarpPlan:
-    r"""Read how a motion shall be warped, from a text file with one key in each line.
+    r"""Read a plan of a warp from a text file with one key in each line.
 
     `at 1.5s lhand 0.10 0.25 0` moves the left hand, at second 1.5, by 10 cm to the body's left and by 25 cm
-    up; without the s the moment is a frame. Several joints may be moved at one moment. `at 1s same` says that
-    the pose is as it was there. A line that ends with `level` says that the change stands still as well, as
-    at take-off and landing: `at 1s level`, or `at 1s lhand 0.10 0.25 0 level`. `time 2.5 2` shows the clip's
-    second 2 at second 2.5. What follows a # is left out.
+    up; without the s the moment is a frame. Several joints may be moved at one moment. `at 1s same` keeps the
+    pose of the motion there. At a line that ends with `level`, the derivative of the change is also 0, as at
+    take-off and landing: `at 1s level`, or `at 1s lhand 0.10 0.25 0 level`. `time 2.5 2` shows the clip's
+    second 2 at second 2.5. The rest of a line after # is a comment.
 
     Parameters
     ----------
@@ -82,7 +94,7 @@ def load_plan(path: str | Path, motion: Motion) -> WarpPlan:
     ...     _ = file.write_text("at 1.5s lhand 0.1 0.2 0  # to the post\nat 180 root 0 -0.1 0\n"
     ...                         "time 0 0\ntime 15 9.645")
     ...     plan = load_plan(file, sample("walk_straight"))
-    >>> [(frame, wish.joint) for frame, wishes in plan.wishes.items() for wish in wishes]
+    >>> [(frame, target.joint) for frame, targets in plan.targets.items() for target in targets]
     [(180, 'lhand'), (180, 'root')]
     >>> plan.times  # the clip lasts 9.642 s: less than half a frame later is its last frame
     [(3, 0.0, 0.0), (4, 15.0, 9.641666666666667)]
@@ -91,12 +103,12 @@ def load_plan(path: str | Path, motion: Motion) -> WarpPlan:
     for number, words in lines(read_text(path)):
         pose = POSE.fullmatch(" ".join(words))
         if pose:
-            _add_wish(plan, motion, number, pose)
+            _add_target(plan, motion, number, pose)
         elif words[0] == "time" and len(words) == 3:
             _add_time(plan, motion, number, words[1:])
         else:
             raise FormatError(path, number, AT if words[0] == "at" else LINE, f"'{' '.join(words)}'")
-    if not plan.wishes and not plan.times:
+    if not plan.targets and not plan.times:
         raise FormatError(path, None, LINE, "no key")
     if len(plan.times) == 1:
         raise FormatError(path, plan.times[0][0], "two lines or more about time", "one")
@@ -104,7 +116,7 @@ def load_plan(path: str | Path, motion: Motion) -> WarpPlan:
 
 
 def _add_time(plan: WarpPlan, motion: Motion, line: int, words: list[str]) -> None:
-    """Add the new and the old second of a line to the plan."""
+    """Add the time key of a line to a plan."""
     new, old = to_numbers(plan.path, line, words, "time NEW OLD, in seconds", 2).tolist()
     line_of_last, *last = plan.times[-1] if plan.times else (0, -math.inf, -math.inf)
     if not (last[0] < new and last[1] < old):
@@ -116,64 +128,68 @@ def _add_time(plan: WarpPlan, motion: Motion, line: int, words: list[str]) -> No
     plan.times.append((line, new, min(old, motion.duration)))
 
 
-def _add_wish(plan: WarpPlan, motion: Motion, line: int, pose: re.Match[str]) -> None:
-    """Add what a line asks of a pose to the plan."""
+def _add_target(plan: WarpPlan, motion: Motion, line: int, pose: re.Match[str]) -> None:
+    """Add the target of a line about a pose to a plan."""
     moment = float(to_numbers(plan.path, line, [pose["moment"]], "a moment", 1)[0])
     frame = round(moment * motion.fps if pose["seconds"] else moment)
     if frame >= len(motion):
         last = f"{len(motion) - 1}, or second {motion.duration:g}"
         raise FormatError(plan.path, line, f"a moment up to frame {last}", f"frame {frame}")
     joint = pose["joint"] or pose["word"]
-    names = motion.skeleton.names
-    place: Array | None = None
-    if pose["joint"]:
-        move = to_numbers(plan.path, line, pose["move"].split(), "LEFT UP AHEAD, in metres", 3)
-        if joint not in names:
-            alike = ", ".join(get_close_matches(joint[:80], names, cutoff=0.0))
-            raise FormatError(plan.path, line, f"a joint, such as {alike}", f"'{joint}'")
-        chosen = motion[frame : frame + 1]
-        turn = rotations.about_y(heading(chosen.rotations[0, 0]))
-        place = joint_positions(chosen)[0, names.index(joint)] + rotations.rotate(turn, move)
-    for wish in plan.wishes.setdefault(frame, []):
-        if place is None or wish.place is None or joint == wish.joint:
-            got = f"'{joint}' beside '{wish.joint}' of line {wish.line}"
-            raise FormatError(plan.path, line, f"one wish for a joint at frame {frame}", got)
+    position = _target_position(plan, motion[frame : frame + 1], line, pose) if pose["joint"] else None
+    for target in plan.targets.setdefault(frame, []):
+        if position is None or target.position is None or joint == target.joint:
+            got = f"'{joint}' beside '{target.joint}' of line {target.line}"
+            raise FormatError(plan.path, line, f"one target for a joint at frame {frame}", got)
     level = pose["word"] == "level" or bool(pose["level"])
-    plan.wishes[frame].append(Wish(line, joint, place, level))
+    plan.targets[frame].append(Target(line, joint, position, level))
 
 
-def warp(motion: Motion, plan: WarpPlan, *, window: float = HALF_SECOND, feet: bool = True) -> Motion:
-    """Carry out a plan: poses by `posed`, the curves between them by `offsets`, then the times by `retime`.
+def _target_position(plan: WarpPlan, frame: Motion, line: int, pose: re.Match[str]) -> Array:
+    """Compute the position to which a line moves a joint, (3,), metres, from a motion of that frame."""
+    move = to_numbers(plan.path, line, pose["move"].split(), "LEFT UP AHEAD, in metres", 3)
+    joint = pose["joint"]
+    names = frame.skeleton.names
+    if joint not in names:
+        similar = ", ".join(get_close_matches(joint[:80], names, cutoff=0.0))
+        raise FormatError(plan.path, line, f"a joint, such as {similar}", f"'{joint}'")
+    rotation = rotations.about_y(heading(frame.rotations[0, 0]))
+    position = joint_positions(frame)[0, names.index(joint)]
+    return np.asarray(position + rotations.rotate(rotation, move))
 
-    Where the plan does not say from when on the motion is as it was, it is so `window` seconds before the
-    first pose and after the last one. Up to there, and from there, no number of the motion changes.
+
+def warp(motion: Motion, plan: WarpPlan, *, window: float = TUNED.key_margin, feet: bool = True) -> Motion:
+    """Warp a motion by a plan: poses by `posed`, curves between them by `offsets`, then times by `retime`.
+
+    The plan changes the motion between its first and its last key without a target, or else from `window`
+    seconds before its first target until as long after its last one. All other frames stay as they are.
 
     Parameters
     ----------
     motion : F frames.
     plan : as `load_plan` reads it for this motion.
     window : seconds.
-    feet : keep feet that stand in their places, at keys by `posed`, and between them as `edit` does, which
-        brings the joints to their places and nothing under the floor; asks for the motion's `contacts`.
+    feet : whether to hold planted feet, at keys by `posed`, and between them as `edit` does, which meets the
+        targets with nothing under the floor. It needs the motion's `contacts`.
 
     Raises
     ------
-    MocapError : for places out of reach, missing contacts, and a window of no frame.
+    MocapError : for targets out of reach, missing contacts, and a window of no frame.
 
     Warns
     -----
-    MocapWarning : for places that are missed by more than 5 mm, and plants that are let go.
+    MocapWarning : for targets that are missed by more than 5 mm, and footplants that are released.
 
     Examples
     --------
     >>> from mocap.datasets import sample
     >>> from mocap.body import joint_positions
     >>> walk = sample("walk_straight")
-    >>> place = joint_positions(walk)[180, walk.skeleton.index("lhand")] + [0.1, 0.25, 0.0]
-    >>> warp(walk, WarpPlan("keys.txt", {180: [Wish(1, "lhand", place, level=False)]}, []))
+    >>> position = joint_positions(walk)[180, walk.skeleton.index("lhand")] + [0.1, 0.25, 0.0]
+    >>> warp(walk, WarpPlan("keys.txt", {180: [Target(1, "lhand", position, level=False)]}, []))
     Motion('walk_straight', 1158 frames at 120 Hz, 9.64 s, 38 joints)
     """
-    if plan.wishes:
+    if plan.targets:
         motion = _warp_poses(motion, plan, window, feet)
     if plan.times:
         motion = retime(motion, [(new, old) for _, new, old in plan.times])
@@ -182,35 +198,37 @@ def warp(motion: Motion, plan: WarpPlan, *, window: float = HALF_SECOND, feet: b
 
 
 def _warp_poses(motion: Motion, plan: WarpPlan, window: float, feet: bool) -> Motion:
-    """Carry out what a plan asks of poses. Frames before and after those of the keys stay the same."""
+    """Warp the poses of a motion by a plan. Frames outside its keys stay the same."""
     frames = _frames_between_keys(motion, plan, window)
     no_pins = Pins((), *np.zeros((2, len(motion), 0, 3)))
     poses = poses_of(motion)
     plants = plants_within(plant_pins(poses), poses, frames) if feet else no_pins
     keys: list[Key] = []
     pins: list[Pins] = []
-    for frame, wishes in sorted(plan.wishes.items()):
-        places = {wish.joint: wish.place for wish in wishes if wish.place is not None}
+    for frame, targets in sorted(plan.targets.items()):
+        positions = {target.joint: target.position for target in targets if target.position is not None}
         try:
-            pose = posed_with(poses, frame, places, plants) if places else None
+            pose = posed_with(poses, frame, positions, plants) if positions else None
         except MocapError as error:
-            raise MocapError(f"{plan.path}, line {wishes[0].line}: {error}") from None
-        keys.append(Key(frame, pose, any(wish.level for wish in wishes)))
-        pins += [pin(motion, joint, [frame], place) for joint, place in places.items()]
+            raise MocapError(f"{plan.path}, line {targets[0].line}: {error}") from None
+        keys.append(Key(frame, pose, any(target.level for target in targets)))
+        pins += [pin(motion, joint, [frame], position) for joint, position in positions.items()]
     if not pins:
         return motion
     warped = displaced(motion, offsets(motion, keys_around(motion, keys, window)))
     if feet:
         return brought(poses_of(warped), poses, join_pins(*pins), frames=frames).motion
-    stays = np.ones(len(motion), bool)
-    stays[frames] = False
-    return with_frames_of(warped, motion, stays)
+    is_outside = np.ones(len(motion), bool)
+    is_outside[frames] = False
+    return with_frames_of(warped, motion, is_outside)
 
 
 def _frames_between_keys(motion: Motion, plan: WarpPlan, window: float) -> slice:
-    """Find the frames that a plan changes: all between the first and the last key."""
-    moved = {frame: any(wish.place is not None for wish in wishes) for frame, wishes in plan.wishes.items()}
-    keys = [Key(frame, motion[:1] if moved[frame] else None) for frame in sorted(moved)]
+    """Return the frames that a plan changes: all between the first and the last key."""
+    keys = []
+    for frame, targets in sorted(plan.targets.items()):
+        is_moved = any(target.position is not None for target in targets)
+        keys.append(Key(frame, motion[:1] if is_moved else None))
     keys = keys_around(motion, keys, window)
     start = 0 if keys[0].pose is not None else keys[0].frame + 1
     stop = len(motion) if keys[-1].pose is not None else keys[-1].frame

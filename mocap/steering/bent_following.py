@@ -76,7 +76,7 @@ def _rounded_request(request: PathRequest, line: RoundedLine) -> PathRequest:
     """Map the labels and times of requests from metres along a path to metres along the rounded path."""
 
     def rounded(metres: float) -> float:
-        return float(np.interp(metres, line.asked, line.along))
+        return float(np.interp(metres, line.requested, line.along))
 
     labels = [(rounded(metres), label) for metres, label in request.labels]
     times = [(rounded(metres), seconds) for metres, seconds in request.times]

@@ -8,7 +8,8 @@ import numpy as np
 from mocap.body import Motion, Skeleton, rotations
 from mocap.body.kinematics import forward_kinematics
 from mocap.datasets.samples import sample
-from mocap.editing.stances import Stance, proportioned, stance_of
+from mocap.editing.proportions import proportioned
+from mocap.editing.stances import Stance, stance_of
 from tests.editing.wishes import between
 
 # As cgspeed's conversions of the CMU clips name them, and as Bandai-Namco's files do.

@@ -130,18 +130,19 @@ def test_a_steady_walk_slows_by_the_law_half_by_steps_and_half_by_the_clock(radi
     assert ratio[inside] == pytest.approx(law(1 / radius), rel=0.01)
     assert np.diff(places)[inside[1:]] == pytest.approx(0.04 * law(1 / radius) ** 0.5, rel=0.01)
     ride = ride_of(clip("walk_straight"))
-    _, _, along, leaning = slow_down(clip("walk_straight"), ride, ring)
+    slowed = slow_down(clip("walk_straight"), ride, ring)
+    along = slowed.along
     inside = (along > 1) & (along < ring.length - 1)
     speed, own = np.gradient(along)[inside].mean(), np.gradient(ride.along).mean()
     assert speed / own == pytest.approx(law(1 / radius), rel=0.05)
     balance = np.arctan((30 * speed) ** 2 / radius / 9.81)
-    assert leaning[inside].mean() == pytest.approx(balance, rel=0.1)
+    assert slowed.lean[inside].mean() == pytest.approx(balance, rel=0.1)
 
 
 def test_legs_lean_by_the_whole_angle_and_the_trunk_by_a_quarter():
     """Measured on the motion: from behind, against the same frames of a walk that does not lean."""
     bent = bend(clip("walk_straight"), circle(1.0))
-    leaning = slow_down(clip("walk_straight"), ride_of(clip("walk_straight")), bent.line.path)[3]
+    leaning = slow_down(clip("walk_straight"), ride_of(clip("walk_straight")), bent.line.path).lean
     points, names = joint_positions(bent.motion), bent.motion.skeleton.names
     way = np.asarray(moving_frames(bent.line.path, bent.walked).angle)
 
@@ -223,7 +224,7 @@ def test_a_corner_is_rounded_as_little_as_the_limit_allows(degrees):
     ((start, end, worst),) = line.roundings
     assert start < 6 < end and end - start < 2.5
     assert worst == line.moved.max()
-    assert line.moved[np.abs(line.asked - 6) > 4.5].max() < 0.01
+    assert line.moved[np.abs(line.requested - 6) > 4.5].max() < 0.01
 
 
 @pytest.mark.parametrize("path", [circle(1.2), circle(3.0), arcs((0, 0), 0, [(3, 2.4), (4, -3), (2, 0)])])

@@ -12,7 +12,7 @@ from scipy.spatial import cKDTree
 from mocap.body import GroundPath, arcs, circle, joint_positions
 from mocap.datasets.samples import sample
 from mocap.editing import moving_frames, on_path, plants_kept, ride_of, spline_basis, start_at
-from mocap.editing.path_editing import STRIDE
+from mocap.editing.tuned import TUNED
 from mocap.feet import clean_up
 from mocap.files.load_save import load
 from tests.editing.wishes import smoothness
@@ -44,7 +44,7 @@ def off(motion, path):
 def test_the_path_is_the_least_squares_spline():
     """As in [Gle01, 3]."""
     motion, ride = straight()
-    basis = spline_basis(len(motion), STRIDE * motion.fps).toarray()
+    basis = spline_basis(len(motion), TUNED.path_knots * motion.fps).toarray()
     expected = np.linalg.lstsq(basis, motion.root_positions[:, [0, 2]], rcond=None)[0]
     assert ride.handles == pytest.approx(expected, abs=1e-7)
     assert ride.path.points == pytest.approx(basis @ expected, abs=1e-8)
@@ -63,7 +63,7 @@ def test_the_heading_is_calm_while_the_body_stands(real_data):
         return np.degrees(np.ptp(moving_frames(ride.path, ride.along, chord=chord).angle[stands]))
 
     assert stands.sum() > 30
-    assert turn(STRIDE, 0.25) <= 3
+    assert turn(TUNED.path_knots, 0.25) <= 3
     assert turn(0.4, 0.005) > 90  # the tangent
     assert len(ride.along) == len(motion)
 

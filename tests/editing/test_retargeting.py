@@ -12,8 +12,9 @@ from mocap import load
 from mocap.body import Motion, PlanarTransform, Skeleton, joint_positions, rotations
 from mocap.body.limbs import FEET
 from mocap.editing import join_pins, pin_errors, plants_kept
+from mocap.editing.proportions import proportioned
 from mocap.editing.retargeting import copied, floor_pins, floor_under, retarget, wear
-from mocap.editing.stances import Stance, proportioned, stance_of, stance_of_zero
+from mocap.editing.stances import Stance, stance_of, stance_of_zero
 from mocap.errors import SkeletonMismatch
 from mocap.feet import clean_up, mark_plants
 from tests.editing.bodies import LONG, adult, along_x, bends, child, renamed, rested, walk, without
@@ -107,9 +108,15 @@ def test_a_root_above_the_pelvis_turns_with_the_heading_only():
 test_what_cannot_be_copied_is_refused = refusals(
     (SkeletonMismatch, "bones differ", copied, walk(), child(), adult()),
     *(
-        ("needs a scale above 0", lambda share=share: copied(walk(), adult(), child(), scale=share))
+        ("scale of a path must be above 0", lambda share=share: copied(walk(), adult(), child(), scale=share))
         for share in (0, -1, np.nan, np.inf)
     ),
+)
+
+test_another_body_than_a_skeleton_or_a_stance_is_refused = refusals(
+    (r"got a Motion: pass motion.skeleton, or editing.stance_of\(motion\)", wear, walk(), walk()),
+    ("got the text 'child.bvh': pass motion.skeleton", wear, walk(), "child.bvh"),
+    ("a Skeleton, which is a body without poses", wear, walk().skeleton, walk()),
 )
 
 

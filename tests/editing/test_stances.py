@@ -12,8 +12,10 @@ from mocap.body import Motion, PlanarTransform, Skeleton, joint_positions, resam
 from mocap.body.limbs import FEET, ROLES, roles
 from mocap.body.motion import rotating_joints
 from mocap.datasets.samples import SKELETON, sample
+from mocap.editing.foot_heights import standing_heights
 from mocap.editing.mirroring import mirror, mirror_above_floor, symmetry
-from mocap.editing.stances import Stance, proportioned, stance_of, stance_of_zero, standing_heights
+from mocap.editing.proportions import proportioned
+from mocap.editing.stances import Stance, stance_of, stance_of_zero
 from mocap.editing.toes import bend_toes, lowest_allowed
 from mocap.feet.footplants import mark_plants
 from mocap.files import load_save
@@ -178,7 +180,7 @@ def on_tiptoe():
 test_shares_and_heights_that_no_body_has_are_refused = refusals(
     ("left ankle would stand 20 cm over its ball; the foot is 13", on_tiptoe),
     *(
-        ("The share of the arms must be above 0", lambda share=share: proportioned(adult(), arms=share))
+        ("The factor of the arms must be above 0", lambda share=share: proportioned(adult(), arms=share))
         for share in (0, -1, np.nan, np.inf)
     ),
 )

@@ -95,7 +95,7 @@ test_a_plan_that_the_clip_cannot_follow = refused_texts(
     ("at 361 same", r"line 1: expected a moment up to frame 360, or second 3, got frame 361"),
     ("at 5s same", "got frame 600"),
     ("at 5 hand 0 0 0", r"line 1: expected a joint, such as rhand, lhand, .*got 'hand'"),
-    ("at 1s lhand 0 0 0\nat 120 level", "expected one wish for a joint at frame 120, got 'level' beside"),
+    ("at 1s lhand 0 0 0\nat 120 level", "expected one target for a joint at frame 120, got 'level' beside"),
     ("at 1s lhand 0 0 0\nat 120 lhand 0 1 0", "line 2: .*'lhand' beside 'lhand' of line 1"),
     ("at 1s lhand 0 9 0", r"keys.txt, line 1: Frame 120: '\w+' would be .* m from"),
     ("time 0 0\ntime 1 3.005", "line 2: expected an old second up to 3, the clip's last, got 3.005"),

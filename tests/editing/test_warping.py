@@ -152,9 +152,9 @@ def test_one_pace_is_the_clip_itself_and_back_again_is_where_it_began():
 def test_a_retimed_clip_has_the_most_frames_at_most(monkeypatch):
     frames = round(FOUR_SECONDS.duration * FOUR_SECONDS.fps) + 1
     keys = [(0, 0), (FOUR_SECONDS.duration, FOUR_SECONDS.duration)]
-    monkeypatch.setattr("mocap.editing.retiming.MOST", frames)
+    monkeypatch.setattr("mocap.editing.retiming.MAX_FRAMES", frames)
     assert len(retime(FOUR_SECONDS, keys)) == frames
-    monkeypatch.setattr("mocap.editing.retiming.MOST", frames - 1)
+    monkeypatch.setattr("mocap.editing.retiming.MAX_FRAMES", frames - 1)
     refused(f"ask for {frames} frames; at most {frames - 1}", retime, FOUR_SECONDS, keys)
 
 
