@@ -60,6 +60,14 @@ def held(motion, seconds):
     return replace(motion, root_positions=roots, rotations=local, contacts={}, labels={})
 
 
+def shortened_by(motion, seconds):
+    """Leave out frames in mid-walk, without a blend."""
+    middle = len(motion) // 2
+    frames = np.delete(np.arange(len(motion)), slice(middle, middle + round(seconds * motion.fps)))
+    roots, local = motion.root_positions[frames], motion.rotations[frames]
+    return replace(motion, root_positions=roots, rotations=local, contacts={}, labels={})
+
+
 def dipping(metres):
     """Lower the body for half a second."""
     seconds = np.abs(np.arange(len(WALK)) - 200) / WALK.fps
@@ -69,6 +77,7 @@ def dipping(metres):
 
 FLAWS = {
     "jolt": lambda: concatenate([WALK[:200], WALK[240:]]),
+    "cut": lambda: shortened_by(WALK, 0.05),
     "snap": lambda: turned("lfemur", np.where(np.arange(len(WALK)) < 100, 0.0, 25.0), [1, 0, 0]),
     "frozen": lambda: held(WALK, 0.3),
     "slip": lambda: replace(WALK, root_positions=WALK.root_positions * [1.3, 1, 1.3]),
@@ -115,6 +124,24 @@ def test_a_flaw_is_as_large_at_each_frame_rate(name):
     ratios = [measured(resample(flawed, fps), name).ratio for fps in (30, 60, 120)]
     assert min(ratios) > 1
     assert max(ratios) < 1.3 * min(ratios)
+
+
+@pytest.mark.parametrize("fps", [30, 60, 120])
+def test_a_cut_of_a_twentieth_second_is_seen_at_each_rate_and_after_resampling(fps):
+    walk = resample(sample("walk_straight"), fps)[: 6 * fps]
+    assert measured(walk, "cut").ratio < 0.6
+    cut = shortened_by(walk, 0.05)
+    middle = len(walk) // 2
+    assert measured(cut, "cut").ratio > 1.2
+    frame = int(measured(cut, "cut").where.removeprefix("frame "))
+    assert abs(frame - middle) < fps / 30 + 1
+    assert measured(resample(cut, 120), "cut").ratio > 1.2
+
+
+def test_a_limb_that_leaps_alone_and_a_halt_are_no_cuts():
+    leaping = turned("lfemur", np.where(np.arange(len(WALK)) < 100, 0.0, 40.0), [1, 0, 0])
+    assert measured(leaping, "cut").ratio < 0.6 < 1 < measured(leaping, "snap").ratio
+    assert measured(held(WALK, 0.3), "cut").ratio < 1
 
 
 def test_fingers_and_toes_may_flip_and_sink():
