@@ -193,7 +193,7 @@ def judge(
     - frozen: the longest stretch in which no joint moves and which starts or ends abruptly.
     - slip: the speed of standing feet along the body's path, in percent of its speed. It detects a path that
       is longer or shorter than the steps.
-    - foot_sliding: the foot sliding distance, mean over the footplants.
+    - foot_sliding: the foot sliding distance within a stance, mean over the footplants.
     - sliding_speed: the foot sliding speed, the 25th percentile of the slowest joint of the feet, in percent
       of the body's speed. It detects a body that glides and has no footplants.
     - toes: the depth of a foot below the height at which the clip's feet stand, for a tenth of a second.

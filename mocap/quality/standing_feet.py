@@ -17,7 +17,7 @@ from mocap.body.limbs import Leg
 from mocap.feet.footplants import mark_plants
 from mocap.quality.limits import LIMITS
 from mocap.quality.measures import Measure, Seen
-from mocap.quality.seam_measures import feet_of, foot_sliding, mean_foot_sliding
+from mocap.quality.seam_measures import FootSliding, feet_of, foot_sliding
 
 LOWEST = 15  # percentile of a ball's heights: where it stands, even if it is lower for a moment
 LOW = 0.035  # of the leg's length: a standing ball is no higher above it
@@ -99,14 +99,32 @@ def weighted_median(values: Array, weights: Array) -> float:
 
 
 def _foot_sliding(seen: Seen) -> Measure:
-    """Measure the foot sliding distance, the mean over the footplants."""
+    """Measure the foot sliding distance within the whole duration of a footplant, the mean over them."""
     marked = mark_plants(seen.motion, seen.legs)
-    slides = foot_sliding(marked, feet_of(seen.legs), positions=seen.positions)
-    detail = "no foot contact"
-    if slides:
-        worst = max(slides, key=lambda slide: slide.far)
-        detail = f"'{worst.joint}', frames {worst.start} to {worst.stop - 1}"
-    return Measure("foot_sliding", mean_foot_sliding(slides), LIMITS.foot_sliding, "cm", detail)
+    footplants = foot_sliding(marked, feet_of(seen.legs), positions=seen.positions)
+    if not footplants:
+        return Measure("foot_sliding", 0.0, LIMITS.foot_sliding, "cm", "no foot contact")
+    distances = [distance_per_stance(footplant) for footplant in footplants]
+    worst = footplants[int(np.argmax(distances))]
+    detail = f"'{worst.joint}', frames {worst.start} to {worst.stop - 1}"
+    return Measure("foot_sliding", float(np.mean(distances)), LIMITS.foot_sliding, "cm", detail)
+
+
+def distance_per_stance(footplant: FootSliding) -> float:
+    """Extend the foot sliding distance to the whole duration of a footplant, cm.
+
+    Its n frames last n / fps, but the first and the last are only (n - 1) / fps apart. At a low frame rate,
+    and in a short stance, a foot that slides at constant speed would seem to slide less.
+
+    Examples
+    --------
+    >>> at_30_hz = FootSliding("lfoot", 0, 6, 1.5)
+    >>> at_60_hz = FootSliding("lfoot", 0, 12, 1.65)
+    >>> [round(distance_per_stance(footplant), 3) for footplant in (at_30_hz, at_60_hz)]
+    [1.8, 1.8]
+    """
+    frames = footplant.stop - footplant.start
+    return footplant.far * frames / max(frames - 1, 1)
 
 
 def _sliding_speed(seen: Seen) -> Measure:

@@ -118,7 +118,9 @@ def test_the_bundled_clips_pass_at_any_rate(name):
         assert stand_out(judge(resample(sample(name), fps)[: 20 * fps])) == []
 
 
-@pytest.mark.parametrize("name", ["jolt", "snap", "frozen", "slip", "sunk", "toes", "rotation"])
+@pytest.mark.parametrize(
+    "name", ["jolt", "snap", "frozen", "slip", "foot_sliding", "sunk", "toes", "rotation"]
+)
 def test_a_flaw_is_as_large_at_each_frame_rate(name):
     flawed = FLAWS[name]()
     ratios = [measured(resample(flawed, fps), name).ratio for fps in (30, 60, 120)]
@@ -142,6 +144,13 @@ def test_a_limb_that_leaps_alone_and_a_halt_are_no_cuts():
     leaping = turned("lfemur", np.where(np.arange(len(WALK)) < 100, 0.0, 40.0), [1, 0, 0])
     assert measured(leaping, "cut").ratio < 0.6 < 1 < measured(leaping, "snap").ratio
     assert measured(held(WALK, 0.3), "cut").ratio < 1
+
+
+@pytest.mark.parametrize("factor", [0.8, 0.9, 1.3])
+def test_the_foot_sliding_distance_does_not_depend_on_the_frame_rate(factor):
+    sliding = replace(WALK, root_positions=WALK.root_positions * [factor, 1, factor], contacts={})
+    values = [measured(resample(sliding, fps), "foot_sliding").value for fps in (30, 60, 120)]
+    assert max(values) < 1.1 * min(values)
 
 
 def test_fingers_and_toes_may_flip_and_sink():
@@ -378,6 +387,17 @@ def test_a_snap_and_an_euler_flip(clean):
     turns[70:, 1] = rotations.multiply(turns[70:, 1], rotations.about_y(1.5))
     report = inspect(replace(clean, rotations=turns))
     assert [str(flaw) for flaw in report.flaws] == ["snap in frame 70 ('elbow' by 85° at most)"]
+
+
+@pytest.mark.parametrize("fps", [30, 60, 120])
+def test_a_leap_out_of_a_rest_pose_is_a_snap_at_each_rate(fps):
+    slow = resample(WALK, 30)
+    turns = slow.rotations.copy()
+    arm = slow.skeleton.index("lhumerus")
+    turns[:2, arm] = rotations.multiply(turns[:2, arm], rotations.from_rotvec([0, 0, np.radians(85)]))
+    (frames,) = kinds(resample(replace(slow, rotations=turns), fps)).values()
+    assert frames == list(range(fps // 30 + 1, 2 * fps // 30 + 1))
+    assert kinds(resample(slow, fps)) == {}
 
 
 def test_zeros_and_feet_under_the_floor(clean):
