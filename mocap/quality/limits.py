@@ -38,7 +38,7 @@ class Limits:
     tallest: float = 3.5  # metres of height. The same for a body so tall
 
     # Jumps of velocity. At 30 Hz, in the walks, runs and jumps of CMU's subject 16, leaps have 20 times the
-    # percentile `MOSTLY` of all frames, and all other frames but one at most 3.3 times.
+    # percentile `LEAP_PERCENTILE` of all frames, and all other frames but one at most 3.3 times.
     leap: float = 5.0  # times that percentile. Above it a jump is a leap in the data
     seam_jolt: float = 1.5  # times the percentile `USUAL` of the windows of the clips
 

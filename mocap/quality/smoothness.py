@@ -26,8 +26,8 @@ WINDOW = 1 / 3  # seconds: a jump in a window is compared with those in windows 
 STILL = 0.02  # m/s: jumps of velocity of a body that stands
 
 NEARBY = 0.5  # seconds on either side of a frame
-MOSTLY = 90  # percentile of the frames nearby
-SEVERAL = 0.9  # of the largest value: bones with more than that snap together
+USUAL_PERCENTILE = 90  # of the frames nearby
+SIMULTANEOUS = 0.9  # of the largest value: bones with more than that snap together
 
 LONG_BONE = 0.17  # of the longest chain of bones from the root: thighs, shanks, upper arms and forearms
 
@@ -103,7 +103,7 @@ def usual_nearby(values: Array, seen: Seen) -> Array:
     sampled = values[:: seen.step]
     window = min(len(sampled), 1 + 2 * round(NEARBY / seen.seconds))
     windows = sliding_window_view(sampled, window, axis=0)
-    percentiles = np.percentile(windows, MOSTLY, axis=-1)
+    percentiles = np.percentile(windows, USUAL_PERCENTILE, axis=-1)
     first = np.arange(len(values)) // seen.step - window // 2
     return np.asarray(percentiles[first.clip(0, len(percentiles) - 1)])
 
@@ -167,7 +167,7 @@ def snap(seen: Seen) -> Measure | None:
     ratios = leaps / usual.clip(LIMITS.snap_floor, LIMITS.snap_ceiling)
     largest = float(ratios.max())
     frame = int(ratios.max(axis=1).argmax())
-    bone = int((ratios[frame] > SEVERAL * largest).argmax())  # the first one, which moves those below
+    bone = int((ratios[frame] > SIMULTANEOUS * largest).argmax())  # the first one, which moves those below
     name = seen.motion.skeleton.names[bones.upper[bone]]
     return Measure("snap", largest, LIMITS.snap_ratio, "times usual", f"'{name}', frame {frame + 2 * step}")
 

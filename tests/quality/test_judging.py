@@ -206,13 +206,13 @@ def swinging_arm(degrees, sideways=0.0):
 def test_an_arm_that_is_nearly_straight_has_no_backwards():
     wave = np.sin(0.1 * np.arange(len(WALK)))
     nearly_straight = swinging_arm(2 + 15 * wave)
-    assert nearly_straight.least == -np.inf and nearly_straight.fraction.max() < 0.2
+    assert nearly_straight.smallest == -np.inf and nearly_straight.fraction.max() < 0.2
     bent = swinging_arm(30 + 45 * wave)
     assert bent.angles.min() == pytest.approx(-15, abs=0.1)
     assert bent.fraction.max() == pytest.approx(1.5, abs=0.01)
     # A few bends to the side are no bends backwards, however large.
     aside = swinging_arm(np.where(wave > -0.99, 30.0, -1.0), np.where(wave > -0.99, 0.0, 31.0))
-    assert aside.least == -10 and -5 < aside.angles.min() < 0
+    assert aside.smallest == -10 and -5 < aside.angles.min() < 0
 
 
 def test_an_elbow_that_bends_backwards_is_found():
