@@ -204,7 +204,7 @@ def second_differences(motion: Motion, joint: str) -> float:
 
 def smoothness_row(name: str, motion: Motion) -> str:
     """Row of the table of smoothness."""
-    slides = [plant.far for plant in foot_sliding(motion)]
+    slides = [plant.distance for plant in foot_sliding(motion)]
     worst = judge(motion).worst
     metres = np.linalg.norm(np.diff(motion.root_positions[:, [0, 2]], axis=0), axis=-1).sum()
     joints = [f"{second_differences(motion, joint):.0f}" for joint in ("tibia", "foot")]

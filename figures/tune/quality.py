@@ -252,6 +252,7 @@ HEIGHT_SMALL = partial(tried, is_reported=has_impossible_height, copies=SMALLER)
 HEIGHT_LARGE = partial(tried, is_reported=has_impossible_height, copies=LARGER)
 BENT = measure_of("bent", backwards)
 JOLT = measure_of("jolt", aside_halfway)
+CUT = measure_of("cut", cut)
 SNAPPING = measure_of("snap", rotated_halfway)
 STANDSTILL = measure_of("frozen", held)
 
@@ -272,6 +273,9 @@ TRIALS = {
     "jolt_floor": Trial(JOLT, (0.03, 0.3)),
     "jolt_ceiling": Trial(JOLT, (0.2, 0.8, 1.6)),
     "seam_jolt": Trial(against_itself, (1.0, 1.2, 2.0, 4.0)),
+    "cut": Trial(CUT, (3.0, 2.0, 6.0, 12.0)),
+    "cut_floor": Trial(CUT, (0.002, 0.02)),
+    "cut_ceiling": Trial(CUT, (0.01, 0.04)),
     "tremble": Trial(measure_of("tremble", shaken), (2.0, 1.0, 3.0, 8.0)),
     "snap_ratio": Trial(SNAPPING, (4.0, 3.0, 8.0, 12.0)),
     "snap_floor": Trial(SNAPPING, (0.5, 1.4)),

@@ -162,28 +162,34 @@ def _without_reference(
 ) -> tuple[list[Joint], Array, Array]:
     """Merge the root with its only child if that moves: p = p_root + R_root p_child, R = R_root R_child.
 
-    A warning states that the root is left out, unless it stands still, once for all files of a folder.
+    A warning states that the root is left out, and whether it moves, once for all files of a folder.
     """
     parents = [joint.parent for joint in joints]
     if parents.count(0) != 1 or np.ptp(positions[:, 1], axis=0).max() <= STILL:
         return joints, positions, local
-    if np.ptp(positions[:, 0], axis=0).max() > STILL:
-        _warn_of_reference(Path(path).parent, Path(path).name, joints[0].name, joints[1].name)
+    moves = bool(np.ptp(positions[:, 0], axis=0).max() > STILL)
+    _warn_of_reference(Path(path), joints[0].name, joints[1].name, moves=moves)
     positions[:, 1] = positions[:, 0] + rotations.rotate(local[:, 0], positions[:, 1])
     local[:, 1] = rotations.multiply(local[:, 0], local[:, 1])
     joints = [replace(joint, parent=joint.parent - 1) for joint in joints[1:]]
     return joints, positions[:, 1:], local[:, 1:]
 
 
-REFERENCES: set[tuple[Path, str, str]] = set()  # moving roots that were stated: folder, root and child
+REFERENCES: set[tuple[Path, str, str, bool]] = set()  # that were stated: folder, root, child, and motion
 
 
-def _warn_of_reference(folder: Path, file: str, root: str, child: str) -> None:
-    """Warn that a moving root is left out, once for all files of a folder."""
-    if (folder, root, child) not in REFERENCES:
-        REFERENCES.add((folder, root, child))
-        names = f"'{shortened(root, 40)}' is left out: '{shortened(child, 40)}'"
-        warn(f"{folder / file}: the moving root {names} carries its travel.")
+def _warn_of_reference(path: Path, root: str, child: str, *, moves: bool) -> None:
+    """Warn that a root is left out, once for all files of a folder."""
+    reference = (path.parent, root, child, moves)
+    if reference in REFERENCES:
+        return
+    REFERENCES.add(reference)
+    root = f"'{shortened(root, 40)}'"
+    child = f"'{shortened(child, 40)}'"
+    reason = f"the moving root {root} is left out: {child} carries its travel"
+    if not moves:
+        reason = f"the still root {root} is left out: {child} is the root"
+    warn(f"{path}: {reason}.")
 
 
 def _channels(path: str | Path, options: ReadOptions) -> tuple[Hierarchy, Array, float]:

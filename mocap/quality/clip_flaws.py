@@ -16,6 +16,7 @@ from mocap.body.motion import Motion
 from mocap.body.planar import heading
 from mocap.errors import printable, shortened, warn
 from mocap.quality.limits import LIMITS
+from mocap.quality.measures import STEP, main_joints
 
 REST_POSE = "rest pose"  # kinds of flaws
 ZEROS = "nothing but zeros"
@@ -259,7 +260,26 @@ def _snaps(motion: Motion, rotation_angles: Array, too_fast: float) -> tuple[Mas
     largest = rotation_angles.max(axis=0, initial=0)
     name = motion.skeleton.names[largest.argmax()]
     detail = f"'{name}' by {np.degrees(largest.max()):.0f}° at most"
-    return np.append(False, (rotation_angles > too_fast).any(axis=1)), detail
+    is_snap = (rotation_angles > too_fast).any(axis=1) | _leaps_over_several_frames(motion, rotation_angles)
+    return np.append(False, is_snap), detail
+
+
+def _leaps_over_several_frames(motion: Motion, rotation_angles: Array) -> Mask:
+    """Mark the fast frames of a main joint that rotates too far within 1/30 s, shape (F - 1,).
+
+    Resampling extends a leap, such as that out of a T-pose, over several frames.
+    """
+    joints = main_joints(motion.skeleton)
+    step = max(1, round(STEP * motion.fps))
+    fastest = np.radians(LIMITS.rotation) / motion.fps  # radians per frame
+    windows = max(0, len(motion) - step)
+    local = motion.rotations[:, joints]
+    within_step = rotations.angle_between(local[step:], local[:windows])
+    in_window = np.zeros((len(rotation_angles), len(joints)), bool)
+    for start in range(min(step, len(rotation_angles))):
+        in_window[start : start + windows] |= within_step > fastest * step
+    is_fast = rotation_angles[:, joints] > fastest
+    return np.asarray((in_window & is_fast).any(axis=1))
 
 
 def _flips(

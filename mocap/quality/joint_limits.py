@@ -48,13 +48,13 @@ class Bend(NamedTuple):
     joint: str
     direction: str
     angles: Array
-    least: float  # reads: name: public, and users read it
-    most: float  # reads: name: public, and users read it
+    smallest: float
+    largest: float
 
     @property
     def fraction(self) -> Array:
         """The angle in each frame as a fraction of its limit. Above 1 the joint exceeds the limit."""
-        return np.maximum(self.angles / self.least, self.angles / self.most)
+        return np.maximum(self.angles / self.smallest, self.angles / self.largest)
 
 
 def joint_bends(motion: Motion, legs: Sequence[Leg] = (), poses: GlobalPoses | None = None) -> list[Bend]:

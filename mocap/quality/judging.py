@@ -184,6 +184,8 @@ def judge(
     - jolt: the largest jump of velocity of the middle of the body, within 1/30 s, divided by the usual one in
       the second around it, or, with `against`, by the usual jump in windows of a third of a second of these
       clips.
+    - cut: the largest jump of the whole pose from one frame to the next, divided by the usual one in the
+      second around it. It detects a cut without a blend.
     - tremble: the distance of joints from their trajectories without frequencies above 8 Hz, which takes 20
       frames per second.
     - snap: the largest leap in the direction of a thigh, shank, upper arm or forearm, divided by the usual
@@ -191,7 +193,7 @@ def judge(
     - frozen: the longest stretch in which no joint moves and which starts or ends abruptly.
     - slip: the speed of standing feet along the body's path, in percent of its speed. It detects a path that
       is longer or shorter than the steps.
-    - foot_sliding: the foot sliding distance, mean over the footplants.
+    - foot_sliding: the foot sliding distance within a stance, mean over the footplants.
     - sliding_speed: the foot sliding speed, the 25th percentile of the slowest joint of the feet, in percent
       of the body's speed. It detects a body that glides and has no footplants.
     - toes: the depth of a foot below the height at which the clip's feet stand, for a tenth of a second.
@@ -261,8 +263,8 @@ def judgement_table(judgements: Sequence[Judgement]) -> str:
     >>> from mocap.datasets.samples import sample
     >>> for line in judgement_table([judge(sample("walk_straight"))]).splitlines():
     ...     print(line[:59])
-    name          score  height    jolt tremble    snap  frozen
-    walk_straight   0.0  1.71 m    0.29    0.15    0.38    0.00
+    name          score  height    jolt     cut tremble    snap
+    walk_straight   0.0  1.71 m    0.29    0.19    0.15    0.38
     """
     names = list(dict.fromkeys(measure.name for judged in judgements for measure in judged.measures))
     width = max([4, *(len(shortened(judged.name, 40)) for judged in judgements)])

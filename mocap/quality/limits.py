@@ -38,7 +38,7 @@ class Limits:
     tallest: float = 3.5  # metres of height. The same for a body so tall
 
     # Jumps of velocity. At 30 Hz, in the walks, runs and jumps of CMU's subject 16, leaps have 20 times the
-    # percentile `MOSTLY` of all frames, and all other frames but one at most 3.3 times.
+    # percentile `LEAP_PERCENTILE` of all frames, and all other frames but one at most 3.3 times.
     leap: float = 5.0  # times that percentile. Above it a jump is a leap in the data
     seam_jolt: float = 1.5  # times the percentile `USUAL` of the windows of the clips
 
@@ -48,6 +48,10 @@ class Limits:
     jolt: float = 5.5  # times the usual jump nearby. Clips reach 5.0; a step aside by 10 cm has 7.4 or more
     jolt_floor: float = 0.1  # m/s. Of usual jumps, the smallest to compare with: a body that stands has less
     jolt_ceiling: float = 0.4  # m/s. The largest to compare with: a hop has 0.4, more is a clip full of leaps
+    # At their own rate, at 60 and at 30 Hz, clips without leaps in their data reach 3.9.
+    cut: float = 4.2  # times the usual jump of the pose nearby. A cut of 42 ms of walking has 4.5 or more
+    cut_floor: float = 0.006  # metres. The smallest to compare with: a body that stands has less
+    cut_ceiling: float = 0.02  # metres. The largest to compare with: at 30 Hz, runs have 0.02
     tremble: float = 4.0  # mm, median over the frames. Runs reach 3.1, and a tremor of 15 mm has 7.9 or more
     # Kicks and rolls reach 10.6 in two clips, the others 6.0. A hip or a knee that is rotated by 23° within
     # 1/30 s has 6 or more in 99 % of 115 clips.

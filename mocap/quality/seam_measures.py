@@ -25,19 +25,19 @@ from mocap.quality.limits import LIMITS
 class FootSliding(NamedTuple):
     """The foot sliding distance of a joint in one footplant, from frame `start` to just before frame `stop`.
 
-    `far` is the joint's largest distance from its mean position on the ground, centimetres.
+    `distance` is the joint's largest distance from its mean position on the ground, centimetres.
     """
 
     joint: str
     start: int
     stop: int
-    far: float  # reads: name: public, and users read it
+    distance: float
 
 
 def foot_sliding(
     motion: Motion, joints: Sequence[int] | None = None, *, positions: Array | None = None
 ) -> list[FootSliding]:
-    """Measure the foot sliding distance of each footplant: the largest from the mean position on the ground.
+    """Measure the foot sliding distance of each footplant, the largest from its mean position on the ground.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ def foot_sliding(
     --------
     >>> from mocap.datasets.samples import sample
     >>> slides = foot_sliding(sample("walk_straight"))
-    >>> len(slides) > 20, max(slide.far for slide in slides) < 1e-6
+    >>> len(slides) > 20, max(slide.distance for slide in slides) < 1e-6
     (True, True)
 
     Notebook: 18-motion-matching
@@ -79,7 +79,7 @@ def mean_foot_sliding(footplants: Iterable[FootSliding]) -> float:
     >>> mean_foot_sliding(footplants), mean_foot_sliding([])
     (1.0, 0.0)
     """
-    distances = [footplant.far for footplant in footplants]
+    distances = [footplant.distance for footplant in footplants]
     return float(np.mean(distances)) if distances else 0.0
 
 
@@ -128,11 +128,11 @@ def feet_of(legs: Sequence[Leg]) -> list[int]:
 
 USUAL = 99.9  # percentile of the clips' windows: all but one window in a thousand are below
 
-MOSTLY = 90  # percentile of the frames
+LEAP_PERCENTILE = 90  # of the frames' jumps of velocity, with which leaps in the data are compared
 
 
 def jumps(motion: Motion) -> Array:
-    """Compute the jump of velocity in each frame: the RMS over joints of |x_{f+1} - 2 x_f + x_{f-1}| · fps.
+    """Compute the jump of velocity in each frame, the RMS over joints of |x_{f+1} - 2 x_f + x_{f-1}| · fps.
 
     Parameters
     ----------
@@ -207,7 +207,7 @@ def spread(clips: Sequence[Motion]) -> Spread:
     """
     clips = require_compatible(clips)
     velocity_jumps = [jumps(clip) for clip in clips]
-    leap = LIMITS.leap * float(np.percentile(np.concatenate(velocity_jumps), MOSTLY))
+    leap = LIMITS.leap * float(np.percentile(np.concatenate(velocity_jumps), LEAP_PERCENTILE))
     return Spread(tuple(np.where(of_clip > leap, np.nan, of_clip) for of_clip in velocity_jumps))
 
 

@@ -1,8 +1,8 @@
-"""Jolts, snapping bones, frozen stretches and trembling.
+"""Jolts, cuts, snapping bones, frozen stretches and trembling.
 
-A jolt or a snap is large only relative to what the body does around it: a runner's knee is stopped by the
-ground in each step, a standing one's is not. Therefore both are divided by the usual value nearby, the 90th
-percentile in the second around the frame. That value has bounds. Below the lower one, no viewer sees a
+A jolt, a cut or a snap is large only relative to what the body does around it: a runner's knee is stopped by
+the ground in each step, a standing one's is not. Therefore they are divided by the usual value nearby, the
+90th percentile in the second around the frame. That value has bounds. Below the lower one, no viewer sees a
 change; above the upper one, a clip would excuse its flaws by other flaws.
 """
 
@@ -26,8 +26,8 @@ WINDOW = 1 / 3  # seconds: a jump in a window is compared with those in windows 
 STILL = 0.02  # m/s: jumps of velocity of a body that stands
 
 NEARBY = 0.5  # seconds on either side of a frame
-MOSTLY = 90  # percentile of the frames nearby
-SEVERAL = 0.9  # of the largest value: bones with more than that snap together
+USUAL_PERCENTILE = 90  # of the frames nearby
+SIMULTANEOUS = 0.9  # of the largest value: bones with more than that snap together
 
 LONG_BONE = 0.17  # of the longest chain of bones from the root: thighs, shanks, upper arms and forearms
 
@@ -103,9 +103,34 @@ def usual_nearby(values: Array, seen: Seen) -> Array:
     sampled = values[:: seen.step]
     window = min(len(sampled), 1 + 2 * round(NEARBY / seen.seconds))
     windows = sliding_window_view(sampled, window, axis=0)
-    percentiles = np.percentile(windows, MOSTLY, axis=-1)
+    percentiles = np.percentile(windows, USUAL_PERCENTILE, axis=-1)
     first = np.arange(len(values)) // seen.step - window // 2
     return np.asarray(percentiles[first.clip(0, len(percentiles) - 1)])
+
+
+def _leaps(changes: Array, step: int) -> Array:
+    """Return the distances of changes (F, ..., 3) from the mean of those a step before and a step after."""
+    return np.asarray(np.linalg.norm(_second_differences(changes, step), axis=-1) / 2)
+
+
+def cut(seen: Seen) -> Measure:
+    """Measure the largest jump of the whole pose, as a multiple of the usual one nearby.
+
+    A joint moves by x_{f + n} - x_f within n frames. Its jump is the distance of this displacement from the
+    mean of those in the n frames before and after, and the jump of the pose is the median over the joints. A
+    limb that leaps alone, and a foot that hits the ground, move few joints. The measure is computed for
+    n = 1, where a cut is clearest, and for the frames of a step, to which resampling extends a cut.
+    """
+    points = seen.positions[:, main_points(seen.motion.skeleton)]
+    largest = 0.0
+    detail = ""
+    for step in {1, seen.step}:
+        pose_jumps = np.median(_leaps(points[step:] - points[:-step], step), axis=-1)
+        ratios = pose_jumps / usual_nearby(pose_jumps, seen).clip(LIMITS.cut_floor, LIMITS.cut_ceiling)
+        if ratios.max() > largest:
+            largest = float(ratios.max())
+            detail = f"frame {int(ratios.argmax()) + 2 * step}"
+    return Measure("cut", largest, LIMITS.cut, "times usual", detail)
 
 
 class LongBones(NamedTuple):
@@ -137,13 +162,12 @@ def snap(seen: Seen) -> Measure | None:
         return None
     directions = seen.positions[:, bones.lower] - seen.positions[:, bones.upper]
     directions /= np.linalg.norm(directions, axis=-1, keepdims=True)
-    velocities = (directions[step:] - directions[:-step]) / seen.seconds
-    leaps = np.linalg.norm(_second_differences(velocities, step), axis=-1) / 2
+    leaps = _leaps((directions[step:] - directions[:-step]) / seen.seconds, step)
     usual = usual_nearby(leaps, seen)
     ratios = leaps / usual.clip(LIMITS.snap_floor, LIMITS.snap_ceiling)
     largest = float(ratios.max())
     frame = int(ratios.max(axis=1).argmax())
-    bone = int((ratios[frame] > SEVERAL * largest).argmax())  # the first one, which moves those below
+    bone = int((ratios[frame] > SIMULTANEOUS * largest).argmax())  # the first one, which moves those below
     name = seen.motion.skeleton.names[bones.upper[bone]]
     return Measure("snap", largest, LIMITS.snap_ratio, "times usual", f"'{name}', frame {frame + 2 * step}")
 
@@ -170,8 +194,9 @@ def frozen(seen: Seen) -> Measure:
 
 
 def measure_smoothness(seen: Seen, against: Sequence[Motion]) -> Iterator[Measure]:
-    """Measure jolts, trembling, snapping bones and frozen stretches."""
+    """Measure jolts, cuts, trembling, snapping bones and frozen stretches."""
     yield jolt(seen, against)
+    yield cut(seen)
     if seen.motion.fps >= LOWEST_RATE:
         yield tremble(seen)
     snapping = snap(seen)

@@ -17,16 +17,16 @@ from mocap.body.limbs import Leg
 from mocap.feet.footplants import mark_plants
 from mocap.quality.limits import LIMITS
 from mocap.quality.measures import Measure, Seen
-from mocap.quality.seam_measures import feet_of, foot_sliding, mean_foot_sliding
+from mocap.quality.seam_measures import FootSliding, feet_of, foot_sliding
 
-LOWEST = 15  # percentile of a ball's heights: where it stands, even if it is lower for a moment
-LOW = 0.035  # of the leg's length: a standing ball is no higher above it
+STANDING_PERCENTILE = 15  # of a ball's heights: where it stands, even if it is lower for a moment
+HIGHEST = 0.035  # of the leg's length: a standing ball is no higher above that percentile
 LEVEL = 0.2  # m/s: a standing ball rises or falls no faster
 WALKING = 0.25  # m/s: a slower body does not walk
 EVIDENCE = 0.5  # metres of the body's path over standing feet, to measure its slip
-SLOWEST = 25  # percentile of the frames, by the speed of the slowest joint of the feet
+SLIDING_PERCENTILE = 25  # of the frames, by the speed of the slowest joint of the feet
 SLOW = 0.5  # m/s: the foot sliding of a slower body is divided by this speed
-SOLE = 10  # percentile of the heights of standing feet: the floor, whatever the shoes
+FLOOR_PERCENTILE = 10  # of the heights of standing feet: the floor, whatever the shoes
 BRIEF = 0.1  # seconds: a joint that is deeper for less is not noticed
 
 
@@ -43,7 +43,7 @@ def is_standing(seen: Seen, leg: Leg) -> Mask:
     """Mark frames (F,) in which the ball of a foot is low, and neither rises nor falls."""
     heights = seen.positions[:, leg.ball, 1]
     length = leg.lengths(seen.motion.skeleton)[:2].sum()
-    low = heights < np.percentile(heights, LOWEST) + LOW * length
+    low = heights < np.percentile(heights, STANDING_PERCENTILE) + HIGHEST * length
     return np.asarray(low & (np.abs(_central_velocities(heights, seen)) < LEVEL))
 
 
@@ -99,14 +99,32 @@ def weighted_median(values: Array, weights: Array) -> float:
 
 
 def _foot_sliding(seen: Seen) -> Measure:
-    """Measure the foot sliding distance, the mean over the footplants."""
+    """Measure the foot sliding distance within the whole duration of a footplant, the mean over them."""
     marked = mark_plants(seen.motion, seen.legs)
-    slides = foot_sliding(marked, feet_of(seen.legs), positions=seen.positions)
-    detail = "no foot contact"
-    if slides:
-        worst = max(slides, key=lambda slide: slide.far)
-        detail = f"'{worst.joint}', frames {worst.start} to {worst.stop - 1}"
-    return Measure("foot_sliding", mean_foot_sliding(slides), LIMITS.foot_sliding, "cm", detail)
+    footplants = foot_sliding(marked, feet_of(seen.legs), positions=seen.positions)
+    if not footplants:
+        return Measure("foot_sliding", 0.0, LIMITS.foot_sliding, "cm", "no foot contact")
+    distances = [distance_per_stance(footplant) for footplant in footplants]
+    worst = footplants[int(np.argmax(distances))]
+    detail = f"'{worst.joint}', frames {worst.start} to {worst.stop - 1}"
+    return Measure("foot_sliding", float(np.mean(distances)), LIMITS.foot_sliding, "cm", detail)
+
+
+def distance_per_stance(footplant: FootSliding) -> float:
+    """Extend the foot sliding distance to the whole duration of a footplant, cm.
+
+    Its n frames last n / fps, but the first and the last are only (n - 1) / fps apart. At a low frame rate,
+    and in a short stance, a foot that slides at constant speed would seem to slide less.
+
+    Examples
+    --------
+    >>> at_30_hz = FootSliding("lfoot", 0, 6, 1.5)
+    >>> at_60_hz = FootSliding("lfoot", 0, 12, 1.65)
+    >>> [round(distance_per_stance(footplant), 3) for footplant in (at_30_hz, at_60_hz)]
+    [1.8, 1.8]
+    """
+    frames = footplant.stop - footplant.start
+    return footplant.distance * frames / max(frames - 1, 1)
 
 
 def _sliding_speed(seen: Seen) -> Measure:
@@ -116,7 +134,7 @@ def _sliding_speed(seen: Seen) -> Measure:
     slowest = steps.min(axis=1) / seen.seconds
     path = np.diff(seen.motion.root_positions[:, [0, 2]], axis=0)
     body_speed = float(np.linalg.norm(path, axis=-1).mean()) * seen.motion.fps
-    percent = 100 * float(np.percentile(slowest, SLOWEST)) / max(SLOW, body_speed)
+    percent = 100 * float(np.percentile(slowest, SLIDING_PERCENTILE)) / max(SLOW, body_speed)
     return Measure("sliding_speed", percent, LIMITS.sliding_speed, "% of speed")
 
 
@@ -136,7 +154,7 @@ def toes(seen: Seen, standing: Mask) -> Measure:
     lowest = np.stack([seen.positions[:, joints, 1].min(axis=1) for joints in feet], axis=-1)
     if not standing.any():
         return Measure("toes", 0.0, LIMITS.toes, "cm", "no standing foot")
-    depths = np.percentile(lowest[standing], SOLE) - lowest
+    depths = np.percentile(lowest[standing], FLOOR_PERCENTILE) - lowest
     lasting = lasting_values(depths, seen.frames(BRIEF))
     frame, foot = np.unravel_index(int(lasting.argmax()), lasting.shape)
     name = seen.motion.skeleton.names[seen.legs[int(foot)].ankle]

@@ -45,7 +45,7 @@ def foot_sliding_speed(motion):
 def slides(motion):
     """The largest stray of each whole plant from its mean place, cm."""
     whole = [plant for plant in foot_sliding(motion) if plant.start > 0 and plant.stop < len(motion)]
-    return np.array([plant.far for plant in whole])
+    return np.array([plant.distance for plant in whole])
 
 
 def knees(motion):

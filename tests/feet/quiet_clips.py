@@ -87,7 +87,7 @@ def check_clean_up(clip: Motion, least: float) -> tuple[int, int]:
         for m in (cleaned, clip)
     )
     assert kept >= least * asked > 0
-    assert max(slide.far for slide in foot_sliding(cleaned)) < 1e-6
+    assert max(slide.distance for slide in foot_sliding(cleaned)) < 1e-6
     moved = cleaned.root_positions - clip.root_positions
     legs = find_legs(clip.skeleton)
     assert np.all(moved[:, [0, 2]] == 0)

@@ -60,6 +60,14 @@ def held(motion, seconds):
     return replace(motion, root_positions=roots, rotations=local, contacts={}, labels={})
 
 
+def shortened_by(motion, seconds):
+    """Leave out frames in mid-walk, without a blend."""
+    middle = len(motion) // 2
+    frames = np.delete(np.arange(len(motion)), slice(middle, middle + round(seconds * motion.fps)))
+    roots, local = motion.root_positions[frames], motion.rotations[frames]
+    return replace(motion, root_positions=roots, rotations=local, contacts={}, labels={})
+
+
 def dipping(metres):
     """Lower the body for half a second."""
     seconds = np.abs(np.arange(len(WALK)) - 200) / WALK.fps
@@ -69,6 +77,7 @@ def dipping(metres):
 
 FLAWS = {
     "jolt": lambda: concatenate([WALK[:200], WALK[240:]]),
+    "cut": lambda: shortened_by(WALK, 0.05),
     "snap": lambda: turned("lfemur", np.where(np.arange(len(WALK)) < 100, 0.0, 25.0), [1, 0, 0]),
     "frozen": lambda: held(WALK, 0.3),
     "slip": lambda: replace(WALK, root_positions=WALK.root_positions * [1.3, 1, 1.3]),
@@ -109,12 +118,39 @@ def test_the_bundled_clips_pass_at_any_rate(name):
         assert stand_out(judge(resample(sample(name), fps)[: 20 * fps])) == []
 
 
-@pytest.mark.parametrize("name", ["jolt", "snap", "frozen", "slip", "sunk", "toes", "rotation"])
+@pytest.mark.parametrize(
+    "name", ["jolt", "snap", "frozen", "slip", "foot_sliding", "sunk", "toes", "rotation"]
+)
 def test_a_flaw_is_as_large_at_each_frame_rate(name):
     flawed = FLAWS[name]()
     ratios = [measured(resample(flawed, fps), name).ratio for fps in (30, 60, 120)]
     assert min(ratios) > 1
     assert max(ratios) < 1.3 * min(ratios)
+
+
+@pytest.mark.parametrize("fps", [30, 60, 120])
+def test_a_cut_of_a_twentieth_second_is_seen_at_each_rate_and_after_resampling(fps):
+    walk = resample(sample("walk_straight"), fps)[: 6 * fps]
+    assert measured(walk, "cut").ratio < 0.6
+    cut = shortened_by(walk, 0.05)
+    middle = len(walk) // 2
+    assert measured(cut, "cut").ratio > 1.2
+    frame = int(measured(cut, "cut").where.removeprefix("frame "))
+    assert abs(frame - middle) < fps / 30 + 1
+    assert measured(resample(cut, 120), "cut").ratio > 1.2
+
+
+def test_a_limb_that_leaps_alone_and_a_halt_are_no_cuts():
+    leaping = turned("lfemur", np.where(np.arange(len(WALK)) < 100, 0.0, 40.0), [1, 0, 0])
+    assert measured(leaping, "cut").ratio < 0.6 < 1 < measured(leaping, "snap").ratio
+    assert measured(held(WALK, 0.3), "cut").ratio < 1
+
+
+@pytest.mark.parametrize("factor", [0.8, 0.9, 1.3])
+def test_the_foot_sliding_distance_does_not_depend_on_the_frame_rate(factor):
+    sliding = replace(WALK, root_positions=WALK.root_positions * [factor, 1, factor], contacts={})
+    values = [measured(resample(sliding, fps), "foot_sliding").value for fps in (30, 60, 120)]
+    assert max(values) < 1.1 * min(values)
 
 
 def test_fingers_and_toes_may_flip_and_sink():
@@ -170,13 +206,13 @@ def swinging_arm(degrees, sideways=0.0):
 def test_an_arm_that_is_nearly_straight_has_no_backwards():
     wave = np.sin(0.1 * np.arange(len(WALK)))
     nearly_straight = swinging_arm(2 + 15 * wave)
-    assert nearly_straight.least == -np.inf and nearly_straight.fraction.max() < 0.2
+    assert nearly_straight.smallest == -np.inf and nearly_straight.fraction.max() < 0.2
     bent = swinging_arm(30 + 45 * wave)
     assert bent.angles.min() == pytest.approx(-15, abs=0.1)
     assert bent.fraction.max() == pytest.approx(1.5, abs=0.01)
     # A few bends to the side are no bends backwards, however large.
     aside = swinging_arm(np.where(wave > -0.99, 30.0, -1.0), np.where(wave > -0.99, 0.0, 31.0))
-    assert aside.least == -10 and -5 < aside.angles.min() < 0
+    assert aside.smallest == -10 and -5 < aside.angles.min() < 0
 
 
 def test_an_elbow_that_bends_backwards_is_found():
@@ -351,6 +387,17 @@ def test_a_snap_and_an_euler_flip(clean):
     turns[70:, 1] = rotations.multiply(turns[70:, 1], rotations.about_y(1.5))
     report = inspect(replace(clean, rotations=turns))
     assert [str(flaw) for flaw in report.flaws] == ["snap in frame 70 ('elbow' by 85° at most)"]
+
+
+@pytest.mark.parametrize("fps", [30, 60, 120])
+def test_a_leap_out_of_a_rest_pose_is_a_snap_at_each_rate(fps):
+    slow = resample(WALK, 30)
+    turns = slow.rotations.copy()
+    arm = slow.skeleton.index("lhumerus")
+    turns[:2, arm] = rotations.multiply(turns[:2, arm], rotations.from_rotvec([0, 0, np.radians(85)]))
+    (frames,) = kinds(resample(replace(slow, rotations=turns), fps)).values()
+    assert frames == list(range(fps // 30 + 1, 2 * fps // 30 + 1))
+    assert kinds(resample(slow, fps)) == {}
 
 
 def test_zeros_and_feet_under_the_floor(clean):

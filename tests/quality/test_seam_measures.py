@@ -94,7 +94,7 @@ def pushed(step):
 
 
 def test_a_clip_s_own_feet_stand_and_no_plants_are_no_slide():
-    assert max(slide.far for slide in foot_sliding(WALK)) < 1e-6
+    assert max(slide.distance for slide in foot_sliding(WALK)) < 1e-6
     assert foot_sliding(replace(WALK, contacts={})) == []
 
 
@@ -105,8 +105,8 @@ def test_a_body_that_is_pushed_slides_by_what_it_is_pushed():
     assert len(slides) == sum(len(runs(mark)) for mark in WALK.contacts.values())
     for slide in slides:
         stood = places[slide.start : slide.stop, WALK.skeleton.index(slide.joint)]
-        assert slide.far == pytest.approx(100 * np.linalg.norm(stood - stood.mean(0), axis=1).max())
-        assert slide.far == pytest.approx(0.1 * (slide.stop - slide.start - 1) / 2, abs=1e-6)
+        assert slide.distance == pytest.approx(100 * np.linalg.norm(stood - stood.mean(0), axis=1).max())
+        assert slide.distance == pytest.approx(0.1 * (slide.stop - slide.start - 1) / 2, abs=1e-6)
     slid = sliding_per_frame(pushed([0.003, 0.01, 0.004]))  # 5 mm per frame over the ground
     planted = sum(int((on[1:] & on[:-1]).sum()) for on in WALK.contacts.values())
     assert slid.sum() == pytest.approx(0.5 * planted)

@@ -107,7 +107,7 @@ def walk_anywhere(character, count, speed=0.8):
 
 def slides(motion):
     """How far planted joints stray from their mean place, cm."""
-    return [plant.far for plant in foot_sliding(motion) if plant.stop - plant.start > 2]
+    return [plant.distance for plant in foot_sliding(motion) if plant.stop - plant.start > 2]
 
 
 def arm_moved(clip, middle, shoulder, elbow):
