@@ -1,8 +1,8 @@
-"""Where ankles must be, and how they come there and leave: steps 1, 2 and 5 of [KSG02].
+"""The positions of ankles, and the paths between footplants: steps 1, 2 and 5 of [KSG02].
 
-Step 5 is taken with step 2, as one curve that bends least, instead of by fades: the sum that it makes least
-is a matrix of five diagonals. While only the ball stands, the foot may turn about it: how far, is found
-together with the knees.
+Step 5 is taken with step 2: between footplants, a correction is the smoothest curve that continues those of
+the plants, instead of a fade. The matrix of the sum that it minimises has five diagonals. While only the ball
+stands, the foot may rotate about it. That rotation is found together with the knees.
 """
 
 from collections.abc import Mapping
@@ -14,37 +14,27 @@ from scipy.ndimage import binary_propagation
 from mocap._shared.arrays import Array, Mask, runs
 from mocap._shared.records import NamedTuple
 from mocap.body import rotations
-from mocap.feet.leg_track import BACK, BENT, ROUNDING, LegTrack, dot
+from mocap.feet.leg_track import BACK, ROUNDING, LegTrack, dot
+from mocap.feet.tuned import TUNED
 
-# Seconds in which a correction dies away where no other plant is near. With 0.02 the ankles of captured
-# runs accelerate by 12 % more (99.9 % of the frames). With 0.1 as many frames are held. And frames, at least:
-# without them 22 of 552 turns at 30 Hz, each on another's way, accelerate by more than 1.15 times as much as
-# they did; with 2.5, as many as before the clean-up: 5.
-FADE, LEAST = 0.06, 2.5
+# Metres: a leg that must become shorter by more to stand in its place keeps its knee flexed.
+SHORTER = 1e-4
 
-# Of the leg's length, 1.4 cm of 0.85 m: how far the root shall fall at most so that an upright leg reaches.
-# Beyond it the plant comes nearer instead. With half as much, where plants are hard to hold 2 % fewer frames
-# are held.
-FALL = 0.0167
-
-# At most: pulls of a plant to where its leg reaches. With 8 as many frames are held.
-PULLS = 4
-
-# Metres: a leg that must become shorter by more, to stand in its place, is bent by `BENT`; and no triangle of
-# hip, ankle and ball is flatter, so that it shows on which side of the line from hip to ball the ankle is.
-SHORTER, FLAT = 1e-4, 1e-6
+# Metres: no triangle of hip, ankle and ball is flatter, so that it shows on which side of the line from hip
+# to ball the ankle is.
+FLAT = 1e-6
 
 
 class FootTarget(NamedTuple):
-    """Where a leg's ankle must be in each of F frames, and how its foot turns.
+    """The target of a leg's ankle and the rotation of its foot in each of F frames.
 
     Parameters
     ----------
-    track : whose ankle it is.
+    track : the leg.
     ankle : shape (F, 3), metres.
-    turn : shape (F, 3), rotation vectors in the world's frame, radians.
-    places, marks : where ankle and ball stand, (2, F, 3), metres, and when, (2, F).
-    least_bend : the least angle of the knee while the foot stands, (F,), radians.
+    turn : the additional rotation of the foot, shape (F, 3), rotation vectors in the world's frame, radians.
+    places, marks : positions of ankle and ball while they stand, (2, F, 3), metres, and when, (2, F).
+    least_bend : the smallest flexion of the knee while the foot stands, (F,), radians.
     """
 
     track: LegTrack
@@ -56,94 +46,136 @@ class FootTarget(NamedTuple):
 
     @property
     def planted(self) -> Mask:
-        """When the ankle or the ball stands, (F,)."""
+        """Return the frames in which the ankle or the ball stands, (F,)."""
         return np.asarray(self.marks.any(axis=0))
 
     @property
     def rolls(self) -> Mask:
-        """When only the ball stands, (F,): the foot may turn about it."""
+        """Return the frames in which only the ball stands, (F,): the foot may rotate about it."""
         return np.asarray(self.marks[1] & ~self.marks[0])
 
     def rolled(self, hip: Array, distance: Array) -> Array:
-        """Turn the foot about its ball until its ankle is a distance (..., R) from a hip (..., R, 3), metres.
+        """Rotate the foot about its ball until its ankle is at a distance from the hip.
 
-        Both are of the R frames in which it rolls. Returns the way from hip to ankle, (..., R, 3): a side of
-        the triangle whose third corner is the ball, at a distance that makes it one. The ankle stays on its
-        side of the line from hip to ball.
+        Hip, ankle and ball form a triangle. Its angle at the hip follows from the law of cosines. The ankle
+        stays on its side of the line from hip to ball.
+
+        Parameters
+        ----------
+        hip : positions in the R frames in which the foot rolls, (..., R, 3), metres.
+        distance : from hip to ankle, (..., R), metres; the nearest one for which there is a triangle is used.
+
+        Returns
+        -------
+        The vectors from hip to ankle, (..., R, 3), metres.
         """
-        ball, ankle = self.places[1, self.rolls], self.ankle[self.rolls]
-        way, foot = ball - hip, np.linalg.norm(ball - ankle, axis=1)
-        far = np.sqrt(dot(way, way))
-        distance = np.clip(distance, np.abs(far - foot) + FLAT, far + foot - FLAT)
-        along = (far**2 + distance**2 - foot**2) / (2 * far)
-        ahead, across = way / far[..., None], ankle - hip
-        across = across - dot(across, ahead)[..., None] * ahead
-        across *= np.sqrt((distance**2 - along**2) / dot(across, across))[..., None]
-        return np.asarray(along[..., None] * ahead + across)
+        ball = self.places[1, self.rolls]
+        ankle = self.ankle[self.rolls]
+        foot = np.linalg.norm(ball - ankle, axis=1)
+        to_ball = ball - hip
+        reach = np.sqrt(dot(to_ball, to_ball))
+        distance = np.clip(distance, np.abs(reach - foot) + FLAT, reach + foot - FLAT)
+        parallel = (reach**2 + distance**2 - foot**2) / (2 * reach)
+        direction = to_ball / reach[..., None]
+        normal = ankle - hip
+        normal = normal - dot(normal, direction)[..., None] * direction
+        height = np.sqrt((distance**2 - parallel**2) / dot(normal, normal))
+        return np.asarray(parallel[..., None] * direction + height[..., None] * normal)
 
     def led(self, ankle: Array) -> "FootTarget":
-        """Lead ankle and foot from plant to plant, in each of which the ankle is where given [step 5]."""
-        own, fps = self.track.ankle, self.track.motion.fps
-        turn = 0 * ankle
-        if self.track.leg.has_ball:
-            turn = rotations.to_rotvec(rotations.between(self.track.ball - own, self.places[1] - ankle))
-        ankle = own + smooth_fill(ankle - own, self.planted, fps)
-        return self._replace(ankle=ankle, turn=smooth_fill(turn, self.marks[1], fps))
+        """Interpolate corrections of ankle and foot between footplants [KSG02, step 5].
+
+        Parameters
+        ----------
+        ankle : positions while the foot stands, (F, 3), metres; those in other frames do not matter.
+        """
+        track = self.track
+        fps = track.motion.fps
+        turn = np.zeros_like(ankle)
+        if track.leg.has_ball:
+            foot = track.ball - track.ankle
+            turn = rotations.to_rotvec(rotations.between(foot, self.places[1] - ankle))
+        correction = smooth_fill(ankle - track.ankle, self.planted, fps)
+        return self._replace(ankle=track.ankle + correction, turn=smooth_fill(turn, self.marks[1], fps))
 
 
 def foot_target(
     track: LegTrack, marks: Mask, held: Mapping[int, Array], moved: Array | float = 0.0
 ) -> FootTarget:
-    """Place a foot's plants, and lead its ankle from one to the next [KSG02, step 2].
+    """Place the footplants of a leg, and interpolate the path of its ankle between them [KSG02, step 2].
 
     Parameters
     ----------
     track : the leg in F frames.
-    marks : shape (2, F): when its ankle and its ball stand.
-    held : where joints shall stand, as for `clean_up`, if not where they are on average.
-    moved : how far plants are moved from there, (F, 3), metres.
+    marks : shape (2, F), when its ankle and its ball stand.
+    held : positions of joints, as for `clean_up`, used instead of their means.
+    moved : displacements of the plants from there, (F, 3), metres.
     """
-    ankle, ball, fps = track.ankle, track.ball, track.motion.fps
     flat, down = marks
     length = float(track.leg.lengths(track.motion.skeleton)[2])
-    places = _pull_in(place_plants((ankle, ball), (flat, down), length) + moved, marks, track)
-    for place, own, joint in zip(places, marks, track.leg[2:], strict=True):
-        for start, stop in runs(own) if joint in held else ():
-            known = np.flatnonzero(np.isfinite(held[joint][start:stop, 0])) + start
-            if known.size:  # a plant that is held for a part of its time stands where the nearest frame does
-                nearest = np.abs(np.arange(start, stop)[:, None] - known).argmin(axis=1)
-                place[start:stop] = held[joint][known[nearest]]
-    # Where only the ball stands, the foot's length holds the ankle. At first it stays as near as that allows
-    # to its own way from plant to plant.
-    away = ankle + smooth_fill(places[0] - ankle, flat, fps) - places[1]
-    behind = places[1]
-    if track.leg.has_ball:
-        behind = places[1] + length * away / np.linalg.norm(away, axis=1, keepdims=True)
-    goal = np.where(flat[:, None], places[0], behind)
-    # A leg that must become shorter stays bent while its foot stands: the knee of a straight one jolts as
-    # soon as the hip moves. A knee that is bent backwards stays as straight as it is.
+    places = place_plants((track.ankle, track.ball), (flat, down), length) + moved
+    places = _held_places(_pull_in(places, marks, track), marks, track, held)
+    goal = _ankle_goal(track, marks, places, length)
+    return FootTarget(track, goal, 0 * goal, places, marks, _least_bend(track, flat, goal)).led(goal)
+
+
+def _held_places(places: Array, marks: Mask, track: LegTrack, held: Mapping[int, Array]) -> Array:
+    """Replace places by those of `held`, (2, F, 3), metres.
+
+    A plant that is held in a part of its frames is elsewhere at the held position of the nearest frame.
+    """
+    for place, mark, joint in zip(places, marks, track.leg[2:], strict=True):
+        for start, stop in runs(mark) if joint in held else ():
+            frames = np.flatnonzero(np.isfinite(held[joint][start:stop, 0])) + start
+            if frames.size:
+                nearest = np.abs(np.arange(start, stop)[:, None] - frames).argmin(axis=1)
+                place[start:stop] = held[joint][frames[nearest]]
+    return places
+
+
+def _ankle_goal(track: LegTrack, marks: Mask, places: Array, length: float) -> Array:
+    """Return the position of the ankle while the foot stands, (F, 3), metres.
+
+    While only the ball stands, the ankle is a foot's length from it, at first in the direction of the ankle's
+    interpolated path.
+    """
+    flat = marks[0]
+    if not track.leg.has_ball:
+        return np.where(flat[:, None], places[0], places[1])
+    path = track.ankle + smooth_fill(places[0] - track.ankle, flat, track.motion.fps)
+    foot = path - places[1]
+    rolled = places[1] + length * foot / np.linalg.norm(foot, axis=1, keepdims=True)
+    return np.where(flat[:, None], places[0], rolled)
+
+
+def _least_bend(track: LegTrack, flat: Mask, goal: Array) -> Array:
+    """Return the smallest flexion of the knee while the foot stands, (F,), radians.
+
+    A leg that must become shorter stays flexed throughout the plant: the knee of a straight leg jolts as soon
+    as the hip moves. A knee that is bent backwards stays as straight as it is.
+    """
+    flexion = np.radians(TUNED.flexion)
     shorter = flat & (np.linalg.norm(goal - track.hip, axis=1) > track.limit + SHORTER)
-    backwards = binary_propagation(flat & (track.own < -BACK), mask=flat)
+    backwards = binary_propagation(flat & (track.flexion < -BACK), mask=flat)
     stays_bent = binary_propagation(shorter & ~backwards, mask=flat)
-    least_bend = np.where(stays_bent, BENT, np.minimum(track.own, BENT))
-    return FootTarget(track, goal, 0 * goal, places, marks, least_bend).led(goal)
+    return np.where(stays_bent, flexion, np.minimum(track.flexion, flexion))
 
 
 def place_plants(joints: tuple[Array, Array], marks: tuple[Mask, Mask], length: float) -> Array:
-    """Give each plant of an ankle and its ball one place: where the joint is on average [KSG02, step 1].
+    """Compute one position for each footplant of an ankle and its ball: the joint's mean [KSG02, step 1].
 
-    A plant that starts while the other joint stands is placed a foot's length from that joint's place, in the
+    A plant that starts while the other joint stands is a foot's length from that joint's position, in the
     mean direction, so that the rigid foot fits both.
 
     Parameters
     ----------
-    joints : the ankle's and the ball's positions, (F, 3) each, metres.
+    joints : positions of the ankle and the ball, (F, 3) each, metres.
     marks : when they stand, (F,) each.
     length : from ankle to ball, metres.
 
     Returns
     -------
-    Shape (2, F, 3): the places while a joint stands, and the joints' own positions elsewhere.
+    The positions while a joint stands, and the joints' own in other frames, shape (2, F, 3), metres.
 
     Examples
     --------
@@ -160,48 +192,51 @@ def place_plants(joints: tuple[Array, Array], marks: tuple[Mask, Mask], length: 
     placed = np.zeros((2, len(places[0])), bool)
     plants = sorted((start, stop, kind) for kind in (0, 1) for start, stop in runs(marks[kind]).tolist())
     for start, stop, kind in plants:
-        own, other = joints[kind], joints[1 - kind]
-        place = own[start:stop].mean(axis=0)
-        before = start if placed[1 - kind, start] else max(start - 1, 0)
-        if placed[1 - kind, before]:
-            together = np.flatnonzero(placed[1 - kind, before:stop]) + before
-            away = (own - other)[together].mean(axis=0)
-            place = places[1 - kind, before] + length * away / np.linalg.norm(away)
-        places[kind, start:stop], placed[kind, start:stop] = place, True
+        partner = 1 - kind
+        place = joints[kind][start:stop].mean(axis=0)
+        first = start if placed[partner, start] else max(start - 1, 0)
+        if placed[partner, first]:
+            together = np.flatnonzero(placed[partner, first:stop]) + first
+            foot = (joints[kind] - joints[partner])[together].mean(axis=0)
+            place = places[partner, first] + length * foot / np.linalg.norm(foot)
+        places[kind, start:stop] = place
+        placed[kind, start:stop] = True
     return places
 
 
 def _pull_in(places: Array, marks: Mask, track: LegTrack) -> Array:
-    """Pull plants towards the hip until the leg reaches them in each frame, or leg and foot the ball.
+    """Pull footplants towards the hip until the leg, or leg and foot, reach them in each frame.
 
-    The root may fall, the less the more the leg lies: to lower the root would not help a leg that lies.
+    The root may fall, but the less, the more the leg is horizontal: to lower the root would not help a leg
+    that lies.
     """
-    foot = track.leg.lengths(track.motion.skeleton)[2] * ~marks[0]
+    flat = marks[0]
+    foot = np.where(flat, 0.0, track.leg.lengths(track.motion.skeleton)[2])
     # A pull for the frame that is furthest out of reach may leave another one: the hip moves.
-    for _ in range(PULLS):
-        apart = np.where(marks[0][:, None], *places) - track.hip
-        distance = np.linalg.norm(apart, axis=1)
-        fall = FALL * track.length * np.minimum(apart[:, 1] / distance, 0.0) ** 2
+    for _ in range(TUNED.pulls):
+        offset = np.where(flat[:, None], *places) - track.hip
+        distance = np.linalg.norm(offset, axis=1)
+        fall = TUNED.fall * track.length * np.minimum(offset[:, 1] / distance, 0.0) ** 2
         excess = distance - track.limit - foot - fall
-        beyond = apart * (np.where(excess > 0, excess + ROUNDING, 0.0) / distance)[:, None]
+        pull = offset * (np.where(excess > 0, excess + ROUNDING, 0.0) / distance)[:, None]
         for start, stop in runs(marks[0] | marks[1]):
-            places[:, start:stop] -= beyond[start + excess[start:stop].argmax()]
+            places[:, start:stop] -= pull[start + excess[start:stop].argmax()]
     return places
 
 
-def smooth_fill(values: Array, known: Mask, fps: float, fade: float = FADE) -> Array:
-    """Fill in the frames that are not known with the curve that bends least and stays near 0 [KSG02, step 5].
+def smooth_fill(values: Array, is_known: Mask, fps: float, fade: float | None = None) -> Array:
+    """Interpolate between known frames by the smoothest curve that stays near 0 [KSG02, step 5].
 
-    It minimises Σ |c_{f-1} - 2 c_f + c_{f+1}|² + κ⁴ Σ |c_f|² with the known frames held. Value and slope are
-    continuous at both ends of a plant, and die away within `fade` = 1 / (κ · fps), but no less than 2.5
-    frames, where the next plant is far.
+    It minimises Σ |c_{f-1} - 2 c_f + c_{f+1}|² + κ⁴ Σ |c_f|² for the given values of the known frames. Value
+    and slope are continuous at both ends of a plant, and decay within `fade` = 1 / (κ · fps), but no less
+    than `TUNED.fade_frames`, if the next plant is far.
 
     Parameters
     ----------
-    values : shape (F, C); values in frames that are not known do not matter.
-    known : shape (F,).
+    values : shape (F, C); values of frames that are not known do not matter.
+    is_known : shape (F,).
     fps : frames per second.
-    fade : seconds.
+    fade : seconds, by default `TUNED.swing_fade`.
 
     Returns
     -------
@@ -212,30 +247,35 @@ def smooth_fill(values: Array, known: Mask, fps: float, fade: float = FADE) -> A
     >>> smooth_fill(np.array([[0.0], [9], [1]]), np.array([True, False, True]), 120.0).round(3)[:, 0]
     array([0. , 0.5, 1. ])
     """
-    filled = np.where(known[:, None], values, 0.0)
-    bands = bending_bands(np.ones(len(values)), max(fade * fps, LEAST) ** -4.0)
-    target = np.where(known[:, None], filled, -band_product(bands, filled.T).T)
-    for later in range(3):  # a known frame's row becomes that of the identity: it stays
-        apart = slice(len(values) - later)
-        bands[later, apart] *= ~(known[later:] | known[apart])
-    bands[0] += known
+    seconds = TUNED.swing_fade if fade is None else fade
+    filled = np.where(is_known[:, None], values, 0.0)
+    bands = bending_bands(np.ones(len(values)), max(seconds * fps, TUNED.fade_frames) ** -4.0)
+    target = np.where(is_known[:, None], filled, -band_product(bands, filled.T).T)
+    # The row of a known frame becomes that of the identity.
+    for later in range(3):
+        first = slice(len(values) - later)
+        is_left_out = is_known[later:] | is_known[first]
+        bands[later, first] = np.where(is_left_out, 0.0, bands[later, first])
+    bands[0] += np.where(is_known, 1.0, 0.0)
     solved = solveh_banded(bands, target, lower=True)
-    return np.where(known[:, None], filled, solved)
+    return np.where(is_known[:, None], filled, solved)
 
 
-def bending_bands(weight: Array, near: float | Array, span: int = 1) -> Array:
-    """Write Σ w_f |c_{f-s} - 2 c_f + c_{f+s}|² + near Σ |c_f|² as cᵀ B c.
+def bending_bands(weight: Array, size: float | Array, span: int = 1) -> Array:
+    """Return the bands of the matrix B of a sum cᵀ B c that is small for smooth and small curves.
+
+    The sum is Σ w_f |c_{f-s} - 2 c_f + c_{f+s}|² + size Σ |c_f|².
 
     Parameters
     ----------
-    weight : w, shape (F,); within `span` of the curve's ends no w counts.
-    near : how much the curve's own size counts, a number or (F,).
+    weight : w, shape (F,); those within `span` of the curve's ends are not used.
+    size : weight of the curve's values, a number or (F,).
     span : s, frames.
 
     Returns
     -------
-    B's diagonal and those s and 2 s below, which are those above, too: shape (3, F); what is beyond their
-    ends is 0.
+    The diagonal of B, and those s and 2 s below it, shape (3, F). B is symmetric. Entries beyond the ends of
+    a diagonal are 0.
 
     Examples
     --------
@@ -245,13 +285,16 @@ def bending_bands(weight: Array, near: float | Array, span: int = 1) -> Array:
            [ 1. ,  1. ,  0. ,  0. ]])
     """
     inner = np.array(weight, float)
-    inner[:span] = inner[-span:] = 0.0
-    before, after = np.roll(inner, span), np.roll(inner, -span)
-    return np.array([near + before + 4 * inner + after, 0 - 2 * (inner + after), after])
+    inner[:span] = 0.0
+    inner[-span:] = 0.0
+    earlier = np.roll(inner, span)
+    later = np.roll(inner, -span)
+    diagonal = size + earlier + 4 * inner + later
+    return np.array([diagonal, 0 - 2 * (inner + later), later])
 
 
 def band_product(bands: Array, curves: Array) -> Array:
-    """Multiply matrices, by their bands (..., 3, F), and curves (..., F)."""
+    """Multiply symmetric matrices, by their bands (..., 3, F), and curves (..., F)."""
     product = bands[..., 0, :] * curves
     for later in (1, 2):
         below = bands[..., later, :-later]

@@ -1,15 +1,19 @@
 """Feet that stay where they stand: footskate cleaned up in the five steps of [KSG02].
 
-Captured feet drift while they stand, and blended feet slide. So each plant gets one place (1); the places say
-where the ankle must be (2); the root moves so that both legs reach (3); the legs bend (4); and around each
-plant the corrections come and go smoothly (5).
+Captured feet drift while they stand, and blended feet slide. Each footplant gets one position (1), from which
+the positions of the ankle follow (2). The root moves so that both legs reach them (3), the legs bend (4), and
+around each plant the corrections fade in and out (5).
 
-Four things differ from the paper. Step 5 is taken with step 2, as one curve that bends least, instead of by
-fades. While only the ball stands, the foot turns about it as the knee asks. The root only rises or falls, by
-at most 2 cm, the pelvis lists by at most 4°, and no bone is stretched, because a skeleton's lengths are
-fixed. And the root, the pelvis and all knees are found together, by the same sum that step 5 makes least, in
-which a knee's angle counts most, so that no knee pops at any frame rate. A plant that the leg cannot reach,
-or that would still jolt a knee, is moved to where its foot was then, and at last let go.
+Four things differ from the paper. Step 5 is taken with step 2, as the smoothest curve instead of fades. While
+only the ball stands, the foot rotates about it as the knee requires. The root only rises or falls, by at
+most 2 cm, the pelvis lists by at most 4°, and no bone is stretched, because a skeleton's lengths are fixed.
+And the root, the pelvis and all knees minimise one sum, that of step 5, in which the angle of a knee has the
+largest weight, so that no knee pops at any frame rate.
+
+A plant that the leg cannot reach, or
+that would still jolt a knee, is moved to where its foot was then. If that does not help, the plant is
+shortened to the frames that can be held: those that are left when the frames in which its joint is furthest
+from its place are released, until no bound is exceeded.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -28,11 +32,8 @@ from mocap.feet.footplants import least_frames, settle
 from mocap.feet.hip_heights import Pelvis, find_pelvis, listed_rotations
 from mocap.feet.least_bending import MOST, Excess, Held, hold_plants
 from mocap.feet.leg_track import UP, LegTrack, pose_leg, track_leg
-
-# Plants are moved by this fraction of the distance to their foot. With 0.25 or 0.35 slow walks accelerate by
-# up to 1.27 times as much as they did.
-FRACTION = 0.5
-FALLS = 0.9  # Plants are moved again as long as the worst excess falls by this factor each time.
+from mocap.feet.releasing import plant_deviations, release
+from mocap.feet.tuned import TUNED
 
 
 def clean_up(
@@ -50,17 +51,18 @@ def clean_up(
     ----------
     motion : its `contacts` say when the legs' ankles and balls stand; `feet.mark_plants` finds them.
     legs : by default those of `body.find_legs`.
-    held : for some ankles and balls where they shall stand, shape (F, 3), metres, nan where that is left
-        open. All other plants are where they stand on average, or so much nearer that the leg reaches,
-        or nearer to where the joint was when a knee would jolt.
+    held : positions of some ankles and balls while they stand, shape (F, 3), metres, NaN in frames without
+        one. All other plants are at the mean of their joint's positions, or so much nearer that the leg
+        reaches, or nearer to the joint in the frame in which a knee would jolt.
     poses : those of the motion, if `forward_kinematics` has computed them already.
 
     Returns
     -------
-    The same frames. Within each plant its joint stays in one place, but for rounding. The root's height
+    The same frames. Within each plant its joint stays in one position, except for rounding. The root's height
     differs by at most 2 cm for a leg of 0.85 m, and the pelvis lists by at most 4° further. The rotations of
     hips, knees and ankles differ, and those of the joints that keep the trunk's direction. Contacts are
-    settled: gaps shorter than 0.05 s are closed, and plants as short, or let go, are no longer marked.
+    settled: gaps shorter than 0.05 s are closed, and plants as short are no longer marked, nor are frames
+    that are let go.
 
     Raises
     ------
@@ -68,8 +70,9 @@ def clean_up(
 
     Warns
     -----
-    MocapWarning : for plants that are let go. To hold them would take a longer leg, move the root further, or
-        make a knee jump in 1/30 s by 0.6 % of the leg's length further than it did, and than is usual.
+    MocapWarning : for plants that are let go, as a whole or in the frames named. To hold them would take a
+        longer leg, move the root further, or make a knee jump in 1/30 s by 0.6 % of the leg's length further
+        than it did, and than is usual.
 
     Examples
     --------
@@ -104,35 +107,65 @@ def clean_up(
 def _solve(
     tracks: Sequence[LegTrack], pelvis: Pelvis, marks: Mask, held: Mapping[int, Array] | None
 ) -> tuple[Mask, Held]:
-    """Hold plants; move those that exceed bounds, and let go those for which that does not help.
+    """Hold plants; move those that exceed bounds, and release frames if that does not help.
 
     Returns
     -------
     The marks (L, 2, F) of the plants that are held, and the correction that holds them.
     """
-    frames = marks.shape[-1]
+    held = held or {}
+    moved = np.zeros((len(tracks), marks.shape[-1], 3))
+    solution = _hold(tracks, pelvis, marks, held, moved)
+    if not held:
+        moved, solution = _move_plants(tracks, pelvis, marks, solution)
+    # Each round unmarks at least one planted frame, so they end: at the latest when none is left.
+    while solution.excesses and marks.any():
+        deviations = plant_deviations(solution.targets, held)
+        fewer = release(marks, solution.excesses, deviations, tracks[0].motion.fps)
+        # A plant that is shortened starts again from the mean of the frames that are left.
+        moved[_whole_plants((fewer != marks).any(axis=1), marks.any(axis=1))] = 0.0
+        marks = fewer
+        solution = _hold(tracks, pelvis, marks, held, moved)
+    return marks, solution
+
+
+def _hold(
+    tracks: Sequence[LegTrack], pelvis: Pelvis, marks: Mask, held: Mapping[int, Array], moved: Array
+) -> Held:
+    """Hold plants, moved by (L, F, 3) metres, whether or not the correction is within its bounds."""
+    # Steps 1, 2 and 5: each plant gets a place, and between plants the ankles go from place to place.
+    legs = zip(tracks, marks, moved, strict=True)
+    targets = [foot_target(track, mark, held, shift) for track, mark, shift in legs]
+    # Steps 3 and 4: the root rises or falls, the pelvis lists, and the knees bend.
+    return hold_plants(targets, pelvis)
+
+
+def _move_plants(
+    tracks: Sequence[LegTrack], pelvis: Pelvis, marks: Mask, solution: Held
+) -> tuple[Array, Held]:
+    """Move plants that exceed bounds towards their feet, as long as the worst excess falls.
+
+    The moves of plants that still exceed bounds at last are taken back.
+
+    Returns
+    -------
+    The displacements of plants, (L, F, 3), metres, and the solution with them.
+    """
     span = least_frames(tracks[0].motion.fps)
-    moved = np.zeros((len(tracks), frames, 3))
-    last_worst = np.inf
-    moves = not held
-    while True:
-        # Steps 1, 2 and 5: each plant gets a place, and between plants the ankles go from place to place.
-        legs = zip(tracks, marks, moved, strict=True)
-        targets = [foot_target(track, mark, held or {}, shift) for track, mark, shift in legs]
-        # Steps 3 and 4: the root rises or falls, the pelvis lists, and the knees bend.
-        solution = hold_plants(targets, pelvis)
-        excesses = solution.excesses
-        if not excesses or not marks.any():
-            return marks, solution
-        worst = max(float(amount.max()) for _, amount in excesses)
-        moves = moves and worst < FALLS * last_worst
-        last_worst = worst
-        if moves:
-            for leg, frame in {(leg, frame) for leg, _, frame in _nearest(marks, excesses, span)}:
-                moved[leg] += _towards_foot(solution.targets[leg], frame)
-        else:
-            # Each round unmarks at least one planted frame, so they end: at the latest when none is left.
-            marks = let_go(marks, excesses, span)
+    moved = np.zeros((len(tracks), marks.shape[-1], 3))
+    while solution.excesses and marks.any():
+        tried = moved.copy()
+        for leg, frame in set(_nearest(marks, solution.excesses, span)):
+            tried[leg] += _towards_foot(solution.targets[leg], frame)
+        changed = _hold(tracks, pelvis, marks, {}, tried)
+        if changed.worst >= TUNED.falls * solution.worst:
+            break
+        moved = tried
+        solution = changed
+    if solution.excesses:
+        moved[_due_plants(marks, solution.excesses, span)] = 0.0
+        solution = _hold(tracks, pelvis, marks, {}, moved)
+    return moved, solution
 
 
 def settled_marks(motion: Motion, legs: Sequence[Leg]) -> Mask:
@@ -160,39 +193,31 @@ def marks_by_joint(motion: Motion, legs: Sequence[Leg], marks: Mask) -> dict[str
     return by_name
 
 
+def _due_plants(marks: Mask, excesses: Sequence[Excess], span: int) -> Mask:
+    """Find the plants of feet that are nearest to local maxima of excesses, (L, F)."""
+    due = np.zeros((len(marks), marks.shape[-1]), bool)
+    for leg, frame in _nearest(marks, excesses, span):
+        due[leg, frame] = True
+    return _whole_plants(due, marks.any(axis=1))
+
+
+def _whole_plants(seeds: Mask, planted: Mask) -> Mask:
+    """Find all frames of the plants that have a seed, (L, F); `planted` says when each foot stands."""
+    pairs = zip(seeds, planted, strict=True)
+    return np.array([binary_propagation(seed, mask=stands) for seed, stands in pairs])
+
+
 def _towards_foot(target: FootTarget, frame: int) -> Array:
     """Move the plant of a frame towards where its joint was in that frame, (F, 3), metres."""
     kind = int(not target.marks[0, frame])
     joint = (target.track.ankle, target.track.ball)[kind]
     distance = joint[frame] - target.places[kind, frame]
     plant = binary_propagation(np.arange(len(target.planted)) == frame, mask=target.planted)
-    return np.where(plant[:, None], FRACTION * distance, 0.0)
+    return np.where(plant[:, None], TUNED.move * distance, 0.0)
 
 
-def let_go(marks: Mask, excesses: Sequence[Excess], span: int) -> Mask:
-    """Unmark the plants nearest to where they go furthest beyond their bounds.
-
-    Parameters
-    ----------
-    marks : shape (L, 2, F): when each leg's ankle and ball stand; settled for `span`.
-    excesses : of legs with a plant each, above 0 somewhere.
-    span : how many frames to unmark before and after, and how many a plant or a gap lasts at least.
-
-    Returns
-    -------
-    Settled marks, a proper part of those given: a gap made here is as long as `span` or touches an end of the
-    clip, so `settle` does not close it, and the frame nearest to the worst one is in it.
-    """
-    kept = marks.copy()
-    for leg, joint, frame in _nearest(marks, excesses, span):
-        row = kept[leg, joint]  # a part of `kept` itself
-        row[max(frame - span, 0) : frame + span + 1] = False
-        row[:] = settle(row, span)
-    return kept
-
-
-def _nearest(marks: Mask, excesses: Sequence[Excess], span: int) -> Iterator[tuple[int, int, int]]:
-    """Give the plants nearest to the worst frames, as for `let_go`: leg, joint, and the plant's frame."""
+def _nearest(marks: Mask, excesses: Sequence[Excess], span: int) -> Iterator[tuple[int, int]]:
+    """Yield the legs and the frames of the plants that are nearest to local maxima of excesses."""
     frames = np.arange(marks.shape[-1])
     for legs, amount in excesses:
         # The worst frames: no other frame within `span` is worse.
@@ -202,7 +227,7 @@ def _nearest(marks: Mask, excesses: Sequence[Excess], span: int) -> Iterator[tup
             nearest = distances.min()
             for plant in np.argwhere(distances.min(axis=-1) == nearest):  # two may be as near
                 leg, joint = plant.tolist()
-                yield leg + (legs.start or 0), joint, int(distances[leg, joint].argmin())
+                yield leg + (legs.start or 0), int(distances[leg, joint].argmin())
 
 
 def _warn_of_plants_let_go(motion: Motion, released: Mapping[str, Mask], bound: float) -> None:

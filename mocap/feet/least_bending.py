@@ -77,6 +77,11 @@ class Held(NamedTuple):
     poses: list[Pose]
     excesses: list[Excess]
 
+    @property
+    def worst(self) -> float:
+        """The largest excess, metres; 0 if there is none."""
+        return max((float(amount.max()) for _, amount in self.excesses), default=0.0)
+
 
 def hold_plants(targets: Sequence[FootTarget], pelvis: Pelvis) -> Held:
     """Find the smoothest correction that brings planted ankles to their targets.
@@ -99,9 +104,9 @@ def hold_plants(targets: Sequence[FootTarget], pelvis: Pelvis) -> Held:
     poses = []
     for leg, target in enumerate(led):
         free, wanted = _pose(target, pelvis, leg, change)
-        closed = np.copysign(target.track.bend(np.sqrt(dot(wanted, wanted))), free)
+        closed = np.copysign(target.track.flexion_at(np.sqrt(dot(wanted, wanted))), free)
         bend = np.where(target.planted, closed, free)
-        change[BODY + leg] = bend - target.track.own
+        change[BODY + leg] = bend - target.track.flexion
         poses.append((bend, wanted))
     return Held(change[RISE], change[LIST], led, poses, _excesses(led, pelvis, change, poses))
 
@@ -123,7 +128,7 @@ def _excesses(
     for leg, target in enumerate(targets):
         _, wanted = poses[leg]
         distance = np.sqrt(dot(wanted, wanted))
-        missing = distance - target.track.long(0.0) - ROUNDING
+        missing = distance - target.track.reach(0.0) - ROUNDING
         excesses.append((slice(leg, leg + 1), np.where(target.planted, missing, -1.0)))
     return [excess for excess in excesses if (excess[1] > 0).any()]
 
@@ -135,11 +140,11 @@ def _shift(pelvis: Pelvis, leg: int, change: Array) -> Array:
 
 def _pose(target: FootTarget, pelvis: Pelvis, leg: int, change: Array) -> Pose:
     """Return the angle of a knee and the vector from hip to ankle; while a foot stands they may disagree."""
-    bend = target.track.own + change[..., BODY + leg, :]
+    bend = target.track.flexion + change[..., BODY + leg, :]
     hip = target.track.hip + _shift(pelvis, leg, change)
     wanted = target.ankle - hip
     rolls = target.rolls
-    distance = target.track.long(bend)[..., rolls]
+    distance = target.track.reach(bend)[..., rolls]
     wanted[..., rolls, :] = target.rolled(hip[..., rolls, :], distance)
     return bend, wanted
 
@@ -169,12 +174,12 @@ def _leg(target: FootTarget, pelvis: Pelvis, leg: int, change: Array) -> Array:
     bend, wanted = _pose(target, pelvis, leg, change)
     shift = _shift(pelvis, leg, change)
     distance = np.sqrt(dot(wanted, wanted))
-    knee = shift + track.thigh(bend, wanted) - (track.knee - track.hip)
-    stretch = np.where(target.planted, 1.0, track.long(bend) / distance)
+    knee = shift + track.swung_thigh(bend, wanted) - (track.knee - track.hip)
+    stretch = np.where(target.planted, 1.0, track.reach(bend) / distance)
     ankle = shift + stretch[..., None] * wanted - (track.ankle - track.hip)
     lever = track.length / 4
-    angle = TUNED.angle * lever * (bend - track.own)
-    gap = TUNED.closed * np.where(target.planted, distance - track.long(bend), 0.0)
+    angle = TUNED.angle * lever * (bend - track.flexion)
+    gap = TUNED.closed * np.where(target.planted, distance - track.reach(bend), 0.0)
     straightened = np.maximum(target.least_bend - bend, 0.0)
     straight = TUNED.bent * lever * np.where(target.planted, straightened, 0.0)
     angles = np.stack([angle, gap, straight], axis=-1)

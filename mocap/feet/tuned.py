@@ -23,6 +23,25 @@ class Tuned:
     list_fade: float = 0.025  # seconds. At 0.04 pelvises list more, at 0.01 standing bodies tremble
     angle_fade: float = 0.06  # seconds, of a knee's angle. At 0.24 the ends of a motion change more
 
+    # Corrections of a foot in the air
+    swing_fade: float = 0.06  # seconds. At 0.02 the ankles of runs accelerate more; 0.1 holds as many frames
+    fade_frames: float = 2.5  # at least, for a fade. At 0 ankles at 30 Hz accelerate more
+
+    # Positions of plants
+    flexion: float = 12.0  # degrees: no knee becomes straighter. At 8 straight legs jolt; 15 holds as much
+    fall: float = (
+        0.0167  # of the leg's length, fall of the root to reach a plant; beyond, the plant comes nearer
+    )
+    pulls: int = 4  # at most, of a plant into reach. 8 holds as many frames
+    move: float = (
+        0.5  # of the distance to its foot, by which a plant moves. At 0.25 slow walks accelerate more
+    )
+    falls: float = 0.9  # factor of the worst excess; if moves gain less, they end
+
+    # Plants that cannot be held
+    blame: float = 0.1  # seconds before and after an excess, in which plants may be the reason for it
+    released: float = 0.5  # fraction of a plant's largest deviation, above which frames are released
+
     steps: int = 20  # at most, of Gauss-Newton. 10 to 40 are as good on walks
     gain: float = 1e-3  # fraction of the cost; a step that gains less is the last one. 1e-4 takes longer
 

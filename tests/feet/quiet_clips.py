@@ -35,7 +35,7 @@ def standing(pose: Motion, fps: float, *, knee: float, bow: float, sway: float) 
     tracks = [track_leg(still, leg, poses) for leg in legs]
     rise = np.min(
         [
-            np.sqrt(track.long(np.radians(knee)) ** 2 - apart[:, 0] ** 2 - apart[:, 2] ** 2) - apart[:, 1]
+            np.sqrt(track.reach(np.radians(knee)) ** 2 - apart[:, 0] ** 2 - apart[:, 2] ** 2) - apart[:, 1]
             for track in tracks
             for apart in [track.hip - ankles[:, track.leg.ankle]]
         ],
@@ -43,7 +43,7 @@ def standing(pose: Motion, fps: float, *, knee: float, bow: float, sway: float) 
     )
     for track in tracks:
         wanted = ankles[:, track.leg.ankle] - track.hip - rise[:, None] * UP
-        bend = track.bend(np.linalg.norm(wanted, axis=-1))
+        bend = track.flexion_at(np.linalg.norm(wanted, axis=-1))
         local[:, track.leg[:3]] = pose_leg(track, bend, wanted, np.zeros((frames, 3)))
         for joint in track.leg[:2]:
             tremble = np.radians(0.3) * noise(random, frames, fps / 10)
@@ -61,7 +61,7 @@ def unbent(motion: Motion, beyond: float) -> Motion:
     local, poses = motion.rotations.copy(), forward_kinematics(motion)
     for leg in find_legs(motion.skeleton):
         track = track_leg(motion, leg, poses)
-        turn = np.percentile(track.own, 2) + np.radians(beyond)
+        turn = np.percentile(track.flexion, 2) + np.radians(beyond)
         above = (motion.skeleton.parents[leg.hip], leg.hip, leg.knee)
         for parent, joint, share in zip(above, leg[:3], (0.5, -1.0, 0.5), strict=True):
             frame = rotations.from_matrix(poses.matrices[:, parent])

@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from hypothesis import strategies as st
 from scipy.ndimage import maximum_filter1d
 from walking import generate
 
@@ -16,8 +15,8 @@ from mocap.body.kinematics import forward_kinematics
 from mocap.datasets.samples import SAMPLES, sample
 from mocap.errors import MocapError
 from mocap.feet import footskate
-from mocap.feet.footplants import mark_plants, settle
-from mocap.feet.footskate import clean_up, let_go
+from mocap.feet.footplants import mark_plants
+from mocap.feet.footskate import clean_up
 from mocap.feet.leg_track import track_leg
 from mocap.files.load_save import load
 from mocap.steering.path_following import follow_path
@@ -27,7 +26,8 @@ from tests.editing.wishes import bones
 from tests.feet.quiet_clips import check_clean_up, jumps, slowed, standing, unbent
 from tests.oracles import slides
 from tests.refusals import refused, told
-from tests.strategies import planar, random_motion, seeds
+from tests.strategies import planar, random_motion
+from tests.tuning import tune
 
 WALK = sample("walk_straight")
 LEGS = find_legs(WALK.skeleton)
@@ -180,13 +180,23 @@ def planted(motion):
 
 @pytest.mark.filterwarnings("ignore:.*let go")
 def test_a_plant_out_of_reach_is_moved_and_then_held(monkeypatch):
-    clip = lingering("walk_straight", 29)
-    moved = clean_up(clip)
-    monkeypatch.setattr(footskate, "FALLS", 0.0)  # no move is good enough
-    unmoved = clean_up(clip)
-    # Room for other arithmetic, under which other frames may be let go: 547 of 616 are kept, and 500 unmoved.
-    assert planted(moved) > 0.86 * planted(clip)
-    assert planted(unmoved) < 0.84 * planted(clip)
+    far = WALK[:480]
+    far = replace(far, root_positions=far.root_positions * [1.25, 1, 1.25])
+    moved = clean_up(far)
+    tune(monkeypatch, footskate, falls=0.0)  # no move is good enough
+    assert planted(clean_up(far)) < planted(moved) == planted(far)
+
+
+@pytest.mark.filterwarnings("ignore:.*let go")
+@pytest.mark.parametrize("name", ["walk_straight", "jog"])
+def test_plants_that_are_marked_for_too_long_are_shortened_and_all_others_stay(name):
+    """The marks of the left foot are 0.23 s too long at both ends; those of the right foot are true."""
+    clip = sample(name)[:360]
+    cleaned = clean_up(lingering(name))
+    true = sum(clip.contacts[joint].sum() for joint in clip.contacts)
+    both = sum((clip.contacts[joint] & cleaned.contacts[joint]).sum() for joint in clip.contacts)
+    assert both > 0.9 * true  # all of them here; room for other arithmetic
+    assert slides(cleaned).max() < 1e-9
 
 
 def test_a_plant_that_stays_out_of_reach_is_let_go_with_a_warning():
@@ -195,7 +205,7 @@ def test_a_plant_that_stays_out_of_reach_is_let_go_with_a_warning():
     cleaned = told(gone, clean_up, clip)
     assert slides(cleaned).max() < 1e-9
     assert np.abs(cleaned.root_positions - clip.root_positions).max() <= 0.0205
-    assert 0.1 * planted(clip) < planted(cleaned) < planted(clip)
+    assert 0.6 * planted(clip) < planted(cleaned) < planted(clip)
 
 
 def test_two_plants_that_are_let_go_are_both_named():
@@ -203,33 +213,6 @@ def test_two_plants_that_are_let_go_are_both_named():
     marks = np.zeros(30, bool)
     marks[[3, 4, 5, 20]] = True
     told(r"let go: lfoot 3-5, lfoot 20-20\.$", footskate._warn_of_plants_let_go, clip, {"lfoot": marks}, 0.02)
-
-
-@given(seeds, st.integers(1, 9), st.floats(0, 1))
-def test_each_round_unmarks_a_planted_frame_so_the_rounds_end(seed, span, share):
-    random = np.random.default_rng(seed)
-    noise = random.random((2, 2, random.integers(1, 60))) < share
-    marks = np.array([[settle(row, span) for row in leg] for leg in noise])
-    while marks.any():
-        amount = random.normal(size=marks.shape[-1])
-        amount[random.integers(len(amount))] = 1.0  # something goes beyond its bound, or there is no round
-        planted = [slice(None), *(slice(n, n + 1) for n in range(2) if marks[n].any())]
-        legs = planted[random.integers(len(planted))]
-        fewer = let_go(marks, [(legs, amount)], span)
-        assert not np.any(fewer & ~marks)
-        assert fewer[legs].sum() < marks[legs].sum()
-        assert all(np.array_equal(settle(row, span), row) for leg in fewer for row in leg)
-        marks = fewer
-
-
-def test_the_plant_nearest_to_the_worst_frame_is_let_go_around_it():
-    marks = np.zeros((1, 2, 40), bool)
-    marks[0, 0, 2:10], marks[0, 1, 20:36] = True, True
-    amount = np.zeros(40)
-    amount[15], amount[16] = 1.0, 2.0  # the second is within the span of the first, and worse
-    fewer = let_go(marks, [(slice(None), amount)], 3)
-    assert runs(fewer[0, 0]).tolist() == [[2, 10]]
-    assert runs(fewer[0, 1]).tolist() == [[24, 36]]
 
 
 POSE = sample("stop_and_go")[100:101]
@@ -267,7 +250,7 @@ def test_a_knee_that_is_bent_backwards_keeps_its_side(name):
     clip, planted = unbent(skating(30.0, name), 12.0), 0
     cleaned = clean_up(clip)
     for leg in find_legs(clip.skeleton):
-        own, now = (track_leg(m, leg, forward_kinematics(m)).own for m in (clip, cleaned))
+        own, now = (track_leg(m, leg, forward_kinematics(m)).flexion for m in (clip, cleaned))
         back = (own < -1e-4) & cleaned.contacts[clip.skeleton.names[leg.ankle]]
         assert np.all(now[back] < 1e-5)
         planted += back.sum()

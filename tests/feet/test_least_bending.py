@@ -72,7 +72,7 @@ def test_feet_that_stand_change_nothing():
     assert np.abs(found.rise).max() < 1e-7
     assert np.abs(found.angle).max() < 1e-6
     for (bend, _), track in zip(found.poses, TRACKS, strict=True):
-        assert bend == pytest.approx(track.own, abs=1e-5)
+        assert bend == pytest.approx(track.flexion, abs=1e-5)
     assert found.excesses == []
 
 
@@ -184,7 +184,7 @@ def test_the_filled_curve_keeps_what_is_known_and_bends_least(seed):
 
     def cost(c):
         c = c.reshape(-1, 2)
-        return (np.diff(c, 2, axis=0) ** 2).sum() + ankle_targets.LEAST**-4 * (c**2).sum()
+        return (np.diff(c, 2, axis=0) ** 2).sum() + ankle_targets.TUNED.fade_frames**-4 * (c**2).sum()
 
     for _ in range(5):
         other = filled + (~known)[:, None] * random.normal(size=filled.shape) * 1e-3

@@ -89,9 +89,9 @@ def _posed(track: LegTrack, ankle: Array, offset: Array) -> Array:
     The rotations of hip, knee and ankle, (F, 3, 4).
     """
     wanted = track.ankle + ankle - track.hip
-    longest = (1 - STRAIGHT) * track.long(0.0)
+    longest = (1 - STRAIGHT) * track.reach(0.0)
     distance = np.minimum(np.sqrt(dot(wanted, wanted)), longest)
-    bend = np.copysign(track.bend(distance), track.own)
+    bend = np.copysign(track.flexion_at(distance), track.flexion)
     foot = track.ball - track.ankle
     turn = rotations.to_rotvec(rotations.between(foot, foot + offset))
     posed = pose_leg(track, bend, wanted, turn)
