@@ -23,6 +23,7 @@ from mocap.cli.options import (
     Reading,
     Sources,
     bar,
+    open_page,
     print_rows,
     report_failures,
     require_file,
@@ -119,16 +120,14 @@ def view(clip: Path, *, out: Path | None = None, reading: Reading) -> None:
     -----
     Example: mocap view walk.bvh
     """
-    import webbrowser  # it takes a while
-
     if out:
         require_output(out)
     motion = reading.load(clip)
     page = out or Path(tempfile.mkdtemp(prefix="mocap-"), f"{clip.stem}.html")
     widgets.save_animation(motion, page, progress=bar("drawing"))
     print_rows(wrote=page)
-    if not out and not webbrowser.open(page.as_uri()):
-        print("mocap: no browser opened; open that page yourself.", file=sys.stderr)
+    if not out:
+        open_page(page)
 
 
 def judge(

@@ -3,6 +3,7 @@
 import math
 import os
 import re
+import sys
 import time
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -477,6 +478,14 @@ def with_joints(motion_graph: "MotionGraph", joints: Sequence[Path]) -> "MotionG
         return motion_graph
     clips = tuple(with_chosen_roles(clip, joints) for clip in motion_graph.clips)
     return replace(motion_graph, clips=clips)
+
+
+def open_page(page: Path) -> None:
+    """Open a page in the browser, or say that none opened."""
+    import webbrowser  # imported here, because it takes a while
+
+    if not webbrowser.open(page.resolve().as_uri()):
+        print("mocap: no browser opened; open that page yourself.", file=sys.stderr)
 
 
 def bar(label: str) -> Progress:
