@@ -158,10 +158,10 @@ export class Camera {
     Object.assign(this.goal, {
       z: position[0],
       x: position[1],
-      y: 0.8,
-      pitch: 0.3 + 0.06 * reach,
+      y: 0.8 - 0.3 * reach, // above the buttons
+      pitch: 0.3 + 0.12 * reach,
       yaw,
-      far: (tall ? 5.6 : 4.6) + 1.6 * reach,
+      far: (tall ? 5.6 : 4.6) + 2.6 * reach,
     });
   }
 

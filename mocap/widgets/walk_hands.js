@@ -98,7 +98,11 @@ export class Hands {
    */
   drag(event) {
     const previous = this.touches.get(event.pointerId);
-    if (!previous) return;
+    if (!previous) {
+      const point = this.camera.ground(event.clientX, event.clientY);
+      this.canvas.style.cursor = point && this.seamNear(point) ? "pointer" : "";
+      return;
+    }
     if (this.orbiting) this.orbit(event, previous);
     else this.drawTo(event);
     this.touches.set(event.pointerId, event);
@@ -247,6 +251,7 @@ export class Hands {
       `Two similar moments: ${first} and ${second}. ` +
       "Here the walk passes from one into the other. Tap to walk on.";
     this.moments.hidden = false;
+    document.body.classList.add("walking"); // the words at the top make room
   }
 
   /**

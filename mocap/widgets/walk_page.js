@@ -388,7 +388,7 @@ export class Page extends Hands {
 
   draw() {
     const { scene, walk, look, camera } = this;
-    const half = clamp(camera.at.far * camera.hand.zoom * 0.0055, 0.022, 0.06);
+    const half = clamp(camera.at.far * camera.hand.zoom * 0.0055, 0.022, 0.12);
     const line = rgb(look.line);
     const ink = rgb(look.ink);
     const seen = camera.view(this.width, this.height);
@@ -498,7 +498,10 @@ export class Page extends Hands {
   }
 
   buttons() {
-    const { labels, moving } = this.about;
+    const { labels, moving, clips } = this.about;
+    $("made").textContent =
+      `Its motion is new: pieces of ${clips.length} clips, joined at similar moments, the dots. Tap one!`;
+    $("caption").textContent = `${clips.length} clips, and where the walk is in them`;
     moving.forEach((name) => {
       const kind = labels.indexOf(name);
       const button = Object.assign(document.createElement("button"), {
@@ -509,7 +512,7 @@ export class Page extends Hands {
         this.choose(kind);
         this.set(walkable(this.drawn), { drawn: this.drawn, anew: true });
       };
-      $("kinds").append(button, " ");
+      $("kinds").append(button);
     });
     this.choose(this.kind);
     this.play(this.playing);
