@@ -12,7 +12,7 @@ import { compose } from "./walk_search.js";
  * @typedef {{ heading: number, z: number, x: number }} MovingFrame
  *
  * The motion of an ankle in a frame that holds its foot, relative to the carried ankle: radians and metres.
- * @typedef {{ turn: number, z: number, x: number }} Motion
+ * @typedef {{ angle: number, z: number, x: number }} Motion
  *
  * The frames [start, end) of a foot that stands, the transform that carries it in all of them, and the points at which
  * its ankle and its ball are held, null if they do not stand.
@@ -39,7 +39,7 @@ const STRAIGHTEST = (4 * Math.PI) / 180; // radians: no knee is straightened fur
 const DEEPEST = 0.05; // metres by which the root sinks at most
 const SINKING = 4; // frames before and after, over which the root sinks
 /** @type {Motion} */
-const NOTHING = { turn: 0, z: 0, x: 0 };
+const NOTHING = { angle: 0, z: 0, x: 0 };
 
 /** Weights of the places in a chord, which leave a parabola where it is. */
 const WEIGHTS = (() => {
@@ -367,8 +367,8 @@ export class Bending {
       );
       const here = this.carried[frame];
       const [z, x] = carry(here, this.feet[n][frame][0]);
-      const turn = wrapped(Math.atan2(carried[1], carried[0]) - Math.atan2(here[1], here[0]));
-      return { turn, z: places[i][0][0] + slideZ - z, x: places[i][0][1] + slideX - x };
+      const angle = wrapped(Math.atan2(carried[1], carried[0]) - Math.atan2(here[1], here[0]));
+      return { angle, z: places[i][0][0] + slideZ - z, x: places[i][0][1] + slideX - x };
     });
     return { start, end, carried, held, motions };
   }
@@ -392,7 +392,7 @@ export class Bending {
       for (let frame = Math.max(0, start + 1); frame < Math.min(end, this.frames); frame++) {
         const weight = smoothStep((frame - start) / (end - start));
         motions[frame] = {
-          turn: before.turn + weight * (after.turn - before.turn),
+          angle: before.angle + weight * (after.angle - before.angle),
           z: before.z + weight * (after.z - before.z),
           x: before.x + weight * (after.x - before.x),
         };
@@ -521,7 +521,7 @@ export class Bending {
       thigh.map((value, k) => value + bent[k]),
       wanted,
     );
-    const sole = product(inverse(product(swing, fold)), about([0, 1, 0], this.motions[n][frame].turn));
+    const sole = product(inverse(product(swing, fold)), about([0, 1, 0], this.motions[n][frame].angle));
     const { parents } = this.graph.about;
     [swing, fold, sole].forEach((rotation, k) => {
       // A rotation of the world comes on top of that of a joint, seen from the frame of its parent.

@@ -57,13 +57,13 @@ class Limb(NamedTuple):
 class Stance(NamedTuple):
     """The frames [start, end) of a foot that stands, and the motion of its ankle in them, which holds it.
 
-    `turn` (radians) and `move` (z + ix, metres), shape (end - start,), are relative to the carried ankle.
+    `angle` (radians) and `displacement` (z + ix, metres), shape (end - start,), start at the carried ankle.
     """
 
     start: int
     end: int
-    turn: Array
-    move: Points
+    angle: Array
+    displacement: Points
 
 
 def smooth_path(clip: Motion) -> SmoothPath:
@@ -179,8 +179,8 @@ def _path_of_walk(paths: Sequence[SmoothPath], table: EdgeTable) -> tuple[Planar
 
     def gathered(frames: Indices, edge: Indices) -> tuple[Array, Points, Array]:
         """Gather the headings, the points and the steps of the clips, and transform them."""
-        turn = np.angle(transforms.rotation[edge])
-        headings = turn + [paths[clip].heading[frame] for clip, frame in frames]
+        angle = np.angle(transforms.rotation[edge])
+        headings = angle + [paths[clip].heading[frame] for clip, frame in frames]
         points = np.array([paths[clip].points[frame] for clip, frame in frames])
         previous = np.array([paths[clip].points[max(frame - 1, 0)] for clip, frame in frames])
         moved = transforms.rotation[edge] * points + transforms.translation[edge]
@@ -219,8 +219,8 @@ def _stances(feet: Sequence[Points], stands: Mask, carried: PlanarTransform) -> 
                 standing_parts[mark] += 1
         slide /= np.maximum(standing_parts, 1)
         ankle = rotation[frames] * feet[0][frames] + translation[frames]
-        turn = np.angle(rotation[middle] / rotation[frames])
-        yield Stance(start, end, turn, held[0] + slide - ankle)
+        angle = np.angle(rotation[middle] / rotation[frames])
+        yield Stance(start, end, angle, held[0] + slide - ankle)
 
 
 def _runs(marks: Mask) -> list[tuple[int, int]]:
@@ -242,36 +242,36 @@ def _runs(marks: Mask) -> list[tuple[int, int]]:
 
 
 def _between_stances(stances: Iterator[Stance], frames: int) -> tuple[Array, Points]:
-    """Return the turn and the motion of an ankle in all frames, eased from stance to stance, (F,) each."""
-    turn = np.zeros(frames)
-    move = np.zeros(frames, complex)
+    """Return the angle and the motion of an ankle in all frames, eased from stance to stance, (F,) each."""
+    angle = np.zeros(frames)
+    displacement = np.zeros(frames, complex)
     last: _Held | None = None
     for stance in stances:
-        held = _Held(stance.start, stance.turn[0], stance.move[0])
-        _ease(turn, move, last or _Held(max(0, stance.start - FADE) - 1), held)
-        turn[stance.start : stance.end] = stance.turn
-        move[stance.start : stance.end] = stance.move
-        last = _Held(stance.end - 1, stance.turn[-1], stance.move[-1])
+        held = _Held(stance.start, stance.angle[0], stance.displacement[0])
+        _ease(angle, displacement, last or _Held(max(0, stance.start - FADE) - 1), held)
+        angle[stance.start : stance.end] = stance.angle
+        displacement[stance.start : stance.end] = stance.displacement
+        last = _Held(stance.end - 1, stance.angle[-1], stance.displacement[-1])
     if last:
-        _ease(turn, move, last, _Held(last.frame + FADE + 1))
-    return turn, move
+        _ease(angle, displacement, last, _Held(last.frame + FADE + 1))
+    return angle, displacement
 
 
 class _Held(NamedTuple):
-    """The motion of an ankle in a frame: its turn, radians, and its displacement z + ix, metres."""
+    """The motion of an ankle in a frame: its angle, radians, and its displacement z + ix, metres."""
 
     frame: int
-    turn: float = 0.0
-    move: complex = 0j
+    angle: float = 0.0
+    displacement: complex = 0j
 
 
-def _ease(turn: Array, move: Points, start: _Held, end: _Held) -> None:
+def _ease(angle: Array, displacement: Points, start: _Held, end: _Held) -> None:
     """Write a smooth step between two frames into the frames between them."""
-    frames = np.arange(start.frame + 1, min(end.frame, len(turn)))
+    frames = np.arange(start.frame + 1, min(end.frame, len(angle)))
     share = (frames - start.frame) / (end.frame - start.frame)
     weight = share**2 * (3 - 2 * share)
-    turn[frames] = start.turn + weight * (end.turn - start.turn)
-    move[frames] = start.move + weight * (end.move - start.move)
+    angle[frames] = start.angle + weight * (end.angle - start.angle)
+    displacement[frames] = start.displacement + weight * (end.displacement - start.displacement)
 
 
 def _posed(
@@ -301,7 +301,7 @@ def _posed(
 class _Solution(NamedTuple):
     """A leg in the F frames of a walk that is not bent: as the body is carried, so is the whole solution.
 
-    `wanted` are the vectors from hip to ankle that hold the foot, and `turn` the rotation of the foot.
+    `wanted` are the vectors from hip to ankle that hold the foot, and `angle` the rotation of the foot.
     """
 
     limb: Limb
@@ -309,17 +309,17 @@ class _Solution(NamedTuple):
     thigh: Array
     shank: Array
     wanted: Array
-    turn: Array
+    angle: Array
 
     @classmethod
     def of(
-        cls, poses: GlobalPoses, limb: Limb, carried: PlanarTransform, turn: Array, move: Points
+        cls, poses: GlobalPoses, limb: Limb, carried: PlanarTransform, angle: Array, displacement: Points
     ) -> _Solution:
         """Collect the vectors of a leg, and the vector from its hip to its target."""
         hip, knee, ankle = (poses.positions[:, joint] for joint in limb.leg[:3])
-        uncarried = move / carried.rotation
-        shift = np.stack([uncarried.imag, np.zeros(len(move)), uncarried.real], axis=1)
-        return cls(limb, poses.matrices, knee - hip, ankle - knee, ankle - hip + shift, turn)
+        uncarried = displacement / carried.rotation
+        shift = np.stack([uncarried.imag, np.zeros(len(displacement)), uncarried.real], axis=1)
+        return cls(limb, poses.matrices, knee - hip, ankle - knee, ankle - hip + shift, angle)
 
     def axes(self) -> Array:
         """Return the axis of the knee in each frame, (F, 3)."""
@@ -357,7 +357,7 @@ class _Solution(NamedTuple):
         folded = self.thigh + rotations.rotate(fold, self.shank)
         swing = rotations.between(folded, wanted)
         sole = rotations.multiply(
-            rotations.inverse(rotations.multiply(swing, fold)), rotations.about_y(self.turn)
+            rotations.inverse(rotations.multiply(swing, fold)), rotations.about_y(self.angle)
         )
         # A rotation of the world comes on top of that of a joint, seen from the frame of its parent.
         for joint, rotation in zip(leg[:3], (swing, fold, sole), strict=True):
