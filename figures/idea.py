@@ -16,8 +16,8 @@ import numpy as np
 from PIL import Image
 from playwright.sync_api import Page, sync_playwright
 
-from mocap import body, datasets, graphs
-from mocap.widgets.walking_page import walk_page
+from mocap import body
+from mocap.widgets.walking_page import bundled_graph, walk_page
 
 RATE = 25  # pictures per second
 PROGRAMS = ("chromium", "chromium-browser", "chromium-headless-shell")
@@ -64,10 +64,9 @@ def pictures(page: Page) -> Iterator[Image.Image]:
 
 def write(path: Path) -> None:
     """Write the moving picture; each frame keeps only what changed."""
-    clips = [body.resample(datasets.sample(name), 30) for name in datasets.SAMPLES]
     with TemporaryDirectory() as folder, sync_playwright() as playwright:
         file = Path(folder, "walk.html")
-        file.write_text(walk_page(graphs.prune(graphs.build(clips, window=10, threshold=0.04))), "utf-8")
+        file.write_text(walk_page(bundled_graph()), "utf-8")
         program = next(filter(None, map(shutil.which, PROGRAMS)), None)
         browser = playwright.chromium.launch(executable_path=program, args=["--no-sandbox"])
         page = browser.new_page(viewport=SIZE)

@@ -76,11 +76,11 @@ REFUSED = {
 }
 HEAVY = {line for line in REFUSED if line.startswith("course ")} - {"course lite", "course mark"}  # imports
 WORKS = {
-    "demo": "a.bvh b.bvh --threshold 5 --seconds 1 --fps 10 -o demo",
+    "demo": "a.bvh b.bvh --threshold 5 --seconds 1 --fps 10 --no-film -o demo",
     "graph build": "a.bvh b.bvh --threshold 5 --fps 20 -o new.npz --graphml new.graphml",
     "graph info": "graph.npz",
     "walk": "graph.npz --random 2s -o walk.bvh",
-    "page": "graph.npz -o page.html",
+    "page": "graph.npz --address https://example.org/page.html -o page.html",
     "blend": "a.bvh a.bvh -o blended.bvh",
     "info": "clips --json",
     "judge": "a.bvh b.bvh",

@@ -16,7 +16,7 @@ from mocap.cli.clip_reports import describe_clips
 from mocap.cli.clip_sets import Spaces, read_found
 from mocap.cli.option_types import CM, PlainNames
 from mocap.cli.options import READING, FileReading, PathReading, Reading, Sources, require_file
-from mocap.cli.outputs import print_rows, report_failures, require_output
+from mocap.cli.outputs import open_page, print_rows, report_failures, require_output
 from mocap.cli.stages import bar, timed_stage
 from mocap.cli.tuned import TUNED
 from mocap.errors import MocapError, printable
@@ -108,16 +108,14 @@ def view(clip: Path, *, out: Path | None = None, reading: Reading) -> None:
     -----
     Example: mocap view walk.bvh
     """
-    import webbrowser  # it takes a while
-
     if out:
         require_output(out)
     motion = reading.load(clip)
     page = out or Path(tempfile.mkdtemp(prefix="mocap-"), f"{clip.stem}.html")
     widgets.save_animation(motion, page, progress=bar("drawing"))
     print_rows(wrote=page)
-    if not out and not webbrowser.open(page.as_uri()):
-        print("mocap: no browser opened; open that page yourself.", file=sys.stderr)
+    if not out:
+        open_page(page)
 
 
 def judge(

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from mocap import datasets, editing, graphs, quality, synthesis, widgets
-from mocap._shared.atomic import make_folder, require_folder
+from mocap._shared.atomic import make_folder, require_folder, write_file
 from mocap.cli.clusters import connect
 from mocap.cli.option_types import Seed, number
 from mocap.cli.options import Building
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from mocap.graphs.motion_graph import MotionGraph
 
 SHOWN = 7  # names of clips
+FILM_RATE = 12.5  # pictures per second of a film, which take most of the time of a demonstration
 LONG_WINDOW = 3.0  # seconds. A larger value may have been meant as frames
 SMALL_THRESHOLD = 0.3  # cm. A smaller value may have been meant as metres
 
@@ -34,18 +35,21 @@ def demo(
     out: Path = Path("mocap-demo"),
     building: Building,
     seconds: Annotated[float, number(0.1, 3600)] = 12.0,
+    no_film: bool = False,
     seed: Seed = 0,
 ) -> None:
-    """Create a new walk from clips, as walk.bvh and walk.gif.
+    """Create a page that walks along drawn paths, and a new walk, from clips.
 
-    Build a motion graph of some clips, prune it, walk through it at random, and write the new motion as
-    walk.bvh (centimetres) and walk.gif.
+    Build a motion graph of some clips, and prune it. Write walk.html, a page on which a figure walks along
+    drawn paths. Then walk through the graph at random, and write the new motion as walk.bvh (centimetres) and
+    as a film, walk.gif.
 
     Parameters
     ----------
     clips : motion files, or folders of them (default: the bundled clips).
     out : folder to write to.
     seconds : duration of the new walk, seconds.
+    no_film : do not write the film, which takes most of the time.
 
     Notes
     -----
@@ -73,9 +77,15 @@ def demo(
     print_rows(**{"new walk": f"{walk.duration:.1f} s, {quality.inspect(walk).path:.1f} m"})
     print_rows(seams=f"{len(costs)}, the worst {max(costs, default=0.0):.1f} cm RMS")
     make_folder(out)
+    with timed_stage("making the page"):
+        from mocap.widgets.walking_page import walk_page  # the help needs no NumPy
+
+        write_file(out / "walk.html", walk_page(pruned))
+    print_rows(wrote=f"{out / 'walk.html'}: open it in a browser, and draw")
     write_out(walk, out / "walk.bvh")
-    widgets.save_animation(walk, out / "walk.gif", progress=bar("drawing"))
-    print_rows(wrote=out / "walk.gif")
+    if not no_film:
+        widgets.save_animation(walk, out / "walk.gif", fps=FILM_RATE, progress=bar("drawing"))
+        print_rows(wrote=out / "walk.gif")
 
 
 def _print_graphs(whole: "MotionGraph", pruned: "MotionGraph") -> None:

@@ -104,6 +104,14 @@ def _roles_of(motion: "Motion") -> dict[str, int]:
         return {}
 
 
+def open_page(page: Path) -> None:
+    """Open a page in the browser, or say that none opened."""
+    import webbrowser  # imported here, because it takes a while
+
+    if not webbrowser.open(page.resolve().as_uri()):
+        print_message("no browser opened; open that page yourself.")
+
+
 def report_failures(verb: str, count: int, problems: Sequence[str], where_to: str = "") -> int:
     """Print the number of files that succeeded, and each problem on the standard error; return the status."""
     print_rows(**{verb: f"{count - len(problems)} of {count}{where_to}"})

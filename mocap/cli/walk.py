@@ -15,7 +15,7 @@ from mocap._shared.deadlines import OUT_OF_TIME
 from mocap.cli import options
 from mocap.cli.option_types import TURN, Clean, Joints, Seed, Skeleton, number
 from mocap.cli.options import Building, PathReading, Sources
-from mocap.cli.outputs import check_out, print_rows, require_other, write_out
+from mocap.cli.outputs import check_out, open_page, print_rows, require_other, write_out
 from mocap.cli.stages import bar, timed_stage
 from mocap.cli.tuned import TUNED
 from mocap.cli.typed_commands import ONE_EACH, OptionalValue
@@ -110,32 +110,59 @@ def _require_one(path: Path | None, random: str | None, seed: int | None) -> Non
 
 
 def page(
-    graph: Path, *, out: Path = Path("walk.html"), skeleton: Skeleton = None, joints: Joints = ()
+    graph: Path | None = None,
+    *,
+    out: Path | None = None,
+    address: str = "",
+    skeleton: Skeleton = None,
+    joints: Joints = (),
 ) -> None:
     """Create a web page on which a figure walks along drawn paths.
 
     The page is one file that contains the motion graph and needs no network. It can be sent, or published on
-    a website.
+    a website. Without arguments, the page of the bundled clips is written and opened in the browser.
 
     Parameters
     ----------
-    graph : an .npz file from `mocap graph`, whose clips must not have been moved.
-    out : file to write, .html.
+    graph : an .npz file from `mocap graph`, whose clips must not have been moved (default: a graph of the
+        bundled clips).
+    out : file to write, .html (default: walk.html).
+    address (URL) : where the page will be published, as in https://example.org/walk.html. Links to the page
+        then show a picture, which is written beside it as a .png.
 
     Notes
     -----
     Example: mocap page graph.npz -o walk.html
     """
-    check_out("page", out, formats=[".html"])
-    options.require_file(graph, BUILD_FIRST.format(graph))
+    _check_page(graph, address, skeleton or joints)
+    file = out or Path("walk.html")
+    check_out("page", file, formats=[".html"])
+    if graph:
+        options.require_file(graph, BUILD_FIRST.format(graph))
     with timed_stage("loading packages"):
-        from mocap.widgets.walking_page import walk_page  # the help needs no NumPy
+        from mocap.widgets.link_picture import link_picture  # the help needs no NumPy
+        from mocap.widgets.walking_page import bundled_graph, walk_page
 
-    motions = options.load_graph(graph, skeleton, joints)
+    motions = options.load_graph(graph, skeleton, joints) if graph else bundled_graph()
+    picture = file.with_suffix(".png")
+    shown = address.rpartition("/")[0] + f"/{picture.name}" if address else ""
     with timed_stage("making the page"):
-        text = walk_page(motions)
-    write_file(out, text)
-    print_rows(wrote=f"{out}, {len(text) / 1e6:.2f} MB")
+        text = walk_page(motions, picture=shown)
+    write_file(file, text)
+    print_rows(wrote=f"{file}, {len(text) / 1e6:.2f} MB")
+    if address:
+        write_file(picture, link_picture(motions))
+        print_rows(wrote=picture)
+    if not (graph or out or address):
+        open_page(file)
+
+
+def _check_page(graph: Path | None, address: str, skeleton: object) -> None:
+    """Raise for options of a graph without a graph, and for an address that is no URL."""
+    if graph is None and skeleton:
+        raise MocapError("--skeleton and --joints belong to a graph: the bundled clips need neither.")
+    if address and not re.match("https?://[^/]", address):
+        raise MocapError(f"--address is a URL such as https://example.org/walk.html, got '{address[:40]}'.")
 
 
 def _seconds(text: str) -> float:

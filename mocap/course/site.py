@@ -18,14 +18,13 @@ from string import Template
 from typing import Any
 
 import mocap
-from mocap import graphs
 from mocap._shared.atomic import make_folder, write_file
 from mocap._shared.progress import Progress
-from mocap.body.motion import resample
 from mocap.course.notebooks import execute, library, notebooks_in, read
-from mocap.datasets.samples import SAMPLES, sample
 from mocap.errors import MocapError, missing
-from mocap.widgets.walking_page import walk_page
+from mocap.widgets.embedding import script_json
+from mocap.widgets.link_picture import link_picture
+from mocap.widgets.walking_page import bundled_graph, walk_page
 
 HERE = Path(__file__).parent
 MOVING = HERE / "moving.js"
@@ -61,7 +60,7 @@ def build_site(notebooks: Path, out: Path, progress: Progress = iter, *, moving:
 
     Returns
     -------
-    The page of the first notebook.
+    The page that lists all others.
 
     Raises
     ------
@@ -98,9 +97,10 @@ def build_site(notebooks: Path, out: Path, progress: Progress = iter, *, moving:
         write_file(Path(folder, "index.md"), Template((HERE / "index.md").read_text("utf-8")).substitute(toc))
         warned = io.StringIO()  # of papers cited twice
         Sphinx(folder, HERE, out, Path(folder, ".doctrees"), "html", status=None, warning=warned).build()
-    clips = [resample(sample(name), 30) for name in SAMPLES]
-    write_file(out / "walk.html", walk_page(graphs.prune(graphs.build(clips, window=10, threshold=0.04))))
-    return out / f"{files[0].stem}.html"
+    graph = bundled_graph()
+    write_file(out / "walk.html", walk_page(graph, picture="walk.png"))
+    write_file(out / "walk.png", link_picture(graph))
+    return out / "index.html"
 
 
 def prepared(file: Path, *, moving: bool) -> tuple[str, Any]:
@@ -168,7 +168,7 @@ def _moving(recorded: dict[str, Any]) -> str:
     position = recorded["at"]
     label = html.escape(labels[position])
     name = html.escape(recorded["name"])
-    data = json.dumps({key: recorded[key] for key in ("labels", "pictures")}).replace("<", "\\u003c")
+    data = script_json({key: recorded[key] for key in ("labels", "pictures")})
     slider = (
         f'<input type="range" min="0" max="{len(labels) - 1}" value="{position}" aria-valuetext="{label}">'
     )

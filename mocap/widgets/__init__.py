@@ -18,10 +18,14 @@ Reading order (notebooks 00 to 19)
 11. `film`: a motion as a film, a strip of poses or a page
 12. `company`: characters that are stepped together, and the delay of each response
 13. `steered_widget`: characters side by side that obey one command of the reader
-14. `walking_page`: a page on which a figure walks along drawn lines
+14. `walk_bending`: walks bent onto a line, with feet that stand still
+15. `walk_kinds`: the kinds of motion that can follow lines
+16. `walking_page`: a page on which a figure walks along drawn lines
+17. `link_picture`: the picture that a link to this page shows
 
 References
 ----------
+.. [Gle01] M. Gleicher, *Motion Path Editing*, I3D 2001, doi 10.1145/364338.364400.
 .. [KG03] L. Kovar, M. Gleicher, *Flexible Automatic Motion Blending with Registration Curves*, SCA 2003,
    doi 10.5555/846276.846307.
 """

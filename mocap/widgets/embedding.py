@@ -38,6 +38,19 @@ def joined(*files: Path) -> str:
     return script
 
 
+def script_json(data: object) -> str:
+    r"""Write data as JSON that can stand in a script element, whatever the names in it.
+
+    No text can end the element or open a comment in it, because "<" is written as an escape.
+
+    Examples
+    --------
+    >>> print(script_json({"name": "<!--<script>"}))
+    {"name":"\u003c!--\u003cscript>"}
+    """
+    return json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
+
+
 class Embedded(Protocol):
     """A part of a page, whose CSS class is `mocap-` and the name of the Python class in lower case."""
 
@@ -71,7 +84,7 @@ class Embedded(Protocol):
         """Return the HTML of a part of a page, which shows the picture if no script runs."""
         kind = type(self).__name__
         data = base64.b64encode(self.scene["data"]).decode()
-        scene = json.dumps({**self.scene, "data": data}).replace("<", "\\u003c")
+        scene = script_json({**self.scene, "data": data})
         still, _ = self.still()._repr_mimebundle_()
         return (
             f'<div class="mocap-{kind.lower()}">{still["text/html"]}'

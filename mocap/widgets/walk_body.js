@@ -4,6 +4,7 @@ import { writeCapsule } from "./bodies.js";
 import { compose } from "./walk_search.js";
 
 /**
+ * @import { Bending } from "./walk_bending.js"
  * @import { Clip, Edge, Graph, Piece, Transform } from "./walk_search.js"
  *
  * The root's position [x, y, z], and the quaternions of all joints.
@@ -12,9 +13,9 @@ import { compose } from "./walk_search.js";
  * The positions and orientations of all joints in the world.
  * @typedef {{ positions: number[][], rotations: number[][] }} Body
  *
- * The data of a walk that its display needs: its edges, with the transform and the first frame of each.
+ * The data of a walk that its display needs: its edges, with the transform and the first frame of each, and its bending.
  * @typedef {{
- *   graph: Graph, edges: PlayedEdge[], transforms: Transform[], begins: number[], frames: number,
+ *   graph: Graph, edges: PlayedEdge[], transforms: Transform[], begins: number[], frames: number, bending?: Bending,
  * }} Played
  * @typedef {Pick<Edge, "start" | "end" | "seam" | "frames" | "transform">} PlayedEdge
  *
@@ -27,7 +28,7 @@ import { compose } from "./walk_search.js";
  * @param {number[]} p
  * @param {number[]} q
  */
-const product = ([w, x, y, z], [s, u, v, t]) => [
+export const product = ([w, x, y, z], [s, u, v, t]) => [
   w * s - x * u - y * v - z * t,
   w * u + x * s + y * t - z * v,
   w * v - x * t + y * s + z * u,
@@ -109,11 +110,21 @@ export function edgeAt(walk, frame) {
 }
 
 /**
- * The pose of a whole frame.
+ * The pose of a whole frame, bent onto the line if the walk is.
  * @param {Played} walk
  * @param {number} frame
  */
 export function poseAt(walk, frame) {
+  const pose = poseAlong(walk, frame);
+  return walk.bending ? walk.bending.posed(pose, frame) : pose;
+}
+
+/**
+ * The pose of a whole frame of a walk that is not bent.
+ * @param {Played} walk
+ * @param {number} frame
+ */
+export function poseAlong(walk, frame) {
   const [at, i] = edgeAt(walk, frame);
   const edge = walk.edges[at];
   const { graph } = walk;

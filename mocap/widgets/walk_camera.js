@@ -1,4 +1,5 @@
-// A camera that holds a whole line, or follows a figure from three quarters in front; the reader's hand turns it.
+// A camera that holds a whole line, looks straight down on it, or follows a figure from three quarters in front. The
+// reader's hand turns it.
 
 import { perspective } from "./bodies.js";
 
@@ -12,7 +13,31 @@ import { perspective } from "./bodies.js";
 
 /** @param {number[]} v */
 const unit = (v) => v.map((value) => value / Math.hypot(...v));
+const ACROSS = 10; // metres of the ground across the picture while a line is drawn
+const INSIDE = 0.84; // of the picture: what must stay in view is not nearer to its rim
+const ROOM = 2.6; // metres around a line from above: at a rim, a body leans out of it
+const FOOTER = 90; // pixels below the picture from above
+const STRAIGHT_DOWN = Math.PI / 2;
 const NAMES = /** @type {const} */ (["z", "x", "y", "yaw", "pitch", "far"]);
+
+/**
+ * What is a metre away from the axis at a distance of a metre, in half widths and half heights of the picture.
+ * @param {number} width
+ * @param {number} height
+ */
+function scaleOf(width, height) {
+  const up = 1 / Math.tan(width < height ? 0.42 : 0.34);
+  return { across: (up * height) / width, up };
+}
+
+/**
+ * The directions [z, x] of the ground that point to the right and up on a picture from straight above.
+ * @param {number} yaw
+ */
+const axesOf = (yaw) => [
+  [-Math.sin(yaw), Math.cos(yaw)],
+  [-Math.cos(yaw), -Math.sin(yaw)],
+];
 
 export class Camera {
   at = { z: 0, x: 0, y: 0.5, yaw: -0.5, pitch: 0.9, far: 9 };
@@ -40,6 +65,85 @@ export class Camera {
   }
 
   /**
+   * Look straight down on all of a line, turned so that it fills the picture.
+   * @param {Line} line
+   * @param {number} width
+   * @param {number} height
+   */
+  holdAbove({ z, x }, width, height) {
+    const scale = scaleOf(width, height);
+    const free = Math.max(0.4, 1 - FOOTER / height); // of the height, above the buttons
+    let best = { far: Infinity, yaw: 0, across: [0, 0], up: [0, 0] };
+    for (let yaw = 0; yaw < Math.PI; yaw += Math.PI / 24) {
+      const [across, up] = axesOf(yaw).map(([az, ax]) => {
+        const along = Array.from(z, (value, i) => az * value + ax * x[i]);
+        return [Math.min(...along), Math.max(...along)];
+      });
+      const far = Math.max(
+        ((across[1] - across[0] + ROOM) / 2) * scale.across,
+        (((up[1] - up[0] + ROOM) / 2) * scale.up) / free,
+        3,
+      );
+      if (far < best.far) best = { far, yaw, across, up };
+    }
+    const [right, upward] = axesOf(best.yaw);
+    const a = (best.across[0] + best.across[1]) / 2;
+    const b = (best.up[0] + best.up[1]) / 2 - ((1 - free) * best.far) / scale.up;
+    Object.assign(this.goal, {
+      z: a * right[0] + b * upward[0],
+      x: a * right[1] + b * upward[1],
+      y: 0,
+      pitch: STRAIGHT_DOWN,
+      yaw: best.yaw,
+      far: best.far,
+    });
+  }
+
+  /**
+   * Look straight down at once, `ACROSS` metres across, for a line to be drawn: what is under a point of the picture
+   * stays there if what must be seen stays in view.
+   * @param {number[] | null} seen
+   * @param {number[]} pixel
+   * @param {number} width
+   * @param {number} height
+   */
+  lookDown(seen, pixel, width, height) {
+    const point = this.ground(pixel[0], pixel[1]);
+    const yaw = this.at.yaw + this.hand.yaw;
+    const [right, up] = axesOf(yaw);
+    const half = ACROSS / 2;
+    const across = half * ((2 * pixel[0]) / width - 1);
+    const upward = half * (height / width) * (1 - (2 * pixel[1]) / height);
+    const [z, x] = point
+      ? [0, 1].map((c) => point[c] - across * right[c] - upward * up[c])
+      : (seen ?? [this.at.z, this.at.x]);
+    const far = half * scaleOf(width, height).across;
+    Object.assign(this.hand, { yaw: 0, pitch: 0, zoom: 1 });
+    Object.assign(this.at, { z, x, y: 0, pitch: STRAIGHT_DOWN, yaw, far });
+    this.goal = { ...this.at };
+    if (seen) this.keepInView(seen, width, height);
+    this.view(width, height);
+  }
+
+  /**
+   * Move a camera that looks down so that a point is in the picture.
+   * @param {number[]} point
+   * @param {number} width
+   * @param {number} height
+   */
+  keepInView([z, x], width, height) {
+    const scale = scaleOf(width, height);
+    const limits = [this.at.far / scale.across, this.at.far / scale.up].map((half) => INSIDE * half);
+    axesOf(this.at.yaw).forEach(([az, ax], k) => {
+      const off = az * (z - this.at.z) + ax * (x - this.at.x);
+      const beyond = off - Math.max(-limits[k], Math.min(off, limits[k]));
+      this.at.z += beyond * az;
+      this.at.x += beyond * ax;
+    });
+    this.goal = { ...this.at };
+  }
+
+  /**
    * Follow a position with a heading; `reach` is the extent of the group of figures, in metres.
    * @param {number} seconds
    * @param {number[]} position
@@ -54,10 +158,10 @@ export class Camera {
     Object.assign(this.goal, {
       z: position[0],
       x: position[1],
-      y: 0.8,
-      pitch: 0.3 + 0.06 * reach,
+      y: 0.8 - 0.3 * reach, // above the buttons
+      pitch: 0.3 + 0.12 * reach,
       yaw,
-      far: (tall ? 5.6 : 4.6) + 1.6 * reach,
+      far: (tall ? 5.6 : 4.6) + 2.6 * reach,
     });
   }
 
@@ -82,15 +186,14 @@ export class Camera {
   view(width, height) {
     const { at, hand } = this;
     const yaw = at.yaw + hand.yaw;
-    const pitch = Math.max(0.06, Math.min(at.pitch + hand.pitch, 1.5));
+    const pitch = Math.max(0.06, Math.min(at.pitch + hand.pitch, STRAIGHT_DOWN));
     const far = at.far * hand.zoom;
     const [cy, sy, cp, sp] = [Math.cos(yaw), Math.sin(yaw), Math.cos(pitch), Math.sin(pitch)];
     const back = [cp * sy, sp, cp * cy];
     const right = [cy, 0, -sy];
     const up = [-sp * sy, cp, -sp * cy];
     const eye = [at.x + far * back[0], at.y + far * back[1], at.z + far * back[2]];
-    const zoom = 1 / Math.tan(width < height ? 0.42 : 0.34);
-    const wide = (zoom * height) / width;
+    const { across: wide, up: zoom } = scaleOf(width, height);
     const view = perspective({ eye, right, up, back }, [wide, zoom], 0.1, 200);
     const sun = unit([-0.62 * cy + 0.34 * sy, 0.95, 0.62 * sy + 0.34 * cy]); // over the left shoulder of the viewer
     Object.assign(this, { eye, right, up, back, zoom, wide, width, height });

@@ -1,7 +1,7 @@
 // Input to the page: drawing, rotating the view and pointing at a seam, by mouse, touch or keys.
 
 import { bodyAt } from "./walk_body.js";
-import { walkable } from "./walk_line.js";
+import { smooth, walkable } from "./walk_line.js";
 import { compose } from "./walk_search.js";
 
 /**
@@ -13,6 +13,10 @@ import { compose } from "./walk_search.js";
  * @typedef {Pick<Node, "clip" | "frame">} Moment
  */
 
+const SLOP = 6; // pixels that a pen moves on a seam before it draws
+const NEAR = 0.35; // metres from a tap to its seam
+const FINEST = 0.02; // metres: what a drawn line is smoothed by, the trembling of a hand
+const SHORT = "Draw a longer line: a metre or more.";
 const ASIDE = 0.5; // metres of two bodies from the seam that joins them
 const PEN_ANGLES = new Map([
   ["ArrowLeft", 0.26],
@@ -42,6 +46,8 @@ export class Hands {
   touches = new Map();
   /** @type {number[][] | null} the points [z, x] of the line that is drawn */
   stroke = null;
+  /** @type {number[] | null} the pixel at which the pen came down */
+  pressed = null;
   /** @type {boolean} whether the hand rotates the view */
   orbiting = false;
   /** @type {number} the heading of the pen that keys move */
@@ -57,12 +63,14 @@ export class Hands {
       this.touches.set(event.pointerId, event);
       canvas.setPointerCapture(event.pointerId);
       if (this.touches.size > 1 || event.button === 2 || event.shiftKey) {
-        this.stroke = null;
+        this.endStroke();
+        this.pressed = null;
         this.orbiting = true;
         return;
       }
       const point = this.camera.ground(event.clientX, event.clientY);
-      if (point) this.stroke = [point];
+      this.pressed = [event.clientX, event.clientY];
+      if (!this.shown && !(point && this.seamNear(point))) this.beginStroke(this.pressed);
     });
     canvas.addEventListener("pointermove", (event) => this.drag(event));
     canvas.addEventListener("pointerup", (event) => this.lift(event));
@@ -70,7 +78,8 @@ export class Hands {
     canvas.addEventListener(
       "wheel",
       (event) => {
-        this.camera.hand.zoom = clampedZoom(this.camera.hand.zoom * Math.exp(event.deltaY / 900));
+        if (!this.stroke)
+          this.camera.hand.zoom = clampedZoom(this.camera.hand.zoom * Math.exp(event.deltaY / 900));
         event.preventDefault();
       },
       { passive: false },
@@ -89,27 +98,53 @@ export class Hands {
    */
   drag(event) {
     const previous = this.touches.get(event.pointerId);
+    if (!previous) {
+      const point = this.camera.ground(event.clientX, event.clientY);
+      this.canvas.style.cursor = point && this.seamNear(point) ? "pointer" : "";
+      return;
+    }
+    if (this.orbiting) this.orbit(event, previous);
+    else this.drawTo(event);
+    this.touches.set(event.pointerId, event);
+  }
+
+  /**
+   * Turn and zoom the view.
+   * @this {Page}
+   * @param {PointerEvent} event
+   * @param {PointerEvent} previous
+   */
+  orbit(event, previous) {
     const { hand } = this.camera;
-    if (!previous) return;
-    if (this.orbiting) {
-      const others = [...this.touches.values()].filter((touch) => touch.pointerId !== event.pointerId);
-      /** @param {PointerEvent} touch */
-      const distance = (touch) =>
-        Math.hypot(touch.clientX - others[0].clientX, touch.clientY - others[0].clientY);
-      if (others.length) {
-        hand.zoom = clampedZoom((hand.zoom * distance(previous)) / Math.max(distance(event), 1));
-      }
-      hand.yaw -= (event.clientX - previous.clientX) / 180;
-      hand.pitch += (event.clientY - previous.clientY) / 250;
-    } else if (this.stroke) {
+    const others = [...this.touches.values()].filter((touch) => touch.pointerId !== event.pointerId);
+    /** @param {PointerEvent} touch */
+    const distance = (touch) =>
+      Math.hypot(touch.clientX - others[0].clientX, touch.clientY - others[0].clientY);
+    if (others.length) {
+      hand.zoom = clampedZoom((hand.zoom * distance(previous)) / Math.max(distance(event), 1));
+    }
+    hand.yaw -= (event.clientX - previous.clientX) / 180;
+    hand.pitch += (event.clientY - previous.clientY) / 250;
+  }
+
+  /**
+   * Draw on to where the pen is.
+   * @this {Page}
+   * @param {PointerEvent} event
+   */
+  drawTo(event) {
+    const { pressed } = this;
+    const moved = pressed && Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) > SLOP;
+    if (moved && !this.stroke) this.beginStroke(pressed);
+    const { stroke } = this;
+    if (stroke) {
       const parts = event.getCoalescedEvents?.() ?? [];
       for (const part of parts.length ? parts : [event]) {
         const point = this.camera.ground(part.clientX, part.clientY);
-        const last = this.stroke[this.stroke.length - 1];
-        if (point && Math.hypot(point[0] - last[0], point[1] - last[1]) > 0.01) this.stroke.push(point);
+        const last = stroke[stroke.length - 1];
+        if (point && Math.hypot(point[0] - last[0], point[1] - last[1]) > 0.01) stroke.push(point);
       }
     }
-    this.touches.set(event.pointerId, event);
   }
 
   /**
@@ -117,22 +152,69 @@ export class Hands {
    * @param {PointerEvent} event
    */
   lift(event) {
-    const { stroke } = this;
+    const { stroke, pressed } = this;
     this.touches.delete(event.pointerId);
     if (!this.touches.size) this.orbiting = false;
-    this.stroke = null;
-    if (!stroke || event.type === "pointercancel") return;
-    const length = lengthOf(stroke);
+    this.pressed = null;
+    this.endStroke();
+    if (!pressed || event.type === "pointercancel") return;
+    const length = stroke ? lengthOf(stroke) : 0;
     if (length < 0.3) {
-      this.tap(stroke[0]);
+      const point = stroke ? stroke[0] : this.camera.ground(event.clientX, event.clientY);
+      if (point) this.tap(point);
       return;
     }
     if (length < 1) {
-      this.showMessage("Draw a longer line: a metre or more.");
+      this.showMessage(SHORT);
       return;
     }
-    this.set(walkable(stroke));
+    if (stroke) this.walkAlong(stroke);
+  }
+
+  /**
+   * Look down on the ground, and begin a line at a pixel of the picture.
+   * @this {Page}
+   * @param {number[]} pixel
+   */
+  beginStroke(pixel) {
+    this.shown = null;
+    this.moments.hidden = true;
+    this.camera.lookDown(this.figure(), pixel, this.width, this.height);
+    const point = this.camera.ground(pixel[0], pixel[1]);
+    this.stroke = point && [point];
+    document.body.classList.add("drawing");
+  }
+
+  /**
+   * Take the line away that is drawn. The camera goes back to the walk.
+   * @this {Page}
+   */
+  endStroke() {
+    this.stroke = null;
+    document.body.classList.remove("drawing");
+  }
+
+  /**
+   * Walk along a drawn line.
+   * @this {Page}
+   * @param {number[][]} stroke
+   */
+  walkAlong(stroke) {
     this.view(false);
+    this.set(walkable(stroke), { drawn: smooth(stroke, FINEST) });
+  }
+
+  /**
+   * The seam that is nearest to a point, if one is near.
+   * @this {Page}
+   * @param {number[]} point
+   */
+  seamNear(point) {
+    const seams = this.seams().map((seam) => {
+      const [z, x] = this.positionAt(seam.frame);
+      return { ...seam, distance: Math.hypot(z - point[0], x - point[1]) };
+    });
+    return seams.filter(({ distance }) => distance <= NEAR).sort((a, b) => a.distance - b.distance)[0];
   }
 
   /**
@@ -141,13 +223,7 @@ export class Hands {
    * @param {number[]} point
    */
   tap(point) {
-    /** @param {number} frame */
-    const distance = (frame) => {
-      const [z, x] = this.positionAt(frame);
-      return Math.hypot(z - point[0], x - point[1]);
-    };
-    const near = this.shown ? [] : this.seams().filter(({ frame }) => distance(frame) <= 0.35);
-    const [seam] = near.sort((a, b) => distance(a.frame) - distance(b.frame));
+    const seam = this.shown ? undefined : this.seamNear(point);
     this.moments.hidden = true;
     this.shown = null;
     if (seam) this.showMoments(seam);
@@ -161,7 +237,7 @@ export class Hands {
     const { walk, about } = this;
     const { at, frame } = seam;
     const edge = walk.edges[at];
-    const transform = walk.transforms[at];
+    const transform = compose(walk.bending.carried[frame], walk.transforms[at]);
     const from = { clip: edge.start.clip, frame: edge.start.frame + 5 };
     const to = { clip: edge.end.clip, frame: edge.end.frame - 5 };
     const target = compose(transform, edge.transform);
@@ -175,6 +251,7 @@ export class Hands {
       `Two similar moments: ${first} and ${second}. ` +
       "Here the walk passes from one into the other. Tap to walk on.";
     this.moments.hidden = false;
+    document.body.classList.add("walking"); // the words at the top make room
   }
 
   /**
@@ -215,10 +292,14 @@ export class Hands {
    * @this {Page}
    */
   walkStroke() {
-    if (!this.stroke || this.stroke.length < 5) return;
-    const points = walkable(this.stroke);
-    this.stroke = null;
-    this.set(points);
+    const { stroke } = this;
+    if (!stroke) return;
+    if (stroke.length < 5) {
+      this.showMessage(SHORT);
+      return;
+    }
+    this.endStroke();
+    this.walkAlong(stroke);
   }
 
   /**
@@ -226,8 +307,10 @@ export class Hands {
    * @this {Page}
    */
   discardStroke() {
-    this.stroke = null;
+    this.endStroke();
     this.shown = null;
+    this.moments.hidden = true;
+    this.showMessage("");
   }
 
   /**
@@ -237,11 +320,17 @@ export class Hands {
    */
   penStep(angle) {
     if (!this.stroke) {
+      const start = this.figure() ?? [0, 0];
+      this.beginStroke([this.width / 2, this.height / 2]);
+      this.camera.keepInView(start, this.width, this.height);
       this.pen = this.camera.at.yaw + Math.PI;
-      this.stroke = [this.walk.frames ? this.position() : [0, 0]];
+      this.stroke = [start];
+      this.showMessage("Arrow keys draw. Enter starts the walk, Escape discards the line.");
     }
     this.pen += angle;
     const [z, x] = this.stroke[this.stroke.length - 1];
-    this.stroke.push([z + 0.3 * Math.cos(this.pen), x + 0.3 * Math.sin(this.pen)]);
+    const point = [z + 0.3 * Math.cos(this.pen), x + 0.3 * Math.sin(this.pen)];
+    this.stroke.push(point);
+    this.camera.keepInView(point, this.width, this.height);
   }
 }

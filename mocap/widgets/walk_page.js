@@ -1,24 +1,42 @@
 // The page: a reader draws, the walk grows while it plays, and the current clip is highlighted. `walking_page.py` fills it.
 
-import { prepare, unpack, Walk, nearest } from "./walk_search.js";
+import { nearest, prepare, unpack } from "./walk_search.js";
+import { carry } from "./walk_bending.js";
 import { bodyAt, edgeAt, footprints } from "./walk_body.js";
-import { arrays, firstLine, pathOnto, read, written } from "./walk_line.js";
+import {
+  arrays,
+  firstLine,
+  meanDistance,
+  pathOnto,
+  read,
+  roundedBy,
+  walkable,
+  written,
+} from "./walk_line.js";
+import { Walk } from "./walk_pieces.js";
 import { Camera } from "./walk_camera.js";
 import { Hands } from "./walk_hands.js";
 import { LOOKS, rgb } from "./bodies.js";
 import { penOf } from "./canvas.js";
 import { COLOURS, Scene } from "./walk_scene.js";
 import { drawSmall } from "./walk_small.js";
-import { bvh, download, gif } from "./walk_saving.js";
+import { bvh, download, Gif } from "./walk_saving.js";
 
 /**
  * @import { Print } from "./walk_body.js"
  * @import { Graph, Line, SearchedWalk } from "./walk_search.js"
+ *
+ * A walk, the line that was drawn, the one that is walked, the footprints, and the frame that is shown.
+ * @typedef {{
+ *   walk: Walk, drawn: number[][], points: number[][], line: Line, prints: Print[], time: number, kind: number,
+ * }} Shown
  */
 
 const LAG = 34; // frames from figure to figure of the parade
 const PARADE = 12; // figures of it
 const RESTS = 1.5; // seconds at the end of a walk until it begins anew
+const LONGEST = 20; // seconds of a walk that are saved as pictures
+const SEEN = 0.05; // metres: a line that is rounded by less is not called rounded
 
 /**
  * A part of the page.
@@ -58,8 +76,16 @@ export class Page extends Hands {
   walk;
   /** @type {number[][]} of the line, [z, x] */
   points;
+  /** @type {number[][]} the line as it was drawn, [z, x] */
+  drawn;
+  /** @type {number} metres by which its corners were rounded */
+  rounded = 0;
   /** @type {Line} that is walked along */
   line;
+  /** @type {Shown | null} the walk before, which stays until there is a new one */
+  previous = null;
+  /** @type {boolean} whether the walk is being saved as pictures */
+  saving = false;
   /** @type {Generator<SearchedWalk, void> | null} the search that is under way */
   growing = null;
   /** @type {SearchedWalk | null} the best walk of it so far */
@@ -87,7 +113,8 @@ export class Page extends Hands {
     super();
     this.graph = graph;
     this.about = graph.about;
-    this.kind = Math.max(0, this.about.labels.indexOf("walk"));
+    const { labels, moving } = this.about;
+    this.kind = labels.indexOf(moving.includes("walk") ? "walk" : (moving[0] ?? ""));
     this.playing = !asked("(prefers-reduced-motion: reduce)");
     this.look = asked("(prefers-color-scheme: dark)") ? LOOKS.dark : LOOKS.light;
     this.moments = $("moments");
@@ -99,35 +126,47 @@ export class Page extends Hands {
     this.listen();
     this.buttons();
     this.fit();
-    if (!this.fromAddress()) this.set(firstLine(), false);
+    if (!this.fromAddress()) this.set(firstLine(), { announced: false });
     this.aim(0, true);
     requestAnimationFrame((now) => this.picture(now));
   }
 
   get bits() {
-    return 1 << this.kind;
+    return this.kind < 0 ? -1 : 1 << this.kind; // any kind where none has a button
   }
 
   // ---- a line, and the walk along it ----
 
   /**
    * Walk along points. If they begin near the figure, it continues from its position, and turns around if they lead back.
+   * The walk before stays until the new one has begun.
    * @param {number[][]} points
-   * @param {boolean} announced
+   * @param {{ announced?: boolean, drawn?: number[][], anew?: boolean }} how whether the reader asks for it, the line as
+   *   it was drawn, and whether the walk begins at the start of the line in any case
    */
-  set(points, announced = true) {
+  set(points, { announced = true, drawn = points, anew = false } = {}) {
     if (points.length < 80) {
       this.showMessage("Draw a longer line: a metre or more.");
       return;
     }
-    if (this.walk?.frames && this.isNear(points[0])) this.points = this.redirect(points);
-    else {
+    const { walk, line, prints, time } = this;
+    const continues = walk?.frames && walk.labels === this.bits && this.isNear(points[0]);
+    if (continues && !anew) {
+      this.previous = null;
+      this.points = this.redirect(points);
+    } else {
+      if (walk?.frames) {
+        const kind = walk.labels < 0 ? -1 : Math.log2(walk.labels);
+        this.previous = { walk, drawn: this.drawn, points: this.points, line, prints, time, kind };
+      }
       this.points = points;
       this.walk = new Walk(this.graph);
       this.time = 0;
       this.prints = [];
     }
     this.line = arrays(this.points);
+    this.drawn = drawn;
+    this.rounded = roundedBy(drawn, points);
     this.walk.labels = this.bits;
     this.walk.follow(this.line);
     this.growing = null;
@@ -135,9 +174,11 @@ export class Page extends Hands {
     this.shown = null;
     this.begun = performance.now();
     this.moments.hidden = true;
+    this.showMessage("");
     if (announced) {
-      history.replaceState(null, "", `#${this.about.labels[this.kind] ?? "any"}.${written(this.points)}`);
+      history.replaceState(null, "", `#${this.about.labels[this.kind] ?? "any"}.${written(drawn)}`);
       document.body.classList.add("walking");
+      this.play(true); // also where motion is reduced: the reader asks for this walk
     }
   }
 
@@ -166,8 +207,9 @@ export class Page extends Hands {
     const [label, word] = location.hash.slice(1).split(".");
     const kind = this.about.labels.indexOf(label);
     const points = word && read(word);
-    if (kind >= 0) this.choose(kind);
-    if (points) this.set(points, false);
+    if (kind >= 0 && this.about.moving.includes(label)) this.choose(kind);
+    if (points) this.set(walkable(points), { announced: false, drawn: points });
+    $("gift").hidden = !points;
     return Boolean(points);
   }
 
@@ -200,9 +242,10 @@ export class Page extends Hands {
     this.growing = null;
     this.ghost = null;
     if (!this.walk.frames) {
-      this.showMessage(`No ${this.about.labels[this.kind]} in these clips goes along this line.`);
+      this.restore();
       return;
     }
+    this.previous = null;
     this.prints.push(
       ...footprints(this.walk, this.about.feet, begin).filter((print) => print.frame >= begin),
     );
@@ -210,21 +253,32 @@ export class Page extends Hands {
     if (this.walk.done) this.report();
   }
 
+  // Show the walk before again, because there is none of the kind that was asked for, and say so.
+  restore() {
+    const name = this.about.labels[this.kind] ?? "motion";
+    const { previous } = this;
+    this.previous = null;
+    this.showMessage(`These clips have no ${name} along this line.`);
+    if (!previous) return;
+    const { kind, ...shown } = previous;
+    Object.assign(this, shown);
+    this.rounded = roundedBy(this.drawn, this.points);
+    this.choose(kind);
+    this.showMessage(`These clips have no ${name} along this line. The walk before stays.`);
+  }
+
   report() {
     const { walk, about } = this;
     const seams = walk.edges.filter((edge, at) => edge.seam && walk.begins[at] >= walk.since).length;
-    /** @type {number[]} */
-    const distances = [];
-    for (let frame = walk.since; frame < walk.frames; frame += 3) {
-      const position = this.positionAt(frame);
-      const k = nearest(this.line, position);
-      distances.push(Math.hypot(this.line.z[k] - position[0], this.line.x[k] - position[1]));
-    }
-    const mean = (100 * distances.reduce((sum, distance) => sum + distance, 0)) / distances.length;
+    const walked = Array.from({ length: walk.frames - walk.since }, (_, i) =>
+      this.positionAt(walk.since + i),
+    );
+    const off = Math.round(100 * meanDistance(this.drawn, walked));
     const names = [...new Set(walk.edges.map((edge) => about.clips[edge.start.clip].name))];
     const metres = this.line.z.length / 100;
     const seconds = (walk.frames - walk.since) / about.fps;
-    this.showMessage(`${metres.toFixed(1)} m · ${seams} seams · ${mean.toFixed(0)} cm off the line`);
+    const rounded = this.rounded > SEEN ? ` · rounded by ${Math.max(0.1, this.rounded).toFixed(1)} m` : "";
+    this.showMessage(`${metres.toFixed(1)} m · ${seams} seams · ${off} cm off the line${rounded}`);
     this.canvas.setAttribute(
       "aria-label",
       `A figure walks ${metres.toFixed(0)} metres along a line in ${seconds.toFixed(0)} seconds, ` +
@@ -242,12 +296,17 @@ export class Page extends Hands {
     const [at, i] = edgeAt(this.walk, clamp(Math.floor(frame), 0, this.walk.frames - 1));
     const [c, s, z, x] = this.walk.transforms[at];
     const { track } = this.walk.edges[at];
-    return [c * track.z[i] - s * track.x[i] + z, s * track.z[i] + c * track.x[i] + x];
+    const position = [c * track.z[i] - s * track.x[i] + z, s * track.z[i] + c * track.x[i] + x];
+    return carry(this.walk.bending.carried[this.walk.begins[at] + i], position);
   }
 
-  /** @param {number} ahead */
-  position(ahead = 0) {
-    return this.positionAt(this.time + ahead);
+  position() {
+    return this.positionAt(this.time);
+  }
+
+  // Where the figure is, null if there is none.
+  figure() {
+    return this.walk.frames ? this.position() : null;
   }
 
   // ---- pictures ----
@@ -267,7 +326,8 @@ export class Page extends Hands {
   aim(seconds, snap = false) {
     const tall = this.width < this.height;
     if (this.stroke) return;
-    if (this.above || !this.walk.frames) this.camera.hold(this.line, tall);
+    if (this.above) this.camera.holdAbove(this.line, this.width, this.height);
+    else if (!this.walk.frames) this.camera.hold(this.line, tall);
     else {
       const frame = Math.min(this.time, this.walk.frames - 1);
       const [z, x] = this.positionAt(frame - (this.figures > 1 ? (this.figures * LAG) / 3 : 0));
@@ -284,6 +344,10 @@ export class Page extends Hands {
     const seconds = clamp(since / 1000, 0, 0.1);
     const { walk } = this;
     this.before = now;
+    if (this.saving) {
+      requestAnimationFrame((next) => this.picture(next));
+      return;
+    }
     // Half of the time where the figure would wait, however slow pictures are.
     this.grow(walk.frames - this.time < 15 ? clamp(since, 40, 250) : 10);
     if (this.playing && walk.frames && !this.stroke && !this.shown) this.walkOn(seconds);
@@ -313,8 +377,8 @@ export class Page extends Hands {
   }
 
   bodies() {
-    const { walk, shown } = this;
-    if (!walk.frames) return [];
+    const { walk, shown, previous } = this;
+    if (!walk.frames) return previous ? [bodyAt(previous.walk, previous.time)] : [];
     if (shown) return shown.bodies;
     const all = Array.from({ length: this.figures }, (_, n) => this.time - n * LAG).filter(
       (time, n) => !n || time >= 0,
@@ -324,26 +388,26 @@ export class Page extends Hands {
 
   draw() {
     const { scene, walk, look, camera } = this;
-    const half = clamp(camera.at.far * camera.hand.zoom * 0.0055, 0.022, 0.06);
+    const half = clamp(camera.at.far * camera.hand.zoom * 0.0055, 0.022, 0.12);
     const line = rgb(look.line);
     const ink = rgb(look.ink);
     const seen = camera.view(this.width, this.height);
     scene.eye = seen.eye;
     scene.reach = 1.2 * camera.at.far * camera.hand.zoom;
-    if (this.stroke) scene.band(this.stroke, half, line, () => 1);
-    else {
-      const step = Math.max(3, Math.ceil(this.points.length / 700));
-      const thin = this.points.filter((_, i) => i % step === 0);
-      const here = walk.frames ? nearest(this.line, this.position()) / step : 0;
-      scene.band(thin, half, line, (i) => (i < here ? 0.35 : 0.95));
-    }
+    const step = Math.max(3, Math.ceil(this.points.length / 700));
+    const thin = this.points.filter((_, i) => i % step === 0);
+    const here = walk.frames ? nearest(this.line, this.position()) / step : 0;
+    const pale = this.stroke ? 0.3 : 0.95; // beside the line that is drawn now
+    if (this.rounded > SEEN) scene.band(this.drawn, half * 0.5, ink, () => 0.3, 0.003);
+    scene.band(thin, half, line, (i) => (i < here ? 0.35 * pale : pale));
+    if (this.stroke) scene.band(this.stroke, half, line, () => 1, 0.009);
     if (this.ghost) this.drawGhost(this.ghost, half, ink);
-    if (walk.frames && !this.stroke) {
+    if (walk.frames) {
       this.drawTrail(half, ink);
       this.drawPrints(ink);
       this.drawSeams(half);
     }
-    scene.draw(seen, look, this.stroke ? [] : this.bodies());
+    scene.draw(seen, look, this.bodies());
     this.ticks += 1;
     if (this.ticks % 4 === 1) drawSmall(this, this.small);
   }
@@ -371,8 +435,10 @@ export class Page extends Hands {
       const radius = half * (1.5 + 2 * near);
       const position = this.positionAt(frame);
       const colour = rgb(COLOURS[this.walk.edges[at].end.clip % COLOURS.length]);
-      this.scene.disc(position, radius, radius, 0, colour, 0.95, 0.007);
-      this.scene.disc(position, half * 0.7, half * 0.7, 0, rgb(this.look.ground), 0.95, 0.008);
+      const ground = rgb(this.look.ground); // around it, because the line is of another colour
+      this.scene.disc(position, radius + 0.5 * half, radius + 0.5 * half, 0, ground, 1, 0.007);
+      this.scene.disc(position, radius, radius, 0, colour, 1, 0.008);
+      this.scene.disc(position, half * 0.7, half * 0.7, 0, ground, 1, 0.0085);
     }
   }
 
@@ -420,7 +486,8 @@ export class Page extends Hands {
   /** @param {boolean} on */
   play(on) {
     this.playing = on;
-    $("play").textContent = on ? "stop" : "go";
+    $("play").textContent = on ? "pause" : "play";
+    $("play").setAttribute("aria-label", on ? "pause the walk" : "play the walk");
   }
 
   /** @param {boolean} above */
@@ -431,18 +498,21 @@ export class Page extends Hands {
   }
 
   buttons() {
-    const { labels } = this.about;
-    labels.forEach((name, kind) => {
-      if (!this.about.moving.includes(name)) return;
+    const { labels, moving, clips } = this.about;
+    $("made").textContent =
+      `Its motion is new: pieces of ${clips.length} clips, joined at similar moments, the dots. Tap one!`;
+    $("caption").textContent = `${clips.length} clips, and where the walk is in them`;
+    moving.forEach((name) => {
+      const kind = labels.indexOf(name);
       const button = Object.assign(document.createElement("button"), {
         id: `kind${kind}`,
         textContent: name,
       });
       button.onclick = () => {
         this.choose(kind);
-        if (this.points) this.set(this.points);
+        this.set(walkable(this.drawn), { drawn: this.drawn, anew: true });
       };
-      $("kinds").append(button, " ");
+      $("kinds").append(button);
     });
     this.choose(this.kind);
     this.play(this.playing);
@@ -457,6 +527,17 @@ export class Page extends Hands {
       download(bvh(this.walk), "walk.bvh");
     };
     $("gif").onclick = () => this.saveGif();
+    $("copy").onclick = () => this.copyLink();
+  }
+
+  async copyLink() {
+    history.replaceState(null, "", `#${this.about.labels[this.kind] ?? "any"}.${written(this.drawn)}`);
+    try {
+      await navigator.clipboard.writeText(location.href);
+      this.showMessage("The link to this line is copied.");
+    } catch {
+      this.showMessage("Copy the address of this page: it is the link to this line.");
+    }
   }
 
   // Search to the line's end.
@@ -469,25 +550,31 @@ export class Page extends Hands {
     this.time = time;
   }
 
-  saveGif() {
+  async saveGif() {
+    if (this.saving) return;
     this.finish();
-    const { canvas, walk } = this;
-    const time = this.time;
+    this.saving = true;
+    const { canvas, walk, time } = this;
     const small = document.createElement("canvas");
     const width = 400;
     const height = Math.round((width * this.height) / this.width);
-    const pictures = [];
+    const frames = Math.min(walk.frames, LONGEST * this.about.fps);
+    const film = new Gif(width, height, 8);
     Object.assign(small, { width, height });
     const pen = penOf(small, { willReadFrequently: true });
-    for (let frame = 0; frame < Math.min(walk.frames, 20 * this.about.fps); frame += this.about.fps / 12.5) {
+    for (let frame = 0; frame < frames; frame += this.about.fps / 12.5) {
       this.time = frame;
       this.aim(0.08, frame === 0);
       this.draw();
       pen.drawImage(canvas, 0, 0, width, height);
-      pictures.push(pen.getImageData(0, 0, width, height).data);
+      film.add(pen.getImageData(0, 0, width, height).data);
+      this.showMessage(`saving: ${Math.round((100 * frame) / frames)} %`);
+      await new Promise((resolve) => setTimeout(resolve)); // the page goes on
     }
     this.time = time;
-    download(gif(pictures, width, height, 8), "walk.gif");
+    this.saving = false;
+    download(film.blob(), "walk.gif");
+    this.showMessage(frames < walk.frames ? `saved the first ${LONGEST} seconds` : "saved walk.gif");
   }
 }
 

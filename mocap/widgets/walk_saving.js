@@ -2,7 +2,7 @@
 
 import { poseAt } from "./walk_body.js";
 
-/** @import { Walk } from "./walk_search.js" */
+/** @import { Walk } from "./walk_pieces.js" */
 
 /** @param {number} value */
 const degrees = (value) => ((value * 180) / Math.PI).toFixed(4);
@@ -116,46 +116,61 @@ function squeezed(pixels) {
 /** @param {number} value */
 const short = (value) => [value & 255, value >> 8];
 
-/**
- * `pictures`: pixels (RGBA) of equal size; colours are kept to 6 reds, 7 greens and 6 blues.
- * @param {ArrayLike<number>[]} pictures
- * @param {number} width
- * @param {number} height
- * @param {number} hundredths
- */
-export function gif(pictures, width, height, hundredths) {
-  const palette = Array.from({ length: 256 }, (_, n) =>
-    [(n % 6) * 51, (Math.floor(n / 6) % 7) * 42.5, Math.floor(n / 42) * 51].map((v) =>
-      Math.min(255, Math.round(v)),
-    ),
-  );
-  const parts = [
-    [..."GIF89a"].map((c) => c.charCodeAt(0)),
-    [...short(width), ...short(height), 0xf7, 0, 0],
-    palette.flat(),
-    [0x21, 0xff, 11, ...[..."NETSCAPE2.0"].map((c) => c.charCodeAt(0)), 3, 1, 0, 0, 0],
-  ];
-  const grain = [0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5]; // ordered dots hide the steps between colours
-  for (const picture of pictures) {
+/** The 256 colours of a GIF: 6 reds, 7 greens and 6 blues. */
+const PALETTE = Array.from({ length: 256 }, (_, n) =>
+  [(n % 6) * 51, (Math.floor(n / 6) % 7) * 42.5, Math.floor(n / 42) * 51].map((v) =>
+    Math.min(255, Math.round(v)),
+  ),
+);
+const GRAIN = [0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5]; // ordered dots hide the steps between colours
+
+// A film as a GIF, picture by picture.
+export class Gif {
+  /**
+   * @param {number} width
+   * @param {number} height
+   * @param {number} hundredths of a second for which a picture is shown
+   */
+  constructor(width, height, hundredths) {
+    this.width = width;
+    this.height = height;
+    this.hundredths = hundredths;
+    /** @type {ArrayLike<number>[]} */
+    this.parts = [
+      [..."GIF89a"].map((c) => c.charCodeAt(0)),
+      [...short(width), ...short(height), 0xf7, 0, 0],
+      PALETTE.flat(),
+      [0x21, 0xff, 11, ...[..."NETSCAPE2.0"].map((c) => c.charCodeAt(0)), 3, 1, 0, 0, 0],
+    ];
+  }
+
+  /**
+   * Add a picture, of pixels (RGBA).
+   * @param {ArrayLike<number>} picture
+   */
+  add(picture) {
+    const { width, height, hundredths } = this;
     const pixels = new Uint8Array(width * height);
     for (let i = 0; i < pixels.length; i++) {
-      const lift = (grain[(Math.floor(i / width) % 4) * 4 + ((i % width) % 4)] + 0.5) / 16;
+      const lift = (GRAIN[(Math.floor(i / width) % 4) * 4 + ((i % width) % 4)] + 0.5) / 16;
       const at = 4 * i;
       pixels[i] =
         Math.min(5, Math.floor(picture[at] / 51 + lift)) +
         6 * Math.min(6, Math.floor(picture[at + 1] / 42.5 + lift)) +
         42 * Math.min(5, Math.floor(picture[at + 2] / 51 + lift));
     }
-    parts.push(
+    this.parts.push(
       [0x21, 0xf9, 4, 4, ...short(hundredths), 0, 0, 0x2c, 0, 0, 0, 0, ...short(width), ...short(height), 0],
       squeezed(pixels),
     );
   }
-  parts.push([0x3b]);
-  return new Blob(
-    parts.map((part) => new Uint8Array(part)),
-    { type: "image/gif" },
-  );
+
+  blob() {
+    return new Blob(
+      [...this.parts, [0x3b]].map((part) => new Uint8Array(part)),
+      { type: "image/gif" },
+    );
+  }
 }
 
 /**

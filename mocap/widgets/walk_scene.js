@@ -28,7 +28,8 @@ const GROUND = {
 const RINGS = [0, 3, 6, 10, 16, 24, 90];
 const SPOKES = 32;
 const PER_POINT = 8; // numbers of a point of a band: its position, its side, its colour
-export const COLOURS = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442"]; // after Okabe and Ito
+// The colours of clips, after Okabe and Ito, darker or lighter: on both grounds their contrast is 3 or more.
+export const COLOURS = ["#0072b2", "#a86a00", "#00805e", "#b05588", "#1f83c4", "#d0500a", "#857a00"];
 
 class Ground extends Bodies {
   /**

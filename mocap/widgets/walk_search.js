@@ -25,6 +25,7 @@
  * @property {{ root: number, quaternion: number, angle: number, translation: number }} steps units of the numbers
  * @property {Piece[]} figure
  * @property {number[][]} feet [ankle, ball]
+ * @property {{ joints: number[], axis: number[] }[]} limbs legs: [hip, knee, ankle, ball], and the axis of the knee
  * @property {{ beam_width: number, layer: number, look: number, rescue: number, seam: number }} search its settings
  * @property {number} nodes
  * @property {number} edges
@@ -33,17 +34,23 @@
  *
  * @typedef {{ name: string, frames: number }} PackedClip
  *
- * `roots` are positions [x, y, z], `rotations` are quaternions of all joints, frame by frame.
- * @typedef {{ frames: number, roots: Float64Array, rotations: Float32Array }} Clip
+ * `roots` are positions [x, y, z], `rotations` are quaternions of all joints, frame by frame. `path` is the smooth path
+ * about which the root sways, and `stands` has a bit for each ankle and each ball that stands.
+ * @typedef {{
+ *   frames: number, roots: Float64Array, rotations: Float32Array, path: Line & { heading: Float64Array }, stands: Int32Array,
+ * }} Clip
  *
  * @typedef {{ number: number, clip: number, frame: number, out: Edge[], ahead: Track }} Node
  *
- * `labels` are bits.
+ * `labels` are bits, of the kinds that all its frames are of.
  * @typedef {{
  *   number: number, start: Node, end: Node, seam: boolean, labels: number, frames: number, transform: Transform, track: Track,
  * }} Edge
  *
- * @typedef {{ about: About, clips: Clip[], nodes: Node[], edges: Edge[], weights: number[] }} Graph
+ * `dead` are the nodes from which each walk ends, for kinds of motion that were asked for.
+ * @typedef {{
+ *   about: About, clips: Clip[], nodes: Node[], edges: Edge[], weights: number[], dead: Map<number, Set<Node>>,
+ * }} Graph
  *
  * The end of a walk: its node, and the transform of the clip that follows.
  * @typedef {{ node: Node, transform: Transform }} State
@@ -112,27 +119,27 @@ function reader(bytes) {
  * @param {number} joints
  * @param {About["steps"]} steps
  */
-function readClip(read, { frames }, joints, { root, quaternion }) {
-  const clip = {
-    frames,
-    roots: new Float64Array(3 * frames),
-    rotations: new Float32Array(4 * joints * frames),
-  };
+function readClip(read, { frames }, joints, { root, quaternion, angle, translation }) {
+  const roots = new Float64Array(3 * frames);
+  const rotations = new Float32Array(4 * joints * frames);
   for (let c = 0; c < 3; c++) {
     read(frames, 2).forEach((n, f) => {
-      clip.roots[3 * f + c] = n * root;
+      roots[3 * f + c] = n * root;
     });
   }
   for (let c = 0; c < 4 * joints; c++) {
     read(frames, 2).forEach((n, f) => {
-      clip.rotations[4 * joints * f + c] = n * quaternion;
+      rotations[4 * joints * f + c] = n * quaternion;
     });
   }
-  for (let q = 0; q < clip.rotations.length; q += 4) {
-    const length = Math.hypot(...clip.rotations.subarray(q, q + 4)) || 1;
-    for (let c = 0; c < 4; c++) clip.rotations[q + c] /= length;
+  for (let q = 0; q < rotations.length; q += 4) {
+    const length = Math.hypot(...rotations.subarray(q, q + 4)) || 1;
+    for (let c = 0; c < 4; c++) rotations[q + c] /= length;
   }
-  return clip;
+  const [heading, z, x] = [angle, translation, translation].map((step) =>
+    Float64Array.from(read(frames, 2), (n) => n * step),
+  );
+  return { frames, roots, rotations, path: { heading, z, x }, stands: read(frames, 1) };
 }
 
 /**
@@ -188,7 +195,7 @@ export function unpack(about, bytes) {
     const x = target[b];
     return [c, s, source[a + 2] + offsetZ - (c * z - s * x), source[a] + offsetX - (s * z + c * x)];
   }
-  return { about, clips, nodes, edges, weights: cubicWeights(about.window) };
+  return { about, clips, nodes, edges, weights: cubicWeights(about.window), dead: new Map() };
 }
 
 // ---- tracks: the root's positions while an edge plays, and the length of its path ----
@@ -329,7 +336,7 @@ export class Search {
     });
   }
 
-  // A walk of no edges at each node that leads on, aligned with the start of the line.
+  // A walk of no edges at each node that leads on by these kinds, aligned with the start of the line.
   starts() {
     const { line, look } = this;
     const reach = Math.min(30, line.z.length - 1);
@@ -337,6 +344,7 @@ export class Search {
     const walks = [];
     const heading = Math.atan2(line.x[reach] - line.x[0], line.z[reach] - line.z[0]);
     for (const node of this.graph.nodes) {
+      if (!node.out.some((edge) => isOfKind(edge, this.labels) && !this.dead.has(edge.end))) continue;
       const { z, x } = node.ahead;
       const last = look - 1;
       if (z.length < look || Math.hypot(z[last] - z[0], x[last] - x[0]) <= 0.3) continue;
@@ -406,25 +414,35 @@ export class Search {
    * Whether an edge may be played and leads to no dead end.
    * @param {Edge} edge
    */
-  isPlayable({ labels, end }) {
-    return (labels & this.labels) !== 0 && end.ahead.z.length > 0 && !this.dead.has(end);
+  isPlayable(edge) {
+    return isOfKind(edge, this.labels) && edge.end.ahead.z.length > 0 && !this.dead.has(edge.end);
   }
 }
+
+/**
+ * Whether all frames of an edge are of one of these kinds.
+ * @param {Edge} edge
+ * @param {number} labels
+ */
+const isOfKind = ({ labels: own }, labels) => (own & labels) !== 0;
 
 /**
  * The nodes from which each walk of these kinds ends.
  * @param {Graph} graph
  * @param {number} labels
  */
-function deadEnds({ nodes }, labels) {
+export function deadEnds({ nodes, dead: known }, labels) {
+  const found = known.get(labels);
+  if (found) return found;
   /** @type {Set<Node>} */
   const dead = new Set();
   for (let previousSize = -1; previousSize < dead.size;) {
     previousSize = dead.size;
     for (const node of nodes) {
-      if (!node.out.some((edge) => edge.labels & labels && !dead.has(edge.end))) dead.add(node);
+      if (!node.out.some((edge) => isOfKind(edge, labels) && !dead.has(edge.end))) dead.add(node);
     }
   }
+  known.set(labels, dead);
   return dead;
 }
 
@@ -441,135 +459,6 @@ export function edgesOf(walk) {
     start = start.previous;
   }
   return { edges: edges.reverse(), transform: start.transform };
-}
-
-// A walk that grows by pieces while it plays. Each piece is searched on the next metres of the line, from the point
-// nearest to the end of the last piece. A long line is begun at once, and arc lengths do not drift apart.
-export class Walk {
-  /** @type {Edge[]} */
-  edges = [];
-  /** @type {Transform[]} of each edge */
-  transforms = [];
-  /** @type {number[]} the first frame of each edge */
-  begins = [];
-  /** @type {State | null} its end */
-  state = null;
-  /** @type {Line} the line that it follows */
-  line = UNKNOWN;
-  frames = 0;
-  at = 0; // the index of the point of the line that is nearest to its end
-  since = 0; // the frame in which it began to follow the line
-  done = false; // whether it has reached the end of the line
-
-  /**
-   * @param {Graph} graph
-   * @param {number} labels
-   * @param {{ reach?: number, keep?: number }} pieces
-   */
-  constructor(graph, labels = -1, { reach = 5, keep = 2 } = {}) {
-    this.graph = graph;
-    this.labels = labels;
-    this.reach = reach; // metres of a piece
-    this.keep = keep; // metres of it that are kept
-  }
-
-  /**
-   * Append an edge, and return the new end.
-   * @param {Edge} edge
-   * @param {State} state
-   */
-  add(edge, { transform }) {
-    this.begins.push(this.frames);
-    this.edges.push(edge);
-    this.transforms.push(transform);
-    this.frames += edge.frames;
-    this.state = {
-      node: edge.end,
-      transform: edge.seam ? compose(transform, edge.transform) : transform,
-    };
-    return this.state;
-  }
-
-  /**
-   * Remove the edges that begin after the edge of a frame; return the last frame that remains.
-   * @param {number} frame
-   */
-  cutAfter(frame) {
-    const count = this.begins.findIndex((begin) => begin > frame);
-    if (count > 0) {
-      this.state = { node: this.edges[count].start, transform: this.transforms[count] };
-      this.frames = this.begins[count];
-      for (const list of [this.edges, this.transforms, this.begins]) list.length = count;
-    }
-    return this.frames - 1;
-  }
-
-  /** @param {Line} line */
-  follow(line) {
-    this.line = line;
-    this.at = 0;
-    this.since = this.frames;
-    this.done = false;
-  }
-
-  /**
-   * The position of the root at the end of the walk.
-   * @param {State} state
-   */
-  endPosition({ transform: [c, s, z, x], node: { ahead } }) {
-    return [c * ahead.z[0] - s * ahead.x[0] + z, s * ahead.z[0] + c * ahead.x[0] + x];
-  }
-
-  /**
-   * Search the next piece: yield the best unfinished walk after each layer, and finally append the result.
-   * @returns {Generator<SearchedWalk, void>}
-   */
-  *grow() {
-    const { line, at } = this;
-    const ends = at + 100 * (this.reach + 2) >= line.z.length;
-    const stop = ends ? line.z.length : at + 100 * this.reach + 1;
-    const piece = { z: line.z.slice(at, stop), x: line.x.slice(at, stop) };
-    /** @type {SearchedWalk | null} */
-    let best = null;
-    // First a walk from whose end the next line can be followed, then any walk of this kind, then, if it has begun, of any.
-    const searches = [
-      new Search(this.graph, piece, this.labels, deadEnds(this.graph, this.labels)),
-      new Search(this.graph, piece, this.labels),
-      ...(this.state ? [new Search(this.graph, piece)] : []),
-    ];
-    for (const search of searches) {
-      const starts = this.state ? [search.lookAhead({ cost: 0, along: 0, ...this.state })] : undefined;
-      for (const [kept, found] of search.layers(starts)) {
-        best = found;
-        yield kept[0];
-      }
-      if (best) break;
-    }
-    if (!best) {
-      this.done = true;
-      return;
-    }
-    this.append(best, ends);
-  }
-
-  /**
-   * Append the first metres of a found walk, or all of it at the end of the line.
-   * @param {SearchedWalk} best
-   * @param {boolean} ends
-   */
-  append(best, ends) {
-    const { line, at } = this;
-    const { edges, transform } = edgesOf(best);
-    let state = this.state ?? { node: edges[0].start, transform };
-    let length = 0;
-    for (const edge of edges) {
-      state = this.add(edge, state);
-      length += edge.track.along.at(-1) ?? 0;
-      if (!ends && length > this.keep) break;
-    }
-    this.done = ends;
-    this.at = nearest(line, this.endPosition(state), at, at + 100 * (length + 1));
-  }
 }
 
 /**

@@ -18,7 +18,7 @@ import { COLOURS } from "./walk_scene.js";
  */
 export function drawSmall(page, canvas) {
   const cleared = clearedPen(canvas);
-  if (!page.walk.frames || page.stroke) return;
+  if (!page.walk.frames) return;
   drawLine(page, cleared);
   drawClips(page, cleared);
 }

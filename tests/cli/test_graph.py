@@ -29,7 +29,15 @@ def unseen(monkeypatch):
 
 def test_a_demo_writes_a_walk_and_tells(clips, run):
     told = run("demo a.bvh b.bvh -o new/walk --threshold 5 --seconds 1 --fps 20")
-    assert sorted(path.name for path in (clips / "new" / "walk").iterdir()) == ["walk.bvh", "walk.gif"]
+    assert sorted(path.name for path in (clips / "new" / "walk").iterdir()) == [
+        "walk.bvh",
+        "walk.gif",
+        "walk.html",
+    ]
+    assert [line.split()[1] for line in told.out.splitlines() if line.startswith("wrote")] == [
+        "new/walk/walk.html:",
+        "new/walk/walk.gif",
+    ]
     walk, table = load_save.load("new/walk/walk.bvh"), rows(told.out)
     assert len(walk) >= 20 and walk.fps == 20
     assert (table["clips"], table["frames"]) == ("2: a, b", "140 at 20 Hz, 7.0 s")
@@ -43,7 +51,8 @@ def test_a_demo_writes_a_walk_and_tells(clips, run):
 def test_a_threshold_that_leaves_no_cycle_is_told_with_one_that_does(clips, run):
     said = run("demo a.bvh b.bvh -o out --threshold 0.01", 2).err
     assert "at a threshold of 0.01 cm; these clips need at least" in said
-    run(f"demo a.bvh b.bvh -o out --seconds 2 --threshold {float(said.split()[-2]) + 1e-6}")
+    run(f"demo a.bvh b.bvh -o out --seconds 2 --no-film --threshold {float(said.split()[-2]) + 1e-6}")
+    assert not (clips / "out" / "walk.gif").exists()
 
 
 def test_a_graph_is_built_saved_and_told_about(clips, run):
@@ -227,3 +236,20 @@ def test_where_the_way_is_closed_it_sets_out_to_a_side_but_does_not_search_there
     with pytest.raises(NoWalk, match="refused 1"):
         _plan(None, Scene((20j,)))
     assert asked == [(4000, 0.0), (400, 0.5), (400, -0.5), (400, 1.0), (400, -1.0)]
+
+
+@pytest.mark.parametrize("opens", [True, False])
+def test_a_page_without_a_graph_is_that_of_the_bundled_clips_and_opens(tmp_path, run, monkeypatch, opens):
+    monkeypatch.chdir(tmp_path)
+    small = bundled("walk_circle")  # the whole graph takes seconds
+    monkeypatch.setattr("mocap.widgets.walking_page.bundled_graph", lambda: small)
+    opened = []
+    monkeypatch.setattr("webbrowser.open", lambda page: opened.append(page) or opens)
+    said = run("page")
+    assert opened == [(tmp_path / "walk.html").as_uri()]
+    assert ("open that page yourself" in said.err) == (not opens)
+    run("page -o other.html --address https://example.org/a/walk.html")
+    assert len(opened) == 1  # only where it is asked for by no option
+    page = (tmp_path / "other.html").read_text("utf-8")
+    assert '<meta property="og:image" content="https://example.org/a/other.png">' in page
+    assert Image.open(tmp_path / "other.png").size == (1200, 630)

@@ -16,6 +16,7 @@ from mocap.course.formulas import to_mathml
 from mocap.course.site import STILL, build_site, prepared
 from mocap.datasets.samples import SAMPLES
 from mocap.widgets import live
+from tests.bundled import bundled
 
 NAMES = ("00-quickstart", "09b-blend-window")
 PAGES = ("GLOSSARY", "FORMULAS", "PAPERS", "PROJECT", "README", "RECIPES")
@@ -40,7 +41,7 @@ def build_small(notebooks, out, **settings):
     """Build pages without the package's reference, the first of which walks through one clip."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("mocap.course.site._write_reference", lambda folder: [])
-        patch.setattr("mocap.course.site.SAMPLES", SAMPLES[:1])
+        patch.setattr("mocap.course.site.bundled_graph", lambda: bundled(SAMPLES[0]))
         return build_site(notebooks, out, **settings)
 
 
