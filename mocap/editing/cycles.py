@@ -4,7 +4,9 @@ The pair of frames with the smallest seam is the wrong one: it lies where the bo
 is a held pose. So a cycle is judged by two lengths in metres: how far apart its ends are, and how far the
 other frames of the clip are from the nearest of its own, on average. The average counts a frame by how far
 the body moves there, so that a clip of somebody who mostly stands still gives a step, too. The second length
-is large for a held pose, and for half a stride. Method and measure are ours.
+is large for a held pose, and for half a stride. In a clip that begins or ends with a long stand, a held pose
+may still cost least: so a cycle must move at least half as much as the clip does. Method and measure are
+ours.
 """
 
 import warnings
@@ -35,6 +37,7 @@ LONGEST = 300.0  # seconds of a clip: the grid of all its windows takes 0.3 GB
 ROWS = 600  # frames of the clip, evenly chosen, that a cycle may cover
 MOSTLY = 90  # percent of the frames: where the data leap, a frame counts no more than these
 ENOUGH = 1.1  # times the least cost: two strides are hardly better than one
+LEAST_MOTION = 0.5  # of the clip's, on average over the frames: a cycle that moves less stands still
 TINY = 1e-9  # metres, and of the clip's motion: no weight is 0, and no average of nothing is 0 / 0
 
 # m² and metres. In 32 bits D is right to some 4e-7 m², so a D of less than `NOTHING` is 0. Costs are then
@@ -118,8 +121,11 @@ def _best(grid: Floats, shortest: int, longest: int) -> tuple[int, int, float]:
     """
     count = len(grid)
     chosen = np.unique(np.linspace(0, count - 1, min(count, ROWS)).astype(int))
-    displacements = np.append(np.diagonal(grid, 1), 0.0)[chosen]  # of the body, to the next frame
-    displacements = np.minimum(displacements, np.percentile(displacements, MOSTLY)) + TINY
+    displacements = np.append(np.diagonal(grid, 1), 0.0)  # of the body, to the next frame
+    displacements = np.minimum(displacements, np.percentile(displacements[chosen], MOSTLY)) + TINY
+    moved = np.concatenate([[0.0], np.cumsum(displacements, dtype=float)])  # before each frame
+    least_per_frame = LEAST_MOTION * moved[-1] / count
+    displacements = displacements[chosen]
     weights = displacements / displacements.sum()
     cumulated = np.concatenate([[0.0], np.cumsum(np.bincount(chosen, weights, count))])
     rows = grid[chosen]
@@ -128,9 +134,12 @@ def _best(grid: Floats, shortest: int, longest: int) -> tuple[int, int, float]:
     for length in range(1, longest + 1):
         starts = count - length
         if length >= shortest:
-            weight_outside = 1 - (cumulated[length:-1] - cumulated[:starts])
-            missed = weights @ nearest[:, :starts] / np.maximum(weight_outside, TINY)
+            weight_inside = cumulated[length:-1] - cumulated[:starts]
+            missed = weights @ nearest[:, :starts] / np.maximum(1 - weight_inside, TINY)
             costs = np.diagonal(grid, length) + missed
+            moves_enough = moved[length:-1] - moved[:starts] >= length * least_per_frame
+            if moves_enough.any():
+                costs = np.where(moves_enough, costs, np.inf)
             start = int(first_least(costs, EQUAL))
             cycles.append((float(costs[start]), start, length, float(missed[start])))
         np.minimum(nearest[:, :starts], rows[:, length:], out=nearest[:, :starts])
@@ -217,6 +226,37 @@ def loop(  # reads: name: `found` is a parameter that users may give by its name
     if clean:
         cycle = _cleaned(cycle, lowest_heights([motion]))
     return cycle
+
+
+def seam_jolt(motion: Motion, cycle: Motion) -> float:
+    """Return the largest acceleration of a joint in the seam of a cycle, relative to that of its clip.
+
+    Parameters
+    ----------
+    motion : the clip.
+    cycle : from `loop`.
+
+    Returns
+    -------
+    The largest acceleration of any joint in the last 0.2 s of a round and the first two frames of the next,
+    divided by the 99th percentile of the largest acceleration in each frame of the clip.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")
+    >>> round(seam_jolt(walk, loop(walk)), 1)
+    0.5
+    """
+    window = max(2, round(SEAM * motion.fps))
+    seam = repeated(cycle, 2)[max(len(cycle) - window - 2, 0) : len(cycle) + 2]
+    usual = np.percentile(_accelerations(motion), 99)
+    return float(_accelerations(seam).max() / max(usual, TINY))
+
+
+def _accelerations(motion: Motion) -> Array:
+    """Return the largest second difference of any joint's position in each frame, metres."""
+    return np.asarray(np.linalg.norm(np.diff(motion.positions, 2, axis=0), axis=-1).max(axis=1))
 
 
 def _straightened(cycle: Motion) -> Motion:

@@ -175,7 +175,10 @@ def advance(
     velocities = velocities * np.clip(speeds, rules.slowest, rules.fastest) / np.maximum(speeds, STILL)
     positions = group.positions + velocities / RATE
     for _ in range(TUNED.separations):
-        positions = positions + push_apart(positions, APART + TUNED.spare)
+        pushes = push_apart(positions, APART + TUNED.spare)
+        if room == np.inf and not pushes.any():
+            break
+        positions = positions + pushes
         excess = positions.imag - np.clip(positions.imag, -room, room)
         positions = positions - 1j * np.clip(excess, -TUNED.wall_push, TUNED.wall_push)
     return Configuration(positions, (positions - group.positions) * RATE)
@@ -190,7 +193,7 @@ def push_apart(positions: Points, distance: float) -> Points:
     array([-0.1+0.j,  0.1+0.j])
     """
     displacements = np.zeros(positions.shape, complex)
-    *group, member = np.nonzero(_near_to_any(positions, distance))
+    *group, member = np.nonzero(near_to_any(positions, distance))
     if not len(member):
         return displacements
     # Only of the members with anyone near: in most frames there are few.
@@ -202,7 +205,7 @@ def push_apart(positions: Points, distance: float) -> Points:
     return displacements
 
 
-def _near_to_any(positions: Points, distance: float) -> Mask:
+def near_to_any(positions: Points, distance: float) -> Mask:
     """Tell which members, (..., N), may have one nearer than a distance: all who do, and few more."""
     middle = positions.mean(axis=-1, keepdims=True)
     offsets = (positions - middle).astype(np.complex64)
