@@ -130,6 +130,8 @@ TRIALS = {
     "wider_views": Trial(crossing, ((0, 0, 0), (0, 1, 1), (0, 2, 4))),
     "waits": Trial(crossing, ((0.0,), (0.0, 2.0), (0.0, 0.5, 1.0, 1.5, 2.0, 4.0))),
     "crowd_beam": Trial(crossing, (30, 50, 200)),
+    "wait_step": Trial(crossing, (0.25, 1.0)),
+    "detours": Trial(crossing, (0, 1)),
     "passing": Trial(passed, (0.2, 0.0, 0.05)),
 }
 FIXED = {"walking_speed": "an error tells which clips walk; no search reads it"}

@@ -5,7 +5,6 @@ from typing import Any
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
-from scipy.ndimage import map_coordinates
 
 from mocap._shared.arguments import called_as
 from mocap._shared.arrays import Array, Indices, frozen
@@ -17,10 +16,11 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, require_compatible
 from mocap.body.planar import from_ground, on_ground
 from mocap.errors import MocapError, shortened, warn
-from mocap.matching.distance_grids import Floats, check_window, distance_grid
+from mocap.matching.banded_paths import BandedPath, banded_path
+from mocap.matching.distance_grids import check_window
 from mocap.matching.point_clouds import align, point_cloud
-from mocap.matching.time_paths import path_mean, time_path
 
+PAIRS_TOGETHER = 4096  # pairs of windows that are aligned at a time, some 10 MB
 AS_NEAR = 1e-9  # metres beyond that, so that rounding does not decide for clips that are the same
 
 _Pair = tuple[Curve, Curve, tuple[float, float], float]
@@ -36,9 +36,11 @@ def register(
     In the paper: [KG03, alignment; several clips].
 
     Each clip is registered with the reference. The path of minimum mean through the grid of distances, √D of
-    [KGP02, Eq. 1], pairs the corresponding windows (`matching.time_path`). A smooth curve S of time is fitted
-    to the path, with a slope between 1 / (W + 1) and W + 1: a straight line if its distances are as small,
-    else a curve with as few knots as possible [ours]. Another curve is fitted to the angles θ of the optimal
+    [KGP02, Eq. 1], pairs the corresponding windows (`matching.time_path`). The path of
+    clips of more than ten seconds is searched in a band around the diagonal of the grid, which is widened
+    where the path comes near its edge [ours]. A smooth curve S of time is fitted to the path, with a slope
+    between 1 / (W + 1) and W + 1: a straight line if its distances are as small, else a curve with as few
+    knots as possible [ours]. Another curve is fitted to the angles θ of the optimal
     alignments of the windows [KGP02, Eqs. 2-4]. At the time u, the clip is aligned with the reference by the
     rotation θ(u) and by the translation of its centroid to that of the reference. Finally, footplants are
     matched.
@@ -138,24 +140,33 @@ def _common_span(
 
 def _register_pair(reference: Array, clip: Array, rate: float, slope: int, slack: int) -> _Pair:
     """Register the points of a clip with those of the reference, both at the same rate."""
-    grid = np.sqrt(distance_grid(reference, clip, window=TUNED.window))
-    path = time_path(grid, slope=slope, slack=min(slack, min(grid.shape) - 1))
+    windows = min(len(reference), len(clip)) - TUNED.window + 1
+    limits = {"slope": slope, "slack": min(slack, windows - 1)}
+    widths = {"half_width": round(TUNED.band * rate), "margin": round(TUNED.band_margin * rate)}
+    banded = banded_path(reference, clip, window=TUNED.window, **limits, **widths)
+    path = banded.path
     half = (TUNED.window - 1) / 2
     u, clip_times = (path.T + half) / rate
     bounds = {"least": 1 / (slope + 1), "most": slope + 1.0}
     times = fit_curve(u, clip_times, spacing=TUNED.spacing, **bounds)
-    largest_mean = TUNED.as_good * _mean_along(grid, times, rate, half) + AS_NEAR
+    largest_mean = TUNED.as_good * _mean_along(banded, times, rate, half) + AS_NEAR
     for multiple in TUNED.wider_spacings if slack else ():
         smoother = fit_curve(u, clip_times, spacing=multiple * TUNED.spacing, **bounds)
-        if _mean_along(grid, smoother, rate, half) <= largest_mean:
+        if _mean_along(banded, smoother, rate, half) <= largest_mean:
             times = smoother
             break
     # The angle that aligns each pair of windows, without jumps of 2 π.
-    alignment = align(_windows(reference, path[:, 0]), _windows(clip, path[:, 1]))
-    angles = fit_curve(u, np.unwrap(np.asarray(alignment.angle)), spacing=TUNED.spacing)
+    angles = fit_curve(u, np.unwrap(_aligning_angles(reference, clip, path)), spacing=TUNED.spacing)
     # Without slack, the clips match up to their ends: include the half window and the frames of a last step.
     margin = 0.0 if slack else (half + 1) / rate
-    return times, angles, (u[0] - margin, u[-1] + margin), path_mean(grid, path)
+    return times, angles, (u[0] - margin, u[-1] + margin), banded.mean
+
+
+def _aligning_angles(reference: Array, clip: Array, path: Indices) -> Array:
+    """Return the angle that best aligns each pair of windows on a path, shape (N,), computed in parts."""
+    parts = [path[first : first + PAIRS_TOGETHER] for first in range(0, len(path), PAIRS_TOGETHER)]
+    alignments = [align(_windows(reference, part[:, 0]), _windows(clip, part[:, 1])) for part in parts]
+    return np.concatenate([alignment.angle for alignment in alignments])
 
 
 def _windows(points: Array, starts: Indices) -> Array:
@@ -164,10 +175,10 @@ def _windows(points: Array, starts: Indices) -> Array:
     return np.asarray(points[frames].reshape(len(starts), -1, 3))
 
 
-def _mean_along(grid: Floats, times: Curve, rate: float, half: float) -> float:
-    """Compute the mean of a grid along a curve of time, weighted by the time by which both clips advance."""
-    u = np.linspace(times.knots[0], times.knots[-1], 2 * len(grid))
-    values = map_coordinates(grid, [u * rate - half, times(u) * rate - half], order=1, mode="nearest")
+def _mean_along(banded: BandedPath, times: Curve, rate: float, half: float) -> float:
+    """Compute the mean distance along a curve of time, weighted by the time by which both clips advance."""
+    u = np.linspace(times.knots[0], times.knots[-1], 2 * len(banded.band.first))
+    values = banded.interpolated(u * rate - half, times(u) * rate - half)
     return float(np.average(values, weights=1 + times.slope(u)))
 
 

@@ -11,10 +11,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import BSpline
 from scipy.optimize import lsq_linear
+from scipy.sparse import csc_array, csr_array
+from scipy.sparse.linalg import spsolve
 
 from mocap._shared.arrays import Array, Indices, frozen
 from mocap._shared.records import NamedTuple
+from mocap.blending.tuned import TUNED
 from mocap.errors import MocapError
+
+ROUNDS = 100  # the largest number of rounds in which the active bounds are found, which takes three to ten
 
 
 class Curve(NamedTuple):
@@ -120,8 +125,12 @@ def fit_curve(
         raise MocapError("A curve needs finite values at as many finite times, which never fall.")
     count = max(int(np.ceil((u[-1] - u[0]) / spacing - 1e-9)), 1)
     step = (u[-1] - u[0]) / count if u[-1] > u[0] else min(spacing, 1.0)
+    basis = _basis_functions(u, step, count)
+    if count > TUNED.many_knots and _determines_all(u, step, count):
+        points = bounded_spline(basis, y, least * step, most * step)
+        return Curve(float(u[0]), float(step), frozen(points, np.float64))
     # The n-th control point is the sum of the first one and n differences: sum the columns from the end.
-    matrix = np.cumsum(_basis_functions(u, step, count)[:, ::-1], axis=1)[:, ::-1]
+    matrix = np.cumsum(basis.toarray()[:, ::-1], axis=1)[:, ::-1]
     is_straight = spacing == np.inf
     if is_straight:  # a single knot interval, whose two differences are equal
         matrix = np.stack([matrix[:, 0], matrix[:, 1] + matrix[:, 2]], axis=1)
@@ -134,8 +143,69 @@ def fit_curve(
     return Curve(float(u[0]), float(step), frozen(np.cumsum(differences), np.float64))
 
 
-def _basis_functions(times: Array, step: float, count: int) -> Array:
+def _basis_functions(times: Array, step: float, count: int) -> csr_array:
     """Evaluate the quadratic B-splines of `count` knot intervals from the first time, (N, count + 2)."""
     knots = times[0] + step * np.arange(-2, count + 3)  # SciPy requires two more knots at each end
     last = knots[-3]
-    return np.asarray(BSpline.design_matrix(np.minimum(times, last), knots, 2).toarray())
+    return csr_array(BSpline.design_matrix(np.minimum(times, last), knots, 2))
+
+
+def _determines_all(times: Array, step: float, count: int) -> bool:
+    """Tell whether each knot interval has three different times, which determine all control points."""
+    intervals = np.minimum((np.unique(times) - times[0]) / step, count - 1).astype(np.intp)
+    return bool(np.bincount(intervals, minlength=count).min() >= 3)
+
+
+def bounded_spline(basis: csr_array, values: Array, low: float, high: float) -> Array:
+    """Fit control points to values by least squares, with bounds of the differences of neighbouring ones.
+
+    For many knots, an active set method on the normal equations, as that of `lsq_linear`, but in a time that
+    is proportional to the knots. A difference at a bound ties two control points to each other. All control
+    points that are tied together move as one, and the normal equations of such groups have five diagonals.
+
+    Parameters
+    ----------
+    basis : sparse, shape (N, P), the quadratic B-splines at the N values. They must determine all points.
+    values : shape (N,).
+    low, high : the bounds of the differences.
+
+    Returns
+    -------
+    The control points, shape (P,).
+
+    Examples
+    --------
+    >>> points = bounded_spline(csr_array(np.eye(4)), np.array([0.0, 0, 2, 3]), low=0.5, high=1.5)
+    >>> points.round(4)
+    array([-0.0833,  0.4167,  1.9167,  3.    ])
+    """
+    normal = csr_array(basis.T @ basis)
+    right_side = basis.T @ values
+    at_high = np.zeros(basis.shape[1] - 1, bool)
+    at_low = np.zeros(basis.shape[1] - 1, bool)
+    for _ in range(ROUNDS):
+        tied = np.where(at_high, high, np.where(at_low, low, np.nan))
+        points = _tied_points(normal, right_side, tied)
+        # Half of what the squared error would lose if all control points behind a difference rose together.
+        forces = np.cumsum((right_side - normal @ points)[::-1])[-2::-1]
+        differences = np.diff(points)
+        next_high = np.where(at_high, forces > 0, differences > high)
+        next_low = np.where(at_low, forces < 0, differences < low)
+        if np.array_equal(next_high, at_high) and np.array_equal(next_low, at_low):
+            break
+        at_high = next_high
+        at_low = next_low
+    first = points[0]
+    return np.cumsum(np.append(first, np.clip(np.diff(points), low, high)))
+
+
+def _tied_points(normal: csr_array, right_side: Array, tied: Array) -> Array:
+    """Solve normal equations for control points whose differences are given unless `tied` is NaN there."""
+    group = np.append(0, np.cumsum(np.isnan(tied)))
+    rise = np.append(0, np.cumsum(np.nan_to_num(tied)))
+    _, first_of_group = np.unique(group, return_index=True)
+    rise = rise - rise[first_of_group][group]  # of each point above the first one of its group
+    count = len(group)
+    members = csr_array((np.ones(count), (np.arange(count), group)))
+    of_groups = csc_array(members.T @ normal @ members)
+    return spsolve(of_groups, members.T @ (right_side - normal @ rise))[group] + rise

@@ -18,7 +18,11 @@ class Tuned:
     # Registration
     rate: float = 30.0  # frames per second that are compared, or the nearest that takes each n-th frame
     window: int = 5  # frames, at this rate. Shorter ones make the pace wobble, longer ones blur the distances
+    # Half the width of the band in which the path is searched first. Clips up to this are searched as a whole
+    band: float = 10.0  # seconds
+    band_margin: float = 2.0  # seconds from the edge of the band at which the band is widened
     spacing: float = 0.3  # seconds between the knots of the curves. At 0.1 the pace wobbles far more
+    many_knots: int = 200  # knot intervals up to which a fit is dense. Denser fits are slower beyond
     # Wider spacings are tried first, and the first is taken whose mean distance is as good as that of
     # `spacing`, with which the pace of two even walks wobbles by a fifth. Clips that are cut alike take
     # `spacing`: a straight line through nine punches makes blends miss their targets by 8 mm, where these

@@ -50,12 +50,14 @@ def place_joints(skeleton: Skeleton, root_positions: Array, local: Array) -> Glo
     array([1., 2., 0.])
     """
     matrices = rotations.to_matrix(np.swapaxes(local, 0, 1))  # L_j, and R_j from the root down
-    for joint in range(1, len(skeleton)):
-        matrices[joint] = matrices[skeleton.parents[joint]] @ matrices[joint]
-    positions = np.einsum("jfxy,jy->jfx", matrices[skeleton.parents], skeleton.offsets)
+    positions = np.empty(matrices.shape[:-1])
     positions[0] = root_positions
+    # All of one joint at a time: the matrices of its parent are still in the processor's cache.
     for joint in range(1, len(skeleton)):
-        positions[joint] += positions[skeleton.parents[joint]]
+        parent = skeleton.parents[joint]
+        np.einsum("fxy,y->fx", matrices[parent], skeleton.offsets[joint], out=positions[joint])
+        positions[joint] += positions[parent]
+        matrices[joint] = matrices[parent] @ matrices[joint]
     return GlobalPoses(np.swapaxes(positions, 0, 1), np.swapaxes(matrices, 0, 1))
 
 

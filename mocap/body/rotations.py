@@ -19,6 +19,8 @@ from mocap._shared.arrays import Array, frozen
 IDENTITY: Array = frozen([1.0, 0.0, 0.0, 0.0], np.float64)
 Z_UP: Array = frozen([0.5**0.5, -(0.5**0.5), 0.0, 0.0], np.float64)  # rotates +z to +y
 
+TINY_ANGLE = 1e-9  # radians, in place of 0, by which nothing can be divided
+
 # Entries of a quaternion.
 W = 0
 X = 1
@@ -210,7 +212,9 @@ def difference(start: ArrayLike, end: ArrayLike) -> Array:
 def slerp(start: ArrayLike, end: ArrayLike, amount: ArrayLike) -> Array:
     """Spherical linear interpolation (slerp) along the shorter arc: start · exp(amount · log(start⁻¹ · end)).
 
-    exp is `from_rotvec`, and the logarithm is `difference`, whose angle is at most π.
+    With the angle φ between the two quaternions as vectors, cos φ = |start · end|, this is
+    (sin((1 - amount) φ) start ± sin(amount φ) end) / sin φ. The sign is that of start · end: of q and -q, the
+    same rotation, the one nearer to `start` is taken.
 
     Parameters
     ----------
@@ -228,7 +232,19 @@ def slerp(start: ArrayLike, end: ArrayLike, amount: ArrayLike) -> Array:
 
     Notebook: 04-blending
     """
-    return multiply(start, from_rotvec(np.asarray(amount, float)[..., None] * difference(start, end)))
+    start = np.asarray(start, float)
+    end = np.asarray(end, float)
+    amount = np.asarray(amount, float)
+    cosine = np.einsum("...i,...i->...", start, end)
+    angle = np.arccos(np.minimum(np.abs(cosine), 1))
+    # Of equal rotations any weights will do whose sum is one: a tiny angle gives 1 - amount and amount.
+    angle = np.maximum(angle, TINY_ANGLE)
+    sine = np.sin(angle)
+    start_weight = np.sin((1 - amount) * angle) / sine
+    end_weight = np.copysign(np.sin(amount * angle) / sine, cosine * amount)
+    result = start * start_weight[..., None]
+    result += end * end_weight[..., None]
+    return np.asarray(result)
 
 
 def continuous(quaternions: ArrayLike) -> Array:

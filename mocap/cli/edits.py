@@ -152,7 +152,7 @@ def loop(
     check_out("cycle", out, [clip])
     if shortest > longest:
         raise MocapError(f"--shortest {shortest:g} is longer than --longest {longest:g}.")
-    from mocap.editing.cycles import find_loop, repeated  # the help needs no NumPy
+    from mocap.editing.cycles import find_loop, repeated, seam_jolt  # the help needs no NumPy
 
     motion = reading.load(clip)
     best = find_loop(motion, seconds=(shortest, longest))
@@ -166,7 +166,8 @@ def loop(
     step = math.hypot(*(cycle.root_positions[-1] - cycle.root_positions[0])[[0, 2]])
     side = "left" if turn > 0 else "right"
     print_rows(cycle=f"frames {best.first} to {best.last}, {cycle.duration:.2f} s")
-    print_rows(seam=f"{100 * best.seam:.1f} cm RMS")
+    jolt = f"accelerates up to {seam_jolt(motion, cycle):.1f} times the clip's 99th percentile"
+    print_rows(seam=f"{100 * best.seam:.1f} cm RMS, {jolt}")
     print_rows(misses=f"{100 * best.missed:.1f} cm of the clip's other poses, on average")
     print_rows(**{"a round": f"{step:.2f} m, turns {side} by {abs(math.degrees(turn)):.0f}°"})
     write_out(repeated(cycle, times), out)

@@ -4,7 +4,9 @@ The pair of most similar frames is not a cycle: it is in a part of the clip in w
 Therefore the cost of a cycle has two terms, in metres: the distance between its ends, and the mean distance
 of the other frames of the clip from the nearest frame of the cycle. The weight of a frame in the mean is the
 displacement of the body to the next frame, so that the cycle of a clip in which somebody mostly stands is a
-step. The second term is large for a held pose, and for half a stride. Method and cost are ours.
+step. The second term is large for a held pose, and for half a stride. In a clip that begins or ends with a
+long stand, a held pose may still cost least: therefore a cycle moves at least half as much as the clip does.
+Method and cost are ours.
 """
 
 import warnings
@@ -116,8 +118,12 @@ def _best(grid: Floats, shortest: int, longest: int) -> tuple[int, int, float]:
     """
     count = len(grid)
     chosen = np.unique(np.linspace(0, count - 1, min(count, TUNED.loop_rows)).astype(int))
-    displacements = np.append(np.diagonal(grid, 1), 0.0)[chosen]  # of the body, to the next frame
-    displacements = np.minimum(displacements, np.percentile(displacements, TUNED.loop_percentile)) + TINY
+    displacements = np.append(np.diagonal(grid, 1), 0.0)  # of the body, to the next frame
+    largest = np.percentile(displacements[chosen], TUNED.loop_percentile)
+    displacements = np.minimum(displacements, largest) + TINY
+    moved = np.concatenate([[0.0], np.cumsum(displacements, dtype=float)])  # before each frame
+    least_per_frame = TUNED.loop_motion * moved[-1] / count
+    displacements = displacements[chosen]
     weights = displacements / displacements.sum()
     cumulated = np.concatenate([[0.0], np.cumsum(np.bincount(chosen, weights, count))])
     rows = grid[chosen]
@@ -126,9 +132,12 @@ def _best(grid: Floats, shortest: int, longest: int) -> tuple[int, int, float]:
     for length in range(1, longest + 1):
         starts = count - length
         if length >= shortest:
-            weight_outside = 1 - (cumulated[length:-1] - cumulated[:starts])
-            missed = weights @ nearest[:, :starts] / np.maximum(weight_outside, TINY)
+            weight_inside = cumulated[length:-1] - cumulated[:starts]
+            missed = weights @ nearest[:, :starts] / np.maximum(1 - weight_inside, TINY)
             costs = np.diagonal(grid, length) + missed
+            moves_enough = moved[length:-1] - moved[:starts] >= length * least_per_frame
+            if moves_enough.any():
+                costs = np.where(moves_enough, costs, np.inf)
             start = int(first_least(costs, EQUAL))
             cycles.append((float(costs[start]), start, length, float(missed[start])))
         np.minimum(nearest[:, :starts], rows[:, length:], out=nearest[:, :starts])
@@ -216,6 +225,37 @@ def loop(  # reads: name: `found` is a parameter that users may give by its name
     if clean:
         cycle = _cleaned(cycle, lowest_heights([motion]))
     return cycle
+
+
+def seam_jolt(motion: Motion, cycle: Motion) -> float:
+    """Return the largest acceleration of a joint in the seam of a cycle, relative to that of its clip.
+
+    Parameters
+    ----------
+    motion : the clip.
+    cycle : from `loop`.
+
+    Returns
+    -------
+    The largest acceleration of any joint in the last 0.2 s of a round and the first two frames of the next,
+    divided by the 99th percentile of the largest acceleration in each frame of the clip.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")
+    >>> round(seam_jolt(walk, loop(walk)), 1)
+    0.5
+    """
+    window = max(2, round(TUNED.loop_seam * motion.fps))
+    seam = repeated(cycle, 2)[max(len(cycle) - window - 2, 0) : len(cycle) + 2]
+    usual = np.percentile(_accelerations(motion), 99)
+    return float(_accelerations(seam).max() / max(usual, TINY))
+
+
+def _accelerations(motion: Motion) -> Array:
+    """Return the largest second difference of any joint's position in each frame, metres."""
+    return np.asarray(np.linalg.norm(np.diff(motion.positions, 2, axis=0), axis=-1).max(axis=1))
 
 
 def _straightened(cycle: Motion) -> Motion:

@@ -5,8 +5,8 @@ from itertools import chain, compress
 
 import networkx as nx
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
+from scipy.sparse import coo_array, csr_array
+from scipy.sparse.csgraph import breadth_first_order, connected_components
 
 from mocap._shared.arrays import Indices, Mask
 
@@ -43,8 +43,7 @@ def largest_components(graph: nx.MultiDiGraph, by_labels: bool) -> dict[Labels, 
 
     Notebook: 06b-pruning-clips
     """
-    number = {node: index for index, node in enumerate(graph)}
-    ends = np.array([(number[start], number[end]) for start, end in graph.edges()], int)
+    ends = numbered_edges(graph)
     edges = [edge for _, _, edge in graph.edges(data=True)]
     frames = np.array([edge["frames"] if edge["kind"] == "clip" else 0 for edge in edges], int)
     rows: dict[Labels, list[int]] = {}  # the edges with each label set
@@ -89,6 +88,52 @@ def largest_component(edges: Indices, frames: Indices, count: int) -> tuple[Mask
     frame_counts = np.bincount(start[inside], frames[inside])
     largest = np.lexsort([edge_counts, frame_counts])[-1]
     return component == largest, int(frame_counts[largest])
+
+
+def numbered_edges(graph: nx.MultiDiGraph) -> Indices:
+    """Return the edges of a graph as pairs of numbers, which count its nodes in their order, shape (E, 2).
+
+    Examples
+    --------
+    >>> numbered_edges(nx.MultiDiGraph([("a", "b"), ("b", "c"), ("b", "a")])).tolist()
+    [[0, 1], [1, 2], [1, 0]]
+    """
+    number = {node: index for index, node in enumerate(graph)}
+    return np.array([(number[start], number[end]) for start, end in graph.edges()], int).reshape(-1, 2)
+
+
+def on_cycles(edges: Indices, count: int) -> Mask:
+    """Tell which of `count` nodes are on a cycle, which may consist of a single edge.
+
+    Examples
+    --------
+    >>> on_cycles(np.array([[0, 1], [1, 0], [1, 2], [3, 3]]), 4)
+    array([ True,  True, False,  True])
+    """
+    adjacency = coo_array((np.ones(len(edges), bool), tuple(edges.T)), shape=(count, count))
+    _, component = connected_components(adjacency, directed=True, connection="strong")
+    is_on_cycle = np.bincount(component)[component] > 1
+    is_on_cycle[edges[edges[:, 0] == edges[:, 1], 0]] = True
+    return np.asarray(is_on_cycle)
+
+
+def reachable(edges: Indices, starts: Mask) -> Mask:
+    """Tell which nodes are reachable from some start nodes, including these, all given by their numbers.
+
+    Examples
+    --------
+    >>> reachable(np.array([[0, 1], [1, 2], [3, 0]]), np.array([True, False, False, False]))
+    array([ True,  True,  True, False])
+    """
+    count = len(starts)
+    # One more node, from which an edge leads to each start node.
+    first_edges = np.stack([np.full(starts.sum(), count), np.flatnonzero(starts)], axis=1)
+    all_edges = np.concatenate([edges, first_edges])
+    ones = np.ones(len(all_edges), bool)
+    adjacency = csr_array((ones, tuple(all_edges.T)), shape=(count + 1, count + 1))
+    visited = np.zeros(count + 1, bool)
+    visited[breadth_first_order(adjacency, count, return_predecessors=False)] = True
+    return visited[:-1]
 
 
 def reached(graph: nx.MultiDiGraph, start: Iterable[Hashable]) -> set[Hashable]:

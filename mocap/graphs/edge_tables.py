@@ -89,11 +89,13 @@ def edge_table(motion_graph: MotionGraph, edges: Sequence[Edge]) -> EdgeTable:
     >>> edges.frames.tolist(), edges.blended.tolist(), edges.cost.tolist(), edges.there[-1].tolist()
     ([40, 10], [False, True], [0.0, 0.02], [0, 19])
     """
-    data = [motion_graph.graph.edges[edge] for edge in edges]
-    frames = np.array([edge["frames"] for edge in data], np.intp)
-    blended = np.array([edge["kind"] == "transition" for edge in data], bool)
-    cost = np.array([edge.get("cost", 0.0) for edge in data], float)
-    transforms = np.array([edge.get("transform", IDENTITY) for edge in data], float).reshape(-1, 3)
+    number = {edge: index for index, edge in enumerate(dict.fromkeys(map(tuple, edges)))}
+    distinct = np.array([number[tuple(edge)] for edge in edges], np.intp)  # a long walk often repeats an edge
+    data = [motion_graph.graph.edges[edge] for edge in number]
+    frames = np.array([edge["frames"] for edge in data], np.intp)[distinct]
+    blended = np.array([edge["kind"] == "transition" for edge in data], bool)[distinct]
+    cost = np.array([edge.get("cost", 0.0) for edge in data], float)[distinct]
+    transforms = np.array([edge.get("transform", IDENTITY) for edge in data], float).reshape(-1, 3)[distinct]
     aligning = PlanarTransform(*transforms.T)
     angle = np.asarray(aligning.angle)
     rotation = aligning.rotation
@@ -101,7 +103,7 @@ def edge_table(motion_graph: MotionGraph, edges: Sequence[Edge]) -> EdgeTable:
     first = np.asarray(np.cumsum(frames) - frames, np.intp)
     of = np.repeat(np.arange(len(edges)), frames)
     elapsed = np.arange(len(of)) - first[of]  # frames since the edge's first
-    ends = np.array([(start, end) for start, end, _ in edges], np.intp).reshape(-1, 2, 2)
+    ends = np.array([(start, end) for start, end, _ in number], np.intp).reshape(-1, 2, 2)[distinct]
     leaving = ends[of, 0]
     entering = ends[of, 1]
     leaving[:, FRAME] += elapsed

@@ -17,11 +17,21 @@ from enum import StrEnum
 from itertools import permutations
 
 import networkx as nx
+import numpy as np
 
 from mocap._shared.collector import uncollected
 from mocap._shared.records import dataclass
 from mocap.errors import NoWalk, warn
-from mocap.graphs.components import NO_LABELS, Labels, Nodes, largest_components, reached
+from mocap.graphs.components import (
+    NO_LABELS,
+    Labels,
+    Nodes,
+    largest_components,
+    numbered_edges,
+    on_cycles,
+    reachable,
+    reached,
+)
 from mocap.graphs.motion_graph import MotionGraph, require_graph
 
 
@@ -194,25 +204,26 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
         warn(message)
     reasons = _reasons(graph, kept)
     ends = ((edge, edge[0] if edge[1] in kept else edge[1]) for edge in graph.edges(keys=True))
-    removed = {edge: reasons[end] for edge, end in ends if end in reasons}
+    removed = {edge: reasons[end] for edge, end in ends if end in reasons} if reasons else {}
     return Pruning(pruned, components, removed, tuple(reasons))
 
 
 def _reasons(graph: nx.MultiDiGraph, kept: Nodes) -> dict[Hashable, Reason]:
     """Return the reason for removing each node that is not kept, in the order of the graph."""
-    on_cycle = set(nx.nodes_with_selfloops(graph))
-    on_cycle.update(*(part for part in nx.strongly_connected_components(graph) if len(part) > 1))
-    descendants = reached(graph, kept)
-    ancestors = reached(graph.reverse(copy=False), kept)
+    edges = numbered_edges(graph)
+    is_kept = np.array([node in kept for node in graph])
+    is_on_cycle = on_cycles(edges, len(graph))
+    is_descendant = reachable(edges, is_kept)
+    is_ancestor = reachable(edges[:, ::-1], is_kept)
 
-    def reason(node: Hashable) -> Reason:
-        if node not in on_cycle:
+    def reason(number: int) -> Reason:
+        if not is_on_cycle[number]:
             return Reason.DEAD_END
-        if node not in ancestors:
+        if not is_ancestor[number]:
             return Reason.SINK
-        return Reason.ASIDE if node in descendants else Reason.UNREACHED
+        return Reason.ASIDE if is_descendant[number] else Reason.UNREACHED
 
-    return {node: reason(node) for node in graph if node not in kept}
+    return {node: reason(number) for number, node in enumerate(graph) if node not in kept}
 
 
 def _shortcomings(
@@ -224,6 +235,8 @@ def _shortcomings(
         if count < minimum and (labels != together or not labels):
             kind = f" with {name(labels)}" if len(frames) > 1 else ""
             yield f"{count} frames of clip stay{kind}, fewer than the {minimum} asked for."
+    if len(components) < 2:
+        return
     descendants = {labels: reached(graph, nodes) for labels, nodes in components.items()}
     for source, target in permutations(components, 2):
         if not components[target] & descendants[source]:

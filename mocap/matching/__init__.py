@@ -13,8 +13,10 @@ Reading order (notebooks 02, 05, 15)
 5. `near_pairs`: the pairs of windows that the bound does not rule out, and their distances
 6. `minima`: local minima of distance grids of any size
 7. `transitions`: the transitions between clips
-8. `time_paths`: dynamic time warping of one clip to another
-9. `tuned`: the constants that trials chose
+8. `time_bands`: bands of a distance grid around its diagonal
+9. `time_paths`: dynamic time warping of one clip to another
+10. `banded_paths`: the same for long clips, in a band that widens where the path needs it
+11. `tuned`: the constants that trials chose
 
 References
 ----------

@@ -309,9 +309,27 @@ def distance_grid(  # noqa: PLR0913 (two clips, a window, weights, and threads)
     """
     if isinstance(a, Motion) and isinstance(b, Motion):
         a, b = require_compatible([a, b])
+    thread_count(jobs)
+    windows_a, windows_b = prepared_windows(a, b, window=window, joint_weights=joint_weights, taper=taper)
+    zero_below = EQUAL if windows_a.heights.dtype == np.float64 else 0.0
+    mirror = windows_b is windows_a
+    return tiled_distances(windows_a, windows_b, mirror=mirror, zero_below=zero_below, jobs=jobs)
+
+
+def prepared_windows(
+    a: Motion | ArrayLike,
+    b: Motion | ArrayLike,
+    *,
+    window: int,
+    joint_weights: ArrayLike | None = None,
+    taper: ArrayLike | None = None,
+) -> tuple[Cloud, Cloud]:
+    """Prepare all whole windows of two clips for `cloud_distances`; see `distance_grid` for the arguments.
+
+    Clips of the same points are prepared once: the second cloud then *is* the first.
+    """
     points_a = _checked_points(a, window)
     points_b = _checked_points(b, window)
-    thread_count(jobs)
     count = points_a.shape[1]
     if count != points_b.shape[1]:
         raise MocapError(f"Clouds of {count} and {points_b.shape[1]} points do not match.")
@@ -323,11 +341,8 @@ def distance_grid(  # noqa: PLR0913 (two clips, a window, weights, and threads)
         prepared = cloud(points.astype(float), level, weights, window, dtype, taper=taper)
         return prepared.part(slice(len(points) - window + 1))
 
-    is_symmetric = np.array_equal(points_a, points_b)
-    zero_below = EQUAL if dtype == np.float64 else 0.0
     windows_a = whole_windows(points_a)
-    windows_b = windows_a if is_symmetric else whole_windows(points_b)
-    return tiled_distances(windows_a, windows_b, mirror=is_symmetric, zero_below=zero_below, jobs=jobs)
+    return windows_a, windows_a if np.array_equal(points_a, points_b) else whole_windows(points_b)
 
 
 def _checked_points(clip: Motion | ArrayLike, window: int) -> Floats:

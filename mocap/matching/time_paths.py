@@ -30,6 +30,7 @@ from mocap._shared.arrays import Indices, Mask
 from mocap._shared.records import NamedTuple
 from mocap._shared.ties import first_least
 from mocap.errors import MocapError
+from mocap.matching.time_bands import Band, whole_band
 
 Floats = NDArray[np.floating[Any]]
 
@@ -44,12 +45,14 @@ EQUAL = 1e-9
 class PathSums(NamedTuple):
     """The best path to each cell, given by its sum and its last steps.
 
-    totals : (n, m), the minimum sum of a path that ends at a cell, infinite if there is none.
-    steps : (n, m), the last steps of this path: 0 for a diagonal step, k for k steps down, W + k for k steps
-        to the right.
-    begins : (n, m), whether the best path that reaches a cell by a diagonal step begins at this cell.
+    totals : the minimum sum of a path that ends at a cell, infinite if there is none. The shape of this and
+        the next two fields is that of the costs: (n, m), or (N,) for the N cells of a band.
+    steps : the last steps of this path: 0 for a diagonal step, k for k steps down, W + k for k steps to the
+        right.
+    begins : whether the best path that reaches a cell by a diagonal step begins at this cell.
     slope : W.
     equal : the tolerance for equal sums, in the unit of the costs.
+    band : the cells of the grid that are searched.
     """
 
     totals: Floats
@@ -57,17 +60,20 @@ class PathSums(NamedTuple):
     begins: Mask
     slope: int
     equal: float
+    band: Band
 
 
-def path_sums(costs: Floats, starts: Mask, *, slope: int) -> PathSums:
+def path_sums(costs: Floats, starts: Mask, *, slope: int, band: Band | None = None) -> PathSums:
     """Compute the minimum sum of costs along a path to each cell, by dynamic programming over rows.
 
     Parameters
     ----------
     costs : shape (n, m), with weight 2 after a diagonal step and at the start of a path, and 1 otherwise.
         They may be negative: a path begins at a cell only if the sum of its diagonal predecessor is not.
-    starts : shape (n, m), booleans: cells at which a path may begin. True everywhere is a local alignment.
+    starts : the same shape, booleans: cells at which a path may begin. True everywhere is a local alignment.
     slope : W, from 1 to 63.
+    band : the cells of the grid to which the paths are confined. Costs and starts then have the shape (N,),
+        for each of its N cells.
 
     Returns
     -------
@@ -81,28 +87,39 @@ def path_sums(costs: Floats, starts: Mask, *, slope: int) -> PathSums:
     array([[2., 7.],
            [7., 4.]])
     """
-    totals = np.empty_like(costs)
-    steps = np.empty(costs.shape, np.int8)
-    begins = np.zeros(costs.shape, bool)
-    has_start = np.asarray(starts.any(axis=1))
-    # The states of a row and of the one above, shape (2 W + 1, m): A, V₁ … V_W, H₁ … H_W.
-    row, above = np.full((2, 2 * slope + 1, costs.shape[1]), np.inf, costs.dtype)
-    lowest = np.full(costs.shape[1] + 1, np.inf, costs.dtype)  # M of the row above, one to the right
-    equal = EQUAL * float(np.abs(costs).max(initial=0.0, where=np.isfinite(costs)))
-    for i, cost in enumerate(costs):
-        diagonal = lowest[:-1]  # the sums from which a diagonal step leads to this row
-        if has_start[i]:
-            begins[i] = starts[i] & (diagonal >= 0)
-            diagonal = np.where(begins[i], 0, diagonal)
+    if band is None:
+        band = whole_band(*costs.shape)
+    cost_of_cells = costs.ravel()
+    may_begin = starts.ravel()
+    totals = np.empty_like(cost_of_cells)
+    steps = np.empty(cost_of_cells.shape, np.int8)
+    begins = np.zeros(cost_of_cells.shape, bool)
+    # The states of a row and of the one above, shape (2 W + 1, m): A, V₁ … V_W, H₁ … H_W. They are infinite
+    # to the right of a band, because its limits never fall.
+    row_states, states_above = np.full((2, 2 * slope + 1, band.columns), np.inf, costs.dtype)
+    lowest = np.full(band.columns + 1, np.inf, costs.dtype)  # M of the row above, one to the right
+    equal = EQUAL * float(np.abs(cost_of_cells).max(initial=0.0, where=np.isfinite(cost_of_cells)))
+    for first, stop, start in zip(band.first, band.stop, band.offsets[:-1], strict=True):
+        cells = slice(start, start + stop - first)
+        cost = cost_of_cells[cells]
+        row = row_states[:, first:stop]
+        diagonal = lowest[first:stop]  # the sums from which a diagonal step leads to this row
+        if may_begin[cells].any():
+            begins[cells] = may_begin[cells] & (diagonal >= 0)
+            diagonal = np.where(begins[cells], 0, diagonal)
         np.add(diagonal + cost, cost, out=row[0])
-        np.add(above[:slope], cost, out=row[1 : slope + 1])
+        np.add(states_above[:slope, first:stop], cost, out=row[1 : slope + 1])
+        row[slope + 1 :, 0] = np.inf  # nothing leads to the first cell of a row from its left
         np.add(row[0, :-1], cost[1:], out=row[slope + 1, 1:])
         for k in range(slope + 2, 2 * slope + 1):
             np.add(row[k - 1, :-1], cost[1:], out=row[k, 1:])
-        lowest[1:] = np.minimum.reduce(row, out=totals[i])
-        steps[i] = (row <= totals[i] + equal).argmax(0)
-        row, above = above, row
-    return PathSums(totals, steps, begins, slope, equal)
+        lowest[first] = np.inf
+        lowest[first + 1 : stop + 1] = np.minimum.reduce(row, out=totals[cells])
+        steps[cells] = (row <= totals[cells] + equal).argmax(0)
+        row_states, states_above = states_above, row_states
+    shape = costs.shape
+    steps = steps.reshape(shape)
+    return PathSums(totals.reshape(shape), steps, begins.reshape(shape), slope, equal, band)
 
 
 def origins(sums: PathSums) -> Indices:
@@ -110,7 +127,7 @@ def origins(sums: PathSums) -> Indices:
 
     Parameters
     ----------
-    sums : of (n, m) cells.
+    sums : of all (n, m) cells of a grid.
 
     Returns
     -------
@@ -157,8 +174,13 @@ def trace(sums: PathSums, end: tuple[int, int]) -> Indices:
     """
     i, j = end
     cells = [(i, j)]
+    steps = sums.steps.ravel()
+    begins = sums.begins.ravel()
+    first_columns = sums.band.first
+    offsets = sums.band.offsets
     while True:
-        step = int(sums.steps[i, j])
+        cell = offsets[i] + j - first_columns[i]
+        step = int(steps[cell])
         down = step <= sums.slope
         for _ in range(step if down else step - sums.slope):
             if down:
@@ -166,7 +188,7 @@ def trace(sums: PathSums, end: tuple[int, int]) -> Indices:
             else:
                 j -= 1
             cells.append((i, j))
-        if sums.begins[i, j]:
+        if begins[offsets[i] + j - first_columns[i]]:
             return np.array(cells[::-1])
         i -= 1
         j -= 1
@@ -212,27 +234,59 @@ def time_path(grid: ArrayLike, *, slope: int = 2, slack: int = 0) -> Indices:
     costs = np.asarray(grid, float)
     if costs.ndim != 2 or not costs.size or not np.isfinite(costs.sum()):
         raise MocapError(f"A path needs a grid of finite numbers, of two dimensions, got {costs.shape}.")
-    if not (1 <= slope <= 63 and 0 <= slack < min(costs.shape)):
-        short = f"slack from 0 to less than the {min(costs.shape)} frames of a clip"
-        raise MocapError(f"A path needs a slope from 1 to 63 and {short}, got {slope} and {slack}.")
-    starts = np.zeros(costs.shape, bool)
-    starts[0, : slack + 1] = True
-    starts[: slack + 1, 0] = True
-    ends = np.argwhere(starts[::-1, ::-1])
-    level = float(costs.min(axis=1).mean()) if slack else 0.0  # the initial estimate of the mean
+    return least_mean_path(costs.ravel(), whole_band(*costs.shape), slope, slack)
+
+
+def least_mean_path(costs: Floats, band: Band, slope: int, slack: int) -> Indices:
+    """Find the path of minimum mean cost through a band of a grid, as `time_path` does through a whole grid.
+
+    Parameters
+    ----------
+    costs : shape (N,), of the cells of the band.
+    band : the cells of the grid to which the path is confined.
+    slope, slack : as for `time_path`.
+
+    Returns
+    -------
+    The cells (i, j) of the path, shape (N, 2), in ascending order.
+
+    Raises
+    ------
+    MocapError : for a slope outside 1 … 63, a slack below 0 or as long as a clip, and lengths that the slope
+        does not allow.
+    """
+    shortest = min(len(band.first), band.columns)
+    if not (1 <= slope <= 63 and 0 <= slack < shortest):
+        limits = f"slack from 0 to less than the {shortest} frames of a clip"
+        raise MocapError(f"A path needs a slope from 1 to 63 and {limits}, got {slope} and {slack}.")
+    starts, ends = _corners(band, slack)
+    # The initial estimate of the mean.
+    level = float(np.minimum.reduceat(costs, band.offsets[:-1]).mean()) if slack else 0.0
     for _ in range(ROUNDS):
-        sums = path_sums(costs - level, starts, slope=slope)
-        totals = sums.totals[ends[:, 0], ends[:, 1]]
+        sums = path_sums(costs - level, starts, slope=slope, band=band)
+        totals = sums.totals[ends]
         if not np.isfinite(totals.min()):
-            frames = f"{len(costs)} frames cannot be laid on {costs.shape[1]}"
+            frames = f"{len(band.first)} frames cannot be laid on {band.columns}"
             raise MocapError(f"{frames} with slope {slope}: at most {slope + 1} to 1.")
-        end = ends[first_least(totals, sums.equal)]
-        path = trace(sums, (int(end[0]), int(end[1])))
+        path = trace(sums, band.place(int(ends[first_least(totals, sums.equal)])))
         previous_level = level
-        level = path_mean(costs, path)
+        level = mean_of_cells(costs[band.cells(path[:, 0], path[:, 1])], path)
         if not slack or abs(level - previous_level) <= SETTLED * abs(level):
             break
     return path
+
+
+def _corners(band: Band, slack: int) -> tuple[Mask, Indices]:
+    """Return the cells of a band at which a path may begin, as booleans, and those at which it may end."""
+    rows = np.arange(slack + 1)
+    last_rows = len(band.first) - 1 - rows[::-1]
+    starts = np.zeros(band.offsets[-1], bool)
+    starts[: min(slack + 1, band.stop[0])] = True
+    starts[band.offsets[rows[band.first[rows] == 0]]] = True
+    ends = np.zeros(band.offsets[-1], bool)
+    ends[max(band.offsets[-1] - slack - 1, band.offsets[-2]) :] = True
+    ends[band.offsets[last_rows[band.stop[last_rows] == band.columns] + 1] - 1] = True
+    return starts, np.flatnonzero(ends)
 
 
 def path_mean(grid: ArrayLike, path: ArrayLike) -> float:
@@ -252,7 +306,11 @@ def path_mean(grid: ArrayLike, path: ArrayLike) -> float:
 
     Notebook: 15-registration
     """
-    values = np.asarray(grid)
     cells = np.asarray(path)
-    advanced = np.append(2, np.abs(np.diff(cells, axis=0)).sum(axis=1))
-    return float(np.average(values[cells[:, 0], cells[:, 1]], weights=advanced))
+    return mean_of_cells(np.asarray(grid)[cells[:, 0], cells[:, 1]], cells)
+
+
+def mean_of_cells(values: NDArray[Any], path: Indices) -> float:
+    """Compute the mean of values at the cells of a path, weighted as by `path_mean`."""
+    advanced = np.append(2, np.abs(np.diff(path, axis=0)).sum(axis=1))
+    return float(np.average(values, weights=advanced))

@@ -39,6 +39,8 @@ class Tuned:
 
     # Waypoints and crowds
     waits: tuple[float, ...] = (0.0, 1.0, 2.0, 4.0)  # seconds before a start, in this order. Most need none
+    wait_step: float = 0.5  # seconds between the waits that are tried for a walk that is not searched again
+    detours: int = 6  # characters who search again, which takes 1 to 3 s. The others of a larger crowd wait
     crowd_beam: int = 100  # walks in a layer, and thrice as many to give way. 30 to 200 keep as far apart
     passing: float = 0.02  # metres beyond the least distance that count as passed. At 0.2 points are missed
 

@@ -144,7 +144,9 @@ def walk_crowd(
 
     First, each walk is found independently. Then the characters are processed in order. If one comes too near
     to an earlier one, its search is repeated, with a price on each frame that is too near. If this does not
-    suffice, it also waits before it starts. Each character thus gives way to all earlier ones.
+    suffice, it keeps its walk, and waits before it starts until the way is clear. Each character thus gives
+    way to all earlier ones. Only the first few search again, because a search takes a second or more: in a
+    large crowd, the others wait [ours].
 
     Parameters
     ----------
@@ -177,10 +179,17 @@ def walk_crowd(
     walks = [follow_path(compiled, path, settings=Settings(width=TUNED.crowd_beam)) for path in paths]
     waits = [0.0] * len(walks)
     tracks = [walk.track for walk in walks]
+    detours = 0
     for number, path in enumerate(paths):
-        if _too_near(_distance(tracks[number], tracks[:number]), apart):
-            given_way = _give_way(compiled, path, tracks[:number], apart)
-            walks[number], waits[number], tracks[number] = given_way
+        earlier = tracks[:number]
+        if not _too_near(_distance(tracks[number], earlier), apart):
+            continue
+        may_search = detours < TUNED.detours
+        given_way = _detour(compiled, path, earlier, apart, 0.0) if may_search else None
+        detours += may_search
+        if given_way is None or _too_near(_distance(given_way[2], earlier), apart):
+            given_way = _wait_for(walks[number], earlier, apart) or _give_way(compiled, path, earlier, apart)
+        walks[number], waits[number], tracks[number] = given_way
     nearest = np.array([[_distance(a, [b]) if a is not b else np.inf for b in tracks] for a in tracks])
     if _too_near(nearest.min(initial=np.inf), apart):
         a, b = np.unravel_index(first_least(nearest, EQUAL), nearest.shape)
@@ -189,29 +198,53 @@ def walk_crowd(
     return Crowd(walks, waits, nearest)
 
 
+_Waiting = tuple[Followed, float, Array]
+"""A walk, the seconds for which the character waits before it, and its track with the wait."""
+
+
 def _give_way(
     graph: CompiledGraph, path: GroundPath, earlier: Sequence[Array], least_distance: float
-) -> tuple[Followed, float, Array]:
+) -> _Waiting:
     """Find a walk that keeps away from the tracks of `earlier` characters, with the shortest possible wait.
 
-    The walk may leave its path or slow down. If no wait is long enough, the walk with the largest distance is
-    returned. Ties are broken in favour of the shortest wait. Returns the walk, its wait in seconds, and its
-    track with the wait.
+    If no wait is long enough, the walk with the largest distance is returned, of equal ones that with the
+    shortest wait.
     """
-    free = Settings(rescue=30.0, crowding=60.0, stray=0.0, tries=1, width=3 * TUNED.crowd_beam)
-    candidates: list[tuple[Followed, float, Array]] = []
+    candidates: list[_Waiting] = []
     distances: list[float] = []
     for wait in TUNED.waits:
-        frames = round(wait * graph.fps)
-        tracks = [track[min(frames, len(track) - 1) :] for track in earlier]
-        request = PathRequest(others=tracks, apart=1.1 * least_distance)
-        walk = follow_path(graph, path, request, settings=free)
-        waiting = np.repeat(walk.track[:1], frames, axis=0)
-        candidates.append((walk, wait, np.concatenate([waiting, walk.track])))
+        candidates.append(_detour(graph, path, earlier, least_distance, wait))
         distances.append(_distance(candidates[-1][2], earlier))
         if not _too_near(distances[-1], least_distance):
             return candidates[-1]
     return candidates[int(first_least(-np.array(distances), EQUAL))]
+
+
+def _detour(
+    graph: CompiledGraph, path: GroundPath, earlier: Sequence[Array], least_distance: float, wait: float
+) -> _Waiting:
+    """Find a walk after a wait, which leaves its path or slows down near the tracks of earlier characters."""
+    free = Settings(rescue=30.0, crowding=60.0, stray=0.0, tries=1, width=3 * TUNED.crowd_beam)
+    frames = round(wait * graph.fps)
+    tracks = [track[min(frames, len(track) - 1) :] for track in earlier]
+    request = PathRequest(others=tracks, apart=1.1 * least_distance)
+    walk = follow_path(graph, path, request, settings=free)
+    return walk, wait, _after_wait(walk, frames)
+
+
+def _wait_for(walk: Followed, earlier: Sequence[Array], least_distance: float) -> _Waiting | None:
+    """Find the shortest wait after which a walk keeps away from the tracks of earlier characters, if any."""
+    step = round(TUNED.wait_step * walk.graph.fps)
+    for frames in range(0, max(map(len, earlier)) + step, step):
+        track = _after_wait(walk, frames)
+        if not _too_near(_distance(track, earlier), least_distance):
+            return walk, frames / walk.graph.fps, track
+    return None
+
+
+def _after_wait(walk: Followed, frames: int) -> Array:
+    """Return the track of a walk whose first place is repeated for so many frames."""
+    return np.concatenate([np.repeat(walk.track[:1], frames, axis=0), walk.track])
 
 
 def _too_near(distance: float, least_distance: float) -> bool:

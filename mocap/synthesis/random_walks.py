@@ -3,15 +3,18 @@
 A long walk is written in pieces while it is generated: motion dumping [KGP02, 5.3].
 """
 
+from bisect import bisect_right
 from collections.abc import Iterator
 from pathlib import Path
 
+import networkx as nx
 import numpy as np
 
 from mocap._shared.arguments import called_as
 from mocap._shared.arrays import Array
 from mocap._shared.progress import Progress
 from mocap._shared.quantities import check_number
+from mocap._shared.records import NamedTuple
 from mocap.body.motion import Motion, concatenate, rotating_joints
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.editing.edits import clean_feet
@@ -25,6 +28,7 @@ from mocap.graphs.motion_graph import MotionGraph, Node, require_graph
 from mocap.synthesis.tuned import TUNED
 from mocap.synthesis.walk_to_motion import to_motion, transforms_along, with_footplants
 
+COST_OFFSET = 1e-3  # metres, added to the costs of transitions, so that none is infinitely likely
 LONGEST = 3600.0  # seconds of a walk that is made in memory
 
 
@@ -124,18 +128,38 @@ def wander(
     require_node(motion_graph, node)
     frames = 0
     since = 0  # frames of clip since the last transition
+    exits_of: dict[Node, tuple[_Exits, _Exits]] = {}  # of the nodes visited so far
     while True:
-        edges = list(graph.out_edges(node, keys=True, data=True))
-        onward = [edge for edge in edges if edge[-1]["kind"] == "clip"]
-        leaving = [edge for edge in edges if edge[-1]["kind"] == "transition"]
-        choices = leaving if leaving and (since >= settle * fps or not onward) else onward
-        if not choices:
+        if node not in exits_of:
+            exits_of[node] = _exits(graph, node, "clip"), _exits(graph, node, "transition")
+        onward, leaving = exits_of[node]
+        exits = leaving if leaving.edges and (since >= settle * fps or not onward.edges) else onward
+        if not exits.edges:
             raise NoWalk(f"The walk ends at node {node} after {frames / fps:.1f} s: prune the graph first.")
-        odds = np.array([1 / (edge[-1].get("cost", 0.0) + 1e-3) for edge in choices])
-        start_, node, key, data = choices[random.choice(len(choices), p=odds / odds.sum())]
-        yield start_, node, key
-        frames += data["frames"]
-        since = since + data["frames"] if data["kind"] == "clip" else 0
+        number = bisect_right(exits.cumulative, random.random())
+        yield exits.edges[number]
+        node = exits.edges[number][1]
+        frames += exits.frames[number]
+        since = since + exits.frames[number] if exits is onward else 0
+
+
+class _Exits(NamedTuple):
+    """The edges of one kind that leave a node, their frames, and the cumulative probabilities of a walk."""
+
+    edges: list[Edge]
+    frames: list[int]
+    cumulative: list[float]
+
+
+def _exits(graph: nx.MultiDiGraph, node: Node, kind: str) -> _Exits:
+    """List the edges of a kind that leave a node. A walk takes a cheap transition more often than others."""
+    exits = [edge for edge in graph.out_edges(node, keys=True, data=True) if edge[-1]["kind"] == kind]
+    edges = [(start, end, key) for start, end, key, _ in exits]
+    odds = np.array([1 / (data.get("cost", 0.0) + COST_OFFSET) for *_, data in exits])
+    # As `Generator.choice` does with probabilities, which are computed once for each node here.
+    cumulative = np.cumsum(odds / odds.sum())
+    cumulative /= cumulative[-1:]
+    return _Exits(edges, [data["frames"] for *_, data in exits], cumulative.tolist())
 
 
 def stream(motion_graph: MotionGraph, *, seconds: float, seed: int = 0) -> Iterator[Motion]:

@@ -84,7 +84,7 @@ def require_walk(motion_graph: MotionGraph, walk: Sequence[Edge]) -> None:
     """
     require_graph(motion_graph)
     require_edges(walk)
-    for edge in walk:
+    for edge in dict.fromkeys(map(tuple, walk)):
         if not motion_graph.graph.has_edge(*edge):
             raise NoWalk(f"The graph has no edge {edge}.")
     for (_, end, _), (start, _, _) in pairwise(walk):

@@ -1,5 +1,6 @@
 """The blend's clock: how fast it goes, and how long the blend lasts; its curves against SciPy's splines."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -8,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.interpolate import BSpline
 
+from mocap.blending import timewarps
 from mocap.blending.clocks import clock_speed, frame_times, match_contacts
 from mocap.blending.registering import register
 from mocap.blending.timewarps import Curve, fit_curve
@@ -163,6 +165,18 @@ def test_slopes_stay_within_bounds_and_no_curve_within_them_fits_better(seed, sp
         rises = np.clip(np.diff(moved), curve.step / 3, 3 * curve.step)
         other = curve._replace(coefficients=np.cumsum(np.append(moved[0], rises)))
         assert ((other(times) - values) ** 2).sum() >= best - 1e-9
+
+
+@pytest.mark.parametrize("bounds", [{"least": 1 / 3, "most": 3.0}, {}])
+def test_a_curve_of_many_knots_is_that_of_the_dense_fit(monkeypatch, bounds):
+    random = np.random.default_rng(0)
+    paces = np.repeat(random.choice([0.2, 1.0, 1.3, 3.5], 60), 30)  # some beyond the bounds
+    values = np.cumsum(paces) / 30
+    times = np.arange(len(values)) / 30
+    dense = fit_curve(times, values, spacing=0.31, **bounds)
+    monkeypatch.setattr(timewarps, "TUNED", replace(timewarps.TUNED, many_knots=10))
+    sparse = fit_curve(times, values, spacing=0.31, **bounds)
+    np.testing.assert_allclose(sparse.coefficients, dense.coefficients, rtol=0, atol=1e-9)
 
 
 def test_one_moment_and_many_points_at_it_make_a_curve():

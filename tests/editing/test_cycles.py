@@ -8,7 +8,7 @@ import pytest
 from mocap.body import concatenate, joint_positions, resample
 from mocap.body.planar import align_frames, heading
 from mocap.datasets import samples
-from mocap.editing.cycles import Loop, find_loop, loop, repeated
+from mocap.editing.cycles import Loop, _best, find_loop, loop, repeated, seam_jolt
 from mocap.errors import MocapWarning
 from mocap.feet.footplants import mark_plants
 from mocap.files import load_save
@@ -33,6 +33,25 @@ def test_a_held_pose_is_no_cycle():
     clip = concatenate([bare, *[bare[-1:]] * 300], name="mostly held")
     found = find_loop(clip)
     assert found.seam > 1e-3 and travelled(clip[found.first : found.last + 1]) > 2.0
+
+
+def test_a_cycle_moves_half_as_much_as_its_clip():
+    """A stand, and then poses all around it, none of which returns: the stand alone would cost least."""
+    poses = np.random.default_rng(0).normal(size=(60, 20))
+    points = np.concatenate([np.zeros((40, 20)), poses])
+    distances = np.linalg.norm(points[:, None] - points, axis=-1).astype(np.float32)
+    first, length, _ = _best(distances, 6, 20)
+    steps = np.diagonal(distances, 1)
+    assert steps[first : first + length].mean() > 0.5 * steps.mean()
+    assert first + length > 43
+
+
+def test_the_jolt_of_a_seam_is_told():
+    smooth = loop(WALK)
+    roots = smooth.root_positions.copy()
+    roots[-2] += [0, 0.1, 0]
+    assert seam_jolt(WALK, smooth) < 1.5
+    assert seam_jolt(WALK, replace(smooth, root_positions=roots)) > 5
 
 
 @pytest.mark.parametrize("name", ["walk_straight", "walk_circle", "jog", "stop_and_go"])

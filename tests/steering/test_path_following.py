@@ -324,6 +324,15 @@ def test_who_meets_head_on_steps_aside_or_waits():
     assert crowd.waits[0] == 0.0
 
 
+def test_who_may_not_search_again_waits_until_the_way_is_clear(monkeypatch):
+    tune(monkeypatch, waypoints_and_crowds, detours=0, crowd_beam=30)
+    crowd = walk_crowd(GRAPH, CROSSING)
+    assert crowd.nearest[0, 1] >= 0.8
+    assert crowd.waits[0] == 0
+    assert 0 < crowd.waits[1] < 8
+    assert crowd.walks[1].walk == follow_path(GRAPH, CROSSING[1], settings=Settings(width=30)).walk
+
+
 def test_of_waits_that_keep_as_far_apart_the_shortest_is_taken(monkeypatch):
     """Who starts too near is as near after each wait, but for rounding."""
     distances = iter([0.6, 0.6 + 1e-12, 0.6 + 2e-12, 0.6 - 1e-12])

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Points
+from mocap._shared.arrays import Array, Mask, Points
 from mocap._shared.records import NamedTuple
 from mocap.errors import MocapError
 from mocap.methods.groups.tuned import TUNED
@@ -23,6 +23,7 @@ BODY = 0.35  # metres that a member keeps from a wall
 
 
 SELF = 1e9  # metres, a distance of each member from itself at which no rule applies
+SCREEN = 1e-3  # metres by which more pairs pass the quick test of their distances, in 32 bits
 STILL = 1e-9  # m/s or m/s², a divisor for members that do not move
 
 Disc = tuple[complex, float]
@@ -135,6 +136,8 @@ def steering_force(
 def _flocking_force(group: Configuration, rules: Flock) -> Points:
     """Compute the accelerations by separation, cohesion and alignment, (..., N)."""
     positions, velocities = group
+    if not (rules.separate or np.any(rules.gather) or rules.align):
+        return np.zeros_like(positions)
     offsets, distances = _offsets(positions)
     in_sight = distances < rules.sight
     count = np.maximum(in_sight.sum(-1), 1)
@@ -172,7 +175,10 @@ def advance(
     velocities = velocities * np.clip(speeds, rules.slowest, rules.fastest) / np.maximum(speeds, STILL)
     positions = group.positions + velocities / RATE
     for _ in range(TUNED.separations):
-        positions = positions + push_apart(positions, APART + TUNED.spare)
+        pushes = push_apart(positions, APART + TUNED.spare)
+        if room == np.inf and not pushes.any():
+            break
+        positions = positions + pushes
         excess = positions.imag - np.clip(positions.imag, -room, room)
         positions = positions - 1j * np.clip(excess, -TUNED.wall_push, TUNED.wall_push)
     return Configuration(positions, (positions - group.positions) * RATE)
@@ -186,9 +192,30 @@ def push_apart(positions: Points, distance: float) -> Points:
     >>> push_apart(np.array([0j, 0.4 + 0j]), 0.6).round(2)
     array([-0.1+0.j,  0.1+0.j])
     """
-    offsets, distances = _offsets(positions)
+    displacements = np.zeros(positions.shape, complex)
+    *group, member = np.nonzero(near_to_any(positions, distance))
+    if not len(member):
+        return displacements
+    # Only of the members with anyone near: in most frames there are few.
+    offsets = positions[*group, member][:, None] - positions[*group]
+    distances = np.abs(offsets)
+    distances[np.arange(len(member)), member] += SELF
     pushes = offsets / distances * (distance - distances) / 2
-    return np.asarray(np.where(distances < distance, pushes, 0).sum(-1))
+    displacements[*group, member] = np.where(distances < distance, pushes, 0).sum(-1)
+    return displacements
+
+
+def near_to_any(positions: Points, distance: float) -> Mask:
+    """Tell which members, (..., N), may have one nearer than a distance: all who do, and few more."""
+    middle = positions.mean(axis=-1, keepdims=True)
+    offsets = (positions - middle).astype(np.complex64)
+    z = offsets.real[..., :, None] - offsets.real[..., None, :]
+    x = offsets.imag[..., :, None] - offsets.imag[..., None, :]
+    z *= z
+    x *= x
+    z += x
+    # Everyone is near to himself.
+    return np.asarray(np.count_nonzero(z < (distance + SCREEN) ** 2, axis=-1) > 1)
 
 
 def simulate(
